@@ -1,0 +1,1 @@
+# The installed, exported package: find_package(osgRayTrace).

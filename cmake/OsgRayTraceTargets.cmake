@@ -1,0 +1,46 @@
+# Helpers for this project's targets: warnings, kernel flags, sanitizers, OSG plugins.
+
+add_library(osgRayTraceWarnings INTERFACE)
+target_compile_options(osgRayTraceWarnings INTERFACE
+    $<$<CXX_COMPILER_ID:GNU,Clang>:-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-psabi>)
+
+# What every target of the project gets: C++17, hidden symbols, warnings and sanitizers. Never installed.
+add_library(osgRayTraceBuild INTERFACE)
+target_compile_features(osgRayTraceBuild INTERFACE cxx_std_17)
+target_link_libraries(osgRayTraceBuild INTERFACE osgRayTraceWarnings)
+if(OSGRAYTRACE_SANITIZE STREQUAL "address")
+    target_compile_options(osgRayTraceBuild INTERFACE
+        -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(osgRayTraceBuild INTERFACE -fsanitize=address,undefined)
+elseif(OSGRAYTRACE_SANITIZE STREQUAL "thread")
+    target_compile_options(osgRayTraceBuild INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+    target_link_options(osgRayTraceBuild INTERFACE -fsanitize=thread)
+elseif(NOT OSGRAYTRACE_SANITIZE STREQUAL "")
+    message(FATAL_ERROR "OSGRAYTRACE_SANITIZE is 'address', 'thread' or empty, not '${OSGRAYTRACE_SANITIZE}'")
+endif()
+if(OSGRAYTRACE_SANITIZE)
+    # Sanitized code cannot run in the resolvers of function clones, which the loader calls first.
+    target_compile_definitions(osgRayTraceBuild INTERFACE OSGRAYTRACE_NO_CLONES)
+endif()
+
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/lib")
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/bin")
+
+# OSG looks for plugins in <library path>/osgPlugins-<version>.
+set(OSGRAYTRACE_PLUGIN_DIR "osgPlugins-${OPENSCENEGRAPH_VERSION}")
+
+# osgraytrace_add_plugin(<target> SOURCES ... LIBRARIES ...): a module that OSG finds by its name.
+function(osgraytrace_add_plugin target)
+    cmake_parse_arguments(PLUGIN "" "" "SOURCES;LIBRARIES" ${ARGN})
+    add_library(${target} MODULE ${PLUGIN_SOURCES})
+    target_link_libraries(${target} PRIVATE ${PLUGIN_LIBRARIES} osgRayTraceBuild)
+    set_target_properties(${target} PROPERTIES
+        PREFIX ""
+        LIBRARY_OUTPUT_DIRECTORY "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/${OSGRAYTRACE_PLUGIN_DIR}"
+        INSTALL_RPATH "\$ORIGIN/.."
+        BUILD_RPATH_USE_ORIGIN ON)
+    install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/${OSGRAYTRACE_PLUGIN_DIR}")
+endfunction()

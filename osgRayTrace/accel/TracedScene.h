@@ -1,0 +1,48 @@
+// TracedScene.h - a Scene with the Embree structures that trace it. Layer: accel.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Status.h"
+#include "osgRayTrace/scene/Scene.h"
+#include "osgRayTrace/scene/SceneTraits.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace osgRayTrace::engine
+{
+
+class Intersector;
+class Workers;
+
+/// How a TracedScene was built.
+struct BuildStatistics
+{
+    double seconds = 0.0;
+    uint64_t embreeBytes = 0;    ///< held by the device for this scene, as Embree reports it
+    size_t builtMeshes = 0;      ///< built now; the rest was taken from the previous one
+    size_t invalidInstances = 0; ///< left out: transform singular, not finite, or out of range
+};
+
+/// Immutable once built; sessions share it. Reuses from previous what did not change (may be null).
+class TracedScene
+{
+public:
+    /// Throws EngineError (OutOfMemory, DeviceFailure).
+    static std::shared_ptr<const TracedScene> build(std::shared_ptr<const Scene> scene,
+                                                    std::shared_ptr<Workers> workers,
+                                                    std::shared_ptr<const TracedScene> previous = {});
+    ~TracedScene();
+
+    const Scene& scene() const;
+    const SceneTraits& traits() const;
+    const Intersector& intersector() const;
+    const BuildStatistics& statistics() const;
+
+private:
+    TracedScene();
+    struct Implementation;
+    std::unique_ptr<Implementation> _implementation;
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,19 @@
+// ToneMap.h - from accumulated radiance to display values. Layer: film.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace osgRayTrace::engine
+{
+
+/// Display value = encode(2^exposureEv * linear), clamped to [0,1]; encode is sRGB's transfer function
+/// [IEC61966]. A display-referred image is decoded to linear first, so exposure 0 shows it unchanged.
+struct ToneMap
+{
+    float exposureEv = 0.0f;
+    bool displayReferred = false; ///< the film holds display values, not linear radiance
+};
+
+float srgbFromLinear(float linear); ///< without clamping; odd: negative in, negative out
+float linearFromSrgb(float encoded);
+
+} // namespace osgRayTrace::engine

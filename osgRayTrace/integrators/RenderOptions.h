@@ -1,0 +1,58 @@
+// RenderOptions.h - the settings of the engine as plain data. Layer: integrators.
+// The public RayTraceSettings documents them, with ranges and environment variables.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace osgRayTrace::engine
+{
+
+enum class IntegratorKind : uint8_t
+{
+    Automatic, ///< the cheapest that is right for the scene: see chooseIntegrator
+    Whitted,
+    Path,
+    Debug,
+};
+
+enum class LightSampling : uint8_t
+{
+    Random,        ///< independent uniform points
+    UniformJitter, ///< n x n cells, one random offset shared by all cells
+    Stratified,    ///< n x n cells, one random offset for each cell
+    Sobol,         ///< Owen-scrambled Sobol points, continued over passes
+};
+
+enum class DebugChannel : uint8_t
+{
+    Normal,
+    Uv,
+    Id,
+    Albedo,
+    Depth,
+    Dropped,
+    Cost,
+};
+
+struct RenderOptions
+{
+    IntegratorKind integrator = IntegratorKind::Automatic;
+    LightSampling lightSampling = LightSampling::Sobol;
+    DebugChannel debugChannel = DebugChannel::Normal;
+    int lightSamples = 4;    ///< a hit and light; rounded up to a square for the n x n strategies
+    int maxBounces = 8;      ///< edges of a path after the camera ray
+    bool shadows = true;
+    uint32_t seed = 0;
+
+    /// True if an accumulated image made with previous cannot be continued with *this.
+    bool needsRestart(const RenderOptions& previous) const
+    {
+        return integrator != previous.integrator || lightSampling != previous.lightSampling ||
+               debugChannel != previous.debugChannel || lightSamples != previous.lightSamples ||
+               maxBounces != previous.maxBounces || shadows != previous.shadows ||
+               seed != previous.seed;
+    }
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,57 @@
+// Light.h - the description of every light that the engine knows. Layer: scene.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/scene/Mesh.h"
+
+#include <cstdint>
+#include <string>
+
+namespace osgRayTrace::engine
+{
+
+enum class LightKind : uint8_t
+{
+    Directional,   ///< osg::Light with w = 0
+    Point,         ///< osg::Light with w != 0, with attenuation and spot terms
+    Parallelogram, ///< AreaLight: corner and two edges, constant radiance
+    Mesh,          ///< an instance whose material emits
+};
+
+struct Light
+{
+    std::string name;
+    LightKind kind = LightKind::Point;
+    uint32_t number = 0; ///< osg::Light number, tested against Material::lightMask
+
+    /// position and direction are in view space (x right, y up, looking along -z): a headlight.
+    /// RenderSession places it for each view.
+    bool eyeSpace = false;
+
+    // Directional, Point: fixed-function light colours. Diffuse 1 without attenuation gives a Lambert
+    // surface its own colour at normal incidence, that is an irradiance of pi.
+    Vec3 ambient{0.0f};
+    Vec3 diffuse{0.0f};
+    Vec3 specular{0.0f};
+    Vec3 position{0.0f};               ///< Point, engine space
+    Vec3 direction{0.0f, 0.0f, -1.0f}; ///< unit, the way the light travels: Directional; spot axis of Point
+    float attenuationConstant = 1.0f;
+    float attenuationLinear = 0.0f;    ///< [1/length]
+    float attenuationQuadratic = 0.0f; ///< [1/length^2]
+    float spotExponent = 0.0f;
+    float spotCosCutoff = -1.0f;       ///< cosine of the cut-off angle; -1: no spot
+
+    // Parallelogram: the image of (u, v) in [0,1]^2 is corner + u*edgeU + v*edgeV; the front side is
+    // cross(edgeU, edgeV). Mesh: radiance is the material's emission, the front that of its triangles.
+    Vec3 corner{0.0f};
+    Vec3 edgeU{1.0f, 0.0f, 0.0f};
+    Vec3 edgeV{0.0f, 1.0f, 0.0f};
+    Vec3 radiance{0.0f};               ///< [W/(m^2 sr)]
+    bool twoSided = false;
+    uint32_t instance = kInvalid;      ///< the geometry that rays hit: Parallelogram and Mesh
+
+    Stamp changed = 0;
+};
+
+} // namespace osgRayTrace::engine

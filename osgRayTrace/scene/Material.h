@@ -1,0 +1,98 @@
+// Material.h - how a surface reflects and emits: the physical and the fixed-function model. Layer: scene.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/scene/Mesh.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+enum class MaterialModel : uint8_t
+{
+    FixedFunction, ///< OpenGL's: ambient, diffuse, specular, shininess
+    Physical,      ///< glTF 2.0's: base colour, metallic, roughness; and transmission, ior
+};
+
+/// What the vertex colour replaces (osg::Material::ColorMode; without osg::Material: AmbientAndDiffuse).
+enum class VertexColorUse : uint8_t
+{
+    None,
+    Ambient,
+    Diffuse,
+    Specular,
+    Emission,
+    AmbientAndDiffuse,
+};
+
+/// What texture unit 0 does to the lit fragment colour.
+enum class TextureEnvironment : uint8_t
+{
+    Modulate,
+    Replace,
+    Decal,
+};
+
+/// All colours linear when the scene is, display-referred otherwise (Scene::displayReferred).
+struct Material
+{
+    std::string name;
+    MaterialModel model = MaterialModel::FixedFunction;
+
+    // Fixed function [OpenGL 2.1, eq. 2.1-2.4]; the physical image of these is made by the Bsdf.
+    Vec3 ambient{0.2f};
+    Vec3 diffuse{0.8f};
+    Vec3 specular{0.0f};
+    float shininess = 0.0f;              ///< 0 to 128
+    bool lit = true;                     ///< GL_LIGHTING; false: the colour is shown as it is
+    bool twoSidedLighting = false;       ///< the normal is turned to the viewer before lighting
+    uint32_t lightMask = 0xffffffffu;    ///< bit n: osg::Light number n is enabled here
+    VertexColorUse vertexColorUse = VertexColorUse::None;
+    TextureEnvironment textureEnvironment = TextureEnvironment::Modulate;
+
+    // Physical [glTF20, sect. 3.9 and KHR_materials_transmission, KHR_materials_ior].
+    Vec3 baseColor{1.0f};
+    float metallic = 0.0f;
+    float roughness = 1.0f;              ///< perceptual; alpha = roughness^2
+    float transmission = 0.0f;           ///< share of the dielectric base that is clear
+    float ior = 1.5f;
+
+    Vec3 emission{0.0f};                 ///< Physical: radiance [W/(m^2 sr)]; FixedFunction: GL emission
+    float alpha = 1.0f;
+
+    // Textures: indices into Scene::textures or kInvalid.
+    uint32_t baseColorTexture = kInvalid; ///< FixedFunction: unit 0; Physical: times baseColor
+    uint32_t metallicRoughnessTexture = kInvalid; ///< glTF: roughness in G, metallic in B; linear
+    uint32_t transmissionTexture = kInvalid;      ///< in R; linear
+    uint32_t emissionTexture = kInvalid;          ///< times emission
+
+    Stamp changed = 0;
+};
+
+enum class TextureWrap : uint8_t
+{
+    Repeat,
+    ClampToEdge,
+    Mirror,
+};
+
+/// A decoded 2-D image, RGBA, row 0 at the bottom. Exactly one of the two arrays is filled.
+struct Texture
+{
+    std::string name;
+    int width = 0;
+    int height = 0;
+    std::vector<uint8_t> bytes;   ///< width*height*4
+    std::vector<float> floats;    ///< width*height*4, always linear
+    bool decodeSrgb = false;      ///< bytes only: RGB is sRGB encoded, decode to linear
+    bool linearFilter = true;     ///< else nearest
+    TextureWrap wrapS = TextureWrap::Repeat;
+    TextureWrap wrapT = TextureWrap::Repeat;
+    Stamp changed = 0;
+};
+
+} // namespace osgRayTrace::engine

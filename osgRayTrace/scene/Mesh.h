@@ -1,0 +1,42 @@
+// Mesh.h - triangles in object space, and a use of them somewhere in the scene. Layer: scene.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/base/SharedArray.h"
+
+#include <cstdint>
+#include <string>
+
+namespace osgRayTrace::engine
+{
+
+/// A number that grows with each change of anything; compare, never count.
+using Stamp = uint64_t;
+
+/// Indexed triangles. Immutable once it is part of a Scene.
+struct Mesh
+{
+    std::string name;             ///< node path, for messages
+    SharedArray<Vec3> positions;  ///< finite; Embree reads 4 bytes past the last one: see padPositions
+    SharedArray<UVec3> triangles; ///< each index < positions.size()
+    SharedArray<Vec3> normals;    ///< unit, one a position; empty: the geometric normal is used
+    SharedArray<Vec2> uvs;        ///< texture unit 0, one a position; may be empty
+    SharedArray<Vec4> colors;     ///< RGBA vertex colours, one a position; may be empty
+    Stamp changed = 0;
+};
+
+/// A mesh placed in the scene with a material.
+struct Instance
+{
+    uint32_t mesh = 0;            ///< index into Scene::meshes
+    uint32_t material = 0;        ///< index into Scene::materials
+    uint32_t light = kInvalid;    ///< index into Scene::lights if it emits, else kInvalid
+    bool placed = false;          ///< false: positions are in engine space already, transform unused
+    Affine engineFromLocal;       ///< used if placed; invertible and finite (the converter checks)
+    Mat3 normalFromLocal{1.0f};   ///< inverse transpose of the linear part, not normalised
+    bool mirrored = false;        ///< determinant < 0: the winding is reversed
+    Stamp changed = 0;
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,34 @@
+// Scene.h - one immutable snapshot of everything that is traced. Layer: scene.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/scene/Light.h"
+#include "osgRayTrace/scene/Material.h"
+#include "osgRayTrace/scene/Mesh.h"
+
+#include <memory>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// Plain data, no behaviour. A new version of the scene is a new Scene that shares the unchanged parts;
+/// a pass that runs is never changed under its feet.
+struct Scene
+{
+    Vec3d origin{0.0}; ///< world position of the engine's origin: engine = world - origin
+
+    std::vector<std::shared_ptr<const Mesh>> meshes;
+    std::vector<Instance> instances;
+    std::vector<Material> materials; ///< never empty once finished: 0 is the fallback
+    std::vector<std::shared_ptr<const Texture>> textures;
+    std::vector<Light> lights;
+
+    Vec3 ambient{0.2f};          ///< LightModel ambient, for FixedFunction materials
+    Vec4 background{0.0f};       ///< RGBA seen by rays that leave the scene; not a light
+    bool displayReferred = true; ///< values are as OpenGL shows them: neither decoded nor encoded
+
+    Stamp changed = 0;
+};
+
+} // namespace osgRayTrace::engine

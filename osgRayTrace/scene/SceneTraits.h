@@ -1,0 +1,27 @@
+// SceneTraits.h - what a scene needs, so that what it does not need costs nothing. Layer: scene.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/scene/Scene.h"
+
+namespace osgRayTrace::engine
+{
+
+struct SceneTraits
+{
+    bool instances = false;        ///< some instance is placed by a transform
+    bool smoothNormals = false;    ///< some mesh has vertex normals
+    bool textures = false;
+    bool vertexColors = false;
+    bool fixedFunction = false;    ///< some material is FixedFunction
+    bool physical = false;         ///< some material is Physical and more than a lamp
+    bool specular = false;         ///< mirror-like reflection somewhere
+    bool transmission = false;
+    bool deltaLights = false;      ///< directional or point lights
+    bool areaLights = false;       ///< parallelogram or mesh lights
+    size_t triangles = 0;          ///< counted once for each instance
+};
+
+SceneTraits sceneTraits(const Scene& scene);
+
+} // namespace osgRayTrace::engine

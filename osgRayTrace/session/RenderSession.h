@@ -1,0 +1,109 @@
+// RenderSession.h - the progressive image of one view. Layer: session.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Status.h"
+#include "osgRayTrace/film/ToneMap.h"
+#include "osgRayTrace/integrators/RenderOptions.h"
+#include "osgRayTrace/scene/View.h"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+class TracedScene; // accel: a Scene with its Embree structures
+class Workers;     // base: the threads that a render may use
+
+/// When RenderSession::render returns: whichever is reached first.
+struct StopRule
+{
+    int passes = std::numeric_limits<int>::max(); ///< accumulated passes, those of earlier calls included
+    double seconds = std::numeric_limits<double>::infinity(); ///< of this call
+    double relativeError = 0.0;                   ///< estimated, of the accumulated image; 0: not used
+};
+
+struct RayCounts
+{
+    uint64_t camera = 0;
+    uint64_t shadow = 0;
+    uint64_t secondary = 0; ///< mirror, glass and bounce rays
+    uint64_t total() const { return camera + shadow + secondary; }
+};
+
+/// Of the accumulated image.
+struct RenderProgress
+{
+    Status status;
+    IntegratorKind integrator = IntegratorKind::Automatic; ///< the one that was chosen
+    int passes = 0;               ///< complete ones
+    double seconds = 0.0;         ///< spent in passes since the restart
+    double relativeError = std::numeric_limits<double>::infinity(); ///< see Film; infinite below 2 passes
+    RayCounts rays;
+    uint64_t droppedSamples = 0;  ///< not finite: left out of the image and counted
+    bool restarted = false;       ///< this call began a new image
+};
+
+/// Channels of the first hit, or of the image's statistics, for resolveChannel.
+enum class Channel : uint8_t
+{
+    Depth,    ///< 1 float: window depth in [0,1], 1 where nothing is hit
+    Distance, ///< 1 float: along the ray from the eye's near plane or pole [length]; infinity: no hit
+    Normal,   ///< 3 floats: world space, unit, facing the viewer
+    Albedo,   ///< 3 floats: linear
+    Position, ///< 3 floats: world space (float)
+    Id,       ///< 1 float: instance index + 1, 0 where nothing is hit
+    Error,    ///< 3 floats: estimated standard error of the pixel's linear RGB
+};
+
+/// One for each view. Not thread safe but for cancel(); different sessions may render at once.
+class RenderSession
+{
+public:
+    explicit RenderSession(std::shared_ptr<Workers> workers);
+    ~RenderSession();
+    RenderSession(const RenderSession&) = delete;
+    RenderSession& operator=(const RenderSession&) = delete;
+
+    /// What to render. Cheap; whether this restarts the image or continues it is decided in render().
+    void setScene(std::shared_ptr<const TracedScene> scene);
+    void setView(const View& view);
+    void setOptions(const RenderOptions& options);
+
+    /// Adds passes to the image until the rule says stop, cancel() is called or keepGoing, called after
+    /// each pass on this thread, returns false. A pass cut short by cancel() is thrown away whole, the
+    /// image keeps the complete ones. Never throws: failures are in the status, the last image stays.
+    RenderProgress render(const StopRule& rule,
+                          const std::function<bool(const RenderProgress&)>& keepGoing = {});
+
+    /// Stops a running render() within a tile. Any thread.
+    void cancel();
+
+    /// State after the last render(). Width and height are those of the image, which may be older than
+    /// setView's.
+    const RenderProgress& progress() const;
+    int width() const;
+    int height() const;
+
+    /// Linear RGBA radiance, premultiplied, row 0 at the bottom: width*height*4 floats.
+    std::vector<float> resolveRadiance() const;
+
+    /// Display values, row 0 at the bottom: width*height*4 bytes to rgba and, if not null, width*height
+    /// window depths to depth. Runs on the session's threads.
+    void resolveDisplay(const ToneMap& toneMap, uint8_t* rgba, float* depth) const;
+
+    /// Channel values, row 0 at the bottom, width*height*channelSize(channel) floats.
+    std::vector<float> resolveChannel(Channel channel) const;
+
+private:
+    struct Implementation;
+    std::unique_ptr<Implementation> _implementation;
+};
+
+int channelSize(Channel channel);
+
+} // namespace osgRayTrace::engine
