@@ -1,1 +1,36 @@
-# The installed, exported package: find_package(osgRayTrace).
+# The installed, exported package: find_package(osgRayTrace) gives osgRayTrace::osgRayTrace and
+# osgRayTrace::offscreen. Nothing in it names a library by its path on the machine that built it:
+# OpenSceneGraph is found again where the package is used.
+include(CMakePackageConfigHelpers)
+
+set(libraries osgRayTrace)
+if(TARGET osgRayTraceOffscreen)
+    list(APPEND libraries osgRayTraceOffscreen)
+endif()
+set(OSGRAYTRACE_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/osgRayTrace")
+
+install(TARGETS ${libraries} EXPORT osgRayTraceTargets
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+    FILE_SET headers DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+    FILE_SET generatedHeaders DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(EXPORT osgRayTraceTargets NAMESPACE osgRayTrace:: DESTINATION "${OSGRAYTRACE_PACKAGE_DIR}")
+
+# Target all_verify_interface_header_sets compiles each public header alone; a test builds it.
+set_target_properties(${libraries} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+
+configure_package_config_file(
+    "${PROJECT_SOURCE_DIR}/cmake/osgRayTraceConfig.cmake.in"
+    "${PROJECT_BINARY_DIR}/osgRayTraceConfig.cmake"
+    INSTALL_DESTINATION "${OSGRAYTRACE_PACKAGE_DIR}"
+    NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/osgRayTraceConfigVersion.cmake"
+    COMPATIBILITY SameMinorVersion)
+install(FILES
+    "${PROJECT_BINARY_DIR}/osgRayTraceConfig.cmake"
+    "${PROJECT_BINARY_DIR}/osgRayTraceConfigVersion.cmake"
+    "${PROJECT_SOURCE_DIR}/cmake/OsgRayTraceOpenSceneGraph.cmake"
+    DESTINATION "${OSGRAYTRACE_PACKAGE_DIR}")
+
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(DIRECTORY data/ DESTINATION "${CMAKE_INSTALL_DATADIR}/osgRayTrace"
+    FILES_MATCHING PATTERN "*.osgt" PATTERN "README.md")

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/accel/SurfaceTable.h"
 #include "osgRayTrace/base/Status.h"
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/scene/SceneTraits.h"
+#include "osgRayTrace/shading/LightTable.h"
+#include "osgRayTrace/shading/MaterialTable.h"
 
 #include <cstdint>
 #include <memory>
@@ -37,6 +40,9 @@ public:
     const Scene& scene() const;
     const SceneTraits& traits() const;
     const Intersector& intersector() const;
+    const SurfaceTable& surfaces() const;
+    const MaterialTable& materials() const;
+    const LightTable& lights() const;
     const BuildStatistics& statistics() const;
 
 private:

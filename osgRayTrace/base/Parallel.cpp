@@ -39,7 +39,7 @@ struct Workers::Implementation
 
 Workers::Workers(int threads)
     : _implementation(
-          std::make_unique<Implementation>(threads > 0 ? threads : tbb::task_arena::automatic))
+          std::make_unique<Implementation>(threads > 0 ? threads : +tbb::task_arena::automatic))
 {
     _implementation->arena.initialize();
 }

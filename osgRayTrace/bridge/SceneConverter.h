@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/ConversionReport.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <osgRayTrace/RayTraceSettings>
@@ -10,11 +11,7 @@
 #include <osg/Node>
 #include <osg/Vec3d>
 
-#include <cstdint>
-#include <map>
 #include <memory>
-#include <optional>
-#include <string>
 
 namespace osgRayTrace::engine
 {
@@ -30,12 +27,10 @@ struct ConversionInput
     /// space (sky light). Replaced by a light of the same number in the graph.
     osg::ref_ptr<const osg::Light> viewLight;
     bool viewLightInEyeSpace = true;
+    bool lighting = true;                ///< GL_LIGHTING above the root: off in osg::View's NO_LIGHT mode
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as shown
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
 };
-
-/// Counts by "<class>.<reason>" as Statistics::conversion shows them.
-using ConversionCounts = std::map<std::string, uint64_t>;
 
 struct ConversionResult
 {
@@ -53,7 +48,12 @@ public:
 
     /// Converts the graph as it is now. The graph is read, not changed (bounds may be computed). Warns
     /// once an object through osg::notify. Bad data is skipped and counted; throws std::bad_alloc only.
+    /// Geometry and images are taken as unchanged while their modified counts are (see GeometryCache and
+    /// TextureConverter); an unchanged graph gives the last Scene itself.
     ConversionResult convert(const ConversionInput& input);
+
+    /// The next conversion reads all arrays and images again, whatever their modified counts say.
+    void forget();
 
 private:
     struct Implementation;

@@ -55,4 +55,16 @@ struct RenderOptions
     }
 };
 
+/// Samples that a hit takes of an area light: whole squares where the strategy has cells.
+inline int lightSampleCount(const RenderOptions& options)
+{
+    const bool cells = options.lightSampling == LightSampling::UniformJitter ||
+                       options.lightSampling == LightSampling::Stratified;
+    if (!cells) return options.lightSamples;
+    int side = 1;
+    while (side * side < options.lightSamples)
+        ++side;
+    return side * side;
+}
+
 } // namespace osgRayTrace::engine

@@ -42,7 +42,9 @@ struct RenderProgress
     IntegratorKind integrator = IntegratorKind::Automatic; ///< the one that was chosen
     int passes = 0;               ///< complete ones
     double seconds = 0.0;         ///< spent in passes since the restart
-    double relativeError = std::numeric_limits<double>::infinity(); ///< see Film; infinite below 2 passes
+    /// Last estimate of sqrt(mean((x - r)^2 / (r^2 + 0.01))) against the converged image r; infinite
+    /// below 2 passes. Made after each pass if the rule or keepGoing asks for it.
+    double relativeError = std::numeric_limits<double>::infinity();
     RayCounts rays;
     uint64_t droppedSamples = 0;  ///< not finite: left out of the image and counted
     bool restarted = false;       ///< this call began a new image
@@ -82,6 +84,9 @@ public:
 
     /// Stops a running render() within a tile. Any thread.
     void cancel();
+
+    /// RenderProgress::relativeError of the image as it is, worked out now.
+    double estimateRelativeError() const;
 
     /// State after the last render(). Width and height are those of the image, which may be older than
     /// setView's.

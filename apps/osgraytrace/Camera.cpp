@@ -1,0 +1,115 @@
+// Camera.cpp - places the camera. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "Camera.h"
+
+#include "Failure.h"
+
+#include <osgRayTrace/Renderer>
+
+#include <osg/CameraView>
+#include <osg/NodeVisitor>
+
+#include <algorithm>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+constexpr double kOsgViewerFovyDegrees = 29.148431; ///< of its default display settings
+constexpr double kNearFarRatio = 0.0005;            ///< osg::CullSettings' default
+
+struct Placement
+{
+    osg::Vec3d eye;
+    osg::Vec3d center;
+    osg::Vec3d up;
+    double fovyDegrees = kOsgViewerFovyDegrees;
+};
+
+class FindCameraView : public osg::NodeVisitor
+{
+public:
+    FindCameraView() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
+
+    void apply(osg::CameraView& view) override
+    {
+        if (!found)
+        {
+            found = &view;
+            worldFromLocal = osg::computeLocalToWorld(getNodePath());
+        }
+    }
+    using osg::NodeVisitor::apply;
+
+    osg::ref_ptr<osg::CameraView> found;
+    osg::Matrixd worldFromLocal; ///< the view's own position and attitude included
+};
+
+Placement storedPlacement(const osg::CameraView& view, const osg::Matrixd& worldFromLocal)
+{
+    Placement placement;
+    placement.eye = worldFromLocal.getTrans();
+    placement.center = placement.eye + osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), worldFromLocal);
+    placement.up = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 1.0, 0.0), worldFromLocal);
+    if (view.getFieldOfViewMode() == osg::CameraView::VERTICAL) placement.fovyDegrees = view.getFieldOfView();
+    return placement;
+}
+
+Placement homePlacement(const Options& options, osg::Node& scene)
+{
+    Placement placement;
+    placement.fovyDegrees = options.fovyDegrees.value_or(placement.fovyDegrees);
+    osg::ref_ptr<Renderer> renderer = new Renderer;
+    renderer->setScene(&scene);
+    renderer->setSize(options.width, options.height);
+    renderer->setHomeView(placement.fovyDegrees);
+
+    const osg::BoundingSphere& bound = scene.getBound();
+    const osg::Matrixd view = renderer->getViewMatrix();
+    const double distance = bound.valid() ? -(osg::Vec3d(bound.center()) * view).z() : 1.0;
+    view.getLookAt(placement.eye, placement.center, placement.up, distance);
+    return placement;
+}
+
+osg::Matrixd projectionOf(const Placement& placement, const osg::Matrixd& view, double aspect,
+                          const osg::BoundingSphere& bound)
+{
+    const double depth = bound.valid() ? -(osg::Vec3d(bound.center()) * view).z() : 0.0;
+    const double radius = bound.valid() ? bound.radius() : 0.0;
+    const double zFar = depth + radius > 0.0 ? (depth + radius) * 1.001 : 1.0;
+    const double zNear = std::max((depth - radius) * 0.999, zFar * kNearFarRatio);
+    return osg::Matrixd::perspective(placement.fovyDegrees, aspect, zNear, zFar);
+}
+
+} // namespace
+
+Camera cameraOf(const Options& options, osg::Node& scene)
+{
+    const double aspect = double(options.width) / options.height;
+    FindCameraView find;
+    scene.accept(find);
+    Placement placement = find.found ? storedPlacement(*find.found, find.worldFromLocal)
+                                     : homePlacement(options, scene);
+
+    placement.eye = options.eye.value_or(placement.eye);
+    placement.center = options.center.value_or(placement.center);
+    placement.up = options.up.value_or(placement.up);
+    placement.fovyDegrees = options.fovyDegrees.value_or(placement.fovyDegrees);
+    if ((placement.center - placement.eye).length2() == 0.0)
+    {
+        throw Failure(kUsage, "--eye and --center are the same point");
+    }
+    if (((placement.center - placement.eye) ^ placement.up).length2() == 0.0)
+    {
+        throw Failure(kUsage, "--up is zero or along the line of sight");
+    }
+
+    Camera camera;
+    camera.view = osg::Matrixd::lookAt(placement.eye, placement.center, placement.up);
+    camera.projection = projectionOf(placement, camera.view, aspect, scene.getBound());
+    return camera;
+}
+
+} // namespace osgRayTrace::app

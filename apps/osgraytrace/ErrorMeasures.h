@@ -1,0 +1,26 @@
+// ErrorMeasures.h - how far a picture is from a reference. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Image>
+
+#include <string>
+
+namespace osgRayTrace::app
+{
+
+/// Over the linear RGB values x of a picture and r of its reference.
+struct ErrorMeasures
+{
+    double rmse = 0.0;      ///< root of mean((x - r)^2)
+    double relMse = 0.0;    ///< mean((x - r)^2 / (r^2 + 0.01))
+    double meanRatio = 0.0; ///< mean(x) / mean(r)
+};
+
+/// GL_RGB or GL_RGBA, GL_FLOAT. Throws Failure(kCannotLoad); Failure(kUsage) if its size is another.
+osg::ref_ptr<osg::Image> readReference(const std::string& path, int width, int height);
+
+/// Both of the same size, float RGB or RGBA.
+ErrorMeasures errorMeasures(const osg::Image& picture, const osg::Image& reference);
+
+} // namespace osgRayTrace::app

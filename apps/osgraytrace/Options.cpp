@@ -1,0 +1,229 @@
+// Options.cpp - parses and checks the command line. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "Options.h"
+
+#include "Failure.h"
+#include "Output.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+constexpr int kDefaultPasses = 64;
+constexpr double kMaxPixels = 1 << 28;
+
+const char* const kFooter = "Formats: .exr holds linear radiance and channels; .png and .jpg are tone mapped.\n"
+                            "Exit codes: 0 done, 1 usage, 2 cannot load, 3 cannot render, 4 cannot write.";
+
+/// What the command line holds before it is checked as a whole.
+struct RawOptions
+{
+    std::vector<int> size;
+    std::vector<double> eye, center, up;
+    double fovyDegrees = 0.0;
+};
+
+std::string commaSeparated(std::string range)
+{
+    for (size_t bar = range.find('|'); bar != std::string::npos; bar = range.find('|', bar))
+    {
+        range.replace(bar, 1, ", ");
+    }
+    return range;
+}
+
+/// One command line option for each option of RayTraceSettings, by the same name.
+void addSettings(CLI::App& app, RayTraceSettings& settings)
+{
+    for (const RayTraceSettings::Option& option : RayTraceSettings::options())
+    {
+        const std::string name = option.name == "max-passes" ? "--passes,--max-passes" : "--" + option.name;
+        const auto set = [&settings, option](const std::string& value)
+        {
+            if (settings.set(option.name, value)) return;
+            throw CLI::ValidationError("--" + option.name,
+                                       "'" + value + "' is not one of " + commaSeparated(option.range));
+        };
+        app.add_option_function<std::string>(name, set, option.help)
+            ->type_name(option.range)
+            ->group("Settings");
+    }
+}
+
+void addOptions(CLI::App& app, Options& options, RawOptions& raw)
+{
+    static const std::vector<std::string> kChannels{"depth",    "distance", "normal", "albedo",
+                                                    "position", "id",       "error"};
+    static const std::map<std::string, Context> kContexts{
+        {"none", Context::None}, {"osmesa", Context::OsMesa}, {"egl", Context::Egl}};
+    const auto finite = CLI::Validator(
+        [](const std::string& text)
+        { return std::isfinite(std::strtod(text.c_str(), nullptr)) ? "" : text + " is not finite"; },
+        "");
+
+    app.add_option("MODEL", options.models, "Files that OpenSceneGraph reads")->option_text("MODEL ...");
+    app.add_option("-o,--output", options.outputs, "Picture to write: .exr, .png, .jpg; may be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    app.add_option("--size", raw.size, "Pixels (1280 720)")->type_name("W H")->expected(2);
+
+    app.add_option("--eye", raw.eye, "Position of the camera")->type_name("X Y Z")->expected(3)->check(finite);
+    app.add_option("--center", raw.center, "Point that it looks at")->type_name("X Y Z")->expected(3)->check(finite);
+    app.add_option("--up", raw.up, "What is up in the picture")->type_name("X Y Z")->expected(3)->check(finite);
+    app.add_option("--fovy", raw.fovyDegrees, "Vertical field of view")
+        ->type_name("DEGREES")
+        ->check(CLI::Range(0.001, 179.0));
+
+    app.add_option("--time", options.seconds, "Stop after so many seconds")
+        ->type_name("SECONDS")
+        ->check(CLI::PositiveNumber)
+        ->check(finite);
+    app.add_option("--error", options.relativeError, "Stop at this estimated relative error")
+        ->type_name("RELATIVE")
+        ->check(CLI::PositiveNumber)
+        ->check(finite);
+
+    app.add_option("--aov", options.channels, "Extra EXR channels: depth, distance, normal, albedo, position, id, error")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(kChannels));
+    app.add_option("--reference", options.reference, "Prints RMSE, relMSE and mean ratio against it")
+        ->type_name("FILE.exr");
+    app.add_option("--stats", options.statistics, "Writes counts, times and errors")->type_name("FILE.json");
+    app.add_option("--context", options.context, "none, osmesa or egl; other than none: through RayTraceDrawable in that context")
+        ->type_name("NAME")
+        ->transform(CLI::Transformer(kContexts))
+        ->default_str("none");
+    app.add_flag("--list-options", options.listOptions, "Prints every setting with default, range and variable");
+}
+
+osg::Vec3d vectorOf(const std::vector<double>& values)
+{
+    return osg::Vec3d(values[0], values[1], values[2]);
+}
+
+void applyView(const CLI::App& app, const RawOptions& raw, Options& options)
+{
+    if (!raw.size.empty())
+    {
+        options.width = raw.size[0];
+        options.height = raw.size[1];
+    }
+    if (!raw.eye.empty()) options.eye = vectorOf(raw.eye);
+    if (!raw.center.empty()) options.center = vectorOf(raw.center);
+    if (!raw.up.empty()) options.up = vectorOf(raw.up);
+    if (app.count("--fovy")) options.fovyDegrees = raw.fovyDegrees;
+}
+
+/// The default of 64 passes holds unless something else says when to stop.
+void applyPasses(const CLI::App& app, Options& options)
+{
+    if (app.count("--passes") || std::getenv("OSGRAYTRACE_MAX_PASSES")) return;
+    const bool otherwiseLimited = options.seconds > 0.0 || options.relativeError > 0.0;
+    options.settings->setMaxPasses(otherwiseLimited ? 1 << 24 : kDefaultPasses);
+}
+
+void check(const Options& options)
+{
+    if (options.models.empty()) throw Failure(kUsage, "no MODEL given; --help shows the options");
+    if (options.outputs.empty()) throw Failure(kUsage, "no -o FILE given; --help shows the options");
+    if (options.width < 1 || options.height < 1 || double(options.width) * options.height > kMaxPixels)
+    {
+        throw Failure(kUsage, "--size: width and height are at least 1, their product at most 2^28");
+    }
+
+    bool exr = false;
+    for (const std::string& output : options.outputs)
+    {
+        const std::optional<Format> format = formatOf(output);
+        if (!format) throw Failure(kUsage, "-o " + output + ": the name ends in none of .exr, .png, .jpg");
+        exr = exr || *format == Format::Exr;
+    }
+    if (!options.channels.empty() && !exr) throw Failure(kUsage, "--aov needs an -o FILE.exr");
+    if (!options.channels.empty() && options.context != Context::None)
+    {
+        throw Failure(kUsage, "--aov needs --context none");
+    }
+}
+
+} // namespace
+
+std::optional<Options> parseOptions(int argc, char** argv)
+{
+    Options options;
+    options.settings = new RayTraceSettings;
+    RawOptions raw;
+
+    CLI::App app("Ray traces OpenSceneGraph models to pictures, without a graphics context.", "osgraytrace");
+    app.footer(kFooter);
+    addOptions(app, options, raw);
+    addSettings(app, *options.settings);
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::CallForHelp&)
+    {
+        std::cout << app.help();
+        return std::nullopt;
+    }
+    catch (const CLI::ParseError& error)
+    {
+        throw Failure(kUsage, error.what());
+    }
+
+    if (options.listOptions) return options;
+    applyView(app, raw, options);
+    applyPasses(app, options);
+    check(options);
+    return options;
+}
+
+std::string optionTable()
+{
+    using Row = std::vector<std::string>;
+    std::vector<Row> rows{{"option", "default", "range", "environment variable", "meaning"}};
+    for (const RayTraceSettings::Option& option : RayTraceSettings::options())
+    {
+        rows.push_back({"`" + option.name + "`", option.defaultValue, commaSeparated(option.range),
+                        "`" + option.environment + "`", option.help});
+    }
+
+    Row rule;
+    std::vector<size_t> widths;
+    for (size_t column = 0; column < rows[0].size(); ++column)
+    {
+        size_t width = 0;
+        for (const Row& row : rows)
+        {
+            width = std::max(width, row[column].size());
+        }
+        widths.push_back(width);
+        rule.push_back(std::string(width, '-'));
+    }
+    rows.insert(rows.begin() + 1, rule);
+
+    std::string table;
+    for (const Row& row : rows)
+    {
+        for (size_t column = 0; column < row.size(); ++column)
+        {
+            table += "| " + row[column] + std::string(widths[column] - row[column].size() + 1, ' ');
+        }
+        table += "|\n";
+    }
+    return table;
+}
+
+} // namespace osgRayTrace::app

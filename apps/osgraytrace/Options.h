@@ -1,0 +1,52 @@
+// Options.h - what the command line asks for. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgRayTrace/RayTraceSettings>
+
+#include <osg/Vec3d>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgRayTrace::app
+{
+
+enum class Context
+{
+    None,
+    OsMesa,
+    Egl,
+};
+
+struct Options
+{
+    std::vector<std::string> models;
+    std::vector<std::string> outputs;
+    int width = 1280; ///< [pixels]
+    int height = 720; ///< [pixels]
+
+    // The view: what is not given is taken from the scene. See Camera.h.
+    std::optional<osg::Vec3d> eye;
+    std::optional<osg::Vec3d> center;
+    std::optional<osg::Vec3d> up;
+    std::optional<double> fovyDegrees;
+
+    double seconds = 0.0;       ///< 0: no limit
+    double relativeError = 0.0; ///< 0: no target
+    std::vector<std::string> channels;
+    std::string reference;      ///< empty: none
+    std::string statistics;     ///< empty: none
+    Context context = Context::None;
+    bool listOptions = false;
+    osg::ref_ptr<RayTraceSettings> settings; ///< maxPasses is the limit of passes
+};
+
+/// Nothing if the command line asked for help, which was printed then. Throws Failure(kUsage).
+std::optional<Options> parseOptions(int argc, char** argv);
+
+/// Every RayTraceSettings option as a Markdown table, as the README shows it.
+std::string optionTable();
+
+} // namespace osgRayTrace::app

@@ -1,0 +1,34 @@
+// Picture.h - what a render leaves, and the two ways to make it. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "Camera.h"
+#include "Options.h"
+#include "Progress.h"
+
+#include <osgRayTrace/Statistics>
+
+#include <osg/Image>
+#include <osg/Node>
+
+#include <map>
+#include <string>
+
+namespace osgRayTrace::app
+{
+
+struct Picture
+{
+    osg::ref_ptr<osg::Image> radiance; ///< linear, GL_RGBA, GL_FLOAT
+    osg::ref_ptr<osg::Image> display;  ///< tone mapped, GL_RGBA, GL_UNSIGNED_BYTE
+    std::map<std::string, osg::ref_ptr<osg::Image>> channels; ///< those that the options ask for
+    Statistics statistics;
+};
+
+/// With osgRayTrace::Renderer. Throws Failure(kCannotRender).
+Picture renderWithoutContext(const Options& options, osg::Node& scene, const Camera& camera, Progress& progress);
+
+/// Through a RayTraceDrawable in an OpenGL context. Throws Failure(kCannotRender).
+Picture renderInContext(const Options& options, osg::Node& scene, const Camera& camera, Progress& progress);
+
+} // namespace osgRayTrace::app

@@ -1,0 +1,12 @@
+// PluginPath.h - where this project's OSG plugins lie, seen from the program. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace osgRayTrace::app
+{
+
+/// Lets osgDB look for plugins beside this program, in the build tree or where it was installed, before
+/// it looks where OpenSceneGraph is. Call it before any file is read.
+void addPluginPath();
+
+} // namespace osgRayTrace::app

@@ -1,0 +1,40 @@
+// RenderWithoutContext.cpp - a picture by osgRayTrace::Renderer. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "Picture.h"
+
+#include "Failure.h"
+
+#include <osgRayTrace/Renderer>
+
+namespace osgRayTrace::app
+{
+
+Picture renderWithoutContext(const Options& options, osg::Node& scene, const Camera& camera, Progress& progress)
+{
+    osg::ref_ptr<Renderer> renderer = new Renderer;
+    renderer->setScene(&scene);
+    renderer->setViewMatrix(camera.view);
+    renderer->setProjectionMatrix(camera.projection);
+    renderer->setSize(options.width, options.height);
+    renderer->setSettings(options.settings.get());
+
+    const auto show = [&progress](const Statistics& statistics)
+    {
+        progress.show(statistics);
+        return true;
+    };
+    const bool rendered = renderer->render(options.seconds, options.relativeError, show);
+    if (!rendered) throw Failure(kCannotRender, renderer->getStatistics().message);
+
+    Picture picture;
+    picture.radiance = renderer->getColorImage();
+    picture.display = renderer->getDisplayImage();
+    picture.statistics = renderer->getStatistics();
+    for (const std::string& channel : options.channels)
+    {
+        picture.channels[channel] = renderer->getChannelImage(channel);
+    }
+    return picture;
+}
+
+} // namespace osgRayTrace::app

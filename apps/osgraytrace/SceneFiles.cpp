@@ -1,0 +1,70 @@
+// SceneFiles.cpp - reads models through osgDB, and refuses what would make it hang. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "SceneFiles.h"
+
+#include "Failure.h"
+
+#include <osg/Group>
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
+#include <osgDB/ReadFile>
+
+#include <fstream>
+#include <iterator>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+/// Whether an .osgt file ends within a block or a string, where osgDB 3.6 would read on for ever.
+bool isCutShort(const std::string& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    int depth = 0;
+    bool quoted = false;
+    bool escaped = false;
+    for (std::istreambuf_iterator<char> at(stream), end; at != end; ++at)
+    {
+        const char c = *at;
+        if (escaped) escaped = false;
+        else if (quoted && c == '\\') escaped = true;
+        else if (c == '"') quoted = !quoted;
+        else if (!quoted && c == '{') ++depth;
+        else if (!quoted && c == '}') --depth;
+    }
+    return quoted || depth > 0;
+}
+
+osg::ref_ptr<osg::Node> readFile(const std::string& file)
+{
+    // Names with further extensions are for pseudo-loaders and may be no files themselves.
+    const std::string found = osgDB::findDataFile(file);
+    if (!found.empty() && osgDB::getLowerCaseFileExtension(found) == "osgt" && isCutShort(found))
+    {
+        throw Failure(kCannotLoad, "cannot load " + file + ": it is cut short");
+    }
+
+    osgDB::ReaderWriter::ReadResult result =
+        osgDB::Registry::instance()->readNode(file, osgDB::Registry::instance()->getOptions());
+    if (osg::ref_ptr<osg::Node> node = result.getNode()) return node;
+    std::string reason = result.message();
+    if (reason.empty()) reason = result.notFound() ? "there is no such file" : result.statusMessage();
+    throw Failure(kCannotLoad, "cannot load " + file + ": " + reason);
+}
+
+} // namespace
+
+osg::ref_ptr<osg::Node> readScene(const std::vector<std::string>& files)
+{
+    if (files.size() == 1) return readFile(files.front());
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    for (const std::string& file : files)
+    {
+        scene->addChild(readFile(file));
+    }
+    return scene;
+}
+
+} // namespace osgRayTrace::app

@@ -1,0 +1,75 @@
+// StatisticsText.cpp - formats statistics. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "StatisticsText.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+uint64_t allRays(const Statistics& statistics)
+{
+    return statistics.cameraRays + statistics.shadowRays + statistics.secondaryRays;
+}
+
+} // namespace
+
+std::string statisticsJson(const Options& options, const Statistics& statistics,
+                           const std::optional<ErrorMeasures>& measures)
+{
+    nlohmann::ordered_json json;
+    json["models"] = options.models;
+    json["width"] = options.width;
+    json["height"] = options.height;
+    json["triangles"] = statistics.triangles;
+    json["meshes"] = statistics.meshes;
+    json["instances"] = statistics.instances;
+    json["lights"] = statistics.lights;
+    json["convertSeconds"] = statistics.convertSeconds;
+    json["buildSeconds"] = statistics.buildSeconds;
+    json["embreeBytes"] = statistics.embreeBytes;
+    json["integrator"] = statistics.integrator;
+    json["passes"] = statistics.passes;
+    json["renderSeconds"] = statistics.renderSeconds;
+    json["rays"] = {{"camera", statistics.cameraRays},
+                    {"shadow", statistics.shadowRays},
+                    {"secondary", statistics.secondaryRays},
+                    {"total", allRays(statistics)}};
+    json["relativeError"] = statistics.relativeError;
+    json["droppedSamples"] = statistics.droppedSamples;
+    json["conversion"] = statistics.conversion;
+    if (measures)
+    {
+        json["reference"] = {{"file", options.reference},
+                             {"rmse", measures->rmse},
+                             {"relMse", measures->relMse},
+                             {"meanRatio", measures->meanRatio}};
+    }
+    // File names may be of any encoding; what is no UTF-8 is replaced.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string statisticsLine(const Statistics& statistics)
+{
+    const double rate =
+        statistics.renderSeconds > 0.0 ? 1e-6 * allRays(statistics) / statistics.renderSeconds : 0.0;
+    char text[160];
+    std::snprintf(text, sizeof(text), "%s, %d passes in %.1f s, %.3g M rays/s", statistics.integrator.c_str(),
+                  statistics.passes, statistics.renderSeconds, rate);
+    std::string line = text;
+    if (std::isfinite(statistics.relativeError))
+    {
+        std::snprintf(text, sizeof(text), ", estimated error %.2g %%", 100.0 * statistics.relativeError);
+        line += text;
+    }
+    if (statistics.droppedSamples > 0) line += ", " + std::to_string(statistics.droppedSamples) + " samples dropped";
+    return line;
+}
+
+} // namespace osgRayTrace::app

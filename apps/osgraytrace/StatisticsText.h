@@ -1,0 +1,23 @@
+// StatisticsText.h - statistics of a render as JSON, and as one line for people. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ErrorMeasures.h"
+#include "Options.h"
+
+#include <osgRayTrace/Statistics>
+
+#include <optional>
+#include <string>
+
+namespace osgRayTrace::app
+{
+
+/// Keys are the names of Statistics' members; numbers that are not finite are null.
+std::string statisticsJson(const Options& options, const Statistics& statistics,
+                           const std::optional<ErrorMeasures>& measures);
+
+/// "path, 64 passes in 3.2 s, 41 M rays/s, estimated error 0.81 %"
+std::string statisticsLine(const Statistics& statistics);
+
+} // namespace osgRayTrace::app

@@ -1,0 +1,97 @@
+// KeyHandler.cpp - the keys that steer the ray tracer. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "KeyHandler.h"
+
+#include <osg/Notify>
+#include <osgDB/FileUtils>
+#include <osgDB/WriteFile>
+
+#include <string>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+constexpr float kExposureStep = 0.5f; ///< [EV]
+
+/// Sets an option of the settings to the next of its words: "auto|whitted|path|debug".
+void cycle(RayTraceSettings& settings, const std::string& name)
+{
+    for (const RayTraceSettings::Option& option : RayTraceSettings::options())
+    {
+        if (option.name != name) continue;
+        const std::string words = option.range + "|";
+        const std::size_t current = ("|" + words).find("|" + settings.get(name) + "|");
+        std::size_t next = current == std::string::npos ? 0 : words.find('|', current) + 1;
+        if (next == words.size()) next = 0;
+        settings.set(name, words.substr(next, words.find('|', next) - next));
+        return;
+    }
+}
+
+std::string freeFileName()
+{
+    std::string name;
+    int number = 0;
+    do
+    {
+        name = "osgraytrace-" + std::to_string(++number) + ".exr";
+    } while (osgDB::fileExists(name));
+    return name;
+}
+
+} // namespace
+
+bool KeyHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action)
+{
+    if (event.getHandled() || event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
+    if (!press(event.getKey())) return false;
+    action.requestRedraw();
+    return true;
+}
+
+bool KeyHandler::press(int key)
+{
+    RayTraceSettings& settings = *_scene->getSettings();
+    RayTraceDrawable& drawable = *_scene->getDrawable();
+    switch (key)
+    {
+    case 'i': cycle(settings, "integrator"); return true;
+    case 'n': cycle(settings, "light-sampling"); return true;
+    case '+':
+    case '=': settings.setExposure(settings.getExposure() + kExposureStep); return true;
+    case '-': settings.setExposure(settings.getExposure() - kExposureStep); return true;
+    case 'p': drawable.setPaused(!drawable.getPaused()); return true;
+    case 'r': _scene->setEnabled(!_scene->getEnabled()); return true;
+    case 'c': writeScreenshot(); return true;
+    default: return false;
+    }
+}
+
+void KeyHandler::writeScreenshot() const
+{
+    const osg::ref_ptr<osg::Image> image = _scene->getDrawable()->getColorImage();
+    if (!image)
+    {
+        OSG_WARN << "osgraytraceviewer: there is no ray traced picture yet" << std::endl;
+        return;
+    }
+    const std::string name = freeFileName();
+    const bool written = osgDB::writeImageFile(*image, name);
+    OSG_NOTICE << "osgraytraceviewer: " << (written ? "wrote " : "could not write ") << name << std::endl;
+}
+
+void KeyHandler::getUsage(osg::ApplicationUsage& usage) const
+{
+    usage.addKeyboardMouseBinding("i", "Next integrator");
+    usage.addKeyboardMouseBinding("n", "Next light sampling strategy");
+    usage.addKeyboardMouseBinding("+", "Exposure half a stop up");
+    usage.addKeyboardMouseBinding("-", "Exposure half a stop down");
+    usage.addKeyboardMouseBinding("p", "Pause and continue ray tracing");
+    usage.addKeyboardMouseBinding("r", "Switch between ray tracer and rasterizer");
+    usage.addKeyboardMouseBinding("c", "Write the picture's radiance to osgraytrace-N.exr");
+}
+
+} // namespace osgRayTrace::app

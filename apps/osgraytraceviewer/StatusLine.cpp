@@ -1,0 +1,94 @@
+// StatusLine.cpp - one line over the picture: what the ray tracer does. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "StatusLine.h"
+
+#include <osg/Geode>
+
+#include <cmath>
+#include <cstdio>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+constexpr double kMargin = 10.0;       // pixels
+constexpr float kCharacterSize = 18.0f; // pixels
+
+osg::ref_ptr<osgText::Text> createText()
+{
+    osg::ref_ptr<osgText::Text> text = new osgText::Text;
+    text->setDataVariance(osg::Object::DYNAMIC);
+    text->setCharacterSize(kCharacterSize);
+    text->setPosition(osg::Vec3(kMargin, kMargin, 0.0f));
+    text->setBackdropType(osgText::Text::OUTLINE);
+    return text;
+}
+
+/// Over everything, in pixels, and no part of the scene's depth range.
+osg::ref_ptr<osg::Camera> createOverlay(osg::Drawable* drawable)
+{
+    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    camera->setRenderOrder(osg::Camera::POST_RENDER);
+    camera->setClearMask(0);
+    camera->setAllowEventFocus(false);
+    camera->setProjectionMatrixAsOrtho2D(0.0, 1280.0, 0.0, 1024.0);
+    osg::StateSet* stateSet = camera->getOrCreateStateSet();
+    const auto off = osg::StateAttribute::OFF | osg::StateAttribute::PROTECTED;
+    stateSet->setMode(GL_LIGHTING, off);
+    stateSet->setMode(GL_DEPTH_TEST, off);
+    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(drawable);
+    camera->addChild(geode.get());
+    return camera;
+}
+
+template <class... Values> std::string format(const char* pattern, Values... values)
+{
+    char text[160];
+    std::snprintf(text, sizeof(text), pattern, values...);
+    return text;
+}
+
+} // namespace
+
+StatusLine::StatusLine(RayTracedScene* scene)
+    : _scene(scene), _text(createText())
+{
+    _camera = createOverlay(_text.get());
+}
+
+bool StatusLine::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter&)
+{
+    if (event.getEventType() == osgGA::GUIEventAdapter::RESIZE)
+    {
+        _camera->setProjectionMatrixAsOrtho2D(0.0, event.getWindowWidth(), 0.0, event.getWindowHeight());
+        return false;
+    }
+    if (event.getEventType() != osgGA::GUIEventAdapter::FRAME) return false;
+    const std::string text = statusText(*_scene);
+    if (text != _shown) _text->setText(text);
+    _shown = text;
+    return false;
+}
+
+std::string statusText(const RayTracedScene& scene)
+{
+    if (!scene.getEnabled()) return "rasterizer";
+    const Statistics statistics = scene.getDrawable()->getStatistics();
+    if (!statistics.ok) return statistics.message;
+
+    std::string text = format("%s   %d passes", statistics.integrator.c_str(), statistics.passes);
+    const double rays = static_cast<double>(statistics.cameraRays + statistics.shadowRays +
+                                            statistics.secondaryRays);
+    if (statistics.renderSeconds > 0.0)
+        text += format("   %.1f Mrays/s", 1e-6 * rays / statistics.renderSeconds);
+    if (std::isfinite(statistics.relativeError))
+        text += format("   error %.2g %%", 100.0 * statistics.relativeError);
+    if (scene.getDrawable()->getPaused()) text += "   paused";
+    return text;
+}
+
+} // namespace osgRayTrace::app

@@ -1,0 +1,193 @@
+// main.cpp - osgraytraceviewer: models, ray traced in a window. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "KeyHandler.h"
+#include "StatusLine.h"
+
+#include "apps/osgraytrace/PluginPath.h"
+
+#include <osgRayTrace/RayTracedScene>
+
+#include <osg/ArgumentParser>
+#include <osg/Group>
+#include <osg/NodeVisitor>
+#include <osgDB/ReadFile>
+#include <osgGA/StateSetManipulator>
+#include <osgGA/TrackballManipulator>
+#include <osgViewer/Viewer>
+#include <osgViewer/ViewerEventHandlers>
+
+#include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+enum ExitCode
+{
+    kDone = 0,
+    kUsage = 1,
+    kCannotLoad = 2,
+    kCannotOpenWindow = 3,
+};
+
+using Assignments = std::vector<std::pair<std::string, std::string>>;
+
+/// A model may bring a ray traced scene with it: cow.osgt.raytrace.
+struct FindTracedScene : osg::NodeVisitor
+{
+    FindTracedScene() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Group& node) override
+    {
+        if (!found) found = dynamic_cast<RayTracedScene*>(&node);
+        if (!found) traverse(node);
+    }
+
+    osg::ref_ptr<RayTracedScene> found;
+};
+
+int fail(ExitCode code, const std::string& message)
+{
+    std::cerr << "osgraytraceviewer: " << message << '\n';
+    return code;
+}
+
+void describe(osg::ApplicationUsage& usage)
+{
+    const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    usage.setApplicationName("osgraytraceviewer");
+    usage.setDescription("Ray traces models in a window.");
+    usage.setCommandLineUsage("osgraytraceviewer [options] MODEL [MODEL ...]");
+    usage.addCommandLineOption("-h or --help", "Shows options and keys");
+    for (const RayTraceSettings::Option& option : RayTraceSettings::options())
+        usage.addCommandLineOption("--" + option.name + " <" + option.range + ">", option.help,
+                                   settings->get(option.name));
+}
+
+/// Names and values of the settings on the command line; nothing if a value is none of its option's.
+std::optional<Assignments> readSettings(osg::ArgumentParser& arguments)
+{
+    Assignments assignments;
+    osg::ref_ptr<RayTraceSettings> trial = new RayTraceSettings;
+    for (const RayTraceSettings::Option& option : RayTraceSettings::options())
+    {
+        std::string value;
+        while (arguments.read("--" + option.name, value))
+        {
+            assignments.emplace_back(option.name, value);
+            if (trial->set(option.name, value)) continue;
+            fail(kUsage, "--" + option.name + " " + value + ": the values are " + option.range);
+            return std::nullopt;
+        }
+    }
+    return assignments;
+}
+
+std::vector<std::string> modelNames(osg::ArgumentParser& arguments)
+{
+    std::vector<std::string> names;
+    for (int i = 1; i < arguments.argc(); ++i)
+        if (!arguments.isOption(i)) names.push_back(arguments[i]);
+    return names;
+}
+
+void addHandlers(osgViewer::Viewer& viewer, RayTracedScene* scene, StatusLine* statusLine)
+{
+    viewer.addEventHandler(new KeyHandler(scene));
+    viewer.addEventHandler(statusLine);
+    viewer.addEventHandler(new osgGA::StateSetManipulator(viewer.getCamera()->getOrCreateStateSet()));
+    viewer.addEventHandler(new osgViewer::ThreadingHandler);
+    viewer.addEventHandler(new osgViewer::WindowSizeHandler);
+    viewer.addEventHandler(new osgViewer::StatsHandler);
+    viewer.addEventHandler(new osgViewer::LODScaleHandler);
+}
+
+int show(osgViewer::Viewer& viewer, const std::vector<std::string>& models,
+         const Assignments& assignments, osg::ApplicationUsage* usage)
+{
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    for (const std::string& name : models)
+    {
+        const osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(name);
+        if (!model) return fail(kCannotLoad, "cannot load " + name);
+        root->addChild(model.get());
+    }
+
+    FindTracedScene brought;
+    root->accept(brought);
+    osg::ref_ptr<RayTracedScene> scene = brought.found;
+    if (!scene)
+    {
+        scene = new RayTracedScene;
+        scene->addChild(root.get());
+        root = new osg::Group;
+        root->addChild(scene.get());
+    }
+    for (const auto& [name, value] : assignments)
+        scene->getSettings()->set(name, value);
+    osg::ref_ptr<StatusLine> statusLine = new StatusLine(scene.get());
+    root->addChild(statusLine->camera());
+
+    viewer.setSceneData(root.get());
+    viewer.setCameraManipulator(new osgGA::TrackballManipulator);
+    addHandlers(viewer, scene.get(), statusLine.get());
+    viewer.addEventHandler(new osgViewer::HelpHandler(usage));
+    viewer.realize();
+    osgViewer::Viewer::Windows windows;
+    viewer.getWindows(windows);
+    if (windows.empty()) return fail(kCannotOpenWindow, "cannot open a window");
+    return viewer.run();
+}
+
+int run(int argc, char** argv)
+{
+    addPluginPath();
+    osg::ArgumentParser arguments(&argc, argv);
+    osg::ApplicationUsage& usage = *arguments.getApplicationUsage();
+    describe(usage);
+
+    const bool help = arguments.read("-h") || arguments.read("--help");
+    const std::optional<Assignments> assignments = readSettings(arguments);
+    if (!assignments) return kUsage;
+    osgViewer::Viewer viewer(arguments);
+    if (help)
+    {
+        osg::ref_ptr<RayTracedScene> none = new RayTracedScene;
+        addHandlers(viewer, none.get(), new StatusLine(none.get()));
+        viewer.getUsage(usage);
+        usage.write(std::cout, osg::ApplicationUsage::COMMAND_LINE_OPTION |
+                                   osg::ApplicationUsage::KEYBOARD_MOUSE_BINDING);
+        return kDone;
+    }
+    arguments.reportRemainingOptionsAsUnrecognized();
+    if (arguments.errors())
+    {
+        arguments.writeErrorMessages(std::cerr);
+        return kUsage;
+    }
+    const std::vector<std::string> models = modelNames(arguments);
+    if (models.empty()) return fail(kUsage, "no MODEL given; --help shows options and keys");
+    return show(viewer, models, *assignments, &usage);
+}
+
+} // namespace
+
+} // namespace osgRayTrace::app
+
+int main(int argc, char** argv)
+{
+    try
+    {
+        return osgRayTrace::app::run(argc, argv);
+    }
+    catch (const std::exception& error)
+    {
+        return osgRayTrace::app::fail(osgRayTrace::app::kCannotOpenWindow, error.what());
+    }
+}

@@ -1,0 +1,114 @@
+# Checks that each include points to its own layer or one left of it, and the few rules beside that:
+#   base < sampling < film < scene < shading < accel < integrators < session < bridge < API
+#        < offscreen < osgPlugins < apps
+#   - the bridge converts the classes of the API: it includes their public headers, nothing else of it
+#   - accel alone includes Embree (and apps/osgraytracebench, which measures against it)
+#   - base/Parallel.cpp alone includes TBB
+#   - base to session include neither OpenSceneGraph nor OpenGL
+#   - DisplayTexture and offscreen alone call OpenGL
+#   - a public header includes only public headers, OpenSceneGraph and the C++ library
+# Usage: cmake -D ROOT=<source folder> -P CheckLayering.cmake; fails with one line for each offence.
+cmake_minimum_required(VERSION 3.24)
+
+set(LAYERS base sampling film scene shading accel integrators session bridge API offscreen osgPlugins apps)
+set(ENGINE base sampling film scene shading accel integrators session)
+set(PUBLIC_HEADER "^osgRayTrace/(offscreen/)?[A-Za-z]+$")
+set(offences 0)
+
+macro(report file reason)
+    math(EXPR offences "${offences} + 1")
+    message(NOTICE "${file}: ${reason}")
+endmacro()
+
+# Layer of a path below ROOT; empty if it is none of ours.
+function(layer_of path result)
+    set(layer "")
+    if(path MATCHES "^osgRayTrace/([A-Za-z]+)/")
+        set(layer "${CMAKE_MATCH_1}")
+    elseif(path MATCHES "^osgRayTrace/")
+        set(layer API)
+    elseif(path MATCHES "^(osgPlugins|apps)/")
+        set(layer "${CMAKE_MATCH_1}")
+    endif()
+    set(${result} "${layer}" PARENT_SCOPE)
+endfunction()
+
+macro(check_include file layer include)
+    # A path without a folder is a neighbour.
+    set(target "${include}")
+    if(NOT target MATCHES "/" AND EXISTS "${ROOT}/${folder}/${target}")
+        set(target "${folder}/${target}")
+    endif()
+    layer_of("${target}" targetLayer)
+    if(layer STREQUAL "bridge" AND target MATCHES "${PUBLIC_HEADER}")
+        set(targetLayer bridge)
+    endif()
+    if(targetLayer)
+        list(FIND LAYERS "${targetLayer}" targetRank)
+        list(FIND LAYERS "${layer}" rank)
+        if(targetRank LESS 0)
+            report("${file}" "includes ${include}, of no known layer")
+        elseif(targetRank GREATER rank)
+            report("${file}" "layer ${layer} includes ${include} of ${targetLayer}, right of it")
+        endif()
+    endif()
+
+    if(include MATCHES "^embree[34]?/" AND NOT layer STREQUAL "accel"
+       AND NOT file MATCHES "^apps/osgraytracebench/")
+        report("${file}" "includes Embree (${include}); accel alone may")
+    endif()
+    if(include MATCHES "^(oneapi/)?tbb[/.]" AND NOT file STREQUAL "osgRayTrace/base/Parallel.cpp")
+        report("${file}" "includes TBB (${include}); base/Parallel.cpp alone may")
+    endif()
+    if(include MATCHES "^(osg[A-Z]?[A-Za-z]*|OpenThreads|GL|GLES.*|EGL)/" AND NOT include MATCHES "^osgRayTrace/"
+       AND layer IN_LIST ENGINE)
+        report("${file}" "the engine includes ${include}")
+    endif()
+    if(public AND include MATCHES "\\.(h|hpp)$")
+        report("${file}" "public header includes ${include}")
+    elseif(public AND include MATCHES "/" AND NOT include MATCHES "^(osg[A-Z]?[A-Za-z]*|OpenThreads)/")
+        report("${file}" "public header includes ${include}")
+    endif()
+endmacro()
+
+file(GLOB_RECURSE files RELATIVE "${ROOT}" LIST_DIRECTORIES false
+     "${ROOT}/osgRayTrace/*" "${ROOT}/osgPlugins/*" "${ROOT}/apps/*")
+list(FILTER files EXCLUDE REGEX "\\.(txt|md|in)$")
+list(LENGTH files fileCount)
+if(fileCount EQUAL 0)
+    message(FATAL_ERROR "No sources below ROOT='${ROOT}'")
+endif()
+
+foreach(file IN LISTS files)
+    get_filename_component(folder "${file}" DIRECTORY)
+    layer_of("${file}" layer)
+    if(NOT layer IN_LIST LAYERS)
+        report("${file}" "lies in no known layer")
+        continue()
+    endif()
+    set(public FALSE)
+    if(file MATCHES "${PUBLIC_HEADER}")
+        set(public TRUE)
+    endif()
+
+    file(STRINGS "${ROOT}/${file}" includes REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]")
+    foreach(line IN LISTS includes)
+        string(REGEX REPLACE "^[^<\"]*[<\"]([^>\"]+)[>\"].*$" "\\1" include "${line}")
+        check_include("${file}" "${layer}" "${include}")
+    endforeach()
+
+    if(NOT file MATCHES "^osgRayTrace/(DisplayTexture\\.|offscreen/)")
+        file(STRINGS "${ROOT}/${file}" calls REGEX "(^|[^A-Za-z0-9_])gl[A-Z][A-Za-z0-9]*[ \t]*\\(")
+        foreach(line IN LISTS calls)
+            string(REGEX REPLACE "//.*$" "" line "${line}")
+            if(line MATCHES "(^|[^A-Za-z0-9_])(gl[A-Z][A-Za-z0-9]*)[ \t]*\\(")
+                report("${file}" "calls OpenGL (${CMAKE_MATCH_2})")
+            endif()
+        endforeach()
+    endif()
+endforeach()
+
+if(offences GREATER 0)
+    message(FATAL_ERROR "${offences} offences against the layers in ${fileCount} files")
+endif()
+message(NOTICE "${fileCount} files keep to the layers")

@@ -1,0 +1,53 @@
+# setup.sh - what run.sh and test.sh share: finds the source, installs what is missing, builds.
+# Sourced by bash. Sets ROOT, the source folder. SPDX-License-Identifier: MIT
+
+ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+# Debian 12's names. xvfb, xauth and openscenegraph (osgviewer, osgconv) are used by the tests.
+PACKAGES=(build-essential cmake ninja-build
+          libopenscenegraph-dev libembree-dev libtbb-dev libglm-dev libopenexr-dev
+          libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri
+          libcli11-dev nlohmann-json3-dev catch2 openscenegraph xvfb xauth)
+
+say() { printf '%s\n' "$*" >&2; }
+
+# Installs the packages that are missing: as root, or with sudo; otherwise names them and ends with 1.
+install_packages()
+{
+    if ! command -v dpkg-query >/dev/null; then
+        say "No Debian package manager here. Needed, by their Debian names: ${PACKAGES[*]}"
+        return 0
+    fi
+    local package missing=() as_root=()
+    for package in "${PACKAGES[@]}"; do
+        [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] ||
+            missing+=("$package")
+    done
+    [ ${#missing[@]} -gt 0 ] || return 0
+
+    if [ "$(id -u)" -ne 0 ]; then
+        # Without a terminal sudo must not ask for a password.
+        if ! command -v sudo >/dev/null || { [ ! -t 0 ] && ! sudo -n true 2>/dev/null; }; then
+            say "These packages are missing, and only root can install them:"
+            say "  apt-get install ${missing[*]}"
+            exit 1
+        fi
+        as_root=(sudo)
+    fi
+    say "Installing ${missing[*]}"
+    "${as_root[@]}" apt-get -qq update
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+        apt-get -qq install -y --no-install-recommends "${missing[@]}" >&2
+}
+
+# build PRESET [TARGET ...]: configures and builds, everything if no target is given.
+build()
+{
+    local preset=$1
+    shift
+    if command -v ccache >/dev/null; then
+        export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER:-ccache}
+    fi
+    (cd "$ROOT" && cmake --preset "$preset" >/dev/null &&
+        cmake --build --preset "$preset" ${1:+--target "$@"}) >&2
+}

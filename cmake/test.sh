@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# test.sh - builds osgRayTrace and runs the whole test suite: everything in release, the unit tests
+# again under AddressSanitizer and UBSan, those with threads under ThreadSanitizer.
+# Sample models of OpenSceneGraph are found by OSG_FILE_PATH, or in a folder openscenegraph-data beside
+# or near the source; tests that need them are skipped without. SPDX-License-Identifier: MIT
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+
+install_packages
+
+for folder in "$ROOT/../openscenegraph-data" "$ROOT/../shared/data/openscenegraph-data"; do
+    if [ -z "${OSG_FILE_PATH:-}" ] && [ -d "$folder" ]; then
+        OSG_FILE_PATH=$(cd "$folder" && pwd)
+    fi
+done
+export OSG_FILE_PATH=${OSG_FILE_PATH:-}
+say "Sample models: ${OSG_FILE_PATH:-none, tests that need them are skipped}"
+
+# check PRESET [CTEST ARGUMENT ...]
+check()
+{
+    local preset=$1
+    shift
+    say "Testing $preset"
+    (cd "$ROOT" && ctest --preset "$preset" "$@")
+}
+
+build release
+check release
+
+build asan
+check asan -L 'unit|gl|apps'

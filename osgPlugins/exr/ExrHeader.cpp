@@ -1,0 +1,180 @@
+// ExrHeader.cpp - what an OpenEXR file claims to hold, before anything is allocated for it. Layer: osgPlugins.
+// SPDX-License-Identifier: MIT
+#include "osgPlugins/exr/ExrHeader.h"
+
+#include <cstdint>
+#include <istream>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+// The layout is that of "OpenEXR File Layout", openexr.com: little endian; a header is a list of
+// (name \0 type \0 size value) that ends with an empty name, the list of parts ends with an empty header.
+constexpr std::uint32_t kMagic = 20000630;
+constexpr std::uint32_t kMultiPartFlag = 0x1000;
+constexpr std::size_t kMaxNameLength = 255;
+constexpr long long kMaxScanlinesInChunk = 256;
+constexpr long long kOffsetBytes = 8; ///< of a chunk in the table that follows the headers
+
+const char* const kTruncated = "the file ends within its header";
+
+struct Box
+{
+    std::int32_t minX = 0, minY = 0, maxX = -1, maxY = -1;
+
+    long long width() const { return static_cast<long long>(maxX) - minX + 1; }
+    long long height() const { return static_cast<long long>(maxY) - minY + 1; }
+};
+
+struct Part
+{
+    Box dataWindow;
+    Box displayWindow;
+    std::int32_t tileWidth = 0; ///< 0: scanlines
+    std::int32_t tileHeight = 0;
+    std::int32_t chunkCount = 0;
+};
+
+class HeaderReader
+{
+public:
+    explicit HeaderReader(std::istream& stream)
+        : _stream(stream)
+    {
+        const std::istream::pos_type begin = stream.tellg();
+        stream.seekg(0, std::ios::end);
+        _end = stream.tellg();
+        stream.seekg(begin);
+        _sizeBytes = _end - begin;
+    }
+
+    std::string check()
+    {
+        const std::uint32_t magic = number();
+        const std::uint32_t version = number();
+        if (!_stream || magic != kMagic) return "this is no OpenEXR file";
+
+        const bool multiPart = (version & kMultiPartFlag) != 0;
+        for (int count = 0;; ++count)
+        {
+            Part part;
+            int attributes = 0;
+            std::string problem = readPart(part, attributes);
+            if (!problem.empty()) return problem;
+            if (multiPart && attributes == 0 && count > 0) return "";
+            problem = checkPart(part);
+            if (!problem.empty() || !multiPart) return problem;
+        }
+    }
+
+private:
+    std::uint32_t number()
+    {
+        unsigned char bytes[4] = {};
+        _stream.read(reinterpret_cast<char*>(bytes), 4);
+        return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
+    }
+
+    std::int32_t signedNumber() { return static_cast<std::int32_t>(number()); }
+
+    std::string name()
+    {
+        std::string text;
+        char c = 0;
+        while (text.size() <= kMaxNameLength && _stream.get(c) && c != 0) text += c;
+        return text;
+    }
+
+    std::string readPart(Part& part, int& attributes)
+    {
+        for (;; ++attributes)
+        {
+            const std::string attribute = name();
+            if (!_stream) return kTruncated;
+            if (attribute.empty()) return "";
+            const std::string type = name();
+            const std::int32_t size = signedNumber();
+            if (!_stream || attribute.size() > kMaxNameLength || type.size() > kMaxNameLength)
+            {
+                return kTruncated;
+            }
+
+            const std::istream::pos_type value = _stream.tellg();
+            if (size < 0 || size > _end - value) return kTruncated;
+            readValue(part, attribute, size);
+            _stream.seekg(value + std::istream::off_type(size));
+        }
+    }
+
+    void readValue(Part& part, const std::string& attribute, std::int32_t size)
+    {
+        if (attribute == "dataWindow" && size == 16) part.dataWindow = box();
+        if (attribute == "displayWindow" && size == 16) part.displayWindow = box();
+        if (attribute == "chunkCount" && size == 4) part.chunkCount = signedNumber();
+        if (attribute == "tiles" && size == 9)
+        {
+            part.tileWidth = signedNumber();
+            part.tileHeight = signedNumber();
+        }
+    }
+
+    Box box()
+    {
+        Box result;
+        result.minX = signedNumber();
+        result.minY = signedNumber();
+        result.maxX = signedNumber();
+        result.maxY = signedNumber();
+        return result;
+    }
+
+    std::string checkPart(const Part& part) const
+    {
+        for (const Box& window : {part.dataWindow, part.displayWindow})
+        {
+            const long long width = window.width();
+            const long long height = window.height();
+            if (isExrSize(width, height)) continue;
+            return "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                   " pixels is empty or too large";
+        }
+
+        const Box& window = part.dataWindow;
+        long long chunks = (window.height() + kMaxScanlinesInChunk - 1) / kMaxScanlinesInChunk;
+        if (part.tileWidth > 0 && part.tileHeight > 0)
+        {
+            chunks = ((window.width() + part.tileWidth - 1) / part.tileWidth) *
+                     ((window.height() + part.tileHeight - 1) / part.tileHeight);
+        }
+        if (part.chunkCount > chunks) chunks = part.chunkCount;
+        if (chunks * kOffsetBytes > _sizeBytes) return "the file is shorter than its picture";
+        return "";
+    }
+
+    std::istream& _stream;
+    std::istream::pos_type _end;
+    long long _sizeBytes = 0;
+};
+
+} // namespace
+
+bool isExrSize(long long width, long long height)
+{
+    return width > 0 && height > 0 && width <= kExrMaxSide && height <= kExrMaxSide &&
+           width * height <= kExrMaxPixels;
+}
+
+std::string checkExrHeader(std::istream& stream)
+{
+    const std::istream::pos_type begin = stream.tellg();
+    if (begin == std::istream::pos_type(-1)) return "the stream cannot seek";
+    const std::string problem = HeaderReader(stream).check();
+    stream.clear();
+    stream.seekg(begin);
+    return problem;
+}
+
+} // namespace osgRayTrace::engine

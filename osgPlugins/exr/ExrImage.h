@@ -1,0 +1,56 @@
+// ExrImage.h - reads and writes OpenEXR files as named channels, without OSG. Layer: osgPlugins.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+struct ExrChannel
+{
+    std::string name;          ///< "R", "A", or with a layer: "depth.Z", "normal.X"
+    bool half = false;         ///< 16 bits a value in the file
+    std::vector<float> values; ///< width * height, row 0 at the bottom
+};
+
+struct ExrImage
+{
+    int width = 0;
+    int height = 0;
+    std::vector<ExrChannel> channels;
+
+    /// Null if there is no channel of this name.
+    const ExrChannel* find(const std::string& name) const;
+};
+
+/// All of them lossless.
+enum class ExrCompression
+{
+    Zip,
+    Piz,
+    None,
+};
+
+// Each function returns an empty string, or one sentence that says what is wrong; none throws.
+
+/// The display window of the first part, scanlines or tiles: what lies outside is cut off, what the file
+/// leaves out is 0. Only the channels in wanted, unless it is empty. Integers become floats. At most 2^28
+/// pixels, 2^20 a side and 2^30 values. Bad input leaves image as it was.
+std::string readExr(const std::string& path, ExrImage& image, const std::vector<std::string>& wanted = {});
+
+/// The file begins where the stream stands, which must be able to seek.
+std::string readExr(std::istream& stream, ExrImage& image, const std::vector<std::string>& wanted = {});
+
+/// Writes beside path first and renames then: there is the whole file, or what was there before. Finite
+/// values beyond half's range become its largest.
+std::string writeExr(const std::string& path, const ExrImage& image,
+                     ExrCompression compression = ExrCompression::Zip);
+
+/// Nothing of a file that cannot be encoded reaches the stream.
+std::string writeExr(std::ostream& stream, const ExrImage& image,
+                     ExrCompression compression = ExrCompression::Zip);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,73 @@
+// ReaderWriterRayTrace.cpp - pseudo-loader: "model.osgt.raytrace" is model.osgt, ray traced. Layer: plugins.
+// SPDX-License-Identifier: MIT
+#include "Parameters.h"
+
+#include <osgRayTrace/RayTracedScene>
+
+#include <osgDB/FileNameUtils>
+#include <osgDB/ReaderWriter>
+#include <osgDB/Registry>
+
+#include <exception>
+
+/// Reads FILE[.PARAMETERS].raytrace: what FILE holds below an osgRayTrace::RayTracedScene. FILE is read
+/// with the caller's options and may be a pseudo-loader's name itself. Parameters:
+///   cow.osgt.raytrace                              settings from the environment
+///   cow.osgt.path.raytrace                         an integrator, or a debug channel
+///   "cow.osgt.(integrator=path,passes=64).raytrace"  options by name
+class ReaderWriterRayTrace : public osgDB::ReaderWriter
+{
+public:
+    ReaderWriterRayTrace() { supportsExtension("raytrace", "Ray tracing pseudo-loader"); }
+
+    const char* className() const override { return "ray tracing pseudo-loader"; }
+
+    ReadResult readObject(const std::string& fileName,
+                          const osgDB::ReaderWriter::Options* options) const override
+    {
+        return readNode(fileName, options);
+    }
+
+    ReadResult readNode(const std::string& fileName,
+                        const osgDB::ReaderWriter::Options* options) const override
+    {
+        if (!acceptsExtension(osgDB::getLowerCaseFileExtension(fileName)))
+            return ReadResult::FILE_NOT_HANDLED;
+        try
+        {
+            return readRayTraced(osgDB::getNameLessExtension(fileName), options);
+        }
+        catch (const std::exception& error)
+        {
+            return ReadResult(std::string("raytrace: ") + error.what());
+        }
+    }
+
+private:
+    /// name: without ".raytrace".
+    static ReadResult readRayTraced(const std::string& name,
+                                    const osgDB::ReaderWriter::Options* options)
+    {
+        const NameParts parts = splitName(name);
+        if (parts.file.empty()) return ReadResult("raytrace: the name of the model is missing");
+
+        const osg::ref_ptr<osgRayTrace::RayTracedScene> scene = new osgRayTrace::RayTracedScene;
+        const std::string error = applyParameters(parts.parameters, *scene->getSettings());
+        if (!error.empty()) return ReadResult("raytrace: " + error);
+
+        ReadResult read = osgDB::Registry::instance()->readNode(parts.file, options);
+        if (!read.validNode()) return failure(read, parts.file);
+        scene->addChild(read.getNode());
+        return scene;
+    }
+
+    /// The reader's own status, so that a missing file is a missing file. Never a success.
+    static ReadResult failure(ReadResult read, const std::string& file)
+    {
+        if (read.success()) return ReadResult("raytrace: " + file + " holds no scene");
+        if (read.message().empty()) read.message() = file;
+        return read;
+    }
+};
+
+REGISTER_OSGPLUGIN(raytrace, ReaderWriterRayTrace)

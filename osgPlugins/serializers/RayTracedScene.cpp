@@ -1,0 +1,16 @@
+// RayTracedScene.cpp - reads and writes RayTracedScene as .osgt, .osgb and .osgx. Layer: plugins.
+// SPDX-License-Identifier: MIT
+#include <osgRayTrace/RayTracedScene>
+
+#include <osgDB/InputStream>
+#include <osgDB/ObjectWrapper>
+#include <osgDB/OutputStream>
+
+// The scene is the group's children. The drawable that shows it is made anew by the constructor.
+REGISTER_OBJECT_WRAPPER(osgRayTrace_RayTracedScene, new osgRayTrace::RayTracedScene,
+                        osgRayTrace::RayTracedScene,
+                        "osg::Object osg::Node osg::Group osgRayTrace::RayTracedScene")
+{
+    ADD_BOOL_SERIALIZER(Enabled, true);
+    ADD_OBJECT_SERIALIZER(Settings, osgRayTrace::RayTraceSettings, nullptr);
+}

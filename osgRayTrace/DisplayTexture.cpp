@@ -1,0 +1,222 @@
+// DisplayTexture.cpp - a picture with depth on the screen. Layer: public API, private to it.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/DisplayTexture.h"
+
+#include <osg/BlendFunc>
+#include <osg/GLExtensions>
+#include <osg/PolygonMode>
+#include <osg/State>
+
+#ifndef GL_CONTEXT_PROFILE_MASK
+#define GL_CONTEXT_PROFILE_MASK 0x9126
+#endif
+#ifndef GL_CONTEXT_CORE_PROFILE_BIT
+#define GL_CONTEXT_CORE_PROFILE_BIT 0x00000001
+#endif
+
+namespace osgRayTrace
+{
+
+namespace
+{
+
+constexpr unsigned int kColorUnit = 0;
+constexpr unsigned int kDepthUnit = 1;
+constexpr unsigned int kCornerLocation = 0;
+
+// gl_FragDepth is not mapped by glDepthRange, so the shader does that. Edges whose first sample missed have
+// the depth of the background, but must pass the test against it: they are drawn right in front of it.
+constexpr const char* kVertexShader = R"(#version 120
+attribute vec2 corner;
+varying vec2 position;
+void main()
+{
+    position = 0.5 * corner + 0.5;
+    gl_Position = vec4(corner, 0.0, 1.0);
+}
+)";
+
+constexpr const char* kFragmentShader = R"(#version 120
+uniform sampler2D osgRayTrace_color;
+uniform sampler2D osgRayTrace_depth;
+varying vec2 position;
+void main()
+{
+    vec4 color = texture2D(osgRayTrace_color, position);
+    if (color.a == 0.0) discard;
+    gl_FragColor = color;
+    float depth = min(texture2D(osgRayTrace_depth, position).r, 0.99999994);
+    gl_FragDepth = gl_DepthRange.near + gl_DepthRange.diff * depth;
+}
+)";
+
+constexpr const char* kCoreVertexShader = R"(#version 330 core
+in vec2 corner;
+out vec2 position;
+void main()
+{
+    position = 0.5 * corner + 0.5;
+    gl_Position = vec4(corner, 0.0, 1.0);
+}
+)";
+
+constexpr const char* kCoreFragmentShader = R"(#version 330 core
+uniform sampler2D osgRayTrace_color;
+uniform sampler2D osgRayTrace_depth;
+in vec2 position;
+out vec4 fragment;
+void main()
+{
+    vec4 color = texture(osgRayTrace_color, position);
+    if (color.a == 0.0) discard;
+    fragment = color;
+    float depth = min(texture(osgRayTrace_depth, position).r, 0.99999994);
+    gl_FragDepth = gl_DepthRange.near + gl_DepthRange.diff * depth;
+}
+)";
+
+osg::ref_ptr<osg::Program> createProgram(const char* vertexSource, const char* fragmentSource)
+{
+    osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->setName("osgRayTrace");
+    program->addShader(new osg::Shader(osg::Shader::VERTEX, vertexSource));
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragmentSource));
+    program->addBindAttribLocation("corner", kCornerLocation);
+    return program;
+}
+
+osg::ref_ptr<osg::Texture2D> createTexture(osg::Image* image, GLint internalFormat)
+{
+    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+    texture->setImage(image);
+    texture->setInternalFormat(internalFormat);
+    texture->setResizeNonPowerOfTwoHint(false);
+    texture->setUnRefImageDataAfterApply(false);
+    texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+    texture->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_EDGE);
+    texture->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);
+    return texture;
+}
+
+/// Its lower left half covers the viewport. A generic attribute works in every profile.
+osg::ref_ptr<osg::Geometry> createTriangle()
+{
+    osg::ref_ptr<osg::Vec2Array> corners = new osg::Vec2Array(osg::Array::BIND_PER_VERTEX);
+    corners->push_back(osg::Vec2(-1.0f, -1.0f));
+    corners->push_back(osg::Vec2(3.0f, -1.0f));
+    corners->push_back(osg::Vec2(-1.0f, 3.0f));
+
+    osg::ref_ptr<osg::Geometry> triangle = new osg::Geometry;
+    triangle->setUseDisplayList(false);
+    triangle->setUseVertexBufferObjects(true);
+    triangle->setUseVertexArrayObject(true);
+    triangle->setVertexAttribArray(kCornerLocation, corners.get());
+    triangle->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+    return triangle;
+}
+
+bool isCoreProfile(const osg::GLExtensions& extensions)
+{
+    if (extensions.glVersion < 3.2f) return false;
+    GLint profile = 0;
+    glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
+    return (profile & GL_CONTEXT_CORE_PROFILE_BIT) != 0;
+}
+
+/// The image is applied even if osg::State thinks that the texture is bound: its values may be new, or it
+/// may stand at the address of one that is gone.
+void applyTexture(osg::State& state, unsigned int unit, const osg::Texture2D& texture)
+{
+    state.haveAppliedTextureAttribute(unit, osg::StateAttribute::TEXTURE);
+    state.applyTextureAttribute(unit, &texture);
+}
+
+} // namespace
+
+DisplayTexture::DisplayTexture()
+    : _color(new osg::Image), _depth(new osg::Image),
+      _colorTexture(createTexture(_color.get(), GL_RGBA8)),
+      _depthTexture(createTexture(_depth.get(), GL_LUMINANCE32F_ARB)),
+      _colorUnit(new osg::Uniform("osgRayTrace_color", static_cast<int>(kColorUnit))),
+      _depthUnit(new osg::Uniform("osgRayTrace_depth", static_cast<int>(kDepthUnit))),
+      _program(createProgram(kVertexShader, kFragmentShader)),
+      _coreProgram(createProgram(kCoreVertexShader, kCoreFragmentShader)), _triangle(createTriangle())
+{
+}
+
+osg::ref_ptr<osg::StateSet> DisplayTexture::createStateSet()
+{
+    using osg::StateAttribute;
+    osg::ref_ptr<osg::StateSet> stateSet = new osg::StateSet;
+    stateSet->setAttributeAndModes(new osg::BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA),
+                                   StateAttribute::ON | StateAttribute::PROTECTED);
+    stateSet->setMode(GL_CULL_FACE, StateAttribute::OFF | StateAttribute::PROTECTED);
+    stateSet->setAttribute(new osg::PolygonMode, StateAttribute::ON | StateAttribute::PROTECTED);
+    stateSet->setRenderBinDetails(1, "RenderBin");
+    return stateSet;
+}
+
+void DisplayTexture::resize(int width, int height)
+{
+    if (width == this->width() && height == this->height()) return;
+    _color->allocateImage(width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    _depth->allocateImage(width, height, 1, GL_LUMINANCE, GL_FLOAT);
+    modified();
+}
+
+void DisplayTexture::modified()
+{
+    _color->dirty();
+    _depth->dirty();
+}
+
+bool DisplayTexture::draw(osg::RenderInfo& renderInfo) const
+{
+    osg::State& state = *renderInfo.getState();
+    if (!useProgram(state)) return false;
+    applyTexture(state, kColorUnit, *_colorTexture);
+    applyTexture(state, kDepthUnit, *_depthTexture);
+    _triangle->draw(renderInfo);
+    return true;
+}
+
+bool DisplayTexture::useProgram(osg::State& state) const
+{
+    const osg::GLExtensions& extensions = *state.get<osg::GLExtensions>();
+    if (!extensions.isGlslSupported) return false;
+
+    const bool core = isCoreProfile(extensions);
+    if (core)
+    {
+        _depth->setPixelFormat(GL_RED);
+        _depthTexture->setInternalFormat(GL_R32F);
+    }
+    state.haveAppliedAttribute(osg::StateAttribute::PROGRAM);
+    state.applyAttribute(core ? _coreProgram.get() : _program.get());
+    const osg::Program::PerContextProgram* program = state.getLastAppliedProgramObject();
+    if (!program || !program->isLinked()) return false;
+    program->apply(*_colorUnit);
+    program->apply(*_depthUnit);
+    return true;
+}
+
+void DisplayTexture::releaseGLObjects(osg::State* state) const
+{
+    _colorTexture->releaseGLObjects(state);
+    _depthTexture->releaseGLObjects(state);
+    _program->releaseGLObjects(state);
+    _coreProgram->releaseGLObjects(state);
+    _triangle->releaseGLObjects(state);
+}
+
+void DisplayTexture::resizeGLObjectBuffers(unsigned int maxSize)
+{
+    _colorTexture->resizeGLObjectBuffers(maxSize);
+    _depthTexture->resizeGLObjectBuffers(maxSize);
+    _program->resizeGLObjectBuffers(maxSize);
+    _coreProgram->resizeGLObjectBuffers(maxSize);
+    _triangle->resizeGLObjectBuffers(maxSize);
+}
+
+} // namespace osgRayTrace

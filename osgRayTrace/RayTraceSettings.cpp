@@ -1,0 +1,352 @@
+// RayTraceSettings.cpp - the table of options, and setters that keep values in range. Layer: public API.
+// SPDX-License-Identifier: MIT
+#include <osgRayTrace/RayTraceSettings>
+
+#include "osgRayTrace/bridge/WarnOnce.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+
+namespace osgRayTrace
+{
+
+using engine::warnOnce;
+
+namespace
+{
+
+template <typename T>
+struct Range
+{
+    T minimum;
+    T maximum;
+
+    /// False for NaN.
+    bool contains(T value) const { return value >= minimum && value <= maximum; }
+};
+
+constexpr Range<int> kLightSamplesRange{1, 4096};
+constexpr Range<int> kMaxBouncesRange{0, 1024};
+constexpr Range<int> kMaxPassesRange{1, 1 << 24};
+constexpr Range<int> kPassesPerFrameRange{1, 1024};
+constexpr Range<int> kThreadsRange{0, 1024};
+constexpr Range<unsigned int> kSeedRange{0, std::numeric_limits<unsigned int>::max()};
+constexpr Range<float> kExposureRange{-32.0f, 32.0f};
+
+/// One row of the table. The words of a choice stand in the order of its enumerators.
+struct OptionRow
+{
+    RayTraceSettings::Option option; ///< but for the default value
+    std::function<bool(RayTraceSettings&, const std::string&)> set;
+    std::function<std::string(const RayTraceSettings&)> get;
+};
+
+using Words = std::vector<std::string>;
+
+const Words kIntegratorWords{"auto", "whitted", "path", "debug"};
+const Words kLightSamplingWords{"random", "uniform-jitter", "stratified", "sobol"};
+const Words kDebugChannelWords{"normal", "uv", "id", "albedo", "depth", "dropped", "cost"};
+const Words kColorRuleWords{"auto", "display-referred", "linear"};
+const Words kSwitchWords{"false", "true"};
+
+/// Lower case without dashes and underscores: "light-samples", "LIGHT_SAMPLES" and "lightSamples" agree.
+std::string plainName(const std::string& name)
+{
+    std::string plain;
+    for (char c : name)
+    {
+        if (c == '-' || c == '_') continue;
+        plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return plain;
+}
+
+std::string environmentName(const std::string& name)
+{
+    std::string variable = "OSGRAYTRACE_";
+    for (char c : name)
+    {
+        variable += c == '-' ? '_' : static_cast<char>(c - 'a' + 'A');
+    }
+    return variable;
+}
+
+/// Shortest text that reads back as the same value, in any locale.
+template <typename T>
+std::string textOf(T value)
+{
+    char buffer[64];
+    const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
+    return std::string(buffer, result.ptr);
+}
+
+/// False unless all of the text is one number within the range.
+template <typename T>
+bool parseNumber(const std::string& text, const Range<T>& range, T& value)
+{
+    const char* begin = text.data();
+    const char* end = begin + text.size();
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') ++begin;
+    const auto result = std::from_chars(begin, end, value);
+    return result.ec == std::errc() && result.ptr == end && range.contains(value);
+}
+
+RayTraceSettings::Option describe(const std::string& name, const std::string& range,
+                                  const std::string& help)
+{
+    return {name, environmentName(name), std::string(), range, help};
+}
+
+template <typename T>
+OptionRow numberRow(const std::string& name, const Range<T>& range,
+                    T (RayTraceSettings::*get)() const, void (RayTraceSettings::*set)(T),
+                    const std::string& help)
+{
+    OptionRow row;
+    row.option = describe(name, textOf(range.minimum) + " .. " + textOf(range.maximum), help);
+    row.get = [get](const RayTraceSettings& settings) { return textOf((settings.*get)()); };
+    row.set = [range, set](RayTraceSettings& settings, const std::string& text)
+    {
+        T value{};
+        if (!parseNumber(text, range, value)) return false;
+        (settings.*set)(value);
+        return true;
+    };
+    return row;
+}
+
+template <typename T>
+OptionRow choiceRow(const std::string& name, const Words& words,
+                    T (RayTraceSettings::*get)() const, void (RayTraceSettings::*set)(T),
+                    const std::string& help)
+{
+    std::string range;
+    for (const std::string& word : words)
+    {
+        range += (range.empty() ? "" : "|") + word;
+    }
+
+    OptionRow row;
+    row.option = describe(name, range, help);
+    row.get = [&words, get](const RayTraceSettings& settings)
+    { return words[static_cast<size_t>((settings.*get)())]; };
+    row.set = [&words, set](RayTraceSettings& settings, const std::string& text)
+    {
+        const auto isMeant = [&text](const std::string& word) { return plainName(word) == plainName(text); };
+        const auto found = std::find_if(words.begin(), words.end(), isMeant);
+        if (found == words.end()) return false;
+        (settings.*set)(static_cast<T>(found - words.begin()));
+        return true;
+    };
+    return row;
+}
+
+/// As a choice; 0 and 1, off and on, no and yes are understood too.
+OptionRow switchRow(const std::string& name, bool (RayTraceSettings::*get)() const,
+                    void (RayTraceSettings::*set)(bool), const std::string& help)
+{
+    OptionRow row = choiceRow(name, kSwitchWords, get, set, help);
+    row.set = [choose = row.set](RayTraceSettings& settings, const std::string& text)
+    {
+        const std::string word = plainName(text);
+        if (word == "1" || word == "on" || word == "yes") return choose(settings, "true");
+        if (word == "0" || word == "off" || word == "no") return choose(settings, "false");
+        return choose(settings, text);
+    };
+    return row;
+}
+
+const std::vector<OptionRow>& optionTable()
+{
+    using S = RayTraceSettings;
+    static const std::vector<OptionRow> table{
+        choiceRow("integrator", kIntegratorWords, &S::getIntegrator, &S::setIntegrator,
+                  "How light is computed; auto: whitted for fixed-function scenes, path for physical ones"),
+        choiceRow("light-sampling", kLightSamplingWords, &S::getLightSampling, &S::setLightSampling,
+                  "How points on area lights are chosen"),
+        numberRow("light-samples", kLightSamplesRange, &S::getLightSamples, &S::setLightSamples,
+                  "Samples a hit and area light"),
+        switchRow("shadows", &S::getShadows, &S::setShadows, "Shadows of all lights"),
+        numberRow("max-bounces", kMaxBouncesRange, &S::getMaxBounces, &S::setMaxBounces,
+                  "Edges of a path after the camera ray"),
+        numberRow("max-passes", kMaxPassesRange, &S::getMaxPasses, &S::setMaxPasses,
+                  "Passes after which an unchanged image is done"),
+        numberRow("passes-per-frame", kPassesPerFrameRange, &S::getPassesPerFrame,
+                  &S::setPassesPerFrame, "Passes traced in each frame of a viewer"),
+        numberRow("threads", kThreadsRange, &S::getThreads, &S::setThreads,
+                  "Threads, the calling one included; 0: all of the machine"),
+        numberRow("seed", kSeedRange, &S::getSeed, &S::setSeed, "Equal seeds give equal images"),
+        numberRow("exposure", kExposureRange, &S::getExposure, &S::setExposure,
+                  "Exposure [EV]: radiance times 2^value before display"),
+        choiceRow("color-rule", kColorRuleWords, &S::getColorRule, &S::setColorRule,
+                  "Whether colours are used as they are or decoded from sRGB; auto: by the materials"),
+        choiceRow("debug-channel", kDebugChannelWords, &S::getDebugChannel, &S::setDebugChannel,
+                  "What the debug integrator shows"),
+    };
+    return table;
+}
+
+/// Null if there is no such option.
+const OptionRow* findRow(const std::string& name)
+{
+    const std::string plain = plainName(name);
+    const std::string wanted = plain == "passes" ? "maxpasses" : plain;
+    for (const OptionRow& row : optionTable())
+    {
+        if (plainName(row.option.name) == wanted) return &row;
+    }
+    return nullptr;
+}
+
+template <typename T>
+void change(T& member, T value, unsigned int& modifiedCount)
+{
+    if (member == value) return;
+    member = value;
+    ++modifiedCount;
+}
+
+/// Out of range: the nearest value; NaN: the value that it had.
+template <typename T>
+void changeNumber(const char* name, const Range<T>& range, T& member, T value,
+                  unsigned int& modifiedCount)
+{
+    if (!range.contains(value))
+    {
+        warnOnce(std::string(name) + " " + textOf(value) + " is not in " + textOf(range.minimum) +
+                 " .. " + textOf(range.maximum));
+        if (value != value) return;
+    }
+    change(member, std::clamp(value, range.minimum, range.maximum), modifiedCount);
+}
+
+/// Not an enumerator: ignored.
+template <typename T>
+void changeChoice(const char* name, const Words& words, T& member, T value,
+                  unsigned int& modifiedCount)
+{
+    const long long index = static_cast<long long>(value);
+    if (index < 0 || index >= static_cast<long long>(words.size()))
+    {
+        warnOnce(std::string(name) + ": there is no value number " + textOf(index));
+        return;
+    }
+    change(member, value, modifiedCount);
+}
+
+} // namespace
+
+RayTraceSettings::RayTraceSettings()
+{
+    for (const OptionRow& row : optionTable())
+    {
+        const char* text = std::getenv(row.option.environment.c_str());
+        if (!text || row.set(*this, text)) continue;
+        warnOnce("environment variable " + row.option.environment + ": '" + text + "' is not one of " +
+                 row.option.range + "; ignored");
+    }
+    _modifiedCount = 0;
+}
+
+RayTraceSettings::RayTraceSettings(WithoutEnvironment) {}
+
+RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), _integrator(other._integrator),
+      _lightSampling(other._lightSampling), _debugChannel(other._debugChannel),
+      _colorRule(other._colorRule), _lightSamples(other._lightSamples),
+      _maxBounces(other._maxBounces), _shadows(other._shadows), _maxPasses(other._maxPasses),
+      _passesPerFrame(other._passesPerFrame), _threads(other._threads), _seed(other._seed),
+      _exposure(other._exposure)
+{
+}
+
+RayTraceSettings::~RayTraceSettings() = default;
+
+void RayTraceSettings::setIntegrator(Integrator value)
+{
+    changeChoice("integrator", kIntegratorWords, _integrator, value, _modifiedCount);
+}
+
+void RayTraceSettings::setLightSampling(LightSampling value)
+{
+    changeChoice("light-sampling", kLightSamplingWords, _lightSampling, value, _modifiedCount);
+}
+
+void RayTraceSettings::setDebugChannel(DebugChannel value)
+{
+    changeChoice("debug-channel", kDebugChannelWords, _debugChannel, value, _modifiedCount);
+}
+
+void RayTraceSettings::setColorRule(ColorRule value)
+{
+    changeChoice("color-rule", kColorRuleWords, _colorRule, value, _modifiedCount);
+}
+
+void RayTraceSettings::setLightSamples(int value)
+{
+    changeNumber("light-samples", kLightSamplesRange, _lightSamples, value, _modifiedCount);
+}
+
+void RayTraceSettings::setMaxBounces(int value)
+{
+    changeNumber("max-bounces", kMaxBouncesRange, _maxBounces, value, _modifiedCount);
+}
+
+void RayTraceSettings::setShadows(bool value)
+{
+    change(_shadows, value, _modifiedCount);
+}
+
+void RayTraceSettings::setMaxPasses(int value)
+{
+    changeNumber("max-passes", kMaxPassesRange, _maxPasses, value, _modifiedCount);
+}
+
+void RayTraceSettings::setPassesPerFrame(int value)
+{
+    changeNumber("passes-per-frame", kPassesPerFrameRange, _passesPerFrame, value, _modifiedCount);
+}
+
+void RayTraceSettings::setThreads(int value)
+{
+    changeNumber("threads", kThreadsRange, _threads, value, _modifiedCount);
+}
+
+void RayTraceSettings::setSeed(unsigned int value)
+{
+    change(_seed, value, _modifiedCount);
+}
+
+void RayTraceSettings::setExposure(float value)
+{
+    changeNumber("exposure", kExposureRange, _exposure, value, _modifiedCount);
+}
+
+std::vector<RayTraceSettings::Option> RayTraceSettings::options()
+{
+    const osg::ref_ptr<RayTraceSettings> defaults = new RayTraceSettings(WithoutEnvironment());
+    std::vector<Option> list;
+    for (const OptionRow& row : optionTable())
+    {
+        list.push_back(row.option);
+        list.back().defaultValue = row.get(*defaults);
+    }
+    return list;
+}
+
+bool RayTraceSettings::set(const std::string& name, const std::string& value)
+{
+    const OptionRow* row = findRow(name);
+    return row && row->set(*this, value);
+}
+
+std::string RayTraceSettings::get(const std::string& name) const
+{
+    const OptionRow* row = findRow(name);
+    return row ? row->get(*this) : std::string();
+}
+
+} // namespace osgRayTrace

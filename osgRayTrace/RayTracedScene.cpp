@@ -1,0 +1,156 @@
+// RayTracedScene.cpp - the decorator: its children, ray traced. Layer: public API.
+// SPDX-License-Identifier: MIT
+#include <osgRayTrace/RayTracedScene>
+
+#include <osg/NodeVisitor>
+#include <osgUtil/CullVisitor>
+
+namespace osgRayTrace
+{
+
+namespace
+{
+
+/// Stands for the decorator without being it, so that the drawable neither owns what owns it nor meets
+/// itself below. The children do not get it as a parent: their own parents and paths stay as they are.
+class SceneRoot : public osg::Group
+{
+public:
+    explicit SceneRoot(RayTracedScene* owner) : _owner(owner) {}
+    META_Node(osgRayTrace, SceneRoot)
+
+    void traverse(osg::NodeVisitor& visitor) override
+    {
+        if (_owner) _owner->accept(visitor); // with its state and mask
+    }
+
+    osg::BoundingSphere computeBound() const override
+    {
+        return _owner ? _owner->osg::Group::computeBound() : osg::BoundingSphere();
+    }
+
+    /// Its owner goes; the drawable may be kept by others.
+    void detach() { _owner = nullptr; }
+
+private:
+    SceneRoot() = default;
+    SceneRoot(const SceneRoot& other, const osg::CopyOp& copyop) : osg::Group(other, copyop) {}
+
+    RayTracedScene* _owner = nullptr; // owns this, indirectly
+};
+
+/// Near and far planes are computed from what is drawn; a drawable without primitives counts by its bound.
+class BoundingVolumeNearFar
+{
+public:
+    explicit BoundingVolumeNearFar(osgUtil::CullVisitor& visitor)
+        : _visitor(visitor), _mode(visitor.getComputeNearFarMode()),
+          _inheritance(visitor.getInheritanceMask())
+    {
+        if (_mode != osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR)
+            set(osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
+    }
+    ~BoundingVolumeNearFar() { set(_mode); }
+
+private:
+    void set(osg::CullSettings::ComputeNearFarMode mode)
+    {
+        _visitor.setComputeNearFarMode(mode);
+        _visitor.setInheritanceMask(_inheritance);
+    }
+
+    osgUtil::CullVisitor& _visitor;
+    const osg::CullSettings::ComputeNearFarMode _mode;
+    const osg::CullSettings::InheritanceMask _inheritance;
+};
+
+} // namespace
+
+RayTracedScene::RayTracedScene() : _children(new SceneRoot(this)), _drawable(new RayTraceDrawable)
+{
+    _drawable->setScene(_children.get());
+    setNumChildrenRequiringUpdateTraversal(1);
+}
+
+RayTracedScene::RayTracedScene(const RayTracedScene& other, const osg::CopyOp& copyop)
+    : osg::Group(other, copyop), _enabled(other._enabled), _children(new SceneRoot(this)),
+      _drawable(new RayTraceDrawable)
+{
+    _drawable->setScene(_children.get());
+    _drawable->setSettings(other._drawable->_settings.get());
+    setNumChildrenRequiringUpdateTraversal(getNumChildrenRequiringUpdateTraversal() + 1);
+}
+
+RayTracedScene::~RayTracedScene()
+{
+    static_cast<SceneRoot*>(_children.get())->detach();
+}
+
+void RayTracedScene::setEnabled(bool enabled)
+{
+    _enabled = enabled;
+}
+
+void RayTracedScene::setSettings(RayTraceSettings* settings)
+{
+    _drawable->setSettings(settings);
+}
+
+RayTraceSettings* RayTracedScene::getSettings()
+{
+    return _drawable->getSettings();
+}
+
+const RayTraceSettings* RayTracedScene::getSettings() const
+{
+    return static_cast<const RayTraceDrawable*>(_drawable.get())->getSettings();
+}
+
+void RayTracedScene::dirtyScene()
+{
+    _drawable->dirtyScene();
+    dirtyBound();
+}
+
+void RayTracedScene::traverse(osg::NodeVisitor& visitor)
+{
+    osgUtil::CullVisitor* cull = _enabled ? visitor.asCullVisitor() : nullptr;
+    if (cull)
+    {
+        // Converts at once if this is the first view, or if there was no update traversal.
+        _drawable->noteView(*cull);
+        _drawable->updateScene(cull->getFrameStamp());
+    }
+    if (cull && _drawable->canTrace())
+    {
+        const BoundingVolumeNearFar nearFar(*cull);
+        _drawable->accept(*cull);
+        return;
+    }
+
+    osg::Group::traverse(visitor);
+    // Before the first cull the light and the eye are not known: that cull converts.
+    const bool update = visitor.getVisitorType() == osg::NodeVisitor::UPDATE_VISITOR;
+    if (update && _enabled && _drawable->isViewed()) _drawable->updateScene(visitor.getFrameStamp());
+}
+
+osg::BoundingSphere RayTracedScene::computeBound() const
+{
+    _drawable->dirtyBound();
+    _drawable->getBound(); // now: several cull threads may ask for it at once
+    return osg::Group::computeBound();
+}
+
+void RayTracedScene::releaseGLObjects(osg::State* state) const
+{
+    _drawable->releaseGLObjects(state);
+    osg::Group::releaseGLObjects(state);
+}
+
+void RayTracedScene::resizeGLObjectBuffers(unsigned int maxSize)
+{
+    _drawable->resizeGLObjectBuffers(maxSize);
+    osg::Group::resizeGLObjectBuffers(maxSize);
+}
+
+} // namespace osgRayTrace

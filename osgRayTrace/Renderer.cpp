@@ -1,0 +1,401 @@
+// Renderer.cpp - scene graph to images: convert, build, accumulate, resolve. Layer: public API.
+// SPDX-License-Identifier: MIT
+#include <osgRayTrace/Renderer>
+
+#include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/bridge/HomeView.h"
+#include "osgRayTrace/bridge/RenderOptionsFromSettings.h"
+#include "osgRayTrace/bridge/SceneConverter.h"
+#include "osgRayTrace/bridge/StatisticsFromEngine.h"
+#include "osgRayTrace/bridge/ViewFromMatrices.h"
+#include "osgRayTrace/bridge/WarnOnce.h"
+#include "osgRayTrace/session/RenderSession.h"
+
+#include <osg/Light>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <mutex>
+#include <new>
+#include <optional>
+
+namespace osgRayTrace
+{
+
+using engine::EngineError;
+using engine::StatusCode;
+
+namespace
+{
+
+constexpr int64_t kMostPixels = int64_t(1) << 28;
+constexpr uint64_t kMostImageBytes = 0xffffffffu; ///< osg::Image counts its bytes in 32 bits
+
+using Progress = std::function<bool(const Statistics&)>;
+
+/// osg::Node computes its bound when it is asked for it, and renderers may share a graph.
+std::mutex& graphMutex()
+{
+    static std::mutex mutex;
+    return mutex;
+}
+
+/// What a conversion depends on, but for the graph.
+struct ConversionKey
+{
+    osg::Vec3d eye;
+    osg::Vec4 clearColor;
+    bool headlight = true;
+    RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
+
+    bool operator==(const ConversionKey& other) const
+    {
+        return eye == other.eye && clearColor == other.clearColor && headlight == other.headlight &&
+               colorRule == other.colorRule;
+    }
+};
+
+/// The light of osgViewer's HEADLIGHT mode: osg::Light's default position is (0, 0, 1, 0).
+osg::ref_ptr<const osg::Light> viewerHeadlight()
+{
+    osg::ref_ptr<osg::Light> light = new osg::Light(0);
+    light->setAmbient(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    light->setDiffuse(osg::Vec4(0.8f, 0.8f, 0.8f, 1.0f));
+    light->setSpecular(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f));
+    return light;
+}
+
+struct ChannelName
+{
+    const char* name;
+    engine::Channel channel;
+};
+
+constexpr ChannelName kChannels[] = {
+    {"depth", engine::Channel::Depth},       {"distance", engine::Channel::Distance},
+    {"normal", engine::Channel::Normal},     {"albedo", engine::Channel::Albedo},
+    {"position", engine::Channel::Position}, {"id", engine::Channel::Id},
+    {"error", engine::Channel::Error},
+};
+
+std::optional<engine::Channel> channelOf(const std::string& name)
+{
+    for (const ChannelName& known : kChannels)
+    {
+        if (name == known.name) return known.channel;
+    }
+    return std::nullopt;
+}
+
+/// Uninitialised pixels. Null, with a warning, if osg::Image cannot hold them.
+osg::ref_ptr<osg::Image> newImage(int width, int height, GLenum format, GLenum type)
+{
+    const uint64_t pixelBits = osg::Image::computePixelSizeInBits(format, type);
+    if (uint64_t(width) * uint64_t(height) * (pixelBits / 8) > kMostImageBytes)
+    {
+        engine::warnOnce("the image is too large for osg::Image, which holds 4 GiB at most");
+        return nullptr;
+    }
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(width, height, 1, format, type, 1);
+    return image;
+}
+
+osg::ref_ptr<osg::Image> imageOf(const std::vector<float>& values, int width, int height,
+                                 GLenum format)
+{
+    const osg::ref_ptr<osg::Image> image = newImage(width, height, format, GL_FLOAT);
+    if (image) std::copy(values.begin(), values.end(), reinterpret_cast<float*>(image->data()));
+    return image;
+}
+
+/// Null, with a warning, if the function runs out of memory.
+template <typename Resolve> osg::ref_ptr<osg::Image> withinMemory(const Resolve& resolve)
+{
+    try
+    {
+        return resolve();
+    }
+    catch (const std::exception& error)
+    {
+        engine::warnOnce(std::string("an image could not be made: ") + error.what());
+        return nullptr;
+    }
+}
+
+} // namespace
+
+struct Renderer::Implementation
+{
+    osg::ref_ptr<osg::Node> scene;
+    bool sceneDirty = true;
+    osg::Matrixd viewMatrix;
+    osg::Matrixd projectionMatrix;
+    std::optional<double> homeFovyDegrees; ///< set: both matrices come from the scene's bound
+    int width = 0;
+    int height = 0;
+    osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f};
+    bool headlight = true;
+    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+
+    Statistics statistics;
+    int threads = -1; ///< that the session was made for
+    std::shared_ptr<engine::Workers> workers;
+    engine::SceneConverter converter;
+    ConversionKey convertedFor;
+    std::shared_ptr<const engine::TracedScene> traced;
+    std::unique_ptr<engine::RenderSession> session;
+
+    /// cancel(), any thread, against render(), which replaces the session.
+    std::mutex sessionMutex;
+    std::atomic<bool> cancelled{false};
+
+    void render(const engine::StopRule& rule, const Progress& progress);
+    void placeHomeView();
+    void prepareSession();
+    void convertScene();
+    engine::ConversionInput conversionInput(const ConversionKey& key) const;
+    bool hasImage() const { return session && session->progress().passes > 0; }
+};
+
+void Renderer::Implementation::render(const engine::StopRule& rule, const Progress& progress)
+{
+    if (!scene) throw EngineError(StatusCode::EmptyScene, "there is no scene to render");
+    if (width <= 0 || height <= 0)
+        throw EngineError(StatusCode::InvalidView, "the image has no pixels");
+    if (int64_t(width) * height > kMostPixels)
+        throw EngineError(StatusCode::InvalidView, "the image has more than 2^28 pixels");
+
+    placeHomeView();
+    prepareSession();
+    convertScene();
+    session->setView(engine::viewFromMatrices(viewMatrix, projectionMatrix, width, height));
+    session->setOptions(engine::renderOptionsFromSettings(*settings));
+
+    const auto keepGoing = [this, &progress](const engine::RenderProgress& made)
+    {
+        if (cancelled) return false;
+        if (!progress) return true;
+        engine::setImageStatistics(statistics, made);
+        return progress(statistics);
+    };
+    engine::setImageStatistics(statistics, session->render(rule, keepGoing));
+}
+
+/// Does nothing if matrices were set, or if there is nothing to look at yet.
+void Renderer::Implementation::placeHomeView()
+{
+    if (!homeFovyDegrees || !scene || width <= 0 || height <= 0) return;
+    const std::lock_guard<std::mutex> lock(graphMutex());
+    const engine::HomeView home =
+        engine::homeView(*scene, *homeFovyDegrees, double(width) / double(height));
+    viewMatrix = home.view;
+    projectionMatrix = home.projection;
+}
+
+void Renderer::Implementation::prepareSession()
+{
+    if (session && threads == settings->getThreads()) return;
+    threads = settings->getThreads();
+    workers = std::make_shared<engine::Workers>(threads);
+    auto fresh = std::make_unique<engine::RenderSession>(workers);
+    if (traced) fresh->setScene(traced);
+
+    const std::lock_guard<std::mutex> lock(sessionMutex);
+    session = std::move(fresh);
+}
+
+/// Brings traced up to date. The eye counts: levels of detail and the engine's origin depend on it.
+void Renderer::Implementation::convertScene()
+{
+    osg::Matrixd worldFromView;
+    if (!worldFromView.invert(viewMatrix))
+        throw EngineError(StatusCode::InvalidView, "the view matrix cannot be inverted");
+
+    const ConversionKey key{worldFromView.getTrans(), clearColor, headlight,
+                            settings->getColorRule()};
+    if (traced && !sceneDirty && key == convertedFor) return;
+
+    const std::unique_lock<std::mutex> lock(graphMutex());
+    const engine::ConversionResult conversion = converter.convert(conversionInput(key));
+    traced = engine::TracedScene::build(conversion.scene, workers, traced);
+    session->setScene(traced);
+    convertedFor = key;
+    sceneDirty = false;
+    engine::setSceneStatistics(statistics, conversion, *traced);
+}
+
+engine::ConversionInput Renderer::Implementation::conversionInput(const ConversionKey& key) const
+{
+    engine::ConversionInput input;
+    input.root = scene.get();
+    input.eye = key.eye;
+    input.origin = key.eye;
+    if (key.headlight) input.viewLight = viewerHeadlight();
+    input.clearColor = key.clearColor;
+    input.colorRule = key.colorRule;
+    return input;
+}
+
+Renderer::Renderer() : _implementation(std::make_unique<Implementation>()) {}
+
+Renderer::~Renderer() = default;
+
+void Renderer::setScene(osg::Node* scene)
+{
+    if (_implementation->scene == scene) return;
+    _implementation->scene = scene;
+    _implementation->sceneDirty = true;
+}
+
+void Renderer::setViewMatrix(const osg::Matrixd& matrix)
+{
+    _implementation->homeFovyDegrees.reset();
+    _implementation->viewMatrix = matrix;
+}
+
+void Renderer::setProjectionMatrix(const osg::Matrixd& matrix)
+{
+    _implementation->homeFovyDegrees.reset();
+    _implementation->projectionMatrix = matrix;
+}
+
+void Renderer::setHomeView(double fovyDegrees)
+{
+    _implementation->homeFovyDegrees = fovyDegrees;
+}
+
+osg::Matrixd Renderer::getViewMatrix() const
+{
+    _implementation->placeHomeView();
+    return _implementation->viewMatrix;
+}
+
+osg::Matrixd Renderer::getProjectionMatrix() const
+{
+    _implementation->placeHomeView();
+    return _implementation->projectionMatrix;
+}
+
+void Renderer::setSize(int width, int height)
+{
+    _implementation->width = width;
+    _implementation->height = height;
+}
+
+void Renderer::setClearColor(const osg::Vec4& color)
+{
+    _implementation->clearColor = color;
+}
+
+void Renderer::setHeadlight(bool on)
+{
+    _implementation->headlight = on;
+}
+
+void Renderer::setSettings(RayTraceSettings* settings)
+{
+    _implementation->settings = settings ? settings : new RayTraceSettings;
+}
+
+RayTraceSettings* Renderer::getSettings()
+{
+    return _implementation->settings.get();
+}
+
+bool Renderer::render(double seconds, double relativeError, const Progress& progress)
+{
+    Implementation& self = *_implementation;
+    self.cancelled = false;
+    const auto failed = [&self](const std::string& message)
+    {
+        self.statistics.ok = false;
+        self.statistics.message = message;
+        return false;
+    };
+
+    engine::StopRule rule;
+    rule.passes = self.settings->getMaxPasses();
+    if (seconds > 0.0) rule.seconds = seconds;
+    if (relativeError > 0.0) rule.relativeError = relativeError;
+    try
+    {
+        self.render(rule, progress);
+        return self.statistics.ok;
+    }
+    catch (const std::bad_alloc&)
+    {
+        return failed("there is not enough memory");
+    }
+    catch (const std::exception& error)
+    {
+        return failed(error.what());
+    }
+    catch (...)
+    {
+        return failed("an unknown error occurred");
+    }
+}
+
+void Renderer::dirtyScene()
+{
+    _implementation->sceneDirty = true;
+}
+
+void Renderer::cancel()
+{
+    const std::lock_guard<std::mutex> lock(_implementation->sessionMutex);
+    _implementation->cancelled = true;
+    if (_implementation->session) _implementation->session->cancel();
+}
+
+osg::ref_ptr<osg::Image> Renderer::getColorImage() const
+{
+    const Implementation& self = *_implementation;
+    if (!self.hasImage()) return nullptr;
+    return withinMemory(
+        [&self]
+        {
+            const engine::RenderSession& session = *self.session;
+            return imageOf(session.resolveRadiance(), session.width(), session.height(), GL_RGBA);
+        });
+}
+
+osg::ref_ptr<osg::Image> Renderer::getDisplayImage() const
+{
+    const Implementation& self = *_implementation;
+    if (!self.hasImage()) return nullptr;
+    return withinMemory(
+        [&self]
+        {
+            const engine::ToneMap toneMap =
+                engine::toneMapFromSettings(*self.settings, self.traced->scene());
+            const osg::ref_ptr<osg::Image> image =
+                newImage(self.session->width(), self.session->height(), GL_RGBA, GL_UNSIGNED_BYTE);
+            if (image) self.session->resolveDisplay(toneMap, image->data(), nullptr);
+            return image;
+        });
+}
+
+osg::ref_ptr<osg::Image> Renderer::getChannelImage(const std::string& channel) const
+{
+    const Implementation& self = *_implementation;
+    const std::optional<engine::Channel> known = channelOf(channel);
+    if (!known || !self.hasImage()) return nullptr;
+    return withinMemory(
+        [&self, &known]
+        {
+            const engine::RenderSession& session = *self.session;
+            const GLenum format = engine::channelSize(*known) == 1 ? GL_LUMINANCE : GL_RGB;
+            return imageOf(session.resolveChannel(*known), session.width(), session.height(), format);
+        });
+}
+
+const Statistics& Renderer::getStatistics() const
+{
+    return _implementation->statistics;
+}
+
+} // namespace osgRayTrace

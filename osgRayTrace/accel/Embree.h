@@ -1,0 +1,107 @@
+// Embree.h - Embree 3 and 4 behind the same few names. Layer: accel; private to it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/Intersector.h"
+
+#if __has_include(<embree4/rtcore.h>) && !__has_include(<embree3/rtcore.h>)
+#include <embree4/rtcore.h>
+#define OSGRAYTRACE_EMBREE 4
+#else
+#include <embree3/rtcore.h>
+#define OSGRAYTRACE_EMBREE 3
+#endif
+
+#include <cstddef>
+
+namespace osgRayTrace::engine
+{
+
+static_assert(sizeof(RayBlock) == sizeof(RTCRay16), "RayBlock is an RTCRay16");
+static_assert(sizeof(RayHitBlock) == sizeof(RTCRayHit16), "RayHitBlock is an RTCRayHit16");
+static_assert(offsetof(RayBlock, tFar) == offsetof(RTCRay16, tfar), "fields in Embree's order");
+static_assert(offsetof(RayHitBlock, primitive) == offsetof(RTCRayHit16, hit) + offsetof(RTCHit16, primID),
+              "fields in Embree's order");
+
+/// The per-query arguments of either version, with the coherence flag.
+class QueryArguments
+{
+public:
+    explicit QueryArguments(bool coherent)
+    {
+#if OSGRAYTRACE_EMBREE == 4
+        rtcInitIntersectArguments(&_intersect);
+        rtcInitOccludedArguments(&_occluded);
+        if (coherent)
+            _intersect.flags = _occluded.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+#else
+        rtcInitIntersectContext(&_context);
+        if (coherent) _context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+#endif
+    }
+
+#if OSGRAYTRACE_EMBREE == 4
+    void intersect16(const int* valid, RTCScene scene, RTCRayHit16* rays)
+    {
+        rtcIntersect16(valid, scene, rays, &_intersect);
+    }
+    void intersect8(const int* valid, RTCScene scene, RTCRayHit8* rays)
+    {
+        rtcIntersect8(valid, scene, rays, &_intersect);
+    }
+    void intersect4(const int* valid, RTCScene scene, RTCRayHit4* rays)
+    {
+        rtcIntersect4(valid, scene, rays, &_intersect);
+    }
+    void intersect1(RTCScene scene, RTCRayHit* ray) { rtcIntersect1(scene, ray, &_intersect); }
+    void occluded16(const int* valid, RTCScene scene, RTCRay16* rays)
+    {
+        rtcOccluded16(valid, scene, rays, &_occluded);
+    }
+    void occluded8(const int* valid, RTCScene scene, RTCRay8* rays)
+    {
+        rtcOccluded8(valid, scene, rays, &_occluded);
+    }
+    void occluded4(const int* valid, RTCScene scene, RTCRay4* rays)
+    {
+        rtcOccluded4(valid, scene, rays, &_occluded);
+    }
+    void occluded1(RTCScene scene, RTCRay* ray) { rtcOccluded1(scene, ray, &_occluded); }
+
+private:
+    RTCIntersectArguments _intersect;
+    RTCOccludedArguments _occluded;
+#else
+    void intersect16(const int* valid, RTCScene scene, RTCRayHit16* rays)
+    {
+        rtcIntersect16(valid, scene, &_context, rays);
+    }
+    void intersect8(const int* valid, RTCScene scene, RTCRayHit8* rays)
+    {
+        rtcIntersect8(valid, scene, &_context, rays);
+    }
+    void intersect4(const int* valid, RTCScene scene, RTCRayHit4* rays)
+    {
+        rtcIntersect4(valid, scene, &_context, rays);
+    }
+    void intersect1(RTCScene scene, RTCRayHit* ray) { rtcIntersect1(scene, &_context, ray); }
+    void occluded16(const int* valid, RTCScene scene, RTCRay16* rays)
+    {
+        rtcOccluded16(valid, scene, &_context, rays);
+    }
+    void occluded8(const int* valid, RTCScene scene, RTCRay8* rays)
+    {
+        rtcOccluded8(valid, scene, &_context, rays);
+    }
+    void occluded4(const int* valid, RTCScene scene, RTCRay4* rays)
+    {
+        rtcOccluded4(valid, scene, &_context, rays);
+    }
+    void occluded1(RTCScene scene, RTCRay* ray) { rtcOccluded1(scene, &_context, ray); }
+
+private:
+    RTCIntersectContext _context;
+#endif
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,56 @@
+// EmbreeDevice.cpp - an Embree device with its errors and its memory counted. Layer: accel.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/accel/EmbreeDevice.h"
+
+#include "osgRayTrace/base/Status.h"
+
+namespace osgRayTrace::engine
+{
+
+EmbreeDevice::EmbreeDevice()
+{
+    // Without "threads" Embree leaves TBB's own settings alone, and so the host's.
+    _device = rtcNewDevice(nullptr);
+    if (!_device)
+        throw EngineError(StatusCode::DeviceFailure, "Embree could not be initialized");
+    rtcSetDeviceErrorFunction(_device, &EmbreeDevice::onError, this);
+    rtcSetDeviceMemoryMonitorFunction(_device, &EmbreeDevice::onMemory, this);
+    if (rtcGetDeviceProperty(_device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
+        _nativeWidth = 16;
+    else if (rtcGetDeviceProperty(_device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
+        _nativeWidth = 8;
+    else if (rtcGetDeviceProperty(_device, RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED))
+        _nativeWidth = 4;
+}
+
+EmbreeDevice::~EmbreeDevice()
+{
+    rtcReleaseDevice(_device);
+}
+
+void EmbreeDevice::checkErrors()
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (_error.empty()) return;
+    std::string message;
+    message.swap(_error);
+    const bool outOfMemory = _outOfMemory;
+    _outOfMemory = false;
+    throw EngineError(outOfMemory ? StatusCode::OutOfMemory : StatusCode::DeviceFailure, message);
+}
+
+void EmbreeDevice::onError(void* self, RTCError code, const char* text)
+{
+    auto* device = static_cast<EmbreeDevice*>(self);
+    std::lock_guard<std::mutex> lock(device->_mutex);
+    device->_outOfMemory |= code == RTC_ERROR_OUT_OF_MEMORY;
+    device->_error = std::string("Embree: ") + (text && *text ? text : "unknown error");
+}
+
+bool EmbreeDevice::onMemory(void* self, ssize_t bytes, bool)
+{
+    static_cast<EmbreeDevice*>(self)->_bytes += bytes;
+    return true;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,48 @@
+// EmbreeDevice.h - an Embree device with its errors and its memory counted. Layer: accel; private to it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/Embree.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace osgRayTrace::engine
+{
+
+/// Owned by the scenes that it built. Thread safe.
+class EmbreeDevice
+{
+public:
+    /// Throws EngineError(DeviceFailure).
+    EmbreeDevice();
+    ~EmbreeDevice();
+    EmbreeDevice(const EmbreeDevice&) = delete;
+    EmbreeDevice& operator=(const EmbreeDevice&) = delete;
+
+    RTCDevice handle() const { return _device; }
+
+    /// Widest packet that the CPU traces natively: 16, 8, 4 or 1.
+    int nativeWidth() const { return _nativeWidth; }
+
+    uint64_t bytes() const { return _bytes.load(); }
+
+    /// Throws EngineError if Embree reported anything since the last call.
+    void checkErrors();
+
+private:
+    static void onError(void* self, RTCError code, const char* text);
+    static bool onMemory(void* self, ssize_t bytes, bool post);
+
+    RTCDevice _device = nullptr;
+    int _nativeWidth = 1;
+    std::atomic<int64_t> _bytes{0};
+    std::mutex _mutex; // _error, _outOfMemory: any thread that calls Embree
+    std::string _error;
+    bool _outOfMemory = false;
+};
+
+} // namespace osgRayTrace::engine

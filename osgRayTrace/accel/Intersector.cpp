@@ -1,0 +1,271 @@
+// Intersector.cpp - checks rays and hands them to Embree in the width that pays. Layer: accel.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/accel/Intersector.h"
+
+#include "osgRayTrace/accel/Embree.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Embree's distances are products of three lengths: beyond these they overflow or vanish. The engine's
+/// coordinates and directions of length 1 are far inside.
+constexpr float kLargestCoordinate = 1e18f;
+constexpr float kLargestDirection = 1e6f;
+constexpr float kSmallestDirection = 1e-6f;
+
+/// Below this many rays a packet does not pay on incoherent rays.
+constexpr int kFewRays = 2;
+
+OSGRAYTRACE_INLINE bool traceable(float ox, float oy, float oz, float dx, float dy, float dz,
+                                  float tNear, float tFar)
+{
+    // Comparisons with NaN are false, so each of them refuses it. No branches: this runs on lanes.
+    const float origin = std::fabs(ox) + std::fabs(oy) + std::fabs(oz);
+    const float direction = std::fabs(dx) + std::fabs(dy) + std::fabs(dz);
+    return (origin < kLargestCoordinate) & (direction > kSmallestDirection) &
+           (direction < kLargestDirection) & (tNear >= 0.0f) & (tNear <= tFar);
+}
+
+/// Embree's "valid" array: -1 for lanes that are active and traceable. Returns the active others.
+OSGRAYTRACE_KERNEL
+LaneMask checkRays(const RayBlock& ray, LaneMask active, Lanes<int>& valid)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const bool ok = traceable(ray.originX[i], ray.originY[i], ray.originZ[i], ray.directionX[i],
+                                  ray.directionY[i], ray.directionZ[i], ray.tNear[i], ray.tFar[i]);
+        const int used = -static_cast<int>((active >> i) & 1u);
+        valid[i] = ok ? used : 0;
+    }
+    LaneMask refused = 0;
+    for (int i = 0; i < kLanes; ++i)
+        refused |= static_cast<LaneMask>(valid[i] == 0) << i;
+    return refused & active;
+}
+
+int countLanes(LaneMask mask)
+{
+    int count = 0;
+    for (; mask; mask &= mask - 1)
+        ++count;
+    return count;
+}
+
+/// Rays first..first+width-1 of a block as one of Embree's narrower packets, and back.
+template <class Packet, int Width> void loadRays(const RayBlock& block, int first, Packet& packet)
+{
+    const std::size_t bytes = Width * sizeof(float);
+    std::memcpy(packet.org_x, &block.originX[first], bytes);
+    std::memcpy(packet.org_y, &block.originY[first], bytes);
+    std::memcpy(packet.org_z, &block.originZ[first], bytes);
+    std::memcpy(packet.tnear, &block.tNear[first], bytes);
+    std::memcpy(packet.dir_x, &block.directionX[first], bytes);
+    std::memcpy(packet.dir_y, &block.directionY[first], bytes);
+    std::memcpy(packet.dir_z, &block.directionZ[first], bytes);
+    std::memcpy(packet.time, &block.time[first], bytes);
+    std::memcpy(packet.tfar, &block.tFar[first], bytes);
+    std::memcpy(packet.mask, &block.mask[first], bytes);
+    std::memcpy(packet.id, &block.id[first], bytes);
+    std::memcpy(packet.flags, &block.flags[first], bytes);
+}
+
+template <class Packet, int Width> void storeHits(const Packet& packet, int first, RayHitBlock& block)
+{
+    const std::size_t bytes = Width * sizeof(float);
+    std::memcpy(&block.ray.tFar[first], packet.ray.tfar, bytes);
+    std::memcpy(&block.u[first], packet.hit.u, bytes);
+    std::memcpy(&block.v[first], packet.hit.v, bytes);
+    std::memcpy(&block.primitive[first], packet.hit.primID, bytes);
+    std::memcpy(&block.geometry[first], packet.hit.geomID, bytes);
+    std::memcpy(&block.instance[first], packet.hit.instID[0], bytes);
+}
+
+template <class Packet, int Width> void clearHits(Packet& packet)
+{
+    std::memset(packet.hit.geomID, 0xff, Width * sizeof(unsigned));
+    std::memset(packet.hit.instID[0], 0xff, Width * sizeof(unsigned));
+}
+
+RTCRay singleRay(const RayBlock& block, int lane)
+{
+    RTCRay ray;
+    ray.org_x = block.originX[lane];
+    ray.org_y = block.originY[lane];
+    ray.org_z = block.originZ[lane];
+    ray.tnear = block.tNear[lane];
+    ray.dir_x = block.directionX[lane];
+    ray.dir_y = block.directionY[lane];
+    ray.dir_z = block.directionZ[lane];
+    ray.time = 0.0f;
+    ray.tfar = block.tFar[lane];
+    ray.mask = 0xffffffffu;
+    ray.id = 0;
+    ray.flags = 0;
+    return ray;
+}
+
+RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar)
+{
+    RTCRay ray;
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.tnear = tNear;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.time = 0.0f;
+    ray.tfar = tFar;
+    ray.mask = 0xffffffffu;
+    ray.id = 0;
+    ray.flags = 0;
+    return ray;
+}
+
+} // namespace
+
+Intersector::Intersector(void* embreeScene, int nativeWidth)
+    : _scene(embreeScene), _nativeWidth(nativeWidth)
+{
+}
+
+LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence coherence) const
+{
+    const auto scene = static_cast<RTCScene>(_scene);
+    Lanes<int> valid;
+    const LaneMask refused = checkRays(block.ray, active, valid);
+    std::memset(&block.geometry, 0xff, sizeof(block.geometry));
+    std::memset(&block.instance, 0xff, sizeof(block.instance));
+
+    QueryArguments query(coherence == Coherence::Coherent);
+    const bool packets = coherence == Coherence::Coherent ||
+                         (_nativeWidth == 16 && countLanes(active) > kFewRays);
+    if (packets && _nativeWidth == 16)
+    {
+        query.intersect16(valid.v, scene, reinterpret_cast<RTCRayHit16*>(&block));
+        return refused;
+    }
+    if (packets && _nativeWidth == 8)
+    {
+        for (int first = 0; first < kLanes; first += 8)
+        {
+            alignas(32) RTCRayHit8 packet;
+            alignas(32) int packetValid[8];
+            std::memcpy(packetValid, &valid[first], sizeof(packetValid));
+            loadRays<RTCRay8, 8>(block.ray, first, packet.ray);
+            clearHits<RTCRayHit8, 8>(packet);
+            query.intersect8(packetValid, scene, &packet);
+            storeHits<RTCRayHit8, 8>(packet, first, block);
+        }
+        return refused;
+    }
+    if (packets && _nativeWidth == 4)
+    {
+        for (int first = 0; first < kLanes; first += 4)
+        {
+            alignas(16) RTCRayHit4 packet;
+            alignas(16) int packetValid[4];
+            std::memcpy(packetValid, &valid[first], sizeof(packetValid));
+            loadRays<RTCRay4, 4>(block.ray, first, packet.ray);
+            clearHits<RTCRayHit4, 4>(packet);
+            query.intersect4(packetValid, scene, &packet);
+            storeHits<RTCRayHit4, 4>(packet, first, block);
+        }
+        return refused;
+    }
+    for (int i = 0; i < kLanes; ++i)
+    {
+        if (!valid[i]) continue;
+        RTCRayHit single;
+        single.ray = singleRay(block.ray, i);
+        single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        query.intersect1(scene, &single);
+        block.ray.tFar[i] = single.ray.tfar;
+        block.u[i] = single.hit.u;
+        block.v[i] = single.hit.v;
+        block.primitive[i] = single.hit.primID;
+        block.geometry[i] = single.hit.geomID;
+        block.instance[i] = single.hit.instID[0];
+    }
+    return refused;
+}
+
+LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
+{
+    const auto scene = static_cast<RTCScene>(_scene);
+    Lanes<int> valid;
+    const LaneMask refused = checkRays(block, active, valid);
+
+    // Never the coherent flag here: it makes occlusion packets slower, and with instances Embree 3.13.5
+    // may not return at all.
+    QueryArguments query(false);
+    if (_nativeWidth == 16 && countLanes(active) > kFewRays)
+    {
+        query.occluded16(valid.v, scene, reinterpret_cast<RTCRay16*>(&block));
+    }
+    else if (_nativeWidth == 8 && countLanes(active) > kFewRays)
+    {
+        for (int first = 0; first < kLanes; first += 8)
+        {
+            alignas(32) RTCRay8 packet;
+            alignas(32) int packetValid[8];
+            std::memcpy(packetValid, &valid[first], sizeof(packetValid));
+            loadRays<RTCRay8, 8>(block, first, packet);
+            query.occluded8(packetValid, scene, &packet);
+            std::memcpy(&block.tFar[first], packet.tfar, sizeof(packet.tfar));
+        }
+    }
+    else
+    {
+        for (int i = 0; i < kLanes; ++i)
+        {
+            if (!valid[i]) continue;
+            RTCRay single = singleRay(block, i);
+            query.occluded1(scene, &single);
+            block.tFar[i] = single.tfar;
+        }
+    }
+    for (LaneMask lanes = refused; lanes; lanes &= lanes - 1)
+        block.tFar[__builtin_ctz(lanes)] = -kInfinity;
+    return refused;
+}
+
+std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar) const
+{
+    if (!traceable(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tNear, tFar))
+        return std::nullopt;
+    RTCRayHit single;
+    single.ray = singleRay(origin, direction, tNear, tFar);
+    single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    QueryArguments query(false);
+    query.intersect1(static_cast<RTCScene>(_scene), &single);
+    if (single.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    Hit hit;
+    hit.instance = hitInstance(single.hit.geomID, single.hit.instID[0]);
+    hit.primitive = single.hit.primID;
+    hit.u = single.hit.u;
+    hit.v = single.hit.v;
+    hit.t = single.ray.tfar;
+    return hit;
+}
+
+bool Intersector::occluded(Vec3 origin, Vec3 direction, float tNear, float tFar) const
+{
+    if (!traceable(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tNear, tFar))
+        return true;
+    RTCRay single = singleRay(origin, direction, tNear, tFar);
+    QueryArguments query(false);
+    query.occluded1(static_cast<RTCScene>(_scene), &single);
+    return single.tfar < 0.0f;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,50 @@
+// Intersector.h - finds what rays hit. Layer: accel. Hides Embree, packet width and ISA.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/RayBlock.h"
+
+#include <memory>
+#include <optional>
+
+namespace osgRayTrace::engine
+{
+
+enum class Coherence
+{
+    Coherent,   ///< camera rays: neighbours take the same way through the BVH
+    Incoherent, ///< bounces
+};
+
+struct Hit
+{
+    uint32_t instance = kInvalid; ///< index into Scene::instances
+    uint32_t primitive = 0;
+    float u = 0.0f, v = 0.0f;
+    float t = kInfinity;
+};
+
+/// Thread safe. A ray that is not finite, has a zero or huge direction, or tNear > tFar or NaN is not
+/// traced: it hits nothing, and is counted by the caller through the returned mask.
+class Intersector
+{
+public:
+    /// Opaque handle of an RTCScene; used by TracedScene.
+    Intersector(void* embreeScene, int nativeWidth);
+
+    /// Closest hits of the active lanes. Others keep their hit fields. Returns the lanes whose ray was
+    /// refused (geometry is kInvalid there).
+    LaneMask closestHits(RayHitBlock& block, LaneMask active, Coherence coherence) const;
+
+    /// Sets tFar to -infinity in the active lanes that are occluded. Refused rays count as occluded.
+    LaneMask occlusion(RayBlock& block, LaneMask active) const;
+
+    std::optional<Hit> closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar) const;
+    bool occluded(Vec3 origin, Vec3 direction, float tNear, float tFar) const;
+
+private:
+    void* _scene;
+    int _nativeWidth;
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,197 @@
+// Surface.cpp - rebuilds the surface points that a block of rays hit. Layer: accel.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/accel/Surface.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr float kOffsetScale = 32.0f * 0x1p-24f;
+
+/// What is read from the meshes, lane by lane; everything after it is arithmetic on lanes.
+struct TriangleLanes
+{
+    Vec3Lanes a, b, c;         ///< vertices, engine space
+    Vec3Lanes na, nb, nc;      ///< vertex normals, engine space, any length; zero: geometric normal
+    FloatLanes transformBound; ///< magnitude of what was added up to place the vertices; 0 if not placed
+};
+
+void store(Vec3Lanes& lanes, int i, Vec3 value)
+{
+    lanes.x[i] = value.x;
+    lanes.y[i] = value.y;
+    lanes.z[i] = value.z;
+}
+
+float largestOf(Vec3 v) { return std::max(std::fabs(v.x), std::max(std::fabs(v.y), std::fabs(v.z))); }
+
+float transformMagnitude(const Affine& m, Vec3 a, Vec3 b, Vec3 c)
+{
+    const float vertex = std::max(largestOf(a), std::max(largestOf(b), largestOf(c)));
+    const float row = largestOf(m.linear[0]) + largestOf(m.linear[1]) + largestOf(m.linear[2]);
+    return vertex * row + largestOf(m.translation);
+}
+
+bool loadTriangle(const SurfaceRecord& record, uint32_t primitive, int i, TriangleLanes& lanes)
+{
+    const UVec3 t = record.triangles[primitive];
+    Vec3 a = record.positions[t.x];
+    Vec3 b = record.positions[t.y];
+    Vec3 c = record.positions[t.z];
+    lanes.transformBound[i] = 0.0f;
+    if (record.engineFromLocal)
+    {
+        const Affine& m = *record.engineFromLocal;
+        lanes.transformBound[i] = transformMagnitude(m, a, b, c);
+        a = transformPoint(m, a);
+        b = transformPoint(m, b);
+        c = transformPoint(m, c);
+    }
+    store(lanes.a, i, a);
+    store(lanes.b, i, b);
+    store(lanes.c, i, c);
+    if (!record.normals) return false;
+
+    Vec3 na = record.normals[t.x];
+    Vec3 nb = record.normals[t.y];
+    Vec3 nc = record.normals[t.z];
+    if (record.normalFromLocal)
+    {
+        // Interpolation comes after normalisation in OpenGL, so vertex normals keep equal weights here.
+        na = glm::normalize(*record.normalFromLocal * na);
+        nb = glm::normalize(*record.normalFromLocal * nb);
+        nc = glm::normalize(*record.normalFromLocal * nc);
+    }
+    store(lanes.na, i, na);
+    store(lanes.nb, i, nb);
+    store(lanes.nc, i, nc);
+    return true;
+}
+
+OSGRAYTRACE_INLINE float largestOf(float a, float b, float c)
+{
+    const float ab = std::fabs(a) > std::fabs(b) ? std::fabs(a) : std::fabs(b);
+    return ab > std::fabs(c) ? ab : std::fabs(c);
+}
+
+OSGRAYTRACE_KERNEL
+void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
+{
+    Lanes<int> isFront;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float u = block.u[i], v = block.v[i], w = 1.0f - u - v;
+        s.position.x[i] = w * t.a.x[i] + u * t.b.x[i] + v * t.c.x[i];
+        s.position.y[i] = w * t.a.y[i] + u * t.b.y[i] + v * t.c.y[i];
+        s.position.z[i] = w * t.a.z[i] + u * t.b.z[i] + v * t.c.z[i];
+
+        const float e1x = t.b.x[i] - t.a.x[i], e1y = t.b.y[i] - t.a.y[i], e1z = t.b.z[i] - t.a.z[i];
+        const float e2x = t.c.x[i] - t.a.x[i], e2y = t.c.y[i] - t.a.y[i], e2z = t.c.z[i] - t.a.z[i];
+        // Edges are scaled to about 1 first: the product of micrometre edges would be denormal.
+        const float edge1 = largestOf(e1x, e1y, e1z), edge2 = largestOf(e2x, e2y, e2z);
+        const float scale = 1.0f / ((edge1 > edge2 ? edge1 : edge2) + 1e-37f);
+        const float ax = e1x * scale, ay = e1y * scale, az = e1z * scale;
+        const float bx = e2x * scale, by = e2y * scale, bz = e2z * scale;
+        const float nx = ay * bz - az * by;
+        const float ny = az * bx - ax * bz;
+        const float nz = ax * by - ay * bx;
+        const float length2 = nx * nx + ny * ny + nz * nz;
+        const float inverse = length2 > 0.0f ? 1.0f / std::sqrt(length2) : 0.0f;
+        const float cosine = nx * block.ray.directionX[i] + ny * block.ray.directionY[i] +
+                             nz * block.ray.directionZ[i];
+        const float side = cosine > 0.0f ? -inverse : inverse;
+        s.geometricNormal.x[i] = nx * side;
+        s.geometricNormal.y[i] = ny * side;
+        s.geometricNormal.z[i] = nz * side;
+        s.shadingNormal.x[i] = nx * inverse;
+        s.shadingNormal.y[i] = ny * inverse;
+        s.shadingNormal.z[i] = nz * inverse;
+        isFront[i] = cosine <= 0.0f;
+
+        const float bound = largestOf(t.a.x[i], t.b.x[i], t.c.x[i]) * std::fabs(nx * inverse) +
+                            largestOf(t.a.y[i], t.b.y[i], t.c.y[i]) * std::fabs(ny * inverse) +
+                            largestOf(t.a.z[i], t.b.z[i], t.c.z[i]) * std::fabs(nz * inverse);
+        s.offset[i] = kOffsetScale * (bound + 2.0f * t.transformBound[i]);
+    }
+    LaneMask front = 0;
+    for (int i = 0; i < kLanes; ++i)
+        front |= static_cast<LaneMask>(isFront[i] & 1) << i;
+    s.front = front;
+}
+
+OSGRAYTRACE_KERNEL
+void interpolateNormals(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth, SurfaceLanes& s)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float u = block.u[i], v = block.v[i], w = 1.0f - u - v;
+        const float nx = w * t.na.x[i] + u * t.nb.x[i] + v * t.nc.x[i];
+        const float ny = w * t.na.y[i] + u * t.nb.y[i] + v * t.nc.y[i];
+        const float nz = w * t.na.z[i] + u * t.nb.z[i] + v * t.nc.z[i];
+        const float length2 = nx * nx + ny * ny + nz * nz;
+        const float inverse = 1.0f / std::sqrt(length2);
+        // Opposite normals can cancel: then, and without normals, the geometric one stays.
+        const bool use = (length2 > 1e-12f) & (((smooth >> i) & 1u) != 0);
+        s.shadingNormal.x[i] = use ? nx * inverse : s.shadingNormal.x[i];
+        s.shadingNormal.y[i] = use ? ny * inverse : s.shadingNormal.y[i];
+        s.shadingNormal.z[i] = use ? nz * inverse : s.shadingNormal.z[i];
+    }
+}
+
+void clearLane(TriangleLanes& lanes, int i)
+{
+    store(lanes.a, i, Vec3(0.0f));
+    store(lanes.b, i, Vec3(0.0f));
+    store(lanes.c, i, Vec3(0.0f));
+    lanes.transformBound[i] = 0.0f;
+}
+
+} // namespace
+
+void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active,
+                SurfaceLanes& surface)
+{
+    TriangleLanes triangles;
+    LaneMask hits = 0;
+    LaneMask smooth = 0;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        if (!((active >> i) & 1u) || block.geometry[i] == kInvalid)
+        {
+            clearLane(triangles, i);
+            surface.material[i] = 0;
+            continue;
+        }
+        const uint32_t instance = hitInstance(block.geometry[i], block.instance[i]);
+        const SurfaceRecord& record = table[instance];
+        smooth |= static_cast<LaneMask>(loadTriangle(record, block.primitive[i], i, triangles)) << i;
+        surface.instance[i] = instance;
+        surface.material[i] = record.material;
+        hits |= 1u << i;
+    }
+    surface.hits = hits;
+    geometry(block, triangles, surface);
+    if (smooth) interpolateNormals(block, triangles, smooth, surface);
+}
+
+Vec2 interpolateUv(const SurfaceRecord& record, uint32_t primitive, float u, float v)
+{
+    if (!record.uvs) return Vec2(0.0f);
+    const UVec3 t = record.triangles[primitive];
+    return record.uvs[t.x] * (1.0f - u - v) + record.uvs[t.y] * u + record.uvs[t.z] * v;
+}
+
+Vec4 interpolateColor(const SurfaceRecord& record, uint32_t primitive, float u, float v)
+{
+    if (!record.colors) return Vec4(1.0f);
+    const UVec3 t = record.triangles[primitive];
+    return record.colors[t.x] * (1.0f - u - v) + record.colors[t.y] * u + record.colors[t.z] * v;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,215 @@
+// TracedScene.cpp - builds Embree's structures for a Scene, and only what changed. Layer: accel.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/accel/TracedScene.h"
+
+#include "osgRayTrace/accel/EmbreeDevice.h"
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/SurfaceTable.h"
+#include "osgRayTrace/base/Parallel.h"
+
+#include <chrono>
+#include <cmath>
+#include <unordered_map>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+struct SceneRelease
+{
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+struct GeometryRelease
+{
+    void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease>;
+using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, GeometryRelease>;
+
+/// A mesh with a BVH of its own, for instances of it. Shared by snapshots.
+struct Prototype
+{
+    std::shared_ptr<EmbreeDevice> device;
+    std::shared_ptr<const Mesh> mesh; ///< owns the shared buffers
+    SceneHandle scene;
+};
+
+/// Determinant and entries within what Embree can invert in float.
+bool isInvertible(const Affine& m)
+{
+    float largest = 0.0f;
+    for (int column = 0; column < 3; ++column)
+    {
+        if (!isFinite(m.linear[column])) return false;
+        for (int row = 0; row < 3; ++row)
+            largest = std::max(largest, std::fabs(m.linear[column][row]));
+    }
+    if (!isFinite(m.translation) || largest < 1e-12f || largest > 1e12f) return false;
+    const double determinant = glm::determinant(glm::dmat3(m.linear));
+    return std::fabs(determinant) > 1e-30 && std::isfinite(determinant);
+}
+
+GeometryHandle newTriangles(RTCDevice device, const Mesh& mesh)
+{
+    GeometryHandle geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               mesh.positions.data(), 0, sizeof(Vec3), mesh.positions.size());
+    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               mesh.triangles.data(), 0, sizeof(UVec3), mesh.triangles.size());
+    rtcCommitGeometry(geometry.get());
+    return geometry;
+}
+
+SceneHandle newScene(RTCDevice device)
+{
+    SceneHandle scene(rtcNewScene(device));
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    return scene;
+}
+
+GeometryHandle newInstance(RTCDevice device, RTCScene prototype, const Affine& m)
+{
+    GeometryHandle geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE));
+    rtcSetGeometryInstancedScene(geometry.get(), prototype);
+    const float columns[12] = {m.linear[0].x,  m.linear[0].y,  m.linear[0].z,  m.linear[1].x,
+                               m.linear[1].y,  m.linear[1].z,  m.linear[2].x,  m.linear[2].y,
+                               m.linear[2].z,  m.translation.x, m.translation.y, m.translation.z};
+    rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+    rtcCommitGeometry(geometry.get());
+    return geometry;
+}
+
+} // namespace
+
+struct TracedScene::Implementation
+{
+    std::shared_ptr<EmbreeDevice> device; // first: destroyed last
+    std::shared_ptr<const Scene> scene;
+    std::unordered_map<const Mesh*, std::shared_ptr<const Prototype>> prototypes;
+    SceneHandle root;
+    std::unique_ptr<Intersector> intersector;
+    SurfaceTable surfaces;
+    std::unique_ptr<MaterialTable> materials;
+    std::unique_ptr<LightTable> lights;
+    SceneTraits traits;
+    BuildStatistics statistics;
+
+    const std::shared_ptr<const Prototype>& prototype(const std::shared_ptr<const Mesh>& mesh,
+                                                      const Implementation* previous);
+    void fillSurfaces();
+};
+
+const std::shared_ptr<const Prototype>&
+TracedScene::Implementation::prototype(const std::shared_ptr<const Mesh>& mesh,
+                                       const Implementation* previous)
+{
+    std::shared_ptr<const Prototype>& entry = prototypes[mesh.get()];
+    if (entry) return entry;
+    if (previous)
+    {
+        const auto old = previous->prototypes.find(mesh.get());
+        if (old != previous->prototypes.end()) return entry = old->second;
+    }
+    auto built = std::make_shared<Prototype>();
+    built->device = device;
+    built->mesh = mesh;
+    built->scene = newScene(device->handle());
+    rtcAttachGeometry(built->scene.get(), newTriangles(device->handle(), *mesh).get());
+    rtcCommitScene(built->scene.get());
+    ++statistics.builtMeshes;
+    return entry = std::move(built);
+}
+
+void TracedScene::Implementation::fillSurfaces()
+{
+    surfaces.reserve(scene->instances.size());
+    for (const Instance& instance : scene->instances)
+    {
+        const Mesh& mesh = *scene->meshes[instance.mesh];
+        SurfaceRecord record;
+        record.triangles = mesh.triangles.data();
+        record.positions = mesh.positions.data();
+        record.normals = mesh.normals.empty() ? nullptr : mesh.normals.data();
+        record.uvs = mesh.uvs.empty() ? nullptr : mesh.uvs.data();
+        record.colors = mesh.colors.empty() ? nullptr : mesh.colors.data();
+        if (instance.placed)
+        {
+            record.engineFromLocal = &instance.engineFromLocal;
+            record.normalFromLocal = &instance.normalFromLocal;
+        }
+        record.material = instance.material;
+        record.light = instance.light;
+        surfaces.push_back(record);
+    }
+}
+
+TracedScene::TracedScene() : _implementation(std::make_unique<Implementation>()) {}
+
+TracedScene::~TracedScene() = default;
+
+std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scene> scene,
+                                                      std::shared_ptr<Workers> workers,
+                                                      std::shared_ptr<const TracedScene> previous)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    std::shared_ptr<TracedScene> traced(new TracedScene);
+    Implementation& built = *traced->_implementation;
+    const Implementation* old = previous ? previous->_implementation.get() : nullptr;
+    built.device = old ? old->device : std::make_shared<EmbreeDevice>();
+    built.scene = std::move(scene);
+    const uint64_t bytesBefore = old ? built.device->bytes() : 0;
+
+    workers->run(
+        [&]
+        {
+            RTCDevice device = built.device->handle();
+            built.root = newScene(device);
+            for (std::size_t i = 0; i < built.scene->instances.size(); ++i)
+            {
+                const Instance& instance = built.scene->instances[i];
+                const std::shared_ptr<const Mesh>& mesh = built.scene->meshes[instance.mesh];
+                if (mesh->triangles.empty()) continue;
+                if (instance.placed && !isInvertible(instance.engineFromLocal))
+                {
+                    ++built.statistics.invalidInstances;
+                    continue;
+                }
+                GeometryHandle geometry;
+                if (instance.placed)
+                {
+                    const auto& prototype = built.prototype(mesh, old);
+                    geometry = newInstance(device, prototype->scene.get(), instance.engineFromLocal);
+                }
+                else
+                {
+                    geometry = newTriangles(device, *mesh);
+                    ++built.statistics.builtMeshes;
+                }
+                rtcAttachGeometryByID(built.root.get(), geometry.get(), static_cast<unsigned>(i));
+            }
+            rtcCommitScene(built.root.get());
+        });
+    built.device->checkErrors();
+
+    built.intersector = std::make_unique<Intersector>(built.root.get(), built.device->nativeWidth());
+    built.fillSurfaces();
+    built.materials = std::make_unique<MaterialTable>(*built.scene);
+    built.lights = std::make_unique<LightTable>(*built.scene);
+    built.traits = sceneTraits(*built.scene);
+    built.statistics.embreeBytes = built.device->bytes() - std::min(bytesBefore, built.device->bytes());
+    built.statistics.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return traced;
+}
+
+const Scene& TracedScene::scene() const { return *_implementation->scene; }
+const SceneTraits& TracedScene::traits() const { return _implementation->traits; }
+const Intersector& TracedScene::intersector() const { return *_implementation->intersector; }
+const SurfaceTable& TracedScene::surfaces() const { return _implementation->surfaces; }
+const MaterialTable& TracedScene::materials() const { return *_implementation->materials; }
+const LightTable& TracedScene::lights() const { return *_implementation->lights; }
+const BuildStatistics& TracedScene::statistics() const { return _implementation->statistics; }
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,58 @@
+// Lanes.h - plain arrays of sixteen values, and how loops over them become vector code. Layer: base.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace osgRayTrace::engine
+{
+
+/// Rays are traced and shaded sixteen at a time.
+constexpr int kLanes = 16;
+
+/// One value for each lane.
+template <class T> struct alignas(64) Lanes
+{
+    T v[kLanes];
+    T& operator[](int lane) { return v[lane]; }
+    const T& operator[](int lane) const { return v[lane]; }
+};
+
+using FloatLanes = Lanes<float>;
+using UintLanes = Lanes<uint32_t>;
+
+/// A vector for each lane, structure of arrays.
+struct Vec3Lanes
+{
+    FloatLanes x, y, z;
+};
+
+/// Bit i: lane i is in use.
+using LaneMask = uint32_t;
+constexpr LaneMask kAllLanes = 0xffffu;
+
+} // namespace osgRayTrace::engine
+
+/// Before a loop over lanes whose turns do not depend on each other.
+#if defined(__GNUC__)
+#define OSGRAYTRACE_SIMD _Pragma("omp simd")
+#else
+#define OSGRAYTRACE_SIMD
+#endif
+
+/// Before a function whose loops are worth a version for each vector width; the loader picks one for the
+/// CPU at hand, so a build for distribution uses AVX-512 or AVX2 where there is.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) &&     \
+    !defined(OSGRAYTRACE_NO_CLONES)
+#define OSGRAYTRACE_KERNEL                                                                         \
+    __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define OSGRAYTRACE_KERNEL
+#endif
+
+/// A small function that must become part of the kernel that calls it, and so of its vector width.
+#if defined(__GNUC__)
+#define OSGRAYTRACE_INLINE inline __attribute__((always_inline))
+#else
+#define OSGRAYTRACE_INLINE inline
+#endif

@@ -1,0 +1,68 @@
+// GeometryCache.h - the meshes of unchanged geometry, kept between snapshots. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/GeometryConverter.h"
+
+#include <osg/observer_ptr>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// A geometry is taken as unchanged while its arrays and primitive sets are the same objects with the
+/// same modified counts, sizes and addresses: call dirty() on an array whose values were changed.
+class GeometryCache
+{
+public:
+    /// Begins a snapshot. stamp is that of meshes converted now.
+    void begin(Stamp stamp) { _stamp = stamp; }
+
+    /// The mesh, null if there is nothing to trace, from the last snapshot if it is the same. path is the
+    /// name of a new mesh. variant tells several meshes of one geometry apart.
+    std::shared_ptr<const Mesh> mesh(const osg::Geometry& geometry, uint32_t variant,
+                                     const MeshRequest& request, const std::string& path,
+                                     ConversionReport& report);
+
+    /// Ends the snapshot: forgets geometry that was not asked for in it.
+    void end();
+
+private:
+    /// References keep the objects alive, so that a new one cannot pass for an old one at its address.
+    struct BufferPrint
+    {
+        osg::ref_ptr<const osg::BufferData> buffer;
+        unsigned int modified = 0;
+        const void* data = nullptr;
+        std::size_t bytes = 0;
+        unsigned int kind = 0;  // binding of an array, mode of a primitive set
+        unsigned int count = 0; // vertices of a primitive set
+        unsigned int first = 0;
+
+        bool operator==(const BufferPrint& other) const;
+    };
+    using Fingerprint = std::vector<BufferPrint>;
+
+    struct Entry
+    {
+        osg::observer_ptr<const osg::Geometry> geometry;
+        osg::Object::DataVariance variance = osg::Object::UNSPECIFIED;
+        Fingerprint fingerprint;
+        MeshRequest request;
+        std::shared_ptr<const Mesh> mesh;
+        ConversionCounts counts;
+        Stamp used = 0;
+    };
+
+    static Fingerprint fingerprintOf(const osg::Geometry& geometry);
+
+    std::map<std::pair<const osg::Geometry*, uint32_t>, Entry> _entries;
+    Stamp _stamp = 0;
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,250 @@
+// GeometryConverter.cpp - triangles and vertices of a geometry, checked and put together. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/GeometryConverter.h"
+
+#include "osgRayTrace/bridge/TriangleList.h"
+#include "osgRayTrace/bridge/VertexArrays.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Twice the area is exactly zero. Differences of floats and their products are exact in double for all
+/// but extreme exponents, so this finds collinear corners and nothing else.
+bool hasNoArea(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+    const Vec3d u = Vec3d(b) - Vec3d(a);
+    const Vec3d v = Vec3d(c) - Vec3d(a);
+    return (u.y * v.z == u.z * v.y) & (u.z * v.x == u.x * v.z) & (u.x * v.y == u.y * v.x);
+}
+
+/// What happens to a triangle; in the order of the tests.
+enum class Verdict
+{
+    Sound,
+    OutOfRange,
+    NotFinite,
+    Degenerate,
+};
+
+class TriangleJudge
+{
+public:
+    explicit TriangleJudge(const Positions& positions)
+        : _positions(positions.values.data()),
+          _unsound(positions.unsound.empty() ? nullptr : positions.unsound.data()),
+          _count(positions.values.size())
+    {
+    }
+
+    Verdict operator()(const UVec3& t) const
+    {
+        if (t.x >= _count || t.y >= _count || t.z >= _count) return Verdict::OutOfRange;
+        if (_unsound && (_unsound[t.x] | _unsound[t.y] | _unsound[t.z])) return Verdict::NotFinite;
+        if (hasNoArea(_positions[t.x], _positions[t.y], _positions[t.z])) return Verdict::Degenerate;
+        return Verdict::Sound;
+    }
+
+    /// The common case, without a branch for each triangle.
+    bool allSound(const UVec3* triangles, std::size_t count) const
+    {
+        if (_unsound) return false;
+        uint32_t largest = 0;
+        const uint32_t* indices = &triangles->x;
+        for (std::size_t i = 0; i < 3 * count; ++i)
+            largest = std::max(largest, indices[i]);
+        if (largest >= _count) return false;
+        unsigned int degenerate = 0;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const UVec3& t = triangles[i];
+            degenerate |= hasNoArea(_positions[t.x], _positions[t.y], _positions[t.z]);
+        }
+        return degenerate == 0;
+    }
+
+private:
+    const Vec3* _positions;
+    const uint8_t* _unsound;
+    std::size_t _count;
+};
+
+void countVerdict(Verdict verdict, ConversionCounts& counts)
+{
+    switch (verdict)
+    {
+    case Verdict::OutOfRange: ++counts["skipped.index-out-of-range"]; break;
+    case Verdict::NotFinite: ++counts["skipped.not-finite"]; break;
+    case Verdict::Degenerate: ++counts["skipped.degenerate"]; break;
+    case Verdict::Sound: break;
+    }
+}
+
+std::vector<UVec3> soundTriangles(const UVec3* triangles, std::size_t count, const TriangleJudge& judge,
+                                  ConversionCounts& counts)
+{
+    std::vector<UVec3> kept;
+    kept.reserve(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        const Verdict verdict = judge(triangles[i]);
+        if (verdict == Verdict::Sound) kept.push_back(triangles[i]);
+        countVerdict(verdict, counts);
+    }
+    return kept;
+}
+
+SharedArray<UVec3> shareIndices(const osg::DrawElementsUInt& elements)
+{
+    const auto owner = std::make_shared<osg::ref_ptr<const osg::DrawElementsUInt>>(&elements);
+    return {reinterpret_cast<const UVec3*>(&elements.front()), elements.size() / 3, owner};
+}
+
+/// A transform that mirrors turns the winding; turned back, the front of a triangle stays its front.
+bool isMirrored(const MeshRequest& request)
+{
+    if (!request.transform) return false;
+    const osg::Matrixd& m = *request.transform;
+    const Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)), z(m(2, 0), m(2, 1), m(2, 2));
+    return glm::dot(glm::cross(x, y), z) < 0.0;
+}
+
+SharedArray<UVec3> checkedTriangles(TriangleList& list, const osg::Geometry& geometry,
+                                    const Positions& positions, bool mirrored, ConversionCounts& counts)
+{
+    if (list.size() == 0) return {};
+    const TriangleJudge judge(positions);
+    const bool sound = judge.allSound(list.data(), list.size());
+    if (sound && list.source && !mirrored && geometry.getDataVariance() != osg::Object::DYNAMIC &&
+        list.source->getDataVariance() != osg::Object::DYNAMIC)
+        return shareIndices(*list.source);
+
+    std::vector<UVec3> triangles;
+    if (!sound)
+        triangles = soundTriangles(list.data(), list.size(), judge, counts);
+    else if (list.source)
+        triangles.assign(list.data(), list.data() + list.size());
+    else
+        triangles = std::move(list.triangles);
+    if (mirrored)
+        for (UVec3& t : triangles)
+            std::swap(t.y, t.z);
+    return triangles;
+}
+
+/// Gives a vertex that is used by several primitive sets one copy for each, and renumbers the triangles.
+/// Those with indices out of range are left as they are: they are dropped later.
+VertexMap splitByPrimitiveSet(TriangleList& list, std::size_t vertexCount)
+{
+    if (list.source)
+    {
+        list.triangles.assign(list.data(), list.data() + list.size());
+        list.source = nullptr;
+    }
+    constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+    std::vector<uint32_t> newIndex(vertexCount, kNone);
+    std::vector<uint32_t> lastSet(vertexCount, kNone);
+    VertexMap map;
+    std::size_t begin = 0;
+    for (uint32_t set = 0; set < list.setEnds.size(); ++set)
+    {
+        for (std::size_t i = begin; i < list.setEnds[set]; ++i)
+            for (int corner = 0; corner < 3; ++corner)
+            {
+                uint32_t& index = list.triangles[i][corner];
+                if (index >= vertexCount)
+                {
+                    index = kNone;
+                    continue;
+                }
+                if (lastSet[index] != set)
+                {
+                    lastSet[index] = set;
+                    newIndex[index] = static_cast<uint32_t>(map.rows.size());
+                    map.rows.push_back(index);
+                    map.primitiveSets.push_back(set);
+                }
+                index = newIndex[index];
+            }
+        begin = list.setEnds[set];
+    }
+    map.vertexCount = map.rows.size();
+    return map;
+}
+
+bool hasValuesBySet(const osg::Geometry& geometry)
+{
+    const auto perSet = osg::Array::BIND_PER_PRIMITIVE_SET;
+    return bindingOf(geometry.getNormalArray()) == perSet || bindingOf(geometry.getColorArray()) == perSet;
+}
+
+Vec3 faceNormal(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+    return Vec3(glm::normalize(glm::cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a))));
+}
+
+/// Gives each missing normal that of a triangle that uses it, and counts them.
+SharedArray<Vec3> completed(Normals& normals, const Mesh& mesh, ConversionCounts& counts)
+{
+    if (normals.missing.empty()) return std::move(normals.values);
+    std::vector<Vec3> values(normals.values.begin(), normals.values.end());
+    uint64_t repaired = 0;
+    for (const UVec3& t : mesh.triangles)
+        for (int corner = 0; corner < 3; ++corner)
+        {
+            uint8_t& missing = normals.missing[t[corner]];
+            if (!missing) continue;
+            values[t[corner]] =
+                faceNormal(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+            missing = 0;
+            ++repaired;
+        }
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (normals.missing[i]) values[i] = Vec3(0.0f, 0.0f, 1.0f); // used by no triangle
+    if (repaired > 0) counts["repaired.normal"] += repaired;
+    return values;
+}
+
+} // namespace
+
+ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request)
+{
+    ConvertedMesh result;
+    const auto skip = [&result](const char* reason)
+    {
+        ++result.counts[reason];
+        return std::move(result);
+    };
+    if (geometry.containsDeprecatedData()) return skip("skipped.deprecated-data");
+    const osg::Array* vertices = positionArray(geometry);
+    if (!vertices || vertices->getNumElements() == 0) return skip("not-traced.no-vertices");
+    if (!isReadable(vertices) || vertices->getDataSize() < 2) return skip("skipped.vertex-type");
+
+    TriangleList list = trianglesOf(geometry, vertices->getNumElements());
+    addCounts(result.counts, list.counts);
+    VertexMap map;
+    map.vertexCount = vertices->getNumElements();
+    if (hasValuesBySet(geometry)) map = splitByPrimitiveSet(list, map.vertexCount);
+
+    const VertexReader reader(geometry, request, map);
+    Positions positions = reader.positions(*vertices);
+    auto mesh = std::make_shared<Mesh>();
+    mesh->triangles =
+        checkedTriangles(list, geometry, positions, isMirrored(request), result.counts);
+    if (mesh->triangles.empty()) return result;
+
+    mesh->positions = std::move(positions.values);
+    Normals normals = reader.normals(geometry.getNormalArray());
+    mesh->normals = completed(normals, *mesh, result.counts);
+    mesh->uvs = reader.textureCoordinates(geometry.getTexCoordArray(0), result.counts);
+    mesh->colors = reader.colors(geometry.getColorArray(), result.counts);
+    result.mesh = std::move(mesh);
+    return result;
+}
+
+} // namespace osgRayTrace::engine

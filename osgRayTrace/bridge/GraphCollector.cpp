@@ -1,0 +1,252 @@
+// GraphCollector.cpp - traversal of the scene graph with its transforms and states. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/GraphCollector.h"
+
+#include <osgRayTrace/AreaLight>
+
+#include <osg/Billboard>
+#include <osg/Camera>
+#include <osg/Projection>
+#include <osg/Transform>
+#include <osgText/TextBase>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// State above the scene graph, as osgViewer and osgUtil::SceneView set it.
+GraphState rootState(const ConversionInput& input)
+{
+    GraphState state;
+    if (input.lighting) state.modesOn |= uint64_t(1) << kLightingBit;
+    if (input.viewLight)
+    {
+        const int number = input.viewLight->getLightNum();
+        if (number >= 0 && number < 32) state.modesOn |= uint64_t(1) << number;
+    }
+    return state;
+}
+
+/// What is wrong with a matrix; null: nothing. Singular is meant relative to the length of its axes, so
+/// a tiny or a flat scale is fine.
+const char* matrixFault(const osg::Matrixd& m)
+{
+    constexpr double kSmallestVolume = 1e-12; // of the axes made unit
+    for (int i = 0; i < 16; ++i)
+        if (!std::isfinite(m.ptr()[i])) return "skipped.not-finite-transform";
+    if (m(0, 3) != 0.0 || m(1, 3) != 0.0 || m(2, 3) != 0.0 || m(3, 3) != 1.0)
+        return "skipped.projective-transform";
+    osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)), z(m(2, 0), m(2, 1), m(2, 2));
+    x.normalize();
+    y.normalize();
+    z.normalize();
+    const double volume = std::fabs((x ^ y) * z);
+    return volume > kSmallestVolume ? nullptr : "skipped.singular-transform";
+}
+
+bool isFrom(const osg::Object& object, const char* library)
+{
+    return std::strcmp(object.libraryName(), library) == 0;
+}
+
+/// Why a drawable that is no osg::Geometry is not traced; null: it is our own.
+const char* untracedDrawable(const osg::Drawable& drawable)
+{
+    if (dynamic_cast<const osgText::TextBase*>(&drawable)) return "not-traced.text";
+    if (isFrom(drawable, "osgParticle")) return "not-traced.particles";
+    if (isFrom(drawable, "osgRayTrace")) return nullptr;
+    return "not-traced.custom-drawable";
+}
+
+/// Why the content of a camera in the graph is not a part of the scene around it; null: it is.
+const char* untracedCamera(const osg::Camera& camera)
+{
+    if (camera.getRenderTargetImplementation() != osg::Camera::FRAME_BUFFER ||
+        !camera.getBufferAttachmentMap().empty())
+        return "not-traced.render-to-texture-camera";
+    if (camera.getRenderOrder() != osg::Camera::NESTED_RENDER ||
+        camera.getReferenceFrame() != osg::Transform::RELATIVE_RF ||
+        !camera.getProjectionMatrix().isIdentity())
+        return "not-traced.hud-camera";
+    return nullptr;
+}
+
+} // namespace
+
+GraphCollector::GraphCollector(const ConversionInput& input, ConversionReport& report)
+    : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), _input(input), _report(report),
+      _worldFromLocal(1), _states(rootState(input))
+{
+    setTraversalMask(input.traversalMask);
+}
+
+CollectedGraph GraphCollector::take()
+{
+    _graph.states = _states.states();
+    return std::move(_graph);
+}
+
+void GraphCollector::apply(osg::Node& node)
+{
+    if (!node.asGroup() && collectLeaf(node)) return;
+    const bool pushed = pushState(node);
+    traverse(node);
+    if (pushed) _states.pop();
+}
+
+void GraphCollector::apply(osg::Transform& node)
+{
+    const bool pushed = pushState(node);
+    osg::Matrixd worldFromLocal = _worldFromLocal.back();
+    node.computeLocalToWorldMatrix(worldFromLocal, this);
+    if (node.getReferenceFrame() != osg::Transform::RELATIVE_RF)
+        _report.count("approximated.absolute-transform"); // eye space in OpenGL, world space here
+    traverseBelow(worldFromLocal, node);
+    if (pushed) _states.pop();
+}
+
+void GraphCollector::apply(osg::Camera& node)
+{
+    if (&node == _input.root)
+    {
+        apply(static_cast<osg::Node&>(node)); // the viewer's own: its matrices are those of the view
+        return;
+    }
+    if (const char* reason = untracedCamera(node))
+    {
+        _report.count(reason);
+        return;
+    }
+    apply(static_cast<osg::Transform&>(node));
+}
+
+void GraphCollector::apply(osg::Projection&)
+{
+    _report.count("not-traced.projection");
+}
+
+void GraphCollector::apply(osg::LightSource& node)
+{
+    if (const osg::Light* light = node.getLight())
+    {
+        const bool eyeSpace = node.getReferenceFrame() == osg::LightSource::ABSOLUTE_RF;
+        _graph.lights.push_back(
+            {light, eyeSpace ? osg::Matrixd() : engineFromLocal(), eyeSpace, path()});
+    }
+    apply(static_cast<osg::Node&>(node));
+}
+
+void GraphCollector::apply(osg::Billboard& node)
+{
+    const bool pushed = pushState(node);
+    const osg::Vec3 eye = getEyePoint();
+    for (unsigned int i = 0; i < node.getNumDrawables(); ++i)
+    {
+        osg::Matrixd worldFromLocal = _worldFromLocal.back();
+        node.computeMatrix(worldFromLocal, eye, node.getPosition(i));
+        if (!pushMatrix(worldFromLocal)) continue;
+        node.getDrawable(i)->accept(*this);
+        _worldFromLocal.pop_back();
+    }
+    if (pushed) _states.pop();
+}
+
+void GraphCollector::apply(osg::Drawable& drawable)
+{
+    if (const char* reason = untracedDrawable(drawable)) _report.count(reason);
+}
+
+void GraphCollector::apply(osg::Geometry& geometry)
+{
+    if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
+    const auto [found, isNew] = _indexOf.try_emplace(&geometry, _graph.geometries.size());
+    if (isNew) _graph.geometries.push_back({&geometry, path(), {}});
+
+    const bool pushed = pushState(geometry);
+    _graph.geometries[found->second].uses.push_back({engineFromLocal(), _states.top()});
+    if (pushed) _states.pop();
+}
+
+osg::Vec3 GraphCollector::getEyePoint() const
+{
+    return _input.eye * osg::Matrixd::inverse(_worldFromLocal.back());
+}
+
+float GraphCollector::getDistanceToEyePoint(const osg::Vec3& position, bool) const
+{
+    return (position - getEyePoint()).length();
+}
+
+float GraphCollector::getDistanceFromEyePoint(const osg::Vec3& position, bool) const
+{
+    return static_cast<float>((osg::Vec3d(position) * _worldFromLocal.back() - _input.eye).length());
+}
+
+float GraphCollector::getDistanceToViewPoint(const osg::Vec3& position, bool useLodScale) const
+{
+    return getDistanceToEyePoint(position, useLodScale);
+}
+
+bool GraphCollector::pushState(osg::Node& node)
+{
+    const osg::StateSet* stateSet = node.getStateSet();
+    if (stateSet) _states.push(*stateSet);
+    return stateSet != nullptr;
+}
+
+/// False, counted and named if nothing can be placed by this matrix.
+bool GraphCollector::pushMatrix(const osg::Matrixd& worldFromLocal)
+{
+    if (const char* fault = matrixFault(worldFromLocal))
+    {
+        _report.warn(fault, "transform '" + path() + "'",
+                     "matrix is singular, projective or not finite, skipped with all below it");
+        return false;
+    }
+    _worldFromLocal.push_back(worldFromLocal);
+    return true;
+}
+
+void GraphCollector::traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node& node)
+{
+    if (!pushMatrix(worldFromLocal)) return;
+    traverse(node);
+    _worldFromLocal.pop_back();
+}
+
+/// True if the node is a leaf of ours or of another kit that has no children to visit.
+bool GraphCollector::collectLeaf(osg::Node& node)
+{
+    if (const auto* light = dynamic_cast<const AreaLight*>(&node))
+    {
+        _graph.areaLights.push_back({light, engineFromLocal(), path()});
+        return true;
+    }
+    if (std::strcmp(node.className(), "LightPointNode") != 0) return false;
+    _report.count("not-traced.light-points");
+    return true;
+}
+
+osg::Matrixd GraphCollector::engineFromLocal() const
+{
+    return _worldFromLocal.back() * osg::Matrixd::translate(-_input.origin);
+}
+
+std::string GraphCollector::path() const
+{
+    std::string text;
+    for (const osg::Node* node : getNodePath())
+    {
+        if (!text.empty()) text += '/';
+        text += node->getName().empty() ? node->className() : node->getName();
+    }
+    return text;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,105 @@
+// GraphCollector.h - the visitor that finds what is visible in a scene graph, and where. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/SceneConverter.h"
+#include "osgRayTrace/bridge/StateStack.h"
+
+#include <osg/Geometry>
+#include <osg/LightSource>
+#include <osg/Matrixd>
+#include <osg/NodeVisitor>
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace osgRayTrace
+{
+class AreaLight;
+}
+
+namespace osgRayTrace::engine
+{
+
+/// One path to a drawable.
+struct GeometryUse
+{
+    osg::Matrixd engineFromLocal; ///< affine, finite, invertible
+    uint32_t state = 0;           ///< index into CollectedGraph::states
+};
+
+struct CollectedGeometry
+{
+    const osg::Geometry* geometry = nullptr;
+    std::string path; ///< of the first use: "root/child/geometry"
+    std::vector<GeometryUse> uses;
+};
+
+struct CollectedLight
+{
+    const osg::Light* light = nullptr;
+    osg::Matrixd engineFromLocal; ///< identity in eye space
+    bool eyeSpace = false;
+    std::string path;
+};
+
+struct CollectedAreaLight
+{
+    const AreaLight* light = nullptr;
+    osg::Matrixd engineFromLocal;
+    std::string path;
+};
+
+/// Pointers into the graph: valid as long as nobody changes it.
+struct CollectedGraph
+{
+    std::vector<CollectedGeometry> geometries; ///< in order of their first use
+    std::vector<CollectedLight> lights;        ///< in the order of the traversal
+    std::vector<CollectedAreaLight> areaLights;
+    std::vector<GraphState> states;
+};
+
+/// Visits active children only (masks, switches, levels of detail for the eye point), multiplies
+/// transforms in double and accumulates state. Counts what is not a part of the traced scene.
+class GraphCollector : public osg::NodeVisitor
+{
+public:
+    GraphCollector(const ConversionInput& input, ConversionReport& report);
+
+    /// What was found; call once, after the traversal.
+    CollectedGraph take();
+
+    using osg::NodeVisitor::apply;
+    void apply(osg::Node& node) override;
+    void apply(osg::Transform& node) override;
+    void apply(osg::Camera& node) override;
+    void apply(osg::Projection& node) override;
+    void apply(osg::LightSource& node) override;
+    void apply(osg::Billboard& node) override;
+    void apply(osg::Drawable& drawable) override;
+    void apply(osg::Geometry& geometry) override;
+
+    // In the local coordinates of the node that asks: levels of detail and billboards.
+    osg::Vec3 getEyePoint() const override;
+    float getDistanceToEyePoint(const osg::Vec3& position, bool useLodScale) const override;
+    float getDistanceFromEyePoint(const osg::Vec3& position, bool useLodScale) const override;
+    float getDistanceToViewPoint(const osg::Vec3& position, bool useLodScale) const override;
+
+private:
+    bool pushState(osg::Node& node);
+    bool pushMatrix(const osg::Matrixd& worldFromLocal);
+    void traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node& node);
+    bool collectLeaf(osg::Node& node);
+    osg::Matrixd engineFromLocal() const;
+    std::string path() const;
+
+    const ConversionInput& _input;
+    ConversionReport& _report;
+    std::vector<osg::Matrixd> _worldFromLocal; // the stack of transforms, never empty
+    StateStack _states;
+    CollectedGraph _graph;
+    std::unordered_map<const osg::Geometry*, std::size_t> _indexOf;
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,40 @@
+// LightConverter.h - from osg::Light, AreaLight and emitting geometry to Light. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/scene/Light.h"
+
+#include <osg/Light>
+#include <osg/Matrixd>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace osgRayTrace
+{
+class AreaLight;
+}
+
+namespace osgRayTrace::engine
+{
+
+/// A directional or point light with OpenGL's meaning of each value. The matrix places it in engine
+/// space, or is the identity for one in eye space. Nothing if a value is not finite.
+std::optional<Light> convertLight(const osg::Light& light, const osg::Matrixd& engineFromLocal,
+                                  bool eyeSpace);
+
+/// The light and the two triangles that rays hit, in engine space. A mirrored transform leaves the front
+/// side where it is on the node. Nothing if it has no area or is not finite.
+struct ConvertedAreaLight
+{
+    Light light;
+    std::shared_ptr<Mesh> mesh;
+};
+std::optional<ConvertedAreaLight> convertAreaLight(const AreaLight& source,
+                                                   const osg::Matrixd& engineFromLocal);
+
+/// The light of an instance whose material emits.
+Light meshLight(const std::string& name, const Vec3& radiance, uint32_t instance);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,67 @@
+// MaterialConverter.h - from inherited OpenGL state to materials, equal ones merged. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/StateStack.h"
+#include "osgRayTrace/bridge/TextureConverter.h"
+#include "osgRayTrace/scene/Scene.h"
+
+#include <osg/Geometry>
+
+#include <map>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// What of a geometry decides on its material.
+struct SurfaceInputs
+{
+    bool hasVertexColors = false;   ///< colours that vary over it
+    bool hasOverallColor = false;   ///< one colour for all of it
+    Vec4 overallColor{1.0f};        ///< as OpenGL gets it, not decoded
+    bool hasTextureCoordinates = false;
+};
+
+SurfaceInputs surfaceInputs(const osg::Geometry& geometry);
+
+/// One snapshot's materials.
+class MaterialConverter
+{
+public:
+    /// linear: fixed-function colours are decoded from sRGB. textures has begun its snapshot.
+    MaterialConverter(bool linear, TextureConverter& textures, ConversionReport& report)
+        : _linear(linear), _textures(textures), _report(report)
+    {
+    }
+
+    /// Index into the materials. Counts what of the state is only approximated, for each call.
+    uint32_t index(const GraphState& state, const SurfaceInputs& inputs);
+
+    /// A lamp that reflects nothing, for an area light.
+    uint32_t lampIndex(const Vec3& radiance);
+
+    const Material& at(uint32_t index) const { return _materials[index]; }
+
+    std::vector<Material> take() { return std::move(_materials); }
+
+private:
+    Material fixedFunction(const GraphState& state, const SurfaceInputs& inputs) const;
+    Material physical(const GraphState& state, const SurfaceInputs& inputs);
+    void applyColor(Material& material, const GraphState& state, const SurfaceInputs& inputs) const;
+    void applyTexture(Material& material, const GraphState& state, const SurfaceInputs& inputs);
+    void decode(Material& material) const;
+    void countApproximations(const GraphState& state);
+    uint32_t merged(const Material& material);
+
+    bool _linear;
+    TextureConverter& _textures;
+    ConversionReport& _report;
+    std::vector<Material> _materials;
+    std::map<std::vector<uint32_t>, uint32_t> _known; // by all values
+};
+
+/// Equal in all that affects the picture: name and stamp do not.
+bool sameMaterial(const Material& a, const Material& b);
+
+} // namespace osgRayTrace::engine

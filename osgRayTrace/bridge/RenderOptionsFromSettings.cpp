@@ -1,0 +1,73 @@
+// RenderOptionsFromSettings.cpp - the engine's options from the public settings. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/RenderOptionsFromSettings.h"
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+IntegratorKind integratorKind(RayTraceSettings::Integrator integrator)
+{
+    switch (integrator)
+    {
+    case RayTraceSettings::AUTOMATIC: return IntegratorKind::Automatic;
+    case RayTraceSettings::WHITTED: return IntegratorKind::Whitted;
+    case RayTraceSettings::PATH: return IntegratorKind::Path;
+    case RayTraceSettings::DEBUG: return IntegratorKind::Debug;
+    }
+    return IntegratorKind::Automatic;
+}
+
+LightSampling lightSampling(RayTraceSettings::LightSampling sampling)
+{
+    switch (sampling)
+    {
+    case RayTraceSettings::RANDOM: return LightSampling::Random;
+    case RayTraceSettings::UNIFORM_JITTER: return LightSampling::UniformJitter;
+    case RayTraceSettings::STRATIFIED: return LightSampling::Stratified;
+    case RayTraceSettings::SOBOL: return LightSampling::Sobol;
+    }
+    return LightSampling::Sobol;
+}
+
+DebugChannel debugChannel(RayTraceSettings::DebugChannel channel)
+{
+    switch (channel)
+    {
+    case RayTraceSettings::NORMAL: return DebugChannel::Normal;
+    case RayTraceSettings::UV: return DebugChannel::Uv;
+    case RayTraceSettings::ID: return DebugChannel::Id;
+    case RayTraceSettings::ALBEDO: return DebugChannel::Albedo;
+    case RayTraceSettings::DEPTH: return DebugChannel::Depth;
+    case RayTraceSettings::DROPPED: return DebugChannel::Dropped;
+    case RayTraceSettings::COST: return DebugChannel::Cost;
+    }
+    return DebugChannel::Normal;
+}
+
+} // namespace
+
+RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings)
+{
+    RenderOptions options;
+    options.integrator = integratorKind(settings.getIntegrator());
+    options.lightSampling = lightSampling(settings.getLightSampling());
+    options.debugChannel = debugChannel(settings.getDebugChannel());
+    options.lightSamples = settings.getLightSamples();
+    options.maxBounces = settings.getMaxBounces();
+    options.shadows = settings.getShadows();
+    options.seed = settings.getSeed();
+    return options;
+}
+
+ToneMap toneMapFromSettings(const RayTraceSettings& settings, const Scene& scene)
+{
+    ToneMap toneMap;
+    toneMap.exposureEv = settings.getExposure();
+    toneMap.displayReferred = scene.displayReferred;
+    return toneMap;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,365 @@
+// SceneConverter.cpp - puts a Scene together from what the visitor collected. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/SceneConverter.h"
+
+#include "osgRayTrace/bridge/GeometryCache.h"
+#include "osgRayTrace/bridge/GraphCollector.h"
+#include "osgRayTrace/bridge/LightConverter.h"
+#include "osgRayTrace/bridge/MaterialConverter.h"
+#include "osgRayTrace/bridge/SnapshotStamps.h"
+#include "osgRayTrace/bridge/TextureConverter.h"
+#include "osgRayTrace/film/ToneMap.h"
+
+#include <osg/LightModel>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Above the scene: osgUtil::SceneView's light model, or OpenGL's where osgViewer sets none.
+constexpr float kViewerAmbient = 0.1f;
+constexpr float kOpenGLAmbient = 0.2f;
+
+/// Local coordinates are moved to their centre if that is so many radii away: else an instance would lose
+/// in float what its large coordinates lose.
+constexpr double kFarFromOrigin = 64.0;
+
+/// Of GeometryCache: the mesh that all uses share. The use number n that cannot is n + 1.
+constexpr uint32_t kOwnVariant = 0;
+
+Affine toAffine(const osg::Matrixd& m)
+{
+    Affine affine;
+    affine.linear = Mat3(Vec3(m(0, 0), m(0, 1), m(0, 2)), Vec3(m(1, 0), m(1, 1), m(1, 2)),
+                         Vec3(m(2, 0), m(2, 1), m(2, 2)));
+    affine.translation = Vec3(m(3, 0), m(3, 1), m(3, 2));
+    return affine;
+}
+
+/// Whether Embree can invert the transform in float (see TracedScene); else the mesh is baked.
+bool isPlaceable(const Affine& affine)
+{
+    constexpr float kSmallest = 1e-8f, kLargest = 1e8f;
+    if (!isFinite(affine.translation)) return false;
+    for (int column = 0; column < 3; ++column)
+    {
+        const float length = glm::length(affine.linear[column]);
+        if (!(length >= kSmallest && length <= kLargest)) return false;
+    }
+    return std::fabs(glm::determinant(glm::dmat3(affine.linear))) > 1e-28;
+}
+
+/// Where a shared geometry's mesh has its origin, in the geometry's coordinates.
+osg::Vec3d localCentre(const osg::Geometry& geometry)
+{
+    const osg::BoundingBox& box = geometry.getBoundingBox();
+    const osg::Vec3d centre(box.center());
+    const bool isFar = box.valid() && centre.length() > kFarFromOrigin * box.radius();
+    return isFar && std::isfinite(centre.length2()) ? centre : osg::Vec3d();
+}
+
+bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
+{
+    if (rule != RayTraceSettings::AUTOMATIC_COLOR) return rule == RayTraceSettings::LINEAR;
+    if (!graph.areaLights.empty()) return true;
+    for (const CollectedGeometry& geometry : graph.geometries)
+        for (const GeometryUse& use : geometry.uses)
+            if (graph.states[use.state].attributes[kPhysicalMaterialSlot]) return true;
+    return false;
+}
+
+Vec4 backgroundOf(const osg::Vec4& clearColor, bool linear)
+{
+    Vec4 color(clearColor.r(), clearColor.g(), clearColor.b(), clearColor.a());
+    for (int c = 0; c < 4; ++c)
+        if (!std::isfinite(color[c])) color[c] = 0.0f;
+    for (int c = 0; c < 3 && linear; ++c)
+        color[c] = linearFromSrgb(color[c]);
+    return color;
+}
+
+/// A visible one, for a scene without any.
+Material fallbackMaterial()
+{
+    Material material;
+    material.name = "fallback";
+    material.ambient = material.diffuse = Vec3(1.0f, 0.0f, 1.0f);
+    material.lit = false;
+    return material;
+}
+
+/// What is kept between snapshots.
+struct ConversionCaches
+{
+    GeometryCache geometries;
+    TextureConverter textures;
+    std::vector<std::shared_ptr<const Mesh>> areaLights; ///< their quads, in the order of the traversal
+};
+
+/// Adds the parts of one snapshot to its Scene.
+class SceneBuilder
+{
+public:
+    SceneBuilder(const ConversionInput& input, const CollectedGraph& graph, bool linear, Stamp now,
+                 ConversionCaches& caches, ConversionReport& report)
+        : _input(input), _graph(graph), _linear(linear), _now(now), _caches(caches), _report(report),
+          _materials(linear, caches.textures, report), _scene(std::make_shared<Scene>())
+    {
+    }
+
+    std::shared_ptr<Scene> build()
+    {
+        _scene->origin = {_input.origin.x(), _input.origin.y(), _input.origin.z()};
+        _scene->displayReferred = !_linear;
+        _scene->background = backgroundOf(_input.clearColor, _linear);
+        _scene->ambient = Vec3(_input.lighting ? kViewerAmbient : kOpenGLAmbient);
+        for (const CollectedGeometry& geometry : _graph.geometries)
+            addGeometry(geometry);
+        _caches.areaLights.resize(_graph.areaLights.size());
+        for (std::size_t i = 0; i < _graph.areaLights.size(); ++i)
+            addAreaLight(_graph.areaLights[i], _caches.areaLights[i]);
+        _scene->materials = _materials.take();
+        _scene->textures = _caches.textures.end();
+        addLights();
+        if (_scene->materials.empty()) _scene->materials.push_back(fallbackMaterial());
+        _report.count("converted.instance", _scene->instances.size());
+        _report.count("converted.light", _scene->lights.size());
+        return std::move(_scene);
+    }
+
+private:
+    void addGeometry(const CollectedGeometry& geometry);
+    void addPlacedUses(const CollectedGeometry& geometry);
+    void addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
+                  const std::shared_ptr<const Mesh>& mesh);
+    void addInstance(const CollectedGeometry& geometry, const GeometryUse& use, Instance instance);
+    void addAreaLight(const CollectedAreaLight& source, std::shared_ptr<const Mesh>& quad);
+    void addLights();
+    void setAmbient(const GraphState& state);
+    uint32_t addMesh(const std::shared_ptr<const Mesh>& mesh);
+    MeshRequest requestFor(const osg::Matrixd& transform) const;
+
+    const ConversionInput& _input;
+    const CollectedGraph& _graph;
+    bool _linear;
+    Stamp _now;
+    ConversionCaches& _caches;
+    ConversionReport& _report;
+    MaterialConverter _materials;
+    std::shared_ptr<Scene> _scene;
+    const osg::LightModel* _lightModel = nullptr; // the first one met
+};
+
+MeshRequest SceneBuilder::requestFor(const osg::Matrixd& transform) const
+{
+    MeshRequest request;
+    if (!transform.isIdentity()) request.transform = transform;
+    request.decodeColors = _linear;
+    return request;
+}
+
+uint32_t SceneBuilder::addMesh(const std::shared_ptr<const Mesh>& mesh)
+{
+    _scene->meshes.push_back(mesh);
+    return static_cast<uint32_t>(_scene->meshes.size() - 1);
+}
+
+/// Used once: positions in engine space, made in double. Used more often: one mesh, several instances.
+void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
+{
+    if (geometry.uses.size() > 1)
+    {
+        addPlacedUses(geometry);
+        return;
+    }
+    const GeometryUse& use = geometry.uses.front();
+    const MeshRequest request = requestFor(use.engineFromLocal);
+    addBaked(geometry, use, _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report));
+}
+
+void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
+                            const std::shared_ptr<const Mesh>& mesh)
+{
+    if (!mesh) return;
+    _report.count("converted.geometry");
+    Instance instance;
+    instance.mesh = addMesh(mesh);
+    addInstance(geometry, use, instance);
+}
+
+void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
+{
+    const osg::Vec3d centre = localCentre(*geometry.geometry);
+    const MeshRequest request = requestFor(osg::Matrixd::translate(-centre));
+    const auto mesh = _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report);
+    if (!mesh) return;
+    _report.count("converted.geometry");
+    const uint32_t meshIndex = addMesh(mesh);
+    uint32_t variant = kOwnVariant;
+    for (const GeometryUse& use : geometry.uses)
+    {
+        ++variant;
+        Instance instance;
+        instance.mesh = meshIndex;
+        instance.placed = true;
+        instance.engineFromLocal = toAffine(osg::Matrixd::translate(centre) * use.engineFromLocal);
+        if (!isPlaceable(instance.engineFromLocal))
+        {
+            addBaked(geometry, use,
+                     _caches.geometries.mesh(*geometry.geometry, variant, requestFor(use.engineFromLocal),
+                                      geometry.path, _report));
+            continue;
+        }
+        const glm::dmat3 linear(instance.engineFromLocal.linear);
+        instance.normalFromLocal = Mat3(glm::transpose(glm::inverse(linear)));
+        instance.mirrored = glm::determinant(linear) < 0.0;
+        addInstance(geometry, use, instance);
+    }
+}
+
+void SceneBuilder::addInstance(const CollectedGeometry& geometry, const GeometryUse& use,
+                               Instance instance)
+{
+    const GraphState& state = _graph.states[use.state];
+    instance.material = _materials.index(state, surfaceInputs(*geometry.geometry));
+    setAmbient(state);
+    const Material& material = _materials.at(instance.material);
+    const auto index = static_cast<uint32_t>(_scene->instances.size());
+    if (material.model == MaterialModel::Physical && material.emission != Vec3(0.0f))
+    {
+        instance.light = static_cast<uint32_t>(_scene->lights.size());
+        _scene->lights.push_back(meshLight(geometry.path, material.emission, index));
+    }
+    _scene->instances.push_back(instance);
+}
+
+/// One light model for all: OpenGL has one for each drawable, but scenes do not.
+void SceneBuilder::setAmbient(const GraphState& state)
+{
+    const auto* model = state.attribute<osg::LightModel>(kLightModelSlot);
+    if (!model || model == _lightModel || !state.isOn(kLightingBit)) return;
+    const osg::Vec4& color = model->getAmbientIntensity();
+    const Vec3 ambient(color.r(), color.g(), color.b());
+    if (_lightModel && ambient != _scene->ambient)
+    {
+        _report.count("approximated.light-model");
+        return;
+    }
+    _lightModel = model;
+    if (isFinite(ambient)) _scene->ambient = ambient;
+}
+
+/// quad is that of the last snapshot, if any, and stays if the light has not moved.
+void SceneBuilder::addAreaLight(const CollectedAreaLight& source, std::shared_ptr<const Mesh>& quad)
+{
+    auto converted = convertAreaLight(*source.light, source.engineFromLocal);
+    if (!converted)
+    {
+        _report.warn("skipped.area-light", "area light '" + source.path + "'",
+                     "no area or not finite, skipped");
+        return;
+    }
+    _report.count("converted.area-light");
+    Instance instance;
+    instance.material = _materials.lampIndex(converted->light.radiance);
+    if (!quad || !std::equal(quad->positions.begin(), quad->positions.end(),
+                             converted->mesh->positions.begin()))
+    {
+        converted->mesh->name = source.path;
+        converted->mesh->changed = _now;
+        quad = converted->mesh;
+    }
+    instance.mesh = addMesh(quad);
+    if (converted->light.radiance != Vec3(0.0f))
+    {
+        instance.light = static_cast<uint32_t>(_scene->lights.size());
+        converted->light.instance = static_cast<uint32_t>(_scene->instances.size());
+        _scene->lights.push_back(converted->light);
+    }
+    _scene->instances.push_back(instance);
+}
+
+/// As OpenGL keeps lights: by number, the last one set stays, and a light that no surface has enabled
+/// does nothing. The viewer's light is set before those of the graph.
+void SceneBuilder::addLights()
+{
+    std::map<int, Light> lights;
+    const auto add = [&](const osg::Light& source, const osg::Matrixd& matrix, bool eyeSpace,
+                         const std::string& path)
+    {
+        const int number = source.getLightNum();
+        const auto light = convertLight(source, matrix, eyeSpace);
+        if (!light || number < 0 || number >= 32)
+        {
+            _report.warn("skipped.light", "light '" + path + "'",
+                         light ? "number is not 0 to 31, skipped" : "values are not finite, skipped");
+            return;
+        }
+        lights[number] = *light;
+        if (lights[number].name.empty()) lights[number].name = path;
+    };
+    const osg::Matrixd engineFromWorld = osg::Matrixd::translate(-_input.origin);
+    if (_input.viewLight)
+        add(*_input.viewLight, _input.viewLightInEyeSpace ? osg::Matrixd() : engineFromWorld,
+            _input.viewLightInEyeSpace, "viewer");
+    for (const CollectedLight& light : _graph.lights)
+        add(*light.light, light.engineFromLocal, light.eyeSpace, light.path);
+
+    uint32_t enabled = 0;
+    for (const Material& material : _scene->materials)
+        if (material.lit) enabled |= material.lightMask;
+    for (const auto& [number, light] : lights)
+        if (enabled >> number & 1u) _scene->lights.push_back(light);
+}
+
+} // namespace
+
+struct SceneConverter::Implementation
+{
+    ConversionCaches caches;
+    std::shared_ptr<const Scene> last;
+    Stamp stamp = 0;
+};
+
+SceneConverter::SceneConverter() : _implementation(std::make_unique<Implementation>()) {}
+
+SceneConverter::~SceneConverter() = default;
+
+void SceneConverter::forget()
+{
+    _implementation->caches = ConversionCaches();
+}
+
+ConversionResult SceneConverter::convert(const ConversionInput& input)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    Implementation& state = *_implementation;
+    const Stamp now = ++state.stamp;
+
+    ConversionReport report;
+    GraphCollector collector(input, report);
+    if (input.root) input.root->accept(collector);
+    const CollectedGraph graph = collector.take();
+
+    const bool linear = isLinear(graph, input.colorRule);
+    state.caches.geometries.begin(now);
+    state.caches.textures.begin(linear, now);
+    SceneBuilder builder(input, graph, linear, now, state.caches, report);
+    state.last = stampChanges(builder.build(), state.last, now);
+    state.caches.geometries.end();
+
+    ConversionResult result;
+    result.scene = state.last;
+    result.counts = report.counts();
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,185 @@
+// SceneUpdater.cpp - keeps the traced scene up to date with its scene graph. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/SceneUpdater.h"
+
+#include "osgRayTrace/bridge/GraphFingerprint.h"
+#include "osgRayTrace/bridge/StatisticsFromEngine.h"
+#include "osgRayTrace/bridge/WarnOnce.h"
+
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr unsigned int kReferenceExpiry = 60; // frames without it: another camera takes over
+
+unsigned int frameNumberOf(const osg::FrameStamp* frameStamp)
+{
+    return frameStamp ? frameStamp->getFrameNumber() : 0;
+}
+
+} // namespace
+
+void SceneUpdater::noteView(const void* camera, const osg::FrameStamp* frameStamp,
+                            const ViewingConditions& conditions)
+{
+    const unsigned int frameNumber = frameNumberOf(frameStamp);
+    std::lock_guard<std::mutex> lock(_notedMutex);
+    const bool expired = frameNumber - _noted.frameNumber > kReferenceExpiry;
+    if (_noted.conditions && _noted.camera != camera && !expired) return;
+    // The second pass of a camera in one frame is its other eye.
+    const bool again = _noted.camera == camera && _noted.frameNumber == frameNumber && frameStamp;
+    if (_noted.conditions && again) return;
+    _noted.camera = camera;
+    _noted.frameNumber = frameNumber;
+    _noted.conditions = conditions;
+}
+
+bool SceneUpdater::isViewed() const
+{
+    std::lock_guard<std::mutex> lock(_notedMutex);
+    return _noted.conditions.has_value();
+}
+
+void SceneUpdater::noteDrawn(const void* camera, const osg::Vec3d& eye, double nearDistance)
+{
+    const SceneVersion drawn = version();
+    if (!drawn.scene) return;
+    const Vec3d origin = drawn.scene->scene().origin;
+    const double distance = (eye - osg::Vec3d(origin.x, origin.y, origin.z)).length();
+    if (!(distance > kOriginDistance * nearDistance)) return;
+
+    std::lock_guard<std::mutex> lock(_notedMutex);
+    if (camera == _noted.camera) _noted.origin = eye;
+}
+
+void SceneUpdater::setDirty()
+{
+    std::lock_guard<std::mutex> lock(_notedMutex);
+    _noted.dirty = true;
+}
+
+SceneVersion SceneUpdater::version() const
+{
+    std::lock_guard<std::mutex> lock(_versionMutex);
+    return _version;
+}
+
+Statistics SceneUpdater::statistics() const
+{
+    std::lock_guard<std::mutex> lock(_versionMutex);
+    return _statistics;
+}
+
+void SceneUpdater::update(osg::Node* root, const RayTraceSettings& settings,
+                          const osg::FrameStamp* frameStamp)
+{
+    std::lock_guard<std::mutex> lock(_updateMutex);
+    try
+    {
+        takeSettings(settings);
+        convertIfChanged(root, takeNoted(), frameStamp);
+    }
+    catch (const std::bad_alloc&)
+    {
+        fail("there is not enough memory to convert the scene");
+    }
+    catch (const std::exception& error)
+    {
+        fail(error.what());
+    }
+    catch (...)
+    {
+        fail("the scene could not be converted");
+    }
+}
+
+SceneUpdater::Noted SceneUpdater::takeNoted()
+{
+    std::lock_guard<std::mutex> lock(_notedMutex);
+    Noted noted = _noted;
+    _noted.dirty = false;
+    _noted.origin.reset();
+    return noted;
+}
+
+void SceneUpdater::takeSettings(const RayTraceSettings& settings)
+{
+    if (!_workers || _settings->getThreads() != settings.getThreads())
+        _workers = std::make_shared<Workers>(settings.getThreads());
+    _settings = new RayTraceSettings(settings);
+
+    std::lock_guard<std::mutex> lock(_versionMutex);
+    _version.settings = _settings;
+    _version.workers = _workers;
+}
+
+void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
+                                    const osg::FrameStamp* frameStamp)
+{
+    const ViewingConditions conditions = noted.conditions.value_or(ViewingConditions());
+    const bool seen = frameStamp && _frameNumber == frameStamp->getFrameNumber();
+    const bool same = !noted.dirty && !noted.origin && root == _root && _conditions &&
+                      convertAlike(*_conditions, conditions) &&
+                      _settings->getColorRule() == _colorRule;
+    if (seen && same) return;
+    if (frameStamp) _frameNumber = frameStamp->getFrameNumber();
+
+    const uint64_t fingerprint =
+        root ? graphFingerprint(*root, conditions.eye, conditions.traversalMask) : 0;
+    if (same && fingerprint == _fingerprint) return;
+
+    _root = root;
+    _fingerprint = fingerprint;
+    _conditions = conditions;
+    _colorRule = _settings->getColorRule();
+    if (noted.origin || !_origin) _origin = noted.origin.value_or(conditions.eye);
+    if (root)
+        convert(*root, conditions);
+    else
+        publish(nullptr, Statistics());
+}
+
+void SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
+{
+    ConversionInput input;
+    input.root = &root;
+    input.eye = conditions.eye;
+    input.origin = *_origin;
+    input.traversalMask = conditions.traversalMask;
+    input.viewLight = conditions.light;
+    input.viewLightInEyeSpace = conditions.lightInEyeSpace;
+    input.lighting = conditions.lighting;
+    input.clearColor = conditions.clearColor;
+    input.colorRule = _colorRule;
+
+    const ConversionResult conversion = _converter.convert(input);
+    std::shared_ptr<const TracedScene> traced = version().scene;
+    if (!traced || &traced->scene() != conversion.scene.get())
+        traced = TracedScene::build(conversion.scene, _workers, traced);
+    Statistics statistics;
+    setSceneStatistics(statistics, conversion, *traced);
+    publish(std::move(traced), statistics);
+}
+
+void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene, const Statistics& statistics)
+{
+    std::lock_guard<std::mutex> lock(_versionMutex);
+    _version.scene.swap(scene); // the old one is freed after the lock, unless a view still draws it
+    _statistics = statistics;
+}
+
+void SceneUpdater::fail(const std::string& message)
+{
+    warnOnce(message);
+    std::lock_guard<std::mutex> lock(_versionMutex);
+    _statistics.ok = false;
+    _statistics.message = message;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,100 @@
+// SceneUpdater.h - keeps the traced scene up to date with its scene graph. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/bridge/SceneConverter.h"
+#include "osgRayTrace/bridge/ViewingConditions.h"
+
+#include <osgRayTrace/RayTraceSettings>
+#include <osgRayTrace/Statistics>
+
+#include <osg/FrameStamp>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace osgRayTrace::engine
+{
+
+/// What a draw thread needs to trace a view. Immutable: it stays what it is while update goes on.
+struct SceneVersion
+{
+    std::shared_ptr<const TracedScene> scene; ///< null: there is none yet, or none that can be traced
+    std::shared_ptr<Workers> workers;
+    osg::ref_ptr<const RayTraceSettings> settings;
+};
+
+/// Update converts, draw takes the version there is. Cull notes who looks at the scene: the first camera
+/// that did, as long as it does, is the reference for what all views share (levels of detail, the light
+/// that osgViewer adds, the background colour).
+class SceneUpdater
+{
+public:
+    /// A camera is about to draw the scene. Cull threads.
+    void noteView(const void* camera, const osg::FrameStamp* frameStamp, const ViewingConditions& conditions);
+
+    /// True once a view was noted. Any thread.
+    bool isViewed() const;
+
+    /// The camera has drawn from eye with its near plane at a distance; one engine origin has to serve
+    /// near things and far ones, see kOriginDistance. Draw threads.
+    void noteDrawn(const void* camera, const osg::Vec3d& eye, double nearDistance);
+
+    /// Takes the settings over and converts the graph if anything of it, of the settings or of the noted
+    /// conditions changed; once for a frame number, unless the latter did. Null root: no scene. Update
+    /// and cull threads. Does not throw: a failure leaves the last version and is in the statistics.
+    void update(osg::Node* root, const RayTraceSettings& settings, const osg::FrameStamp* frameStamp);
+
+    /// The next update converts, whatever it sees. Any thread.
+    void setDirty();
+
+    /// Any thread.
+    SceneVersion version() const;
+
+    /// The scene's part; ok and message are those of the last conversion. Any thread.
+    Statistics statistics() const;
+
+private:
+    /// Beyond this many near distances from the eye, float coordinates are coarser than a pixel.
+    static constexpr double kOriginDistance = 2048.0;
+
+    struct Noted
+    {
+        const void* camera = nullptr; ///< the reference; a name, not followed
+        unsigned int frameNumber = 0; ///< it was last seen in
+        std::optional<ViewingConditions> conditions;
+        std::optional<osg::Vec3d> origin; ///< asked for
+        bool dirty = true;
+    };
+
+    Noted takeNoted();
+    void takeSettings(const RayTraceSettings& settings);
+    void convertIfChanged(osg::Node* root, const Noted& noted, const osg::FrameStamp* frameStamp);
+    void convert(osg::Node& root, const ViewingConditions& conditions);
+    void publish(std::shared_ptr<const TracedScene> scene, const Statistics& statistics);
+    void fail(const std::string& message);
+
+    mutable std::mutex _notedMutex; // cull and draw threads write, update reads
+    Noted _noted;
+
+    mutable std::mutex _versionMutex; // update and cull threads write, draw reads
+    SceneVersion _version;
+    Statistics _statistics;
+
+    std::mutex _updateMutex; // all below; one update or cull thread at a time
+    SceneConverter _converter;
+    osg::ref_ptr<const RayTraceSettings> _settings; ///< as they were in the last update
+    std::shared_ptr<Workers> _workers;
+    std::optional<unsigned int> _frameNumber; ///< last looked at
+    // Last converted for, successfully or not:
+    std::optional<ViewingConditions> _conditions;
+    RayTraceSettings::ColorRule _colorRule = RayTraceSettings::AUTOMATIC_COLOR;
+    osg::Node* _root = nullptr; ///< a name, not followed
+    uint64_t _fingerprint = 0;
+    std::optional<osg::Vec3d> _origin;
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,160 @@
+// StateStack.cpp - OVERRIDE and PROTECTED, and which modes and attributes are followed. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/StateStack.h"
+
+#include <osgRayTrace/PhysicalMaterial>
+
+#include <osg/BlendFunc>
+#include <osg/ClipPlane>
+#include <osg/Fog>
+#include <osg/Light>
+#include <osg/TexGen>
+#include <osg/TextureCubeMap>
+#include <osg/TextureRectangle>
+
+#include <algorithm>
+#include <optional>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr unsigned int kLights = 32;
+constexpr unsigned int kClipPlanes = 6;
+
+std::optional<unsigned int> modeBit(osg::StateAttribute::GLMode mode)
+{
+    if (mode >= GL_LIGHT0 && mode < GL_LIGHT0 + kLights) return mode - GL_LIGHT0;
+    if (mode >= GL_CLIP_PLANE0 && mode < GL_CLIP_PLANE0 + kClipPlanes) return kClipPlaneBit;
+    switch (mode)
+    {
+    case GL_LIGHTING: return kLightingBit;
+    case GL_BLEND: return kBlendBit;
+    case GL_ALPHA_TEST: return kAlphaTestBit;
+    case GL_CULL_FACE: return kCullFaceBit;
+    case GL_FOG: return kFogBit;
+    default: return std::nullopt;
+    }
+}
+
+std::optional<unsigned int> textureModeBit(osg::StateAttribute::GLMode mode, std::size_t unit)
+{
+    const auto higher =
+        static_cast<unsigned int>(std::min<std::size_t>(kHigherTextureBit + unit - 1, kModeBitEnd - 1));
+    switch (mode)
+    {
+    case GL_TEXTURE_2D: return unit == 0 ? kTexture2DBit : higher;
+    case GL_TEXTURE_1D:
+    case GL_TEXTURE_3D:
+    case GL_TEXTURE_CUBE_MAP:
+    case GL_TEXTURE_RECTANGLE: return unit == 0 ? kOtherTextureBit : higher;
+    case GL_TEXTURE_GEN_S:
+    case GL_TEXTURE_GEN_T:
+    case GL_TEXTURE_GEN_R:
+    case GL_TEXTURE_GEN_Q:
+        if (unit == 0) return kTexGenBit;
+        return std::nullopt;
+    default: return std::nullopt;
+    }
+}
+
+std::optional<AttributeSlot> attributeSlot(osg::StateAttribute::Type type)
+{
+    if (type == PhysicalMaterial::ATTRIBUTE_TYPE) return kPhysicalMaterialSlot;
+    switch (type)
+    {
+    case osg::StateAttribute::MATERIAL: return kMaterialSlot;
+    case osg::StateAttribute::LIGHTMODEL: return kLightModelSlot;
+    case osg::StateAttribute::PROGRAM: return kProgramSlot;
+    case osg::StateAttribute::POLYGONMODE: return kPolygonModeSlot;
+    default: return std::nullopt;
+    }
+}
+
+std::optional<AttributeSlot> textureAttributeSlot(osg::StateAttribute::Type type)
+{
+    switch (type)
+    {
+    case osg::StateAttribute::TEXTURE: return kTextureSlot;
+    case osg::StateAttribute::TEXENV: return kTextureEnvironmentSlot;
+    case osg::StateAttribute::TEXMAT: return kTextureMatrixSlot;
+    default: return std::nullopt;
+    }
+}
+
+bool replaces(bool inheritedOverrides, unsigned int value)
+{
+    return !inheritedOverrides || (value & osg::StateAttribute::PROTECTED) != 0;
+}
+
+void applyMode(GraphState& state, unsigned int bit, unsigned int value)
+{
+    const uint64_t mask = uint64_t(1) << bit;
+    if (!replaces((state.modesOverride & mask) != 0, value)) return;
+    const bool on = (value & osg::StateAttribute::ON) != 0;
+    const bool overrides = (value & osg::StateAttribute::OVERRIDE) != 0;
+    state.modesOn = on ? state.modesOn | mask : state.modesOn & ~mask;
+    state.modesOverride = overrides ? state.modesOverride | mask : state.modesOverride & ~mask;
+}
+
+void applyAttribute(GraphState& state, AttributeSlot slot, const osg::StateSet::RefAttributePair& pair)
+{
+    const uint32_t mask = 1u << slot;
+    if (!replaces((state.attributesOverride & mask) != 0, pair.second)) return;
+    const bool overrides = (pair.second & osg::StateAttribute::OVERRIDE) != 0;
+    state.attributes[slot] = pair.first.get();
+    state.attributesOverride =
+        overrides ? state.attributesOverride | mask : state.attributesOverride & ~mask;
+}
+
+/// Modes that share a bit (texture targets, texture generation) are set once, on if one of them is on.
+template <class BitOf>
+void applyModes(GraphState& state, const osg::StateSet::ModeList& modes, const BitOf& bitOf)
+{
+    std::map<unsigned int, unsigned int> values;
+    for (const auto& [mode, value] : modes)
+    {
+        const auto bit = bitOf(mode);
+        if (bit) values[*bit] |= value;
+    }
+    for (const auto& [bit, value] : values)
+        applyMode(state, bit, value);
+}
+
+void applyTextures(GraphState& state, const osg::StateSet& stateSet)
+{
+    const osg::StateSet::TextureModeList& modes = stateSet.getTextureModeList();
+    for (std::size_t unit = 0; unit < modes.size(); ++unit)
+        applyModes(state, modes[unit],
+                   [unit](osg::StateAttribute::GLMode mode) { return textureModeBit(mode, unit); });
+
+    const osg::StateSet::TextureAttributeList& attributes = stateSet.getTextureAttributeList();
+    if (attributes.empty()) return;
+    for (const auto& [type, pair] : attributes[0])
+        if (const auto slot = textureAttributeSlot(type.first)) applyAttribute(state, *slot, pair);
+}
+
+GraphState applied(GraphState state, const osg::StateSet& stateSet)
+{
+    applyModes(state, stateSet.getModeList(), modeBit);
+    for (const auto& [type, pair] : stateSet.getAttributeList())
+        if (const auto slot = attributeSlot(type.first)) applyAttribute(state, *slot, pair);
+    applyTextures(state, stateSet);
+    return state;
+}
+
+} // namespace
+
+StateStack::StateStack(const GraphState& root) : _states{root}, _stack{0} {}
+
+void StateStack::push(const osg::StateSet& stateSet)
+{
+    const auto number = static_cast<uint32_t>(_states.size());
+    const auto [entry, isNew] = _known.try_emplace({top(), &stateSet}, number);
+    if (isNew) _states.push_back(applied(_states[top()], stateSet));
+    _stack.push_back(entry->second);
+}
+
+} // namespace osgRayTrace::engine

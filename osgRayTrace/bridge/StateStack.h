@@ -1,0 +1,84 @@
+// StateStack.h - the OpenGL state that a drawable inherits, by the rules of osg::State. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/StateSet>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// The modes that matter here, as bits of a set. Bits 0 to 31 are GL_LIGHT0 + n.
+enum ModeBit : unsigned int
+{
+    kLightingBit = 32,
+    kBlendBit,
+    kAlphaTestBit,
+    kCullFaceBit,
+    kFogBit,
+    kClipPlaneBit,       ///< any of them
+    kTexture2DBit,       ///< unit 0
+    kOtherTextureBit,    ///< unit 0: 1-D, 3-D, cube map, rectangle
+    kTexGenBit,          ///< unit 0, any of S, T, R, Q
+    kHigherTextureBit,   ///< and the bits that follow: any texture target of units 1, 2, ...
+    kModeBitEnd = 64,
+};
+
+/// The attributes that matter here; textures are those of unit 0.
+enum AttributeSlot : unsigned int
+{
+    kMaterialSlot,
+    kPhysicalMaterialSlot,
+    kLightModelSlot,
+    kProgramSlot,
+    kPolygonModeSlot,
+    kTextureSlot,
+    kTextureEnvironmentSlot,
+    kTextureMatrixSlot,
+    kAttributeSlots,
+};
+
+/// Accumulated state. Attributes live as long as the graph does.
+struct GraphState
+{
+    uint64_t modesOn = 0;
+    uint64_t modesOverride = 0;
+    std::array<const osg::StateAttribute*, kAttributeSlots> attributes{};
+    uint32_t attributesOverride = 0; ///< bit: AttributeSlot
+
+    bool isOn(unsigned int modeBit) const { return (modesOn >> modeBit & 1u) != 0; }
+    bool usesHigherTextures() const { return modesOn >> kHigherTextureBit != 0; }
+
+    /// Null if there is none of this class.
+    template <class T> const T* attribute(AttributeSlot slot) const
+    {
+        return dynamic_cast<const T*>(attributes[slot]);
+    }
+};
+
+/// Pushes StateSets as osg::State does: a value replaces the inherited one unless that has OVERRIDE and
+/// the new one lacks PROTECTED. Equal sequences of pushes give the same state number.
+class StateStack
+{
+public:
+    explicit StateStack(const GraphState& root);
+
+    void push(const osg::StateSet& stateSet);
+    void pop() { _stack.pop_back(); }
+
+    /// Number of the current state in states().
+    uint32_t top() const { return _stack.back(); }
+    const std::vector<GraphState>& states() const { return _states; }
+
+private:
+    std::vector<GraphState> _states;
+    std::vector<uint32_t> _stack;
+    std::map<std::pair<uint32_t, const osg::StateSet*>, uint32_t> _known;
+};
+
+} // namespace osgRayTrace::engine

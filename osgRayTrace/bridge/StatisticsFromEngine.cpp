@@ -1,0 +1,57 @@
+// StatisticsFromEngine.cpp - what the engine counted, as the public statistics show it. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/StatisticsFromEngine.h"
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+const char* integratorName(IntegratorKind kind)
+{
+    switch (kind)
+    {
+    case IntegratorKind::Automatic: return "auto";
+    case IntegratorKind::Whitted: return "whitted";
+    case IntegratorKind::Path: return "path";
+    case IntegratorKind::Debug: return "debug";
+    }
+    return "";
+}
+
+} // namespace
+
+void setSceneStatistics(Statistics& statistics, const ConversionResult& conversion,
+                        const TracedScene& traced)
+{
+    const Scene& scene = traced.scene();
+    const BuildStatistics& build = traced.statistics();
+
+    statistics.triangles = traced.traits().triangles;
+    statistics.meshes = scene.meshes.size();
+    statistics.instances = scene.instances.size();
+    statistics.lights = scene.lights.size();
+    statistics.convertSeconds = conversion.seconds;
+    statistics.buildSeconds = build.seconds;
+    statistics.embreeBytes = build.embreeBytes;
+    statistics.conversion = conversion.counts;
+    if (build.invalidInstances > 0)
+        statistics.conversion["instance.invalid-transform"] += build.invalidInstances;
+}
+
+void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
+{
+    statistics.ok = progress.status.ok();
+    statistics.message = progress.status.message;
+    statistics.integrator = integratorName(progress.integrator);
+    statistics.passes = progress.passes;
+    statistics.renderSeconds = progress.seconds;
+    statistics.relativeError = progress.relativeError;
+    statistics.cameraRays = progress.rays.camera;
+    statistics.shadowRays = progress.rays.shadow;
+    statistics.secondaryRays = progress.rays.secondary;
+    statistics.droppedSamples = progress.droppedSamples;
+}
+
+} // namespace osgRayTrace::engine

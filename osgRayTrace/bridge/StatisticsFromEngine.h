@@ -1,0 +1,21 @@
+// StatisticsFromEngine.h - what the engine counted, as the public statistics show it. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/bridge/SceneConverter.h"
+#include "osgRayTrace/session/RenderSession.h"
+
+#include <osgRayTrace/Statistics>
+
+namespace osgRayTrace::engine
+{
+
+/// Sets the scene's part of the statistics; the conversion's counts and seconds too.
+void setSceneStatistics(Statistics& statistics, const ConversionResult& conversion,
+                        const TracedScene& traced);
+
+/// Sets the image's part, ok and message.
+void setImageStatistics(Statistics& statistics, const RenderProgress& progress);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,219 @@
+// TriangleList.cpp - takes primitive sets of all modes and index types apart. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/TriangleList.h"
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+static_assert(sizeof(UVec3) == 3 * sizeof(GLuint), "index triples are packed");
+
+/// Number of triangles that OpenGL makes of count vertices.
+std::size_t triangleCount(GLenum mode, std::size_t count)
+{
+    switch (mode)
+    {
+    case GL_TRIANGLES: return count / 3;
+    case GL_QUADS: return count / 4 * 2;
+    case GL_TRIANGLE_STRIP:
+    case GL_TRIANGLE_FAN:
+    case GL_POLYGON: return count < 3 ? 0 : count - 2;
+    case GL_QUAD_STRIP: return count < 4 ? 0 : (count / 2 - 1) * 2;
+    default: return 0;
+    }
+}
+
+/// index(i) is the vertex of the i-th corner. Corner order as in osg::TriangleIndexFunctor.
+template <class Index>
+void appendTriangles(GLenum mode, std::size_t count, const Index& index, std::vector<UVec3>& out)
+{
+    switch (mode)
+    {
+    case GL_TRIANGLES:
+        for (std::size_t i = 0; i + 2 < count; i += 3)
+            out.emplace_back(index(i), index(i + 1), index(i + 2));
+        break;
+    case GL_TRIANGLE_STRIP:
+        for (std::size_t i = 0; i + 2 < count; ++i)
+            out.emplace_back(index(i), index(i + 1 + i % 2), index(i + 2 - i % 2));
+        break;
+    case GL_TRIANGLE_FAN:
+    case GL_POLYGON:
+        for (std::size_t i = 1; i + 1 < count; ++i)
+            out.emplace_back(index(0), index(i), index(i + 1));
+        break;
+    case GL_QUADS:
+        for (std::size_t i = 0; i + 3 < count; i += 4)
+        {
+            out.emplace_back(index(i), index(i + 1), index(i + 2));
+            out.emplace_back(index(i), index(i + 2), index(i + 3));
+        }
+        break;
+    case GL_QUAD_STRIP:
+        for (std::size_t i = 0; i + 3 < count; i += 2)
+        {
+            out.emplace_back(index(i), index(i + 1), index(i + 2));
+            out.emplace_back(index(i + 1), index(i + 3), index(i + 2));
+        }
+        break;
+    default: break;
+    }
+}
+
+/// Why a mode has no triangles; null if it has.
+const char* untracedMode(GLenum mode)
+{
+    switch (mode)
+    {
+    case GL_TRIANGLES:
+    case GL_TRIANGLE_STRIP:
+    case GL_TRIANGLE_FAN:
+    case GL_QUADS:
+    case GL_QUAD_STRIP:
+    case GL_POLYGON: return nullptr;
+    case GL_POINTS: return "not-traced.points";
+    case GL_LINES:
+    case GL_LINE_STRIP:
+    case GL_LINE_LOOP: return "not-traced.lines";
+    case GL_PATCHES: return "not-traced.patches";
+    default: return "not-traced.adjacency";
+    }
+}
+
+class TriangleCollector
+{
+public:
+    TriangleCollector(TriangleList& list, std::size_t vertexCount)
+        : _list(list), _vertexCount(vertexCount)
+    {
+    }
+
+    void append(const osg::PrimitiveSet& set)
+    {
+        if (const char* reason = untracedMode(set.getMode()))
+        {
+            ++_list.counts[reason];
+            return;
+        }
+        if (set.getNumInstances() > 1) ++_list.counts["approximated.instanced-draw"];
+        if (!appendArrays(set) && !appendElements(set)) ++_list.counts["not-traced.indirect-draw"];
+    }
+
+private:
+    bool appendArrays(const osg::PrimitiveSet& set)
+    {
+        const GLenum mode = set.getMode();
+        if (const auto* arrays = dynamic_cast<const osg::DrawArrays*>(&set))
+        {
+            appendRange(mode, arrays->getFirst(), arrays->getCount());
+            return true;
+        }
+        if (const auto* lengths = dynamic_cast<const osg::DrawArrayLengths*>(&set))
+        {
+            int64_t first = lengths->getFirst();
+            for (const GLsizei length : *lengths)
+            {
+                appendRange(mode, first, length);
+                first += std::max(length, 0);
+            }
+            return true;
+        }
+        if (const auto* multi = dynamic_cast<const osg::MultiDrawArrays*>(&set))
+        {
+            const std::size_t draws = std::min(multi->getFirsts().size(), multi->getCounts().size());
+            for (std::size_t i = 0; i < draws; ++i)
+                appendRange(mode, multi->getFirsts()[i], multi->getCounts()[i]);
+            return true;
+        }
+        return false;
+    }
+
+    bool appendElements(const osg::PrimitiveSet& set)
+    {
+        return appendIndices<osg::DrawElementsUInt>(set) ||
+               appendIndices<osg::DrawElementsUShort>(set) || appendIndices<osg::DrawElementsUByte>(set);
+    }
+
+    /// Cut to the vertices that exist: a wrong count must not make a list of billions.
+    void appendRange(GLenum mode, int64_t first, int64_t count)
+    {
+        const auto end = static_cast<int64_t>(_vertexCount);
+        const int64_t wanted = std::max<int64_t>(count, 0);
+        const int64_t usable = first < 0 ? 0 : std::clamp<int64_t>(end - first, 0, wanted);
+        if (usable < wanted)
+            _list.counts["skipped.index-out-of-range"] +=
+                triangleCount(mode, wanted) - triangleCount(mode, usable);
+        grow(triangleCount(mode, usable));
+        appendTriangles(mode, usable, [first](std::size_t i) { return static_cast<uint32_t>(first + i); },
+                        _list.triangles);
+    }
+
+    template <class Elements> bool appendIndices(const osg::PrimitiveSet& set)
+    {
+        const auto* elements = dynamic_cast<const Elements*>(&set);
+        if (!elements) return false;
+        if (elements->empty()) return true;
+        const auto* index = &elements->front();
+        grow(triangleCount(set.getMode(), elements->size()));
+        appendTriangles(set.getMode(), elements->size(),
+                        [index](std::size_t i) { return static_cast<uint32_t>(index[i]); },
+                        _list.triangles);
+        return true;
+    }
+
+    /// Exact for a single set; doubles, as a vector does by itself, for many small ones.
+    void grow(std::size_t more)
+    {
+        std::vector<UVec3>& triangles = _list.triangles;
+        const std::size_t needed = triangles.size() + more;
+        if (needed <= triangles.capacity()) return;
+        triangles.reserve(triangles.empty() ? needed : std::max(needed, 2 * triangles.capacity()));
+    }
+
+    TriangleList& _list;
+    std::size_t _vertexCount;
+};
+
+const osg::DrawElementsUInt* soleTriangleList(const osg::Geometry& geometry)
+{
+    if (geometry.getNumPrimitiveSets() != 1) return nullptr;
+    const auto* elements = dynamic_cast<const osg::DrawElementsUInt*>(geometry.getPrimitiveSet(0));
+    if (!elements || elements->getMode() != GL_TRIANGLES || elements->size() < 3) return nullptr;
+    return elements->getNumInstances() > 1 ? nullptr : elements;
+}
+
+} // namespace
+
+const UVec3* TriangleList::data() const
+{
+    return source ? reinterpret_cast<const UVec3*>(&source->front()) : triangles.data();
+}
+
+std::size_t TriangleList::size() const
+{
+    return source ? source->size() / 3 : triangles.size();
+}
+
+TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount)
+{
+    TriangleList list;
+    list.source = soleTriangleList(geometry);
+    if (list.source)
+    {
+        list.setEnds = {list.size()};
+        return list;
+    }
+    TriangleCollector collector(list, vertexCount);
+    for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i)
+    {
+        if (const osg::PrimitiveSet* set = geometry.getPrimitiveSet(i)) collector.append(*set);
+        list.setEnds.push_back(list.triangles.size());
+    }
+    return list;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,76 @@
+// VertexArrays.h - positions, normals, texture coordinates and colours of a geometry. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/SharedArray.h"
+#include "osgRayTrace/bridge/ArrayReader.h"
+#include "osgRayTrace/bridge/GeometryConverter.h"
+
+#include <osg/Array>
+
+#include <cstdint>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// Which rows of the OSG arrays the mesh's vertices are. Needed when an array has one value for each
+/// primitive set, so that a vertex of two sets becomes two.
+struct VertexMap
+{
+    std::size_t vertexCount = 0;
+    std::vector<uint32_t> rows;          ///< of per-vertex arrays; empty: vertex i is row i
+    std::vector<uint32_t> primitiveSets; ///< row of arrays that are bound per primitive set; may be empty
+};
+
+struct Positions
+{
+    SharedArray<Vec3> values;     ///< finite: what was not is 0 here
+    std::vector<uint8_t> unsound; ///< one a position: not finite or too large; empty: none is
+};
+
+struct Normals
+{
+    SharedArray<Vec3> values;     ///< unit; empty: the geometry has none
+    std::vector<uint8_t> missing; ///< one a normal: to be replaced; empty: none is
+};
+
+/// Reads a geometry's arrays by OpenGL's rules for MeshRequest's transform; shares them where allowed.
+class VertexReader
+{
+public:
+    VertexReader(const osg::Geometry& geometry, const MeshRequest& request, const VertexMap& map)
+        : _geometry(geometry), _request(request), _map(map)
+    {
+    }
+
+    /// The array is readable.
+    Positions positions(const osg::Array& array) const;
+
+    // Any array, null too: then the result is empty.
+
+    Normals normals(const osg::Array* array) const;
+
+    /// s/q and t/q. Counts repaired coordinates.
+    SharedArray<Vec2> textureCoordinates(const osg::Array* array, ConversionCounts& counts) const;
+
+    /// Only colours that vary: a single one is part of the material. Counts repaired colours.
+    SharedArray<Vec4> colors(const osg::Array* array, ConversionCounts& counts) const;
+
+private:
+    template <class T> const T* shareable(const osg::Array& array) const;
+    template <class T> SharedArray<T> share(const osg::Array& array) const;
+    RowSelection rowsOfBinding(const osg::Array& array, IntegerMeaning integers) const;
+
+    const osg::Geometry& _geometry;
+    const MeshRequest& _request;
+    const VertexMap& _map;
+};
+
+/// How an array is bound, by what OSG 3.6 does with it: off if it cannot be read.
+osg::Array::Binding bindingOf(const osg::Array* array);
+
+/// The array that holds the positions: the vertex array or, without one, vertex attribute 0. May be null.
+const osg::Array* positionArray(const osg::Geometry& geometry);
+
+} // namespace osgRayTrace::engine

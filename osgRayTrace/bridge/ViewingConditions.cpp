@@ -1,0 +1,122 @@
+// ViewingConditions.cpp - what a conversion takes from the pass that looks at the scene. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/ViewingConditions.h"
+
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderStage>
+#include <osgUtil/StateGraph>
+
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// A light of the pass as OSG keeps it: matrix takes it to the eye space of the pass.
+struct PositionedLight
+{
+    const osg::Light* light = nullptr;
+    osg::Matrixd eyeFromLight;
+};
+
+/// The first one, or what came after it with its number: OpenGL keeps the last of a number.
+PositionedLight firstLight(osgUtil::PositionalStateContainer& container, const osg::Matrixd& toEye)
+{
+    PositionedLight found;
+    for (const auto& [attribute, matrix] : container.getAttrMatrixList())
+    {
+        const auto* light = dynamic_cast<const osg::Light*>(attribute.get());
+        if (!light || (found.light && light->getLightNum() != found.light->getLightNum())) continue;
+        found = {light, matrix ? *matrix * toEye : toEye};
+    }
+    return found;
+}
+
+/// SceneView adds its light to the stage before it traverses the graph, with no matrix for a headlight
+/// and with the view matrix for a sky light. A camera in the graph inherits the container of its parent
+/// stage together with the matrix between the two eye spaces.
+PositionedLight firstLight(osgUtil::RenderStage& stage)
+{
+    PositionedLight found = firstLight(*stage.getPositionalStateContainer(), osg::Matrixd());
+    if (!found.light && stage.getInheritedPositionalStateContainer())
+        found = firstLight(*stage.getInheritedPositionalStateContainer(),
+                           stage.getInheritedPositionalStateContainerMatrix());
+    return found;
+}
+
+/// GL_LIGHTING as the state sets above the visitor's place have it, the root's first.
+bool inheritedLighting(const osgUtil::StateGraph* graph)
+{
+    std::vector<const osg::StateSet*> stateSets;
+    for (; graph; graph = graph->_parent)
+        if (graph->getStateSet()) stateSets.push_back(graph->getStateSet());
+
+    bool lighting = false;
+    bool overridden = false;
+    for (auto stateSet = stateSets.rbegin(); stateSet != stateSets.rend(); ++stateSet)
+    {
+        const osg::StateAttribute::GLModeValue mode = (*stateSet)->getMode(GL_LIGHTING);
+        if (mode & osg::StateAttribute::INHERIT) continue;
+        if (overridden && !(mode & osg::StateAttribute::PROTECTED)) continue;
+        lighting = mode & osg::StateAttribute::ON;
+        overridden = overridden || (mode & osg::StateAttribute::OVERRIDE);
+    }
+    return lighting;
+}
+
+bool close(const osg::Vec4d& a, const osg::Vec4d& b)
+{
+    return (a - b).length() <= 1e-5 * (1.0 + a.length());
+}
+
+bool sameLight(const osg::Light* a, const osg::Light* b)
+{
+    if (!a || !b) return a == b;
+
+    const osg::ref_ptr<osg::Light> moved = new osg::Light(*b);
+    if (!close(a->getPosition(), b->getPosition())) return false;
+    if (!close(osg::Vec4d(a->getDirection(), 0.0), osg::Vec4d(b->getDirection(), 0.0))) return false;
+    moved->setPosition(a->getPosition());
+    moved->setDirection(a->getDirection());
+    return a->compare(*moved) == 0;
+}
+
+} // namespace
+
+ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor)
+{
+    ViewingConditions conditions;
+    const osg::Matrixd& eyeFromScene = *visitor.getModelViewMatrix();
+    const osg::Matrixd sceneFromEye = osg::Matrixd::inverse(eyeFromScene);
+    conditions.eye = sceneFromEye.getTrans();
+    conditions.traversalMask = visitor.getTraversalMask();
+    conditions.lighting = inheritedLighting(visitor.getCurrentStateGraph());
+
+    osgUtil::RenderStage* stage = visitor.getCurrentRenderStage();
+    if (!stage) return conditions;
+    conditions.clearColor = stage->getClearColor();
+
+    const PositionedLight found = firstLight(*stage);
+    if (!found.light) return conditions;
+    const osg::ref_ptr<osg::Light> light = new osg::Light(*found.light);
+    conditions.lightInEyeSpace = found.eyeFromLight.isIdentity();
+    if (!conditions.lightInEyeSpace && found.eyeFromLight != eyeFromScene)
+    {
+        const osg::Matrixd sceneFromLight = found.eyeFromLight * sceneFromEye;
+        light->setPosition(sceneFromLight.preMult(osg::Vec4d(light->getPosition())));
+        light->setDirection(osg::Matrixd::transform3x3(osg::Vec3d(light->getDirection()), sceneFromLight));
+    }
+    conditions.light = light;
+    return conditions;
+}
+
+bool convertAlike(const ViewingConditions& a, const ViewingConditions& b)
+{
+    return a.traversalMask == b.traversalMask && a.lighting == b.lighting &&
+           a.lightInEyeSpace == b.lightInEyeSpace && a.clearColor == b.clearColor &&
+           sameLight(a.light.get(), b.light.get());
+}
+
+} // namespace osgRayTrace::engine

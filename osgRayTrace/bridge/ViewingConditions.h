@@ -1,0 +1,39 @@
+// ViewingConditions.h - what a conversion takes from the pass that looks at the scene. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Light>
+#include <osg/Vec3d>
+#include <osg/Vec4>
+
+namespace osgUtil
+{
+class CullVisitor;
+}
+
+namespace osgRayTrace::engine
+{
+
+/// All in the scene's own coordinates: those of the node that cull has reached.
+struct ViewingConditions
+{
+    osg::Vec3d eye;
+    unsigned int traversalMask = 0xffffffffu;
+
+    /// The first light that the pass had when it came to the scene; that is osgViewer's own, which is in
+    /// no graph, unless it has none. Null: none. A copy.
+    osg::ref_ptr<const osg::Light> light;
+    bool lightInEyeSpace = true;
+
+    bool lighting = true; ///< GL_LIGHTING, as inherited from above
+    osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f};
+};
+
+/// Those of the visitor's pass, where it stands. Cull thread.
+ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor);
+
+/// True if a scene converted for a need not be converted again for b. The eye is not compared; a light
+/// that only moved by rounding is the same.
+bool convertAlike(const ViewingConditions& a, const ViewingConditions& b);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,34 @@
+// WarnOnce.cpp - a warning to the host's log that is not repeated. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/WarnOnce.h"
+
+#include <osg/Notify>
+
+#include <mutex>
+#include <unordered_set>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr size_t kMostMessages = 4096; ///< then silence: a scene may hold any number of bad objects
+
+/// True the first time that a message is seen.
+bool isNew(const std::string& message)
+{
+    static std::mutex mutex;
+    static std::unordered_set<std::string> said; // guarded by mutex
+    const std::lock_guard<std::mutex> lock(mutex);
+    return said.size() < kMostMessages && said.insert(message).second;
+}
+
+} // namespace
+
+void warnOnce(const std::string& message)
+{
+    if (isNew(message)) OSG_WARN << "osgRayTrace: " << message << std::endl;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,13 @@
+// WarnOnce.h - a warning to the host's log that is not repeated. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace osgRayTrace::engine
+{
+
+/// Says a message through osg::notify(WARN), once in the life of the process. Any thread.
+void warnOnce(const std::string& message);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,201 @@
+// Film.cpp - the accumulated image. Layer: film.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/film/Film.h"
+
+#include "osgRayTrace/base/Status.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr std::size_t kChannels = 4;
+constexpr std::size_t kHalfFloats = kChannels * kTilePixels;
+
+OSGRAYTRACE_KERNEL
+void setOrAdd(float* __restrict sums, const float* __restrict values, bool set)
+{
+    if (set)
+    {
+        OSGRAYTRACE_SIMD
+        for (std::size_t i = 0; i < kHalfFloats; ++i)
+            sums[i] = values[i];
+        return;
+    }
+    OSGRAYTRACE_SIMD
+    for (std::size_t i = 0; i < kHalfFloats; ++i)
+        sums[i] += values[i];
+}
+
+OSGRAYTRACE_KERNEL
+void meanOf(const float* __restrict first, const float* __restrict second, float scale,
+            float* __restrict out)
+{
+    OSGRAYTRACE_SIMD
+    for (std::size_t i = 0; i < kHalfFloats; ++i)
+        out[i] = (first[i] + second[i]) * scale;
+}
+
+OSGRAYTRACE_KERNEL
+void scaled(const float* __restrict sums, float scale, float* __restrict out)
+{
+    OSGRAYTRACE_SIMD
+    for (std::size_t i = 0; i < kHalfFloats; ++i)
+        out[i] = sums[i] * scale;
+}
+
+float* floatsOf(TileRgba& values) { return values[0].r.v; }
+const float* floatsOf(const TileRgba& values) { return values[0].r.v; }
+
+} // namespace
+
+void Film::reset(int width, int height)
+{
+    if (int64_t(width) * height > kMaxPixels)
+        throw EngineError(StatusCode::OutOfMemory, "the image has more than 2^28 pixels");
+    const bool resized = width != _width || height != _height;
+    if (resized)
+    {
+        _width = _height = _tilesX = _tilesY = 0;
+        const int tilesX = (width + kTileSize - 1) / kTileSize;
+        const int tilesY = (height + kTileSize - 1) / kTileSize;
+        const auto tiles = static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY);
+        try
+        {
+            // Values are written before they are read, tile by tile: by the first pass of each half.
+            std::vector<float>().swap(_sums);
+            std::vector<float>().swap(_depth);
+            _sums.resize(tiles * 2 * kHalfFloats);
+            _depth.resize(tiles * kTilePixels);
+            _passes.assign(tiles, 0);
+        }
+        catch (const std::bad_alloc&)
+        {
+            throw EngineError(StatusCode::OutOfMemory, "no memory for the image");
+        }
+        _width = width;
+        _height = height;
+        _tilesX = tilesX;
+        _tilesY = tilesY;
+    }
+    std::fill(_passes.begin(), _passes.end(), 0);
+    std::vector<double>().swap(_totals);
+}
+
+int Film::passes() const
+{
+    return _passes.empty() ? 0 : *std::min_element(_passes.begin(), _passes.end());
+}
+
+float* Film::sums(int tile, int half)
+{
+    return &_sums[(static_cast<std::size_t>(tile) * 2 + static_cast<std::size_t>(half)) * kHalfFloats];
+}
+
+const float* Film::sums(int tile, int half) const { return const_cast<Film*>(this)->sums(tile, half); }
+
+void Film::beginPass()
+{
+    const int next = passes();
+    const bool folds = (next >> 1) % kFoldPasses == kFoldPasses - 1;
+    if (folds && _totals.empty()) _totals.assign(_sums.size(), 0.0);
+}
+
+void Film::addPass(int tile, const TileRgba& values)
+{
+    int& passes = _passes[static_cast<std::size_t>(tile)];
+    const int half = passes & 1;
+    const int index = passes >> 1;
+    setOrAdd(sums(tile, half), floatsOf(values), index == 0);
+    ++passes;
+    if (index % kFoldPasses == kFoldPasses - 1) fold(tile, half);
+}
+
+void Film::fold(int tile, int half)
+{
+    float* floats = sums(tile, half);
+    double* totals = &_totals[static_cast<std::size_t>(floats - _sums.data())];
+    for (std::size_t i = 0; i < kHalfFloats; ++i)
+        totals[i] += floats[i];
+    std::fill(floats, floats + kHalfFloats, 0.0f);
+}
+
+void Film::halfMean(int tile, int half, TileRgba& values) const
+{
+    const int count = (tilePasses(tile) + 1 - half) / 2;
+    if (count == 0)
+    {
+        std::fill_n(floatsOf(values), kHalfFloats, 0.0f);
+        return;
+    }
+    const float* floats = sums(tile, half);
+    if (count < kFoldPasses)
+    {
+        scaled(floats, 1.0f / static_cast<float>(count), floatsOf(values));
+        return;
+    }
+    const double* totals = &_totals[static_cast<std::size_t>(floats - _sums.data())];
+    float* out = floatsOf(values);
+    for (std::size_t i = 0; i < kHalfFloats; ++i)
+        out[i] = static_cast<float>((totals[i] + floats[i]) / count);
+}
+
+void Film::mean(int tile, TileRgba& values) const
+{
+    const int count = tilePasses(tile);
+    if (count < 2)
+    {
+        halfMean(tile, 0, values);
+        return;
+    }
+    if (count < 2 * kFoldPasses - 1)
+    {
+        meanOf(sums(tile, 0), sums(tile, 1), 1.0f / static_cast<float>(count), floatsOf(values));
+        return;
+    }
+    TileRgba second;
+    halfMean(tile, 0, values);
+    halfMean(tile, 1, second);
+    const float weight = static_cast<float>(count / 2) / static_cast<float>(count);
+    float* out = floatsOf(values);
+    const float* other = floatsOf(second);
+    for (std::size_t i = 0; i < kHalfFloats; ++i)
+        out[i] += (other[i] - out[i]) * weight;
+}
+
+void Film::halfMeans(int tile, TileRgba& first, TileRgba& second) const
+{
+    halfMean(tile, 0, first);
+    halfMean(tile, 1, second);
+}
+
+Film::ErrorSum Film::relativeSquaredError(int tile) const
+{
+    TileRgba first, second;
+    halfMeans(tile, first, second);
+    ErrorSum error;
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        const FloatLanes* firsts[] = {&first[b].r, &first[b].g, &first[b].b};
+        const FloatLanes* seconds[] = {&second[b].r, &second[b].g, &second[b].b};
+        for (int i = 0; i < kLanes; ++i)
+        {
+            if (tileX(tile) + laneX(b, i) >= _width || tileY(tile) + laneY(b, i) >= _height) continue;
+            for (int c = 0; c < 3; ++c)
+            {
+                const double x = (*firsts[c])[i], y = (*seconds[c])[i];
+                const double mean = 0.5 * (x + y);
+                error.sum += 0.25 * (x - y) * (x - y) / (mean * mean + 0.01);
+                ++error.count;
+            }
+        }
+    }
+    return error;
+}
+
+} // namespace osgRayTrace::engine

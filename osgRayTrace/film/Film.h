@@ -1,0 +1,98 @@
+// Film.h - the accumulated image: sums of two independent halves of the passes. Layer: film.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Lanes.h"
+#include "osgRayTrace/base/Math.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+constexpr int kTileSize = 16;                       ///< pixels a side
+constexpr int kTilePixels = kTileSize * kTileSize;
+constexpr int kBlockSize = 4;                       ///< a block of lanes is 4 x 4 pixels
+constexpr int kTileBlocks = kTilePixels / kLanes;
+
+/// Position of a lane of a block within its tile, in pixels.
+OSGRAYTRACE_INLINE int laneX(int block, int lane) { return (block & 3) * kBlockSize + (lane & 3); }
+OSGRAYTRACE_INLINE int laneY(int block, int lane) { return (block >> 2) * kBlockSize + (lane >> 2); }
+
+/// RGBA of the pixels of a block.
+struct RgbaLanes
+{
+    FloatLanes r, g, b, a;
+};
+
+/// Radiance of one pass for a tile, block by block.
+using TileRgba = RgbaLanes[kTileBlocks];
+
+/// Passes 0, 2, 4, ... go to the first half, the others to the second. The halves are sampled
+/// independently, so for the mean m = (a + b)/2 of their means the variance estimate (a - b)^2/4 is
+/// unbiased [Rousselle12, sect. 3]. Tiles are independent: different threads may write different tiles.
+/// Sums of a bounded number of passes are float, their totals double.
+class Film
+{
+public:
+    /// Clears the image. Throws EngineError(OutOfMemory) past kMaxPixels or when memory runs out.
+    void reset(int width, int height);
+
+    static constexpr int64_t kMaxPixels = int64_t(1) << 28;
+
+    int width() const { return _width; }
+    int height() const { return _height; }
+    int tileCount() const { return _tilesX * _tilesY; }
+    int tileX(int tile) const { return tile % _tilesX * kTileSize; } ///< left pixel column
+    int tileY(int tile) const { return tile / _tilesX * kTileSize; } ///< bottom pixel row
+
+    /// Complete passes of a tile; tiles differ after a cancelled pass.
+    int tilePasses(int tile) const { return _passes[static_cast<std::size_t>(tile)]; }
+    /// Passes that every tile has.
+    int passes() const;
+
+    /// Before the tiles of a pass, alone.
+    void beginPass();
+
+    /// Adds the next pass of a tile.
+    void addPass(int tile, const TileRgba& values);
+
+    /// Window depth of the tile's pixels, lanes of block b at b*kLanes. Written with its first pass.
+    float* depth(int tile) { return &_depth[static_cast<std::size_t>(tile) * kTilePixels]; }
+    const float* depth(int tile) const { return &_depth[static_cast<std::size_t>(tile) * kTilePixels]; }
+
+    /// Mean radiance of a tile's passes; transparent black before the first.
+    void mean(int tile, TileRgba& values) const;
+
+    /// Means of the two halves; needs two passes.
+    void halfMeans(int tile, TileRgba& first, TileRgba& second) const;
+
+    /// Estimate of mean((x - r)^2 / (r^2 + 0.01)) over pixels and RGB, x this image and r the converged
+    /// one: sums over the tile's pixels inside the image, and their number. Needs two passes.
+    struct ErrorSum
+    {
+        double sum = 0.0;
+        int64_t count = 0;
+    };
+    ErrorSum relativeSquaredError(int tile) const;
+
+private:
+    static constexpr int kFoldPasses = 128; ///< passes of a half that are summed in float
+
+    float* sums(int tile, int half);
+    const float* sums(int tile, int half) const;
+    void halfMean(int tile, int half, TileRgba& values) const;
+    void fold(int tile, int half);
+
+    int _width = 0;
+    int _height = 0;
+    int _tilesX = 0;
+    int _tilesY = 0;
+    std::vector<float> _sums;      ///< tile, half, block, channel, lane
+    std::vector<double> _totals;   ///< the same; empty until a half has kFoldPasses
+    std::vector<float> _depth;     ///< tile, block, lane
+    std::vector<int> _passes;      ///< a tile
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,201 @@
+// Resolve.cpp - images in rows of pixels from the film's tiles. Layer: film.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/film/Resolve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// 2^x for x in [-126, 127], relative error below 3e-6: [Cody80] reduction, Taylor series to degree 6.
+OSGRAYTRACE_INLINE float exp2Lanes(float x)
+{
+    const float whole = static_cast<float>(static_cast<int>(x + (x < 0.0f ? -0.5f : 0.5f)));
+    const float f = (x - whole) * 0.693147180559945f;
+    const float series =
+        1.0f + f * (1.0f + f * (0.5f + f * (1.0f / 6 + f * (1.0f / 24 + f * (1.0f / 120 + f / 720)))));
+    const int exponent = (static_cast<int>(whole) + 127) << 23;
+    float scale;
+    std::memcpy(&scale, &exponent, sizeof(scale));
+    return series * scale;
+}
+
+/// log2(x) for x > 0 and normal, absolute error below 3e-6: atanh series on the mantissa.
+OSGRAYTRACE_INLINE float log2Lanes(float x)
+{
+    int bits;
+    std::memcpy(&bits, &x, sizeof(bits));
+    const int shifted = bits - 0x3f3504f3; // sqrt(1/2): the mantissa ends in [0.707, 1.414)
+    const int exponent = shifted >> 23;
+    const int mantissaBits = bits - (exponent << 23);
+    float m;
+    std::memcpy(&m, &mantissaBits, sizeof(m));
+    const float s = (m - 1.0f) / (m + 1.0f);
+    const float s2 = s * s;
+    const float series = s * (2.0f + s2 * (2.0f / 3 + s2 * (2.0f / 5 + s2 * (2.0f / 7))));
+    return static_cast<float>(exponent) + series * 1.44269504088896f;
+}
+
+/// sRGB encoding of a value in [0,1].
+OSGRAYTRACE_INLINE float encodeLanes(float x)
+{
+    const float power = 1.055f * exp2Lanes(log2Lanes(x < 1e-4f ? 1e-4f : x) * (1.0f / 2.4f)) - 0.055f;
+    return x <= 0.0031308f ? 12.92f * x : power;
+}
+
+OSGRAYTRACE_INLINE float clampUnit(float x)
+{
+    // The first comparison is false for NaN, which becomes 0.
+    const float positive = x > 0.0f ? x : 0.0f;
+    return positive < 1.0f ? positive : 1.0f;
+}
+
+OSGRAYTRACE_INLINE uint32_t packLane(float r, float g, float b, float a)
+{
+    return static_cast<uint32_t>(static_cast<int>(r * 255.0f + 0.5f)) |
+           static_cast<uint32_t>(static_cast<int>(g * 255.0f + 0.5f)) << 8 |
+           static_cast<uint32_t>(static_cast<int>(b * 255.0f + 0.5f)) << 16 |
+           static_cast<uint32_t>(static_cast<int>(a * 255.0f + 0.5f)) << 24;
+}
+
+OSGRAYTRACE_KERNEL
+void packDisplay(const RgbaLanes* __restrict blocks, UintLanes* __restrict packed)
+{
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        OSGRAYTRACE_SIMD
+        for (int i = 0; i < kLanes; ++i)
+            packed[b][i] = packLane(clampUnit(blocks[b].r[i]), clampUnit(blocks[b].g[i]),
+                                    clampUnit(blocks[b].b[i]), clampUnit(blocks[b].a[i]));
+    }
+}
+
+OSGRAYTRACE_KERNEL
+void packEncoded(const RgbaLanes* __restrict blocks, float exposure, UintLanes* __restrict packed)
+{
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        OSGRAYTRACE_SIMD
+        for (int i = 0; i < kLanes; ++i)
+            packed[b][i] = packLane(encodeLanes(clampUnit(blocks[b].r[i] * exposure)),
+                                    encodeLanes(clampUnit(blocks[b].g[i] * exposure)),
+                                    encodeLanes(clampUnit(blocks[b].b[i] * exposure)),
+                                    clampUnit(blocks[b].a[i]));
+    }
+}
+
+void decode(TileRgba& values)
+{
+    for (RgbaLanes& block : values)
+    {
+        for (int i = 0; i < kLanes; ++i)
+        {
+            block.r[i] = linearFromSrgb(block.r[i]);
+            block.g[i] = linearFromSrgb(block.g[i]);
+            block.b[i] = linearFromSrgb(block.b[i]);
+        }
+    }
+}
+
+/// Calls write(image pixel index, block, lane) for each pixel of the tile inside the image.
+template <class Write> void forEachPixel(const Film& film, int tile, const Write& write)
+{
+    const int left = film.tileX(tile), bottom = film.tileY(tile);
+    const int columns = std::min(kTileSize, film.width() - left);
+    const int rows = std::min(kTileSize, film.height() - bottom);
+    for (int y = 0; y < rows; ++y)
+    {
+        const std::size_t row =
+            static_cast<std::size_t>(bottom + y) * static_cast<std::size_t>(film.width()) +
+            static_cast<std::size_t>(left);
+        for (int x = 0; x < columns; ++x)
+            write(row + static_cast<std::size_t>(x), (y >> 2) * 4 + (x >> 2), (y & 3) * 4 + (x & 3));
+    }
+}
+
+bool isWhole(const Film& film, int tile)
+{
+    return film.tileX(tile) + kTileSize <= film.width() &&
+           film.tileY(tile) + kTileSize <= film.height();
+}
+
+/// Four values of each row of each block are neighbours in the image: copied together.
+template <class T> void copyRows(const Film& film, int tile, const T* lanes, T* image)
+{
+    if (!isWhole(film, tile))
+    {
+        forEachPixel(film, tile, [&](std::size_t pixel, int block, int lane)
+                     { image[pixel] = lanes[block * kLanes + lane]; });
+        return;
+    }
+    const auto width = static_cast<std::size_t>(film.width());
+    T* corner = image + static_cast<std::size_t>(film.tileY(tile)) * width + film.tileX(tile);
+    for (int y = 0; y < kTileSize; ++y)
+        for (int bx = 0; bx < 4; ++bx)
+            std::memcpy(corner + static_cast<std::size_t>(y) * width + bx * 4,
+                        lanes + ((y >> 2) * 4 + bx) * kLanes + (y & 3) * 4, 4 * sizeof(T));
+}
+
+} // namespace
+
+void resolveTileRadiance(const Film& film, int tile, bool displayReferred, float* image)
+{
+    TileRgba values;
+    film.mean(tile, values);
+    if (displayReferred) decode(values);
+    forEachPixel(film, tile,
+                 [&](std::size_t pixel, int block, int lane)
+                 {
+                     float* out = image + 4 * pixel;
+                     out[0] = values[block].r[lane];
+                     out[1] = values[block].g[lane];
+                     out[2] = values[block].b[lane];
+                     out[3] = values[block].a[lane];
+                 });
+}
+
+void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint8_t* image, float* depth)
+{
+    TileRgba values;
+    UintLanes packed[kTileBlocks];
+    film.mean(tile, values);
+    const bool asIs = toneMap.displayReferred && toneMap.exposureEv == 0.0f;
+    if (toneMap.displayReferred && !asIs) decode(values);
+    if (asIs)
+        packDisplay(values, packed);
+    else
+        packEncoded(values, std::exp2(toneMap.exposureEv), packed);
+    copyRows(film, tile, packed[0].v, reinterpret_cast<uint32_t*>(image));
+    if (depth) copyRows(film, tile, film.depth(tile), depth);
+}
+
+void resolveTileDepth(const Film& film, int tile, float* depth)
+{
+    copyRows(film, tile, film.depth(tile), depth);
+}
+
+void resolveTileError(const Film& film, int tile, bool displayReferred, float* image)
+{
+    TileRgba first, second;
+    film.halfMeans(tile, first, second);
+    if (displayReferred)
+    {
+        decode(first);
+        decode(second);
+    }
+    forEachPixel(film, tile,
+                 [&](std::size_t pixel, int block, int lane)
+                 {
+                     float* out = image + 3 * pixel;
+                     out[0] = 0.5f * std::fabs(first[block].r[lane] - second[block].r[lane]);
+                     out[1] = 0.5f * std::fabs(first[block].g[lane] - second[block].g[lane]);
+                     out[2] = 0.5f * std::fabs(first[block].b[lane] - second[block].b[lane]);
+                 });
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,25 @@
+// Resolve.h - images in rows of pixels from the film's tiles. Layer: film.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/film/Film.h"
+#include "osgRayTrace/film/ToneMap.h"
+
+namespace osgRayTrace::engine
+{
+
+/// Writes the tile's part of an image of width*height*4 linear floats, row 0 at the bottom.
+/// A display-referred film is decoded to linear.
+void resolveTileRadiance(const Film& film, int tile, bool displayReferred, float* image);
+
+/// The same in display values, 4 bytes a pixel, and window depths, 1 float a pixel (may be null).
+void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint8_t* image,
+                        float* depth);
+
+/// Window depths of the first pass, 1 float a pixel.
+void resolveTileDepth(const Film& film, int tile, float* depth);
+
+/// Estimated standard error of each pixel's mean, linear RGB, 3 floats a pixel; needs two passes.
+void resolveTileError(const Film& film, int tile, bool displayReferred, float* image);
+
+} // namespace osgRayTrace::engine

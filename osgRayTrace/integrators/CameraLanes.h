@@ -1,0 +1,21 @@
+// CameraLanes.h - camera rays and window depths of a block of pixels. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/Surface.h"
+#include "osgRayTrace/integrators/Integrator.h"
+
+namespace osgRayTrace::engine
+{
+
+/// Rays through one point of each pixel of a block of a tile, and the seeds of these pixels. The points
+/// are those of the pass, or the pixel centres.
+void cameraRayLanes(const CameraRays& camera, const PassKey& key, int left, int bottom, int block,
+                    bool centres, RayHitBlock& rays, UintLanes& seeds);
+
+/// Window depth in [0,1] of the surfaces at the pixel centres: where the centre's ray meets the plane of
+/// the triangle that the sample hit. 1 where nothing was hit.
+void depthLanes(const CameraRays& camera, int left, int bottom, int block, const SurfaceLanes& surface,
+                float* depth);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,24 @@
+// FirstHit.h - geometry and material seen through the pixel centres. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/integrators/Integrator.h"
+
+namespace osgRayTrace::engine
+{
+
+/// What a ray through one pixel centre met first.
+struct FirstHit
+{
+    bool hit = false;
+    float distance = kInfinity; ///< from the start of the ray's line: the eye, or the near plane
+    Vec3 normal{0.0f};          ///< shading, unit, towards the viewer
+    Vec3 albedo{0.0f};
+    Vec3 position{0.0f};        ///< engine space
+    uint32_t instance = kInvalid;
+};
+
+/// First hits of a tile, index block * kLanes + lane.
+void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels]);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,58 @@
+// HitShading.cpp - material, frame and emission of single hits. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/HitShading.h"
+
+namespace osgRayTrace::engine
+{
+
+MaterialPoint materialPoint(const PassContext& context, const RayHitBlock& rays,
+                            const SurfaceLanes& surface, int i)
+{
+    MaterialPoint point;
+    point.front = (surface.front >> i) & 1u;
+    const MaterialRecord& material = context.traced->materials()[surface.material[i]];
+    if (material.constant) return point;
+    const SurfaceRecord& record = context.traced->surfaces()[surface.instance[i]];
+    point.uv = interpolateUv(record, rays.primitive[i], rays.u[i], rays.v[i]);
+    point.vertexColor = interpolateColor(record, rays.primitive[i], rays.u[i], rays.v[i]);
+    return point;
+}
+
+Vec3 facingNormal(const RayHitBlock& rays, const SurfaceLanes& surface, int i)
+{
+    const Vec3 geometric = laneOf(surface.geometricNormal, i);
+    Vec3 shading = laneOf(surface.shadingNormal, i);
+    if (glm::dot(shading, geometric) < 0.0f) shading = -shading;
+    const Vec3 direction(rays.ray.directionX[i], rays.ray.directionY[i], rays.ray.directionZ[i]);
+    return glm::dot(shading, direction) < -1e-4f ? shading : geometric;
+}
+
+Vec3 emissionTowardsRay(const PassContext& context, const RayHitBlock& rays,
+                        const SurfaceLanes& surface, int i)
+{
+    const MaterialTable& materials = context.traced->materials();
+    const uint32_t material = surface.material[i];
+    if (!materials[material].emits) return Vec3(0.0f);
+    const uint32_t light = context.traced->surfaces()[surface.instance[i]].light;
+    if (light != kInvalid && !((surface.front >> i) & 1u))
+    {
+        const Light& l = (*context.lights)[light];
+        if (l.kind == LightKind::Parallelogram && !l.twoSided) return Vec3(0.0f);
+    }
+    return materials.emission(material, materialPoint(context, rays, surface, i));
+}
+
+LaneMask plainDiffuseLanes(const PassContext& context, const SurfaceLanes& surface, Vec3Lanes& albedo)
+{
+    const MaterialTable& materials = context.traced->materials();
+    LaneMask plain = 0;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const MaterialRecord& record = materials[surface.material[i]];
+        setLane(albedo, i, record.front.diffuse);
+        plain |= static_cast<LaneMask>(record.plainDiffuse && !record.emits && !record.fixedFunction) << i;
+    }
+    return plain & surface.hits;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,54 @@
+// HitShading.h - material, frame and emission of single hits, as both integrators need them.
+// Layer: integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/Surface.h"
+#include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/sampling/Warp.h"
+
+namespace osgRayTrace::engine
+{
+
+inline Vec3 laneOf(const Vec3Lanes& lanes, int i) { return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]); }
+
+inline void setLane(Vec3Lanes& lanes, int i, Vec3 value)
+{
+    lanes.x[i] = value.x;
+    lanes.y[i] = value.y;
+    lanes.z[i] = value.z;
+}
+
+/// Orthonormal frame around a shading normal.
+struct ShadingFrame
+{
+    explicit ShadingFrame(Vec3 unitNormal) : normal(unitNormal)
+    {
+        frameOf(normal.x, normal.y, normal.z, tangent, bitangent);
+    }
+    Vec3 toLocal(Vec3 w) const
+    {
+        return Vec3(glm::dot(w, tangent), glm::dot(w, bitangent), glm::dot(w, normal));
+    }
+    Vec3 toWorld(Vec3 w) const { return tangent * w.x + bitangent * w.y + normal * w.z; }
+
+    Vec3 normal, tangent, bitangent;
+};
+
+/// Where on its material hit lane i of the block is.
+MaterialPoint materialPoint(const PassContext& context, const RayHitBlock& rays,
+                            const SurfaceLanes& surface, int i);
+
+/// The shading normal turned to the side that the ray comes from; the geometric normal where the two
+/// disagree so much that the ray would come from behind.
+Vec3 facingNormal(const RayHitBlock& rays, const SurfaceLanes& surface, int i);
+
+/// Radiance that the surface sends back along the ray by itself: 0 from the dark side of a light.
+Vec3 emissionTowardsRay(const PassContext& context, const RayHitBlock& rays,
+                        const SurfaceLanes& surface, int i);
+
+/// Lanes of hits whose material is nothing but a constant Lambert base that does not emit, and their
+/// albedo.
+LaneMask plainDiffuseLanes(const PassContext& context, const SurfaceLanes& surface, Vec3Lanes& albedo);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,30 @@
+// Integrator.cpp - the table of integrators. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/Integrator.h"
+
+#include "osgRayTrace/integrators/DebugIntegrator.h"
+#include "osgRayTrace/integrators/PathIntegrator.h"
+#include "osgRayTrace/integrators/WhittedIntegrator.h"
+
+namespace osgRayTrace::engine
+{
+
+std::unique_ptr<Integrator> newIntegrator(IntegratorKind kind)
+{
+    switch (kind)
+    {
+    case IntegratorKind::Automatic:
+    case IntegratorKind::Whitted: return std::make_unique<WhittedIntegrator>();
+    case IntegratorKind::Path: return std::make_unique<PathIntegrator>();
+    case IntegratorKind::Debug: return std::make_unique<DebugIntegrator>();
+    }
+    return nullptr;
+}
+
+IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits)
+{
+    if (wanted != IntegratorKind::Automatic) return wanted;
+    return traits.physical ? IntegratorKind::Path : IntegratorKind::Whitted;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,72 @@
+// Integrator.h - the seam between a session and the algorithms that make pictures. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/film/Film.h"
+#include "osgRayTrace/integrators/RenderOptions.h"
+#include "osgRayTrace/sampling/Sampler.h"
+#include "osgRayTrace/scene/View.h"
+
+#include <memory>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// What a pass over the image of one view works with. Shared by all threads, not changed by them.
+struct PassContext
+{
+    const TracedScene* traced = nullptr;
+    const std::vector<Light>* lights = nullptr; ///< the scene's, eye-space ones placed for the view
+    CameraRays camera;
+    Vec3 towardsViewer{0.0f, 0.0f, 1.0f};       ///< the view's +z axis, unit, engine space
+    RenderOptions options;                      ///< integrator is the chosen one, never Automatic
+    PassKey key;
+    bool wantsDepth = true;                     ///< of the first pass
+};
+
+/// For one tile and pass.
+struct TileCounts
+{
+    uint64_t cameraRays = 0;
+    uint64_t shadowRays = 0;
+    uint64_t secondaryRays = 0;
+    uint64_t droppedSamples = 0;
+};
+
+/// By pixel of the tile, for the debug channels: index is block * kLanes + lane.
+struct TileDiagnostics
+{
+    float rays[kTilePixels] = {};
+    float dropped[kTilePixels] = {};
+};
+
+struct TileResult
+{
+    TileRgba rgba;                          ///< radiance and coverage of one sample a pixel; finite
+    float depth[kTilePixels];               ///< window depth at pixel centres; if wanted
+    TileCounts counts;
+    TileDiagnostics* diagnostics = nullptr; ///< null: nobody wants them
+};
+
+/// One pass for one tile of one view. Stateless: any thread may call it for any tile.
+class Integrator
+{
+public:
+    virtual ~Integrator() = default;
+
+    /// left, bottom: the tile's first pixel. Every pixel of the tile gets one sample, also those outside
+    /// of the image.
+    virtual void renderTile(const PassContext& context, int left, int bottom,
+                            TileResult& result) const = 0;
+};
+
+/// kind is not Automatic.
+std::unique_ptr<Integrator> newIntegrator(IntegratorKind kind);
+
+/// Replaces Automatic by the cheapest integrator that is right for the scene: Whitted for scenes of
+/// fixed-function materials, path tracing as soon as a material is physical.
+IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,537 @@
+// PathIntegrator.cpp - unidirectional path tracing, the reference for everything else. Layer: integrators.
+// SPDX-License-Identifier: MIT
+//
+// Estimator of the radiance along a camera ray [Kajiya86; Veach97, ch. 8 and 9]:
+//
+//   L = sum over bounces k of beta_k * ( w_bsdf Le(x_k) + w_light f cos Le(y) V / (pmf pdfW)
+//                                        + sum over delta lights of f cos pi I V )
+//   beta_{k+1} = beta_k f cos / pdfW / q
+//
+// with the power heuristic w = p_a^2 / (p_a^2 + p_b^2), y sampled on one area light chosen by power, and
+// q the survival probability of Russian roulette. Sixteen paths are followed together; those that end are
+// replaced by closing the ranks of the tile after each bounce.
+#include "osgRayTrace/integrators/PathIntegrator.h"
+
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/integrators/CameraLanes.h"
+#include "osgRayTrace/integrators/HitShading.h"
+#include "osgRayTrace/integrators/ShadowLanes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr int kRouletteBounce = 3;      ///< paths are not ended by chance before this bounce
+constexpr float kLargestSurvival = 0.95f;
+
+/// Sixteen paths.
+struct PathBlock
+{
+    RayHitBlock rays;
+    Vec3Lanes throughput;  ///< beta
+    FloatLanes pdfW;       ///< of the direction of the ray; infinite: no light sample could find it
+    UintLanes seed;        ///< of the pixel
+    UintLanes pixel;       ///< block * kLanes + lane, and kScattered
+    LaneMask active = 0;
+};
+
+/// Set once a path has left a surface that is not a mirror: from then on it does not see the background,
+/// which is a backdrop and not a light.
+constexpr uint32_t kScattered = 0x10000u;
+constexpr uint32_t kPixelBits = 0xffffu;
+
+OSGRAYTRACE_INLINE float powerHeuristic(float a, float b)
+{
+    const float ratio = b / a; // no overflow of a^2, and 1 for a = infinity
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+/// Sums of the tile, pixel by pixel.
+struct PixelSums
+{
+    float r[kTilePixels] = {};
+    float g[kTilePixels] = {};
+    float b[kTilePixels] = {};
+    float a[kTilePixels] = {};
+
+    void add(uint32_t pixelBits, Vec3 radiance)
+    {
+        const uint32_t pixel = pixelBits & kPixelBits;
+        r[pixel] += radiance.x;
+        g[pixel] += radiance.y;
+        b[pixel] += radiance.z;
+    }
+};
+
+struct Tile
+{
+    const PassContext& context;
+    TileResult& result;
+    TileCounts& counts;
+    TileDiagnostics* diagnostics;
+    int left, bottom;
+    PixelSums sums;
+    PathBlock blocks[kTileBlocks];
+    int blockCount = kTileBlocks;
+};
+
+void countRays(Tile& tile, const PathBlock& block, LaneMask lanes)
+{
+    if (!tile.diagnostics) return;
+    for (; lanes; lanes &= lanes - 1)
+        tile.diagnostics->rays[block.pixel[__builtin_ctz(lanes)] & kPixelBits] += 1.0f;
+}
+
+/// Emission that the path met by chance, weighted against light samples.
+void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface)
+{
+    const TracedScene& traced = *tile.context.traced;
+    for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        if (!traced.materials()[surface.material[i]].emits) continue;
+        const Vec3 emission = emissionTowardsRay(tile.context, block.rays, surface, i);
+        if (emission == Vec3(0.0f)) continue;
+        float weight = 1.0f;
+        const uint32_t light = traced.surfaces()[surface.instance[i]].light;
+        if (light != kInvalid && traced.lights().areaLightPmf(light) > 0.0f)
+        {
+            const Vec3 direction(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
+                                 block.rays.ray.directionZ[i]);
+            const float cosThetaL = std::fabs(glm::dot(direction, laneOf(surface.geometricNormal, i)));
+            const float pdfLight = traced.lights().areaLightPmf(light) *
+                                   traced.lights().pdfArea(light, block.rays.ray.tFar[i], cosThetaL);
+            weight = powerHeuristic(block.pdfW[i], pdfLight);
+        }
+        tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * emission * weight);
+    }
+}
+
+/// A light sample for each lane of a diffuse block: vector code.
+OSGRAYTRACE_KERNEL
+void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLanes& light,
+                  LaneMask visible, const Vec3Lanes& throughput, bool delta, Vec3Lanes& radiance)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float cosine = normal.x[i] * light.wi.x[i] + normal.y[i] * light.wi.y[i] +
+                             normal.z[i] * light.wi.z[i];
+        const float positive = cosine > 0.0f ? cosine : 0.0f;
+        const float pdfBsdf = positive * kInvPi;
+        const float ratio = pdfBsdf / light.pdfW[i];
+        const float mis = delta ? 1.0f : 1.0f / (1.0f + ratio * ratio);
+        const float weight = ((visible >> i) & 1u) ? pdfBsdf * light.weight[i] * mis : 0.0f;
+        radiance.x[i] = throughput.x[i] * albedo.x[i] * light.radiance[0][i] * weight;
+        radiance.y[i] = throughput.y[i] * albedo.y[i] * light.radiance[1][i] * weight;
+        radiance.z[i] = throughput.z[i] * albedo.z[i] * light.radiance[2][i] * weight;
+    }
+}
+
+OSGRAYTRACE_KERNEL
+void facingNormals(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lanes& normal)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float gx = surface.geometricNormal.x[i], gy = surface.geometricNormal.y[i],
+                    gz = surface.geometricNormal.z[i];
+        const float sx = surface.shadingNormal.x[i], sy = surface.shadingNormal.y[i],
+                    sz = surface.shadingNormal.z[i];
+        const float sign = sx * gx + sy * gy + sz * gz < 0.0f ? -1.0f : 1.0f;
+        const float towards = sign * (sx * ray.directionX[i] + sy * ray.directionY[i] +
+                                      sz * ray.directionZ[i]);
+        const bool use = towards < -1e-4f;
+        normal.x[i] = use ? sx * sign : gx;
+        normal.y[i] = use ? sy * sign : gy;
+        normal.z[i] = use ? sz * sign : gz;
+    }
+}
+
+OSGRAYTRACE_KERNEL
+void dimensionPoints(const UintLanes& seeds, uint32_t passIndex, uint32_t dimension, FloatLanes& u,
+                     FloatLanes& v)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        float x, y;
+        sobol2(passIndex, dimensionSeed(seeds[i], dimension), x, y);
+        u[i] = x;
+        v[i] = y;
+    }
+}
+
+/// What one bounce of a block knows.
+struct Bounce
+{
+    int number = 0;
+    SurfaceLanes surface;
+    Vec3Lanes normal;       ///< shading, on the side of the ray
+    Vec3Lanes albedo;       ///< of diffuse lanes
+    LaneMask diffuse = 0;   ///< plain Lambert lanes
+    LaneMask general = 0;   ///< all other hits that scatter
+    LaneMask through = 0;   ///< general lanes that transmit
+    Bsdf bsdfs[kLanes];     ///< of general lanes
+};
+
+/// Adds what the visible lanes get from one light sample.
+void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
+              LaneMask visible, bool delta)
+{
+    if (visible & bounce.diffuse)
+    {
+        Vec3Lanes radiance;
+        diffuseLight(bounce.normal, bounce.albedo, light, visible & bounce.diffuse,
+                     block.throughput, delta, radiance);
+        for (LaneMask lanes = visible & bounce.diffuse; lanes; lanes &= lanes - 1)
+        {
+            const int i = __builtin_ctz(lanes);
+            tile.sums.add(block.pixel[i], laneOf(radiance, i));
+        }
+    }
+    for (LaneMask lanes = visible & bounce.general; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const ShadingFrame frame(laneOf(bounce.normal, i));
+        const Vec3 wo = frame.toLocal(-Vec3(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
+                                            block.rays.ray.directionZ[i]));
+        const Vec3 wiWorld = laneOf(light.wi, i);
+        const Vec3 wi = frame.toLocal(wiWorld);
+        // Light and shading normal must agree on the side, or light leaks through smooth surfaces.
+        if ((wi.z > 0.0f) != (glm::dot(wiWorld, laneOf(bounce.surface.geometricNormal, i)) > 0.0f))
+            continue;
+        const BsdfValue value = evalBsdf(bounce.bsdfs[i], wo, wi);
+        if (!(value.pdfW > 0.0f)) continue;
+        const float mis = delta ? 1.0f : powerHeuristic(light.pdfW[i], value.pdfW);
+        const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
+        tile.sums.add(block.pixel[i],
+                      laneOf(block.throughput, i) * value.fCos * radiance * (light.weight[i] * mis));
+    }
+}
+
+void sampleOneLight(Tile& tile, PathBlock& block, const Bounce& bounce, uint32_t light, float pmf,
+                    LaneMask lanes, const FloatLanes& u, const FloatLanes& v)
+{
+    LightLanes samples;
+    areaLightLanes(tile.context, light, pmf, bounce.surface, lanes, bounce.through, u, v, samples);
+    countRays(tile, block, samples.lit);
+    const LaneMask visible = visibleLanes(tile.context, samples, tile.counts);
+    addLight(tile, block, bounce, samples, visible, false);
+}
+
+void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
+{
+    const LightTable& table = tile.context.traced->lights();
+    const LaneMask lanes = bounce.diffuse | bounce.general;
+    for (const uint32_t light : table.deltaLights())
+    {
+        LightLanes samples;
+        deltaLightLanes(tile.context, light, bounce.surface, lanes, bounce.through, samples);
+        countRays(tile, block, samples.lit);
+        addLight(tile, block, bounce, samples, visibleLanes(tile.context, samples, tile.counts), true);
+    }
+    if (table.areaLights().empty()) return;
+
+    FloatLanes u, v;
+    dimensionPoints(block.seed, tile.context.key.index,
+                    bounceDimension(bounce.number, DimensionLightPoint), u, v);
+    if (table.areaLights().size() == 1)
+    {
+        sampleOneLight(tile, block, bounce, table.areaLights()[0], 1.0f, lanes, u, v);
+        return;
+    }
+    // Lanes that chose the same light are sampled together.
+    FloatLanes choice, unused;
+    dimensionPoints(block.seed, tile.context.key.index,
+                    bounceDimension(bounce.number, DimensionLightChoice), choice, unused);
+    LaneMask open = lanes;
+    LightTable::Choice chosen[kLanes];
+    for (LaneMask m = lanes; m; m &= m - 1)
+        chosen[__builtin_ctz(m)] = table.chooseAreaLight(choice[__builtin_ctz(m)]);
+    while (open)
+    {
+        const LightTable::Choice& first = chosen[__builtin_ctz(open)];
+        LaneMask same = 0;
+        for (LaneMask m = open; m; m &= m - 1)
+            same |= static_cast<LaneMask>(chosen[__builtin_ctz(m)].light == first.light)
+                    << __builtin_ctz(m);
+        sampleOneLight(tile, block, bounce, first.light, first.pmf, same, u, v);
+        open &= ~same;
+    }
+}
+
+/// Next directions of diffuse lanes: vector code. Weight is the albedo, pdfW = cos/pi.
+OSGRAYTRACE_KERNEL
+void diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface, const FloatLanes& u,
+                       const FloatLanes& v, Vec3Lanes& wi, Vec3Lanes& origin, FloatLanes& pdfW)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float nx = normal.x[i], ny = normal.y[i], nz = normal.z[i];
+        float sine, cosine;
+        sinCosTurn(u[i], sine, cosine);
+        const float radius = std::sqrt(v[i]);
+        const float lx = radius * cosine, ly = radius * sine;
+        const float lz = std::sqrt(1.0f - v[i]);
+        const float sign = nz >= 0.0f ? 1.0f : -1.0f;
+        const float a = -1.0f / (sign + nz);
+        const float b = nx * ny * a;
+        wi.x[i] = (1.0f + sign * nx * nx * a) * lx + b * ly + nx * lz;
+        wi.y[i] = sign * b * lx + (sign + ny * ny * a) * ly + ny * lz;
+        wi.z[i] = -sign * nx * lx - ny * ly + nz * lz;
+        pdfW[i] = lz * kInvPi;
+        origin.x[i] = surface.position.x[i] + surface.geometricNormal.x[i] * surface.offset[i];
+        origin.y[i] = surface.position.y[i] + surface.geometricNormal.y[i] * surface.offset[i];
+        origin.z[i] = surface.position.z[i] + surface.geometricNormal.z[i] * surface.offset[i];
+    }
+}
+
+/// Sets the ray of each lane that goes on; the others leave block.active.
+void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
+{
+    FloatLanes u, v, lobe, roulette;
+    const uint32_t pass = tile.context.key.index;
+    dimensionPoints(block.seed, pass, bounceDimension(bounce.number, DimensionBsdfDirection), u, v);
+    dimensionPoints(block.seed, pass, bounceDimension(bounce.number, DimensionBsdfLobe), lobe, roulette);
+
+    Vec3Lanes wi, origin;
+    FloatLanes pdfW;
+    Vec3Lanes weight = bounce.albedo;
+    LaneMask alive = 0;
+    if (bounce.diffuse)
+    {
+        diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, pdfW);
+        for (LaneMask lanes = bounce.diffuse; lanes; lanes &= lanes - 1)
+        {
+            const int i = __builtin_ctz(lanes);
+            const bool above = glm::dot(laneOf(wi, i), laneOf(bounce.surface.geometricNormal, i)) > 0.0f;
+            alive |= static_cast<LaneMask>(above && pdfW[i] > 0.0f) << i;
+        }
+    }
+    for (LaneMask lanes = bounce.general; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const ShadingFrame frame(laneOf(bounce.normal, i));
+        const Vec3 wo = frame.toLocal(-Vec3(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
+                                            block.rays.ray.directionZ[i]));
+        const std::optional<BsdfSample> sample = sampleBsdf(bounce.bsdfs[i], wo, lobe[i], u[i], v[i]);
+        if (!sample) continue;
+        const Vec3 direction = frame.toWorld(sample->wi);
+        const Vec3 geometric = laneOf(bounce.surface.geometricNormal, i);
+        const float side = glm::dot(direction, geometric);
+        if ((side < 0.0f) != sample->transmitted) continue;
+        setLane(wi, i, direction);
+        setLane(origin, i,
+                laneOf(bounce.surface.position, i) +
+                    geometric * (side < 0.0f ? -bounce.surface.offset[i] : bounce.surface.offset[i]));
+        setLane(weight, i, sample->weight);
+        pdfW[i] = sample->delta ? kInfinity : sample->pdfW;
+        alive |= 1u << i;
+    }
+
+    LaneMask survivors = 0;
+    for (LaneMask lanes = alive; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        Vec3 throughput = laneOf(block.throughput, i) * laneOf(weight, i);
+        const float largest = std::max(throughput.x, std::max(throughput.y, throughput.z));
+        if (!(largest > 0.0f)) continue;
+        if (bounce.number + 1 >= kRouletteBounce)
+        {
+            const float survival = std::min(largest, kLargestSurvival);
+            if (roulette[i] >= survival) continue;
+            throughput /= survival;
+        }
+        setLane(block.throughput, i, throughput);
+        RayBlock& ray = block.rays.ray;
+        ray.originX[i] = origin.x[i];
+        ray.originY[i] = origin.y[i];
+        ray.originZ[i] = origin.z[i];
+        ray.directionX[i] = wi.x[i];
+        ray.directionY[i] = wi.y[i];
+        ray.directionZ[i] = wi.z[i];
+        ray.tNear[i] = 0.0f;
+        ray.tFar[i] = kInfinity;
+        block.pdfW[i] = pdfW[i];
+        if (pdfW[i] < kInfinity) block.pixel[i] |= kScattered;
+        survivors |= 1u << i;
+    }
+    block.active = survivors;
+}
+
+void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
+{
+    facingNormals(block.rays.ray, bounce.surface, bounce.normal);
+    const MaterialTable& materials = tile.context.traced->materials();
+    bounce.diffuse = bounce.general = bounce.through = 0;
+    for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const MaterialRecord& record = materials[bounce.surface.material[i]];
+        if (record.plainDiffuse)
+        {
+            setLane(bounce.albedo, i, record.front.diffuse);
+            const bool black = record.front.diffuse == Vec3(0.0f);
+            bounce.diffuse |= static_cast<LaneMask>(!black) << i;
+            continue;
+        }
+        const bool front = (bounce.surface.front >> i) & 1u;
+        bounce.bsdfs[i] = record.constant ? (front ? record.front : record.back)
+                                          : materials.bsdf(bounce.surface.material[i],
+                                                           materialPoint(tile.context, block.rays,
+                                                                         bounce.surface, i));
+        if (bounce.bsdfs[i].isDiffuse() && bounce.bsdfs[i].diffuse == Vec3(0.0f)) continue;
+        bounce.general |= 1u << i;
+        bounce.through |= static_cast<LaneMask>(bounce.bsdfs[i].transmits()) << i;
+    }
+}
+
+/// Follows the paths of a block over one bounce.
+void bounceBlock(Tile& tile, int b, int number, bool last)
+{
+    PathBlock& block = tile.blocks[b];
+    const TracedScene& traced = *tile.context.traced;
+    const Coherence coherence = number == 0 ? Coherence::Coherent : Coherence::Incoherent;
+    traced.intersector().closestHits(block.rays, block.active, coherence);
+    const auto rays = static_cast<uint64_t>(__builtin_popcount(block.active));
+    (number == 0 ? tile.counts.cameraRays : tile.counts.secondaryRays) += rays;
+    countRays(tile, block, block.active);
+
+    Bounce bounce;
+    bounce.number = number;
+    surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface);
+    const Vec3 background(traced.scene().background);
+    for (LaneMask lanes = block.active & ~bounce.surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        if (number > 0 && !(block.pixel[i] & kScattered))
+            tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * background);
+    }
+    addEmission(tile, block, bounce.surface);
+    if (number == 0)
+    {
+        if (tile.context.wantsDepth)
+            depthLanes(tile.context.camera, tile.left, tile.bottom, b, bounce.surface,
+                       tile.result.depth + b * kLanes);
+        for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
+            tile.sums.a[block.pixel[__builtin_ctz(lanes)] & kPixelBits] = 1.0f;
+    }
+    if (last)
+    {
+        block.active = 0;
+        return;
+    }
+    classify(tile, block, bounce);
+    if (!(bounce.diffuse | bounce.general))
+    {
+        block.active = 0;
+        return;
+    }
+    sampleLights(tile, block, bounce);
+    scatter(tile, block, bounce);
+}
+
+void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
+{
+    to.rays.ray.originX[k] = from.rays.ray.originX[i];
+    to.rays.ray.originY[k] = from.rays.ray.originY[i];
+    to.rays.ray.originZ[k] = from.rays.ray.originZ[i];
+    to.rays.ray.directionX[k] = from.rays.ray.directionX[i];
+    to.rays.ray.directionY[k] = from.rays.ray.directionY[i];
+    to.rays.ray.directionZ[k] = from.rays.ray.directionZ[i];
+    to.throughput.x[k] = from.throughput.x[i];
+    to.throughput.y[k] = from.throughput.y[i];
+    to.throughput.z[k] = from.throughput.z[i];
+    to.pdfW[k] = from.pdfW[i];
+    to.seed[k] = from.seed[i];
+    to.pixel[k] = from.pixel[i];
+}
+
+/// Moves the paths that go on into as few blocks as possible, in order.
+void closeRanks(Tile& tile)
+{
+    int count = 0;
+    for (int b = 0; b < tile.blockCount; ++b)
+    {
+        PathBlock& from = tile.blocks[b];
+        for (LaneMask lanes = from.active; lanes; lanes &= lanes - 1, ++count)
+        {
+            const int i = __builtin_ctz(lanes);
+            if (count != b * kLanes + i)
+                moveLane(from, i, tile.blocks[count / kLanes], count % kLanes);
+        }
+    }
+    tile.blockCount = (count + kLanes - 1) / kLanes;
+    for (int b = 0; b < tile.blockCount; ++b)
+    {
+        PathBlock& block = tile.blocks[b];
+        const int used = std::min(kLanes, count - b * kLanes);
+        block.active = (1u << used) - 1u;
+        for (int i = 0; i < kLanes; ++i)
+        {
+            block.rays.ray.tNear[i] = 0.0f;
+            block.rays.ray.tFar[i] = kInfinity;
+        }
+    }
+}
+
+void finish(const Tile& tile)
+{
+    TileResult& result = tile.result;
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        for (int i = 0; i < kLanes; ++i)
+        {
+            const int pixel = b * kLanes + i;
+            Vec3 radiance(tile.sums.r[pixel], tile.sums.g[pixel], tile.sums.b[pixel]);
+            if (!isFinite(radiance))
+            {
+                radiance = Vec3(0.0f);
+                ++result.counts.droppedSamples;
+                if (tile.diagnostics) tile.diagnostics->dropped[pixel] += 1.0f;
+            }
+            result.rgba[b].r[i] = radiance.x;
+            result.rgba[b].g[i] = radiance.y;
+            result.rgba[b].b[i] = radiance.z;
+            result.rgba[b].a[i] = tile.sums.a[pixel];
+        }
+    }
+}
+
+} // namespace
+
+void PathIntegrator::renderTile(const PassContext& context, int left, int bottom,
+                                TileResult& result) const
+{
+    Tile tile{context, result, result.counts, result.diagnostics, left, bottom, {}, {}, kTileBlocks};
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        PathBlock& block = tile.blocks[b];
+        cameraRayLanes(context.camera, context.key, left, bottom, b, false, block.rays, block.seed);
+        for (int i = 0; i < kLanes; ++i)
+        {
+            setLane(block.throughput, i, Vec3(1.0f));
+            block.pdfW[i] = kInfinity;
+            block.pixel[i] = static_cast<uint32_t>(b * kLanes + i);
+        }
+        block.active = kAllLanes;
+    }
+    for (int number = 0; tile.blockCount > 0; ++number)
+    {
+        const bool last = number >= context.options.maxBounces;
+        for (int b = 0; b < tile.blockCount; ++b)
+            bounceBlock(tile, b, number, last);
+        closeRanks(tile);
+    }
+    finish(tile);
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,207 @@
+// ShadowLanes.cpp - light samples of a block of surface points and their shadow rays. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/ShadowLanes.h"
+
+#include "osgRayTrace/accel/Intersector.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// A parallelogram with what all lanes share.
+struct Quad
+{
+    Vec3 corner, edgeU, edgeV, normal;
+    float area;
+    float offset; ///< error bound of a point on it
+    bool twoSided;
+};
+
+Quad quadOf(const Light& light, const LightTable& table, uint32_t index)
+{
+    return {light.corner,     light.edgeU,         light.edgeV, glm::normalize(glm::cross(light.edgeU, light.edgeV)),
+            table.area(index), table.pointOffset(index), light.twoSided};
+}
+
+OSGRAYTRACE_INLINE void setShadowRay(RayBlock& ray, int i, float ox, float oy, float oz, float dx,
+                                     float dy, float dz, float tFar)
+{
+    ray.originX[i] = ox;
+    ray.originY[i] = oy;
+    ray.originZ[i] = oz;
+    ray.directionX[i] = dx;
+    ray.directionY[i] = dy;
+    ray.directionZ[i] = dz;
+    ray.tNear[i] = 0.0f;
+    ray.tFar[i] = tFar;
+    ray.time[i] = 0.0f;
+    ray.mask[i] = 0xffffffffu;
+    ray.id[i] = 0;
+    ray.flags[i] = 0;
+}
+
+OSGRAYTRACE_KERNEL
+LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, LaneMask active,
+                   LaneMask through, const FloatLanes& u, const FloatLanes& v, LightLanes& samples)
+{
+    const Quad q = quad;
+    Lanes<int> lit;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float px = surface.position.x[i], py = surface.position.y[i], pz = surface.position.z[i];
+        const float nx = surface.geometricNormal.x[i], ny = surface.geometricNormal.y[i],
+                    nz = surface.geometricNormal.z[i];
+        const float lx = q.corner.x + u[i] * q.edgeU.x + v[i] * q.edgeV.x;
+        const float ly = q.corner.y + u[i] * q.edgeU.y + v[i] * q.edgeV.y;
+        const float lz = q.corner.z + u[i] * q.edgeU.z + v[i] * q.edgeV.z;
+
+        // Which side of the light the point is on, and which side of the surface the light is on.
+        const float towardsX = px - lx, towardsY = py - ly, towardsZ = pz - lz;
+        const float height = towardsX * q.normal.x + towardsY * q.normal.y + towardsZ * q.normal.z;
+        const float lightSide = height >= 0.0f ? q.offset : -q.offset;
+        const float above = -(towardsX * nx + towardsY * ny + towardsZ * nz);
+        const float surfaceSide = above >= 0.0f ? surface.offset[i] : -surface.offset[i];
+
+        const float ox = px + nx * surfaceSide, oy = py + ny * surfaceSide, oz = pz + nz * surfaceSide;
+        const float dx = lx + q.normal.x * lightSide - ox;
+        const float dy = ly + q.normal.y * lightSide - oy;
+        const float dz = lz + q.normal.z * lightSide - oz;
+        const float distance2 = dx * dx + dy * dy + dz * dz;
+        const float distance = std::sqrt(distance2);
+        const float inverse = 1.0f / distance;
+        const float wx = dx * inverse, wy = dy * inverse, wz = dz * inverse;
+        samples.wi.x[i] = wx;
+        samples.wi.y[i] = wy;
+        samples.wi.z[i] = wz;
+
+        const float cosL = -(wx * q.normal.x + wy * q.normal.y + wz * q.normal.z);
+        const float cosine = q.twoSided ? std::fabs(cosL) : cosL;
+        const float weight = cosine * q.area * inverse * inverse;
+        samples.weight[i] = weight / pmf;
+        samples.pdfW[i] = pmf / weight;
+        const bool reachable = (above > 0.0f) | (((through >> i) & 1u) != 0);
+        lit[i] = (weight > 0.0f) & (weight < 1e30f) & reachable;
+        setShadowRay(samples.shadow, i, ox, oy, oz, wx, wy, wz, distance);
+    }
+    LaneMask mask = 0;
+    for (int i = 0; i < kLanes; ++i)
+        mask |= static_cast<LaneMask>(lit[i] & 1) << i;
+    return mask & active;
+}
+
+void setRadiance(LightLanes& samples, int i, Vec3 radiance)
+{
+    samples.radiance[0][i] = radiance.x;
+    samples.radiance[1][i] = radiance.y;
+    samples.radiance[2][i] = radiance.z;
+}
+
+Vec3 at(const Vec3Lanes& lanes, int i) { return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]); }
+
+/// Start of a ray that leaves the surface towards wi.
+Vec3 leave(const SurfaceLanes& surface, int i, Vec3 wi)
+{
+    const Vec3 n = at(surface.geometricNormal, i);
+    return at(surface.position, i) + n * (glm::dot(wi, n) >= 0.0f ? surface.offset[i] : -surface.offset[i]);
+}
+
+void setWi(LightLanes& samples, int i, Vec3 wi)
+{
+    samples.wi.x[i] = wi.x;
+    samples.wi.y[i] = wi.y;
+    samples.wi.z[i] = wi.z;
+}
+
+/// A lane whose light sample is on an emissive mesh.
+bool meshLane(const PassContext& context, uint32_t light, float pmf, const SurfaceLanes& surface, int i,
+              float u, float v, bool through, LightLanes& samples)
+{
+    const LightTable& table = context.traced->lights();
+    const Vec3 p = at(surface.position, i);
+    const std::optional<AreaLightSample> sample = table.sampleArea(light, p, u, v);
+    if (!sample || !(sample->pdfW > 0.0f) || !(sample->pdfW < 1e30f)) return false;
+    const Vec3 n = at(surface.geometricNormal, i);
+    if (!through && glm::dot(n, sample->wi) <= 0.0f) return false;
+
+    const Vec3 origin = leave(surface, i, sample->wi);
+    const Vec3 d = sample->target - origin;
+    const float distance = glm::length(d);
+    if (!(distance > 0.0f)) return false;
+    const Vec3 wi = d / distance;
+    setWi(samples, i, wi);
+    setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, wi.x, wi.y, wi.z, distance);
+    samples.pdfW[i] = pmf * sample->pdfW;
+    samples.weight[i] = 1.0f / samples.pdfW[i];
+    const Instance& instance = context.traced->scene().instances[(*context.lights)[light].instance];
+    MaterialPoint point;
+    point.uv = sample->uv;
+    setRadiance(samples, i, context.traced->materials().emission(instance.material, point));
+    return true;
+}
+
+} // namespace
+
+void areaLightLanes(const PassContext& context, uint32_t index, float pmf, const SurfaceLanes& surface,
+                    LaneMask active, LaneMask through, const FloatLanes& u, const FloatLanes& v,
+                    LightLanes& samples)
+{
+    const Light& light = (*context.lights)[index];
+    if (light.kind == LightKind::Parallelogram)
+    {
+        samples.lit = quadLanes(quadOf(light, context.traced->lights(), index), pmf, surface, active,
+                                through, u, v, samples);
+        for (int i = 0; i < kLanes; ++i)
+            setRadiance(samples, i, light.radiance);
+        return;
+    }
+    samples.lit = 0;
+    for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        if (meshLane(context, index, pmf, surface, i, u[i], v[i], (through >> i) & 1u, samples))
+            samples.lit |= 1u << i;
+    }
+}
+
+void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLanes& surface,
+                     LaneMask active, LaneMask through, LightLanes& samples)
+{
+    const Light& light = (*context.lights)[index];
+    samples.lit = 0;
+    for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const Material& material = context.traced->scene().materials[surface.material[i]];
+        if (light.number < 32 && !((material.lightMask >> light.number) & 1u)) continue;
+        const DeltaLightSample sample = sampleDelta(light, at(surface.position, i));
+        if (!(sample.attenuation > 0.0f)) continue;
+        if (!((through >> i) & 1u) && glm::dot(at(surface.geometricNormal, i), sample.wi) <= 0.0f)
+            continue;
+        const Vec3 origin = leave(surface, i, sample.wi);
+        setWi(samples, i, sample.wi);
+        setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, sample.wi.x, sample.wi.y,
+                     sample.wi.z, sample.distance);
+        setRadiance(samples, i, light.diffuse * (kPi * sample.attenuation));
+        samples.weight[i] = 1.0f;
+        samples.pdfW[i] = 0.0f;
+        samples.lit |= 1u << i;
+    }
+}
+
+LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts)
+{
+    if (!context.options.shadows || !samples.lit) return samples.lit;
+    context.traced->intersector().occlusion(samples.shadow, samples.lit);
+    LaneMask visible = 0;
+    for (int i = 0; i < kLanes; ++i)
+        visible |= static_cast<LaneMask>(samples.shadow.tFar[i] >= 0.0f) << i;
+    counts.shadowRays += static_cast<uint64_t>(__builtin_popcount(samples.lit));
+    return visible & samples.lit;
+}
+
+} // namespace osgRayTrace::engine

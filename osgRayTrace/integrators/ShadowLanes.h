@@ -1,0 +1,37 @@
+// ShadowLanes.h - light samples of a block of surface points and their shadow rays. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/Surface.h"
+#include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/shading/LightTable.h"
+
+namespace osgRayTrace::engine
+{
+
+/// One light sample for each lane.
+struct LightLanes
+{
+    Vec3Lanes wi;         ///< unit, towards the light
+    FloatLanes radiance[3]; ///< towards the surface; of a delta light pi * colour * attenuation
+    FloatLanes weight;    ///< multiplies f cos: 1/pdfW and the pmf of the light's choice; 1 for delta lights
+    FloatLanes pdfW;      ///< [1/sr] as another strategy must compare with; 0 for delta lights
+    LaneMask lit = 0;     ///< lanes that can get light from it; others are undefined
+    RayBlock shadow;      ///< from the surface to the light, both ends clear of their own geometry
+};
+
+/// Point (u, v) of area light number light for the lanes of active. Lanes whose geometric normal faces
+/// away from the light are left out unless throughSurface has them: these get light from behind, too.
+/// pmf: probability with which each lane chose this light.
+void areaLightLanes(const PassContext& context, uint32_t light, float pmf, const SurfaceLanes& surface,
+                    LaneMask active, LaneMask throughSurface, const FloatLanes& u, const FloatLanes& v,
+                    LightLanes& samples);
+
+/// The same for a directional, point or spot light.
+void deltaLightLanes(const PassContext& context, uint32_t light, const SurfaceLanes& surface,
+                     LaneMask active, LaneMask throughSurface, LightLanes& samples);
+
+/// The lanes of samples.lit that see the light. Counts the rays.
+LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,403 @@
+// WhittedIntegrator.cpp - direct light, shadows, mirrors and glass. Layer: integrators.
+// SPDX-License-Identifier: MIT
+//
+//   L(ray) = emission + direct light                         all surfaces
+//          + reflection L(mirror ray) + refraction L(refracted ray)   smooth ones
+//
+// where direct light is the mean of f cos L V / pdfW over the samples of each area light plus the
+// fixed-function or physical response to each directional, point and spot light. Rays of the second line
+// go to a stack, and sixteen at a time are taken from its top.
+#include "osgRayTrace/integrators/WhittedIntegrator.h"
+
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/integrators/CameraLanes.h"
+#include "osgRayTrace/integrators/FixedFunctionLighting.h"
+#include "osgRayTrace/integrators/HitShading.h"
+#include "osgRayTrace/integrators/ShadowLanes.h"
+#include "osgRayTrace/sampling/LightPoints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// A mirror or refracted ray weighing less than this cannot be seen in 8 bits.
+constexpr float kSmallestWeight = 1.0f / 1024.0f;
+
+struct SecondaryRay
+{
+    Vec3 origin, direction, weight;
+    uint32_t pixel;
+    uint32_t seed;
+    int depth;
+};
+
+struct Tile
+{
+    const PassContext& context;
+    TileResult& result;
+    std::vector<SecondaryRay> stack;
+    Vec3 sums[kTilePixels];
+    float coverage[kTilePixels];
+};
+
+/// Sixteen rays to be shaded, with what they count for in which pixel.
+struct ShadingBlock
+{
+    RayHitBlock rays;
+    SurfaceLanes surface;
+    UintLanes seed;
+    UintLanes pixel;
+    Vec3Lanes weight;
+    int depth[kLanes];
+};
+
+/// What the lanes of a block are made of.
+struct LaneMaterials
+{
+    LaneMask diffuse = 0;       ///< physical, constant, Lambert only
+    LaneMask fixedFunction = 0; ///< lit by OpenGL's equations
+    LaneMask physical = 0;      ///< the other ones that scatter
+    LaneMask through = 0;       ///< lit from behind as well
+    Vec3Lanes normal;           ///< shading, towards the ray
+    Vec3Lanes albedo;           ///< of diffuse lanes
+    Bsdf bsdfs[kLanes];         ///< of physical lanes, and of fixed-function ones below area lights
+    FixedFunctionPoint points[kLanes]; ///< of fixed-function lanes
+};
+
+Vec3 rayDirection(const RayBlock& ray, int i)
+{
+    return Vec3(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
+}
+
+void classify(const Tile& tile, const ShadingBlock& block, LaneMaterials& m)
+{
+    const MaterialTable& materials = tile.context.traced->materials();
+    for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const uint32_t material = block.surface.material[i];
+        const MaterialRecord& record = materials[material];
+        setLane(m.normal, i, facingNormal(block.rays, block.surface, i));
+        if (record.fixedFunction)
+        {
+            if (!record.material->lit) continue; // all of it is emission
+            const MaterialPoint point = materialPoint(tile.context, block.rays, block.surface, i);
+            m.points[i] = fixedFunctionPoint(tile.context, block.surface, i, point);
+            if (tile.context.traced->traits().areaLights) m.bsdfs[i] = materials.bsdf(material, point);
+            m.fixedFunction |= 1u << i;
+            // OpenGL lights by the vertex normal alone, which may look the other way than the face.
+            m.through |= 1u << i;
+            continue;
+        }
+        if (record.plainDiffuse)
+        {
+            setLane(m.albedo, i, record.front.diffuse);
+            m.diffuse |= static_cast<LaneMask>(record.front.diffuse != Vec3(0.0f)) << i;
+            continue;
+        }
+        const bool front = (block.surface.front >> i) & 1u;
+        m.bsdfs[i] = record.constant
+                         ? (front ? record.front : record.back)
+                         : materials.bsdf(material, materialPoint(tile.context, block.rays, block.surface, i));
+        m.physical |= 1u << i;
+        m.through |= static_cast<LaneMask>(m.bsdfs[i].transmits()) << i;
+    }
+}
+
+/// Points on a light for sample j of each lane.
+OSGRAYTRACE_KERNEL
+void lightPoints(LightSampling strategy, uint32_t j, uint32_t n, uint32_t samples, uint32_t passIndex,
+                 uint32_t dimension, const UintLanes& seeds, FloatLanes& u, FloatLanes& v)
+{
+    switch (strategy)
+    {
+    case LightSampling::Random:
+        OSGRAYTRACE_SIMD
+        for (int i = 0; i < kLanes; ++i)
+            random2(passIndex * samples + j, dimensionSeed(seeds[i], dimension), u[i], v[i]);
+        return;
+    case LightSampling::UniformJitter:
+        OSGRAYTRACE_SIMD
+        for (int i = 0; i < kLanes; ++i)
+            uniformJitter2(j, n, passIndex, dimensionSeed(seeds[i], dimension), u[i], v[i]);
+        return;
+    case LightSampling::Stratified:
+        OSGRAYTRACE_SIMD
+        for (int i = 0; i < kLanes; ++i)
+            stratified2(j, n, passIndex, dimensionSeed(seeds[i], dimension), u[i], v[i]);
+        return;
+    case LightSampling::Sobol:
+        OSGRAYTRACE_SIMD
+        for (int i = 0; i < kLanes; ++i)
+            sobol2(passIndex * samples + j, dimensionSeed(seeds[i], dimension), u[i], v[i]);
+        return;
+    }
+}
+
+/// Adds f cos L V / pdfW of Lambert lanes: vector code.
+OSGRAYTRACE_KERNEL
+void addDiffuse(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLanes& light, LaneMask visible,
+                float scale, Vec3Lanes& sum)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float cosine = normal.x[i] * light.wi.x[i] + normal.y[i] * light.wi.y[i] +
+                             normal.z[i] * light.wi.z[i];
+        const bool use = (((visible >> i) & 1u) != 0) & (cosine > 0.0f);
+        // Lanes that are not used may hold anything: selected last, so that nothing of it gets through.
+        const float weight = cosine * light.weight[i] * (scale * kInvPi);
+        sum.x[i] += use ? albedo.x[i] * light.radiance[0][i] * weight : 0.0f;
+        sum.y[i] += use ? albedo.y[i] * light.radiance[1][i] * weight : 0.0f;
+        sum.z[i] += use ? albedo.z[i] * light.radiance[2][i] * weight : 0.0f;
+    }
+}
+
+void addLane(Vec3Lanes& sum, int i, Vec3 value)
+{
+    sum.x[i] += value.x;
+    sum.y[i] += value.y;
+    sum.z[i] += value.z;
+}
+
+/// The same for lanes with any other Bsdf.
+void addGeneral(const ShadingBlock& block, const LaneMaterials& m, const LightLanes& light,
+                LaneMask visible, float scale, Vec3Lanes& sum)
+{
+    for (LaneMask lanes = visible; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const ShadingFrame frame(laneOf(m.normal, i));
+        const Vec3 wo = frame.toLocal(-rayDirection(block.rays.ray, i));
+        const Vec3 wiWorld = laneOf(light.wi, i);
+        const Vec3 wi = frame.toLocal(wiWorld);
+        if ((wi.z > 0.0f) != (glm::dot(wiWorld, laneOf(block.surface.geometricNormal, i)) > 0.0f))
+            continue;
+        const BsdfValue value = evalBsdf(m.bsdfs[i], wo, wi);
+        const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
+        addLane(sum, i, value.fCos * radiance * (light.weight[i] * scale));
+    }
+}
+
+void countRays(Tile& tile, const ShadingBlock& block, LaneMask lanes)
+{
+    if (!tile.result.diagnostics) return;
+    for (; lanes; lanes &= lanes - 1)
+        tile.result.diagnostics->rays[block.pixel[__builtin_ctz(lanes)]] += 1.0f;
+}
+
+void addAreaLights(Tile& tile, const ShadingBlock& block, const LaneMaterials& m, Vec3Lanes& sum)
+{
+    const PassContext& context = tile.context;
+    const std::vector<uint32_t>& lights = context.traced->lights().areaLights();
+    const LaneMask lanes = m.diffuse | m.physical | m.fixedFunction;
+    if (lights.empty() || !lanes) return;
+    const auto samples = static_cast<uint32_t>(lightSampleCount(context.options));
+    const auto n = static_cast<uint32_t>(std::lround(std::sqrt(static_cast<float>(samples))));
+    for (std::size_t k = 0; k < lights.size(); ++k)
+    {
+        const uint32_t dimension = bounceDimension(static_cast<int>(k), DimensionLightPoint);
+        for (uint32_t j = 0; j < samples; ++j)
+        {
+            FloatLanes u, v;
+            lightPoints(context.options.lightSampling, j, n, samples, context.key.index, dimension,
+                        block.seed, u, v);
+            LightLanes light;
+            areaLightLanes(context, lights[k], 1.0f, block.surface, lanes, m.through, u, v, light);
+            countRays(tile, block, light.lit);
+            const LaneMask visible = visibleLanes(context, light, tile.result.counts);
+            const float scale = 1.0f / static_cast<float>(samples);
+            if (visible & m.diffuse)
+                addDiffuse(m.normal, m.albedo, light, visible & m.diffuse, scale, sum);
+            if (visible & ~m.diffuse) addGeneral(block, m, light, visible & ~m.diffuse, scale, sum);
+        }
+    }
+}
+
+void addDeltaLights(Tile& tile, const ShadingBlock& block, LaneMaterials& m, Vec3Lanes& sum)
+{
+    const PassContext& context = tile.context;
+    for (const uint32_t index : context.traced->lights().deltaLights())
+    {
+        const Light& light = (*context.lights)[index];
+        LightLanes samples;
+        deltaLightLanes(context, index, block.surface, m.diffuse | m.physical | m.fixedFunction,
+                        m.through, samples);
+        // Fixed-function lanes that face away get the light's ambient term only: no ray for them.
+        const LaneMask reached = samples.lit;
+        for (LaneMask lanes = samples.lit & m.fixedFunction; lanes; lanes &= lanes - 1)
+        {
+            const int i = __builtin_ctz(lanes);
+            if (glm::dot(m.points[i].normal, laneOf(samples.wi, i)) <= 0.0f) samples.lit &= ~(1u << i);
+        }
+        countRays(tile, block, samples.lit);
+        const LaneMask visible = visibleLanes(context, samples, tile.result.counts);
+        for (LaneMask lanes = reached & m.fixedFunction; lanes; lanes &= lanes - 1)
+        {
+            const int i = __builtin_ctz(lanes);
+            const float attenuation = sampleDelta(light, laneOf(block.surface.position, i)).attenuation;
+            addLight(m.points[i], light, laneOf(samples.wi, i), attenuation, (visible >> i) & 1u);
+        }
+        if (visible & m.diffuse)
+            addDiffuse(m.normal, m.albedo, samples, visible & m.diffuse, 1.0f, sum);
+        if (visible & m.physical) addGeneral(block, m, samples, visible & m.physical, 1.0f, sum);
+    }
+}
+
+void push(Tile& tile, const ShadingBlock& block, int i, Vec3 direction, Vec3 weight)
+{
+    const float largest = std::max(weight.x, std::max(weight.y, weight.z));
+    if (!(largest >= kSmallestWeight)) return;
+    const Vec3 n = laneOf(block.surface.geometricNormal, i);
+    const float side = glm::dot(direction, n) < 0.0f ? -block.surface.offset[i] : block.surface.offset[i];
+    tile.stack.push_back({laneOf(block.surface.position, i) + n * side, direction, weight, block.pixel[i],
+                          hash(block.seed[i] + 0x9e3779b9u), block.depth[i] + 1});
+}
+
+void spawn(Tile& tile, const ShadingBlock& block, const LaneMaterials& m)
+{
+    for (LaneMask lanes = m.physical; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        if (block.depth[i] >= tile.context.options.maxBounces) continue;
+        const ShadingFrame frame(laneOf(m.normal, i));
+        const Vec3 wo = frame.toLocal(-rayDirection(block.rays.ray, i));
+        const SpecularLobes lobes = specularLobes(m.bsdfs[i], wo);
+        const Vec3 weight = laneOf(block.weight, i);
+        const Vec3 geometric = laneOf(block.surface.geometricNormal, i);
+        const Vec3 mirrored = frame.toWorld(Vec3(-wo.x, -wo.y, wo.z));
+        if (lobes.reflection != Vec3(0.0f) && glm::dot(mirrored, geometric) > 0.0f)
+            push(tile, block, i, mirrored, weight * lobes.reflection);
+        if (lobes.refraction == Vec3(0.0f)) continue;
+        const Vec3 refracted = frame.toWorld(lobes.refracted);
+        if (glm::dot(refracted, geometric) < 0.0f) push(tile, block, i, refracted, weight * lobes.refraction);
+    }
+}
+
+/// Adds weight * radiance of all hits of a block to their pixels; pushes the rays that go on.
+void shade(Tile& tile, ShadingBlock& block)
+{
+    LaneMaterials m;
+    classify(tile, block, m);
+    Vec3Lanes sum = {};
+    addAreaLights(tile, block, m, sum);
+    if (!tile.context.traced->lights().deltaLights().empty()) addDeltaLights(tile, block, m, sum);
+
+    for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        Vec3 radiance = laneOf(sum, i);
+        if ((m.fixedFunction >> i) & 1u)
+            radiance += litColor(tile.context, m.points[i]);
+        else
+            radiance += emissionTowardsRay(tile.context, block.rays, block.surface, i);
+        tile.sums[block.pixel[i]] += laneOf(block.weight, i) * radiance;
+    }
+    if (m.physical) spawn(tile, block, m);
+}
+
+/// Traces up to sixteen rays from the top of the stack.
+void traceSecondary(Tile& tile)
+{
+    const TracedScene& traced = *tile.context.traced;
+    ShadingBlock block;
+    LaneMask active = 0;
+    for (int i = 0; i < kLanes && !tile.stack.empty(); ++i)
+    {
+        const SecondaryRay& from = tile.stack.back();
+        RayBlock& ray = block.rays.ray;
+        ray.originX[i] = from.origin.x;
+        ray.originY[i] = from.origin.y;
+        ray.originZ[i] = from.origin.z;
+        ray.directionX[i] = from.direction.x;
+        ray.directionY[i] = from.direction.y;
+        ray.directionZ[i] = from.direction.z;
+        ray.tNear[i] = ray.time[i] = 0.0f;
+        ray.tFar[i] = kInfinity;
+        ray.mask[i] = 0xffffffffu;
+        ray.id[i] = ray.flags[i] = 0;
+        setLane(block.weight, i, from.weight);
+        block.pixel[i] = from.pixel;
+        block.seed[i] = from.seed;
+        block.depth[i] = from.depth;
+        active |= 1u << i;
+        tile.stack.pop_back();
+    }
+    traced.intersector().closestHits(block.rays, active, Coherence::Incoherent);
+    tile.result.counts.secondaryRays += static_cast<uint64_t>(__builtin_popcount(active));
+    countRays(tile, block, active);
+    surfacesOf(traced.surfaces(), block.rays, active, block.surface);
+    const Vec3 background(traced.scene().background);
+    for (LaneMask lanes = active & ~block.surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        tile.sums[block.pixel[i]] += laneOf(block.weight, i) * background;
+    }
+    if (block.surface.hits) shade(tile, block);
+}
+
+void traceCamera(Tile& tile, int left, int bottom, int b)
+{
+    const TracedScene& traced = *tile.context.traced;
+    ShadingBlock block;
+    cameraRayLanes(tile.context.camera, tile.context.key, left, bottom, b, false, block.rays, block.seed);
+    for (int i = 0; i < kLanes; ++i)
+    {
+        block.pixel[i] = static_cast<uint32_t>(b * kLanes + i);
+        setLane(block.weight, i, Vec3(1.0f));
+        block.depth[i] = 0;
+    }
+    traced.intersector().closestHits(block.rays, kAllLanes, Coherence::Coherent);
+    tile.result.counts.cameraRays += kLanes;
+    countRays(tile, block, kAllLanes);
+    surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface);
+    if (tile.context.wantsDepth)
+        depthLanes(tile.context.camera, left, bottom, b, block.surface, tile.result.depth + b * kLanes);
+    for (int i = 0; i < kLanes; ++i)
+    {
+        tile.coverage[b * kLanes + i] = static_cast<float>((block.surface.hits >> i) & 1u);
+        tile.sums[b * kLanes + i] = Vec3(0.0f);
+    }
+    if (block.surface.hits) shade(tile, block);
+}
+
+void finish(const Tile& tile)
+{
+    for (int pixel = 0; pixel < kTilePixels; ++pixel)
+    {
+        Vec3 radiance = tile.sums[pixel];
+        if (!isFinite(radiance))
+        {
+            radiance = Vec3(0.0f);
+            ++tile.result.counts.droppedSamples;
+            if (tile.result.diagnostics) tile.result.diagnostics->dropped[pixel] += 1.0f;
+        }
+        RgbaLanes& block = tile.result.rgba[pixel / kLanes];
+        block.r[pixel % kLanes] = radiance.x;
+        block.g[pixel % kLanes] = radiance.y;
+        block.b[pixel % kLanes] = radiance.z;
+        block.a[pixel % kLanes] = tile.coverage[pixel];
+    }
+}
+
+} // namespace
+
+void WhittedIntegrator::renderTile(const PassContext& context, int left, int bottom,
+                                   TileResult& result) const
+{
+    Tile tile{context, result, {}, {}, {}};
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        traceCamera(tile, left, bottom, b);
+        while (!tile.stack.empty())
+            traceSecondary(tile);
+    }
+    finish(tile);
+}
+
+} // namespace osgRayTrace::engine

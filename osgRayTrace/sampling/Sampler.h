@@ -1,0 +1,53 @@
+// Sampler.h - a random number for each (seed, pixel, pass, dimension). Layer: sampling.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/sampling/Sobol.h"
+
+namespace osgRayTrace::engine
+{
+
+/// What a dimension of a sample is used for. Each name is a two-dimensional point of its own; those from
+/// BounceFirst on repeat for each bounce, kDimensionsPerBounce apart.
+enum Dimension : uint32_t
+{
+    DimensionPixel = 0,
+    DimensionBounceFirst = 1,
+
+    DimensionBsdfDirection = 0, ///< offsets within a bounce
+    DimensionBsdfLobe = 1,      ///< x: lobe, y: Russian roulette
+    DimensionLightPoint = 2,
+    DimensionLightChoice = 3,
+};
+constexpr uint32_t kDimensionsPerBounce = 4;
+
+/// Passes alternate between two halves with independent sequences: their difference then estimates the
+/// error of their mean without bias. Sequences of halves, pixels, dimensions and seeds are independent.
+struct PassKey
+{
+    uint32_t seed = 0;  ///< hashed: user's seed and half
+    uint32_t index = 0; ///< number of the pass within its half
+};
+
+inline PassKey passKey(uint32_t userSeed, int pass)
+{
+    return {hash(userSeed, static_cast<uint32_t>(pass) & 1u), static_cast<uint32_t>(pass) >> 1};
+}
+
+/// The key of everything random about a pixel, for pixels up to 2^16 a side.
+OSGRAYTRACE_INLINE uint32_t pixelSeed(const PassKey& key, uint32_t x, uint32_t y)
+{
+    return hash(key.seed ^ hash(x | (y << 16)));
+}
+
+OSGRAYTRACE_INLINE uint32_t dimensionSeed(uint32_t pixelSeed, uint32_t dimension)
+{
+    return hash(pixelSeed + dimension * 0x9e3779b9u);
+}
+
+OSGRAYTRACE_INLINE uint32_t bounceDimension(int bounce, uint32_t offset)
+{
+    return DimensionBounceFirst + static_cast<uint32_t>(bounce) * kDimensionsPerBounce + offset;
+}
+
+} // namespace osgRayTrace::engine

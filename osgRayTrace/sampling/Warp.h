@@ -1,0 +1,51 @@
+// Warp.h - maps of the unit square to directions, each with its density. Layer: sampling.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Lanes.h"
+#include "osgRayTrace/base/Math.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+/// sin and cos of 2*pi*turn for turn in [0,1], absolute error below 2e-7. No calls and no tables, so
+/// that loops over lanes vectorize.
+OSGRAYTRACE_INLINE void sinCosTurn(float turn, float& sine, float& cosine)
+{
+    // Reduced to [-1/8, 1/8] of a turn around the nearest quarter, then Taylor series.
+    const int quarter = static_cast<int>(turn * 4.0f + 0.5f);
+    const float x = (turn - 0.25f * static_cast<float>(quarter)) * (2.0f * kPi);
+    const float x2 = x * x;
+    const float s = x * (1.0f + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040))));
+    const float c =
+        1.0f + x2 * (-0.5f + x2 * (1.0f / 24 + x2 * (-1.0f / 720 + x2 * (1.0f / 40320))));
+    const float swappedSine = (quarter & 1) ? c : s;
+    const float swappedCosine = (quarter & 1) ? s : c;
+    sine = (quarter & 2) ? -swappedSine : swappedSine;
+    cosine = ((quarter + 1) & 2) ? -swappedCosine : swappedCosine;
+}
+
+/// Cosine-distributed direction around +z: pdfW = cosTheta / pi.
+OSGRAYTRACE_INLINE Vec3 squareToCosineHemisphere(float u, float v)
+{
+    float sine, cosine;
+    sinCosTurn(u, sine, cosine);
+    const float radius = std::sqrt(v);
+    return Vec3(radius * cosine, radius * sine, std::sqrt(1.0f - v > 0.0f ? 1.0f - v : 0.0f));
+}
+
+inline float squareToCosineHemispherePdf(float cosTheta) { return std::max(cosTheta, 0.0f) * kInvPi; }
+
+/// Two unit vectors that make a right-handed frame with the unit normal n [Duff17, listing 3].
+OSGRAYTRACE_INLINE void frameOf(float nx, float ny, float nz, Vec3& tangent, Vec3& bitangent)
+{
+    const float sign = nz >= 0.0f ? 1.0f : -1.0f;
+    const float a = -1.0f / (sign + nz);
+    const float b = nx * ny * a;
+    tangent = Vec3(1.0f + sign * nx * nx * a, sign * b, -sign * nx);
+    bitangent = Vec3(b, sign + ny * ny * a, -ny);
+}
+
+} // namespace osgRayTrace::engine

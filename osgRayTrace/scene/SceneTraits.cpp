@@ -1,0 +1,54 @@
+// SceneTraits.cpp - looks through a scene once for what it needs. Layer: scene.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/scene/SceneTraits.h"
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Perceptual roughness below which a surface reflects like a mirror: alpha = 0.03^2 < 1e-3.
+constexpr float kMirrorRoughness = 0.0316f;
+
+void addMaterial(const Material& material, SceneTraits& traits)
+{
+    traits.textures |= material.baseColorTexture != kInvalid ||
+                       material.metallicRoughnessTexture != kInvalid ||
+                       material.transmissionTexture != kInvalid ||
+                       material.emissionTexture != kInvalid;
+    traits.vertexColors |= material.vertexColorUse != VertexColorUse::None;
+    if (material.model == MaterialModel::FixedFunction)
+    {
+        traits.fixedFunction = true;
+        return;
+    }
+    const bool reflects = material.metallic > 0.0f || material.ior != 1.0f;
+    traits.physical |= reflects || material.transmission > 0.0f || material.baseColor != Vec3(0.0f);
+    traits.specular |= reflects && material.roughness < kMirrorRoughness;
+    traits.transmission |= material.transmission > 0.0f && material.metallic < 1.0f;
+}
+
+} // namespace
+
+SceneTraits sceneTraits(const Scene& scene)
+{
+    SceneTraits traits;
+    for (const Instance& instance : scene.instances)
+    {
+        const Mesh& mesh = *scene.meshes[instance.mesh];
+        traits.instances |= instance.placed;
+        traits.smoothNormals |= !mesh.normals.empty();
+        traits.triangles += mesh.triangles.size();
+    }
+    for (const Material& material : scene.materials)
+        addMaterial(material, traits);
+    for (const Light& light : scene.lights)
+    {
+        const bool area = light.kind == LightKind::Parallelogram || light.kind == LightKind::Mesh;
+        (area ? traits.areaLights : traits.deltaLights) = true;
+    }
+    return traits;
+}
+
+} // namespace osgRayTrace::engine

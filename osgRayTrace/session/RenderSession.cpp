@@ -1,0 +1,348 @@
+// RenderSession.cpp - the progressive image of one view. Layer: session.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/session/RenderSession.h"
+
+#include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/film/Film.h"
+#include "osgRayTrace/film/Resolve.h"
+#include "osgRayTrace/integrators/FirstHit.h"
+#include "osgRayTrace/integrators/Integrator.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <new>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin)
+{
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// The scene's lights with those of eye space placed for the view.
+std::vector<Light> placedLights(const Scene& scene, const View& view)
+{
+    std::vector<Light> lights = scene.lights;
+    const Mat4d worldFromView = glm::inverse(view.viewFromWorld);
+    for (Light& light : lights)
+    {
+        if (!light.eyeSpace) continue;
+        light.position = Vec3(Vec3d(worldFromView * Vec4d(Vec3d(light.position), 1.0)) - scene.origin);
+        light.direction = glm::normalize(Vec3(glm::dmat3(worldFromView) * Vec3d(light.direction)));
+        light.eyeSpace = false;
+    }
+    return lights;
+}
+
+Vec3 viewerAxis(const View& view)
+{
+    const glm::dmat3 viewFromWorld(view.viewFromWorld);
+    return glm::normalize(Vec3(glm::transpose(viewFromWorld) * Vec3d(0.0, 0.0, 1.0)));
+}
+
+} // namespace
+
+struct RenderSession::Implementation
+{
+    explicit Implementation(std::shared_ptr<Workers> w) : workers(std::move(w)) {}
+
+    bool begin();
+    void renderPass(const PassContext& context, const Integrator& integrator);
+    double estimateError() const;
+    RenderProgress run(const StopRule& rule, const std::function<bool(const RenderProgress&)>& keepGoing);
+    PassContext contextOfPass(int pass) const;
+
+    std::shared_ptr<Workers> workers;
+
+    // Wanted next.
+    std::shared_ptr<const TracedScene> scene;
+    View view;
+    RenderOptions options;
+
+    // What the film holds.
+    std::shared_ptr<const TracedScene> filmScene;
+    View filmView;
+    RenderOptions filmOptions;
+    CameraRays camera;
+    std::vector<Light> lights;
+    Film film;
+    RenderProgress progress;
+
+    std::atomic<bool> cancelled{false}; // cancel(): any thread; render(): the session's and the workers
+};
+
+/// Restart or continue: decided here and nowhere else. True if there is something to render.
+bool RenderSession::Implementation::begin()
+{
+    const bool sameScene = scene == filmScene;
+    const bool restart = !sameScene || view != filmView || options.needsRestart(filmOptions);
+    progress.restarted = restart;
+    progress.status = {};
+    if (!scene)
+    {
+        progress.status = {StatusCode::EmptyScene, "there is no scene"};
+        return false;
+    }
+    if (!restart) return true;
+
+    const std::optional<CameraRays> rays = cameraRays(view, scene->scene().origin);
+    if (!rays)
+    {
+        progress.status = {StatusCode::InvalidView,
+                           "the view has no size, or matrices that cannot be inverted"};
+        return false;
+    }
+    film.reset(view.width, view.height);
+    camera = *rays;
+    filmScene = scene;
+    filmView = view;
+    filmOptions = options;
+    lights = placedLights(scene->scene(), view);
+    progress = RenderProgress();
+    progress.restarted = true;
+    progress.integrator = chooseIntegrator(options.integrator, scene->traits());
+    return true;
+}
+
+PassContext RenderSession::Implementation::contextOfPass(int pass) const
+{
+    PassContext context;
+    context.traced = filmScene.get();
+    context.lights = &lights;
+    context.camera = camera;
+    context.towardsViewer = viewerAxis(filmView);
+    context.options = filmOptions;
+    context.options.integrator = progress.integrator;
+    context.key = passKey(filmOptions.seed, pass);
+    context.wantsDepth = pass == 0;
+    return context;
+}
+
+/// Adds one pass to every tile that does not have it yet.
+void RenderSession::Implementation::renderPass(const PassContext& context, const Integrator& integrator)
+{
+    const int pass = film.passes();
+    std::mutex mutex; // progress: this thread and the workers
+    film.beginPass();
+    workers->forEach(static_cast<std::size_t>(film.tileCount()),
+                     [&](std::size_t index)
+                     {
+                         const int tile = static_cast<int>(index);
+                         if (film.tilePasses(tile) != pass) return;
+                         if (cancelled.load(std::memory_order_relaxed)) return;
+                         TileResult result;
+                         integrator.renderTile(context, film.tileX(tile), film.tileY(tile), result);
+                         if (context.wantsDepth)
+                             std::copy(result.depth, result.depth + kTilePixels, film.depth(tile));
+                         film.addPass(tile, result.rgba);
+                         std::lock_guard<std::mutex> lock(mutex);
+                         progress.rays.camera += result.counts.cameraRays;
+                         progress.rays.shadow += result.counts.shadowRays;
+                         progress.rays.secondary += result.counts.secondaryRays;
+                         progress.droppedSamples += result.counts.droppedSamples;
+                     });
+}
+
+/// Square root of the estimated mean squared relative error.
+double RenderSession::Implementation::estimateError() const
+{
+    if (film.passes() < 2) return std::numeric_limits<double>::infinity();
+    std::vector<Film::ErrorSum> sums(static_cast<std::size_t>(film.tileCount()));
+    workers->forEach(sums.size(), [&](std::size_t tile)
+                     { sums[tile] = film.relativeSquaredError(static_cast<int>(tile)); });
+    double sum = 0.0;
+    int64_t count = 0;
+    for (const Film::ErrorSum& tile : sums)
+    {
+        sum += tile.sum;
+        count += tile.count;
+    }
+    return count ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
+}
+
+RenderProgress RenderSession::Implementation::run(
+    const StopRule& rule, const std::function<bool(const RenderProgress&)>& keepGoing)
+{
+    cancelled = false;
+    if (!begin()) return progress;
+    const std::unique_ptr<Integrator> integrator = newIntegrator(progress.integrator);
+    const Clock::time_point start = Clock::now();
+    const bool wantsError = rule.relativeError > 0.0 || static_cast<bool>(keepGoing);
+    while (film.passes() < rule.passes)
+    {
+        if (secondsSince(start) >= rule.seconds) break;
+        const Clock::time_point passStart = Clock::now();
+        renderPass(contextOfPass(film.passes()), *integrator);
+        progress.seconds += secondsSince(passStart);
+        progress.passes = film.passes();
+        if (cancelled)
+        {
+            progress.status = {StatusCode::Cancelled, "the render was cancelled"};
+            break;
+        }
+        if (wantsError) progress.relativeError = estimateError();
+        if (rule.relativeError > 0.0 && progress.relativeError <= rule.relativeError) break;
+        if (keepGoing && !keepGoing(progress)) break;
+    }
+    return progress;
+}
+
+RenderSession::RenderSession(std::shared_ptr<Workers> workers)
+    : _implementation(std::make_unique<Implementation>(std::move(workers)))
+{
+}
+
+RenderSession::~RenderSession() = default;
+
+void RenderSession::setScene(std::shared_ptr<const TracedScene> scene)
+{
+    _implementation->scene = std::move(scene);
+}
+
+void RenderSession::setView(const View& view) { _implementation->view = view; }
+
+void RenderSession::setOptions(const RenderOptions& options) { _implementation->options = options; }
+
+RenderProgress RenderSession::render(const StopRule& rule,
+                                     const std::function<bool(const RenderProgress&)>& keepGoing)
+{
+    RenderProgress& progress = _implementation->progress;
+    try
+    {
+        return _implementation->run(rule, keepGoing);
+    }
+    catch (const EngineError& error)
+    {
+        progress.status = {error.code(), error.what()};
+    }
+    catch (const std::bad_alloc&)
+    {
+        progress.status = {StatusCode::OutOfMemory, "out of memory"};
+    }
+    catch (const std::exception& error)
+    {
+        progress.status = {StatusCode::DeviceFailure, error.what()};
+    }
+    return progress;
+}
+
+void RenderSession::cancel() { _implementation->cancelled = true; }
+
+double RenderSession::estimateRelativeError() const { return _implementation->estimateError(); }
+
+const RenderProgress& RenderSession::progress() const { return _implementation->progress; }
+int RenderSession::width() const { return _implementation->film.width(); }
+int RenderSession::height() const { return _implementation->film.height(); }
+
+std::vector<float> RenderSession::resolveRadiance() const
+{
+    const Film& film = _implementation->film;
+    std::vector<float> image(4 * static_cast<std::size_t>(film.width()) *
+                             static_cast<std::size_t>(film.height()));
+    const bool displayReferred =
+        _implementation->filmScene && _implementation->filmScene->scene().displayReferred;
+    _implementation->workers->forEach(
+        static_cast<std::size_t>(film.tileCount()), [&](std::size_t tile)
+        { resolveTileRadiance(film, static_cast<int>(tile), displayReferred, image.data()); });
+    return image;
+}
+
+void RenderSession::resolveDisplay(const ToneMap& toneMap, uint8_t* rgba, float* depth) const
+{
+    const Film& film = _implementation->film;
+    _implementation->workers->forEach(
+        static_cast<std::size_t>(film.tileCount()), [&](std::size_t tile)
+        { resolveTileDisplay(film, static_cast<int>(tile), toneMap, rgba, depth); });
+}
+
+int channelSize(Channel channel)
+{
+    switch (channel)
+    {
+    case Channel::Depth:
+    case Channel::Distance:
+    case Channel::Id: return 1;
+    case Channel::Normal:
+    case Channel::Albedo:
+    case Channel::Position:
+    case Channel::Error: return 3;
+    }
+    return 0;
+}
+
+namespace
+{
+
+void writeChannel(Channel channel, const FirstHit& hit, const Vec3d& origin, float* out)
+{
+    switch (channel)
+    {
+    case Channel::Distance: out[0] = hit.distance; return;
+    case Channel::Id: out[0] = hit.hit ? static_cast<float>(hit.instance + 1u) : 0.0f; return;
+    case Channel::Normal: std::copy_n(&hit.normal.x, 3, out); return;
+    case Channel::Albedo: std::copy_n(&hit.albedo.x, 3, out); return;
+    case Channel::Position:
+    {
+        const Vec3 world = hit.hit ? Vec3(origin + Vec3d(hit.position)) : Vec3(0.0f);
+        std::copy_n(&world.x, 3, out);
+        return;
+    }
+    case Channel::Depth:
+    case Channel::Error: return; // of the film
+    }
+}
+
+} // namespace
+
+std::vector<float> RenderSession::resolveChannel(Channel channel) const
+{
+    const Implementation& session = *_implementation;
+    const Film& film = session.film;
+    const auto size = static_cast<std::size_t>(channelSize(channel));
+    const auto width = static_cast<std::size_t>(film.width());
+    std::vector<float> image(size * width * static_cast<std::size_t>(film.height()));
+    if (image.empty() || !session.filmScene) return image;
+
+    const Scene& scene = session.filmScene->scene();
+    const PassContext context = session.contextOfPass(0);
+    session.workers->forEach(
+        static_cast<std::size_t>(film.tileCount()),
+        [&](std::size_t index)
+        {
+            const int tile = static_cast<int>(index);
+            const int left = film.tileX(tile), bottom = film.tileY(tile);
+            if (channel == Channel::Error)
+            {
+                resolveTileError(film, tile, scene.displayReferred, image.data());
+                return;
+            }
+            if (channel == Channel::Depth)
+            {
+                resolveTileDepth(film, tile, image.data());
+                return;
+            }
+            FirstHit hits[kTilePixels];
+            firstHits(context, left, bottom, hits);
+            for (int b = 0; b < kTileBlocks; ++b)
+                for (int i = 0; i < kLanes; ++i)
+                {
+                    const int x = left + laneX(b, i), y = bottom + laneY(b, i);
+                    if (x >= film.width() || y >= film.height()) continue;
+                    const std::size_t pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+                    writeChannel(channel, hits[b * kLanes + i], scene.origin, &image[size * pixel]);
+                }
+        });
+    return image;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,211 @@
+// Bsdf.cpp - samples and evaluates the surface model. Layer: shading.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/shading/Bsdf.h"
+
+#include "osgRayTrace/shading/Fresnel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+float coatFresnel(const Bsdf& bsdf, float cosTheta)
+{
+    return bsdf.coat > 0.0f ? bsdf.coat * fresnelDielectric(cosTheta, bsdf.eta) : 0.0f;
+}
+
+Vec3 reflectionFresnel(const Bsdf& bsdf, float cosTheta)
+{
+    return fresnelSchlick(cosTheta, bsdf.reflectance, bsdf.grazing) +
+           Vec3(coatFresnel(bsdf, cosTheta));
+}
+
+/// f cos of the base.
+Vec3 evalBase(const Bsdf& bsdf, Vec3 wo, Vec3 wi)
+{
+    const Vec3 lambert = bsdf.diffuse * (kInvPi * wi.z);
+    if (bsdf.coat == 0.0f) return lambert;
+    return lambert * ((1.0f - coatFresnel(bsdf, wi.z)) * (1.0f - coatFresnel(bsdf, wo.z)) /
+                      (1.0f - bsdf.coat * bsdf.coatAverage));
+}
+
+/// Probabilities of the three lobes for wo; they sum to 1, or are all 0 for a black surface.
+struct LobePmf
+{
+    float base = 0.0f;
+    float reflection = 0.0f;
+    float refraction = 0.0f;
+};
+
+LobePmf lobePmf(const Bsdf& bsdf, Vec3 wo)
+{
+    const float coat = coatFresnel(bsdf, wo.z);
+    LobePmf pmf;
+    pmf.base = luminance(bsdf.diffuse) * (1.0f - coat);
+    if (bsdf.reflects()) pmf.reflection = luminance(reflectionFresnel(bsdf, wo.z));
+    if (bsdf.transmits())
+        pmf.refraction = luminance(bsdf.transmission) * (1.0f - coat / std::max(bsdf.coat, 1e-20f));
+    const float sum = pmf.base + pmf.reflection + pmf.refraction;
+    if (!(sum > 0.0f)) return {};
+    pmf.base /= sum;
+    pmf.reflection /= sum;
+    pmf.refraction = std::max(0.0f, pmf.refraction / sum);
+    return pmf;
+}
+
+/// Radiance is compressed into the smaller solid angle of the denser side [Veach97, sect. 5.2].
+float refractionScale(const Bsdf& bsdf, Transport transport)
+{
+    return transport == Transport::Radiance ? 1.0f / (bsdf.eta * bsdf.eta) : 1.0f;
+}
+
+void addReflection(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, BsdfValue& value)
+{
+    const Vec3 sum = wo + wi;
+    const float length2 = glm::dot(sum, sum);
+    if (length2 < 1e-14f) return;
+    const Vec3 h = sum / std::sqrt(length2);
+    const float cosH = glm::dot(wo, h);
+    const float d = evalGgx(h, bsdf.alpha);
+    value.fCos += reflectionFresnel(bsdf, cosH) * (d * ggxG2(wo, wi, bsdf.alpha) / (4.0f * wo.z));
+    value.pdfW += pmf * ggxG1(wo, bsdf.alpha) * d / (4.0f * wo.z);
+}
+
+void addRefraction(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, Transport transport,
+                   BsdfValue& value)
+{
+    if (bsdf.eta == 1.0f) return; // an invisible interface is a delta function at any roughness
+    Vec3 h = -(wo + wi * bsdf.eta);
+    const float length2 = glm::dot(h, h);
+    if (length2 < 1e-14f) return;
+    h /= std::sqrt(length2);
+    if (h.z < 0.0f) h = -h;
+    const float cosO = glm::dot(wo, h);
+    const float cosI = glm::dot(wi, h);
+    if (cosO <= 0.0f || cosI >= 0.0f) return;
+    const float denominator = cosO + bsdf.eta * cosI;
+    if (denominator == 0.0f) return;
+
+    const float d = evalGgx(h, bsdf.alpha);
+    const float jacobian = bsdf.eta * bsdf.eta * -cosI / (denominator * denominator);
+    const float transmittance = 1.0f - fresnelDielectric(cosO, bsdf.eta);
+    // Masking and shadowing on opposite sides multiply [Walter07, eq. 23].
+    const float g = ggxG1(wo, bsdf.alpha) * ggxG1(-wi, bsdf.alpha);
+    value.fCos += bsdf.transmission *
+                  (transmittance * d * g * cosO * jacobian * refractionScale(bsdf, transport) / wo.z);
+    value.pdfW += pmf * ggxG1(wo, bsdf.alpha) * cosO * d / wo.z * jacobian;
+}
+
+std::optional<BsdfSample> sampleSmooth(const Bsdf& bsdf, Vec3 wo, const LobePmf& pmf, bool reflect,
+                                       Transport transport)
+{
+    BsdfSample sample;
+    sample.delta = true;
+    if (reflect)
+    {
+        sample.wi = Vec3(-wo.x, -wo.y, wo.z);
+        sample.pdfW = pmf.reflection;
+        sample.weight = reflectionFresnel(bsdf, wo.z) / pmf.reflection;
+        return sample;
+    }
+    const std::optional<Vec3> wi = refract(wo, Vec3(0.0f, 0.0f, 1.0f), bsdf.eta);
+    if (!wi) return std::nullopt;
+    sample.wi = *wi;
+    sample.pdfW = pmf.refraction;
+    sample.weight = bsdf.transmission * ((1.0f - fresnelDielectric(wo.z, bsdf.eta)) *
+                                         refractionScale(bsdf, transport) / pmf.refraction);
+    sample.transmitted = true;
+    return sample;
+}
+
+} // namespace
+
+std::optional<Vec3> refract(Vec3 wo, Vec3 h, float eta)
+{
+    const float cosI = glm::dot(wo, h);
+    const float sin2T = std::max(0.0f, 1.0f - cosI * cosI) / (eta * eta);
+    if (sin2T >= 1.0f) return std::nullopt;
+    const float cosT = std::sqrt(1.0f - sin2T);
+    return glm::normalize(-wo / eta + h * (cosI / eta - cosT));
+}
+
+std::optional<BsdfSample> sampleBsdf(const Bsdf& bsdf, Vec3 wo, float uLobe, float u, float v,
+                                     Transport transport)
+{
+    if (!(wo.z > 0.0f)) return std::nullopt;
+    const LobePmf pmf = lobePmf(bsdf, wo);
+    if (pmf.base + pmf.reflection + pmf.refraction <= 0.0f) return std::nullopt;
+
+    const bool base = uLobe < pmf.base;
+    const bool reflect = !base && (uLobe < pmf.base + pmf.reflection || pmf.refraction <= 0.0f);
+    BsdfSample sample;
+    if (base)
+    {
+        sample.wi = squareToCosineHemisphere(u, v);
+        if (!(sample.wi.z > 0.0f)) return std::nullopt;
+    }
+    else if (bsdf.isSmooth() || (!reflect && bsdf.eta == 1.0f))
+    {
+        return sampleSmooth(bsdf, wo, pmf, reflect, transport);
+    }
+    else
+    {
+        const Vec3 h = sampleGgxVisible(wo, bsdf.alpha, u, v);
+        if (reflect)
+        {
+            sample.wi = h * (2.0f * glm::dot(wo, h)) - wo;
+            if (!(sample.wi.z > 0.0f)) return std::nullopt;
+        }
+        else
+        {
+            const std::optional<Vec3> wi = refract(wo, h, bsdf.eta);
+            if (!wi || !(wi->z < 0.0f)) return std::nullopt;
+            sample.wi = *wi;
+            sample.transmitted = true;
+        }
+    }
+    const BsdfValue value = evalBsdf(bsdf, wo, sample.wi, transport);
+    if (!(value.pdfW > 0.0f)) return std::nullopt;
+    sample.pdfW = value.pdfW;
+    sample.weight = value.fCos / value.pdfW;
+    return sample;
+}
+
+BsdfValue evalBsdf(const Bsdf& bsdf, Vec3 wo, Vec3 wi, Transport transport)
+{
+    BsdfValue value;
+    if (!(wo.z > 0.0f) || wi.z == 0.0f) return value;
+    const LobePmf pmf = lobePmf(bsdf, wo);
+    if (wi.z > 0.0f)
+    {
+        value.fCos = evalBase(bsdf, wo, wi);
+        value.pdfW = pmf.base * squareToCosineHemispherePdf(wi.z);
+        if (bsdf.reflects() && !bsdf.isSmooth()) addReflection(bsdf, wo, wi, pmf.reflection, value);
+    }
+    else if (bsdf.transmits() && !bsdf.isSmooth())
+    {
+        addRefraction(bsdf, wo, wi, pmf.refraction, transport, value);
+    }
+    return value;
+}
+
+SpecularLobes specularLobes(const Bsdf& bsdf, Vec3 wo)
+{
+    SpecularLobes lobes;
+    if (!(wo.z > 0.0f)) return lobes;
+    const bool smooth = bsdf.isSmooth();
+    if (bsdf.reflects() && smooth) lobes.reflection = reflectionFresnel(bsdf, wo.z);
+    if (!bsdf.transmits() || !(smooth || bsdf.eta == 1.0f)) return lobes;
+    const std::optional<Vec3> refracted = refract(wo, Vec3(0.0f, 0.0f, 1.0f), bsdf.eta);
+    if (!refracted) return lobes;
+    lobes.refracted = *refracted;
+    lobes.refraction = bsdf.transmission * ((1.0f - fresnelDielectric(wo.z, bsdf.eta)) *
+                                            refractionScale(bsdf, Transport::Radiance));
+    return lobes;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,40 @@
+// Fresnel.h - how much an interface reflects. Layer: shading.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Math.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+/// Unpolarized reflectance of a dielectric for an angle of incidence with cosine cosThetaI >= 0, eta the
+/// index on the far side over that on the near side. 1 on total internal reflection. [Walter07, eq. 22]
+inline float fresnelDielectric(float cosThetaI, float eta)
+{
+    if (eta == 1.0f) return 0.0f;
+    const float c = std::fabs(cosThetaI);
+    const float g2 = eta * eta - 1.0f + c * c;
+    if (g2 <= 0.0f) return 1.0f;
+    const float g = std::sqrt(g2);
+    // g - c loses its digits for indices near 1: (g^2 - c^2) / (g + c) keeps them.
+    const float gMinusC = (eta - 1.0f) * (eta + 1.0f) / (g + c);
+    const float a = gMinusC / (g + c);
+    const float b = (c * (g + c) - 1.0f) / (c * gMinusC + 1.0f);
+    return 0.5f * a * a * (1.0f + b * b);
+}
+
+/// Reflectance averaged over cosine-weighted incidence: int 2 F(c) c dc, by quadrature to about 1e-4. Used to
+/// couple a diffuse base to its coat. Not for inner loops.
+float fresnelDielectricAverage(float eta);
+
+/// Schlick's approximation between the reflectances at normal and at grazing incidence [Schlick94, eq. 24].
+inline Vec3 fresnelSchlick(float cosTheta, Vec3 f0, float f90)
+{
+    const float m = 1.0f - std::fmin(std::fmax(cosTheta, 0.0f), 1.0f);
+    const float m2 = m * m;
+    return f0 + (Vec3(f90) - f0) * (m2 * m2 * m);
+}
+
+} // namespace osgRayTrace::engine

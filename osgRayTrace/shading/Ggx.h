@@ -1,0 +1,65 @@
+// Ggx.h - the isotropic GGX microfacet distribution, in a local frame with the normal at +z.
+// Layer: shading.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/sampling/Warp.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+/// Below this width a surface is treated as perfectly smooth.
+constexpr float kSmoothAlpha = 1e-3f;
+
+/// Density of microfacet normals [1/sr] [Walter07, eq. 33], from the tangential part of h, which keeps its
+/// digits near the peak.
+inline float evalGgx(Vec3 h, float alpha)
+{
+    const float tangential2 = h.x * h.x + h.y * h.y;
+    const float a2 = alpha * alpha;
+    const float d = tangential2 + a2 * h.z * h.z;
+    return a2 / (kPi * d * d);
+}
+
+/// Smith's Lambda [Heitz14, eq. 72].
+inline float ggxLambda(Vec3 w, float alpha)
+{
+    const float cos2 = w.z * w.z;
+    const float sin2 = w.x * w.x + w.y * w.y;
+    if (cos2 <= 0.0f) return std::numeric_limits<float>::max();
+    return 0.5f * (std::sqrt(1.0f + alpha * alpha * sin2 / cos2) - 1.0f);
+}
+
+/// Masking of one direction [Heitz14, eq. 43].
+inline float ggxG1(Vec3 w, float alpha) { return 1.0f / (1.0f + ggxLambda(w, alpha)); }
+
+/// Height-correlated masking and shadowing of two directions on the same side [Heitz14, eq. 99].
+inline float ggxG2(Vec3 wo, Vec3 wi, float alpha)
+{
+    return 1.0f / (1.0f + ggxLambda(wo, alpha) + ggxLambda(wi, alpha));
+}
+
+/// A microfacet normal visible from wo (wo.z > 0), by spherical caps [Dupuy23, listing 3].
+inline Vec3 sampleGgxVisible(Vec3 wo, float alpha, float u, float v)
+{
+    const Vec3 stretched = glm::normalize(Vec3(alpha * wo.x, alpha * wo.y, wo.z));
+    float sine, cosine;
+    sinCosTurn(u, sine, cosine);
+    const float z = (1.0f - v) * (1.0f + stretched.z) - stretched.z;
+    const float radius = std::sqrt(std::fmin(std::fmax(1.0f - z * z, 0.0f), 1.0f));
+    const Vec3 cap(radius * cosine, radius * sine, z);
+    const Vec3 h = cap + stretched;
+    const Vec3 normal(alpha * h.x, alpha * h.y, std::fmax(h.z, 1e-30f));
+    return glm::normalize(normal);
+}
+
+/// Density of sampleGgxVisible [1/sr] [Heitz18, eq. 3].
+inline float pdfGgxVisible(Vec3 wo, Vec3 h, float alpha)
+{
+    return ggxG1(wo, alpha) * std::fmax(glm::dot(wo, h), 0.0f) * evalGgx(h, alpha) / wo.z;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,195 @@
+// LightTable.cpp - the lights of a scene, ready to be sampled. Layer: shading.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/shading/LightTable.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+bool isArea(const Light& light)
+{
+    return light.kind == LightKind::Parallelogram || light.kind == LightKind::Mesh;
+}
+
+/// As for surface points: see surfacesOf.
+constexpr float kOffsetScale = 32.0f * 0x1p-24f;
+
+float sumAbs(Vec3 v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
+
+/// Index of the entry of a cumulative distribution that u in [0,1) falls into, and u rescaled to it.
+std::size_t pick(const std::vector<float>& cumulative, float& u)
+{
+    const auto at = std::upper_bound(cumulative.begin(), cumulative.end() - 1, u);
+    const auto index = static_cast<std::size_t>(at - cumulative.begin());
+    const float low = index ? cumulative[index - 1] : 0.0f;
+    const float width = cumulative[index] - low;
+    u = width > 0.0f ? std::min((u - low) / width, kOneMinusEpsilon) : 0.0f;
+    return index;
+}
+
+/// Running sums, in double, scaled to end at exactly 1. Empty if all weights are 0.
+std::vector<float> cumulativeOf(const std::vector<double>& weights)
+{
+    double total = 0.0;
+    for (const double w : weights)
+        total += w;
+    if (!(total > 0.0)) return {};
+    std::vector<float> cumulative;
+    cumulative.reserve(weights.size());
+    double sum = 0.0;
+    for (const double w : weights)
+        cumulative.push_back(static_cast<float>((sum += w) / total));
+    cumulative.back() = 1.0f;
+    return cumulative;
+}
+
+} // namespace
+
+LightTable::LightTable(const Scene& scene)
+    : _scene(&scene), _areas(scene.lights.size(), 0.0f), _offsets(scene.lights.size(), 0.0f), _pmfs(scene.lights.size(), 0.0f),
+      _meshes(scene.lights.size())
+{
+    std::vector<double> powers;
+    for (uint32_t i = 0; i < scene.lights.size(); ++i)
+    {
+        const Light& light = scene.lights[i];
+        if (!isArea(light))
+        {
+            _deltaLights.push_back(i);
+            continue;
+        }
+        if (light.kind == LightKind::Parallelogram)
+        {
+            _areas[i] = glm::length(glm::cross(light.edgeU, light.edgeV));
+            _offsets[i] = kOffsetScale * (sumAbs(light.corner) + sumAbs(light.edgeU) + sumAbs(light.edgeV));
+        }
+        else
+            addMesh(scene, i);
+        const double power = double(luminance(light.radiance)) * _areas[i] *
+                             (light.twoSided || light.kind == LightKind::Mesh ? 2.0 : 1.0);
+        if (!(power > 0.0) || !std::isfinite(power)) continue;
+        _areaLights.push_back(i);
+        powers.push_back(power);
+    }
+    _cumulative = cumulativeOf(powers);
+    for (std::size_t k = 0; k < _areaLights.size(); ++k)
+        _pmfs[_areaLights[k]] = _cumulative[k] - (k ? _cumulative[k - 1] : 0.0f);
+}
+
+void LightTable::addMesh(const Scene& scene, uint32_t index)
+{
+    const Instance& instance = scene.instances[scene.lights[index].instance];
+    const Mesh& mesh = *scene.meshes[instance.mesh];
+    EmissiveMesh& emissive = _meshes[index];
+    std::vector<double> areas;
+    double total = 0.0;
+    float largest = 0.0f;
+    for (const UVec3& t : mesh.triangles)
+    {
+        Vec3 p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
+        if (instance.placed)
+            for (Vec3& q : p)
+                q = transformPoint(instance.engineFromLocal, q);
+        EmissiveMesh::Triangle triangle{p[0], p[1] - p[0], p[2] - p[0], Vec2(0.0f), Vec2(0.0f), Vec2(0.0f)};
+        if (!mesh.uvs.empty())
+        {
+            triangle.ua = mesh.uvs[t.x];
+            triangle.uab = mesh.uvs[t.y] - triangle.ua;
+            triangle.uac = mesh.uvs[t.z] - triangle.ua;
+        }
+        const double area = 0.5 * glm::length(glm::cross(glm::dvec3(triangle.ab), glm::dvec3(triangle.ac)));
+        if (!(area > 0.0)) continue;
+        emissive.triangles.push_back(triangle);
+        largest = std::max(largest, sumAbs(p[0]) + sumAbs(triangle.ab) + sumAbs(triangle.ac));
+        areas.push_back(area);
+        total += area;
+    }
+    emissive.cumulative = cumulativeOf(areas);
+    _areas[index] = static_cast<float>(total);
+    _offsets[index] = kOffsetScale * largest;
+}
+
+LightTable::Choice LightTable::chooseAreaLight(float u) const
+{
+    if (_areaLights.empty()) return {};
+    if (_areaLights.size() == 1) return {_areaLights[0], 1.0f};
+    const uint32_t light = _areaLights[pick(_cumulative, u)];
+    return {light, _pmfs[light]};
+}
+
+std::optional<AreaLightSample> LightTable::sampleArea(uint32_t index, Vec3 p, float u, float v) const
+{
+    const Light& light = _scene->lights[index];
+    if (light.kind == LightKind::Mesh) return sampleMesh(index, p, u, v);
+
+    const Vec3 normal = glm::normalize(glm::cross(light.edgeU, light.edgeV));
+    const Vec3 q = light.corner + u * light.edgeU + v * light.edgeV;
+    return sampleAt(index, p, q, normal, Vec2(u, v), light.twoSided);
+}
+
+std::optional<AreaLightSample> LightTable::sampleMesh(uint32_t index, Vec3 p, float u, float v) const
+{
+    const EmissiveMesh& mesh = _meshes[index];
+    if (mesh.cumulative.empty()) return std::nullopt;
+    const EmissiveMesh::Triangle& t = mesh.triangles[pick(mesh.cumulative, u)];
+    // Uniform on the triangle, folding the square along its diagonal: keeps strata together.
+    if (u + v > 1.0f)
+    {
+        u = 1.0f - u;
+        v = 1.0f - v;
+    }
+    const Vec3 normal = glm::normalize(glm::cross(t.ab, t.ac));
+    return sampleAt(index, p, t.a + u * t.ab + v * t.ac, normal, t.ua + u * t.uab + v * t.uac, true);
+}
+
+std::optional<AreaLightSample> LightTable::sampleAt(uint32_t index, Vec3 p, Vec3 q, Vec3 normal, Vec2 uv,
+                                                    bool twoSided) const
+{
+    const Vec3 d = q - p;
+    const float distance2 = glm::dot(d, d);
+    if (!(distance2 > 0.0f)) return std::nullopt;
+    AreaLightSample sample;
+    sample.distance = std::sqrt(distance2);
+    sample.wi = d / sample.distance;
+    const float cosine = -glm::dot(sample.wi, normal);
+    sample.cosThetaL = twoSided ? std::fabs(cosine) : cosine;
+    if (!(sample.cosThetaL > 0.0f)) return std::nullopt;
+    sample.uv = uv;
+    sample.pdfW = pdfArea(index, sample.distance, sample.cosThetaL);
+    sample.target = q + normal * (cosine >= 0.0f ? _offsets[index] : -_offsets[index]);
+    return sample;
+}
+
+DeltaLightSample sampleDelta(const Light& light, Vec3 p)
+{
+    DeltaLightSample sample;
+    if (light.kind == LightKind::Directional)
+    {
+        sample.wi = -light.direction;
+        sample.attenuation = 1.0f;
+        return sample;
+    }
+    const Vec3 d = light.position - p;
+    const float distance2 = glm::dot(d, d);
+    if (!(distance2 > 0.0f)) return sample;
+    sample.distance = std::sqrt(distance2);
+    sample.wi = d / sample.distance;
+    const float falloff = light.attenuationConstant + light.attenuationLinear * sample.distance +
+                          light.attenuationQuadratic * distance2;
+    sample.attenuation = falloff > 0.0f ? 1.0f / falloff : 0.0f;
+    if (light.spotCosCutoff > -1.0f)
+    {
+        const float cosine = -glm::dot(sample.wi, light.direction);
+        sample.attenuation *= cosine >= light.spotCosCutoff && cosine > 0.0f
+                                  ? std::pow(cosine, light.spotExponent)
+                                  : 0.0f;
+    }
+    return sample;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,96 @@
+// LightTable.h - the lights of a scene, ready to be sampled. Layer: shading.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/scene/Scene.h"
+
+#include <optional>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// A point on an area light as seen from a point to be lit.
+struct AreaLightSample
+{
+    Vec3 wi{0.0f};        ///< unit, from the lit point towards the light
+    float distance = 0.0f;
+    float cosThetaL = 0.0f; ///< cosine at the light, > 0 on an emitting side
+    Vec2 uv{0.0f};        ///< texture coordinates there
+    float pdfW = 0.0f;    ///< [1/sr] with respect to the lit point
+    Vec3 target{0.0f};    ///< the point, moved to the lit side clear of the light's own surface
+};
+
+/// What a directional, point or spot light sends to a point.
+struct DeltaLightSample
+{
+    Vec3 wi{0.0f};        ///< unit, towards the light
+    float distance = kInfinity;
+    float attenuation = 0.0f; ///< distance and spot terms [OpenGL21, eq. 2.2, 2.3]
+};
+
+/// An emitting mesh as a distribution over its triangles, by area.
+struct EmissiveMesh
+{
+    struct Triangle
+    {
+        Vec3 a, ab, ac;  ///< engine space
+        Vec2 ua, uab, uac;
+    };
+    std::vector<Triangle> triangles;
+    std::vector<float> cumulative; ///< of areas, the last is 1
+};
+
+/// Built once for a scene; thread safe.
+class LightTable
+{
+public:
+    explicit LightTable(const Scene& scene);
+
+    const std::vector<uint32_t>& areaLights() const { return _areaLights; }
+    const std::vector<uint32_t>& deltaLights() const { return _deltaLights; }
+
+    /// Area of an area light [length^2], by index into Scene::lights. 0: never sampled.
+    float area(uint32_t light) const { return _areas[light]; }
+
+    /// How far a point on the light may be off it by rounding [length].
+    float pointOffset(uint32_t light) const { return _offsets[light]; }
+
+    /// Chooses one of the area lights in proportion to power. u in [0,1). Nothing without lights.
+    struct Choice
+    {
+        uint32_t light = kInvalid;
+        float pmf = 0.0f;
+    };
+    Choice chooseAreaLight(float u) const;
+    float areaLightPmf(uint32_t light) const { return _pmfs[light]; }
+
+    /// A point on an area light, uniform by area. u, v in [0,1). Nothing if it is seen from its dark side.
+    std::optional<AreaLightSample> sampleArea(uint32_t light, Vec3 p, float u, float v) const;
+
+    /// [1/sr] of sampleArea for a ray that hit the light at a distance under a cosine.
+    float pdfArea(uint32_t light, float distance, float cosThetaL) const
+    {
+        return distance * distance / (_areas[light] * cosThetaL);
+    }
+
+private:
+    std::optional<AreaLightSample> sampleMesh(uint32_t index, Vec3 p, float u, float v) const;
+    std::optional<AreaLightSample> sampleAt(uint32_t index, Vec3 p, Vec3 q, Vec3 normal, Vec2 uv,
+                                            bool twoSided) const;
+    void addMesh(const Scene& scene, uint32_t index);
+
+    const Scene* _scene;
+    std::vector<uint32_t> _areaLights;
+    std::vector<uint32_t> _deltaLights;
+    std::vector<float> _areas;        ///< a light
+    std::vector<float> _offsets;      ///< a light
+    std::vector<float> _pmfs;         ///< a light
+    std::vector<float> _cumulative;   ///< an area light; the last is 1
+    std::vector<EmissiveMesh> _meshes; ///< a light; empty unless LightKind::Mesh
+};
+
+/// Directional and Point lights; light.eyeSpace must have been resolved.
+DeltaLightSample sampleDelta(const Light& light, Vec3 p);
+
+} // namespace osgRayTrace::engine

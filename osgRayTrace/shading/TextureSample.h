@@ -1,0 +1,14 @@
+// TextureSample.h - looks a colour up in a texture. Layer: shading.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/scene/Material.h"
+
+namespace osgRayTrace::engine
+{
+
+/// RGBA at uv (unit square is the image once, v upwards), filtered and wrapped as the texture says and
+/// decoded to linear if it asks for that. Any uv; not finite ones give the corner texel.
+Vec4 sampleTexture(const Texture& texture, Vec2 uv);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,48 @@
+# Installs the library, moves the install elsewhere, and builds and runs the consumer project with it.
+cmake_minimum_required(VERSION 3.24)
+
+function(run)
+    execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "${ARGV}\n${output}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE "${WORK}")
+run(${CMAKE_COMMAND} --install "${LIBRARY_BUILD}" --prefix "${WORK}/installed")
+file(RENAME "${WORK}/installed" "${WORK}/moved")
+
+# Public headers only, and all of them.
+file(GLOB headers RELATIVE "${WORK}/moved/include/osgRayTrace" "${WORK}/moved/include/osgRayTrace/*")
+list(REMOVE_ITEM headers Export offscreen)
+string(REPLACE "," ";" expected "${PUBLIC_HEADERS}")
+list(TRANSFORM expected REPLACE "^.*/" "")
+list(SORT headers)
+list(SORT expected)
+if(NOT headers STREQUAL expected)
+    message(FATAL_ERROR "Installed headers are '${headers}', public ones '${expected}'")
+endif()
+
+# The package names nothing by a path of the machine that built it.
+file(GLOB packageFiles "${WORK}/moved/${LIBDIR}/cmake/osgRayTrace/*.cmake")
+foreach(file IN LISTS packageFiles)
+    file(STRINGS "${file}" paths REGEX "(/usr/|\\.a[\"; ]|embree|tbb|glm)")
+    file(STRINGS "${file}" lines)
+    foreach(line IN LISTS lines)
+        string(FIND "${line}" "${LIBRARY_SOURCE}" inSource)
+        string(FIND "${line}" "${LIBRARY_BUILD}" inBuild)
+        if(inSource GREATER_EQUAL 0 OR inBuild GREATER_EQUAL 0)
+            list(APPEND paths "${line}")
+        endif()
+    endforeach()
+    if(paths)
+        message(FATAL_ERROR "${file} holds what only the building machine knows: ${paths}")
+    endif()
+endforeach()
+
+run(${CMAKE_COMMAND} -S "${SOURCE}" -B "${WORK}/build" -G "${GENERATOR}" -D CMAKE_BUILD_TYPE=Release
+    -D "CMAKE_CXX_COMPILER=${COMPILER}" -D "CMAKE_PREFIX_PATH=${WORK}/moved")
+run(${CMAKE_COMMAND} --build "${WORK}/build")
+run("${WORK}/build/consumer")
+message(NOTICE "${output}")

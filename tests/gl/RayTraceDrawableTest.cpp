@@ -1,0 +1,356 @@
+// RayTraceDrawableTest.cpp - the drawable and its decorator under a viewer. Layer: tests.
+// SPDX-License-Identifier: MIT
+#include "TestViewer.h"
+#include "tests/Catch.h"
+
+#include <osg/Material>
+#include <osg/MatrixTransform>
+#include <osg/Switch>
+#include <osgUtil/IntersectionVisitor>
+#include <osgUtil/LineSegmentIntersector>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::test;
+
+namespace
+{
+
+const osg::Vec4 kGreen(0.0f, 1.0f, 0.0f, 1.0f);
+const osg::Vec4 kGreenPixel(0, 255, 0, 255);
+const osg::Vec4 kBlackPixel(0, 0, 0, 255);
+constexpr int kSize = 64;
+constexpr int kMiddle = kSize / 2;
+
+osg::ref_ptr<RayTracedScene> greenScene() { return tracedScene(unlitSquare(1.0f, kGreen).get()); }
+
+/// The debug channel of normals: something that no rasterizer shows.
+void showNormals(RayTracedScene& scene) { scene.getSettings()->setIntegrator(RayTraceSettings::DEBUG); }
+
+int passes(const RayTracedScene& scene) { return scene.getDrawable()->getStatistics().passes; }
+
+int countGreen(const osg::Image& image)
+{
+    int count = 0;
+    for (int y = 0; y < image.t(); ++y)
+        for (int x = 0; x < image.s(); ++x)
+            count += pixel(image, x, y) == kGreenPixel;
+    return count;
+}
+
+} // namespace
+
+TEST_CASE("traced scene: disabled it is the rasterizer, at once, and back", "[gl]")
+{
+    osg::ref_ptr<osg::Group> plain = new osg::Group;
+    plain->addChild(sphere(osg::Vec3(), 2.0f, osg::Vec4(0.7f, 0.5f, 0.3f, 1.0f)));
+    TestViewer rasterizer(kSize, kSize, plain.get());
+    const osg::ref_ptr<osg::Image> rasterized = rasterizer.frames();
+
+    osg::ref_ptr<RayTracedScene> scene = tracedScene(plain.get());
+    showNormals(*scene);
+    TestViewer view(kSize, kSize, scene.get());
+    CHECK(meanDifference(*view.frames(), *rasterized) > 10.0);
+    scene->setEnabled(false);
+    CHECK(equal(*view.frames(), *rasterized));
+    scene->setEnabled(true);
+    CHECK(meanDifference(*view.frames(), *rasterized) > 10.0);
+}
+
+TEST_CASE("traced scene: passes add up while nothing changes, and stop at the most", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = greenScene();
+    scene->getSettings()->setMaxPasses(5);
+    scene->getSettings()->setPassesPerFrame(2);
+    TestViewer view(kSize, kSize, scene.get());
+    for (int expected : {2, 4, 5, 5})
+    {
+        view.frames();
+        CHECK(passes(*scene) == expected);
+    }
+    CHECK(scene->getDrawable()->getStatistics().cameraRays == 5u * kSize * kSize);
+    CHECK(scene->getDrawable()->getStatistics().triangles == 2u);
+
+    view.look(osg::Vec3d(0.0, 0.5, 10.0));
+    view.frames();
+    CHECK(passes(*scene) == 2);
+}
+
+TEST_CASE("traced scene: a change shows in the next frame", "[gl]")
+{
+    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform;
+    osg::ref_ptr<osg::Switch> node = new osg::Switch;
+    osg::ref_ptr<osg::Geometry> square = unlitSquare(1.0f, kGreen);
+    transform->addChild(node);
+    node->addChild(square);
+    osg::ref_ptr<RayTracedScene> scene = tracedScene(transform.get());
+    TestViewer view(kSize, kSize, scene.get());
+    REQUIRE(pixel(*view.frames(), kMiddle, kMiddle) == kGreenPixel);
+    REQUIRE(passes(*scene) == 1);
+
+    SECTION("transform")
+    {
+        transform->setMatrix(osg::Matrix::translate(2.0, 0.0, 0.0));
+        const osg::ref_ptr<osg::Image> moved = view.frames();
+        CHECK(pixel(*moved, kMiddle, kMiddle) == kBlackPixel);
+        CHECK(pixel(*moved, kMiddle + 17, kMiddle) == kGreenPixel);
+    }
+    SECTION("node mask")
+    {
+        transform->setNodeMask(0);
+        CHECK(pixel(*view.frames(), kMiddle, kMiddle) == kBlackPixel);
+    }
+    SECTION("switch")
+    {
+        node->setAllChildrenOff();
+        CHECK(pixel(*view.frames(), kMiddle, kMiddle) == kBlackPixel);
+    }
+    SECTION("children")
+    {
+        scene->removeChild(transform.get());
+        CHECK(pixel(*view.frames(), kMiddle, kMiddle) == kBlackPixel);
+    }
+    SECTION("vertex colours")
+    {
+        static_cast<osg::Vec4Array*>(square->getColorArray())->front().set(1.0f, 0.0f, 0.0f, 1.0f);
+        square->getColorArray()->dirty();
+        CHECK(pixel(*view.frames(), kMiddle, kMiddle) == osg::Vec4(255, 0, 0, 255));
+    }
+    SECTION("vertex colours without a sign, then dirtyScene")
+    {
+        static_cast<osg::Vec4Array*>(square->getColorArray())->front().set(1.0f, 0.0f, 0.0f, 1.0f);
+        view.frames();
+        scene->dirtyScene();
+        square->getColorArray()->dirty();
+        CHECK(pixel(*view.frames(), kMiddle, kMiddle) == osg::Vec4(255, 0, 0, 255));
+    }
+    SECTION("state of the decorator itself")
+    {
+        osg::ref_ptr<osg::Material> material = new osg::Material;
+        material->setEmission(osg::Material::FRONT_AND_BACK, osg::Vec4(0.0f, 0.0f, 1.0f, 1.0f));
+        material->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
+        material->setAmbient(osg::Material::FRONT_AND_BACK, osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
+        scene->getOrCreateStateSet()->setAttribute(material, osg::StateAttribute::OVERRIDE);
+        scene->getOrCreateStateSet()->setMode(
+            GL_LIGHTING, osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+        CHECK(pixel(*view.frames(), kMiddle, kMiddle) == osg::Vec4(0, 0, 255, 255));
+        material->setEmission(osg::Material::FRONT_AND_BACK, osg::Vec4(1.0f, 0.0f, 0.0f, 1.0f));
+        CHECK(pixel(*view.frames(), kMiddle, kMiddle) == osg::Vec4(255, 0, 0, 255));
+    }
+    SECTION("nothing: the image goes on")
+    {
+        view.frames();
+        CHECK(passes(*scene) == 2);
+    }
+}
+
+TEST_CASE("traced scene: osgViewer's light is found, and followed", "[gl]")
+{
+    osg::ref_ptr<osg::Geometry> square = unlitSquare(1.0f, osg::Vec4(1, 1, 1, 1));
+    square->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
+    osg::ref_ptr<RayTracedScene> scene = tracedScene(square.get());
+    // A transform above: the light must be the same in the scene's own coordinates.
+    osg::ref_ptr<osg::MatrixTransform> turned =
+        new osg::MatrixTransform(osg::Matrix::rotate(osg::PI_4, osg::Vec3d(0.0, 1.0, 0.0)));
+    turned->addChild(scene);
+    TestViewer view(kSize, kSize, turned.get());
+    view.look(osg::Vec3d(5.0, 0.0, 8.0));
+
+    const auto compare = [&]
+    {
+        scene->setEnabled(true);
+        const osg::Vec4 traced = pixel(*view.frames(), kMiddle, kMiddle);
+        scene->setEnabled(false);
+        const osg::Vec4 rasterized = pixel(*view.frames(), kMiddle, kMiddle);
+        CHECK((traced - rasterized).length() <= 2.0f);
+        return traced.r();
+    };
+
+    view.viewer.setLightingMode(osg::View::HEADLIGHT);
+    const float headlight = compare();
+    view.viewer.setLightingMode(osg::View::SKY_LIGHT);
+    view.viewer.getLight()->setPosition(osg::Vec4(0.0f, 1.0f, 0.4f, 0.0f));
+    const float skyLight = compare();
+    view.viewer.getLight()->setDiffuse(osg::Vec4(0.2f, 0.2f, 0.2f, 1.0f));
+    const float dimmed = compare();
+    view.viewer.setLightingMode(osg::View::NO_LIGHT);
+    compare();
+    CHECK(headlight > skyLight + 20.0f);
+    CHECK(skyLight > dimmed + 10.0f);
+}
+
+TEST_CASE("traced scene: visitors other than cull reach the children", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = greenScene();
+    osg::ref_ptr<osgUtil::LineSegmentIntersector> line =
+        new osgUtil::LineSegmentIntersector(osg::Vec3d(0, 0, 5), osg::Vec3d(0, 0, -5));
+    osgUtil::IntersectionVisitor visitor(line.get());
+    scene->accept(visitor);
+    CHECK(line->containsIntersections());
+    CHECK(scene->getChild(0)->getNumParents() == 1u);
+
+    struct Count : osg::NodeCallback
+    {
+        void operator()(osg::Node* node, osg::NodeVisitor* nv) override
+        {
+            ++calls;
+            traverse(node, nv);
+        }
+        int calls = 0;
+    };
+    osg::ref_ptr<Count> count = new Count;
+    scene->getChild(0)->setUpdateCallback(count);
+    TestViewer view(kSize, kSize, scene.get());
+    view.frames(3);
+    CHECK(count->calls == 3);
+}
+
+TEST_CASE("drawable: the viewport may change, start anywhere and be empty", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = greenScene();
+    TestViewer view(kSize, kSize, scene.get());
+    view.camera().setProjectionResizePolicy(osg::Camera::FIXED);
+    const int whole = countGreen(*view.frames(2));
+    CHECK(whole > 100);
+
+    view.camera().setViewport(0, 0, 0, 0);
+    view.frames(2);
+    view.camera().setViewport(kSize / 2, kSize / 2, kSize / 2, kSize / 2);
+    view.frames();
+    CHECK(passes(*scene) == 1);
+    const osg::ref_ptr<osg::Image> radiance = scene->getDrawable()->getColorImage();
+    REQUIRE(radiance);
+    CHECK(radiance->s() == kSize / 2);
+    // The capture is of the viewport.
+    const int quarter = countGreen(*view.frames());
+    CHECK(quarter == Approx(whole / 4.0).epsilon(0.1));
+
+    view.camera().setViewport(0, 0, kSize, kSize);
+    CHECK(countGreen(*view.frames()) == whole);
+}
+
+TEST_CASE("drawable: GL objects are released and made again", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = greenScene();
+    scene->releaseGLObjects();
+    scene->resizeGLObjectBuffers(4);
+    TestViewer view(kSize, kSize, scene.get());
+    const osg::ref_ptr<osg::Image> first = view.frames();
+
+    osg::State* state = view.camera().getGraphicsContext()->getState();
+    scene->releaseGLObjects(state);
+    scene->releaseGLObjects(state);
+    CHECK(equal(*view.frames(), *first));
+    scene->resizeGLObjectBuffers(8);
+    scene->releaseGLObjects();
+    scene->releaseGLObjects();
+    CHECK(equal(*view.frames(), *first));
+}
+
+TEST_CASE("drawable: several contexts show one scene, each from its own side", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = tracedScene(nullptr);
+    osg::ref_ptr<osg::Geometry> front = unlitSquare(1.0f, kGreen);
+    osg::ref_ptr<osg::MatrixTransform> back = new osg::MatrixTransform(
+        osg::Matrix::rotate(osg::PI, osg::Vec3d(0, 1, 0)) * osg::Matrix::translate(0, 0, -1));
+    back->addChild(unlitSquare(1.0f, osg::Vec4(1, 0, 0, 1)));
+    scene->addChild(front);
+    scene->addChild(back);
+
+    TestViewer a(kSize, kSize, scene.get());
+    TestViewer b(kSize, 2 * kSize, scene.get());
+    b.look(osg::Vec3d(0, 0, -10));
+    for (int i = 1; i <= 3; ++i)
+    {
+        CHECK(pixel(*a.frames(), kMiddle, kMiddle) == kGreenPixel);
+        CHECK(passes(*scene) == i);
+        CHECK(pixel(*b.frames(), kMiddle, kSize) == osg::Vec4(255, 0, 0, 255));
+        CHECK(passes(*scene) == i);
+    }
+    b.viewer.setSceneData(nullptr);
+    b.camera().getGraphicsContext()->close();
+    CHECK(pixel(*a.frames(), kMiddle, kMiddle) == kGreenPixel);
+}
+
+TEST_CASE("drawable: in stereo each eye keeps its own image", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = greenScene();
+    osg::ref_ptr<osg::DisplaySettings> stereo = new osg::DisplaySettings(*osg::DisplaySettings::instance());
+    stereo->setStereo(true);
+    stereo->setStereoMode(GENERATE(osg::DisplaySettings::ANAGLYPHIC, osg::DisplaySettings::HORIZONTAL_SPLIT,
+                                   osg::DisplaySettings::VERTICAL_INTERLACE));
+    TestViewer view(kSize, kSize, scene.get());
+    view.camera().setDisplaySettings(stereo.get());
+    for (int i = 1; i <= 4; ++i)
+    {
+        view.frames();
+        CHECK(passes(*scene) == i);
+    }
+}
+
+TEST_CASE("drawable: paused it keeps its picture", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = greenScene();
+    TestViewer view(kSize, kSize, scene.get());
+    const osg::ref_ptr<osg::Image> before = view.frames();
+    scene->getDrawable()->setPaused(true);
+    view.look(osg::Vec3d(3.0, 0.0, 10.0), osg::Vec3d(3.0, 0.0, 0.0));
+    CHECK(equal(*view.frames(2), *before));
+    CHECK(passes(*scene) == 1);
+    scene->getDrawable()->setPaused(false);
+    CHECK_FALSE(equal(*view.frames(), *before));
+}
+
+TEST_CASE("drawable: exposure changes the picture without tracing anew", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = tracedScene(unlitSquare(1.0f, osg::Vec4(0.2f, 0.2f, 0.2f, 1.0f)).get());
+    scene->getSettings()->setMaxPasses(1);
+    TestViewer view(kSize, kSize, scene.get());
+    CHECK(pixel(*view.frames(), kMiddle, kMiddle).r() == 51.0f);
+    scene->getSettings()->setExposure(1.0f);
+    CHECK(pixel(*view.frames(), kMiddle, kMiddle).r() > 60.0f);
+    CHECK(passes(*scene) == 1);
+}
+
+TEST_CASE("drawable: near and far planes are computed from the scene", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = greenScene();
+    TestViewer view(kSize, kSize, scene.get());
+    view.camera().setComputeNearFarMode(GENERATE(osg::Camera::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES,
+                                                 osg::Camera::COMPUTE_NEAR_FAR_USING_PRIMITIVES));
+    // Far behind the far plane that the projection was given, and in front of the near plane.
+    view.look(osg::Vec3d(0.0, 0.0, GENERATE(2000.0, 0.5)));
+    view.camera().setProjectionMatrixAsPerspective(
+        view.camera().getViewMatrix().getTrans().z() < -1000.0 ? 0.1 : 40.0, 1.0, 1.0, 100.0);
+    CHECK(pixel(*view.frames(), kMiddle, kMiddle) == kGreenPixel);
+}
+
+TEST_CASE("drawable: an empty scene draws nothing", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = tracedScene(nullptr);
+    TestViewer view(kSize, kSize, scene.get());
+    CHECK(countGreen(*view.frames(2)) == 0);
+    scene->addChild(unlitSquare(1.0f, kGreen));
+    CHECK(countGreen(*view.frames()) > 100);
+}
+
+TEST_CASE("traced scene: a clone has its own drawable and the same children", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = greenScene();
+    osg::ref_ptr<RayTracedScene> copy = osg::clone(scene.get(), osg::CopyOp::SHALLOW_COPY);
+    CHECK(copy->getDrawable() != scene->getDrawable());
+    CHECK(copy->getSettings() == scene->getSettings());
+    scene = nullptr;
+    TestViewer view(kSize, kSize, copy.get());
+    CHECK(pixel(*view.frames(), kMiddle, kMiddle) == kGreenPixel);
+}
+
+TEST_CASE("drawable: a drawable kept longer than its scene draws nothing", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = greenScene();
+    osg::ref_ptr<RayTraceDrawable> drawable = scene->getDrawable();
+    scene = nullptr;
+    osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    drawable->updateScene(stamp.get());
+    TestViewer view(kSize, kSize, drawable.get());
+    CHECK(countGreen(*view.frames()) == 0);
+}

@@ -1,0 +1,317 @@
+// SerializerTest.cpp - tests that our classes survive OSG's three native formats.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+
+#include <osgRayTrace/AreaLight>
+#include <osgRayTrace/PhysicalMaterial>
+#include <osgRayTrace/RayTracedScene>
+
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osgDB/Registry>
+
+#include <cstdlib>
+#include <sstream>
+
+using osgRayTrace::AreaLight;
+using osgRayTrace::PhysicalMaterial;
+using osgRayTrace::RayTracedScene;
+using osgRayTrace::RayTraceDrawable;
+using osgRayTrace::RayTraceSettings;
+
+namespace
+{
+
+struct Format
+{
+    const char* extension;
+    const char* fileType; ///< what OSG's reader takes for it when it works on streams
+};
+
+constexpr Format kFormats[] = {{"osgt", "Ascii"}, {"osgb", "Binary"}, {"osgx", "XML"}};
+
+osg::ref_ptr<osgDB::Options> optionsOf(const Format& format)
+{
+    osg::ref_ptr<osgDB::Options> options = new osgDB::Options("WriteImageHint=IncludeData");
+    options->setPluginStringData("fileType", format.fileType);
+    return options;
+}
+
+osgDB::ReaderWriter& readerWriter(const Format& format)
+{
+    auto* found = osgDB::Registry::instance()->getReaderWriterForExtension(format.extension);
+    REQUIRE(found);
+    return *found;
+}
+
+std::string written(const osg::Object& object, const Format& format)
+{
+    std::ostringstream stream;
+    const auto result = readerWriter(format).writeObject(object, stream, optionsOf(format));
+    REQUIRE(result.success());
+    return stream.str();
+}
+
+osg::ref_ptr<osg::Object> read(const std::string& text, const Format& format)
+{
+    std::istringstream stream(text);
+    const osg::ref_ptr<osgDB::Options> options = optionsOf(format);
+    auto result = readerWriter(format).readObject(stream, options);
+    return result.getObject();
+}
+
+template <typename T> osg::ref_ptr<T> roundTrip(const T& object, const Format& format)
+{
+    const osg::ref_ptr<osg::Object> copy = read(written(object, format), format);
+    REQUIRE(copy);
+    osg::ref_ptr<T> typed = dynamic_cast<T*>(copy.get());
+    REQUIRE(typed);
+    return typed;
+}
+
+osg::ref_ptr<osg::Texture2D> texture(unsigned char value)
+{
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(2, 2, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    std::fill(image->data(), image->data() + image->getTotalSizeInBytes(), value);
+    return new osg::Texture2D(image);
+}
+
+int valueOf(const osg::Texture2D* texture)
+{
+    return texture && texture->getImage() ? texture->getImage()->data()[0] : -1;
+}
+
+osg::ref_ptr<PhysicalMaterial> glass()
+{
+    osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
+    material->setName("glass");
+    material->setBaseColor(osg::Vec3(0.25f, 0.5f, 0.75f));
+    material->setMetallic(0.125f);
+    material->setRoughness(0.375f);
+    material->setTransmission(0.625f);
+    material->setIor(2.25f);
+    material->setEmission(osg::Vec3(1.5f, 2.5f, 300.0f));
+    material->setBaseColorTexture(texture(1));
+    material->setMetallicRoughnessTexture(texture(2));
+    material->setTransmissionTexture(texture(3));
+    material->setEmissionTexture(texture(4));
+    return material;
+}
+
+} // namespace
+
+TEST_CASE("serializers: PhysicalMaterial keeps every parameter", "[plugins]")
+{
+    const auto material = glass();
+    for (const Format& format : kFormats)
+    {
+        INFO(format.extension);
+        const auto copy = roundTrip(*material, format);
+        CHECK(copy->getName() == "glass");
+        CHECK(copy->getBaseColor() == material->getBaseColor());
+        CHECK(copy->getMetallic() == material->getMetallic());
+        CHECK(copy->getRoughness() == material->getRoughness());
+        CHECK(copy->getTransmission() == material->getTransmission());
+        CHECK(copy->getIor() == material->getIor());
+        CHECK(copy->getEmission() == material->getEmission());
+        CHECK(valueOf(copy->getBaseColorTexture()) == 1);
+        CHECK(valueOf(copy->getMetallicRoughnessTexture()) == 2);
+        CHECK(valueOf(copy->getTransmissionTexture()) == 3);
+        CHECK(valueOf(copy->getEmissionTexture()) == 4);
+    }
+}
+
+TEST_CASE("serializers: objects at their defaults stay at them", "[plugins]")
+{
+    const osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
+    const osg::ref_ptr<AreaLight> light = new AreaLight;
+    for (const Format& format : kFormats)
+    {
+        INFO(format.extension);
+        CHECK(roundTrip(*material, format)->compare(*material) == 0);
+        const auto copy = roundTrip(*light, format);
+        CHECK(copy->getCorner() == light->getCorner());
+        CHECK(copy->getEdgeU() == light->getEdgeU());
+        CHECK(copy->getEdgeV() == light->getEdgeV());
+        CHECK(copy->getRadiance() == light->getRadiance());
+        CHECK_FALSE(copy->getTwoSided());
+    }
+}
+
+TEST_CASE("serializers: a state set keeps the material with its override", "[plugins]")
+{
+    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    group->getOrCreateStateSet()->setAttribute(glass(), osg::StateAttribute::OVERRIDE);
+    for (const Format& format : kFormats)
+    {
+        INFO(format.extension);
+        const auto copy = roundTrip(*group, format);
+        REQUIRE(copy->getStateSet());
+        const auto* pair = copy->getStateSet()->getAttributePair(PhysicalMaterial::ATTRIBUTE_TYPE);
+        REQUIRE(pair);
+        CHECK((pair->second & osg::StateAttribute::OVERRIDE) != 0);
+        CHECK(static_cast<PhysicalMaterial&>(*pair->first).getIor() == 2.25f);
+    }
+}
+
+TEST_CASE("serializers: AreaLight keeps its place in the graph", "[plugins]")
+{
+    const osg::ref_ptr<osg::MatrixTransform> root =
+        new osg::MatrixTransform(osg::Matrix::translate(0.0, 0.0, 5.0));
+    const osg::ref_ptr<AreaLight> light =
+        new AreaLight(osg::Vec3(1.0f, 2.0f, 3.0f), osg::Vec3(0.5f, 0.0f, 0.0f),
+                      osg::Vec3(0.0f, 0.25f, 0.0f), osg::Vec3(7.0f, 8.0f, 9.0f));
+    light->setTwoSided(true);
+    root->addChild(light);
+    for (const Format& format : kFormats)
+    {
+        INFO(format.extension);
+        const auto copy = roundTrip(*root, format);
+        REQUIRE(copy->getNumChildren() == 1);
+        auto* copied = dynamic_cast<AreaLight*>(copy->getChild(0));
+        REQUIRE(copied);
+        CHECK(copied->getCorner() == light->getCorner());
+        CHECK(copied->getEdgeU() == light->getEdgeU());
+        CHECK(copied->getEdgeV() == light->getEdgeV());
+        CHECK(copied->getRadiance() == light->getRadiance());
+        CHECK(copied->getTwoSided());
+        CHECK(copied->getGeometry()->getBoundingBox().zMax() == 3.0f);
+    }
+}
+
+TEST_CASE("serializers: RayTraceSettings keep every option against the environment", "[plugins]")
+{
+    const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    settings->set("integrator", "path");
+    settings->set("light-sampling", "uniform-jitter");
+    settings->set("shadows", "off");
+    settings->set("max-passes", "77");
+    settings->set("seed", "4294967295");
+    settings->set("exposure", "-0.1");
+    for (const Format& format : kFormats)
+    {
+        INFO(format.extension);
+        const std::string text = written(*settings, format);
+        setenv("OSGRAYTRACE_LIGHT_SAMPLES", "100", 1);
+        const osg::ref_ptr<osg::Object> object = read(text, format);
+        unsetenv("OSGRAYTRACE_LIGHT_SAMPLES");
+        const auto* copy = dynamic_cast<RayTraceSettings*>(object.get());
+        REQUIRE(copy);
+        for (const auto& option : RayTraceSettings::options())
+        {
+            INFO(option.name);
+            CHECK(copy->get(option.name) == settings->get(option.name));
+        }
+    }
+}
+
+TEST_CASE("serializers: options of another version are passed over", "[plugins]")
+{
+    const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    settings->set("integrator", "path");
+    settings->set("max-passes", "77");
+    std::string text = written(*settings, kFormats[0]);
+    const auto replace = [&text](const std::string& from, const std::string& to)
+    {
+        const auto position = text.find(from);
+        REQUIRE(position != std::string::npos);
+        text.replace(position, from.size(), to);
+    };
+    replace("light-samples", "wave-length");
+    replace("integrator path", "integrator bidirectional");
+
+    const osg::ref_ptr<osg::Object> object = read(text, kFormats[0]);
+    const auto* copy = dynamic_cast<RayTraceSettings*>(object.get());
+    REQUIRE(copy);
+    CHECK(copy->getIntegrator() == RayTraceSettings::AUTOMATIC);
+    CHECK(copy->getMaxPasses() == 77);
+}
+
+TEST_CASE("serializers: RayTracedScene keeps children, switch and settings", "[plugins]")
+{
+    const osg::ref_ptr<RayTracedScene> scene = new RayTracedScene;
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->setName("floor");
+    geode->addDrawable(osg::createTexturedQuadGeometry(osg::Vec3(), osg::Vec3(1.0f, 0.0f, 0.0f),
+                                                       osg::Vec3(0.0f, 1.0f, 0.0f)));
+    scene->addChild(geode);
+    scene->addChild(new AreaLight);
+    scene->setEnabled(false);
+    scene->getSettings()->setIntegrator(RayTraceSettings::PATH);
+    scene->getSettings()->setLightSamples(9);
+    for (const Format& format : kFormats)
+    {
+        INFO(format.extension);
+        const auto copy = roundTrip(*scene, format);
+        REQUIRE(copy->getNumChildren() == 2);
+        CHECK(copy->getChild(0)->getName() == "floor");
+        CHECK(dynamic_cast<AreaLight*>(copy->getChild(1)) != nullptr);
+        CHECK_FALSE(copy->getEnabled());
+        REQUIRE(copy->getSettings());
+        CHECK(copy->getSettings()->getIntegrator() == RayTraceSettings::PATH);
+        CHECK(copy->getSettings()->getLightSamples() == 9);
+        CHECK(copy->getDrawable() != scene->getDrawable());
+        CHECK(copy->getBound().radius() == Approx(scene->getBound().radius()));
+    }
+}
+
+TEST_CASE("serializers: two scenes that share settings still share them", "[plugins]")
+{
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    const osg::ref_ptr<RayTracedScene> first = new RayTracedScene;
+    const osg::ref_ptr<RayTracedScene> second = new RayTracedScene;
+    second->setSettings(first->getSettings());
+    root->addChild(first);
+    root->addChild(second);
+    for (const Format& format : kFormats)
+    {
+        INFO(format.extension);
+        const auto copy = roundTrip(*root, format);
+        REQUIRE(copy->getNumChildren() == 2);
+        auto* a = dynamic_cast<RayTracedScene*>(copy->getChild(0));
+        auto* b = dynamic_cast<RayTracedScene*>(copy->getChild(1));
+        REQUIRE((a && b));
+        CHECK(a->getSettings() == b->getSettings());
+    }
+}
+
+TEST_CASE("serializers: RayTraceDrawable keeps its scene and settings", "[plugins]")
+{
+    const osg::ref_ptr<RayTraceDrawable> drawable = new RayTraceDrawable;
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->setName("the scene");
+    scene->addChild(new AreaLight);
+    drawable->setScene(scene);
+    drawable->getSettings()->setMaxBounces(3);
+    for (const Format& format : kFormats)
+    {
+        INFO(format.extension);
+        const auto copy = roundTrip(*drawable, format);
+        REQUIRE(copy->getScene());
+        CHECK(copy->getScene()->getName() == "the scene");
+        CHECK(copy->getScene()->asGroup()->getNumChildren() == 1);
+        CHECK(copy->getSettings()->getMaxBounces() == 3);
+    }
+}
+
+TEST_CASE("serializers: a truncated file is refused or read in part, not fatal", "[plugins]")
+{
+    const osg::ref_ptr<RayTracedScene> scene = new RayTracedScene;
+    scene->addChild(new AreaLight);
+    scene->getOrCreateStateSet()->setAttribute(new PhysicalMaterial);
+    scene->getSettings()->setLightSamples(9);
+    for (const Format& format : kFormats)
+    {
+        const std::string text = written(*scene, format);
+        const size_t step = std::max<size_t>(1, text.size() / 97);
+        for (size_t length = 0; length < text.size(); length += step)
+        {
+            INFO(format.extension << ", the first " << length << " of " << text.size() << " bytes");
+            const osg::ref_ptr<osg::Object> object = read(text.substr(0, length), format);
+            const auto* part = dynamic_cast<RayTracedScene*>(object.get());
+            if (part) CHECK(part->getSettings() != nullptr);
+        }
+    }
+}
