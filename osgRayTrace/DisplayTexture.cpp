@@ -110,7 +110,6 @@ osg::ref_ptr<osg::Geometry> createTriangle()
     osg::ref_ptr<osg::Geometry> triangle = new osg::Geometry;
     triangle->setUseDisplayList(false);
     triangle->setUseVertexBufferObjects(true);
-    triangle->setUseVertexArrayObject(true);
     triangle->setVertexAttribArray(kCornerLocation, corners.get());
     triangle->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
     return triangle;
@@ -122,6 +121,13 @@ bool isCoreProfile(const osg::GLExtensions& extensions)
     GLint profile = 0;
     glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
     return (profile & GL_CONTEXT_CORE_PROFILE_BIT) != 0;
+}
+
+/// Otherwise osg::State would go on with a buffer that may have been released by then.
+void forgetVertexArrays(osg::State& state)
+{
+    state.lazyDisablingOfVertexAttributes();
+    state.applyDisablingOfVertexAttributes();
 }
 
 /// The image is applied even if osg::State thinks that the texture is bound: its values may be new, or it
@@ -178,6 +184,7 @@ bool DisplayTexture::draw(osg::RenderInfo& renderInfo) const
     applyTexture(state, kColorUnit, *_colorTexture);
     applyTexture(state, kDepthUnit, *_depthTexture);
     _triangle->draw(renderInfo);
+    if (!state.useVertexArrayObject(_triangle->getUseVertexArrayObject())) forgetVertexArrays(state);
     return true;
 }
 
@@ -191,6 +198,8 @@ bool DisplayTexture::useProgram(osg::State& state) const
     {
         _depth->setPixelFormat(GL_RED);
         _depthTexture->setInternalFormat(GL_R32F);
+        // Elsewhere not: with it OSG 3.6 leaves the vertex buffer bound, which breaks client-side arrays.
+        _triangle->setUseVertexArrayObject(true);
     }
     state.haveAppliedAttribute(osg::StateAttribute::PROGRAM);
     state.applyAttribute(core ? _coreProgram.get() : _program.get());

@@ -37,6 +37,7 @@ struct ViewState
     std::mutex mutex; // the view's draw thread; and any thread that asks for its image
     std::shared_ptr<engine::Workers> workers;
     std::unique_ptr<engine::RenderSession> session;
+    engine::View view; ///< last traced
     DisplayTexture display;
     // What the display holds:
     int shownPasses = 0;
@@ -93,6 +94,21 @@ double nearDistance(const osg::Matrixd& projection)
     const osg::Vec3d centre = osg::Vec3d(0.0, 0.0, -1.0) * viewFromClip;
     if (!orthographic) return centre.length();
     return (osg::Vec3d(0.0, 1.0, -1.0) * viewFromClip - centre).length();
+}
+
+/// OSG's culling clamps the planes of last frame's projection matrix again, so that the third column of a
+/// view at rest wanders by its last digits; an image must go on nevertheless.
+bool sameButForRounding(const engine::View& a, const engine::View& b)
+{
+    constexpr double kTolerance = 1e-9;
+    engine::View rounded = a;
+    for (int i = 0; i < 4; ++i)
+    {
+        double& depth = rounded.clipFromView[i][2];
+        const double other = b.clipFromView[i][2];
+        if (std::abs(depth - other) <= kTolerance * std::abs(other)) depth = other;
+    }
+    return rounded == b;
 }
 
 bool operator==(const engine::ToneMap& a, const engine::ToneMap& b)
@@ -164,7 +180,8 @@ void RayTraceDrawable::Implementation::trace(ViewState& view, const engine::Scen
     if (!paused || passesBefore == 0)
     {
         session.setScene(version.scene);
-        session.setView(pass);
+        if (!sameButForRounding(pass, view.view)) view.view = pass;
+        session.setView(view.view);
         session.setOptions(engine::renderOptionsFromSettings(*version.settings));
 
         engine::StopRule rule;
@@ -177,7 +194,8 @@ void RayTraceDrawable::Implementation::trace(ViewState& view, const engine::Scen
     }
     const bool unchanged =
         !restarted && session.progress().passes == passesBefore && toneMap == view.shownToneMap;
-    if (!unchanged && session.progress().passes > 0) fillDisplay(view, toneMap);
+    const bool failed = !session.progress().status.ok();
+    if (!unchanged && !failed && session.progress().passes > 0) fillDisplay(view, toneMap);
 }
 
 void RayTraceDrawable::Implementation::fillDisplay(ViewState& view, const engine::ToneMap& toneMap)

@@ -5,6 +5,7 @@
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/bridge/HomeView.h"
+#include "osgRayTrace/bridge/PixelImage.h"
 #include "osgRayTrace/bridge/RenderOptionsFromSettings.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/StatisticsFromEngine.h"
@@ -14,9 +15,8 @@
 
 #include <osg/Light>
 
-#include <algorithm>
 #include <atomic>
-#include <limits>
+#include <cmath>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -31,7 +31,6 @@ namespace
 {
 
 constexpr int64_t kMostPixels = int64_t(1) << 28;
-constexpr uint64_t kMostImageBytes = 0xffffffffu; ///< osg::Image counts its bytes in 32 bits
 
 using Progress = std::function<bool(const Statistics&)>;
 
@@ -87,28 +86,6 @@ std::optional<engine::Channel> channelOf(const std::string& name)
         if (name == known.name) return known.channel;
     }
     return std::nullopt;
-}
-
-/// Uninitialised pixels. Null, with a warning, if osg::Image cannot hold them.
-osg::ref_ptr<osg::Image> newImage(int width, int height, GLenum format, GLenum type)
-{
-    const uint64_t pixelBits = osg::Image::computePixelSizeInBits(format, type);
-    if (uint64_t(width) * uint64_t(height) * (pixelBits / 8) > kMostImageBytes)
-    {
-        engine::warnOnce("the image is too large for osg::Image, which holds 4 GiB at most");
-        return nullptr;
-    }
-    osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(width, height, 1, format, type, 1);
-    return image;
-}
-
-osg::ref_ptr<osg::Image> imageOf(const std::vector<float>& values, int width, int height,
-                                 GLenum format)
-{
-    const osg::ref_ptr<osg::Image> image = newImage(width, height, format, GL_FLOAT);
-    if (image) std::copy(values.begin(), values.end(), reinterpret_cast<float*>(image->data()));
-    return image;
 }
 
 /// Null, with a warning, if the function runs out of memory.
@@ -211,14 +188,16 @@ void Renderer::Implementation::prepareSession()
 void Renderer::Implementation::convertScene()
 {
     osg::Matrixd worldFromView;
-    if (!worldFromView.invert(viewMatrix))
+    const bool inverted = worldFromView.invert(viewMatrix);
+    const osg::Vec3d eye = worldFromView.getTrans();
+    if (!inverted || !std::isfinite(eye.x()) || !std::isfinite(eye.y()) || !std::isfinite(eye.z()))
         throw EngineError(StatusCode::InvalidView, "the view matrix cannot be inverted");
 
-    const ConversionKey key{worldFromView.getTrans(), clearColor, headlight,
-                            settings->getColorRule()};
+    const ConversionKey key{eye, clearColor, headlight, settings->getColorRule()};
     if (traced && !sceneDirty && key == convertedFor) return;
 
-    const std::unique_lock<std::mutex> lock(graphMutex());
+    const std::lock_guard<std::mutex> lock(graphMutex());
+    if (sceneDirty) converter.forget();
     const engine::ConversionResult conversion = converter.convert(conversionInput(key));
     traced = engine::TracedScene::build(conversion.scene, workers, traced);
     session->setScene(traced);
@@ -359,7 +338,8 @@ osg::ref_ptr<osg::Image> Renderer::getColorImage() const
         [&self]
         {
             const engine::RenderSession& session = *self.session;
-            return imageOf(session.resolveRadiance(), session.width(), session.height(), GL_RGBA);
+            return engine::pixelImage(session.resolveRadiance(), session.width(), session.height(),
+                                      GL_RGBA);
         });
 }
 
@@ -372,9 +352,11 @@ osg::ref_ptr<osg::Image> Renderer::getDisplayImage() const
         {
             const engine::ToneMap toneMap =
                 engine::toneMapFromSettings(*self.settings, self.traced->scene());
-            const osg::ref_ptr<osg::Image> image =
-                newImage(self.session->width(), self.session->height(), GL_RGBA, GL_UNSIGNED_BYTE);
-            if (image) self.session->resolveDisplay(toneMap, image->data(), nullptr);
+            const osg::ref_ptr<osg::Image> image = engine::newPixelImage(
+                self.session->width(), self.session->height(), GL_RGBA, GL_UNSIGNED_BYTE);
+            if (!image) return image;
+            self.session->resolveDisplay(toneMap, image->data(), nullptr);
+            engine::blendOver(*image, self.clearColor);
             return image;
         });
 }
@@ -389,7 +371,8 @@ osg::ref_ptr<osg::Image> Renderer::getChannelImage(const std::string& channel) c
         {
             const engine::RenderSession& session = *self.session;
             const GLenum format = engine::channelSize(*known) == 1 ? GL_LUMINANCE : GL_RGB;
-            return imageOf(session.resolveChannel(*known), session.width(), session.height(), format);
+            return engine::pixelImage(session.resolveChannel(*known), session.width(),
+                                      session.height(), format);
         });
 }
 

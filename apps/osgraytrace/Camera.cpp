@@ -7,6 +7,7 @@
 #include <osgRayTrace/Renderer>
 
 #include <osg/CameraView>
+#include <osg/ClearNode>
 #include <osg/NodeVisitor>
 
 #include <algorithm>
@@ -18,6 +19,7 @@ namespace
 {
 
 constexpr double kOsgViewerFovyDegrees = 29.148431; ///< of its default display settings
+const osg::Vec4 kOsgViewerClearColor(0.2f, 0.2f, 0.4f, 1.0f);
 constexpr double kNearFarRatio = 0.0005;            ///< osg::CullSettings' default
 
 struct Placement
@@ -28,31 +30,41 @@ struct Placement
     double fovyDegrees = kOsgViewerFovyDegrees;
 };
 
-class FindCameraView : public osg::NodeVisitor
+/// The first nodes of a scene that say how it wants to be shown.
+class FindPresentation : public osg::NodeVisitor
 {
 public:
-    FindCameraView() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
+    FindPresentation() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
 
-    void apply(osg::CameraView& view) override
+    void apply(osg::CameraView& node) override
     {
-        if (!found)
+        if (!view)
         {
-            found = &view;
-            worldFromLocal = osg::computeLocalToWorld(getNodePath());
+            view = &node;
+            worldFromView = osg::computeLocalToWorld(getNodePath());
         }
+        traverse(node);
     }
+
+    void apply(osg::ClearNode& node) override
+    {
+        if (!clear) clear = &node;
+        traverse(node);
+    }
+
     using osg::NodeVisitor::apply;
 
-    osg::ref_ptr<osg::CameraView> found;
-    osg::Matrixd worldFromLocal; ///< the view's own position and attitude included
+    osg::ref_ptr<osg::CameraView> view;
+    osg::Matrixd worldFromView; ///< the view's own position and attitude included
+    osg::ref_ptr<osg::ClearNode> clear;
 };
 
-Placement storedPlacement(const osg::CameraView& view, const osg::Matrixd& worldFromLocal)
+Placement storedPlacement(const osg::CameraView& view, const osg::Matrixd& worldFromView)
 {
     Placement placement;
-    placement.eye = worldFromLocal.getTrans();
-    placement.center = placement.eye + osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), worldFromLocal);
-    placement.up = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 1.0, 0.0), worldFromLocal);
+    placement.eye = worldFromView.getTrans();
+    placement.center = placement.eye + osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), worldFromView);
+    placement.up = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 1.0, 0.0), worldFromView);
     if (view.getFieldOfViewMode() == osg::CameraView::VERTICAL) placement.fovyDegrees = view.getFieldOfView();
     return placement;
 }
@@ -88,10 +100,10 @@ osg::Matrixd projectionOf(const Placement& placement, const osg::Matrixd& view, 
 Camera cameraOf(const Options& options, osg::Node& scene)
 {
     const double aspect = double(options.width) / options.height;
-    FindCameraView find;
+    FindPresentation find;
     scene.accept(find);
-    Placement placement = find.found ? storedPlacement(*find.found, find.worldFromLocal)
-                                     : homePlacement(options, scene);
+    Placement placement = find.view ? storedPlacement(*find.view, find.worldFromView)
+                                    : homePlacement(options, scene);
 
     placement.eye = options.eye.value_or(placement.eye);
     placement.center = options.center.value_or(placement.center);
@@ -107,6 +119,7 @@ Camera cameraOf(const Options& options, osg::Node& scene)
     }
 
     Camera camera;
+    camera.clearColor = find.clear ? find.clear->getClearColor() : kOsgViewerClearColor;
     camera.view = osg::Matrixd::lookAt(placement.eye, placement.center, placement.up);
     camera.projection = projectionOf(placement, camera.view, aspect, scene.getBound());
     return camera;

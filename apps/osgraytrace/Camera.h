@@ -1,4 +1,4 @@
-// Camera.h - from which side the scene is seen, and the matrices of that view. Layer: apps.
+// Camera.h - from which side the scene is seen, and before which background. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,6 +6,7 @@
 
 #include <osg/Matrixd>
 #include <osg/Node>
+#include <osg/Vec4>
 
 namespace osgRayTrace::app
 {
@@ -14,6 +15,7 @@ struct Camera
 {
     osg::Matrixd view;
     osg::Matrixd projection;
+    osg::Vec4 clearColor; ///< of the scene's first osg::ClearNode, or else osgViewer's
 };
 
 /// The first osg::CameraView of the scene, or else the view that osgviewer opens with; what the options

@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "ErrorMeasures.h"
 
-#include "Failure.h"
-
-#include <osgDB/ReadFile>
-
 #include <cmath>
 
 namespace osgRayTrace::app
@@ -17,23 +13,6 @@ namespace
 constexpr double kRelMseOffset = 0.01; ///< keeps dark pixels from deciding
 
 } // namespace
-
-osg::ref_ptr<osg::Image> readReference(const std::string& path, int width, int height)
-{
-    osg::ref_ptr<osg::Image> image = osgDB::readRefImageFile(path);
-    if (!image) throw Failure(kCannotLoad, "cannot load the reference " + path);
-    const bool rgb = image->getPixelFormat() == GL_RGB || image->getPixelFormat() == GL_RGBA;
-    if (!rgb || image->getDataType() != GL_FLOAT)
-    {
-        throw Failure(kCannotLoad, "the reference " + path + " holds no linear radiance; it must be an .exr");
-    }
-    if (image->s() != width || image->t() != height)
-    {
-        throw Failure(kUsage, "the reference " + path + " is of --size " + std::to_string(image->s()) + " " +
-                                  std::to_string(image->t()));
-    }
-    return image;
-}
 
 ErrorMeasures errorMeasures(const osg::Image& picture, const osg::Image& reference)
 {

@@ -4,8 +4,6 @@
 
 #include <osg/Image>
 
-#include <string>
-
 namespace osgRayTrace::app
 {
 
@@ -17,10 +15,7 @@ struct ErrorMeasures
     double meanRatio = 0.0; ///< mean(x) / mean(r)
 };
 
-/// GL_RGB or GL_RGBA, GL_FLOAT. Throws Failure(kCannotLoad); Failure(kUsage) if its size is another.
-osg::ref_ptr<osg::Image> readReference(const std::string& path, int width, int height);
-
-/// Both of the same size, float RGB or RGBA.
+/// Both of the same size, GL_RGB or GL_RGBA, GL_FLOAT.
 ErrorMeasures errorMeasures(const osg::Image& picture, const osg::Image& reference);
 
 } // namespace osgRayTrace::app

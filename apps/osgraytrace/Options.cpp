@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
-#include <map>
 
 namespace osgRayTrace::app
 {
@@ -21,6 +20,7 @@ namespace
 
 constexpr int kDefaultPasses = 64;
 constexpr double kMaxPixels = 1 << 28;
+const char* const kChannels = "depth|distance|normal|albedo|position|id|error";
 
 const char* const kFooter = "Formats: .exr holds linear radiance and channels; .png and .jpg are tone mapped.\n"
                             "Exit codes: 0 done, 1 usage, 2 cannot load, 3 cannot render, 4 cannot write.";
@@ -31,6 +31,7 @@ struct RawOptions
     std::vector<int> size;
     std::vector<double> eye, center, up;
     double fovyDegrees = 0.0;
+    std::string context;
 };
 
 std::string commaSeparated(std::string range)
@@ -40,6 +41,32 @@ std::string commaSeparated(std::string range)
         range.replace(bar, 1, ", ");
     }
     return range;
+}
+
+/// A number within (low, high), low and high themselves excluded.
+CLI::Validator between(double low, double high, const std::string& wanted)
+{
+    const auto problem = [=](const std::string& text)
+    {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        const bool good = *end == '\0' && value > low && value < high;
+        return good ? std::string() : "'" + text + "' is not " + wanted;
+    };
+    return CLI::Validator(problem, "");
+}
+
+CLI::Validator finite() { return between(-HUGE_VAL, HUGE_VAL, "a finite number"); }
+CLI::Validator positive() { return between(0.0, HUGE_VAL, "a number above 0"); }
+
+CLI::Validator oneOf(const std::string& words)
+{
+    const auto problem = [words](const std::string& text)
+    {
+        const bool good = ("|" + words + "|").find("|" + text + "|") != std::string::npos;
+        return good ? std::string() : "'" + text + "' is not one of " + commaSeparated(words);
+    };
+    return CLI::Validator(problem, "");
 }
 
 /// One command line option for each option of RayTraceSettings, by the same name.
@@ -55,56 +82,42 @@ void addSettings(CLI::App& app, RayTraceSettings& settings)
                                        "'" + value + "' is not one of " + commaSeparated(option.range));
         };
         app.add_option_function<std::string>(name, set, option.help)
-            ->type_name(option.range)
+            ->option_text(option.range)
             ->group("Settings");
     }
 }
 
 void addOptions(CLI::App& app, Options& options, RawOptions& raw)
 {
-    static const std::vector<std::string> kChannels{"depth",    "distance", "normal", "albedo",
-                                                    "position", "id",       "error"};
-    static const std::map<std::string, Context> kContexts{
-        {"none", Context::None}, {"osmesa", Context::OsMesa}, {"egl", Context::Egl}};
-    const auto finite = CLI::Validator(
-        [](const std::string& text)
-        { return std::isfinite(std::strtod(text.c_str(), nullptr)) ? "" : text + " is not finite"; },
-        "");
-
-    app.add_option("MODEL", options.models, "Files that OpenSceneGraph reads")->option_text("MODEL ...");
+    app.add_option("MODEL", options.models, "Files that OpenSceneGraph reads")->option_text("...");
     app.add_option("-o,--output", options.outputs, "Picture to write: .exr, .png, .jpg; may be repeated")
-        ->type_name("FILE")
+        ->option_text("FILE")
         ->allow_extra_args(false);
-    app.add_option("--size", raw.size, "Pixels (1280 720)")->type_name("W H")->expected(2);
+    app.add_option("--size", raw.size, "Pixels (1280 720)")->option_text("W H")->expected(2);
 
-    app.add_option("--eye", raw.eye, "Position of the camera")->type_name("X Y Z")->expected(3)->check(finite);
-    app.add_option("--center", raw.center, "Point that it looks at")->type_name("X Y Z")->expected(3)->check(finite);
-    app.add_option("--up", raw.up, "What is up in the picture")->type_name("X Y Z")->expected(3)->check(finite);
-    app.add_option("--fovy", raw.fovyDegrees, "Vertical field of view")
-        ->type_name("DEGREES")
-        ->check(CLI::Range(0.001, 179.0));
+    app.add_option("--eye", raw.eye, "Position of the camera")->option_text("X Y Z")->expected(3)->check(finite());
+    app.add_option("--center", raw.center, "Point that it looks at")->option_text("X Y Z")->expected(3)->check(finite());
+    app.add_option("--up", raw.up, "What is up in the picture")->option_text("X Y Z")->expected(3)->check(finite());
+    app.add_option("--fovy", raw.fovyDegrees, "Vertical field of view; by default the view is osgviewer's")
+        ->option_text("DEGREES")
+        ->check(between(0.0, 180.0, "an angle between 0 and 180"));
 
-    app.add_option("--time", options.seconds, "Stop after so many seconds")
-        ->type_name("SECONDS")
-        ->check(CLI::PositiveNumber)
-        ->check(finite);
+    app.add_option("--time", options.seconds, "Stop after so many seconds")->option_text("SECONDS")->check(positive());
     app.add_option("--error", options.relativeError, "Stop at this estimated relative error")
-        ->type_name("RELATIVE")
-        ->check(CLI::PositiveNumber)
-        ->check(finite);
+        ->option_text("RELATIVE")
+        ->check(positive());
 
-    app.add_option("--aov", options.channels, "Extra EXR channels: depth, distance, normal, albedo, position, id, error")
-        ->type_name("NAME,...")
+    app.add_option("--aov", options.channels, "Extra EXR channels: " + commaSeparated(kChannels))
+        ->option_text("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::IsMember(kChannels));
+        ->check(oneOf(kChannels));
     app.add_option("--reference", options.reference, "Prints RMSE, relMSE and mean ratio against it")
-        ->type_name("FILE.exr");
-    app.add_option("--stats", options.statistics, "Writes counts, times and errors")->type_name("FILE.json");
-    app.add_option("--context", options.context, "none, osmesa or egl; other than none: through RayTraceDrawable in that context")
-        ->type_name("NAME")
-        ->transform(CLI::Transformer(kContexts))
-        ->default_str("none");
+        ->option_text("FILE.exr");
+    app.add_option("--stats", options.statistics, "Writes counts, times and errors")->option_text("FILE.json");
+    app.add_option("--context", raw.context, "none, osmesa, egl; other than none: through RayTraceDrawable in it")
+        ->option_text("NAME")
+        ->check(oneOf("none|osmesa|egl"));
     app.add_flag("--list-options", options.listOptions, "Prints every setting with default, range and variable");
 }
 
@@ -113,7 +126,7 @@ osg::Vec3d vectorOf(const std::vector<double>& values)
     return osg::Vec3d(values[0], values[1], values[2]);
 }
 
-void applyView(const CLI::App& app, const RawOptions& raw, Options& options)
+void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
 {
     if (!raw.size.empty())
     {
@@ -124,6 +137,8 @@ void applyView(const CLI::App& app, const RawOptions& raw, Options& options)
     if (!raw.center.empty()) options.center = vectorOf(raw.center);
     if (!raw.up.empty()) options.up = vectorOf(raw.up);
     if (app.count("--fovy")) options.fovyDegrees = raw.fovyDegrees;
+    if (raw.context == "osmesa") options.context = Context::OsMesa;
+    if (raw.context == "egl") options.context = Context::Egl;
 }
 
 /// The default of 64 passes holds unless something else says when to stop.
@@ -184,7 +199,7 @@ std::optional<Options> parseOptions(int argc, char** argv)
     }
 
     if (options.listOptions) return options;
-    applyView(app, raw, options);
+    applyRaw(app, raw, options);
     applyPasses(app, options);
     check(options);
     return options;

@@ -51,6 +51,7 @@ Picture renderInContext(const Options& options, osg::Node& scene, const Camera& 
     osg::Camera* master = viewer.getCamera();
     master->setGraphicsContext(createContext(options).get());
     master->setViewport(0, 0, options.width, options.height);
+    master->setClearColor(camera.clearColor);
     // The matrices as they are: the same rays as without a context.
     master->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
     master->setViewMatrix(camera.view);

@@ -15,6 +15,7 @@ Picture renderWithoutContext(const Options& options, osg::Node& scene, const Cam
     renderer->setScene(&scene);
     renderer->setViewMatrix(camera.view);
     renderer->setProjectionMatrix(camera.projection);
+    renderer->setClearColor(camera.clearColor);
     renderer->setSize(options.width, options.height);
     renderer->setSettings(options.settings.get());
 
@@ -29,10 +30,13 @@ Picture renderWithoutContext(const Options& options, osg::Node& scene, const Cam
     Picture picture;
     picture.radiance = renderer->getColorImage();
     picture.display = renderer->getDisplayImage();
+    if (!picture.radiance || !picture.display) throw Failure(kCannotRender, "no memory for the images");
     picture.statistics = renderer->getStatistics();
     for (const std::string& channel : options.channels)
     {
-        picture.channels[channel] = renderer->getChannelImage(channel);
+        const osg::ref_ptr<osg::Image> image = renderer->getChannelImage(channel);
+        if (!image) throw Failure(kCannotRender, "no memory for channel " + channel);
+        picture.channels[channel] = image;
     }
     return picture;
 }

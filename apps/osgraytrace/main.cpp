@@ -3,12 +3,12 @@
 #include "Camera.h"
 #include "ErrorMeasures.h"
 #include "Failure.h"
+#include "InputFiles.h"
 #include "Options.h"
 #include "Output.h"
 #include "Picture.h"
 #include "PluginPath.h"
 #include "Progress.h"
-#include "SceneFiles.h"
 #include "StatisticsText.h"
 
 #include <cstdio>

@@ -10,8 +10,7 @@ namespace osgRayTrace::engine
 {
 
 /// What function returns, or what it throws as one sentence.
-template <class Function>
-std::string caught(const Function& function)
+template <class Function> std::string caught(const Function& function)
 {
     try
     {

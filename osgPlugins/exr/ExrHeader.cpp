@@ -1,5 +1,5 @@
-// ExrHeader.cpp - what an OpenEXR file claims to hold, before anything is allocated for it. Layer: osgPlugins.
-// SPDX-License-Identifier: MIT
+// ExrHeader.cpp - what an OpenEXR file claims to hold, before anything is allocated for it. Layer:
+// osgPlugins. SPDX-License-Identifier: MIT
 #include "osgPlugins/exr/ExrHeader.h"
 
 #include <cstdint>
@@ -12,7 +12,8 @@ namespace
 {
 
 // The layout is that of "OpenEXR File Layout", openexr.com: little endian; a header is a list of
-// (name \0 type \0 size value) that ends with an empty name, the list of parts ends with an empty header.
+// (name \0 type \0 size value) that ends with an empty name, the list of parts ends with an empty
+// header.
 constexpr std::uint32_t kMagic = 20000630;
 constexpr std::uint32_t kMultiPartFlag = 0x1000;
 constexpr std::size_t kMaxNameLength = 255;
@@ -41,8 +42,7 @@ struct Part
 class HeaderReader
 {
 public:
-    explicit HeaderReader(std::istream& stream)
-        : _stream(stream)
+    explicit HeaderReader(std::istream& stream) : _stream(stream)
     {
         const std::istream::pos_type begin = stream.tellg();
         stream.seekg(0, std::ios::end);
@@ -75,7 +75,8 @@ private:
     {
         unsigned char bytes[4] = {};
         _stream.read(reinterpret_cast<char*>(bytes), 4);
-        return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
+        return bytes[0] | bytes[1] << 8 | bytes[2] << 16 |
+               static_cast<std::uint32_t>(bytes[3]) << 24;
     }
 
     std::int32_t signedNumber() { return static_cast<std::int32_t>(number()); }
@@ -84,7 +85,8 @@ private:
     {
         std::string text;
         char c = 0;
-        while (text.size() <= kMaxNameLength && _stream.get(c) && c != 0) text += c;
+        while (text.size() <= kMaxNameLength && _stream.get(c) && c != 0)
+            text += c;
         return text;
     }
 

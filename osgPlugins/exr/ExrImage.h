@@ -36,16 +36,18 @@ enum class ExrCompression
 
 // Each function returns an empty string, or one sentence that says what is wrong; none throws.
 
-/// The display window of the first part, scanlines or tiles: what lies outside is cut off, what the file
-/// leaves out is 0. Only the channels in wanted, unless it is empty. Integers become floats. At most 2^28
-/// pixels, 2^20 a side and 2^30 values. Bad input leaves image as it was.
-std::string readExr(const std::string& path, ExrImage& image, const std::vector<std::string>& wanted = {});
+/// The display window of the first part, scanlines or tiles: what lies outside is cut off, what the
+/// file leaves out is 0. Only the channels in wanted, unless it is empty. Integers become floats.
+/// At most 2^28 pixels, 2^20 a side and 2^30 values. Bad input leaves image as it was.
+std::string readExr(const std::string& path, ExrImage& image,
+                    const std::vector<std::string>& wanted = {});
 
 /// The file begins where the stream stands, which must be able to seek.
-std::string readExr(std::istream& stream, ExrImage& image, const std::vector<std::string>& wanted = {});
+std::string readExr(std::istream& stream, ExrImage& image,
+                    const std::vector<std::string>& wanted = {});
 
-/// Writes beside path first and renames then: there is the whole file, or what was there before. Finite
-/// values beyond half's range become its largest.
+/// Writes beside path first and renames then: there is the whole file, or what was there before.
+/// Finite values beyond half's range become its largest.
 std::string writeExr(const std::string& path, const ExrImage& image,
                      ExrCompression compression = ExrCompression::Zip);
 

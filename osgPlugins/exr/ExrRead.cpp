@@ -21,8 +21,10 @@ namespace
 
 constexpr long long kMaxValues = 1LL << 30;
 
-/// The named channels, empty of values. Throws if there is one whose rows are not those of the others.
-std::vector<ExrChannel> selectChannels(const Imf::ChannelList& list, const std::vector<std::string>& wanted)
+/// The named channels, empty of values. Throws if there is one whose rows are not those of the
+/// others.
+std::vector<ExrChannel> selectChannels(const Imf::ChannelList& list,
+                                       const std::vector<std::string>& wanted)
 {
     std::vector<ExrChannel> channels;
     for (auto it = list.begin(); it != list.end(); ++it)
@@ -31,9 +33,11 @@ std::vector<ExrChannel> selectChannels(const Imf::ChannelList& list, const std::
         const std::string name = it.name();
         if (channel.xSampling != 1 || channel.ySampling != 1)
         {
-            throw std::runtime_error("channel '" + name + "' has a lower resolution, which is not supported");
+            throw std::runtime_error("channel '" + name +
+                                     "' has a lower resolution, which is not supported");
         }
-        if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), name) == wanted.end()) continue;
+        if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), name) == wanted.end())
+            continue;
         channels.push_back({name, channel.type == Imf::HALF, {}});
     }
     return channels;
@@ -43,16 +47,18 @@ std::vector<ExrChannel> selectChannels(const Imf::ChannelList& list, const std::
 Imf::FrameBuffer rowFrameBuffer(const ExrImage& image, const Imath::Box2i& dataWindow,
                                 std::vector<float>& row)
 {
-    const std::intptr_t rowWidth = static_cast<std::intptr_t>(dataWindow.max.x) - dataWindow.min.x + 1;
+    const std::intptr_t rowWidth =
+        static_cast<std::intptr_t>(dataWindow.max.x) - dataWindow.min.x + 1;
     row.resize(rowWidth * image.channels.size());
 
     Imf::FrameBuffer frameBuffer;
     for (std::size_t i = 0; i < image.channels.size(); ++i)
     {
-        // OpenEXR adds x * stride for an x that begins at the data window: the base lies before the row.
+        // OpenEXR adds x * stride for an x that begins at the data window: the base lies before the
+        // row.
         const std::intptr_t first = rowWidth * static_cast<std::intptr_t>(i) - dataWindow.min.x;
-        const std::intptr_t base =
-            reinterpret_cast<std::intptr_t>(row.data()) + first * static_cast<std::intptr_t>(sizeof(float));
+        const std::intptr_t base = reinterpret_cast<std::intptr_t>(row.data()) +
+                                   first * static_cast<std::intptr_t>(sizeof(float));
         frameBuffer.insert(image.channels[i].name,
                            Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(base), sizeof(float), 0));
     }
@@ -76,7 +82,8 @@ ExrImage readImage(Imf::IStream& stream, const std::vector<std::string>& wanted)
     {
         throw std::runtime_error("so many channels of this size are too large");
     }
-    for (ExrChannel& channel : image.channels) channel.values.assign(pixels, 0.0f);
+    for (ExrChannel& channel : image.channels)
+        channel.values.assign(pixels, 0.0f);
     if (image.channels.empty()) return image;
 
     std::vector<float> row;
@@ -94,7 +101,8 @@ ExrImage readImage(Imf::IStream& stream, const std::vector<std::string>& wanted)
         {
             const float* from = row.data() + i * rowWidth + (beginX - data.min.x);
             std::copy_n(from, endX - beginX,
-                        image.channels[i].values.begin() + imageRow * image.width + (beginX - display.min.x));
+                        image.channels[i].values.begin() + imageRow * image.width +
+                            (beginX - display.min.x));
         }
     }
     return image;
@@ -104,16 +112,19 @@ ExrImage readImage(Imf::IStream& stream, const std::vector<std::string>& wanted)
 
 std::string readExr(std::istream& stream, ExrImage& image, const std::vector<std::string>& wanted)
 {
-    return caught([&] {
-        const std::string problem = checkExrHeader(stream);
-        if (!problem.empty()) return problem;
-        ExrInputStream input(stream);
-        image = readImage(input, wanted);
-        return problem;
-    });
+    return caught(
+        [&]
+        {
+            const std::string problem = checkExrHeader(stream);
+            if (!problem.empty()) return problem;
+            ExrInputStream input(stream);
+            image = readImage(input, wanted);
+            return problem;
+        });
 }
 
-std::string readExr(const std::string& path, ExrImage& image, const std::vector<std::string>& wanted)
+std::string readExr(const std::string& path, ExrImage& image,
+                    const std::vector<std::string>& wanted)
 {
     std::ifstream stream(path, std::ios::binary);
     if (!stream) return "the file cannot be opened";

@@ -16,9 +16,7 @@ class ExrInputStream : public Imf::IStream
 {
 public:
     explicit ExrInputStream(std::istream& stream)
-        : Imf::IStream("stream"),
-          _stream(stream),
-          _begin(stream.tellg())
+        : Imf::IStream("stream"), _stream(stream), _begin(stream.tellg())
     {
     }
 
@@ -53,11 +51,7 @@ private:
 class ExrOutputStream : public Imf::OStream
 {
 public:
-    explicit ExrOutputStream(std::ostream& stream)
-        : Imf::OStream("stream"),
-          _stream(stream)
-    {
-    }
+    explicit ExrOutputStream(std::ostream& stream) : Imf::OStream("stream"), _stream(stream) {}
 
     void write(const char bytes[], int count) override
     {

@@ -31,7 +31,8 @@ std::string checkImage(const ExrImage& image)
     for (const ExrChannel& channel : image.channels)
     {
         const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
-        if (channel.values.size() != pixels) return "channel '" + channel.name + "' has another size";
+        if (channel.values.size() != pixels)
+            return "channel '" + channel.name + "' has another size";
         if (channel.name.empty() || image.find(channel.name) != &channel)
         {
             return "channel name '" + channel.name + "' is empty or occurs twice";
@@ -44,9 +45,12 @@ Imf::Compression toImf(ExrCompression compression)
 {
     switch (compression)
     {
-    case ExrCompression::Zip: return Imf::ZIP_COMPRESSION;
-    case ExrCompression::Piz: return Imf::PIZ_COMPRESSION;
-    case ExrCompression::None: break;
+    case ExrCompression::Zip:
+        return Imf::ZIP_COMPRESSION;
+    case ExrCompression::Piz:
+        return Imf::PIZ_COMPRESSION;
+    case ExrCompression::None:
+        break;
     }
     return Imf::NO_COMPRESSION;
 }
@@ -57,7 +61,8 @@ half toHalf(float value)
     return half(std::clamp(value, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX)));
 }
 
-/// Throws. Only the stream knows whether the table of offsets, which OpenEXR writes last, got there.
+/// Throws. Only the stream knows whether the table of offsets, which OpenEXR writes last, got
+/// there.
 void writeImage(std::ostream& stream, const ExrImage& image, ExrCompression compression)
 {
     Imf::Header header(image.width, image.height);
@@ -106,14 +111,17 @@ std::filesystem::path besideOf(const std::filesystem::path& path)
     return path.native() + std::filesystem::path(suffix.str()).native();
 }
 
-std::string writeFile(const std::filesystem::path& path, const ExrImage& image, ExrCompression compression)
+std::string writeFile(const std::filesystem::path& path, const ExrImage& image,
+                      ExrCompression compression)
 {
     std::ofstream stream(path, std::ios::binary);
     if (!stream) return "the file cannot be created";
-    const std::string problem = caught([&] {
-        writeImage(stream, image, compression);
-        return std::string();
-    });
+    const std::string problem = caught(
+        [&]
+        {
+            writeImage(stream, image, compression);
+            return std::string();
+        });
     if (!problem.empty()) return problem;
     stream.close();
     return stream ? "" : "the file cannot be written";
@@ -130,32 +138,36 @@ const ExrChannel* ExrImage::find(const std::string& name) const
 
 std::string writeExr(const std::string& path, const ExrImage& image, ExrCompression compression)
 {
-    return caught([&]() -> std::string {
-        std::string problem = checkImage(image);
-        if (!problem.empty()) return problem;
+    return caught(
+        [&]() -> std::string
+        {
+            std::string problem = checkImage(image);
+            if (!problem.empty()) return problem;
 
-        const std::filesystem::path partial = besideOf(path);
-        problem = writeFile(partial, image, compression);
-        std::error_code error;
-        if (problem.empty()) std::filesystem::rename(partial, path, error);
-        if (error) problem = error.message();
-        if (!problem.empty()) std::filesystem::remove(partial, error);
-        return problem;
-    });
+            const std::filesystem::path partial = besideOf(path);
+            problem = writeFile(partial, image, compression);
+            std::error_code error;
+            if (problem.empty()) std::filesystem::rename(partial, path, error);
+            if (error) problem = error.message();
+            if (!problem.empty()) std::filesystem::remove(partial, error);
+            return problem;
+        });
 }
 
 std::string writeExr(std::ostream& stream, const ExrImage& image, ExrCompression compression)
 {
-    return caught([&]() -> std::string {
-        const std::string problem = checkImage(image);
-        if (!problem.empty()) return problem;
+    return caught(
+        [&]() -> std::string
+        {
+            const std::string problem = checkImage(image);
+            if (!problem.empty()) return problem;
 
-        std::stringstream buffer(std::ios::in | std::ios::out | std::ios::binary);
-        writeImage(buffer, image, compression);
-        if (!buffer) return "there is not enough memory";
-        stream << buffer.rdbuf();
-        return stream ? "" : "the stream cannot be written";
-    });
+            std::stringstream buffer(std::ios::in | std::ios::out | std::ios::binary);
+            writeImage(buffer, image, compression);
+            if (!buffer) return "there is not enough memory";
+            stream << buffer.rdbuf();
+            return stream ? "" : "the stream cannot be written";
+        });
 }
 
 } // namespace osgRayTrace::engine

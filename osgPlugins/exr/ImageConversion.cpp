@@ -92,12 +92,12 @@ GLint internalFormat(const Layout& layout, GLenum type)
 class ValueReader
 {
 public:
-    ValueReader(GLenum type, bool alpha)
-        : _type(type)
+    ValueReader(GLenum type, bool alpha) : _type(type)
     {
         for (int byte = 0; byte < 256; ++byte)
         {
-            _linear[byte] = alpha ? byte / 255.0f : linearFromSrgbByte(static_cast<unsigned char>(byte));
+            _linear[byte] =
+                alpha ? byte / 255.0f : linearFromSrgbByte(static_cast<unsigned char>(byte));
         }
     }
 
@@ -109,8 +109,7 @@ public:
     }
 
 private:
-    template <class Value>
-    static float read(const unsigned char* address)
+    template <class Value> static float read(const unsigned char* address)
     {
         Value value;
         std::memcpy(&value, address, sizeof(value));
@@ -130,8 +129,8 @@ std::size_t sizeOf(GLenum type)
 
 /// Writes one component of every pixel; 0 if there is no such channel. convert: float to Value.
 template <class Value, class Convert>
-void interleave(const ExrChannel* channel, std::size_t component, std::size_t components, osg::Image& image,
-                const Convert& convert)
+void interleave(const ExrChannel* channel, std::size_t component, std::size_t components,
+                osg::Image& image, const Convert& convert)
 {
     const std::size_t width = image.s();
     for (int y = 0; y < image.t(); ++y)
@@ -145,8 +144,8 @@ void interleave(const ExrChannel* channel, std::size_t component, std::size_t co
     }
 }
 
-void interleaveAs(GLenum type, const ExrChannel* channel, std::size_t component, std::size_t components,
-                  osg::Image& image)
+void interleaveAs(GLenum type, const ExrChannel* channel, std::size_t component,
+                  std::size_t components, osg::Image& image)
 {
     const auto same = [](float value) { return value; };
     const bool alpha = channel && channel->name == "A";
@@ -203,18 +202,20 @@ std::string toOsgImage(const ExrImage& image, GLenum type, osg::ref_ptr<osg::Ima
     const std::size_t sizeBytes = components * sizeOf(type) * image.width * image.height;
     if (sizeBytes > kMaxImageBytes) return "an osg::Image cannot be that large";
 
-    return caught([&] {
-        const osg::ref_ptr<osg::Image> made = new osg::Image;
-        made->allocateImage(image.width, image.height, 1, format, type);
-        made->setInternalTextureFormat(internalFormat(layout, type));
-        for (std::size_t component = 0; component < components; ++component)
+    return caught(
+        [&]
         {
-            const ExrChannel* channel = image.find(layout.channels[component]);
-            interleaveAs(type, channel, component, components, *made);
-        }
-        result = made;
-        return std::string();
-    });
+            const osg::ref_ptr<osg::Image> made = new osg::Image;
+            made->allocateImage(image.width, image.height, 1, format, type);
+            made->setInternalTextureFormat(internalFormat(layout, type));
+            for (std::size_t component = 0; component < components; ++component)
+            {
+                const ExrChannel* channel = image.find(layout.channels[component]);
+                interleaveAs(type, channel, component, components, *made);
+            }
+            result = made;
+            return std::string();
+        });
 }
 
 std::string toExrImage(const osg::Image& image, bool asHalf, ExrImage& result)
@@ -225,10 +226,12 @@ std::string toExrImage(const osg::Image& image, bool asHalf, ExrImage& result)
     if (layout.channels.empty()) return "this pixel format cannot be written";
     if (sizeOf(image.getDataType()) == 0) return "only float, half and byte pixels can be written";
 
-    return caught([&] {
-        result = deinterleave(image, layout, asHalf);
-        return std::string();
-    });
+    return caught(
+        [&]
+        {
+            result = deinterleave(image, layout, asHalf);
+            return std::string();
+        });
 }
 
 } // namespace osgRayTrace::engine

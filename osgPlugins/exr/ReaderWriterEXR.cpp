@@ -27,9 +27,10 @@ struct ExrOptions
         std::istringstream words(options ? options->getOptionString() : "");
         for (std::string word; words >> word;)
         {
-            if (word == "half") half = true, readType = GL_HALF_FLOAT;
-            if (word == "srgb8") readType = GL_UNSIGNED_BYTE;
+            if (word == "half") readType = GL_HALF_FLOAT;
+            if (word == "half") half = true;
             if (word == "float") full = true;
+            if (word == "srgb8") readType = GL_UNSIGNED_BYTE;
             if (word.rfind("compression=", 0) == 0) parseCompression(word.substr(12));
         }
     }
@@ -56,7 +57,8 @@ public:
         supportsExtension("exr", "OpenEXR image format");
         supportsOption("half", "Reading: the image has half values. Writing: the file has");
         supportsOption("srgb8", "Reading: the image has bytes, sRGB, for formats such as PNG");
-        supportsOption("float", "Writing: the file has float values, though the image has half values");
+        supportsOption("float",
+                       "Writing: the file has float values, though the image has half values");
         supportsOption("compression=<zip|piz|none>", "Writing: how, without loss. Default zip");
     }
 
@@ -84,7 +86,8 @@ public:
 
     ReadResult readImage(const std::string& file, const Options* options) const override
     {
-        if (!acceptsExtension(osgDB::getLowerCaseFileExtension(file))) return ReadResult::FILE_NOT_HANDLED;
+        if (!acceptsExtension(osgDB::getLowerCaseFileExtension(file)))
+            return ReadResult::FILE_NOT_HANDLED;
         const std::string path = osgDB::findDataFile(file, options);
         if (path.empty()) return ReadResult::FILE_NOT_FOUND;
 
@@ -99,28 +102,31 @@ public:
     WriteResult writeImage(const osg::Image& image, std::ostream& stream,
                            const Options* options) const override
     {
-        return write(image, options, [&](const ExrImage& exr, ExrCompression compression) {
-            return writeExr(stream, exr, compression);
-        });
+        return write(image, options,
+                     [&](const ExrImage& exr, ExrCompression compression)
+                     { return writeExr(stream, exr, compression); });
     }
 
     WriteResult writeImage(const osg::Image& image, const std::string& file,
                            const Options* options) const override
     {
-        if (!acceptsExtension(osgDB::getLowerCaseFileExtension(file))) return WriteResult::FILE_NOT_HANDLED;
-        WriteResult result = write(image, options, [&](const ExrImage& exr, ExrCompression compression) {
-            return writeExr(file, exr, compression);
-        });
+        if (!acceptsExtension(osgDB::getLowerCaseFileExtension(file)))
+            return WriteResult::FILE_NOT_HANDLED;
+        WriteResult result = write(image, options,
+                                   [&](const ExrImage& exr, ExrCompression compression)
+                                   { return writeExr(file, exr, compression); });
         if (!result.success()) result.message() = "'" + file + "': " + result.message();
         return result;
     }
 
 private:
     template <class WriteFunction>
-    static WriteResult write(const osg::Image& image, const Options* options, WriteFunction writeFunction)
+    static WriteResult write(const osg::Image& image, const Options* options,
+                             WriteFunction writeFunction)
     {
         const ExrOptions exrOptions(options);
-        const bool half = exrOptions.half || (image.getDataType() == GL_HALF_FLOAT && !exrOptions.full);
+        const bool half =
+            exrOptions.half || (image.getDataType() == GL_HALF_FLOAT && !exrOptions.full);
         ExrImage exr;
         std::string problem = exrOptions.problem;
         if (problem.empty()) problem = toExrImage(image, half, exr);

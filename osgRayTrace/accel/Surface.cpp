@@ -11,6 +11,7 @@ namespace
 {
 
 constexpr float kOffsetScale = 32.0f * 0x1p-24f;
+constexpr float kEdgeScale = 8.0f * 0x1p-24f;
 
 /// What is read from the meshes, lane by lane; everything after it is arithmetic on lanes.
 struct TriangleLanes
@@ -94,7 +95,8 @@ void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
         const float e2x = t.c.x[i] - t.a.x[i], e2y = t.c.y[i] - t.a.y[i], e2z = t.c.z[i] - t.a.z[i];
         // Edges are scaled to about 1 first: the product of micrometre edges would be denormal.
         const float edge1 = largestOf(e1x, e1y, e1z), edge2 = largestOf(e2x, e2y, e2z);
-        const float scale = 1.0f / ((edge1 > edge2 ? edge1 : edge2) + 1e-37f);
+        const float edge = edge1 > edge2 ? edge1 : edge2;
+        const float scale = 1.0f / (edge + 1e-37f);
         const float ax = e1x * scale, ay = e1y * scale, az = e1z * scale;
         const float bx = e2x * scale, by = e2y * scale, bz = e2z * scale;
         const float nx = ay * bz - az * by;
@@ -116,7 +118,7 @@ void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
         const float bound = largestOf(t.a.x[i], t.b.x[i], t.c.x[i]) * std::fabs(nx * inverse) +
                             largestOf(t.a.y[i], t.b.y[i], t.c.y[i]) * std::fabs(ny * inverse) +
                             largestOf(t.a.z[i], t.b.z[i], t.c.z[i]) * std::fabs(nz * inverse);
-        s.offset[i] = kOffsetScale * (bound + 2.0f * t.transformBound[i]);
+        s.offset[i] = kOffsetScale * (bound + 2.0f * t.transformBound[i]) + kEdgeScale * edge;
     }
     LaneMask front = 0;
     for (int i = 0; i < kLanes; ++i)

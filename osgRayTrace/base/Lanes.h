@@ -3,35 +3,7 @@
 #pragma once
 
 #include <cstdint>
-
-namespace osgRayTrace::engine
-{
-
-/// Rays are traced and shaded sixteen at a time.
-constexpr int kLanes = 16;
-
-/// One value for each lane.
-template <class T> struct alignas(64) Lanes
-{
-    T v[kLanes];
-    T& operator[](int lane) { return v[lane]; }
-    const T& operator[](int lane) const { return v[lane]; }
-};
-
-using FloatLanes = Lanes<float>;
-using UintLanes = Lanes<uint32_t>;
-
-/// A vector for each lane, structure of arrays.
-struct Vec3Lanes
-{
-    FloatLanes x, y, z;
-};
-
-/// Bit i: lane i is in use.
-using LaneMask = uint32_t;
-constexpr LaneMask kAllLanes = 0xffffu;
-
-} // namespace osgRayTrace::engine
+#include <cstring>
 
 /// Before a loop over lanes whose turns do not depend on each other.
 #if defined(__GNUC__)
@@ -56,3 +28,46 @@ constexpr LaneMask kAllLanes = 0xffffu;
 #else
 #define OSGRAYTRACE_INLINE inline
 #endif
+
+namespace osgRayTrace::engine
+{
+
+/// Rays are traced and shaded sixteen at a time.
+constexpr int kLanes = 16;
+
+/// One value for each lane.
+template <class T> struct alignas(64) Lanes
+{
+    T v[kLanes];
+    T& operator[](int lane) { return v[lane]; }
+    const T& operator[](int lane) const { return v[lane]; }
+};
+
+using FloatLanes = Lanes<float>;
+using UintLanes = Lanes<uint32_t>;
+
+/// condition ? a : b without a branch that the compiler could move the making of a or b into, which would
+/// keep the loop around it from being vectorized.
+OSGRAYTRACE_INLINE float select(bool condition, float a, float b)
+{
+    const uint32_t mask = 0u - static_cast<uint32_t>(condition);
+    uint32_t bitsA, bitsB;
+    std::memcpy(&bitsA, &a, sizeof(a));
+    std::memcpy(&bitsB, &b, sizeof(b));
+    const uint32_t bits = (bitsA & mask) | (bitsB & ~mask);
+    float result;
+    std::memcpy(&result, &bits, sizeof(result));
+    return result;
+}
+
+/// A vector for each lane, structure of arrays.
+struct Vec3Lanes
+{
+    FloatLanes x, y, z;
+};
+
+/// Bit i: lane i is in use.
+using LaneMask = uint32_t;
+constexpr LaneMask kAllLanes = 0xffffu;
+
+} // namespace osgRayTrace::engine

@@ -83,6 +83,8 @@ GraphCollector::GraphCollector(const ConversionInput& input, ConversionReport& r
     : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), _input(input), _report(report),
       _worldFromLocal(1), _states(rootState(input))
 {
+    for (const osg::ref_ptr<const osg::StateSet>& stateSet : input.inheritedState)
+        _states.push(*stateSet);
     setTraversalMask(input.traversalMask);
 }
 

@@ -116,8 +116,16 @@ void addPhysicalMaterial(Digest& digest, const PhysicalMaterial& material)
     }
 }
 
+/// Of the frame, not of the scene; osgViewer has its own in each frame.
+bool isOfTheFrame(const osg::StateAttribute& attribute)
+{
+    return attribute.getType() == osg::StateAttribute::VIEWPORT ||
+           attribute.getType() == osg::StateAttribute::COLORMASK;
+}
+
 void addAttribute(Digest& digest, const osg::StateAttribute& attribute)
 {
+    if (isOfTheFrame(attribute)) return;
     digest.add(&attribute);
     if (const auto* material = dynamic_cast<const osg::Material*>(&attribute))
         addMaterial(digest, *material);
@@ -147,7 +155,7 @@ void addAttributes(Digest& digest, const osg::StateSet::AttributeList& attribute
 {
     for (const auto& item : attributes)
     {
-        digest.add(item.second.second);
+        if (!isOfTheFrame(*item.second.first)) digest.add(item.second.second);
         addAttribute(digest, *item.second.first);
     }
 }
@@ -158,14 +166,26 @@ void addModes(Digest& digest, const osg::StateSet::ModeList& modes)
         digest.add(mode, value);
 }
 
+void addStateSet(Digest& digest, const osg::StateSet& stateSet)
+{
+    addModes(digest, stateSet.getModeList());
+    addAttributes(digest, stateSet.getAttributeList());
+    for (const auto& modes : stateSet.getTextureModeList())
+        addModes(digest, modes);
+    for (const auto& attributes : stateSet.getTextureAttributeList())
+        addAttributes(digest, attributes);
+}
+
 /// Follows the children that are active for the eye, as the conversion does.
 class FingerprintVisitor : public osg::NodeVisitor
 {
 public:
-    FingerprintVisitor(const osg::Vec3d& eye, unsigned int mask)
-        : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN), _eye(eye)
+    explicit FingerprintVisitor(const ViewingConditions& conditions)
+        : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN), _eye(conditions.eye)
     {
-        setTraversalMask(mask);
+        setTraversalMask(conditions.traversalMask);
+        for (const osg::ref_ptr<const osg::StateSet>& stateSet : conditions.inheritedState)
+            addStateSet(_digest, *stateSet);
     }
 
     uint64_t value() const { return _digest.value(); }
@@ -230,7 +250,7 @@ private:
     void enter(osg::Node& node)
     {
         _digest.add(&node);
-        addStateSet(node.getStateSet());
+        addStateSetOf(node);
         traverse(node);
         _digest.add(kEnd);
     }
@@ -238,21 +258,15 @@ private:
     void addDrawable(const osg::Drawable& drawable)
     {
         _digest.add(&drawable);
-        addStateSet(drawable.getStateSet());
+        addStateSetOf(drawable);
         const osg::BoundingBox& box = drawable.getBoundingBox();
         _digest.add(box._min, box._max);
     }
 
-    void addStateSet(const osg::StateSet* stateSet)
+    void addStateSetOf(const osg::Node& node)
     {
-        _digest.add(stateSet);
-        if (!stateSet) return;
-        addModes(_digest, stateSet->getModeList());
-        addAttributes(_digest, stateSet->getAttributeList());
-        for (const auto& modes : stateSet->getTextureModeList())
-            addModes(_digest, modes);
-        for (const auto& attributes : stateSet->getTextureAttributeList())
-            addAttributes(_digest, attributes);
+        _digest.add(node.getStateSet());
+        if (node.getStateSet()) addStateSet(_digest, *node.getStateSet());
     }
 
     static constexpr int kEnd = -1; // of a node's children, so that moving a node one level up shows
@@ -265,9 +279,9 @@ private:
 
 } // namespace
 
-uint64_t graphFingerprint(osg::Node& root, const osg::Vec3d& eye, unsigned int traversalMask)
+uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions)
 {
-    FingerprintVisitor visitor(eye, traversalMask);
+    FingerprintVisitor visitor(conditions);
     root.accept(visitor);
     return visitor.value();
 }

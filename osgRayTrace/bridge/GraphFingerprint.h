@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/ViewingConditions.h"
+
 #include <osg/Node>
-#include <osg/Vec3d>
 
 #include <cstdint>
 
@@ -12,8 +13,8 @@ namespace osgRayTrace::engine
 
 /// A number that changes with the children that are active for the eye, their order and masks, with
 /// transforms, with the modified counts and bounds of geometry, with state sets, and with the values of
-/// the attributes and lights that are traced. Vertex data that is written without Array::dirty(), and
+/// the attributes and lights that are traced; those of the inherited state included. Vertex data that is written without Array::dirty(), and
 /// images without Image::dirty(), go unseen: that is what dirtyScene() is for. Reads the graph only.
-uint64_t graphFingerprint(osg::Node& root, const osg::Vec3d& eye, unsigned int traversalMask);
+uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions);
 
 } // namespace osgRayTrace::engine

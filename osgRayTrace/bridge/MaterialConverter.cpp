@@ -140,6 +140,7 @@ uint32_t MaterialConverter::lampIndex(const Vec3& radiance)
     material.baseColor = Vec3(0.0f);
     material.ior = 1.0f;
     material.emission = radiance;
+    material.lightMask = 0; // black: no light of OpenGL changes it
     return merged(material);
 }
 

@@ -106,7 +106,6 @@ bool decodePlain(const osg::Image& image, Texture& texture)
     case GL_INT: decodeFloats<int32_t>(image, *layout, texture); return true;
     case GL_HALF_FLOAT: decodeFloats<Half>(image, *layout, texture); return true;
     case GL_FLOAT: decodeFloats<float>(image, *layout, texture); return true;
-    case GL_DOUBLE: decodeFloats<double>(image, *layout, texture); return true;
     default: return false;
     }
 }

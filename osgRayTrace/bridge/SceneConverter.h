@@ -9,9 +9,11 @@
 
 #include <osg/Light>
 #include <osg/Node>
+#include <osg/StateSet>
 #include <osg/Vec3d>
 
 #include <memory>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -28,6 +30,8 @@ struct ConversionInput
     osg::ref_ptr<const osg::Light> viewLight;
     bool viewLightInEyeSpace = true;
     bool lighting = true;                ///< GL_LIGHTING above the root: off in osg::View's NO_LIGHT mode
+    /// State above the root, the outermost first: of a cull traversal. Empty: osgViewer's defaults.
+    std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState;
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as shown
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
 };

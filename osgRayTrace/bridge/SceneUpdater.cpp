@@ -130,8 +130,7 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
     if (seen && same) return;
     if (frameStamp) _frameNumber = frameStamp->getFrameNumber();
 
-    const uint64_t fingerprint =
-        root ? graphFingerprint(*root, conditions.eye, conditions.traversalMask) : 0;
+    const uint64_t fingerprint = root ? graphFingerprint(*root, conditions) : 0;
     if (same && fingerprint == _fingerprint) return;
 
     _root = root;
@@ -154,7 +153,8 @@ void SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
     input.traversalMask = conditions.traversalMask;
     input.viewLight = conditions.light;
     input.viewLightInEyeSpace = conditions.lightInEyeSpace;
-    input.lighting = conditions.lighting;
+    input.lighting = conditions.inheritedState.empty();
+    input.inheritedState = conditions.inheritedState;
     input.clearColor = conditions.clearColor;
     input.colorRule = _colorRule;
 

@@ -42,7 +42,8 @@ void setSceneStatistics(Statistics& statistics, const ConversionResult& conversi
 
 void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
 {
-    statistics.ok = progress.status.ok();
+    const bool hasPicture = progress.status.code == StatusCode::Cancelled && progress.passes > 0;
+    statistics.ok = progress.status.ok() || hasPicture;
     statistics.message = progress.status.message;
     statistics.integrator = integratorName(progress.integrator);
     statistics.passes = progress.passes;

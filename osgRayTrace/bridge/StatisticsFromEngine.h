@@ -15,7 +15,7 @@ namespace osgRayTrace::engine
 void setSceneStatistics(Statistics& statistics, const ConversionResult& conversion,
                         const TracedScene& traced);
 
-/// Sets the image's part, ok and message.
+/// Sets the image's part, ok and message. A render that was cancelled after a complete pass is ok.
 void setImageStatistics(Statistics& statistics, const RenderProgress& progress);
 
 } // namespace osgRayTrace::engine

@@ -6,7 +6,7 @@
 #include <osgUtil/RenderStage>
 #include <osgUtil/StateGraph>
 
-#include <vector>
+#include <algorithm>
 
 namespace osgRayTrace::engine
 {
@@ -46,24 +46,13 @@ PositionedLight firstLight(osgUtil::RenderStage& stage)
     return found;
 }
 
-/// GL_LIGHTING as the state sets above the visitor's place have it, the root's first.
-bool inheritedLighting(const osgUtil::StateGraph* graph)
+std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState(const osgUtil::StateGraph* graph)
 {
-    std::vector<const osg::StateSet*> stateSets;
+    std::vector<osg::ref_ptr<const osg::StateSet>> stateSets;
     for (; graph; graph = graph->_parent)
-        if (graph->getStateSet()) stateSets.push_back(graph->getStateSet());
-
-    bool lighting = false;
-    bool overridden = false;
-    for (auto stateSet = stateSets.rbegin(); stateSet != stateSets.rend(); ++stateSet)
-    {
-        const osg::StateAttribute::GLModeValue mode = (*stateSet)->getMode(GL_LIGHTING);
-        if (mode & osg::StateAttribute::INHERIT) continue;
-        if (overridden && !(mode & osg::StateAttribute::PROTECTED)) continue;
-        lighting = mode & osg::StateAttribute::ON;
-        overridden = overridden || (mode & osg::StateAttribute::OVERRIDE);
-    }
-    return lighting;
+        if (graph->getStateSet()) stateSets.emplace_back(graph->getStateSet());
+    std::reverse(stateSets.begin(), stateSets.end());
+    return stateSets;
 }
 
 bool close(const osg::Vec4d& a, const osg::Vec4d& b)
@@ -92,7 +81,7 @@ ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor)
     const osg::Matrixd sceneFromEye = osg::Matrixd::inverse(eyeFromScene);
     conditions.eye = sceneFromEye.getTrans();
     conditions.traversalMask = visitor.getTraversalMask();
-    conditions.lighting = inheritedLighting(visitor.getCurrentStateGraph());
+    conditions.inheritedState = inheritedState(visitor.getCurrentStateGraph());
 
     osgUtil::RenderStage* stage = visitor.getCurrentRenderStage();
     if (!stage) return conditions;
@@ -114,9 +103,8 @@ ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor)
 
 bool convertAlike(const ViewingConditions& a, const ViewingConditions& b)
 {
-    return a.traversalMask == b.traversalMask && a.lighting == b.lighting &&
-           a.lightInEyeSpace == b.lightInEyeSpace && a.clearColor == b.clearColor &&
-           sameLight(a.light.get(), b.light.get());
+    return a.traversalMask == b.traversalMask && a.lightInEyeSpace == b.lightInEyeSpace &&
+           a.clearColor == b.clearColor && sameLight(a.light.get(), b.light.get());
 }
 
 } // namespace osgRayTrace::engine

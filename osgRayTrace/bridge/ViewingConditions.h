@@ -3,8 +3,11 @@
 #pragma once
 
 #include <osg/Light>
+#include <osg/StateSet>
 #include <osg/Vec3d>
 #include <osg/Vec4>
+
+#include <vector>
 
 namespace osgUtil
 {
@@ -25,15 +28,16 @@ struct ViewingConditions
     osg::ref_ptr<const osg::Light> light;
     bool lightInEyeSpace = true;
 
-    bool lighting = true; ///< GL_LIGHTING, as inherited from above
+    /// The state sets above the place, the outermost first.
+    std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState;
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f};
 };
 
 /// Those of the visitor's pass, where it stands. Cull thread.
 ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor);
 
-/// True if a scene converted for a need not be converted again for b. The eye is not compared; a light
-/// that only moved by rounding is the same.
+/// True if a scene converted for a need not be converted again for b. The eye and the inherited state are
+/// not compared; a light that only moved by rounding is the same.
 bool convertAlike(const ViewingConditions& a, const ViewingConditions& b);
 
 } // namespace osgRayTrace::engine

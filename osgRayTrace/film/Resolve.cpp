@@ -45,7 +45,7 @@ OSGRAYTRACE_INLINE float log2Lanes(float x)
 OSGRAYTRACE_INLINE float encodeLanes(float x)
 {
     const float power = 1.055f * exp2Lanes(log2Lanes(x < 1e-4f ? 1e-4f : x) * (1.0f / 2.4f)) - 0.055f;
-    return x <= 0.0031308f ? 12.92f * x : power;
+    return select(x <= 0.0031308f, 12.92f * x, power);
 }
 
 OSGRAYTRACE_INLINE float clampUnit(float x)

@@ -126,8 +126,9 @@ void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightL
         const float positive = cosine > 0.0f ? cosine : 0.0f;
         const float pdfBsdf = positive * kInvPi;
         const float ratio = pdfBsdf / light.pdfW[i];
-        const float mis = delta ? 1.0f : 1.0f / (1.0f + ratio * ratio);
-        const float weight = ((visible >> i) & 1u) ? pdfBsdf * light.weight[i] * mis : 0.0f;
+        const float mis = select(delta, 1.0f, 1.0f / (1.0f + ratio * ratio));
+        const float unmasked = pdfBsdf * light.weight[i] * mis;
+        const float weight = select(((visible >> i) & 1u) != 0, unmasked, 0.0f);
         radiance.x[i] = throughput.x[i] * albedo.x[i] * light.radiance[0][i] * weight;
         radiance.y[i] = throughput.y[i] * albedo.y[i] * light.radiance[1][i] * weight;
         radiance.z[i] = throughput.z[i] * albedo.z[i] * light.radiance[2][i] * weight;
@@ -148,9 +149,9 @@ void facingNormals(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lanes& 
         const float towards = sign * (sx * ray.directionX[i] + sy * ray.directionY[i] +
                                       sz * ray.directionZ[i]);
         const bool use = towards < -1e-4f;
-        normal.x[i] = use ? sx * sign : gx;
-        normal.y[i] = use ? sy * sign : gy;
-        normal.z[i] = use ? sz * sign : gz;
+        normal.x[i] = select(use, sx * sign, gx);
+        normal.y[i] = select(use, sy * sign, gy);
+        normal.z[i] = select(use, sz * sign, gz);
     }
 }
 

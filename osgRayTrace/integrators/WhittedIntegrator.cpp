@@ -152,9 +152,12 @@ void addDiffuse(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLan
         const bool use = (((visible >> i) & 1u) != 0) & (cosine > 0.0f);
         // Lanes that are not used may hold anything: selected last, so that nothing of it gets through.
         const float weight = cosine * light.weight[i] * (scale * kInvPi);
-        sum.x[i] += use ? albedo.x[i] * light.radiance[0][i] * weight : 0.0f;
-        sum.y[i] += use ? albedo.y[i] * light.radiance[1][i] * weight : 0.0f;
-        sum.z[i] += use ? albedo.z[i] * light.radiance[2][i] * weight : 0.0f;
+        const float r = albedo.x[i] * light.radiance[0][i] * weight;
+        const float g = albedo.y[i] * light.radiance[1][i] * weight;
+        const float b = albedo.z[i] * light.radiance[2][i] * weight;
+        sum.x[i] += select(use, r, 0.0f);
+        sum.y[i] += select(use, g, 0.0f);
+        sum.z[i] += select(use, b, 0.0f);
     }
 }
 

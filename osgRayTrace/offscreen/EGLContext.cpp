@@ -21,17 +21,20 @@ EGLDisplay openDisplay()
 {
     EGLDisplay display = EGL_NO_DISPLAY;
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    if (extensions && std::string(extensions).find("EGL_MESA_platform_surfaceless") != std::string::npos)
+    if (extensions &&
+        std::string(extensions).find("EGL_MESA_platform_surfaceless") != std::string::npos)
     {
-        display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+        display =
+            eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     }
     if (display == EGL_NO_DISPLAY) display = eglGetDisplay(EGL_DEFAULT_DISPLAY);
-    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return EGL_NO_DISPLAY;
+    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
+        return EGL_NO_DISPLAY;
     return display;
 }
 
-/// EGL has one such display in a process, whoever asks for it; eglTerminate would close it under the feet
-/// of others, so nobody does.
+/// EGL has one such display in a process, whoever asks for it; eglTerminate would close it under
+/// the feet of others, so nobody does.
 EGLDisplay sharedDisplay()
 {
     static const EGLDisplay display = openDisplay();
@@ -40,10 +43,12 @@ EGLDisplay sharedDisplay()
 
 EGLConfig chooseConfig(EGLDisplay display)
 {
+    // clang-format off
     const EGLint wanted[] = {
         EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
         EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8, EGL_ALPHA_SIZE, 8,
         EGL_DEPTH_SIZE, 24, EGL_STENCIL_SIZE, 8, EGL_NONE};
+    // clang-format on
     EGLConfig config = nullptr;
     EGLint count = 0;
     if (!eglChooseConfig(display, wanted, &config, 1, &count) || count < 1) return nullptr;
@@ -54,8 +59,7 @@ class EGLPixelContext : public engine::PixelContext
 {
 public:
     EGLPixelContext(int width, int height, EGLPixelContext* sharedContext)
-        : PixelContext(width, height, sharedContext),
-          _display(sharedDisplay())
+        : PixelContext(width, height, sharedContext), _display(sharedDisplay())
     {
         if (_display == EGL_NO_DISPLAY || !eglBindAPI(EGL_OPENGL_API)) return;
         const EGLConfig config = chooseConfig(_display);
@@ -64,8 +68,8 @@ public:
         const EGLint size[] = {EGL_WIDTH, width, EGL_HEIGHT, height, EGL_NONE};
         _surface = eglCreatePbufferSurface(_display, config, size);
         if (_surface == EGL_NO_SURFACE) return;
-        _context = eglCreateContext(_display, config,
-                                    sharedContext ? sharedContext->_context : EGL_NO_CONTEXT, nullptr);
+        _context = eglCreateContext(
+            _display, config, sharedContext ? sharedContext->_context : EGL_NO_CONTEXT, nullptr);
     }
 
     const char* className() const override { return "EGLContext"; }
@@ -90,7 +94,8 @@ protected:
 
     UnbindFunction unbindFunction() const override
     {
-        return [] { eglMakeCurrent(sharedDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); };
+        return []
+        { eglMakeCurrent(sharedDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); };
     }
 
 private:
@@ -108,7 +113,8 @@ osg::ref_ptr<osg::GraphicsContext> createEGLContext(int width, int height,
     auto* shared = dynamic_cast<EGLPixelContext*>(sharedContext);
     if (sharedContext && !(shared && shared->valid()))
     {
-        OSG_WARN << "osgRayTrace: an EGL context can only share with an open EGL context" << std::endl;
+        OSG_WARN << "osgRayTrace: an EGL context can only share with an open EGL context"
+                 << std::endl;
         return nullptr;
     }
     return engine::checkedContext(new EGLPixelContext(width, height, shared));

@@ -8,11 +8,7 @@
 namespace osgRayTrace
 {
 
-FrameCapture::FrameCapture()
-    : _colorImage(new osg::Image),
-      _depthImage(new osg::Image)
-{
-}
+FrameCapture::FrameCapture() : _colorImage(new osg::Image), _depthImage(new osg::Image) {}
 
 FrameCapture::~FrameCapture() = default;
 

@@ -75,7 +75,8 @@ osg::ref_ptr<osg::GraphicsContext> createOSMesaContext(int width, int height,
     auto* shared = dynamic_cast<OSMesaPixelContext*>(sharedContext);
     if (sharedContext && !(shared && shared->valid()))
     {
-        OSG_WARN << "osgRayTrace: an OSMesa context can only share with an open OSMesa context" << std::endl;
+        OSG_WARN << "osgRayTrace: an OSMesa context can only share with an open OSMesa context"
+                 << std::endl;
         return nullptr;
     }
     return engine::checkedContext(new OSMesaPixelContext(width, height, shared));

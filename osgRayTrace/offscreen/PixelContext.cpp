@@ -98,8 +98,8 @@ bool PixelContext::makeCurrentImplementation()
 {
     if (!valid()) return false;
 
-    // OSMesa and EGL do not know of each other, but their drivers share Mesa's record of what is current:
-    // the one must let go before the other takes over.
+    // OSMesa and EGL do not know of each other, but their drivers share Mesa's record of what is
+    // current: the one must let go before the other takes over.
     if (t_current.unbind && t_current.unbind != unbindFunction()) t_current.unbind();
     t_current = {};
 

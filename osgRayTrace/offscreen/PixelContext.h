@@ -9,15 +9,17 @@
 namespace osgRayTrace::engine
 {
 
-/// A context of fixed size whose native part exists from construction on. A subclass creates that part in
-/// its constructor, destroys it in closeImplementation() and calls close() in its destructor.
+/// A context of fixed size whose native part exists from construction on. A subclass creates that
+/// part in its constructor, destroys it in closeImplementation() and calls close() in its
+/// destructor.
 class PixelContext : public osg::GraphicsContext
 {
 public:
     /// Takes the share of the contextID that an OSG context has, so that close() may give it back.
     PixelContext(int width, int height, osg::GraphicsContext* sharedContext);
 
-    /// Empty if OpenGL answers in this context, else one sentence for the user. Leaves nothing current.
+    /// Empty if OpenGL answers in this context, else one sentence for the user. Leaves nothing
+    /// current.
     std::string check();
 
     bool realizeImplementation() override;

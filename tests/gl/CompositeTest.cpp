@@ -194,10 +194,15 @@ TEST_CASE("composite: the drawable leaves OSG's state as it was", "[gl]")
     osg::ref_ptr<osg::Material> material = new osg::Material;
     material->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(0.9f, 0.6f, 0.3f, 1.0f));
 
+    // The three ways in which OSG can draw a geometry.
+    const bool bufferObjects = GENERATE(true, false);
+    const bool displayLists = bufferObjects ? false : GENERATE(true, false);
     const auto quadAt = [&](float x, bool lit, bool textured)
     {
         osg::ref_ptr<osg::Geometry> quad = osg::createTexturedQuadGeometry(
             osg::Vec3(x, -1.0f, 1.0f), osg::Vec3(0.8f, 0, 0), osg::Vec3(0, 2.0f, 0));
+        quad->setUseVertexBufferObjects(bufferObjects);
+        quad->setUseDisplayList(displayLists);
         osg::StateSet* stateSet = quad->getOrCreateStateSet();
         if (textured) stateSet->setTextureAttributeAndModes(0, texture);
         if (lit) stateSet->setAttribute(material);

@@ -1,5 +1,5 @@
-// OffscreenTest.cpp - OSMesa and EGL contexts under OSG, one at a time and together. Layer: offscreen.
-// SPDX-License-Identifier: MIT
+// OffscreenTest.cpp - OSMesa and EGL contexts under OSG, one at a time and together. Layer:
+// offscreen. SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
 #include <osgRayTrace/offscreen/FrameCapture>
@@ -47,9 +47,11 @@ osg::ref_ptr<osg::Geometry> makeQuad(const osg::Vec4& color = kQuadColor)
 void addGlsl(osg::StateSet& stateSet)
 {
     osg::ref_ptr<osg::Program> program = new osg::Program;
-    program->addShader(new osg::Shader(osg::Shader::VERTEX,
+    program->addShader(new osg::Shader(
+        osg::Shader::VERTEX,
         "varying vec4 color; void main() { color = gl_Color; gl_Position = ftransform(); }"));
-    program->addShader(new osg::Shader(osg::Shader::FRAGMENT,
+    program->addShader(new osg::Shader(
+        osg::Shader::FRAGMENT,
         "uniform float scale; varying vec4 color; void main() { gl_FragColor = color * scale; }"));
     stateSet.setAttributeAndModes(program);
     stateSet.addUniform(new osg::Uniform("scale", 1.0f));
@@ -105,7 +107,8 @@ void requireQuad(FrameCapture& capture, int width, int height)
 
     REQUIRE(hasColor(color, width / 2, height / 2, kQuadColor));
     // 24 bits of depth, to half a step.
-    const auto depthAt = [&](int x, int y) { return *reinterpret_cast<const float*>(depth.data(x, y)); };
+    const auto depthAt = [&](int x, int y)
+    { return *reinterpret_cast<const float*>(depth.data(x, y)); };
     REQUIRE(depthAt(width / 2, height / 2) == Approx(0.25).margin(0.6 / (1 << 24)));
     if (width < 4 || height < 4) return;
     REQUIRE(hasColor(color, 0, 0, kClearColor));
@@ -131,7 +134,8 @@ TEST_CASE("offscreen: osgViewer draws colour and depth in both kinds of context"
         INFO(context->className());
         View view(context.get());
         REQUIRE(context->isRealized());
-        for (int frame = 0; frame < 3; ++frame) view.viewer.frame();
+        for (int frame = 0; frame < 3; ++frame)
+            view.viewer.frame();
         requireQuad(*view.capture, 64, 48);
     }
 }
@@ -185,7 +189,8 @@ TEST_CASE("offscreen: every threading model of osgViewer works", "[offscreen][gl
 {
     const osgViewer::Viewer::ThreadingModel models[] = {
         osgViewer::Viewer::SingleThreaded, osgViewer::Viewer::CullDrawThreadPerContext,
-        osgViewer::Viewer::DrawThreadPerContext, osgViewer::Viewer::CullThreadPerCameraDrawThreadPerContext};
+        osgViewer::Viewer::DrawThreadPerContext,
+        osgViewer::Viewer::CullThreadPerCameraDrawThreadPerContext};
     for (const CreateFunction create : kCreateFunctions)
     {
         for (const osgViewer::Viewer::ThreadingModel model : models)
@@ -194,7 +199,8 @@ TEST_CASE("offscreen: every threading model of osgViewer works", "[offscreen][gl
             REQUIRE(context);
             INFO(context->className() << ", threading model " << model);
             View view(context.get(), makeQuad(), model);
-            for (int frame = 0; frame < 5; ++frame) view.viewer.frame();
+            for (int frame = 0; frame < 5; ++frame)
+                view.viewer.frame();
             view.viewer.stopThreading();
             requireQuad(*view.capture, 40, 30);
         }
@@ -252,7 +258,8 @@ TEST_CASE("offscreen: sizes from 1 x 1 to 4096 x 4096", "[offscreen][gl]")
 
 TEST_CASE("offscreen: what is no size, or too large a one, gives null", "[offscreen]")
 {
-    const int sizes[][2] = {{0, 8}, {8, 0}, {-1, 8}, {0, 0}, {1 << 30, 1 << 30}, {1 << 20, 4}, {4, 1 << 20}, {40000, 40000}};
+    const int sizes[][2] = {{0, 8},       {8, 0},       {-1, 8},       {0, 0}, {1 << 30, 1 << 30},
+                            {1 << 20, 4}, {4, 1 << 20}, {40000, 40000}};
     for (const CreateFunction create : kCreateFunctions)
     {
         for (const auto& size : sizes)
@@ -307,7 +314,8 @@ TEST_CASE("offscreen: both kinds of context take turns in one thread", "[offscre
             REQUIRE(hasColor(*image, 3, 3, osg::Vec4(i / 4.0f, round / 4.0f, 1.0f, 1.0f)));
         }
     }
-    for (const Context& context : contexts) context->releaseContext();
+    for (const Context& context : contexts)
+        context->releaseContext();
 }
 
 TEST_CASE("offscreen: both kinds of context draw the same picture", "[offscreen][gl]")
@@ -322,7 +330,8 @@ TEST_CASE("offscreen: both kinds of context draw the same picture", "[offscreen]
         images[i] = view.capture->getColorImage();
     }
     REQUIRE(images[0]->getTotalSizeInBytes() == images[1]->getTotalSizeInBytes());
-    REQUIRE(std::memcmp(images[0]->data(), images[1]->data(), images[0]->getTotalSizeInBytes()) == 0);
+    REQUIRE(std::memcmp(images[0]->data(), images[1]->data(), images[0]->getTotalSizeInBytes()) ==
+            0);
 }
 
 TEST_CASE("offscreen: shared contexts share textures", "[offscreen][gl]")
@@ -364,7 +373,8 @@ TEST_CASE("offscreen: shared contexts share textures", "[offscreen][gl]")
     REQUIRE_FALSE(createEGLContext(4, 4, osmesa.get()));
 }
 
-TEST_CASE("offscreen: a hundred contexts, one after the other, leave nothing behind", "[offscreen][gl]")
+TEST_CASE("offscreen: a hundred contexts, one after the other, leave nothing behind",
+          "[offscreen][gl]")
 {
     constexpr int kSide = 1024; // 4 MiB of colour and 4 MiB of depth each
     for (const CreateFunction create : kCreateFunctions)

@@ -11,6 +11,7 @@
 #include <osgDB/Registry>
 #include <osgDB/WriteFile>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>

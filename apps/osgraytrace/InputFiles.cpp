@@ -1,0 +1,94 @@
+// InputFiles.cpp - reads files through osgDB, and refuses what would make it hang. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "InputFiles.h"
+
+#include "Failure.h"
+
+#include <osg/Group>
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
+#include <osgDB/Registry>
+
+#include <fstream>
+#include <iterator>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+/// Whether an .osgt file ends within a block or a string, where osgDB 3.6 would read on for ever.
+bool isCutShort(const std::string& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    int depth = 0;
+    bool quoted = false;
+    bool escaped = false;
+    for (std::istreambuf_iterator<char> at(stream), end; at != end; ++at)
+    {
+        const char c = *at;
+        if (escaped) escaped = false;
+        else if (quoted && c == '\\') escaped = true;
+        else if (c == '"') quoted = !quoted;
+        else if (!quoted && c == '{') ++depth;
+        else if (!quoted && c == '}') --depth;
+    }
+    return quoted || depth > 0;
+}
+
+Failure cannotLoad(const std::string& file, const osgDB::ReaderWriter::ReadResult& result)
+{
+    std::string reason = result.message();
+    if (reason.empty()) reason = result.notFound() ? "there is no such file" : result.statusMessage();
+    return Failure(kCannotLoad, "cannot load " + file + ": " + reason);
+}
+
+osg::ref_ptr<osg::Node> readModel(const std::string& file)
+{
+    // Names with further extensions are for pseudo-loaders and may be no files themselves.
+    const std::string found = osgDB::findDataFile(file);
+    if (!found.empty() && osgDB::getLowerCaseFileExtension(found) == "osgt" && isCutShort(found))
+    {
+        throw Failure(kCannotLoad, "cannot load " + file + ": it is cut short");
+    }
+
+    osgDB::Registry* registry = osgDB::Registry::instance();
+    osgDB::ReaderWriter::ReadResult result = registry->readNode(file, registry->getOptions());
+    if (!result.validNode()) throw cannotLoad(file, result);
+    return result.getNode();
+}
+
+} // namespace
+
+osg::ref_ptr<osg::Node> readScene(const std::vector<std::string>& files)
+{
+    if (files.size() == 1) return readModel(files.front());
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    for (const std::string& file : files)
+    {
+        scene->addChild(readModel(file));
+    }
+    return scene;
+}
+
+osg::ref_ptr<osg::Image> readReference(const std::string& file, int width, int height)
+{
+    osgDB::Registry* registry = osgDB::Registry::instance();
+    osgDB::ReaderWriter::ReadResult result = registry->readImage(file, registry->getOptions());
+    if (!result.validImage()) throw cannotLoad(file, result);
+    const osg::ref_ptr<osg::Image> image = result.getImage();
+    const bool rgb = image->getPixelFormat() == GL_RGB || image->getPixelFormat() == GL_RGBA;
+    if (!rgb || image->getDataType() != GL_FLOAT)
+    {
+        throw Failure(kCannotLoad, "the reference " + file + " holds no linear radiance; it must be an .exr");
+    }
+    if (image->s() != width || image->t() != height)
+    {
+        throw Failure(kUsage, "the reference " + file + " is of --size " + std::to_string(image->s()) + " " +
+                                  std::to_string(image->t()));
+    }
+    return image;
+}
+
+} // namespace osgRayTrace::app

@@ -1,0 +1,97 @@
+// LimitBuild.cpp - graph to ready BVH against Embree's own build. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "apps/osgraytracebench/BenchScenes.h"
+#include "apps/osgraytracebench/LimitMode.h"
+#include "apps/osgraytracebench/Timing.h"
+#include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/bridge/SceneConverter.h"
+
+#include <embree3/rtcore.h>
+#include <malloc.h>
+#include <osg/Geode>
+
+#include <cstring>
+
+namespace osgRayTrace::bench
+{
+
+using namespace engine;
+
+namespace
+{
+
+constexpr int kRuns = 9;
+
+/// One copy of the vertices and indices into Embree's buffers, and its build.
+void buildBare(RTCDevice device, const osg::Vec3Array& vertices, const osg::DrawElementsUInt& indices)
+{
+    RTCScene scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* v = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
+                                      vertices.size());
+    void* i = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12,
+                                      indices.size() / 3);
+    std::memcpy(v, vertices.getDataPointer(), vertices.getTotalDataSize());
+    std::memcpy(i, indices.getDataPointer(), indices.getTotalDataSize());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    rtcReleaseScene(scene);
+}
+
+/// Bytes that the process has from malloc, Embree's included.
+double heapBytes()
+{
+    const struct mallinfo2 info = mallinfo2();
+    return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
+}
+
+struct Built
+{
+    ConversionResult conversion;
+    std::shared_ptr<const TracedScene> traced;
+};
+
+Built buildGraph(osg::Node* graph, const std::shared_ptr<Workers>& workers)
+{
+    SceneConverter converter;
+    ConversionInput input;
+    input.root = graph;
+    Built built;
+    built.conversion = converter.convert(input);
+    built.traced = TracedScene::build(built.conversion.scene, workers);
+    return built;
+}
+
+} // namespace
+
+void measureBuild(Rows& rows)
+{
+    const osg::ref_ptr<osg::Geometry> geometry = displacedSphereGeometry();
+    const osg::ref_ptr<osg::Geode> graph = new osg::Geode;
+    graph->addDrawable(geometry);
+    const auto& vertices = static_cast<const osg::Vec3Array&>(*geometry->getVertexArray());
+    const auto& indices = static_cast<const osg::DrawElementsUInt&>(*geometry->getPrimitiveSet(0));
+    const double triangles = static_cast<double>(indices.size() / 3);
+
+    auto workers = std::make_shared<Workers>();
+    RTCDevice device = rtcNewDevice(nullptr);
+    const PairedTimes times = timePair(
+        kRuns, [&] { buildGraph(graph, workers); }, [&] { buildBare(device, vertices, indices); });
+    rtcReleaseDevice(device);
+    rows.push_back({"1 M triangles: Embree's build and one copy", times.second * 1e3, "ms"});
+    rows.push_back({"1 M triangles: graph to ready BVH", times.first * 1e3, "ms"});
+    rows.push_back({"1 M triangles: graph / Embree", times.ratio, "times", Goal::AtMost, 1.5});
+
+    const double before = heapBytes();
+    const Built built = buildGraph(graph, workers);
+    const double embree = static_cast<double>(built.traced->statistics().embreeBytes);
+    rows.push_back({"1 M triangles: Embree's memory", embree / triangles, "bytes/triangle"});
+    rows.push_back({"1 M triangles: memory beyond Embree's", (heapBytes() - before - embree) / triangles,
+                    "bytes/triangle", Goal::AtMost, 60.0});
+}
+
+} // namespace osgRayTrace::bench

@@ -1,0 +1,18 @@
+// LimitMode.h - how near a whole frame comes to Embree alone. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "apps/osgraytracebench/Rows.h"
+
+namespace osgRayTrace::bench
+{
+
+/// Frames at 1920 x 1080 (camera rays, one shadow ray a pixel to an area light, shading, film, tone
+/// mapping) against the same rays through bare Embree; path tracing against the same rays one at a time;
+/// two threads against one; graph to ready BVH against Embree's own build and one copy.
+Rows measureLimit();
+
+/// The rows on building of measureLimit.
+void measureBuild(Rows& rows);
+
+} // namespace osgRayTrace::bench

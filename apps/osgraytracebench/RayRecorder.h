@@ -1,0 +1,33 @@
+// RayRecorder.h - takes down the rays that the engine hands to Embree. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <vector>
+
+namespace osgRayTrace::bench
+{
+
+/// The rays of a frame in the order in which they were traced.
+struct RecordedRays
+{
+    std::vector<RTCRay> camera;    ///< closest-hit queries with the coherent flag
+    std::vector<RTCRay> secondary; ///< the other closest-hit queries
+    std::vector<RTCRay> shadow;    ///< occlusion queries
+    RTCScene scene = nullptr;      ///< what they were traced in
+};
+
+/// While it lives, rays of this process's calls of Embree are taken down. The linker puts it between the
+/// engine and Embree (--wrap), so that the engine need not know of it. One at a time, and one thread that
+/// traces: the order of rays is the order of calls.
+class RayRecorder
+{
+public:
+    explicit RayRecorder(RecordedRays& rays);
+    ~RayRecorder();
+    RayRecorder(const RayRecorder&) = delete;
+    RayRecorder& operator=(const RayRecorder&) = delete;
+};
+
+} // namespace osgRayTrace::bench

@@ -1,0 +1,43 @@
+// main.cpp - osgraytrace_make_data FOLDER: writes our own scenes there as .osgt.
+// SPDX-License-Identifier: MIT
+#include "Scenes.h"
+
+#include "apps/osgraytrace/PluginPath.h"
+
+#include <osgDB/WriteFile>
+
+#include <iostream>
+#include <string>
+
+int main(int argc, char** argv)
+{
+    using namespace osgRayTrace::data;
+    if (argc != 2)
+    {
+        std::cerr << "usage: osgraytrace_make_data FOLDER\n";
+        return 1;
+    }
+    osgRayTrace::app::addPluginPath();
+
+    struct File
+    {
+        const char* name;
+        osg::ref_ptr<osg::Group> scene;
+    };
+    const File files[] = {
+        {"cornell_box.osgt", cornellBox(CornellVariant::Diffuse)},
+        {"cornell_box_mirror.osgt", cornellBox(CornellVariant::MirrorFloor)},
+        {"cornell_box_tall_mirror.osgt", cornellBox(CornellVariant::TallMirror)},
+        {"cornell_box_glass.osgt", cornellBox(CornellVariant::GlassSphere)},
+        {"grids.osgt", grids()},
+        {"furnace.osgt", furnace()},
+    };
+    for (const File& file : files)
+    {
+        const std::string path = std::string(argv[1]) + "/" + file.name;
+        if (osgDB::writeNodeFile(*file.scene, path)) continue;
+        std::cerr << "osgraytrace_make_data: cannot write " << path << '\n';
+        return 4;
+    }
+    return 0;
+}

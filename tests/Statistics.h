@@ -1,0 +1,116 @@
+// Statistics.h - what statistical tests need: means with their errors, chi-square, slopes.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+namespace osgRayTrace::engine::test
+{
+
+/// Mean of independent values and the standard error of it.
+class Estimate
+{
+public:
+    void add(double value)
+    {
+        ++_count;
+        const double delta = value - _mean;
+        _mean += delta / static_cast<double>(_count);
+        _squares += delta * (value - _mean);
+    }
+
+    double mean() const { return _mean; }
+    double variance() const { return _count > 1 ? _squares / static_cast<double>(_count - 1) : 0.0; }
+    double standardError() const { return std::sqrt(variance() / static_cast<double>(_count)); }
+
+    /// True if the mean lies within 4 standard errors of expected, and rounding beside them. A false
+    /// alarm has a probability of 6e-5 for many values, 1e-3 for sixteen.
+    bool agrees(double expected, double rounding = 0.0) const
+    {
+        return std::abs(_mean - expected) <= 4.0 * standardError() + rounding;
+    }
+
+private:
+    std::size_t _count = 0;
+    double _mean = 0.0;
+    double _squares = 0.0;
+};
+
+/// Probability that a chi-square variable exceeds the value, by Wilson and Hilferty's cube root.
+inline double chiSquareTail(double value, double degrees)
+{
+    const double variance = 2.0 / (9.0 * degrees);
+    const double z = (std::cbrt(value / degrees) - (1.0 - variance)) / std::sqrt(variance);
+    return 0.5 * std::erfc(z / std::sqrt(2.0));
+}
+
+/// Pearson's test of counts against expected ones; cells are pooled below an expected count of 5.
+/// Returns the probability of a fit this bad or worse.
+inline double chiSquareTest(const std::vector<double>& observed, const std::vector<double>& expected)
+{
+    double sum = 0.0, pooledObserved = 0.0, pooledExpected = 0.0;
+    int cells = 0;
+    const auto addCell = [&](double o, double e)
+    {
+        sum += (o - e) * (o - e) / e;
+        ++cells;
+    };
+    for (std::size_t i = 0; i < observed.size(); ++i)
+    {
+        if (expected[i] >= 5.0)
+        {
+            addCell(observed[i], expected[i]);
+            continue;
+        }
+        pooledObserved += observed[i];
+        pooledExpected += expected[i];
+        if (pooledExpected < 5.0) continue;
+        addCell(pooledObserved, pooledExpected);
+        pooledObserved = pooledExpected = 0.0;
+    }
+    if (pooledExpected > 0.0 || pooledObserved > 0.0)
+        addCell(pooledObserved, std::max(pooledExpected, 1e-3 * pooledObserved + 1e-9));
+    return cells > 1 ? chiSquareTail(sum, cells - 1) : 1.0;
+}
+
+/// Significance of each of count tests so that all together raise a false alarm with probability
+/// significance (Sidak).
+inline double sidak(double significance, int count)
+{
+    return 1.0 - std::pow(1.0 - significance, 1.0 / count);
+}
+
+/// Slope of log(y) over log(x), least squares.
+inline double logLogSlope(const std::vector<double>& x, const std::vector<double>& y)
+{
+    double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        const double lx = std::log(x[i]), ly = std::log(y[i]);
+        sx += lx;
+        sy += ly;
+        sxx += lx * lx;
+        sxy += lx * ly;
+    }
+    const double n = static_cast<double>(x.size());
+    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+/// Uniform numbers in [0,1) with a fixed seed.
+class Uniform
+{
+public:
+    explicit Uniform(uint32_t seed) : _engine(seed) {}
+    float operator()() { return static_cast<float>(_engine() >> 8) * 0x1p-24f; }
+    double between(double low, double high) { return low + (high - low) * (*this)(); }
+
+private:
+    std::mt19937 _engine;
+};
+
+} // namespace osgRayTrace::engine::test

@@ -1,0 +1,400 @@
+// RendererTest.cpp - tests of the renderer that needs no graphics context.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+
+#include <osgRayTrace/AreaLight>
+#include <osgRayTrace/Renderer>
+
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/Material>
+#include <osg/MatrixTransform>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+using osgRayTrace::AreaLight;
+using osgRayTrace::Renderer;
+using osgRayTrace::RayTraceSettings;
+using osgRayTrace::Statistics;
+
+namespace
+{
+
+osg::ref_ptr<osg::Geode> quad(const osg::Vec3& corner, const osg::Vec3& u, const osg::Vec3& v)
+{
+    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(osg::createTexturedQuadGeometry(corner, u, v));
+    geode->getOrCreateStateSet()->setAttribute(new osg::Material);
+    return geode;
+}
+
+/// A floor below a smaller roof, and a lamp between them: soft shadows and noise.
+osg::ref_ptr<osg::Group> room()
+{
+    osg::ref_ptr<osg::Group> group = new osg::Group;
+    group->addChild(quad(osg::Vec3(-2.0f, -2.0f, 0.0f), osg::Vec3(4.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 4.0f, 0.0f)));
+    group->addChild(quad(osg::Vec3(-1.0f, -1.0f, 1.0f), osg::Vec3(1.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 1.0f, 0.0f)));
+    group->addChild(new AreaLight(osg::Vec3(-0.5f, -0.5f, 2.0f), osg::Vec3(0.0f, 1.0f, 0.0f),
+                                  osg::Vec3(1.0f, 0.0f, 0.0f), osg::Vec3(5.0f, 5.0f, 5.0f)));
+    return group;
+}
+
+/// 48 x 32 pixels of the room from above and in front, two threads, four passes.
+osg::ref_ptr<Renderer> rendererOf(osg::Node* scene)
+{
+    osg::ref_ptr<Renderer> renderer = new Renderer;
+    renderer->setScene(scene);
+    renderer->setSize(48, 32);
+    renderer->setViewMatrix(osg::Matrix::lookAt(osg::Vec3d(0.0, -6.0, 3.0), osg::Vec3d(0.0, 0.0, 0.5),
+                                                osg::Vec3d(0.0, 0.0, 1.0)));
+    renderer->setProjectionMatrix(osg::Matrix::perspective(45.0, 1.5, 1.0, 100.0));
+    renderer->getSettings()->setThreads(2);
+    renderer->getSettings()->setMaxPasses(4);
+    renderer->getSettings()->setIntegrator(RayTraceSettings::PATH);
+    return renderer;
+}
+
+bool sameBytes(const osg::Image* a, const osg::Image* b)
+{
+    return a && b && a->getTotalSizeInBytes() == b->getTotalSizeInBytes() &&
+           std::memcmp(a->data(), b->data(), a->getTotalSizeInBytes()) == 0;
+}
+
+const float* floats(const osg::Image& image)
+{
+    return reinterpret_cast<const float*>(image.data());
+}
+
+} // namespace
+
+TEST_CASE("renderer: without a scene nothing is rendered", "[api][renderer]")
+{
+    const osg::ref_ptr<Renderer> renderer = new Renderer;
+    renderer->setSize(8, 8);
+    CHECK_FALSE(renderer->render());
+    CHECK_FALSE(renderer->getStatistics().ok);
+    CHECK_FALSE(renderer->getStatistics().message.empty());
+    CHECK_FALSE(renderer->getColorImage());
+    CHECK_FALSE(renderer->getDisplayImage());
+    CHECK_FALSE(renderer->getChannelImage("depth"));
+    REQUIRE(renderer->getSettings());
+    renderer->setSettings(nullptr);
+    CHECK(renderer->getSettings());
+    renderer->cancel();
+}
+
+TEST_CASE("renderer: sizes and matrices that cannot be are refused", "[api][renderer]")
+{
+    const auto renderer = rendererOf(room());
+    const int big = 1 << 15;
+    for (const auto& [width, height] : {std::pair{0, 4}, {4, 0}, {-4, 4}, {-1, -1}, {big, big}, {INT32_MAX, INT32_MAX}})
+    {
+        INFO(width << " x " << height);
+        renderer->setSize(width, height);
+        CHECK_FALSE(renderer->render());
+        CHECK_FALSE(renderer->getStatistics().message.empty());
+        CHECK_FALSE(renderer->getColorImage());
+    }
+    renderer->setSize(8, 8);
+    CHECK(renderer->render());
+    const auto before = renderer->getColorImage();
+
+    renderer->setViewMatrix(osg::Matrix::scale(1.0, 1.0, 0.0));
+    CHECK_FALSE(renderer->render());
+    renderer->setViewMatrix(osg::Matrix::scale(1.0, std::numeric_limits<double>::quiet_NaN(), 1.0));
+    CHECK_FALSE(renderer->render());
+    renderer->setViewMatrix(osg::Matrix());
+    renderer->setProjectionMatrix(osg::Matrix::scale(0.0, 0.0, 0.0));
+    CHECK_FALSE(renderer->render());
+    CHECK_FALSE(renderer->getStatistics().message.empty());
+    CHECK(sameBytes(before, renderer->getColorImage())); // the last good image stays
+}
+
+TEST_CASE("renderer: an empty scene shows exactly the clear colour", "[api][renderer]")
+{
+    const auto renderer = rendererOf(new osg::Group);
+    for (const auto rule : {RayTraceSettings::DISPLAY_REFERRED, RayTraceSettings::LINEAR})
+    {
+        renderer->getSettings()->setColorRule(rule);
+        for (const osg::Vec4& color : {osg::Vec4(0.2f, 0.2f, 0.4f, 1.0f), osg::Vec4(0.0f, 1.0f, 0.7f, 1.0f)})
+        {
+            renderer->setClearColor(color);
+            REQUIRE(renderer->render());
+            CHECK(renderer->getStatistics().triangles == 0);
+            const auto image = renderer->getDisplayImage();
+            REQUIRE(image);
+            for (int y = 0; y < image->t(); ++y)
+            {
+                for (int x = 0; x < image->s(); ++x)
+                {
+                    for (int i = 0; i < 3; ++i)
+                        REQUIRE(int(image->data(x, y)[i]) == int(std::lround(255.0f * color[i])));
+                }
+            }
+            const auto depth = renderer->getChannelImage("depth");
+            REQUIRE(depth);
+            CHECK(floats(*depth)[0] == 1.0f);
+        }
+    }
+}
+
+TEST_CASE("renderer: images have the documented formats", "[api][renderer]")
+{
+    const auto renderer = rendererOf(room());
+    REQUIRE(renderer->render());
+
+    const auto color = renderer->getColorImage();
+    REQUIRE(color);
+    CHECK(color->s() == 48);
+    CHECK(color->t() == 32);
+    CHECK(color->getPixelFormat() == GLenum(GL_RGBA));
+    CHECK(color->getDataType() == GLenum(GL_FLOAT));
+    const auto display = renderer->getDisplayImage();
+    REQUIRE(display);
+    CHECK(display->getPixelFormat() == GLenum(GL_RGBA));
+    CHECK(display->getDataType() == GLenum(GL_UNSIGNED_BYTE));
+    for (const char* name : {"depth", "distance", "id"})
+    {
+        INFO(name);
+        const auto image = renderer->getChannelImage(name);
+        REQUIRE(image);
+        CHECK(image->getPixelFormat() == GLenum(GL_LUMINANCE));
+        CHECK(image->getDataType() == GLenum(GL_FLOAT));
+    }
+    for (const char* name : {"normal", "albedo", "position", "error"})
+    {
+        INFO(name);
+        const auto image = renderer->getChannelImage(name);
+        REQUIRE(image);
+        CHECK(image->getPixelFormat() == GLenum(GL_RGB));
+        CHECK(image->getTotalSizeInBytes() == 48u * 32u * 12u);
+    }
+    CHECK_FALSE(renderer->getChannelImage("heat"));
+    CHECK_FALSE(renderer->getChannelImage(""));
+}
+
+TEST_CASE("renderer: channels show the floor where it is, from the bottom row up", "[api][renderer]")
+{
+    const auto renderer = rendererOf(quad(osg::Vec3(-50.0f, -50.0f, 0.0f), osg::Vec3(100.0f, 0.0f, 0.0f),
+                                          osg::Vec3(0.0f, 100.0f, 0.0f)));
+    REQUIRE(renderer->render());
+    const auto position = renderer->getChannelImage("position");
+    const auto normal = renderer->getChannelImage("normal");
+    const auto distance = renderer->getChannelImage("distance");
+    REQUIRE((position && normal && distance));
+    const float* p = reinterpret_cast<const float*>(position->data(24, 2));
+    CHECK(p[2] == Approx(0.0f).margin(1e-4));
+    CHECK(p[1] < 0.0f); // the lower half of the picture is nearer than the centre
+    const float* n = reinterpret_cast<const float*>(normal->data(24, 2));
+    CHECK(n[2] == Approx(1.0f));
+    const float d = *reinterpret_cast<const float*>(distance->data(24, 2));
+    CHECK(d > 1.0f);
+    CHECK(d < 6.0f);
+}
+
+TEST_CASE("renderer: statistics tell what was done", "[api][renderer]")
+{
+    const auto renderer = rendererOf(room());
+    int calls = 0;
+    REQUIRE(renderer->render(0.0, 0.0,
+                             [&calls](const Statistics& statistics)
+                             {
+                                 ++calls;
+                                 CHECK(statistics.passes == calls);
+                                 return true;
+                             }));
+    CHECK(calls == 4);
+    const Statistics& statistics = renderer->getStatistics();
+    CHECK(statistics.ok);
+    CHECK(statistics.message.empty());
+    CHECK(statistics.triangles == 6);
+    CHECK(statistics.lights >= 1);
+    CHECK(statistics.integrator == "path");
+    CHECK(statistics.passes == 4);
+    CHECK(statistics.cameraRays >= 4u * 48u * 32u);
+    CHECK(statistics.shadowRays > 0);
+    CHECK(statistics.droppedSamples == 0);
+    CHECK(std::isfinite(statistics.relativeError));
+    CHECK(statistics.renderSeconds > 0.0);
+}
+
+TEST_CASE("renderer: two at once give the images that each gives alone", "[api][renderer]")
+{
+    const auto scene = room(); // shared by both
+    const auto alone = rendererOf(scene);
+    REQUIRE(alone->render());
+
+    const auto other = room();
+    other->addChild(quad(osg::Vec3(0.0f, 0.0f, 0.5f), osg::Vec3(1.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 1.0f, 0.0f)));
+    const auto otherAlone = rendererOf(other);
+    REQUIRE(otherAlone->render());
+    CHECK_FALSE(sameBytes(alone->getColorImage(), otherAlone->getColorImage()));
+
+    osg::ref_ptr<Renderer> together[] = {rendererOf(scene), rendererOf(scene), rendererOf(other)};
+    bool ok[] = {false, false, false};
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 3; ++i)
+    {
+        threads.emplace_back([&, i] { ok[i] = together[i]->render(); });
+    }
+    for (std::thread& thread : threads)
+    {
+        thread.join();
+    }
+    CHECK((ok[0] && ok[1] && ok[2]));
+    CHECK(sameBytes(together[0]->getColorImage(), alone->getColorImage()));
+    CHECK(sameBytes(together[1]->getColorImage(), alone->getColorImage()));
+    CHECK(sameBytes(together[2]->getColorImage(), otherAlone->getColorImage()));
+}
+
+TEST_CASE("renderer: the number of threads does not show", "[api][renderer]")
+{
+    const auto scene = room();
+    const auto two = rendererOf(scene);
+    REQUIRE(two->render());
+    const auto one = rendererOf(scene);
+    one->getSettings()->setThreads(1);
+    REQUIRE(one->render());
+    CHECK(sameBytes(one->getColorImage(), two->getColorImage()));
+
+    one->getSettings()->setThreads(2); // of the same renderer
+    REQUIRE(one->render());
+    CHECK(one->getStatistics().passes == 4);
+    CHECK(sameBytes(one->getColorImage(), two->getColorImage()));
+}
+
+TEST_CASE("renderer: cancel from another thread ends a long render", "[api][renderer]")
+{
+    const auto renderer = rendererOf(room());
+    renderer->setSize(640, 480);
+    renderer->getSettings()->setMaxPasses(1 << 24);
+    bool ok = false;
+    std::thread thread([&] { ok = renderer->render(); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const auto asked = std::chrono::steady_clock::now();
+    renderer->cancel();
+    thread.join();
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - asked;
+    CHECK(waited.count() < 2.0); // a pass of this size takes about as long on a loaded machine
+    CHECK(ok == (renderer->getStatistics().passes > 0));
+    CHECK(renderer->getStatistics().passes < 1 << 24);
+
+    renderer->setSize(8, 8);
+    renderer->getSettings()->setMaxPasses(2);
+    CHECK(renderer->render()); // a cancel holds for one render
+    CHECK(renderer->getStatistics().passes == 2);
+}
+
+TEST_CASE("renderer: progress can stop a render, and its exceptions end there", "[api][renderer]")
+{
+    const auto renderer = rendererOf(room());
+    CHECK(renderer->render(0.0, 0.0, [](const Statistics&) { return false; }));
+    CHECK(renderer->getStatistics().passes == 1);
+    CHECK_FALSE(renderer->render(0.0, 0.0, [](const Statistics&) -> bool { throw std::runtime_error("no"); }));
+    CHECK(renderer->getStatistics().message == "no");
+    CHECK_FALSE(renderer->render(0.0, 0.0, [](const Statistics&) -> bool { throw 7; }));
+    CHECK(renderer->render());
+    CHECK(renderer->getStatistics().passes == 4);
+}
+
+TEST_CASE("renderer: time and error stop it too", "[api][renderer]")
+{
+    const auto renderer = rendererOf(room());
+    renderer->getSettings()->setMaxPasses(1 << 24);
+    const auto begin = std::chrono::steady_clock::now();
+    REQUIRE(renderer->render(0.2));
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    CHECK(taken.count() > 0.15);
+    CHECK(taken.count() < 3.0);
+
+    renderer->getSettings()->setSeed(1);
+    REQUIRE(renderer->render(30.0, 0.05));
+    CHECK(renderer->getStatistics().relativeError <= 0.05);
+    CHECK(renderer->getStatistics().passes >= 2);
+}
+
+TEST_CASE("renderer: passes add up until something changes", "[api][renderer]")
+{
+    const auto scene = room();
+    const auto renderer = rendererOf(scene);
+    const auto straight = rendererOf(scene);
+    renderer->getSettings()->setMaxPasses(2);
+    REQUIRE(renderer->render());
+    CHECK(renderer->getStatistics().passes == 2);
+    renderer->getSettings()->setMaxPasses(4);
+    const uint64_t raysBefore = renderer->getStatistics().cameraRays;
+    REQUIRE(renderer->render());
+    CHECK(renderer->getStatistics().passes == 4);
+    CHECK(renderer->getStatistics().cameraRays == 2 * raysBefore);
+    REQUIRE(straight->render());
+    CHECK(sameBytes(renderer->getColorImage(), straight->getColorImage()));
+
+    const auto first = renderer->getColorImage();
+    renderer->getSettings()->setSeed(5);
+    REQUIRE(renderer->render());
+    CHECK(renderer->getStatistics().passes == 4);
+    CHECK_FALSE(sameBytes(renderer->getColorImage(), first));
+    renderer->getSettings()->setSeed(0);
+    REQUIRE(renderer->render());
+    CHECK(sameBytes(renderer->getColorImage(), first));
+
+    renderer->getSettings()->setExposure(1.0f); // of the display only
+    REQUIRE(renderer->render());
+    CHECK(renderer->getStatistics().cameraRays == 2 * raysBefore);
+    CHECK(sameBytes(renderer->getColorImage(), first));
+}
+
+TEST_CASE("renderer: a changed graph shows once it is reported", "[api][renderer]")
+{
+    const auto scene = room();
+    const auto renderer = rendererOf(scene);
+    REQUIRE(renderer->render());
+    const auto before = renderer->getColorImage();
+
+    scene->removeChild(1u);
+    REQUIRE(renderer->render());
+    CHECK(sameBytes(renderer->getColorImage(), before));
+    renderer->dirtyScene();
+    REQUIRE(renderer->render());
+    CHECK_FALSE(sameBytes(renderer->getColorImage(), before));
+    CHECK(renderer->getStatistics().triangles == 4);
+
+    renderer->setScene(room());
+    REQUIRE(renderer->render());
+    CHECK(renderer->getStatistics().triangles == 6);
+    CHECK(sameBytes(renderer->getColorImage(), before));
+}
+
+TEST_CASE("renderer: what was rendered before does not show", "[api][renderer]")
+{
+    const auto scene = room();
+    const auto straight = rendererOf(scene);
+    REQUIRE(straight->render());
+
+    const auto travelled = rendererOf(scene);
+    travelled->setViewMatrix(osg::Matrix::lookAt(osg::Vec3d(50.0, 3.0, 9.0), osg::Vec3d(), osg::Vec3d(0.0, 0.0, 1.0)));
+    REQUIRE(travelled->render());
+    travelled->setViewMatrix(osg::Matrix::lookAt(osg::Vec3d(0.0, -6.0, 3.0), osg::Vec3d(0.0, 0.0, 0.5), osg::Vec3d(0.0, 0.0, 1.0)));
+    REQUIRE(travelled->render());
+    CHECK(sameBytes(travelled->getColorImage(), straight->getColorImage()));
+}
+
+TEST_CASE("renderer: the headlight is osgViewer's", "[api][renderer]")
+{
+    // A white wall that faces the eye: material diffuse 0.8 times light 0.8, and ambient light on both.
+    const auto wall = quad(osg::Vec3(-50.0f, 0.0f, -50.0f), osg::Vec3(100.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 0.0f, 100.0f));
+    const auto renderer = rendererOf(wall);
+    renderer->setViewMatrix(osg::Matrix::lookAt(osg::Vec3d(0.0, -5.0, 0.0), osg::Vec3d(), osg::Vec3d(0.0, 0.0, 1.0)));
+    renderer->getSettings()->setIntegrator(RayTraceSettings::WHITTED);
+    REQUIRE(renderer->render());
+    const int lit = renderer->getDisplayImage()->data(24, 16)[0];
+    renderer->setHeadlight(false);
+    REQUIRE(renderer->render());
+    const int unlit = renderer->getDisplayImage()->data(24, 16)[0];
+    CHECK(lit - unlit == Approx(0.64 * 255.0).margin(1.0));
+}

@@ -1,0 +1,281 @@
+// MaterialsTest.cpp - what the inherited state makes of a surface, and the colour rule.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/film/ToneMap.h"
+#include "tests/Catch.h"
+#include "tests/bridge/Graphs.h"
+
+#include <osgRayTrace/PhysicalMaterial>
+
+#include <osg/LightModel>
+#include <osg/Material>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::engine;
+
+namespace
+{
+
+constexpr auto kOn = osg::StateAttribute::ON;
+constexpr auto kOff = osg::StateAttribute::OFF;
+constexpr auto kSide = osg::Material::FRONT_AND_BACK;
+
+osg::ref_ptr<osg::Material> newMaterial(osg::Material::ColorMode mode)
+{
+    osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setColorMode(mode);
+    material->setAmbient(kSide, {0.1f, 0.0f, 0.0f, 1.0f});
+    material->setDiffuse(kSide, {0.2f, 0.0f, 0.0f, 0.5f});
+    material->setSpecular(kSide, {0.3f, 0.0f, 0.0f, 1.0f});
+    material->setEmission(kSide, {0.4f, 0.0f, 0.0f, 1.0f});
+    material->setShininess(kSide, 20.0f);
+    return material;
+}
+
+void setColor(osg::Geometry& geometry, osg::Array::Binding binding)
+{
+    const unsigned int size = binding == osg::Array::BIND_OVERALL ? 1 : 3;
+    osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array(size);
+    for (osg::Vec4& color : *colors)
+        color.set(0.0f, 0.5f, 1.0f, 0.25f);
+    geometry.setColorArray(colors, binding);
+}
+
+Material materialOf(osg::Node* root)
+{
+    const ConversionResult result = convertGraph(root);
+    REQUIRE(result.scene->instances.size() == 1);
+    return soleMaterial(result);
+}
+
+const Vec3 kColor(0.0f, 0.5f, 1.0f);
+
+} // namespace
+
+TEST_CASE("without any material: osgViewer's default, coloured by the vertices", "[bridge]")
+{
+    const auto geometry = triangleGeometry();
+    Material material = materialOf(geometry);
+    CHECK(material.model == MaterialModel::FixedFunction);
+    CHECK(material.lit);
+    CHECK(material.diffuse == Vec3(0.8f));
+    CHECK(material.ambient == Vec3(0.8f)); // glColor, which osg::Material sets to diffuse, is both
+    CHECK(material.specular == Vec3(0.0f));
+    CHECK(material.vertexColorUse == VertexColorUse::None);
+
+    setColor(*geometry, osg::Array::BIND_OVERALL);
+    material = materialOf(geometry);
+    CHECK(material.ambient == kColor);
+    CHECK(material.diffuse == kColor);
+    CHECK(material.vertexColorUse == VertexColorUse::None);
+
+    setColor(*geometry, osg::Array::BIND_PER_VERTEX);
+    CHECK(materialOf(geometry).vertexColorUse == VertexColorUse::AmbientAndDiffuse);
+}
+
+TEST_CASE("osg::Material: all values, and colours by its color mode", "[bridge]")
+{
+    const auto geometry = triangleGeometry();
+    osg::StateSet* state = geometry->getOrCreateStateSet();
+    setColor(*geometry, osg::Array::BIND_PER_VERTEX);
+
+    state->setAttribute(newMaterial(osg::Material::OFF));
+    Material material = materialOf(geometry);
+    CHECK(material.ambient == Vec3(0.1f, 0.0f, 0.0f));
+    CHECK(material.diffuse == Vec3(0.2f, 0.0f, 0.0f));
+    CHECK(material.specular == Vec3(0.3f, 0.0f, 0.0f));
+    CHECK(material.emission == Vec3(0.4f, 0.0f, 0.0f));
+    CHECK(material.shininess == 20.0f);
+    CHECK(material.alpha == 1.0f); // no blending
+    CHECK(material.vertexColorUse == VertexColorUse::None);
+
+    state->setMode(GL_BLEND, kOn);
+    CHECK(materialOf(geometry).alpha == 0.5f);
+
+    const std::pair<osg::Material::ColorMode, VertexColorUse> modes[] = {
+        {osg::Material::AMBIENT, VertexColorUse::Ambient},
+        {osg::Material::DIFFUSE, VertexColorUse::Diffuse},
+        {osg::Material::SPECULAR, VertexColorUse::Specular},
+        {osg::Material::EMISSION, VertexColorUse::Emission},
+        {osg::Material::AMBIENT_AND_DIFFUSE, VertexColorUse::AmbientAndDiffuse}};
+    for (const auto& [mode, use] : modes)
+    {
+        state->setAttribute(newMaterial(mode));
+        CHECK(materialOf(geometry).vertexColorUse == use);
+    }
+
+    setColor(*geometry, osg::Array::BIND_OVERALL);
+    state->setAttribute(newMaterial(osg::Material::DIFFUSE));
+    material = materialOf(geometry);
+    CHECK(material.ambient == Vec3(0.1f, 0.0f, 0.0f));
+    CHECK(material.diffuse == kColor);
+    CHECK(material.alpha == 0.25f);
+}
+
+TEST_CASE("unlit geometry shows its colour and nothing else", "[bridge]")
+{
+    const auto geometry = triangleGeometry();
+    osg::StateSet* state = geometry->getOrCreateStateSet();
+    state->setMode(GL_LIGHTING, kOff);
+    state->setAttribute(newMaterial(osg::Material::OFF));
+    setColor(*geometry, osg::Array::BIND_OVERALL);
+    Material material = materialOf(geometry);
+    CHECK_FALSE(material.lit);
+    CHECK(material.diffuse == kColor);
+    CHECK(material.emission == Vec3(0.0f));
+
+    setColor(*geometry, osg::Array::BIND_PER_VERTEX);
+    CHECK(materialOf(geometry).vertexColorUse == VertexColorUse::AmbientAndDiffuse);
+
+    geometry->setColorArray(nullptr);
+    CHECK(materialOf(geometry).diffuse == Vec3(0.2f, 0.0f, 0.0f)); // glColor as osg::Material leaves it
+}
+
+TEST_CASE("lighting is on above the scene unless the view says otherwise", "[bridge]")
+{
+    const auto geometry = triangleGeometry();
+    ConversionInput input = inputFor(geometry);
+    input.lighting = false;
+    SceneConverter converter;
+    ConversionResult result = converter.convert(input);
+    CHECK_FALSE(soleMaterial(result).lit);
+    geometry->getOrCreateStateSet()->setMode(GL_LIGHTING, kOn);
+    result = converter.convert(input);
+    CHECK(soleMaterial(result).lit);
+    CHECK(result.scene->ambient == Vec3(0.2f));
+}
+
+TEST_CASE("state is that of the path: overridden, protected, and not leaked to siblings", "[bridge]")
+{
+    const auto leaf = triangleGeometry();
+    leaf->getOrCreateStateSet()->setAttribute(newMaterial(osg::Material::OFF));
+    osg::ref_ptr<osg::Group> above = new osg::Group;
+    above->addChild(leaf);
+    osg::ref_ptr<osg::Material> own = new osg::Material;
+    own->setColorMode(osg::Material::OFF);
+    own->setDiffuse(kSide, {0.0f, 1.0f, 0.0f, 1.0f});
+    osg::StateSet* state = above->getOrCreateStateSet();
+
+    state->setAttribute(own);
+    CHECK(materialOf(above).diffuse == Vec3(0.2f, 0.0f, 0.0f));
+    state->setAttribute(own, osg::StateAttribute::OVERRIDE);
+    CHECK(materialOf(above).diffuse == Vec3(0.0f, 1.0f, 0.0f));
+    leaf->getStateSet()->setAttribute(newMaterial(osg::Material::OFF), osg::StateAttribute::PROTECTED);
+    CHECK(materialOf(above).diffuse == Vec3(0.2f, 0.0f, 0.0f));
+
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(above);
+    root->addChild(triangleGeometry());
+    const ConversionResult result = convertGraph(root);
+    REQUIRE(result.scene->instances.size() == 2);
+    CHECK(result.scene->materials[result.scene->instances[1].material].diffuse == Vec3(0.8f));
+}
+
+TEST_CASE("one geometry under different state is one mesh with two materials; equal ones merge", "[bridge]")
+{
+    const auto geometry = triangleGeometry();
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    for (int i = 0; i < 4; ++i)
+    {
+        osg::ref_ptr<osg::Group> group = new osg::Group;
+        if (i > 0)
+            group->getOrCreateStateSet()->setAttribute(
+                newMaterial(i < 3 ? osg::Material::OFF : osg::Material::AMBIENT));
+        group->addChild(geometry);
+        root->addChild(group);
+    }
+    const ConversionResult result = convertGraph(root);
+    const auto& instances = result.scene->instances;
+    REQUIRE(instances.size() == 4);
+    CHECK(result.scene->meshes.size() == 1);
+    CHECK(instances[0].material != instances[1].material);
+    CHECK(instances[1].material == instances[2].material); // two objects of equal values
+    CHECK(result.scene->materials.size() == 2);            // no vertex colours: the color mode is no matter
+}
+
+TEST_CASE("light model: ambient of the scene, two sides of the material", "[bridge]")
+{
+    const auto geometry = triangleGeometry();
+    CHECK(convertGraph(geometry).scene->ambient == Vec3(0.1f));
+    osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
+    model->setAmbientIntensity({0.25f, 0.5f, 0.75f, 1.0f});
+    model->setTwoSided(true);
+    geometry->getOrCreateStateSet()->setAttribute(model);
+    const ConversionResult result = convertGraph(geometry);
+    CHECK(result.scene->ambient == Vec3(0.25f, 0.5f, 0.75f));
+    CHECK(soleMaterial(result).twoSidedLighting);
+}
+
+TEST_CASE("PhysicalMaterial wins over osg::Material and is taken as it is", "[bridge]")
+{
+    const auto geometry = triangleGeometry();
+    setColor(*geometry, osg::Array::BIND_PER_VERTEX);
+    osg::StateSet* state = geometry->getOrCreateStateSet();
+    state->setAttribute(newMaterial(osg::Material::OFF));
+    state->setMode(GL_LIGHTING, kOff);
+    osg::ref_ptr<PhysicalMaterial> physical = new PhysicalMaterial;
+    physical->setBaseColor({0.25f, 0.5f, 0.75f});
+    physical->setMetallic(0.5f);
+    physical->setRoughness(0.25f);
+    physical->setTransmission(0.125f);
+    physical->setIor(1.75f);
+    state->setAttribute(physical);
+    const ConversionResult result = convertGraph(geometry);
+    const Material& material = soleMaterial(result);
+    CHECK(material.model == MaterialModel::Physical);
+    CHECK(material.lit);
+    CHECK(material.baseColor == Vec3(0.25f, 0.5f, 0.75f));
+    CHECK(material.metallic == 0.5f);
+    CHECK(material.roughness == 0.25f);
+    CHECK(material.transmission == 0.125f);
+    CHECK(material.ior == 1.75f);
+    CHECK(material.vertexColorUse == VertexColorUse::None);
+    CHECK_FALSE(result.scene->displayReferred);
+    CHECK(result.scene->lights.empty());
+}
+
+TEST_CASE("colour rule: fixed-function scenes as shown, others decoded from sRGB", "[bridge]")
+{
+    const auto fixed = triangleGeometry();
+    setColor(*fixed, osg::Array::BIND_OVERALL);
+    const auto varied = triangleGeometry();
+    setColor(*varied, osg::Array::BIND_PER_VERTEX);
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(fixed);
+    root->addChild(varied);
+    SceneConverter converter;
+    ConversionInput input = inputFor(root);
+
+    const auto checkDisplayReferred = [&]
+    {
+        const ConversionResult result = converter.convert(input);
+        CHECK(result.scene->displayReferred);
+        CHECK(result.scene->background == Vec4(0.2f, 0.2f, 0.4f, 1.0f));
+        CHECK(soleMaterial(result).diffuse == kColor);
+        CHECK(result.scene->meshes[1]->colors[0] == Vec4(kColor, 0.25f));
+    };
+    const auto checkLinear = [&]
+    {
+        const float half = linearFromSrgb(0.5f);
+        const ConversionResult result = converter.convert(input);
+        CHECK_FALSE(result.scene->displayReferred);
+        CHECK(result.scene->background ==
+              Vec4(Vec3(linearFromSrgb(0.2f), linearFromSrgb(0.2f), linearFromSrgb(0.4f)), 1.0f));
+        CHECK(soleMaterial(result).diffuse == Vec3(0.0f, half, 1.0f));
+        CHECK(result.scene->meshes[1]->colors[0] == Vec4(0.0f, half, 1.0f, 0.25f));
+        CHECK(half == Approx(0.21404f).epsilon(1e-4));
+    };
+
+    checkDisplayReferred();
+    input.colorRule = RayTraceSettings::LINEAR;
+    checkLinear();
+    input.colorRule = RayTraceSettings::AUTOMATIC_COLOR;
+    const auto physical = triangleGeometry();
+    physical->getOrCreateStateSet()->setAttribute(new PhysicalMaterial);
+    root->addChild(physical);
+    checkLinear();
+    physical->setNodeMask(0);
+    checkDisplayReferred();
+    physical->setNodeMask(~0u);
+    input.colorRule = RayTraceSettings::DISPLAY_REFERRED;
+    checkDisplayReferred();
+}

@@ -1,0 +1,241 @@
+// TexturesTest.cpp - pixel formats, texture state and what is not sampled.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/PixelDecoder.h"
+#include "tests/Catch.h"
+#include "tests/bridge/Graphs.h"
+
+#include <osgRayTrace/PhysicalMaterial>
+
+#include <osg/TexEnv>
+#include <osg/TexEnvCombine>
+#include <osg/TexGen>
+#include <osg/TexMat>
+#include <osg/Texture2D>
+#include <osg/TextureCubeMap>
+
+#include <cstring>
+#include <vector>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::engine;
+
+namespace
+{
+
+constexpr auto kOn = osg::StateAttribute::ON;
+
+/// An image that owns a copy of the values.
+template <class Scalar>
+osg::ref_ptr<osg::Image> imageOf(int width, int height, GLenum format, GLenum type,
+                                 const std::vector<Scalar>& values, int packing = 1)
+{
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(width, height, 1, format, type, packing);
+    REQUIRE(image->getTotalSizeInBytes() >= values.size() * sizeof(Scalar));
+    std::memcpy(image->data(), values.data(), values.size() * sizeof(Scalar));
+    return image;
+}
+
+std::vector<uint8_t> bytesOf(const osg::Image& image)
+{
+    Texture texture;
+    REQUIRE(decodePixels(image, texture));
+    CHECK(texture.floats.empty());
+    return texture.bytes;
+}
+
+std::vector<float> floatsOf(const osg::Image& image)
+{
+    Texture texture;
+    REQUIRE(decodePixels(image, texture));
+    CHECK(texture.bytes.empty());
+    return texture.floats;
+}
+
+using Bytes = std::vector<uint8_t>;
+using Floats = std::vector<float>;
+
+osg::ref_ptr<osg::Texture2D> smallTexture()
+{
+    osg::ref_ptr<osg::Texture2D> texture =
+        new osg::Texture2D(imageOf<uint8_t>(1, 1, GL_RGB, GL_UNSIGNED_BYTE, {10, 20, 30}));
+    texture->setName("small");
+    return texture;
+}
+
+osg::ref_ptr<osg::Geometry> texturedGeometry(osg::StateAttribute* texture)
+{
+    const auto geometry = triangleGeometry();
+    geometry->setTexCoordArray(0, new osg::Vec2Array(3));
+    geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture, kOn);
+    return geometry;
+}
+
+} // namespace
+
+TEST_CASE("8-bit formats decode to RGBA bytes", "[bridge]")
+{
+    const auto decode = [](GLenum format, const Bytes& pixel)
+    { return bytesOf(*imageOf<uint8_t>(1, 1, format, GL_UNSIGNED_BYTE, pixel)); };
+    CHECK(decode(GL_RGBA, {1, 2, 3, 4}) == Bytes{1, 2, 3, 4});
+    CHECK(decode(GL_BGRA, {1, 2, 3, 4}) == Bytes{3, 2, 1, 4});
+    CHECK(decode(GL_RGB, {1, 2, 3}) == Bytes{1, 2, 3, 255});
+    CHECK(decode(GL_BGR, {1, 2, 3}) == Bytes{3, 2, 1, 255});
+    CHECK(decode(GL_LUMINANCE, {7}) == Bytes{7, 7, 7, 255});
+    CHECK(decode(GL_LUMINANCE_ALPHA, {7, 8}) == Bytes{7, 7, 7, 8});
+    CHECK(decode(GL_INTENSITY, {7}) == Bytes{7, 7, 7, 7});
+    CHECK(decode(GL_ALPHA, {9}) == Bytes{255, 255, 255, 9});
+    CHECK(decode(GL_RED, {5}) == Bytes{5, 0, 0, 255});
+    CHECK(decode(GL_RG, {5, 6}) == Bytes{5, 6, 0, 255});
+}
+
+TEST_CASE("wide formats decode to floats, what is not finite to 0", "[bridge]")
+{
+    CHECK(floatsOf(*imageOf<uint16_t>(1, 1, GL_RG, GL_UNSIGNED_SHORT, {65535, 0})) == Floats{1, 0, 0, 1});
+    CHECK(floatsOf(*imageOf<uint16_t>(1, 1, GL_LUMINANCE, GL_HALF_FLOAT, {0x3e00})) == Floats{1.5f, 1.5f, 1.5f, 1});
+    const float inf = std::numeric_limits<float>::infinity();
+    CHECK(floatsOf(*imageOf<float>(1, 1, GL_RGBA, GL_FLOAT, {-2.0f, inf, 1e6f, 0.5f})) == Floats{-2, 0, 1e6f, 0.5f});
+    CHECK(floatsOf(*imageOf<int16_t>(1, 1, GL_RED, GL_SHORT, {32767})) == Floats{1, 0, 0, 1});
+}
+
+TEST_CASE("rows: packing and row length; the first in memory is the lowest, whatever the origin", "[bridge]")
+{
+    // 3 RGB pixels are 9 bytes, padded to 12.
+    const Bytes rows{1, 1, 1, 2, 2, 2, 3, 3, 3, 0, 0, 0, 4, 4, 4, 5, 5, 5, 6, 6, 6};
+    const auto image = imageOf<uint8_t>(3, 2, GL_RGB, GL_UNSIGNED_BYTE, rows, 4);
+    const Bytes expected{1, 1, 1, 255, 2, 2, 2, 255, 3, 3, 3, 255, 4, 4, 4, 255, 5, 5, 5, 255, 6, 6, 6, 255};
+    CHECK(bytesOf(*image) == expected);
+    image->setOrigin(osg::Image::TOP_LEFT);
+    CHECK(bytesOf(*image) == expected);
+
+    static unsigned char wide[] = {1, 2, 9, 9, 3, 4, 9, 9};
+    osg::ref_ptr<osg::Image> part = new osg::Image;
+    part->setImage(2, 2, 1, GL_LUMINANCE, GL_LUMINANCE, GL_UNSIGNED_BYTE, wide, osg::Image::NO_DELETE, 1, 4);
+    CHECK(bytesOf(*part) == Bytes{1, 1, 1, 255, 2, 2, 2, 255, 3, 3, 3, 255, 4, 4, 4, 255});
+}
+
+TEST_CASE("DXT blocks decode", "[bridge]")
+{
+    // DXT1: both end points white (0xffff), or red (0xf800) as first colour of a block of index 0.
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(4, 4, 1, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_UNSIGNED_BYTE);
+    const uint8_t block[8] = {0x00, 0xf8, 0x00, 0x00, 0, 0, 0, 0};
+    std::memcpy(image->data(), block, sizeof block);
+    const Bytes pixels = bytesOf(*image);
+    REQUIRE(pixels.size() == 64);
+    for (std::size_t i = 0; i < 64; i += 4)
+        CHECK(Bytes(pixels.begin() + i, pixels.begin() + i + 4) == Bytes{255, 0, 0, 255});
+}
+
+TEST_CASE("texture unit 0: attribute, mode, filter, wrap and environment", "[bridge]")
+{
+    const auto texture = smallTexture();
+    texture->setWrap(osg::Texture::WRAP_S, osg::Texture::REPEAT);
+    texture->setWrap(osg::Texture::WRAP_T, osg::Texture::MIRROR);
+    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+    const auto geometry = texturedGeometry(texture);
+    osg::StateSet* state = geometry->getStateSet();
+
+    ConversionResult result = convertGraph(geometry);
+    REQUIRE(soleMaterial(result).baseColorTexture == 0);
+    const Texture& converted = *result.scene->textures.at(0);
+    CHECK(converted.name == "small");
+    CHECK(converted.bytes == Bytes{10, 20, 30, 255});
+    CHECK(converted.wrapS == TextureWrap::Repeat);
+    CHECK(converted.wrapT == TextureWrap::Mirror);
+    CHECK_FALSE(converted.linearFilter);
+    CHECK_FALSE(converted.decodeSrgb);
+    CHECK(soleMaterial(result).textureEnvironment == TextureEnvironment::Modulate);
+
+    state->setTextureAttribute(0, new osg::TexEnv(osg::TexEnv::REPLACE));
+    CHECK(soleMaterial(convertGraph(geometry)).textureEnvironment == TextureEnvironment::Replace);
+    state->setTextureAttribute(0, new osg::TexEnv(osg::TexEnv::DECAL));
+    CHECK(soleMaterial(convertGraph(geometry)).textureEnvironment == TextureEnvironment::Decal);
+    state->setTextureAttribute(0, new osg::TexEnvCombine);
+    result = convertGraph(geometry);
+    CHECK(soleMaterial(result).textureEnvironment == TextureEnvironment::Modulate);
+    CHECK(countOf(result, "approximated.texture-environment") == 1);
+
+    state->setTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::OFF);
+    result = convertGraph(geometry);
+    CHECK(soleMaterial(result).baseColorTexture == kInvalid);
+    CHECK(result.scene->textures.empty());
+}
+
+TEST_CASE("textures that cannot be sampled are left out and counted", "[bridge]")
+{
+    SECTION("no image on the CPU")
+    {
+        const ConversionResult result = convertGraph(texturedGeometry(new osg::Texture2D));
+        CHECK(soleMaterial(result).baseColorTexture == kInvalid);
+        CHECK(countOf(result, "approximated.texture-without-image") == 1);
+    }
+    SECTION("no coordinates")
+    {
+        const auto geometry = texturedGeometry(smallTexture());
+        geometry->setTexCoordArray(0, nullptr);
+        const ConversionResult result = convertGraph(geometry);
+        CHECK(soleMaterial(result).baseColorTexture == kInvalid);
+        CHECK(countOf(result, "approximated.no-texture-coordinates") == 1);
+    }
+    SECTION("generated coordinates")
+    {
+        const auto geometry = texturedGeometry(smallTexture());
+        geometry->getStateSet()->setTextureAttributeAndModes(0, new osg::TexGen, kOn);
+        const ConversionResult result = convertGraph(geometry);
+        CHECK(soleMaterial(result).baseColorTexture == kInvalid);
+        CHECK(countOf(result, "approximated.texgen") == 1);
+    }
+    SECTION("other targets")
+    {
+        const ConversionResult result = convertGraph(texturedGeometry(new osg::TextureCubeMap));
+        CHECK(soleMaterial(result).baseColorTexture == kInvalid);
+        CHECK(countOf(result, "approximated.texture-target") == 1);
+    }
+    SECTION("higher units")
+    {
+        const auto geometry = triangleGeometry();
+        geometry->getOrCreateStateSet()->setTextureAttributeAndModes(2, smallTexture(), kOn);
+        const ConversionResult result = convertGraph(geometry);
+        CHECK(soleMaterial(result).baseColorTexture == kInvalid);
+        CHECK(countOf(result, "approximated.texture-unit") == 1);
+    }
+    SECTION("a texture matrix is not applied")
+    {
+        const auto geometry = texturedGeometry(smallTexture());
+        geometry->getStateSet()->setTextureAttribute(0, new osg::TexMat);
+        CHECK(countOf(convertGraph(geometry), "approximated.texture-matrix") == 1);
+    }
+    SECTION("an unknown pixel format is magenta")
+    {
+        const auto packed = imageOf<uint16_t>(1, 1, GL_RGB, GL_UNSIGNED_SHORT_5_6_5, {0});
+        const ConversionResult result = convertGraph(texturedGeometry(new osg::Texture2D(packed)));
+        CHECK(countOf(result, "approximated.pixel-format") == 1);
+        REQUIRE(soleMaterial(result).baseColorTexture == 0);
+        CHECK(result.scene->textures[0]->bytes == Bytes{255, 0, 255, 255});
+    }
+}
+
+TEST_CASE("textures of a linear scene: colours are decoded, data and floats are not", "[bridge]")
+{
+    osg::ref_ptr<PhysicalMaterial> physical = new PhysicalMaterial;
+    const auto color = smallTexture();
+    physical->setBaseColorTexture(color);
+    physical->setMetallicRoughnessTexture(color);
+    physical->setEmissionTexture(color);
+    osg::ref_ptr<osg::Texture2D> wide = new osg::Texture2D(imageOf<float>(1, 1, GL_RED, GL_FLOAT, {0.5f}));
+    physical->setTransmissionTexture(wide);
+    const auto geometry = triangleGeometry();
+    geometry->setTexCoordArray(0, new osg::Vec2Array(3));
+    geometry->getOrCreateStateSet()->setAttribute(physical);
+
+    const ConversionResult result = convertGraph(geometry);
+    const Material& material = soleMaterial(result);
+    const auto& textures = result.scene->textures;
+    REQUIRE(textures.size() == 3);
+    CHECK(textures.at(material.baseColorTexture)->decodeSrgb);
+    CHECK(material.emissionTexture == material.baseColorTexture);
+    CHECK_FALSE(textures.at(material.metallicRoughnessTexture)->decodeSrgb);
+    CHECK_FALSE(textures.at(material.transmissionTexture)->decodeSrgb);
+    CHECK(textures.at(material.transmissionTexture)->floats == Floats{0.5f, 0, 0, 1});
+}
