@@ -1,4 +1,4 @@
-// AreaLight.cpp - the light's parameters and the quad that stands for it in OpenGL. Layer: public API.
+// AreaLight.cpp - the parameters, and the quad that OpenGL draws for them. Layer: public API.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/AreaLight>
 
@@ -28,7 +28,8 @@ float shown(float radiance)
     return engine::srgbFromLinear(std::clamp(radiance, 0.0f, 1.0f));
 }
 
-/// In the order of a triangle strip: its first triangle is (corner, U, V), so the front is cross(U, V).
+/// In the order of a triangle strip: its first triangle is (corner, U, V), so the front is cross(U,
+/// V).
 std::array<osg::Vec3, 4> corners(const AreaLight& light)
 {
     const osg::Vec3& corner = light.getCorner();
@@ -36,7 +37,8 @@ std::array<osg::Vec3, 4> corners(const AreaLight& light)
             corner + light.getEdgeU() + light.getEdgeV()};
 }
 
-/// Unlit and untextured whatever the state above. A new one each time: optimizers share equal state sets.
+/// Unlit and untextured whatever the state above. A new one each time: optimizers share equal state
+/// sets.
 osg::ref_ptr<osg::StateSet> quadState(bool twoSided)
 {
     const auto off = osg::StateAttribute::OFF | osg::StateAttribute::PROTECTED;
@@ -52,8 +54,9 @@ osg::ref_ptr<osg::StateSet> quadState(bool twoSided)
 
 AreaLight::AreaLight() : _geometry(new osg::Geometry), _anchor(new osg::MatrixTransform)
 {
-    // osgUtil::Optimizer folds static transforms into the geometry below them, as osgviewer has it do,
-    // and would leave this node's own vectors behind. It spares a transform that has another one below.
+    // osgUtil::Optimizer folds static transforms into the geometry below them, as osgviewer has it
+    // do, and would leave this node's own vectors behind. It spares a transform that has another
+    // one below.
     _anchor->setDataVariance(osg::Object::DYNAMIC);
     _anchor->addChild(_geometry);
 
@@ -79,8 +82,12 @@ AreaLight::AreaLight(const osg::Vec3& corner, const osg::Vec3& edgeU, const osg:
 }
 
 AreaLight::AreaLight(const AreaLight& other, const osg::CopyOp& copyop)
-    : osg::Node(other, copyop), _corner(other._corner), _edgeU(other._edgeU), _edgeV(other._edgeV),
-      _radiance(other._radiance), _twoSided(other._twoSided)
+    : osg::Node(other, copyop),
+      _corner(other._corner),
+      _edgeU(other._edgeU),
+      _edgeV(other._edgeV),
+      _radiance(other._radiance),
+      _twoSided(other._twoSided)
 {
     const osg::ref_ptr<AreaLight> fresh = new AreaLight;
     _geometry = fresh->_geometry;
@@ -126,7 +133,8 @@ void AreaLight::setVector(const char* name, osg::Vec3& member, const osg::Vec3& 
 {
     if (!isFinite(value))
     {
-        engine::warnOnce("AreaLight '" + getName() + "': " + name + " is not finite, left as it was");
+        engine::warnOnce("AreaLight '" + getName() + "': " + name +
+                         " is not finite, left as it was");
         return;
     }
     member = value;

@@ -1,4 +1,4 @@
-// PhysicalMaterial.cpp - keeps the parameters in range, compares and copies them. Layer: public API.
+// PhysicalMaterial.cpp - keeps parameters in range, compares and copies them. Layer: public API.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/PhysicalMaterial>
 
@@ -16,19 +16,23 @@ namespace
 
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-/// Sets member to the value nearest to it within the range; leaves it if the value is NaN or infinite.
+/// Sets member to the value nearest to it within the range; leaves it if the value is NaN or
+/// infinite.
 void assign(const char* name, float& member, float value, float minimum, float maximum)
 {
     if (!std::isfinite(value))
     {
-        engine::warnOnce(std::string("PhysicalMaterial: ") + name + " is not finite; left as it was");
+        engine::warnOnce(std::string("PhysicalMaterial: ") + name +
+                         " is not finite; left as it was");
         return;
     }
     member = std::clamp(value, minimum, maximum);
-    if (member != value) engine::warnOnce(std::string("PhysicalMaterial: ") + name + " out of range; clamped");
+    if (member != value)
+        engine::warnOnce(std::string("PhysicalMaterial: ") + name + " out of range; clamped");
 }
 
-void assign(const char* name, osg::Vec3& member, const osg::Vec3& value, float minimum, float maximum)
+void assign(const char* name, osg::Vec3& member, const osg::Vec3& value, float minimum,
+            float maximum)
 {
     for (int i = 0; i < 3; ++i)
     {
@@ -52,17 +56,22 @@ osg::Texture2D* copied(const osg::CopyOp& copyop, const osg::ref_ptr<osg::Textur
 
 } // namespace
 
-// StateAttribute::Type ends with CAPABILITY = 100; its representation, and so what may be cast to it,
-// ends at 127.
+// StateAttribute::Type ends with CAPABILITY = 100; its representation, and so what may be cast to
+// it, ends at 127.
 const osg::StateAttribute::Type PhysicalMaterial::ATTRIBUTE_TYPE =
     static_cast<osg::StateAttribute::Type>(122);
 
 PhysicalMaterial::PhysicalMaterial() = default;
 
 PhysicalMaterial::PhysicalMaterial(const PhysicalMaterial& other, const osg::CopyOp& copyop)
-    : osg::StateAttribute(other, copyop), _baseColor(other._baseColor), _metallic(other._metallic),
-      _roughness(other._roughness), _transmission(other._transmission), _ior(other._ior),
-      _emission(other._emission), _baseColorTexture(copied(copyop, other._baseColorTexture)),
+    : osg::StateAttribute(other, copyop),
+      _baseColor(other._baseColor),
+      _metallic(other._metallic),
+      _roughness(other._roughness),
+      _transmission(other._transmission),
+      _ior(other._ior),
+      _emission(other._emission),
+      _baseColorTexture(copied(copyop, other._baseColorTexture)),
       _metallicRoughnessTexture(copied(copyop, other._metallicRoughnessTexture)),
       _transmissionTexture(copied(copyop, other._transmissionTexture)),
       _emissionTexture(copied(copyop, other._emissionTexture))
@@ -73,17 +82,16 @@ PhysicalMaterial::~PhysicalMaterial() = default;
 
 int PhysicalMaterial::compare(const osg::StateAttribute& other) const
 {
-    COMPARE_StateAttribute_Types(PhysicalMaterial, other)
-    COMPARE_StateAttribute_Parameter(_baseColor)
-    COMPARE_StateAttribute_Parameter(_metallic)
-    COMPARE_StateAttribute_Parameter(_roughness)
-    COMPARE_StateAttribute_Parameter(_transmission)
-    COMPARE_StateAttribute_Parameter(_ior)
-    COMPARE_StateAttribute_Parameter(_emission)
+    COMPARE_StateAttribute_Types(PhysicalMaterial, other) COMPARE_StateAttribute_Parameter(
+        _baseColor) COMPARE_StateAttribute_Parameter(_metallic)
+        COMPARE_StateAttribute_Parameter(_roughness) COMPARE_StateAttribute_Parameter(_transmission)
+            COMPARE_StateAttribute_Parameter(_ior) COMPARE_StateAttribute_Parameter(_emission)
 
-    const osg::ref_ptr<osg::Texture2D> PhysicalMaterial::*textures[] = {
-        &PhysicalMaterial::_baseColorTexture, &PhysicalMaterial::_metallicRoughnessTexture,
-        &PhysicalMaterial::_transmissionTexture, &PhysicalMaterial::_emissionTexture};
+                const osg::ref_ptr<osg::Texture2D>
+                    PhysicalMaterial::*textures[] = {&PhysicalMaterial::_baseColorTexture,
+                                                     &PhysicalMaterial::_metallicRoughnessTexture,
+                                                     &PhysicalMaterial::_transmissionTexture,
+                                                     &PhysicalMaterial::_emissionTexture};
     for (const auto texture : textures)
     {
         const int order = compareTextures((this->*texture).get(), (rhs.*texture).get());

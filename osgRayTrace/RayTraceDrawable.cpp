@@ -3,14 +3,13 @@
 #include <osgRayTrace/RayTraceDrawable>
 
 #include "osgRayTrace/DisplayTexture.h"
-#include "osgRayTrace/bridge/RenderOptionsFromSettings.h"
 #include "osgRayTrace/bridge/SceneUpdater.h"
 #include "osgRayTrace/bridge/StatisticsFromEngine.h"
 #include "osgRayTrace/bridge/ViewFromMatrices.h"
 #include "osgRayTrace/bridge/ViewRegistry.h"
+#include "osgRayTrace/bridge/ViewTracer.h"
 #include "osgRayTrace/bridge/ViewingConditions.h"
 #include "osgRayTrace/bridge/WarnOnce.h"
-#include "osgRayTrace/session/RenderSession.h"
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/LOD>
@@ -20,10 +19,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <exception>
 #include <mutex>
-#include <optional>
+#include <new>
+#include <string>
+#include <vector>
 
 namespace osgRayTrace
 {
@@ -35,13 +35,8 @@ namespace
 struct ViewState
 {
     std::mutex mutex; // the view's draw thread; and any thread that asks for its image
-    std::shared_ptr<engine::Workers> workers;
-    std::unique_ptr<engine::RenderSession> session;
-    engine::View view; ///< last traced
+    engine::ViewTracer tracer;
     DisplayTexture display;
-    // What the display holds:
-    int shownPasses = 0;
-    engine::ToneMap shownToneMap;
 };
 
 struct BoundsVisitor : osg::ComputeBoundsVisitor
@@ -96,26 +91,6 @@ double nearDistance(const osg::Matrixd& projection)
     return (osg::Vec3d(0.0, 1.0, -1.0) * viewFromClip - centre).length();
 }
 
-/// OSG's culling clamps the planes of last frame's projection matrix again, so that the third column of a
-/// view at rest wanders by its last digits; an image must go on nevertheless.
-bool sameButForRounding(const engine::View& a, const engine::View& b)
-{
-    constexpr double kTolerance = 1e-9;
-    engine::View rounded = a;
-    for (int i = 0; i < 4; ++i)
-    {
-        double& depth = rounded.clipFromView[i][2];
-        const double other = b.clipFromView[i][2];
-        if (std::abs(depth - other) <= kTolerance * std::abs(other)) depth = other;
-    }
-    return rounded == b;
-}
-
-bool operator==(const engine::ToneMap& a, const engine::ToneMap& b)
-{
-    return a.exposureEv == b.exposureEv && a.displayReferred == b.displayReferred;
-}
-
 } // namespace
 
 struct RayTraceDrawable::Implementation
@@ -130,9 +105,7 @@ struct RayTraceDrawable::Implementation
     std::weak_ptr<const engine::TracedScene> untraceable; ///< failed before it gave any image
 
     void draw(osg::RenderInfo& renderInfo);
-    void trace(ViewState& view, const engine::SceneVersion& version, const engine::View& pass);
-    void fillDisplay(ViewState& view, const engine::ToneMap& toneMap);
-    void noteFailure(const engine::RenderProgress& made, const engine::SceneVersion& version);
+    void noteProgress(const std::shared_ptr<ViewState>& view, const engine::SceneVersion& version);
     void fail(engine::StatusCode code, const std::string& message);
 };
 
@@ -150,77 +123,36 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
 
     const osg::Matrixd& viewMatrix = state.getModelViewMatrix();
     const osg::Matrixd& projection = state.getProjectionMatrix();
-    trace(*view, version,
-          engine::viewFromMatrices(viewMatrix, projection, viewport.width, viewport.height));
+    if (!paused || !view->tracer.hasImage())
+        view->tracer.trace(version, engine::viewFromMatrices(viewMatrix, projection, viewport.width,
+                                                             viewport.height));
+    if (view->tracer.needsResolve(version))
+    {
+        view->display.resize(view->tracer.width(), view->tracer.height());
+        view->tracer.resolve(view->display.rgba(), view->display.depth());
+        view->display.modified();
+    }
     scene.noteDrawn(renderInfo.getCurrentCamera(), osg::Matrixd::inverse(viewMatrix).getTrans(),
                     nearDistance(projection));
-    {
-        std::lock_guard<std::mutex> progressLock(mutex);
-        progress = view->session->progress();
-        lastView = view;
-    }
-    if (view->shownPasses > 0 && !view->display.draw(renderInfo))
+    noteProgress(view, version);
+    if (view->tracer.hasImage() && !view->display.draw(renderInfo))
         fail(engine::StatusCode::DeviceFailure, "OpenGL cannot compile the display's shaders");
 }
 
-void RayTraceDrawable::Implementation::trace(ViewState& view, const engine::SceneVersion& version,
-                                             const engine::View& pass)
+void RayTraceDrawable::Implementation::noteProgress(const std::shared_ptr<ViewState>& view,
+                                                    const engine::SceneVersion& version)
 {
-    if (view.workers != version.workers)
-    {
-        view.session = std::make_unique<engine::RenderSession>(version.workers);
-        view.workers = version.workers;
-        view.shownPasses = 0;
-    }
-    engine::RenderSession& session = *view.session;
-    const engine::ToneMap toneMap =
-        engine::toneMapFromSettings(*version.settings, version.scene->scene());
-    const int passesBefore = view.shownPasses;
-    bool restarted = false;
-    if (!paused || passesBefore == 0)
-    {
-        session.setScene(version.scene);
-        if (!sameButForRounding(pass, view.view)) view.view = pass;
-        session.setView(view.view);
-        session.setOptions(engine::renderOptionsFromSettings(*version.settings));
-
-        engine::StopRule rule;
-        rule.passes = version.settings->getMaxPasses();
-        int left = version.settings->getPassesPerFrame();
-        const auto keepGoing = [&left](const engine::RenderProgress&) { return --left > 0; };
-        const engine::RenderProgress made = session.render(rule, keepGoing);
-        restarted = made.restarted;
-        noteFailure(made, version);
-    }
-    const bool unchanged =
-        !restarted && session.progress().passes == passesBefore && toneMap == view.shownToneMap;
-    const bool failed = !session.progress().status.ok();
-    if (!unchanged && !failed && session.progress().passes > 0) fillDisplay(view, toneMap);
-}
-
-void RayTraceDrawable::Implementation::fillDisplay(ViewState& view, const engine::ToneMap& toneMap)
-{
-    const engine::RenderSession& session = *view.session;
-    view.shownPasses = 0; // in case that there is no memory for the images
-    view.display.resize(session.width(), session.height());
-    session.resolveDisplay(toneMap, view.display.rgba(), view.display.depth());
-    view.display.modified();
-    view.shownPasses = session.progress().passes;
-    view.shownToneMap = toneMap;
-}
-
-void RayTraceDrawable::Implementation::noteFailure(const engine::RenderProgress& made,
-                                                   const engine::SceneVersion& version)
-{
+    const engine::RenderProgress made = view->tracer.progress();
     const engine::Status& status = made.status;
-    if (status.ok() || status.code == engine::StatusCode::EmptyScene) return;
-    engine::warnOnce(status.message);
-    const bool resource = status.code == engine::StatusCode::OutOfMemory ||
-                          status.code == engine::StatusCode::DeviceFailure;
-    if (!resource || made.passes > 0) return;
+    if (!status.ok() && status.code != engine::StatusCode::EmptyScene)
+        engine::warnOnce(status.message);
+    const bool failed = status.code == engine::StatusCode::OutOfMemory ||
+                        status.code == engine::StatusCode::DeviceFailure;
 
     std::lock_guard<std::mutex> lock(mutex);
-    untraceable = version.scene;
+    progress = made;
+    lastView = view;
+    if (failed && made.passes == 0) untraceable = version.scene;
 }
 
 void RayTraceDrawable::Implementation::fail(engine::StatusCode code, const std::string& message)
@@ -302,10 +234,10 @@ osg::ref_ptr<osg::Image> RayTraceDrawable::getColorImage() const
     try
     {
         std::lock_guard<std::mutex> lock(view->mutex);
-        if (view->session->progress().passes == 0) return nullptr;
-        const std::vector<float> radiance = view->session->resolveRadiance();
+        if (!view->tracer.hasImage()) return nullptr;
+        const std::vector<float> radiance = view->tracer.radiance();
         osg::ref_ptr<osg::Image> image = new osg::Image;
-        image->allocateImage(view->session->width(), view->session->height(), 1, GL_RGBA, GL_FLOAT);
+        image->allocateImage(view->tracer.width(), view->tracer.height(), 1, GL_RGBA, GL_FLOAT);
         std::copy(radiance.begin(), radiance.end(), reinterpret_cast<float*>(image->data()));
         return image;
     }

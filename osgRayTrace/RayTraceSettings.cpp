@@ -1,4 +1,4 @@
-// RayTraceSettings.cpp - the table of options, and setters that keep values in range. Layer: public API.
+// RayTraceSettings.cpp - the table of options; setters that keep to ranges. Layer: public API.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/RayTraceSettings>
 
@@ -18,8 +18,7 @@ using engine::warnOnce;
 namespace
 {
 
-template <typename T>
-struct Range
+template <typename T> struct Range
 {
     T minimum;
     T maximum;
@@ -52,7 +51,8 @@ const Words kDebugChannelWords{"normal", "uv", "id", "albedo", "depth", "dropped
 const Words kColorRuleWords{"auto", "display-referred", "linear"};
 const Words kSwitchWords{"false", "true"};
 
-/// Lower case without dashes and underscores: "light-samples", "LIGHT_SAMPLES" and "lightSamples" agree.
+/// Lower case without dashes and underscores: "light-samples", "LIGHT_SAMPLES" and "lightSamples"
+/// agree.
 std::string plainName(const std::string& name)
 {
     std::string plain;
@@ -75,8 +75,7 @@ std::string environmentName(const std::string& name)
 }
 
 /// Shortest text that reads back as the same value, in any locale.
-template <typename T>
-std::string textOf(T value)
+template <typename T> std::string textOf(T value)
 {
     char buffer[64];
     const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
@@ -84,8 +83,7 @@ std::string textOf(T value)
 }
 
 /// False unless all of the text is one number within the range.
-template <typename T>
-bool parseNumber(const std::string& text, const Range<T>& range, T& value)
+template <typename T> bool parseNumber(const std::string& text, const Range<T>& range, T& value)
 {
     const char* begin = text.data();
     const char* end = begin + text.size();
@@ -119,9 +117,8 @@ OptionRow numberRow(const std::string& name, const Range<T>& range,
 }
 
 template <typename T>
-OptionRow choiceRow(const std::string& name, const Words& words,
-                    T (RayTraceSettings::*get)() const, void (RayTraceSettings::*set)(T),
-                    const std::string& help)
+OptionRow choiceRow(const std::string& name, const Words& words, T (RayTraceSettings::*get)() const,
+                    void (RayTraceSettings::*set)(T), const std::string& help)
 {
     std::string range;
     for (const std::string& word : words)
@@ -135,7 +132,8 @@ OptionRow choiceRow(const std::string& name, const Words& words,
     { return words[static_cast<size_t>((settings.*get)())]; };
     row.set = [&words, set](RayTraceSettings& settings, const std::string& text)
     {
-        const auto isMeant = [&text](const std::string& word) { return plainName(word) == plainName(text); };
+        const auto isMeant = [&text](const std::string& word)
+        { return plainName(word) == plainName(text); };
         const auto found = std::find_if(words.begin(), words.end(), isMeant);
         if (found == words.end()) return false;
         (settings.*set)(static_cast<T>(found - words.begin()));
@@ -164,7 +162,8 @@ const std::vector<OptionRow>& optionTable()
     using S = RayTraceSettings;
     static const std::vector<OptionRow> table{
         choiceRow("integrator", kIntegratorWords, &S::getIntegrator, &S::setIntegrator,
-                  "How light is computed; auto: whitted for fixed-function scenes, path for physical ones"),
+                  "How light is computed; auto: whitted for fixed-function scenes, path for "
+                  "physical ones"),
         choiceRow("light-sampling", kLightSamplingWords, &S::getLightSampling, &S::setLightSampling,
                   "How points on area lights are chosen"),
         numberRow("light-samples", kLightSamplesRange, &S::getLightSamples, &S::setLightSamples,
@@ -181,8 +180,9 @@ const std::vector<OptionRow>& optionTable()
         numberRow("seed", kSeedRange, &S::getSeed, &S::setSeed, "Equal seeds give equal images"),
         numberRow("exposure", kExposureRange, &S::getExposure, &S::setExposure,
                   "Exposure [EV]: radiance times 2^value before display"),
-        choiceRow("color-rule", kColorRuleWords, &S::getColorRule, &S::setColorRule,
-                  "Whether colours are used as they are or decoded from sRGB; auto: by the materials"),
+        choiceRow(
+            "color-rule", kColorRuleWords, &S::getColorRule, &S::setColorRule,
+            "Whether colours are used as they are or decoded from sRGB; auto: by the materials"),
         choiceRow("debug-channel", kDebugChannelWords, &S::getDebugChannel, &S::setDebugChannel,
                   "What the debug integrator shows"),
     };
@@ -201,8 +201,7 @@ const OptionRow* findRow(const std::string& name)
     return nullptr;
 }
 
-template <typename T>
-void change(T& member, T value, unsigned int& modifiedCount)
+template <typename T> void change(T& member, T value, unsigned int& modifiedCount)
 {
     if (member == value) return;
     member = value;
@@ -245,8 +244,8 @@ RayTraceSettings::RayTraceSettings()
     {
         const char* text = std::getenv(row.option.environment.c_str());
         if (!text || row.set(*this, text)) continue;
-        warnOnce("environment variable " + row.option.environment + ": '" + text + "' is not one of " +
-                 row.option.range + "; ignored");
+        warnOnce("environment variable " + row.option.environment + ": '" + text +
+                 "' is not one of " + row.option.range + "; ignored");
     }
     _modifiedCount = 0;
 }
@@ -254,11 +253,18 @@ RayTraceSettings::RayTraceSettings()
 RayTraceSettings::RayTraceSettings(WithoutEnvironment) {}
 
 RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), _integrator(other._integrator),
-      _lightSampling(other._lightSampling), _debugChannel(other._debugChannel),
-      _colorRule(other._colorRule), _lightSamples(other._lightSamples),
-      _maxBounces(other._maxBounces), _shadows(other._shadows), _maxPasses(other._maxPasses),
-      _passesPerFrame(other._passesPerFrame), _threads(other._threads), _seed(other._seed),
+    : osg::Object(other, copyop),
+      _integrator(other._integrator),
+      _lightSampling(other._lightSampling),
+      _debugChannel(other._debugChannel),
+      _colorRule(other._colorRule),
+      _lightSamples(other._lightSamples),
+      _maxBounces(other._maxBounces),
+      _shadows(other._shadows),
+      _maxPasses(other._maxPasses),
+      _passesPerFrame(other._passesPerFrame),
+      _threads(other._threads),
+      _seed(other._seed),
       _exposure(other._exposure)
 {
 }

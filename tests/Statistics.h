@@ -49,33 +49,31 @@ inline double chiSquareTail(double value, double degrees)
     return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
-/// Pearson's test of counts against expected ones; cells are pooled below an expected count of 5.
+/// Pearson's test of counts against expected ones; cells are pooled to an expected count of 5 at least.
 /// Returns the probability of a fit this bad or worse.
 inline double chiSquareTest(const std::vector<double>& observed, const std::vector<double>& expected)
 {
-    double sum = 0.0, pooledObserved = 0.0, pooledExpected = 0.0;
-    int cells = 0;
-    const auto addCell = [&](double o, double e)
+    struct Cell
     {
-        sum += (o - e) * (o - e) / e;
-        ++cells;
+        double observed = 0.0, expected = 0.0;
     };
+    std::vector<Cell> cells;
+    Cell pool;
     for (std::size_t i = 0; i < observed.size(); ++i)
     {
-        if (expected[i] >= 5.0)
-        {
-            addCell(observed[i], expected[i]);
-            continue;
-        }
-        pooledObserved += observed[i];
-        pooledExpected += expected[i];
-        if (pooledExpected < 5.0) continue;
-        addCell(pooledObserved, pooledExpected);
-        pooledObserved = pooledExpected = 0.0;
+        pool.observed += observed[i];
+        pool.expected += expected[i];
+        if (pool.expected < 5.0) continue;
+        cells.push_back(pool);
+        pool = {};
     }
-    if (pooledExpected > 0.0 || pooledObserved > 0.0)
-        addCell(pooledObserved, std::max(pooledExpected, 1e-3 * pooledObserved + 1e-9));
-    return cells > 1 ? chiSquareTail(sum, cells - 1) : 1.0;
+    if (cells.size() < 2) return 1.0;
+    cells.back().observed += pool.observed;
+    cells.back().expected += pool.expected;
+    double sum = 0.0;
+    for (const Cell& cell : cells)
+        sum += (cell.observed - cell.expected) * (cell.observed - cell.expected) / cell.expected;
+    return chiSquareTail(sum, static_cast<double>(cells.size() - 1));
 }
 
 /// Significance of each of count tests so that all together raise a false alarm with probability

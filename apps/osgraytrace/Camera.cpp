@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "Camera.h"
 
-#include "Failure.h"
+#include "apps/common/Failure.h"
+#include "apps/common/StoredView.h"
 
 #include <osgRayTrace/Renderer>
-
-#include <osg/CameraView>
-#include <osg/ClearNode>
-#include <osg/NodeVisitor>
 
 #include <algorithm>
 
@@ -22,57 +19,10 @@ constexpr double kOsgViewerFovyDegrees = 29.148431; ///< of its default display 
 const osg::Vec4 kOsgViewerClearColor(0.2f, 0.2f, 0.4f, 1.0f);
 constexpr double kNearFarRatio = 0.0005;            ///< osg::CullSettings' default
 
-struct Placement
-{
-    osg::Vec3d eye;
-    osg::Vec3d center;
-    osg::Vec3d up;
-    double fovyDegrees = kOsgViewerFovyDegrees;
-};
-
-/// The first nodes of a scene that say how it wants to be shown.
-class FindPresentation : public osg::NodeVisitor
-{
-public:
-    FindPresentation() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
-
-    void apply(osg::CameraView& node) override
-    {
-        if (!view)
-        {
-            view = &node;
-            worldFromView = osg::computeLocalToWorld(getNodePath());
-        }
-        traverse(node);
-    }
-
-    void apply(osg::ClearNode& node) override
-    {
-        if (!clear) clear = &node;
-        traverse(node);
-    }
-
-    using osg::NodeVisitor::apply;
-
-    osg::ref_ptr<osg::CameraView> view;
-    osg::Matrixd worldFromView; ///< the view's own position and attitude included
-    osg::ref_ptr<osg::ClearNode> clear;
-};
-
-Placement storedPlacement(const osg::CameraView& view, const osg::Matrixd& worldFromView)
-{
-    Placement placement;
-    placement.eye = worldFromView.getTrans();
-    placement.center = placement.eye + osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), worldFromView);
-    placement.up = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 1.0, 0.0), worldFromView);
-    if (view.getFieldOfViewMode() == osg::CameraView::VERTICAL) placement.fovyDegrees = view.getFieldOfView();
-    return placement;
-}
-
 Placement homePlacement(const Options& options, osg::Node& scene)
 {
     Placement placement;
-    placement.fovyDegrees = options.fovyDegrees.value_or(placement.fovyDegrees);
+    placement.fovyDegrees = options.fovyDegrees.value_or(kOsgViewerFovyDegrees);
     osg::ref_ptr<Renderer> renderer = new Renderer;
     renderer->setScene(&scene);
     renderer->setSize(options.width, options.height);
@@ -100,11 +50,8 @@ osg::Matrixd projectionOf(const Placement& placement, const osg::Matrixd& view, 
 Camera cameraOf(const Options& options, osg::Node& scene)
 {
     const double aspect = double(options.width) / options.height;
-    FindPresentation find;
-    scene.accept(find);
-    Placement placement = find.view ? storedPlacement(*find.view, find.worldFromView)
-                                    : homePlacement(options, scene);
-
+    const std::optional<Placement> stored = storedPlacement(scene);
+    Placement placement = stored ? *stored : homePlacement(options, scene);
     placement.eye = options.eye.value_or(placement.eye);
     placement.center = options.center.value_or(placement.center);
     placement.up = options.up.value_or(placement.up);
@@ -119,7 +66,7 @@ Camera cameraOf(const Options& options, osg::Node& scene)
     }
 
     Camera camera;
-    camera.clearColor = find.clear ? find.clear->getClearColor() : kOsgViewerClearColor;
+    camera.clearColor = storedClearColor(scene).value_or(kOsgViewerClearColor);
     camera.view = osg::Matrixd::lookAt(placement.eye, placement.center, placement.up);
     camera.projection = projectionOf(placement, camera.view, aspect, scene.getBound());
     return camera;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "Options.h"
 
-#include "Failure.h"
+#include "apps/common/Failure.h"
 #include "Output.h"
 
 #include <CLI/CLI.hpp>
@@ -74,14 +74,16 @@ void addSettings(CLI::App& app, RayTraceSettings& settings)
 {
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
     {
-        const std::string name = option.name == "max-passes" ? "--passes,--max-passes" : "--" + option.name;
+        const bool passes = option.name == "max-passes";
+        const std::string name = passes ? "--passes,--max-passes" : "--" + option.name;
+        const std::string help = passes ? "Stop after so many passes (64, unless --time or --error is given)" : option.help;
         const auto set = [&settings, option](const std::string& value)
         {
             if (settings.set(option.name, value)) return;
             throw CLI::ValidationError("--" + option.name,
                                        "'" + value + "' is not one of " + commaSeparated(option.range));
         };
-        app.add_option_function<std::string>(name, set, option.help)
+        app.add_option_function<std::string>(name, set, help)
             ->option_text(option.range)
             ->group("Settings");
     }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "Output.h"
 
-#include "Failure.h"
+#include "apps/common/Failure.h"
 #include "osgPlugins/exr/ExrImage.h"
 
 #include <osgDB/FileNameUtils>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "Picture.h"
 
-#include "Failure.h"
+#include "apps/common/Failure.h"
 
 #include <osgRayTrace/Renderer>
 

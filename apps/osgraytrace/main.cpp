@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "Camera.h"
 #include "ErrorMeasures.h"
-#include "Failure.h"
-#include "InputFiles.h"
 #include "Options.h"
 #include "Output.h"
 #include "Picture.h"
-#include "PluginPath.h"
 #include "Progress.h"
+#include "Reference.h"
 #include "StatisticsText.h"
+#include "apps/common/Failure.h"
+#include "apps/common/ModelFiles.h"
+#include "apps/common/PluginPath.h"
 
 #include <cstdio>
 #include <exception>

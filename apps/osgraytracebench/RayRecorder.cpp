@@ -38,6 +38,7 @@ void takeDown(const int* valid, int width, RTCScene scene, const Packet& packet,
 
 } // namespace
 
+#pragma GCC visibility push(default) // the linker refuses to wrap with hidden symbols
 extern "C"
 {
 
@@ -85,6 +86,7 @@ void __wrap_rtcOccluded1(RTCScene scene, RTCIntersectContext* context, RTCRay* r
 }
 
 } // extern "C"
+#pragma GCC visibility pop
 
 namespace osgRayTrace::bench
 {

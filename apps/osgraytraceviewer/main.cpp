@@ -3,19 +3,21 @@
 #include "KeyHandler.h"
 #include "StatusLine.h"
 
-#include "apps/osgraytrace/PluginPath.h"
+#include "apps/common/ModelFiles.h"
+#include "apps/common/PluginPath.h"
+#include "apps/common/StoredView.h"
 
 #include <osgRayTrace/RayTracedScene>
 
 #include <osg/ArgumentParser>
 #include <osg/Group>
 #include <osg/NodeVisitor>
-#include <osgDB/ReadFile>
 #include <osgGA/StateSetManipulator>
 #include <osgGA/TrackballManipulator>
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
+#include <algorithm>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -27,14 +29,6 @@ namespace osgRayTrace::app
 
 namespace
 {
-
-enum ExitCode
-{
-    kDone = 0,
-    kUsage = 1,
-    kCannotLoad = 2,
-    kCannotOpenWindow = 3,
-};
 
 using Assignments = std::vector<std::pair<std::string, std::string>>;
 
@@ -108,16 +102,29 @@ void addHandlers(osgViewer::Viewer& viewer, RayTracedScene* scene, StatusLine* s
     viewer.addEventHandler(new osgViewer::LODScaleHandler);
 }
 
+/// The view and background that the scene brings with it, if any.
+void showAsStored(osgViewer::Viewer& viewer, osg::Node& scene)
+{
+    osg::Camera* camera = viewer.getCamera();
+    if (const auto color = storedClearColor(scene)) camera->setClearColor(*color);
+    const std::optional<Placement> placement = storedPlacement(scene);
+    if (!placement) return;
+
+    // The trackball turns around the scene's middle, or what the view has before it there.
+    const osg::Vec3d sight = placement->center - placement->eye;
+    const double distance = std::max((scene.getBound().center() - placement->eye) * sight, 1.0);
+    osgGA::CameraManipulator* manipulator = viewer.getCameraManipulator();
+    manipulator->setHomePosition(placement->eye, placement->eye + sight * distance, placement->up);
+    manipulator->setAutoComputeHomePosition(false);
+    manipulator->home(0.0);
+    camera->setProjectionMatrixAsPerspective(placement->fovyDegrees, 1.25, 1.0, 10000.0);
+}
+
 int show(osgViewer::Viewer& viewer, const std::vector<std::string>& models,
          const Assignments& assignments, osg::ApplicationUsage* usage)
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;
-    for (const std::string& name : models)
-    {
-        const osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(name);
-        if (!model) return fail(kCannotLoad, "cannot load " + name);
-        root->addChild(model.get());
-    }
+    root->addChild(readScene(models).get());
 
     FindTracedScene brought;
     root->accept(brought);
@@ -136,12 +143,13 @@ int show(osgViewer::Viewer& viewer, const std::vector<std::string>& models,
 
     viewer.setSceneData(root.get());
     viewer.setCameraManipulator(new osgGA::TrackballManipulator);
+    showAsStored(viewer, *root);
     addHandlers(viewer, scene.get(), statusLine.get());
     viewer.addEventHandler(new osgViewer::HelpHandler(usage));
     viewer.realize();
     osgViewer::Viewer::Windows windows;
     viewer.getWindows(windows);
-    if (windows.empty()) return fail(kCannotOpenWindow, "cannot open a window");
+    if (windows.empty()) return fail(kCannotRender, "cannot open a window");
     return viewer.run();
 }
 
@@ -186,8 +194,12 @@ int main(int argc, char** argv)
     {
         return osgRayTrace::app::run(argc, argv);
     }
+    catch (const osgRayTrace::app::Failure& failure)
+    {
+        return osgRayTrace::app::fail(failure.code(), failure.what());
+    }
     catch (const std::exception& error)
     {
-        return osgRayTrace::app::fail(osgRayTrace::app::kCannotOpenWindow, error.what());
+        return osgRayTrace::app::fail(osgRayTrace::app::kCannotRender, error.what());
     }
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "Scenes.h"
 
-#include "apps/osgraytrace/PluginPath.h"
+#include "apps/common/PluginPath.h"
 
 #include <osgDB/WriteFile>
 

@@ -1,5 +1,5 @@
-// ExrHeader.cpp - what an OpenEXR file claims to hold, before anything is allocated for it. Layer:
-// osgPlugins. SPDX-License-Identifier: MIT
+// ExrHeader.cpp - what an OpenEXR file claims, before memory is taken for it. Layer: osgPlugins.
+// SPDX-License-Identifier: MIT
 #include "osgPlugins/exr/ExrHeader.h"
 
 #include <cstdint>

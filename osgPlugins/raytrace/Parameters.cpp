@@ -1,4 +1,4 @@
-// Parameters.cpp - what the name of a file to ray trace says beside the file itself. Layer: plugins.
+// Parameters.cpp - what the name of a file to ray trace says beside the file. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #include "Parameters.h"
 
@@ -28,7 +28,8 @@ std::string::size_type lastDot(const std::string& name)
 bool isBracketed(const std::string& text)
 {
     if (text.size() < 2) return false;
-    return (text.front() == '(' && text.back() == ')') || (text.front() == '[' && text.back() == ']');
+    return (text.front() == '(' && text.back() == ')') ||
+           (text.front() == '[' && text.back() == ']');
 }
 
 std::string trimmed(const std::string& text)
@@ -65,7 +66,8 @@ std::string applyItem(const std::string& item, RayTraceSettings& settings)
 {
     const auto equals = item.find('=');
     if (equals == std::string::npos)
-        return setWord(settings, item) ? std::string() : "'" + item + "' is no integrator and no option=value";
+        return setWord(settings, item) ? std::string()
+                                       : "'" + item + "' is no integrator and no option=value";
 
     const std::string name = trimmed(item.substr(0, equals));
     const std::string value = trimmed(item.substr(equals + 1));

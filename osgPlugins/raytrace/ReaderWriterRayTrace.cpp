@@ -1,4 +1,4 @@
-// ReaderWriterRayTrace.cpp - pseudo-loader: "model.osgt.raytrace" is model.osgt, ray traced. Layer: plugins.
+// ReaderWriterRayTrace.cpp - pseudo-loader: model.osgt.raytrace is ray traced. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #include "Parameters.h"
 
@@ -10,8 +10,8 @@
 
 #include <exception>
 
-/// Reads FILE[.PARAMETERS].raytrace: what FILE holds below an osgRayTrace::RayTracedScene. FILE is read
-/// with the caller's options and may be a pseudo-loader's name itself. Parameters:
+/// Reads FILE[.PARAMETERS].raytrace: what FILE holds below an osgRayTrace::RayTracedScene. FILE is
+/// read with the caller's options and may be a pseudo-loader's name itself. Parameters:
 ///   cow.osgt.raytrace                              settings from the environment
 ///   cow.osgt.path.raytrace                         an integrator, or a debug channel
 ///   "cow.osgt.(integrator=path,passes=64).raytrace"  options by name

@@ -1,4 +1,4 @@
-// AreaLight.cpp - reads and writes AreaLight as .osgt, .osgb and .osgx. Layer: plugins.
+// AreaLight.cpp - AreaLight in .osgt, .osgb and .osgx files. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/AreaLight>
 

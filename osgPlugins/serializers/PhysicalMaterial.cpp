@@ -1,4 +1,4 @@
-// PhysicalMaterial.cpp - reads and writes PhysicalMaterial as .osgt, .osgb and .osgx. Layer: plugins.
+// PhysicalMaterial.cpp - PhysicalMaterial in .osgt, .osgb and .osgx files. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/PhysicalMaterial>
 

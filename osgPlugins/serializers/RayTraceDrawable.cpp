@@ -1,4 +1,4 @@
-// RayTraceDrawable.cpp - reads and writes RayTraceDrawable as .osgt, .osgb and .osgx. Layer: plugins.
+// RayTraceDrawable.cpp - RayTraceDrawable in .osgt, .osgb and .osgx files. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/RayTraceDrawable>
 

@@ -1,4 +1,4 @@
-// RayTraceSettings.cpp - reads and writes RayTraceSettings as .osgt, .osgb and .osgx. Layer: plugins.
+// RayTraceSettings.cpp - RayTraceSettings in .osgt, .osgb and .osgx files. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/RayTraceSettings>
 
@@ -8,7 +8,8 @@
 #include <osgDB/OutputStream>
 
 // All options by name: files of other versions, with more options or fewer, stay readable, and the
-// environment of the reader changes nothing that the writer had set. Names and values are single words.
+// environment of the reader changes nothing that the writer had set. Names and values are single
+// words.
 
 static bool checkOptions(const osgRayTrace::RayTraceSettings&)
 {

@@ -1,4 +1,4 @@
-// RayTracedScene.cpp - reads and writes RayTracedScene as .osgt, .osgb and .osgx. Layer: plugins.
+// RayTracedScene.cpp - RayTracedScene in .osgt, .osgb and .osgx files. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/RayTracedScene>
 

@@ -103,10 +103,10 @@ void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
         const float ny = az * bx - ax * bz;
         const float nz = ax * by - ay * bx;
         const float length2 = nx * nx + ny * ny + nz * nz;
-        const float inverse = length2 > 0.0f ? 1.0f / std::sqrt(length2) : 0.0f;
+        const float inverse = select(length2 > 0.0f, 1.0f / std::sqrt(length2), 0.0f);
         const float cosine = nx * block.ray.directionX[i] + ny * block.ray.directionY[i] +
                              nz * block.ray.directionZ[i];
-        const float side = cosine > 0.0f ? -inverse : inverse;
+        const float side = select(cosine > 0.0f, -inverse, inverse);
         s.geometricNormal.x[i] = nx * side;
         s.geometricNormal.y[i] = ny * side;
         s.geometricNormal.z[i] = nz * side;
@@ -139,10 +139,10 @@ void interpolateNormals(const RayHitBlock& block, const TriangleLanes& t, LaneMa
         const float length2 = nx * nx + ny * ny + nz * nz;
         const float inverse = 1.0f / std::sqrt(length2);
         // Opposite normals can cancel: then, and without normals, the geometric one stays.
-        const bool use = (length2 > 1e-12f) & (((smooth >> i) & 1u) != 0);
-        s.shadingNormal.x[i] = use ? nx * inverse : s.shadingNormal.x[i];
-        s.shadingNormal.y[i] = use ? ny * inverse : s.shadingNormal.y[i];
-        s.shadingNormal.z[i] = use ? nz * inverse : s.shadingNormal.z[i];
+        const uint32_t use = maskOf(length2 > 1e-12f) & laneBit(smooth, i);
+        s.shadingNormal.x[i] = select(use, nx * inverse, s.shadingNormal.x[i]);
+        s.shadingNormal.y[i] = select(use, ny * inverse, s.shadingNormal.y[i]);
+        s.shadingNormal.z[i] = select(use, nz * inverse, s.shadingNormal.z[i]);
     }
 }
 

@@ -35,6 +35,10 @@ namespace osgRayTrace::engine
 /// Rays are traced and shaded sixteen at a time.
 constexpr int kLanes = 16;
 
+/// Bit i: lane i is in use.
+using LaneMask = uint32_t;
+constexpr LaneMask kAllLanes = 0xffffu;
+
 /// One value for each lane.
 template <class T> struct alignas(64) Lanes
 {
@@ -46,11 +50,17 @@ template <class T> struct alignas(64) Lanes
 using FloatLanes = Lanes<float>;
 using UintLanes = Lanes<uint32_t>;
 
-/// condition ? a : b without a branch that the compiler could move the making of a or b into, which would
-/// keep the loop around it from being vectorized.
-OSGRAYTRACE_INLINE float select(bool condition, float a, float b)
+/// All bits set where the condition holds. Conditions are joined by & and | of these: compilers do not
+/// vectorize a mix of conditions on floats and on integers.
+OSGRAYTRACE_INLINE uint32_t maskOf(bool condition) { return 0u - static_cast<uint32_t>(condition); }
+
+/// maskOf(lane i is in lanes)
+OSGRAYTRACE_INLINE uint32_t laneBit(LaneMask lanes, int i) { return 0u - ((lanes >> i) & 1u); }
+
+/// a where the mask is set, else b, without a branch that the compiler could move the making of a or b
+/// into: that would keep the loop around it from being vectorized.
+OSGRAYTRACE_INLINE float select(uint32_t mask, float a, float b)
 {
-    const uint32_t mask = 0u - static_cast<uint32_t>(condition);
     uint32_t bitsA, bitsB;
     std::memcpy(&bitsA, &a, sizeof(a));
     std::memcpy(&bitsB, &b, sizeof(b));
@@ -60,14 +70,15 @@ OSGRAYTRACE_INLINE float select(bool condition, float a, float b)
     return result;
 }
 
+OSGRAYTRACE_INLINE float select(bool condition, float a, float b)
+{
+    return select(maskOf(condition), a, b);
+}
+
 /// A vector for each lane, structure of arrays.
 struct Vec3Lanes
 {
     FloatLanes x, y, z;
 };
-
-/// Bit i: lane i is in use.
-using LaneMask = uint32_t;
-constexpr LaneMask kAllLanes = 0xffffu;
 
 } // namespace osgRayTrace::engine

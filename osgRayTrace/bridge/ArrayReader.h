@@ -35,16 +35,17 @@ inline bool isReadable(const osg::Array* array)
     case GL_INT:
     case GL_UNSIGNED_INT:
     case GL_FLOAT:
-    case GL_DOUBLE: return true;
-    default: return false;
+    case GL_DOUBLE:
+        return true;
+    default:
+        return false;
     }
 }
 
 /// The elements as tightly packed rows of T, or null if the array is laid out in another way.
 template <class T> const T* rowsOf(const osg::Array& array)
 {
-    const bool same = array.getDataType() == GL_FLOAT &&
-                      array.getElementSize() == sizeof(T) &&
+    const bool same = array.getDataType() == GL_FLOAT && array.getElementSize() == sizeof(T) &&
                       array.getDataSize() == static_cast<GLint>(sizeof(T) / sizeof(float));
     return same ? static_cast<const T*>(array.getDataPointer()) : nullptr;
 }
@@ -64,8 +65,10 @@ void forEachRowOf(const osg::Array& array, const RowSelection& selection, const 
     const std::size_t stride = array.getElementSize() / sizeof(Scalar);
     const std::size_t size = array.getNumElements();
     const int components = array.getDataSize();
-    const bool scaled = std::is_integral_v<Scalar> && selection.integers == IntegerMeaning::Normalized;
-    const double scale = scaled ? 1.0 / static_cast<double>(std::numeric_limits<Scalar>::max()) : 1.0;
+    const bool scaled =
+        std::is_integral_v<Scalar> && selection.integers == IntegerMeaning::Normalized;
+    const double scale =
+        scaled ? 1.0 / static_cast<double>(std::numeric_limits<Scalar>::max()) : 1.0;
     const std::size_t count = selection.rows ? selection.count : std::min(selection.count, size);
     for (std::size_t i = 0; i < count; ++i)
     {
@@ -79,22 +82,31 @@ void forEachRowOf(const osg::Array& array, const RowSelection& selection, const 
     }
 }
 
-/// Calls body(i, value) for each selected row that exists; missing components are (0, 0, 0, 1) as in
-/// OpenGL. The array is readable.
+/// Calls body(i, value) for each selected row that exists; missing components are (0, 0, 0, 1) as
+/// in OpenGL. The array is readable.
 template <class Body>
 void forEachRow(const osg::Array& array, const RowSelection& selection, const Body& body)
 {
     switch (array.getDataType())
     {
-    case GL_BYTE: return forEachRowOf<GLbyte>(array, selection, body);
-    case GL_UNSIGNED_BYTE: return forEachRowOf<GLubyte>(array, selection, body);
-    case GL_SHORT: return forEachRowOf<GLshort>(array, selection, body);
-    case GL_UNSIGNED_SHORT: return forEachRowOf<GLushort>(array, selection, body);
-    case GL_INT: return forEachRowOf<GLint>(array, selection, body);
-    case GL_UNSIGNED_INT: return forEachRowOf<GLuint>(array, selection, body);
-    case GL_FLOAT: return forEachRowOf<GLfloat>(array, selection, body);
-    case GL_DOUBLE: return forEachRowOf<GLdouble>(array, selection, body);
-    default: return;
+    case GL_BYTE:
+        return forEachRowOf<GLbyte>(array, selection, body);
+    case GL_UNSIGNED_BYTE:
+        return forEachRowOf<GLubyte>(array, selection, body);
+    case GL_SHORT:
+        return forEachRowOf<GLshort>(array, selection, body);
+    case GL_UNSIGNED_SHORT:
+        return forEachRowOf<GLushort>(array, selection, body);
+    case GL_INT:
+        return forEachRowOf<GLint>(array, selection, body);
+    case GL_UNSIGNED_INT:
+        return forEachRowOf<GLuint>(array, selection, body);
+    case GL_FLOAT:
+        return forEachRowOf<GLfloat>(array, selection, body);
+    case GL_DOUBLE:
+        return forEachRowOf<GLdouble>(array, selection, body);
+    default:
+        return;
     }
 }
 

@@ -19,11 +19,13 @@ struct Wording
 constexpr Wording kGeometryWordings[] = {
     {"skipped.index-out-of-range", "triangles with an index beyond the vertex array, skipped"},
     {"skipped.not-finite", "triangles with a vertex that is NaN, infinite or above 1e18, skipped"},
-    {"skipped.deprecated-data", "per-primitive bindings or array indices: call fixDeprecatedData, skipped"},
+    {"skipped.deprecated-data",
+     "per-primitive bindings or array indices: call fixDeprecatedData, skipped"},
     {"skipped.vertex-type", "vertex array of an unknown type, skipped"},
     {"repaired.normal", "normals that are zero, missing or not finite, replaced by face normals"},
     {"repaired.color", "colours that are missing or not finite, replaced by white"},
-    {"repaired.texture-coordinate", "texture coordinates that are missing or not finite, replaced by 0"},
+    {"repaired.texture-coordinate",
+     "texture coordinates that are missing or not finite, replaced by 0"},
 };
 
 } // namespace
@@ -41,7 +43,8 @@ void warnAboutGeometry(const std::string& path, const ConversionCounts& counts)
     {
         const auto found = counts.find(wording.what);
         if (found == counts.end()) continue;
-        warnOnce("geometry '" + path + "': " + std::to_string(found->second) + " " + wording.message);
+        warnOnce("geometry '" + path + "': " + std::to_string(found->second) + " " +
+                 wording.message);
     }
 }
 

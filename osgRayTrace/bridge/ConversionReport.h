@@ -10,12 +10,13 @@ namespace osgRayTrace::engine
 {
 
 /// Counts by "<class>.<reason>" as Statistics::conversion shows them:
-/// converted    what became part of the Scene: geometry (drawables), instance, material, texture, light
-/// repaired     values that were replaced: normal, texture-coordinate, color (each a vertex)
+/// converted    what became part of the Scene: geometry (drawables), instance, material, texture,
+/// light repaired     values that were replaced: normal, texture-coordinate, color (each a vertex)
 /// skipped      bad data left out: index-out-of-range, not-finite, degenerate (each a triangle);
 ///              everything else an object
-/// approximated things that are traced, but not with all that OpenGL would do (a drawable or an object)
-/// not-traced   things that have no triangles, or that are not part of the scene as seen by a ray
+/// approximated things that are traced, but not with all that OpenGL would do (a drawable or an
+/// object) not-traced   things that have no triangles, or that are not part of the scene as seen by
+/// a ray
 using ConversionCounts = std::map<std::string, uint64_t>;
 
 inline void addCounts(ConversionCounts& sum, const ConversionCounts& more)
@@ -31,7 +32,8 @@ public:
     void count(const std::string& what, uint64_t number = 1) { _counts[what] += number; }
     void add(const ConversionCounts& counts) { addCounts(_counts, counts); }
 
-    /// Counts one skipped or changed object and names it: "transform 'root/arm': singular, skipped".
+    /// Counts one skipped or changed object and names it: "transform 'root/arm': singular,
+    /// skipped".
     void warn(const std::string& what, const std::string& object, const std::string& message);
 
     const ConversionCounts& counts() const { return _counts; }

@@ -11,8 +11,10 @@ namespace osgRayTrace::engine
 
 bool GeometryCache::BufferPrint::operator==(const BufferPrint& other) const
 {
-    const auto values = [](const BufferPrint& p)
-    { return std::make_tuple(p.buffer.get(), p.modified, p.data, p.bytes, p.kind, p.count, p.first); };
+    const auto values = [](const BufferPrint& p) {
+        return std::make_tuple(p.buffer.get(), p.modified, p.data, p.bytes, p.kind, p.count,
+                               p.first);
+    };
     return values(*this) == values(other);
 }
 
@@ -65,12 +67,8 @@ std::shared_ptr<const Mesh> GeometryCache::mesh(const osg::Geometry& geometry, u
             converted.mesh->changed = _stamp;
         }
         warnAboutGeometry(path, converted.counts);
-        entry = {&geometry,
-                 geometry.getDataVariance(),
-                 std::move(fingerprint),
-                 request,
-                 std::move(converted.mesh),
-                 std::move(converted.counts),
+        entry = {&geometry, geometry.getDataVariance(), std::move(fingerprint),
+                 request,   std::move(converted.mesh),  std::move(converted.counts),
                  0};
     }
     entry.used = _stamp;

@@ -15,16 +15,17 @@
 namespace osgRayTrace::engine
 {
 
-/// A geometry is taken as unchanged while its arrays and primitive sets are the same objects with the
-/// same modified counts, sizes and addresses: call dirty() on an array whose values were changed.
+/// A geometry is taken as unchanged while its arrays and primitive sets are the same objects with
+/// the same modified counts, sizes and addresses: call dirty() on an array whose values were
+/// changed.
 class GeometryCache
 {
 public:
     /// Begins a snapshot. stamp is that of meshes converted now.
     void begin(Stamp stamp) { _stamp = stamp; }
 
-    /// The mesh, null if there is nothing to trace, from the last snapshot if it is the same. path is the
-    /// name of a new mesh. variant tells several meshes of one geometry apart.
+    /// The mesh, null if there is nothing to trace, from the last snapshot if it is the same. path
+    /// is the name of a new mesh. variant tells several meshes of one geometry apart.
     std::shared_ptr<const Mesh> mesh(const osg::Geometry& geometry, uint32_t variant,
                                      const MeshRequest& request, const std::string& path,
                                      ConversionReport& report);
@@ -33,7 +34,8 @@ public:
     void end();
 
 private:
-    /// References keep the objects alive, so that a new one cannot pass for an old one at its address.
+    /// References keep the objects alive, so that a new one cannot pass for an old one at its
+    /// address.
     struct BufferPrint
     {
         osg::ref_ptr<const osg::BufferData> buffer;

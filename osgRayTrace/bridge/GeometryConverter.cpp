@@ -1,5 +1,5 @@
-// GeometryConverter.cpp - triangles and vertices of a geometry, checked and put together. Layer: bridge.
-// SPDX-License-Identifier: MIT
+// GeometryConverter.cpp - triangles and vertices of a geometry, checked and put together. Layer:
+// bridge. SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GeometryConverter.h"
 
 #include "osgRayTrace/bridge/TriangleList.h"
@@ -14,8 +14,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Twice the area is exactly zero. Differences of floats and their products are exact in double for all
-/// but extreme exponents, so this finds collinear corners and nothing else.
+/// Twice the area is exactly zero. Differences of floats and their products are exact in double for
+/// all but extreme exponents, so this finds collinear corners and nothing else.
 bool hasNoArea(const Vec3& a, const Vec3& b, const Vec3& c)
 {
     const Vec3d u = Vec3d(b) - Vec3d(a);
@@ -46,7 +46,8 @@ public:
     {
         if (t.x >= _count || t.y >= _count || t.z >= _count) return Verdict::OutOfRange;
         if (_unsound && (_unsound[t.x] | _unsound[t.y] | _unsound[t.z])) return Verdict::NotFinite;
-        if (hasNoArea(_positions[t.x], _positions[t.y], _positions[t.z])) return Verdict::Degenerate;
+        if (hasNoArea(_positions[t.x], _positions[t.y], _positions[t.z]))
+            return Verdict::Degenerate;
         return Verdict::Sound;
     }
 
@@ -78,15 +79,22 @@ void countVerdict(Verdict verdict, ConversionCounts& counts)
 {
     switch (verdict)
     {
-    case Verdict::OutOfRange: ++counts["skipped.index-out-of-range"]; break;
-    case Verdict::NotFinite: ++counts["skipped.not-finite"]; break;
-    case Verdict::Degenerate: ++counts["skipped.degenerate"]; break;
-    case Verdict::Sound: break;
+    case Verdict::OutOfRange:
+        ++counts["skipped.index-out-of-range"];
+        break;
+    case Verdict::NotFinite:
+        ++counts["skipped.not-finite"];
+        break;
+    case Verdict::Degenerate:
+        ++counts["skipped.degenerate"];
+        break;
+    case Verdict::Sound:
+        break;
     }
 }
 
-std::vector<UVec3> soundTriangles(const UVec3* triangles, std::size_t count, const TriangleJudge& judge,
-                                  ConversionCounts& counts)
+std::vector<UVec3> soundTriangles(const UVec3* triangles, std::size_t count,
+                                  const TriangleJudge& judge, ConversionCounts& counts)
 {
     std::vector<UVec3> kept;
     kept.reserve(count);
@@ -105,17 +113,20 @@ SharedArray<UVec3> shareIndices(const osg::DrawElementsUInt& elements)
     return {reinterpret_cast<const UVec3*>(&elements.front()), elements.size() / 3, owner};
 }
 
-/// A transform that mirrors turns the winding; turned back, the front of a triangle stays its front.
+/// A transform that mirrors turns the winding; turned back, the front of a triangle stays its
+/// front.
 bool isMirrored(const MeshRequest& request)
 {
     if (!request.transform) return false;
     const osg::Matrixd& m = *request.transform;
-    const Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)), z(m(2, 0), m(2, 1), m(2, 2));
+    const Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
+        z(m(2, 0), m(2, 1), m(2, 2));
     return glm::dot(glm::cross(x, y), z) < 0.0;
 }
 
 SharedArray<UVec3> checkedTriangles(TriangleList& list, const osg::Geometry& geometry,
-                                    const Positions& positions, bool mirrored, ConversionCounts& counts)
+                                    const Positions& positions, bool mirrored,
+                                    ConversionCounts& counts)
 {
     if (list.size() == 0) return {};
     const TriangleJudge judge(positions);
@@ -137,8 +148,8 @@ SharedArray<UVec3> checkedTriangles(TriangleList& list, const osg::Geometry& geo
     return triangles;
 }
 
-/// Gives a vertex that is used by several primitive sets one copy for each, and renumbers the triangles.
-/// Those with indices out of range are left as they are: they are dropped later.
+/// Gives a vertex that is used by several primitive sets one copy for each, and renumbers the
+/// triangles. Those with indices out of range are left as they are: they are dropped later.
 VertexMap splitByPrimitiveSet(TriangleList& list, std::size_t vertexCount)
 {
     if (list.source)
@@ -180,7 +191,8 @@ VertexMap splitByPrimitiveSet(TriangleList& list, std::size_t vertexCount)
 bool hasValuesBySet(const osg::Geometry& geometry)
 {
     const auto perSet = osg::Array::BIND_PER_PRIMITIVE_SET;
-    return bindingOf(geometry.getNormalArray()) == perSet || bindingOf(geometry.getColorArray()) == perSet;
+    return bindingOf(geometry.getNormalArray()) == perSet ||
+           bindingOf(geometry.getColorArray()) == perSet;
 }
 
 Vec3 faceNormal(const Vec3& a, const Vec3& b, const Vec3& c)

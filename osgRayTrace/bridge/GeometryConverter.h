@@ -18,7 +18,8 @@ namespace osgRayTrace::engine
 /// What a mesh depends on beside the geometry's own arrays.
 struct MeshRequest
 {
-    /// Applied to positions in double, and to normals; nothing: identity, then arrays may be shared.
+    /// Applied to positions in double, and to normals; nothing: identity, then arrays may be
+    /// shared.
     std::optional<osg::Matrixd> transform;
     bool decodeColors = false; ///< vertex colours from sRGB to linear
 
@@ -34,11 +35,11 @@ struct ConvertedMesh
     ConversionCounts counts;
 };
 
-/// Every triangle of the mesh is sound: indices in range, vertices finite and at most 1e18 in magnitude,
-/// area not zero; the others are dropped and counted. Without usable normals the mesh has none, that is
-/// flat facets (OpenGL would light all of it with the last normal that some other object used).
-/// Where layout, transform and DataVariance allow it the mesh shares the OSG arrays and keeps them alive;
-/// nobody may then write to them while a Scene holds the mesh.
+/// Every triangle of the mesh is sound: indices in range, vertices finite and at most 1e18 in
+/// magnitude, area not zero; the others are dropped and counted. Without usable normals the mesh
+/// has none, that is flat facets (OpenGL would light all of it with the last normal that some other
+/// object used). Where layout, transform and DataVariance allow it the mesh shares the OSG arrays
+/// and keeps them alive; nobody may then write to them while a Scene holds the mesh.
 ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request);
 
 } // namespace osgRayTrace::engine

@@ -33,8 +33,8 @@ GraphState rootState(const ConversionInput& input)
     return state;
 }
 
-/// What is wrong with a matrix; null: nothing. Singular is meant relative to the length of its axes, so
-/// a tiny or a flat scale is fine.
+/// What is wrong with a matrix; null: nothing. Singular is meant relative to the length of its
+/// axes, so a tiny or a flat scale is fine.
 const char* matrixFault(const osg::Matrixd& m)
 {
     constexpr double kSmallestVolume = 1e-12; // of the axes made unit
@@ -42,7 +42,8 @@ const char* matrixFault(const osg::Matrixd& m)
         if (!std::isfinite(m.ptr()[i])) return "skipped.not-finite-transform";
     if (m(0, 3) != 0.0 || m(1, 3) != 0.0 || m(2, 3) != 0.0 || m(3, 3) != 1.0)
         return "skipped.projective-transform";
-    osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)), z(m(2, 0), m(2, 1), m(2, 2));
+    osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
+        z(m(2, 0), m(2, 1), m(2, 2));
     x.normalize();
     y.normalize();
     z.normalize();
@@ -80,8 +81,11 @@ const char* untracedCamera(const osg::Camera& camera)
 } // namespace
 
 GraphCollector::GraphCollector(const ConversionInput& input, ConversionReport& report)
-    : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), _input(input), _report(report),
-      _worldFromLocal(1), _states(rootState(input))
+    : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN),
+      _input(input),
+      _report(report),
+      _worldFromLocal(1),
+      _states(rootState(input))
 {
     for (const osg::ref_ptr<const osg::StateSet>& stateSet : input.inheritedState)
         _states.push(*stateSet);
@@ -117,7 +121,8 @@ void GraphCollector::apply(osg::Camera& node)
 {
     if (&node == _input.root)
     {
-        apply(static_cast<osg::Node&>(node)); // the viewer's own: its matrices are those of the view
+        apply(
+            static_cast<osg::Node&>(node)); // the viewer's own: its matrices are those of the view
         return;
     }
     if (const char* reason = untracedCamera(node))
@@ -187,7 +192,8 @@ float GraphCollector::getDistanceToEyePoint(const osg::Vec3& position, bool) con
 
 float GraphCollector::getDistanceFromEyePoint(const osg::Vec3& position, bool) const
 {
-    return static_cast<float>((osg::Vec3d(position) * _worldFromLocal.back() - _input.eye).length());
+    return static_cast<float>(
+        (osg::Vec3d(position) * _worldFromLocal.back() - _input.eye).length());
 }
 
 float GraphCollector::getDistanceToViewPoint(const osg::Vec3& position, bool useLodScale) const

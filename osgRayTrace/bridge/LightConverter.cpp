@@ -15,22 +15,32 @@ namespace osgRayTrace::engine
 namespace
 {
 
-Vec3 toVec3(const osg::Vec3d& v) { return Vec3(v.x(), v.y(), v.z()); }
-Vec3 rgb(const osg::Vec4& color) { return {color.r(), color.g(), color.b()}; }
+Vec3 toVec3(const osg::Vec3d& v)
+{
+    return Vec3(v.x(), v.y(), v.z());
+}
+Vec3 rgb(const osg::Vec4& color)
+{
+    return {color.r(), color.g(), color.b()};
+}
 
 bool isFiniteLight(const Light& light)
 {
-    for (const Vec3& v : {light.ambient, light.diffuse, light.specular, light.position, light.direction})
+    for (const Vec3& v :
+         {light.ambient, light.diffuse, light.specular, light.position, light.direction})
         if (!isFinite(v)) return false;
     return std::isfinite(light.attenuationConstant) && std::isfinite(light.attenuationLinear) &&
            std::isfinite(light.attenuationQuadratic) && std::isfinite(light.spotExponent);
 }
 
-/// OpenGL knows cut-off angles of 0 to 90 degrees and 180, and ignores others [OpenGL 2.1, sect. 2.14.1].
+/// OpenGL knows cut-off angles of 0 to 90 degrees and 180, and ignores others [OpenGL 2.1,
+/// sect. 2.14.1].
 float cosCutoff(float degrees)
 {
     const bool isSpot = degrees >= 0.0f && degrees <= 90.0f;
-    return isSpot ? static_cast<float>(std::cos(osg::DegreesToRadians(static_cast<double>(degrees)))) : -1.0f;
+    return isSpot
+               ? static_cast<float>(std::cos(osg::DegreesToRadians(static_cast<double>(degrees))))
+               : -1.0f;
 }
 
 } // namespace
@@ -58,7 +68,8 @@ std::optional<Light> convertLight(const osg::Light& source, const osg::Matrixd& 
 
     light.kind = LightKind::Point;
     light.position = toVec3(osg::Vec3d(position.x(), position.y(), position.z()) / position.w());
-    osg::Vec3d axis = osg::Matrixd::transform3x3(osg::Vec3d(source.getDirection()), engineFromLocal);
+    osg::Vec3d axis =
+        osg::Matrixd::transform3x3(osg::Vec3d(source.getDirection()), engineFromLocal);
     if (axis.normalize() > 0.0) light.direction = toVec3(axis);
     light.attenuationConstant = source.getConstantAttenuation();
     light.attenuationLinear = source.getLinearAttenuation();
@@ -76,7 +87,8 @@ std::optional<ConvertedAreaLight> convertAreaLight(const AreaLight& source,
     const osg::Vec3d corner = osg::Vec3d(source.getCorner()) * engineFromLocal;
     osg::Vec3d edgeU = placed(osg::Vec3d(source.getEdgeU()));
     osg::Vec3d edgeV = placed(osg::Vec3d(source.getEdgeV()));
-    const osg::Vec3d x = placed({1.0, 0.0, 0.0}), y = placed({0.0, 1.0, 0.0}), z = placed({0.0, 0.0, 1.0});
+    const osg::Vec3d x = placed({1.0, 0.0, 0.0}), y = placed({0.0, 1.0, 0.0}),
+                     z = placed({0.0, 0.0, 1.0});
     if ((x ^ y) * z < 0.0) std::swap(edgeU, edgeV);
 
     ConvertedAreaLight result;
@@ -90,7 +102,8 @@ std::optional<ConvertedAreaLight> convertAreaLight(const AreaLight& source,
     light.twoSided = source.getTwoSided();
 
     const float area = glm::length(glm::cross(light.edgeU, light.edgeV));
-    if (!(area > 0.0f) || !std::isfinite(area) || !isFinite(light.corner) || !isFinite(light.radiance))
+    if (!(area > 0.0f) || !std::isfinite(area) || !isFinite(light.corner) ||
+        !isFinite(light.radiance))
         return std::nullopt;
 
     std::vector<Vec3> positions;

@@ -24,8 +24,8 @@ namespace osgRayTrace::engine
 std::optional<Light> convertLight(const osg::Light& light, const osg::Matrixd& engineFromLocal,
                                   bool eyeSpace);
 
-/// The light and the two triangles that rays hit, in engine space. A mirrored transform leaves the front
-/// side where it is on the node. Nothing if it has no area or is not finite.
+/// The light and the two triangles that rays hit, in engine space. A mirrored transform leaves the
+/// front side where it is on the node. Nothing if it has no area or is not finite.
 struct ConvertedAreaLight
 {
     Light light;

@@ -1,5 +1,5 @@
-// MaterialConverter.cpp - what OpenGL's lighting and texturing state says about a surface. Layer: bridge.
-// SPDX-License-Identifier: MIT
+// MaterialConverter.cpp - what OpenGL's lighting and texturing state says about a surface. Layer:
+// bridge. SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/MaterialConverter.h"
 
 #include "osgRayTrace/bridge/VertexArrays.h"
@@ -27,14 +27,20 @@ namespace
 constexpr auto kFront = osg::Material::FRONT;
 constexpr float kLargestShininess = 128.0f;
 
-float finiteOr(float value, float otherwise) { return std::isfinite(value) ? value : otherwise; }
+float finiteOr(float value, float otherwise)
+{
+    return std::isfinite(value) ? value : otherwise;
+}
 
 Vec3 rgb(const osg::Vec4& color)
 {
     return {finiteOr(color.r(), 0.0f), finiteOr(color.g(), 0.0f), finiteOr(color.b(), 0.0f)};
 }
 
-Vec3 rgb(const osg::Vec3& color) { return {color.x(), color.y(), color.z()}; }
+Vec3 rgb(const osg::Vec3& color)
+{
+    return {color.x(), color.y(), color.z()};
+}
 
 Vec3 decoded(const Vec3& color)
 {
@@ -45,12 +51,18 @@ VertexColorUse vertexColorUse(osg::Material::ColorMode mode)
 {
     switch (mode)
     {
-    case osg::Material::AMBIENT: return VertexColorUse::Ambient;
-    case osg::Material::DIFFUSE: return VertexColorUse::Diffuse;
-    case osg::Material::SPECULAR: return VertexColorUse::Specular;
-    case osg::Material::EMISSION: return VertexColorUse::Emission;
-    case osg::Material::AMBIENT_AND_DIFFUSE: return VertexColorUse::AmbientAndDiffuse;
-    default: return VertexColorUse::None;
+    case osg::Material::AMBIENT:
+        return VertexColorUse::Ambient;
+    case osg::Material::DIFFUSE:
+        return VertexColorUse::Diffuse;
+    case osg::Material::SPECULAR:
+        return VertexColorUse::Specular;
+    case osg::Material::EMISSION:
+        return VertexColorUse::Emission;
+    case osg::Material::AMBIENT_AND_DIFFUSE:
+        return VertexColorUse::AmbientAndDiffuse;
+    default:
+        return VertexColorUse::None;
     }
 }
 
@@ -60,10 +72,17 @@ void replaceColor(Material& material, VertexColorUse use, const Vec4& color)
     const Vec3 value(color);
     switch (use)
     {
-    case VertexColorUse::None: break;
-    case VertexColorUse::Ambient: material.ambient = value; break;
-    case VertexColorUse::Specular: material.specular = value; break;
-    case VertexColorUse::Emission: material.emission = value; break;
+    case VertexColorUse::None:
+        break;
+    case VertexColorUse::Ambient:
+        material.ambient = value;
+        break;
+    case VertexColorUse::Specular:
+        material.specular = value;
+        break;
+    case VertexColorUse::Emission:
+        material.emission = value;
+        break;
     case VertexColorUse::AmbientAndDiffuse:
         material.ambient = value;
         material.diffuse = value;
@@ -102,7 +121,10 @@ std::vector<uint32_t> valuesOf(const Material& m)
 
 } // namespace
 
-bool sameMaterial(const Material& a, const Material& b) { return valuesOf(a) == valuesOf(b); }
+bool sameMaterial(const Material& a, const Material& b)
+{
+    return valuesOf(a) == valuesOf(b);
+}
 
 SurfaceInputs surfaceInputs(const osg::Geometry& geometry)
 {
@@ -125,7 +147,8 @@ SurfaceInputs surfaceInputs(const osg::Geometry& geometry)
 uint32_t MaterialConverter::index(const GraphState& state, const SurfaceInputs& inputs)
 {
     countApproximations(state);
-    if (state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot)) return merged(physical(state, inputs));
+    if (state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot))
+        return merged(physical(state, inputs));
     Material material = fixedFunction(state, inputs);
     if (_linear) decode(material);
     applyTexture(material, state, inputs);
@@ -144,7 +167,8 @@ uint32_t MaterialConverter::lampIndex(const Vec3& radiance)
     return merged(material);
 }
 
-Material MaterialConverter::fixedFunction(const GraphState& state, const SurfaceInputs& inputs) const
+Material MaterialConverter::fixedFunction(const GraphState& state,
+                                          const SurfaceInputs& inputs) const
 {
     Material material;
     material.lit = state.isOn(kLightingBit);
@@ -163,18 +187,20 @@ Material MaterialConverter::fixedFunction(const GraphState& state, const Surface
             std::clamp(finiteOr(source->getShininess(kFront), 0.0f), 0.0f, kLargestShininess);
     }
     applyColor(material, state, inputs);
-    if (!state.isOn(kBlendBit)) material.alpha = 1.0f; // OpenGL writes it, but nothing shows through
+    if (!state.isOn(kBlendBit))
+        material.alpha = 1.0f; // OpenGL writes it, but nothing shows through
     return material;
 }
 
-/// Without any osg::Material there is the one that osgViewer sets above the scene: OpenGL's default with
-/// AMBIENT_AND_DIFFUSE [OSG 3.6.5, StateSet::setGlobalDefaults]. osg::Material::apply makes its diffuse
-/// colour the current one, which colours geometry without a colour array.
+/// Without any osg::Material there is the one that osgViewer sets above the scene: OpenGL's default
+/// with AMBIENT_AND_DIFFUSE [OSG 3.6.5, StateSet::setGlobalDefaults]. osg::Material::apply makes
+/// its diffuse colour the current one, which colours geometry without a colour array.
 void MaterialConverter::applyColor(Material& material, const GraphState& state,
                                    const SurfaceInputs& inputs) const
 {
     const auto* source = state.attribute<osg::Material>(kMaterialSlot);
-    VertexColorUse use = vertexColorUse(source ? source->getColorMode() : osg::Material::AMBIENT_AND_DIFFUSE);
+    VertexColorUse use =
+        vertexColorUse(source ? source->getColorMode() : osg::Material::AMBIENT_AND_DIFFUSE);
     if (!material.lit)
     {
         use = VertexColorUse::AmbientAndDiffuse;

@@ -17,9 +17,9 @@ namespace osgRayTrace::engine
 /// What of a geometry decides on its material.
 struct SurfaceInputs
 {
-    bool hasVertexColors = false;   ///< colours that vary over it
-    bool hasOverallColor = false;   ///< one colour for all of it
-    Vec4 overallColor{1.0f};        ///< as OpenGL gets it, not decoded
+    bool hasVertexColors = false; ///< colours that vary over it
+    bool hasOverallColor = false; ///< one colour for all of it
+    Vec4 overallColor{1.0f};      ///< as OpenGL gets it, not decoded
     bool hasTextureCoordinates = false;
 };
 

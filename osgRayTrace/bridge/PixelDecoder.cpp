@@ -29,18 +29,29 @@ std::optional<Layout> layoutOf(GLenum format)
 {
     switch (format)
     {
-    case GL_RGBA: return Layout{4, {0, 1, 2, 3}};
-    case GL_BGRA: return Layout{4, {2, 1, 0, 3}};
-    case GL_RGB: return Layout{3, {0, 1, 2, kOne}};
-    case GL_BGR: return Layout{3, {2, 1, 0, kOne}};
+    case GL_RGBA:
+        return Layout{4, {0, 1, 2, 3}};
+    case GL_BGRA:
+        return Layout{4, {2, 1, 0, 3}};
+    case GL_RGB:
+        return Layout{3, {0, 1, 2, kOne}};
+    case GL_BGR:
+        return Layout{3, {2, 1, 0, kOne}};
     case GL_LUMINANCE:
-    case GL_DEPTH_COMPONENT: return Layout{1, {0, 0, 0, kOne}};
-    case GL_LUMINANCE_ALPHA: return Layout{2, {0, 0, 0, 1}};
-    case GL_INTENSITY: return Layout{1, {0, 0, 0, 0}};
-    case GL_ALPHA: return Layout{1, {kOne, kOne, kOne, 0}};
-    case GL_RED: return Layout{1, {0, kZero, kZero, kOne}};
-    case GL_RG: return Layout{2, {0, 1, kZero, kOne}};
-    default: return std::nullopt;
+    case GL_DEPTH_COMPONENT:
+        return Layout{1, {0, 0, 0, kOne}};
+    case GL_LUMINANCE_ALPHA:
+        return Layout{2, {0, 0, 0, 1}};
+    case GL_INTENSITY:
+        return Layout{1, {0, 0, 0, 0}};
+    case GL_ALPHA:
+        return Layout{1, {kOne, kOne, kOne, 0}};
+    case GL_RED:
+        return Layout{1, {0, kZero, kZero, kOne}};
+    case GL_RG:
+        return Layout{2, {0, 1, kZero, kOne}};
+    default:
+        return std::nullopt;
     }
 }
 
@@ -57,9 +68,15 @@ template <class Scalar> float toFloat(Scalar value)
         return static_cast<float>(value);
 }
 
-float toFloat(Half value) { return glm::unpackHalf1x16(value.bits); }
+float toFloat(Half value)
+{
+    return glm::unpackHalf1x16(value.bits);
+}
 
-float finiteOrZero(float value) { return std::isfinite(value) ? value : 0.0f; }
+float finiteOrZero(float value)
+{
+    return std::isfinite(value) ? value : 0.0f;
+}
 
 /// Rows as the image has them: packing and row length make a row longer than its pixels.
 template <class Scalar, class Value, class Convert>
@@ -85,8 +102,9 @@ void decodeRows(const osg::Image& image, const Layout& layout, Value one, const 
 template <class Scalar>
 void decodeFloats(const osg::Image& image, const Layout& layout, Texture& texture)
 {
-    decodeRows<Scalar>(image, layout, 1.0f,
-                       [](Scalar value) { return finiteOrZero(toFloat(value)); }, texture.floats);
+    decodeRows<Scalar>(
+        image, layout, 1.0f, [](Scalar value) { return finiteOrZero(toFloat(value)); },
+        texture.floats);
 }
 
 bool decodePlain(const osg::Image& image, Texture& texture)
@@ -96,23 +114,39 @@ bool decodePlain(const osg::Image& image, Texture& texture)
     switch (image.getDataType())
     {
     case GL_UNSIGNED_BYTE:
-        decodeRows<uint8_t>(image, *layout, uint8_t(255), [](uint8_t value) { return value; },
-                            texture.bytes);
+        decodeRows<uint8_t>(
+            image, *layout, uint8_t(255), [](uint8_t value) { return value; }, texture.bytes);
         return true;
-    case GL_BYTE: decodeFloats<int8_t>(image, *layout, texture); return true;
-    case GL_UNSIGNED_SHORT: decodeFloats<uint16_t>(image, *layout, texture); return true;
-    case GL_SHORT: decodeFloats<int16_t>(image, *layout, texture); return true;
-    case GL_UNSIGNED_INT: decodeFloats<uint32_t>(image, *layout, texture); return true;
-    case GL_INT: decodeFloats<int32_t>(image, *layout, texture); return true;
-    case GL_HALF_FLOAT: decodeFloats<Half>(image, *layout, texture); return true;
-    case GL_FLOAT: decodeFloats<float>(image, *layout, texture); return true;
-    default: return false;
+    case GL_BYTE:
+        decodeFloats<int8_t>(image, *layout, texture);
+        return true;
+    case GL_UNSIGNED_SHORT:
+        decodeFloats<uint16_t>(image, *layout, texture);
+        return true;
+    case GL_SHORT:
+        decodeFloats<int16_t>(image, *layout, texture);
+        return true;
+    case GL_UNSIGNED_INT:
+        decodeFloats<uint32_t>(image, *layout, texture);
+        return true;
+    case GL_INT:
+        decodeFloats<int32_t>(image, *layout, texture);
+        return true;
+    case GL_HALF_FLOAT:
+        decodeFloats<Half>(image, *layout, texture);
+        return true;
+    case GL_FLOAT:
+        decodeFloats<float>(image, *layout, texture);
+        return true;
+    default:
+        return false;
     }
 }
 
 bool isDxt(GLenum format)
 {
-    return format == GL_COMPRESSED_RGB_S3TC_DXT1_EXT || format == GL_COMPRESSED_RGBA_S3TC_DXT1_EXT ||
+    return format == GL_COMPRESSED_RGB_S3TC_DXT1_EXT ||
+           format == GL_COMPRESSED_RGBA_S3TC_DXT1_EXT ||
            format == GL_COMPRESSED_RGBA_S3TC_DXT3_EXT || format == GL_COMPRESSED_RGBA_S3TC_DXT5_EXT;
 }
 

@@ -10,8 +10,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Rows without padding, pixels not initialised. Null, with a warning, if the image has more than the
-/// 4 GiB that osg::Image can count. Throws std::bad_alloc.
+/// Rows without padding, pixels not initialised. Null, with a warning, if the image has more than
+/// the 4 GiB that osg::Image can count. Throws std::bad_alloc.
 osg::ref_ptr<osg::Image> newPixelImage(int width, int height, GLenum format, GLenum type);
 
 /// A GL_FLOAT image of the values, which are width * height times the format's components. Null and
@@ -19,8 +19,8 @@ osg::ref_ptr<osg::Image> newPixelImage(int width, int height, GLenum format, GLe
 osg::ref_ptr<osg::Image> pixelImage(const std::vector<float>& values, int width, int height,
                                     GLenum format);
 
-/// Blends premultiplied GL_RGBA, GL_UNSIGNED_BYTE pixels over one colour in [0,1], to the value nearest to
-/// what OpenGL's (GL_ONE, GL_ONE_MINUS_SRC_ALPHA) has in a frame buffer of 8 bits.
+/// Blends premultiplied GL_RGBA, GL_UNSIGNED_BYTE pixels over one colour in [0,1], to the value
+/// nearest to what OpenGL's (GL_ONE, GL_ONE_MINUS_SRC_ALPHA) has in a frame buffer of 8 bits.
 void blendOver(osg::Image& image, const osg::Vec4& color);
 
 } // namespace osgRayTrace::engine

@@ -12,10 +12,14 @@ IntegratorKind integratorKind(RayTraceSettings::Integrator integrator)
 {
     switch (integrator)
     {
-    case RayTraceSettings::AUTOMATIC: return IntegratorKind::Automatic;
-    case RayTraceSettings::WHITTED: return IntegratorKind::Whitted;
-    case RayTraceSettings::PATH: return IntegratorKind::Path;
-    case RayTraceSettings::DEBUG: return IntegratorKind::Debug;
+    case RayTraceSettings::AUTOMATIC:
+        return IntegratorKind::Automatic;
+    case RayTraceSettings::WHITTED:
+        return IntegratorKind::Whitted;
+    case RayTraceSettings::PATH:
+        return IntegratorKind::Path;
+    case RayTraceSettings::DEBUG:
+        return IntegratorKind::Debug;
     }
     return IntegratorKind::Automatic;
 }
@@ -24,10 +28,14 @@ LightSampling lightSampling(RayTraceSettings::LightSampling sampling)
 {
     switch (sampling)
     {
-    case RayTraceSettings::RANDOM: return LightSampling::Random;
-    case RayTraceSettings::UNIFORM_JITTER: return LightSampling::UniformJitter;
-    case RayTraceSettings::STRATIFIED: return LightSampling::Stratified;
-    case RayTraceSettings::SOBOL: return LightSampling::Sobol;
+    case RayTraceSettings::RANDOM:
+        return LightSampling::Random;
+    case RayTraceSettings::UNIFORM_JITTER:
+        return LightSampling::UniformJitter;
+    case RayTraceSettings::STRATIFIED:
+        return LightSampling::Stratified;
+    case RayTraceSettings::SOBOL:
+        return LightSampling::Sobol;
     }
     return LightSampling::Sobol;
 }
@@ -36,13 +44,20 @@ DebugChannel debugChannel(RayTraceSettings::DebugChannel channel)
 {
     switch (channel)
     {
-    case RayTraceSettings::NORMAL: return DebugChannel::Normal;
-    case RayTraceSettings::UV: return DebugChannel::Uv;
-    case RayTraceSettings::ID: return DebugChannel::Id;
-    case RayTraceSettings::ALBEDO: return DebugChannel::Albedo;
-    case RayTraceSettings::DEPTH: return DebugChannel::Depth;
-    case RayTraceSettings::DROPPED: return DebugChannel::Dropped;
-    case RayTraceSettings::COST: return DebugChannel::Cost;
+    case RayTraceSettings::NORMAL:
+        return DebugChannel::Normal;
+    case RayTraceSettings::UV:
+        return DebugChannel::Uv;
+    case RayTraceSettings::ID:
+        return DebugChannel::Id;
+    case RayTraceSettings::ALBEDO:
+        return DebugChannel::Albedo;
+    case RayTraceSettings::DEPTH:
+        return DebugChannel::Depth;
+    case RayTraceSettings::DROPPED:
+        return DebugChannel::Dropped;
+    case RayTraceSettings::COST:
+        return DebugChannel::Cost;
     }
     return DebugChannel::Normal;
 }

@@ -27,8 +27,8 @@ namespace
 constexpr float kViewerAmbient = 0.1f;
 constexpr float kOpenGLAmbient = 0.2f;
 
-/// Local coordinates are moved to their centre if that is so many radii away: else an instance would lose
-/// in float what its large coordinates lose.
+/// Local coordinates are moved to their centre if that is so many radii away: else an instance
+/// would lose in float what its large coordinates lose.
 constexpr double kFarFromOrigin = 64.0;
 
 /// Of GeometryCache: the mesh that all uses share. The use number n that cannot is n + 1.
@@ -100,7 +100,8 @@ struct ConversionCaches
 {
     GeometryCache geometries;
     TextureConverter textures;
-    std::vector<std::shared_ptr<const Mesh>> areaLights; ///< their quads, in the order of the traversal
+    std::vector<std::shared_ptr<const Mesh>>
+        areaLights; ///< their quads, in the order of the traversal
 };
 
 /// Adds the parts of one snapshot to its Scene.
@@ -109,8 +110,14 @@ class SceneBuilder
 public:
     SceneBuilder(const ConversionInput& input, const CollectedGraph& graph, bool linear, Stamp now,
                  ConversionCaches& caches, ConversionReport& report)
-        : _input(input), _graph(graph), _linear(linear), _now(now), _caches(caches), _report(report),
-          _materials(linear, caches.textures, report), _scene(std::make_shared<Scene>())
+        : _input(input),
+          _graph(graph),
+          _linear(linear),
+          _now(now),
+          _caches(caches),
+          _report(report),
+          _materials(linear, caches.textures, report),
+          _scene(std::make_shared<Scene>())
     {
     }
 
@@ -171,7 +178,8 @@ uint32_t SceneBuilder::addMesh(const std::shared_ptr<const Mesh>& mesh)
     return static_cast<uint32_t>(_scene->meshes.size() - 1);
 }
 
-/// Used once: positions in engine space, made in double. Used more often: one mesh, several instances.
+/// Used once: positions in engine space, made in double. Used more often: one mesh, several
+/// instances.
 void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 {
     if (geometry.uses.size() > 1)
@@ -181,7 +189,9 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
     }
     const GeometryUse& use = geometry.uses.front();
     const MeshRequest request = requestFor(use.engineFromLocal);
-    addBaked(geometry, use, _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report));
+    addBaked(
+        geometry, use,
+        _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report));
 }
 
 void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
@@ -198,7 +208,8 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
 {
     const osg::Vec3d centre = localCentre(*geometry.geometry);
     const MeshRequest request = requestFor(osg::Matrixd::translate(-centre));
-    const auto mesh = _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report);
+    const auto mesh =
+        _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report);
     if (!mesh) return;
     _report.count("converted.geometry");
     const uint32_t meshIndex = addMesh(mesh);
@@ -213,8 +224,9 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
         if (!isPlaceable(instance.engineFromLocal))
         {
             addBaked(geometry, use,
-                     _caches.geometries.mesh(*geometry.geometry, variant, requestFor(use.engineFromLocal),
-                                      geometry.path, _report));
+                     _caches.geometries.mesh(*geometry.geometry, variant,
+                                             requestFor(use.engineFromLocal), geometry.path,
+                                             _report));
             continue;
         }
         const glm::dmat3 linear(instance.engineFromLocal.linear);
@@ -286,8 +298,8 @@ void SceneBuilder::addAreaLight(const CollectedAreaLight& source, std::shared_pt
     _scene->instances.push_back(instance);
 }
 
-/// As OpenGL keeps lights: by number, the last one set stays, and a light that no surface has enabled
-/// does nothing. The viewer's light is set before those of the graph.
+/// As OpenGL keeps lights: by number, the last one set stays, and a light that no surface has
+/// enabled does nothing. The viewer's light is set before those of the graph.
 void SceneBuilder::addLights()
 {
     std::map<int, Light> lights;
@@ -299,7 +311,8 @@ void SceneBuilder::addLights()
         if (!light || number < 0 || number >= 32)
         {
             _report.warn("skipped.light", "light '" + path + "'",
-                         light ? "number is not 0 to 31, skipped" : "values are not finite, skipped");
+                         light ? "number is not 0 to 31, skipped"
+                               : "values are not finite, skipped");
             return;
         }
         lights[number] = *light;
@@ -358,7 +371,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     ConversionResult result;
     result.scene = state.last;
     result.counts = report.counts();
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;
 }
 

@@ -22,14 +22,14 @@ namespace osgRayTrace::engine
 struct ConversionInput
 {
     osg::Node* root = nullptr;
-    osg::Vec3d eye;                      ///< world space: levels of detail, and where the origin is put
-    osg::Vec3d origin;                   ///< of the engine's coordinates, world space
+    osg::Vec3d eye;    ///< world space: levels of detail, and where the origin is put
+    osg::Vec3d origin; ///< of the engine's coordinates, world space
     unsigned int traversalMask = 0xffffffffu;
-    /// The light that osgViewer adds outside of the graph; null: none. In view space (headlight) or world
-    /// space (sky light). Replaced by a light of the same number in the graph.
+    /// The light that osgViewer adds outside of the graph; null: none. In view space (headlight) or
+    /// world space (sky light). Replaced by a light of the same number in the graph.
     osg::ref_ptr<const osg::Light> viewLight;
     bool viewLightInEyeSpace = true;
-    bool lighting = true;                ///< GL_LIGHTING above the root: off in osg::View's NO_LIGHT mode
+    bool lighting = true; ///< GL_LIGHTING above the root: off in osg::View's NO_LIGHT mode
     /// State above the root, the outermost first: of a cull traversal. Empty: osgViewer's defaults.
     std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState;
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as shown
@@ -50,10 +50,11 @@ public:
     SceneConverter();
     ~SceneConverter();
 
-    /// Converts the graph as it is now. The graph is read, not changed (bounds may be computed). Warns
-    /// once an object through osg::notify. Bad data is skipped and counted; throws std::bad_alloc only.
-    /// Geometry and images are taken as unchanged while their modified counts are (see GeometryCache and
-    /// TextureConverter); an unchanged graph gives the last Scene itself.
+    /// Converts the graph as it is now. The graph is read, not changed (bounds may be computed).
+    /// Warns once an object through osg::notify. Bad data is skipped and counted; throws
+    /// std::bad_alloc only. Geometry and images are taken as unchanged while their modified counts
+    /// are (see GeometryCache and TextureConverter); an unchanged graph gives the last Scene
+    /// itself.
     ConversionResult convert(const ConversionInput& input);
 
     /// The next conversion reads all arrays and images again, whatever their modified counts say.

@@ -12,7 +12,10 @@ namespace osgRayTrace::engine
 namespace
 {
 
-bool same(const Material& a, const Material& b) { return sameMaterial(a, b); }
+bool same(const Material& a, const Material& b)
+{
+    return sameMaterial(a, b);
+}
 
 bool same(const Light& a, const Light& b)
 {
@@ -40,7 +43,8 @@ bool same(const Instance& a, const Instance& b)
 
 /// True if all are the same; takes over the old stamps of those that are.
 template <class Part, class Same>
-bool stampParts(std::vector<Part>& parts, const std::vector<Part>& previous, Stamp now, const Same& isSame)
+bool stampParts(std::vector<Part>& parts, const std::vector<Part>& previous, Stamp now,
+                const Same& isSame)
 {
     bool all = parts.size() == previous.size();
     for (std::size_t i = 0; i < parts.size(); ++i)

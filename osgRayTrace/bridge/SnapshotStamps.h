@@ -1,5 +1,5 @@
-// SnapshotStamps.h - gives each part of a new Scene the time stamp of its last change. Layer: bridge.
-// SPDX-License-Identifier: MIT
+// SnapshotStamps.h - gives each part of a new Scene the time stamp of its last change. Layer:
+// bridge. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/scene/Scene.h"
@@ -9,9 +9,9 @@
 namespace osgRayTrace::engine
 {
 
-/// Stamps instances, materials, lights and the scene itself: now if they differ from the part of the same
-/// index in previous (may be null), else that one's stamp. Meshes and textures carry theirs already.
-/// Returns previous if nothing at all differs, else scene.
+/// Stamps instances, materials, lights and the scene itself: now if they differ from the part of
+/// the same index in previous (may be null), else that one's stamp. Meshes and textures carry
+/// theirs already. Returns previous if nothing at all differs, else scene.
 std::shared_ptr<const Scene> stampChanges(std::shared_ptr<Scene> scene,
                                           const std::shared_ptr<const Scene>& previous, Stamp now);
 

@@ -1,5 +1,5 @@
-// StateStack.cpp - OVERRIDE and PROTECTED, and which modes and attributes are followed. Layer: bridge.
-// SPDX-License-Identifier: MIT
+// StateStack.cpp - OVERRIDE and PROTECTED, and which modes and attributes are followed. Layer:
+// bridge. SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/StateStack.h"
 
 #include <osgRayTrace/PhysicalMaterial>
@@ -30,33 +30,42 @@ std::optional<unsigned int> modeBit(osg::StateAttribute::GLMode mode)
     if (mode >= GL_CLIP_PLANE0 && mode < GL_CLIP_PLANE0 + kClipPlanes) return kClipPlaneBit;
     switch (mode)
     {
-    case GL_LIGHTING: return kLightingBit;
-    case GL_BLEND: return kBlendBit;
-    case GL_ALPHA_TEST: return kAlphaTestBit;
-    case GL_CULL_FACE: return kCullFaceBit;
-    case GL_FOG: return kFogBit;
-    default: return std::nullopt;
+    case GL_LIGHTING:
+        return kLightingBit;
+    case GL_BLEND:
+        return kBlendBit;
+    case GL_ALPHA_TEST:
+        return kAlphaTestBit;
+    case GL_CULL_FACE:
+        return kCullFaceBit;
+    case GL_FOG:
+        return kFogBit;
+    default:
+        return std::nullopt;
     }
 }
 
 std::optional<unsigned int> textureModeBit(osg::StateAttribute::GLMode mode, std::size_t unit)
 {
-    const auto higher =
-        static_cast<unsigned int>(std::min<std::size_t>(kHigherTextureBit + unit - 1, kModeBitEnd - 1));
+    const auto higher = static_cast<unsigned int>(
+        std::min<std::size_t>(kHigherTextureBit + unit - 1, kModeBitEnd - 1));
     switch (mode)
     {
-    case GL_TEXTURE_2D: return unit == 0 ? kTexture2DBit : higher;
+    case GL_TEXTURE_2D:
+        return unit == 0 ? kTexture2DBit : higher;
     case GL_TEXTURE_1D:
     case GL_TEXTURE_3D:
     case GL_TEXTURE_CUBE_MAP:
-    case GL_TEXTURE_RECTANGLE: return unit == 0 ? kOtherTextureBit : higher;
+    case GL_TEXTURE_RECTANGLE:
+        return unit == 0 ? kOtherTextureBit : higher;
     case GL_TEXTURE_GEN_S:
     case GL_TEXTURE_GEN_T:
     case GL_TEXTURE_GEN_R:
     case GL_TEXTURE_GEN_Q:
         if (unit == 0) return kTexGenBit;
         return std::nullopt;
-    default: return std::nullopt;
+    default:
+        return std::nullopt;
     }
 }
 
@@ -65,11 +74,16 @@ std::optional<AttributeSlot> attributeSlot(osg::StateAttribute::Type type)
     if (type == PhysicalMaterial::ATTRIBUTE_TYPE) return kPhysicalMaterialSlot;
     switch (type)
     {
-    case osg::StateAttribute::MATERIAL: return kMaterialSlot;
-    case osg::StateAttribute::LIGHTMODEL: return kLightModelSlot;
-    case osg::StateAttribute::PROGRAM: return kProgramSlot;
-    case osg::StateAttribute::POLYGONMODE: return kPolygonModeSlot;
-    default: return std::nullopt;
+    case osg::StateAttribute::MATERIAL:
+        return kMaterialSlot;
+    case osg::StateAttribute::LIGHTMODEL:
+        return kLightModelSlot;
+    case osg::StateAttribute::PROGRAM:
+        return kProgramSlot;
+    case osg::StateAttribute::POLYGONMODE:
+        return kPolygonModeSlot;
+    default:
+        return std::nullopt;
     }
 }
 
@@ -77,10 +91,14 @@ std::optional<AttributeSlot> textureAttributeSlot(osg::StateAttribute::Type type
 {
     switch (type)
     {
-    case osg::StateAttribute::TEXTURE: return kTextureSlot;
-    case osg::StateAttribute::TEXENV: return kTextureEnvironmentSlot;
-    case osg::StateAttribute::TEXMAT: return kTextureMatrixSlot;
-    default: return std::nullopt;
+    case osg::StateAttribute::TEXTURE:
+        return kTextureSlot;
+    case osg::StateAttribute::TEXENV:
+        return kTextureEnvironmentSlot;
+    case osg::StateAttribute::TEXMAT:
+        return kTextureMatrixSlot;
+    default:
+        return std::nullopt;
     }
 }
 
@@ -99,7 +117,8 @@ void applyMode(GraphState& state, unsigned int bit, unsigned int value)
     state.modesOverride = overrides ? state.modesOverride | mask : state.modesOverride & ~mask;
 }
 
-void applyAttribute(GraphState& state, AttributeSlot slot, const osg::StateSet::RefAttributePair& pair)
+void applyAttribute(GraphState& state, AttributeSlot slot,
+                    const osg::StateSet::RefAttributePair& pair)
 {
     const uint32_t mask = 1u << slot;
     if (!replaces((state.attributesOverride & mask) != 0, pair.second)) return;
@@ -109,7 +128,8 @@ void applyAttribute(GraphState& state, AttributeSlot slot, const osg::StateSet::
         overrides ? state.attributesOverride | mask : state.attributesOverride & ~mask;
 }
 
-/// Modes that share a bit (texture targets, texture generation) are set once, on if one of them is on.
+/// Modes that share a bit (texture targets, texture generation) are set once, on if one of them is
+/// on.
 template <class BitOf>
 void applyModes(GraphState& state, const osg::StateSet::ModeList& modes, const BitOf& bitOf)
 {

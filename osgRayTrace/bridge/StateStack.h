@@ -1,5 +1,5 @@
-// StateStack.h - the OpenGL state that a drawable inherits, by the rules of osg::State. Layer: bridge.
-// SPDX-License-Identifier: MIT
+// StateStack.h - the OpenGL state that a drawable inherits, by the rules of osg::State. Layer:
+// bridge. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osg/StateSet>
@@ -21,11 +21,11 @@ enum ModeBit : unsigned int
     kAlphaTestBit,
     kCullFaceBit,
     kFogBit,
-    kClipPlaneBit,       ///< any of them
-    kTexture2DBit,       ///< unit 0
-    kOtherTextureBit,    ///< unit 0: 1-D, 3-D, cube map, rectangle
-    kTexGenBit,          ///< unit 0, any of S, T, R, Q
-    kHigherTextureBit,   ///< and the bits that follow: any texture target of units 1, 2, ...
+    kClipPlaneBit,     ///< any of them
+    kTexture2DBit,     ///< unit 0
+    kOtherTextureBit,  ///< unit 0: 1-D, 3-D, cube map, rectangle
+    kTexGenBit,        ///< unit 0, any of S, T, R, Q
+    kHigherTextureBit, ///< and the bits that follow: any texture target of units 1, 2, ...
     kModeBitEnd = 64,
 };
 
@@ -61,8 +61,8 @@ struct GraphState
     }
 };
 
-/// Pushes StateSets as osg::State does: a value replaces the inherited one unless that has OVERRIDE and
-/// the new one lacks PROTECTED. Equal sequences of pushes give the same state number.
+/// Pushes StateSets as osg::State does: a value replaces the inherited one unless that has OVERRIDE
+/// and the new one lacks PROTECTED. Equal sequences of pushes give the same state number.
 class StateStack
 {
 public:

@@ -1,4 +1,4 @@
-// StatisticsFromEngine.cpp - what the engine counted, as the public statistics show it. Layer: bridge.
+// StatisticsFromEngine.cpp - the engine's counts, as public statistics show them. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/StatisticsFromEngine.h"
 
@@ -12,10 +12,14 @@ const char* integratorName(IntegratorKind kind)
 {
     switch (kind)
     {
-    case IntegratorKind::Automatic: return "auto";
-    case IntegratorKind::Whitted: return "whitted";
-    case IntegratorKind::Path: return "path";
-    case IntegratorKind::Debug: return "debug";
+    case IntegratorKind::Automatic:
+        return "auto";
+    case IntegratorKind::Whitted:
+        return "whitted";
+    case IntegratorKind::Path:
+        return "path";
+    case IntegratorKind::Debug:
+        return "debug";
     }
     return "";
 }

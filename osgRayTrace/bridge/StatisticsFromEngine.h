@@ -1,4 +1,4 @@
-// StatisticsFromEngine.h - what the engine counted, as the public statistics show it. Layer: bridge.
+// StatisticsFromEngine.h - the engine's counts as the public statistics show them. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -14,9 +14,12 @@ TextureWrap wrapOf(const osg::Texture& texture, osg::Texture::WrapParameter dire
 {
     switch (texture.getWrap(direction))
     {
-    case osg::Texture::REPEAT: return TextureWrap::Repeat;
-    case osg::Texture::MIRROR: return TextureWrap::Mirror;
-    default: return TextureWrap::ClampToEdge;
+    case osg::Texture::REPEAT:
+        return TextureWrap::Repeat;
+    case osg::Texture::MIRROR:
+        return TextureWrap::Mirror;
+    default:
+        return TextureWrap::ClampToEdge;
     }
 }
 
@@ -27,8 +30,10 @@ bool isSrgbFormat(GLint internalFormat)
     case GL_SRGB:
     case GL_SRGB8:
     case GL_SRGB_ALPHA:
-    case GL_SRGB8_ALPHA8: return true;
-    default: return false;
+    case GL_SRGB8_ALPHA8:
+        return true;
+    default:
+        return false;
     }
 }
 
@@ -102,8 +107,8 @@ uint32_t TextureConverter::index(const osg::Texture2D* texture, TextureContent c
     return entry.index;
 }
 
-/// Also true if the image was given up after it went to OpenGL (setUnRefImageDataAfterApply): what was
-/// converted before stays.
+/// Also true if the image was given up after it went to OpenGL (setUnRefImageDataAfterApply): what
+/// was converted before stays.
 bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture2D& texture) const
 {
     if (!entry.converted || entry.texture.get() != &texture) return false;

@@ -32,8 +32,8 @@ public:
     /// Begins a snapshot. stamp is that of textures converted now.
     void begin(bool linear, Stamp stamp);
 
-    /// Index into textures(); kInvalid if there is nothing to sample (no image on the CPU). A format that
-    /// cannot be read becomes magenta.
+    /// Index into textures(); kInvalid if there is nothing to sample (no image on the CPU). A
+    /// format that cannot be read becomes magenta.
     uint32_t index(const osg::Texture2D* texture, TextureContent content, ConversionReport& report);
 
     /// Ends the snapshot: its textures. Forgets what was not used in it.
@@ -44,7 +44,8 @@ private:
 
     struct Entry
     {
-        osg::observer_ptr<const osg::Texture2D> texture; // tells a new object at an old address apart
+        osg::observer_ptr<const osg::Texture2D>
+            texture; // tells a new object at an old address apart
         osg::observer_ptr<const osg::Image> image;
         unsigned int imageModified = 0;
         const void* imageData = nullptr;

@@ -17,13 +17,18 @@ std::size_t triangleCount(GLenum mode, std::size_t count)
 {
     switch (mode)
     {
-    case GL_TRIANGLES: return count / 3;
-    case GL_QUADS: return count / 4 * 2;
+    case GL_TRIANGLES:
+        return count / 3;
+    case GL_QUADS:
+        return count / 4 * 2;
     case GL_TRIANGLE_STRIP:
     case GL_TRIANGLE_FAN:
-    case GL_POLYGON: return count < 3 ? 0 : count - 2;
-    case GL_QUAD_STRIP: return count < 4 ? 0 : (count / 2 - 1) * 2;
-    default: return 0;
+    case GL_POLYGON:
+        return count < 3 ? 0 : count - 2;
+    case GL_QUAD_STRIP:
+        return count < 4 ? 0 : (count / 2 - 1) * 2;
+    default:
+        return 0;
     }
 }
 
@@ -60,7 +65,8 @@ void appendTriangles(GLenum mode, std::size_t count, const Index& index, std::ve
             out.emplace_back(index(i + 1), index(i + 3), index(i + 2));
         }
         break;
-    default: break;
+    default:
+        break;
     }
 }
 
@@ -74,13 +80,18 @@ const char* untracedMode(GLenum mode)
     case GL_TRIANGLE_FAN:
     case GL_QUADS:
     case GL_QUAD_STRIP:
-    case GL_POLYGON: return nullptr;
-    case GL_POINTS: return "not-traced.points";
+    case GL_POLYGON:
+        return nullptr;
+    case GL_POINTS:
+        return "not-traced.points";
     case GL_LINES:
     case GL_LINE_STRIP:
-    case GL_LINE_LOOP: return "not-traced.lines";
-    case GL_PATCHES: return "not-traced.patches";
-    default: return "not-traced.adjacency";
+    case GL_LINE_LOOP:
+        return "not-traced.lines";
+    case GL_PATCHES:
+        return "not-traced.patches";
+    default:
+        return "not-traced.adjacency";
     }
 }
 
@@ -124,7 +135,8 @@ private:
         }
         if (const auto* multi = dynamic_cast<const osg::MultiDrawArrays*>(&set))
         {
-            const std::size_t draws = std::min(multi->getFirsts().size(), multi->getCounts().size());
+            const std::size_t draws =
+                std::min(multi->getFirsts().size(), multi->getCounts().size());
             for (std::size_t i = 0; i < draws; ++i)
                 appendRange(mode, multi->getFirsts()[i], multi->getCounts()[i]);
             return true;
@@ -135,7 +147,8 @@ private:
     bool appendElements(const osg::PrimitiveSet& set)
     {
         return appendIndices<osg::DrawElementsUInt>(set) ||
-               appendIndices<osg::DrawElementsUShort>(set) || appendIndices<osg::DrawElementsUByte>(set);
+               appendIndices<osg::DrawElementsUShort>(set) ||
+               appendIndices<osg::DrawElementsUByte>(set);
     }
 
     /// Cut to the vertices that exist: a wrong count must not make a list of billions.
@@ -148,8 +161,9 @@ private:
             _list.counts["skipped.index-out-of-range"] +=
                 triangleCount(mode, wanted) - triangleCount(mode, usable);
         grow(triangleCount(mode, usable));
-        appendTriangles(mode, usable, [first](std::size_t i) { return static_cast<uint32_t>(first + i); },
-                        _list.triangles);
+        appendTriangles(
+            mode, usable, [first](std::size_t i) { return static_cast<uint32_t>(first + i); },
+            _list.triangles);
     }
 
     template <class Elements> bool appendIndices(const osg::PrimitiveSet& set)
@@ -159,9 +173,9 @@ private:
         if (elements->empty()) return true;
         const auto* index = &elements->front();
         grow(triangleCount(set.getMode(), elements->size()));
-        appendTriangles(set.getMode(), elements->size(),
-                        [index](std::size_t i) { return static_cast<uint32_t>(index[i]); },
-                        _list.triangles);
+        appendTriangles(
+            set.getMode(), elements->size(),
+            [index](std::size_t i) { return static_cast<uint32_t>(index[i]); }, _list.triangles);
         return true;
     }
 

@@ -16,18 +16,19 @@ namespace osgRayTrace::engine
 /// All triangles in the order that OpenGL draws them. Indices into the vertex arrays, not checked.
 struct TriangleList
 {
-    /// Set if the geometry is one triangle list of 32-bit indices: they stand there as they are needed.
+    /// Set if the geometry is one triangle list of 32-bit indices: they stand there as they are
+    /// needed.
     const osg::DrawElementsUInt* source = nullptr;
-    std::vector<UVec3> triangles;      ///< filled if source is null
-    std::vector<std::size_t> setEnds;  ///< one a primitive set: end of its triangles
-    ConversionCounts counts;           ///< primitive sets without triangles, and dropped triangles
+    std::vector<UVec3> triangles;     ///< filled if source is null
+    std::vector<std::size_t> setEnds; ///< one a primitive set: end of its triangles
+    ConversionCounts counts;          ///< primitive sets without triangles, and dropped triangles
 
     const UVec3* data() const;
     std::size_t size() const;
 };
 
-/// Triangles, strips, fans, quads, quad strips and polygons (as fans, as OpenGL does it) of DrawArrays,
-/// MultiDrawArrays, DrawArrayLengths and DrawElements. Sets of other kinds are counted.
+/// Triangles, strips, fans, quads, quad strips and polygons (as fans, as OpenGL does it) of
+/// DrawArrays, MultiDrawArrays, DrawArrayLengths and DrawElements. Sets of other kinds are counted.
 TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount);
 
 } // namespace osgRayTrace::engine

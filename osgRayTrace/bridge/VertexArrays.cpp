@@ -1,5 +1,5 @@
-// VertexArrays.cpp - reads, checks and transforms vertex data; shares what is ready to use. Layer: bridge.
-// SPDX-License-Identifier: MIT
+// VertexArrays.cpp - reads, checks and transforms vertex data; shares what is ready to use. Layer:
+// bridge. SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/VertexArrays.h"
 
 #include "osgRayTrace/film/ToneMap.h"
@@ -39,8 +39,8 @@ bool allUnit(const Vec3* normals, std::size_t count)
     return off == 0;
 }
 
-/// Embree loads vertices 16 bytes at a time, so it reads 4 bytes past the last one. They lie within the
-/// same page, and so cannot fault, unless the array ends where a page ends.
+/// Embree loads vertices 16 bytes at a time, so it reads 4 bytes past the last one. They lie within
+/// the same page, and so cannot fault, unless the array ends where a page ends.
 bool mayBeReadPast(const void* end)
 {
     constexpr std::uintptr_t kSmallestPage = 4096;
@@ -82,8 +82,8 @@ struct PointMap
     Vec3d operator()(const Vec3d& p) const { return x * p.x + y * p.y + z * p.z + translation; }
 };
 
-/// Inverse transpose times the sign of the determinant that keeps outward normals outward: the cofactors,
-/// scaled to about 1 so that tiny and huge transforms stay in range.
+/// Inverse transpose times the sign of the determinant that keeps outward normals outward: the
+/// cofactors, scaled to about 1 so that tiny and huge transforms stay in range.
 struct NormalMap
 {
     Vec3d x{1.0, 0.0, 0.0}, y{0.0, 1.0, 0.0}, z{0.0, 0.0, 1.0};
@@ -127,8 +127,10 @@ osg::Array::Binding bindingOf(const osg::Array* array)
     {
     case osg::Array::BIND_OVERALL:
     case osg::Array::BIND_PER_PRIMITIVE_SET:
-    case osg::Array::BIND_PER_VERTEX: return array->getBinding();
-    default: return osg::Array::BIND_OFF;
+    case osg::Array::BIND_PER_VERTEX:
+        return array->getBinding();
+    default:
+        return osg::Array::BIND_OFF;
     }
 }
 
@@ -138,8 +140,8 @@ const osg::Array* positionArray(const osg::Geometry& geometry)
     return geometry.getNumVertexAttribArrays() > 0 ? geometry.getVertexAttribArray(0) : nullptr;
 }
 
-/// The array's own rows if they may be used in place of a copy: one a vertex, as T, and nobody has said
-/// that they will change.
+/// The array's own rows if they may be used in place of a copy: one a vertex, as T, and nobody has
+/// said that they will change.
 template <class T> const T* VertexReader::shareable(const osg::Array& array) const
 {
     if (!_map.rows.empty() || array.getNumElements() < _map.vertexCount) return nullptr;
@@ -151,7 +153,8 @@ template <class T> SharedArray<T> VertexReader::share(const osg::Array& array) c
     const T* values = rowsOf<T>(array);
     const bool changes = _geometry.getDataVariance() == osg::Object::DYNAMIC ||
                          array.getDataVariance() == osg::Object::DYNAMIC;
-    if (changes || !mayBeReadPast(values + _map.vertexCount)) return copyOf(values, _map.vertexCount);
+    if (changes || !mayBeReadPast(values + _map.vertexCount))
+        return copyOf(values, _map.vertexCount);
     const auto owner = std::make_shared<osg::ref_ptr<const osg::Array>>(&array);
     return SharedArray<T>(values, _map.vertexCount, owner);
 }
@@ -263,7 +266,8 @@ SharedArray<Vec2> VertexReader::textureCoordinates(const osg::Array* array,
                    values[i] = Vec2(uv);
                    missing[i] = 0;
                });
-    if (const uint64_t repaired = countOf(missing)) counts["repaired.texture-coordinate"] += repaired;
+    if (const uint64_t repaired = countOf(missing))
+        counts["repaired.texture-coordinate"] += repaired;
     return values;
 }
 
@@ -275,7 +279,8 @@ SharedArray<Vec4> VertexReader::colors(const osg::Array* array, ConversionCounts
     if (binding == osg::Array::BIND_PER_VERTEX && !_request.decodeColors)
     {
         const Vec4* ready = shareable<Vec4>(*array);
-        if (ready && allWithin(&ready->x, 4 * count, kLargestCoordinate)) return share<Vec4>(*array);
+        if (ready && allWithin(&ready->x, 4 * count, kLargestCoordinate))
+            return share<Vec4>(*array);
     }
 
     std::vector<Vec4> values(count, Vec4(1.0f));

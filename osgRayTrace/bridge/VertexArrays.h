@@ -1,5 +1,5 @@
-// VertexArrays.h - positions, normals, texture coordinates and colours of a geometry. Layer: bridge.
-// SPDX-License-Identifier: MIT
+// VertexArrays.h - positions, normals, texture coordinates and colours of a geometry. Layer:
+// bridge. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/base/SharedArray.h"
@@ -14,13 +14,14 @@
 namespace osgRayTrace::engine
 {
 
-/// Which rows of the OSG arrays the mesh's vertices are. Needed when an array has one value for each
-/// primitive set, so that a vertex of two sets becomes two.
+/// Which rows of the OSG arrays the mesh's vertices are. Needed when an array has one value for
+/// each primitive set, so that a vertex of two sets becomes two.
 struct VertexMap
 {
     std::size_t vertexCount = 0;
-    std::vector<uint32_t> rows;          ///< of per-vertex arrays; empty: vertex i is row i
-    std::vector<uint32_t> primitiveSets; ///< row of arrays that are bound per primitive set; may be empty
+    std::vector<uint32_t> rows; ///< of per-vertex arrays; empty: vertex i is row i
+    std::vector<uint32_t>
+        primitiveSets; ///< row of arrays that are bound per primitive set; may be empty
 };
 
 struct Positions
@@ -35,7 +36,8 @@ struct Normals
     std::vector<uint8_t> missing; ///< one a normal: to be replaced; empty: none is
 };
 
-/// Reads a geometry's arrays by OpenGL's rules for MeshRequest's transform; shares them where allowed.
+/// Reads a geometry's arrays by OpenGL's rules for MeshRequest's transform; shares them where
+/// allowed.
 class VertexReader
 {
 public:
@@ -70,7 +72,8 @@ private:
 /// How an array is bound, by what OSG 3.6 does with it: off if it cannot be read.
 osg::Array::Binding bindingOf(const osg::Array* array);
 
-/// The array that holds the positions: the vertex array or, without one, vertex attribute 0. May be null.
+/// The array that holds the positions: the vertex array or, without one, vertex attribute 0. May be
+/// null.
 const osg::Array* positionArray(const osg::Geometry& geometry);
 
 } // namespace osgRayTrace::engine

@@ -11,8 +11,8 @@
 namespace osgRayTrace::engine
 {
 
-/// OSG multiplies row vectors from the left and stores rows; glm multiplies column vectors from the right
-/// and stores columns. So the sixteen numbers of a matrix stand in the same order in both.
+/// OSG multiplies row vectors from the left and stores rows; glm multiplies column vectors from the
+/// right and stores columns. So the sixteen numbers of a matrix stand in the same order in both.
 inline Mat4d matrixFromOsg(const osg::Matrixd& matrix)
 {
     return glm::make_mat4(matrix.ptr());

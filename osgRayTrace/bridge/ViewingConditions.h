@@ -30,6 +30,7 @@ struct ViewingConditions
 
     /// The state sets above the place, the outermost first.
     std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState;
+
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f};
 };
 

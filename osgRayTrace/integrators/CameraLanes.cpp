@@ -15,15 +15,17 @@ OSGRAYTRACE_KERNEL
 void pixelPoints(const PassKey& key, int left, int bottom, bool centres, FloatLanes& x, FloatLanes& y,
                  UintLanes& seeds)
 {
+    const PassKey k = key;
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
         const int px = left + (i & 3), py = bottom + (i >> 2);
-        seeds[i] = pixelSeed(key, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
+        const uint32_t seed = pixelSeed(k, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
         float jx, jy;
-        sobol2(key.index, dimensionSeed(seeds[i], DimensionPixel), jx, jy);
-        x[i] = static_cast<float>(px) + (centres ? 0.5f : jx);
-        y[i] = static_cast<float>(py) + (centres ? 0.5f : jy);
+        sobol2(k.index, dimensionSeed(seed, DimensionPixel), jx, jy);
+        seeds[i] = seed;
+        x[i] = static_cast<float>(px) + select(centres, 0.5f, jx);
+        y[i] = static_cast<float>(py) + select(centres, 0.5f, jy);
     }
 }
 
@@ -79,14 +81,14 @@ void planeDepths(const CameraRays& camera, int left, int bottom, const SurfaceLa
         const float d2 = dx * dx + dy * dy + dz * dz;
         const float sHit = ((hx - ox) * dx + (hy - oy) * dy + (hz - oz) * dz) / d2;
         const bool usable = (s > 0.5f * sHit) & (s < 2.0f * sHit);
-        const float used = usable ? s : sHit;
+        const float used = select(usable, s, sHit);
         const float px = ox + used * dx, py = oy + used * dy, pz = oz + used * dz;
         const float z = c.depthRow.x * px + c.depthRow.y * py + c.depthRow.z * pz + c.depthRow.w;
         const float w = c.wRow.x * px + c.wRow.y * py + c.wRow.z * pz + c.wRow.w;
         const float window = 0.5f * (z / w) + 0.5f;
-        const float low = window > 0.0f ? window : 0.0f;
-        const float clamped = low < 1.0f ? low : 1.0f;
-        depth[i] = ((hits >> i) & 1u) ? clamped : 1.0f;
+        const float low = select(window > 0.0f, window, 0.0f);
+        const float clamped = select(low < 1.0f, low, 1.0f);
+        depth[i] = select(laneBit(hits, i), clamped, 1.0f);
     }
 }
 

@@ -42,17 +42,56 @@ Vec3 emissionTowardsRay(const PassContext& context, const RayHitBlock& rays,
     return materials.emission(material, materialPoint(context, rays, surface, i));
 }
 
-LaneMask plainDiffuseLanes(const PassContext& context, const SurfaceLanes& surface, Vec3Lanes& albedo)
+OSGRAYTRACE_KERNEL
+void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lanes& normal)
 {
-    const MaterialTable& materials = context.traced->materials();
-    LaneMask plain = 0;
+    OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        const MaterialRecord& record = materials[surface.material[i]];
-        setLane(albedo, i, record.front.diffuse);
-        plain |= static_cast<LaneMask>(record.plainDiffuse && !record.emits && !record.fixedFunction) << i;
+        const float gx = surface.geometricNormal.x[i], gy = surface.geometricNormal.y[i],
+                    gz = surface.geometricNormal.z[i];
+        const float sx = surface.shadingNormal.x[i], sy = surface.shadingNormal.y[i],
+                    sz = surface.shadingNormal.z[i];
+        const float sign = sx * gx + sy * gy + sz * gz < 0.0f ? -1.0f : 1.0f;
+        const float towards = sign * (sx * ray.directionX[i] + sy * ray.directionY[i] +
+                                      sz * ray.directionZ[i]);
+        const bool use = towards < -1e-4f;
+        normal.x[i] = select(use, sx * sign, gx);
+        normal.y[i] = select(use, sy * sign, gy);
+        normal.z[i] = select(use, sz * sign, gz);
     }
-    return plain & surface.hits;
+}
+
+OSGRAYTRACE_KERNEL
+static LaneMask finiteLanes(const RgbaLanes& rgba)
+{
+    UintLanes finite;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        // x - x is 0 for numbers and NaN for all else.
+        const float zero = (rgba.r[i] - rgba.r[i]) + (rgba.g[i] - rgba.g[i]) + (rgba.b[i] - rgba.b[i]);
+        finite[i] = maskOf(zero == 0.0f);
+    }
+    LaneMask mask = 0;
+    for (int i = 0; i < kLanes; ++i)
+        mask |= (finite[i] & 1u) << i;
+    return mask;
+}
+
+void dropNotFinite(TileResult& result)
+{
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        RgbaLanes& rgba = result.rgba[b];
+        for (LaneMask lanes = ~finiteLanes(rgba) & kAllLanes; lanes; lanes &= lanes - 1)
+        {
+            const int i = __builtin_ctz(lanes);
+            rgba.r[i] = rgba.g[i] = rgba.b[i] = 0.0f;
+            ++result.counts.droppedSamples;
+            if (result.diagnostics) result.diagnostics->dropped[b * kLanes + i] += 1.0f;
+        }
+    }
 }
 
 } // namespace osgRayTrace::engine

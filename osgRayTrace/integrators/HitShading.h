@@ -47,8 +47,10 @@ Vec3 facingNormal(const RayHitBlock& rays, const SurfaceLanes& surface, int i);
 Vec3 emissionTowardsRay(const PassContext& context, const RayHitBlock& rays,
                         const SurfaceLanes& surface, int i);
 
-/// Lanes of hits whose material is nothing but a constant Lambert base that does not emit, and their
-/// albedo.
-LaneMask plainDiffuseLanes(const PassContext& context, const SurfaceLanes& surface, Vec3Lanes& albedo);
+/// facingNormal of all lanes, those without a hit included.
+void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lanes& normal);
+
+/// Sets samples that are not finite to 0 and counts them.
+void dropNotFinite(TileResult& result);
 
 } // namespace osgRayTrace::engine

@@ -71,6 +71,11 @@ struct PixelSums
 
 struct Tile
 {
+    Tile(const PassContext& c, int l, int b, TileResult& r)
+        : context(c), result(r), counts(r.counts), diagnostics(r.diagnostics), left(l), bottom(b)
+    {
+    }
+
     const PassContext& context;
     TileResult& result;
     TileCounts& counts;
@@ -79,6 +84,7 @@ struct Tile
     PixelSums sums;
     PathBlock blocks[kTileBlocks];
     int blockCount = kTileBlocks;
+    Bsdf bsdfs[kLanes]; ///< of the block at work
 };
 
 void countRays(Tile& tile, const PathBlock& block, LaneMask lanes)
@@ -128,30 +134,10 @@ void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightL
         const float ratio = pdfBsdf / light.pdfW[i];
         const float mis = select(delta, 1.0f, 1.0f / (1.0f + ratio * ratio));
         const float unmasked = pdfBsdf * light.weight[i] * mis;
-        const float weight = select(((visible >> i) & 1u) != 0, unmasked, 0.0f);
+        const float weight = select(laneBit(visible, i), unmasked, 0.0f);
         radiance.x[i] = throughput.x[i] * albedo.x[i] * light.radiance[0][i] * weight;
         radiance.y[i] = throughput.y[i] * albedo.y[i] * light.radiance[1][i] * weight;
         radiance.z[i] = throughput.z[i] * albedo.z[i] * light.radiance[2][i] * weight;
-    }
-}
-
-OSGRAYTRACE_KERNEL
-void facingNormals(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lanes& normal)
-{
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < kLanes; ++i)
-    {
-        const float gx = surface.geometricNormal.x[i], gy = surface.geometricNormal.y[i],
-                    gz = surface.geometricNormal.z[i];
-        const float sx = surface.shadingNormal.x[i], sy = surface.shadingNormal.y[i],
-                    sz = surface.shadingNormal.z[i];
-        const float sign = sx * gx + sy * gy + sz * gz < 0.0f ? -1.0f : 1.0f;
-        const float towards = sign * (sx * ray.directionX[i] + sy * ray.directionY[i] +
-                                      sz * ray.directionZ[i]);
-        const bool use = towards < -1e-4f;
-        normal.x[i] = select(use, sx * sign, gx);
-        normal.y[i] = select(use, sy * sign, gy);
-        normal.z[i] = select(use, sz * sign, gz);
     }
 }
 
@@ -179,7 +165,7 @@ struct Bounce
     LaneMask diffuse = 0;   ///< plain Lambert lanes
     LaneMask general = 0;   ///< all other hits that scatter
     LaneMask through = 0;   ///< general lanes that transmit
-    Bsdf bsdfs[kLanes];     ///< of general lanes
+    Bsdf* bsdfs = nullptr;  ///< of general lanes
 };
 
 /// Adds what the visible lanes get from one light sample.
@@ -370,7 +356,7 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
 
 void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
 {
-    facingNormals(block.rays.ray, bounce.surface, bounce.normal);
+    facingNormalLanes(block.rays.ray, bounce.surface, bounce.normal);
     const MaterialTable& materials = tile.context.traced->materials();
     bounce.diffuse = bounce.general = bounce.through = 0;
     for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
@@ -408,6 +394,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last)
 
     Bounce bounce;
     bounce.number = number;
+    bounce.bsdfs = tile.bsdfs;
     surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface);
     const Vec3 background(traced.scene().background);
     for (LaneMask lanes = block.active & ~bounce.surface.hits; lanes; lanes &= lanes - 1)
@@ -486,25 +473,15 @@ void closeRanks(Tile& tile)
 
 void finish(const Tile& tile)
 {
-    TileResult& result = tile.result;
     for (int b = 0; b < kTileBlocks; ++b)
     {
-        for (int i = 0; i < kLanes; ++i)
-        {
-            const int pixel = b * kLanes + i;
-            Vec3 radiance(tile.sums.r[pixel], tile.sums.g[pixel], tile.sums.b[pixel]);
-            if (!isFinite(radiance))
-            {
-                radiance = Vec3(0.0f);
-                ++result.counts.droppedSamples;
-                if (tile.diagnostics) tile.diagnostics->dropped[pixel] += 1.0f;
-            }
-            result.rgba[b].r[i] = radiance.x;
-            result.rgba[b].g[i] = radiance.y;
-            result.rgba[b].b[i] = radiance.z;
-            result.rgba[b].a[i] = tile.sums.a[pixel];
-        }
+        const std::size_t bytes = sizeof(FloatLanes);
+        std::memcpy(&tile.result.rgba[b].r, tile.sums.r + b * kLanes, bytes);
+        std::memcpy(&tile.result.rgba[b].g, tile.sums.g + b * kLanes, bytes);
+        std::memcpy(&tile.result.rgba[b].b, tile.sums.b + b * kLanes, bytes);
+        std::memcpy(&tile.result.rgba[b].a, tile.sums.a + b * kLanes, bytes);
     }
+    dropNotFinite(tile.result);
 }
 
 } // namespace
@@ -512,7 +489,7 @@ void finish(const Tile& tile)
 void PathIntegrator::renderTile(const PassContext& context, int left, int bottom,
                                 TileResult& result) const
 {
-    Tile tile{context, result, result.counts, result.diagnostics, left, bottom, {}, {}, kTileBlocks};
+    Tile tile(context, left, bottom, result);
     for (int b = 0; b < kTileBlocks; ++b)
     {
         PathBlock& block = tile.blocks[b];

@@ -49,7 +49,7 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
                    LaneMask through, const FloatLanes& u, const FloatLanes& v, LightLanes& samples)
 {
     const Quad q = quad;
-    Lanes<int> lit;
+    UintLanes lit;
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
@@ -63,9 +63,10 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
         // Which side of the light the point is on, and which side of the surface the light is on.
         const float towardsX = px - lx, towardsY = py - ly, towardsZ = pz - lz;
         const float height = towardsX * q.normal.x + towardsY * q.normal.y + towardsZ * q.normal.z;
-        const float lightSide = height >= 0.0f ? q.offset : -q.offset;
+        const float lightSide = select(height >= 0.0f, q.offset, -q.offset);
         const float above = -(towardsX * nx + towardsY * ny + towardsZ * nz);
-        const float surfaceSide = above >= 0.0f ? surface.offset[i] : -surface.offset[i];
+        const float offset = surface.offset[i];
+        const float surfaceSide = select(above >= 0.0f, offset, -offset);
 
         const float ox = px + nx * surfaceSide, oy = py + ny * surfaceSide, oz = pz + nz * surfaceSide;
         const float dx = lx + q.normal.x * lightSide - ox;
@@ -80,17 +81,17 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
         samples.wi.z[i] = wz;
 
         const float cosL = -(wx * q.normal.x + wy * q.normal.y + wz * q.normal.z);
-        const float cosine = q.twoSided ? std::fabs(cosL) : cosL;
+        const float cosine = select(q.twoSided, std::fabs(cosL), cosL);
         const float weight = cosine * q.area * inverse * inverse;
         samples.weight[i] = weight / pmf;
         samples.pdfW[i] = pmf / weight;
-        const bool reachable = (above > 0.0f) | (((through >> i) & 1u) != 0);
-        lit[i] = (weight > 0.0f) & (weight < 1e30f) & reachable;
+        const uint32_t reachable = maskOf(above > 0.0f) | laneBit(through, i);
+        lit[i] = maskOf(weight > 0.0f) & maskOf(weight < 1e30f) & reachable;
         setShadowRay(samples.shadow, i, ox, oy, oz, wx, wy, wz, distance);
     }
     LaneMask mask = 0;
     for (int i = 0; i < kLanes; ++i)
-        mask |= static_cast<LaneMask>(lit[i] & 1) << i;
+        mask |= (lit[i] & 1u) << i;
     return mask & active;
 }
 

@@ -38,11 +38,21 @@ struct SecondaryRay
 
 struct Tile
 {
+    Tile(const PassContext& c, TileResult& r) : context(c), result(r) {}
+
+    void add(uint32_t pixel, Vec3 radiance)
+    {
+        RgbaLanes& block = result.rgba[pixel / kLanes];
+        block.r[pixel % kLanes] += radiance.x;
+        block.g[pixel % kLanes] += radiance.y;
+        block.b[pixel % kLanes] += radiance.z;
+    }
+
     const PassContext& context;
     TileResult& result;
     std::vector<SecondaryRay> stack;
-    Vec3 sums[kTilePixels];
-    float coverage[kTilePixels];
+    Bsdf bsdfs[kLanes];                ///< of the block at work
+    FixedFunctionPoint points[kLanes]; ///< of the block at work
 };
 
 /// Sixteen rays to be shaded, with what they count for in which pixel.
@@ -65,8 +75,8 @@ struct LaneMaterials
     LaneMask through = 0;       ///< lit from behind as well
     Vec3Lanes normal;           ///< shading, towards the ray
     Vec3Lanes albedo;           ///< of diffuse lanes
-    Bsdf bsdfs[kLanes];         ///< of physical lanes, and of fixed-function ones below area lights
-    FixedFunctionPoint points[kLanes]; ///< of fixed-function lanes
+    Bsdf* bsdfs = nullptr;      ///< of physical lanes, and of fixed-function ones below area lights
+    FixedFunctionPoint* points = nullptr; ///< of fixed-function lanes
 };
 
 Vec3 rayDirection(const RayBlock& ray, int i)
@@ -74,15 +84,17 @@ Vec3 rayDirection(const RayBlock& ray, int i)
     return Vec3(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
 }
 
-void classify(const Tile& tile, const ShadingBlock& block, LaneMaterials& m)
+void classify(Tile& tile, const ShadingBlock& block, LaneMaterials& m)
 {
+    m.bsdfs = tile.bsdfs;
+    m.points = tile.points;
+    facingNormalLanes(block.rays.ray, block.surface, m.normal);
     const MaterialTable& materials = tile.context.traced->materials();
     for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         const uint32_t material = block.surface.material[i];
         const MaterialRecord& record = materials[material];
-        setLane(m.normal, i, facingNormal(block.rays, block.surface, i));
         if (record.fixedFunction)
         {
             if (!record.material->lit) continue; // all of it is emission
@@ -149,7 +161,7 @@ void addDiffuse(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLan
     {
         const float cosine = normal.x[i] * light.wi.x[i] + normal.y[i] * light.wi.y[i] +
                              normal.z[i] * light.wi.z[i];
-        const bool use = (((visible >> i) & 1u) != 0) & (cosine > 0.0f);
+        const uint32_t use = laneBit(visible, i) & maskOf(cosine > 0.0f);
         // Lanes that are not used may hold anything: selected last, so that nothing of it gets through.
         const float weight = cosine * light.weight[i] * (scale * kInvPi);
         const float r = albedo.x[i] * light.radiance[0][i] * weight;
@@ -282,6 +294,20 @@ void spawn(Tile& tile, const ShadingBlock& block, const LaneMaterials& m)
     }
 }
 
+/// Adds what surfaces send by themselves, and the finished colour of fixed-function ones.
+void addOwnLight(const Tile& tile, const ShadingBlock& block, const LaneMaterials& m, Vec3Lanes& sum)
+{
+    const MaterialTable& materials = tile.context.traced->materials();
+    for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        if ((m.fixedFunction >> i) & 1u)
+            addLane(sum, i, litColor(tile.context, m.points[i]));
+        else if (materials[block.surface.material[i]].emits)
+            addLane(sum, i, emissionTowardsRay(tile.context, block.rays, block.surface, i));
+    }
+}
+
 /// Adds weight * radiance of all hits of a block to their pixels; pushes the rays that go on.
 void shade(Tile& tile, ShadingBlock& block)
 {
@@ -291,15 +317,11 @@ void shade(Tile& tile, ShadingBlock& block)
     addAreaLights(tile, block, m, sum);
     if (!tile.context.traced->lights().deltaLights().empty()) addDeltaLights(tile, block, m, sum);
 
+    addOwnLight(tile, block, m, sum);
     for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        Vec3 radiance = laneOf(sum, i);
-        if ((m.fixedFunction >> i) & 1u)
-            radiance += litColor(tile.context, m.points[i]);
-        else
-            radiance += emissionTowardsRay(tile.context, block.rays, block.surface, i);
-        tile.sums[block.pixel[i]] += laneOf(block.weight, i) * radiance;
+        tile.add(block.pixel[i], laneOf(block.weight, i) * laneOf(sum, i));
     }
     if (m.physical) spawn(tile, block, m);
 }
@@ -339,7 +361,7 @@ void traceSecondary(Tile& tile)
     for (LaneMask lanes = active & ~block.surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        tile.sums[block.pixel[i]] += laneOf(block.weight, i) * background;
+        tile.add(block.pixel[i], laneOf(block.weight, i) * background);
     }
     if (block.surface.hits) shade(tile, block);
 }
@@ -363,29 +385,11 @@ void traceCamera(Tile& tile, int left, int bottom, int b)
         depthLanes(tile.context.camera, left, bottom, b, block.surface, tile.result.depth + b * kLanes);
     for (int i = 0; i < kLanes; ++i)
     {
-        tile.coverage[b * kLanes + i] = static_cast<float>((block.surface.hits >> i) & 1u);
-        tile.sums[b * kLanes + i] = Vec3(0.0f);
+        RgbaLanes& rgba = tile.result.rgba[b];
+        rgba.r[i] = rgba.g[i] = rgba.b[i] = 0.0f;
+        rgba.a[i] = static_cast<float>((block.surface.hits >> i) & 1u);
     }
     if (block.surface.hits) shade(tile, block);
-}
-
-void finish(const Tile& tile)
-{
-    for (int pixel = 0; pixel < kTilePixels; ++pixel)
-    {
-        Vec3 radiance = tile.sums[pixel];
-        if (!isFinite(radiance))
-        {
-            radiance = Vec3(0.0f);
-            ++tile.result.counts.droppedSamples;
-            if (tile.result.diagnostics) tile.result.diagnostics->dropped[pixel] += 1.0f;
-        }
-        RgbaLanes& block = tile.result.rgba[pixel / kLanes];
-        block.r[pixel % kLanes] = radiance.x;
-        block.g[pixel % kLanes] = radiance.y;
-        block.b[pixel % kLanes] = radiance.z;
-        block.a[pixel % kLanes] = tile.coverage[pixel];
-    }
 }
 
 } // namespace
@@ -393,14 +397,14 @@ void finish(const Tile& tile)
 void WhittedIntegrator::renderTile(const PassContext& context, int left, int bottom,
                                    TileResult& result) const
 {
-    Tile tile{context, result, {}, {}, {}};
+    Tile tile(context, result);
     for (int b = 0; b < kTileBlocks; ++b)
     {
         traceCamera(tile, left, bottom, b);
         while (!tile.stack.empty())
             traceSecondary(tile);
     }
-    finish(tile);
+    dropNotFinite(result);
 }
 
 } // namespace osgRayTrace::engine

@@ -1,5 +1,5 @@
-// MissingContext.cpp - says that a kind of context was not there when this library was built.
-// Layer: offscreen. SPDX-License-Identifier: MIT
+// MissingContext.cpp - for a kind of context that was missing at build time. Layer: offscreen.
+// SPDX-License-Identifier: MIT
 #include <osgRayTrace/offscreen/OffscreenContext>
 
 #include <osg/Notify>

@@ -18,7 +18,8 @@ OSGRAYTRACE_INLINE void sinCosTurn(float turn, float& sine, float& cosine)
     const int quarter = static_cast<int>(turn * 4.0f + 0.5f);
     const float x = (turn - 0.25f * static_cast<float>(quarter)) * (2.0f * kPi);
     const float x2 = x * x;
-    const float s = x * (1.0f + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040))));
+    const float s =
+        x * (1.0f + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 * (1.0f / 362880)))));
     const float c =
         1.0f + x2 * (-0.5f + x2 * (1.0f / 24 + x2 * (-1.0f / 720 + x2 * (1.0f / 40320))));
     const float swappedSine = (quarter & 1) ? c : s;

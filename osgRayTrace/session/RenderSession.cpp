@@ -178,7 +178,7 @@ RenderProgress RenderSession::Implementation::run(
     const std::unique_ptr<Integrator> integrator = newIntegrator(progress.integrator);
     const Clock::time_point start = Clock::now();
     const bool wantsError = rule.relativeError > 0.0 || static_cast<bool>(keepGoing);
-    while (film.passes() < rule.passes)
+    for (int made = 0; made < rule.newPasses && film.passes() < rule.passes; ++made)
     {
         if (secondsSince(start) >= rule.seconds) break;
         const Clock::time_point passStart = Clock::now();

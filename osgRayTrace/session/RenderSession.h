@@ -23,6 +23,7 @@ class Workers;     // base: the threads that a render may use
 struct StopRule
 {
     int passes = std::numeric_limits<int>::max(); ///< accumulated passes, those of earlier calls included
+    int newPasses = std::numeric_limits<int>::max(); ///< of this call
     double seconds = std::numeric_limits<double>::infinity(); ///< of this call
     double relativeError = 0.0;                   ///< estimated, of the accumulated image; 0: not used
 };

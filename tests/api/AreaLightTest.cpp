@@ -87,7 +87,8 @@ TEST_CASE("area light: the quad's front is cross(edgeU, edgeV)", "[api][arealigh
     const auto light = ceilingLight();
     CHECK(normalOf(*light) == osg::Vec3(0.0f, 0.0f, -1.0f));
 
-    const auto& vertices = static_cast<const osg::Vec3Array&>(*light->getGeometry()->getVertexArray());
+    const auto& vertices =
+        static_cast<const osg::Vec3Array&>(*light->getGeometry()->getVertexArray());
     REQUIRE(vertices.size() == 4);
     const osg::Vec3 winding = (vertices[1] - vertices[0]) ^ (vertices[2] - vertices[0]);
     CHECK(winding * normalOf(*light) > 0.0f);
@@ -98,7 +99,7 @@ TEST_CASE("area light: the quad's front is cross(edgeU, edgeV)", "[api][arealigh
 TEST_CASE("area light: the quad shows the radiance encoded, and the side", "[api][arealight]")
 {
     const auto light = ceilingLight();
-    CHECK(colorOf(*light).r() == Approx(1.0f)); // 5 is clamped
+    CHECK(colorOf(*light).r() == Approx(1.0f));                    // 5 is clamped
     CHECK(colorOf(*light).g() == Approx(0.7353569f).margin(1e-5)); // sRGB of 0.5
     CHECK(colorOf(*light).b() == 0.0f);
 
@@ -110,7 +111,8 @@ TEST_CASE("area light: the quad shows the radiance encoded, and the side", "[api
     CHECK(culled());
     light->setTwoSided(true);
     CHECK_FALSE(culled());
-    CHECK((light->getGeometry()->getStateSet()->getMode(GL_LIGHTING) & osg::StateAttribute::ON) == 0);
+    CHECK((light->getGeometry()->getStateSet()->getMode(GL_LIGHTING) & osg::StateAttribute::ON) ==
+          0);
     light->setTwoSided(false);
     CHECK(culled());
 }
@@ -164,7 +166,8 @@ TEST_CASE("area light: a copy has its own quad", "[api][arealight]")
 
 TEST_CASE("area light: rays and cull find the quad below transforms", "[api][arealight]")
 {
-    const osg::ref_ptr<osg::MatrixTransform> root = new osg::MatrixTransform(osg::Matrix::translate(10.0, 0.0, 0.0));
+    const osg::ref_ptr<osg::MatrixTransform> root =
+        new osg::MatrixTransform(osg::Matrix::translate(10.0, 0.0, 0.0));
     root->addChild(ceilingLight());
 
     const osg::ref_ptr<osgUtil::LineSegmentIntersector> segment =
@@ -182,9 +185,10 @@ TEST_CASE("area light: rays and cull find the quad below transforms", "[api][are
     cull->setRenderStage(stage);
     cull->pushViewport(new osg::Viewport(0, 0, 100, 100));
     cull->pushProjectionMatrix(new osg::RefMatrix(osg::Matrix::perspective(60.0, 1.0, 0.1, 100.0)));
-    cull->pushModelViewMatrix(
-        new osg::RefMatrix(osg::Matrix::lookAt(osg::Vec3d(12.0, 4.0, -10.0), osg::Vec3d(12.0, 4.0, 0.0), osg::Vec3d(0.0, 1.0, 0.0))),
-        osg::Transform::ABSOLUTE_RF);
+    cull->pushModelViewMatrix(new osg::RefMatrix(osg::Matrix::lookAt(osg::Vec3d(12.0, 4.0, -10.0),
+                                                                     osg::Vec3d(12.0, 4.0, 0.0),
+                                                                     osg::Vec3d(0.0, 1.0, 0.0))),
+                              osg::Transform::ABSOLUTE_RF);
     root->accept(*cull);
     cull->popModelViewMatrix();
     cull->popProjectionMatrix();
@@ -204,11 +208,13 @@ TEST_CASE("area light: a node mask hides it", "[api][arealight]")
 TEST_CASE("area light: OSG's optimizer leaves it where it is", "[api][arealight]")
 {
     const osg::ref_ptr<osg::Group> root = new osg::Group;
-    const osg::ref_ptr<osg::MatrixTransform> outer = new osg::MatrixTransform(osg::Matrix::translate(0.0, 0.0, 100.0));
-    const osg::ref_ptr<osg::MatrixTransform> inner = new osg::MatrixTransform(osg::Matrix::rotate(osg::PI_2, 1.0, 0.0, 0.0));
+    const osg::ref_ptr<osg::MatrixTransform> outer =
+        new osg::MatrixTransform(osg::Matrix::translate(0.0, 0.0, 100.0));
+    const osg::ref_ptr<osg::MatrixTransform> inner =
+        new osg::MatrixTransform(osg::Matrix::rotate(osg::PI_2, 1.0, 0.0, 0.0));
     const osg::ref_ptr<osg::Geode> floor = new osg::Geode;
     floor->addDrawable(osg::createTexturedQuadGeometry(osg::Vec3(), osg::Vec3(1.0f, 0.0f, 0.0f),
-                                                          osg::Vec3(0.0f, 1.0f, 0.0f)));
+                                                       osg::Vec3(0.0f, 1.0f, 0.0f)));
     outer->setDataVariance(osg::Object::STATIC); // as OSG's rot, scale and trans loaders have it
     inner->setDataVariance(osg::Object::STATIC);
     root->addChild(outer);

@@ -23,7 +23,8 @@ constexpr double kViewerFovyDegrees = 29.148431;
 osg::ref_ptr<osg::Node> sign(const osg::Vec3& corner)
 {
     osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(osg::createTexturedQuadGeometry(corner, osg::Vec3(6.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 0.0f, 2.0f)));
+    geode->addDrawable(osg::createTexturedQuadGeometry(corner, osg::Vec3(6.0f, 0.0f, 0.0f),
+                                                       osg::Vec3(0.0f, 0.0f, 2.0f)));
     return geode;
 }
 
@@ -41,11 +42,13 @@ double largestDifference(const osg::Matrixd& a, const osg::Matrixd& b)
 
 TEST_CASE("home view: the matrices are a real viewer's", "[api][renderer]")
 {
-    for (const osg::Vec3& corner : {osg::Vec3(), osg::Vec3(100.0f, -20.0f, 7.0f), osg::Vec3(-3.0f, 0.0f, -1.0f)})
+    for (const osg::Vec3& corner :
+         {osg::Vec3(), osg::Vec3(100.0f, -20.0f, 7.0f), osg::Vec3(-3.0f, 0.0f, -1.0f)})
     {
         const auto scene = sign(corner);
         osgViewer::Viewer viewer;
-        const osg::ref_ptr<osgGA::TrackballManipulator> manipulator = new osgGA::TrackballManipulator;
+        const osg::ref_ptr<osgGA::TrackballManipulator> manipulator =
+            new osgGA::TrackballManipulator;
         viewer.setCameraManipulator(manipulator);
         viewer.setSceneData(scene);
         manipulator->updateCamera(*viewer.getCamera());
@@ -54,7 +57,8 @@ TEST_CASE("home view: the matrices are a real viewer's", "[api][renderer]")
         CHECK(largestDifference(home.view, viewer.getCamera()->getViewMatrix()) < 1e-6);
 
         double fovy, aspect, nearDistance, farDistance;
-        viewer.getCamera()->getProjectionMatrixAsPerspective(fovy, aspect, nearDistance, farDistance);
+        viewer.getCamera()->getProjectionMatrixAsPerspective(fovy, aspect, nearDistance,
+                                                             farDistance);
         CHECK(fovy == Approx(kViewerFovyDegrees).epsilon(1e-6));
         double homeFovy, homeAspect;
         REQUIRE(home.projection.getPerspective(homeFovy, homeAspect, nearDistance, farDistance));
@@ -68,7 +72,8 @@ TEST_CASE("home view: near and far planes enclose the scene at any size", "[api]
     for (const double scale : {1e-6, 1.0, 1e6})
     {
         INFO(scale);
-        const osg::ref_ptr<osg::MatrixTransform> scene = new osg::MatrixTransform(osg::Matrix::scale(scale, scale, scale));
+        const osg::ref_ptr<osg::MatrixTransform> scene =
+            new osg::MatrixTransform(osg::Matrix::scale(scale, scale, scale));
         scene->addChild(sign(osg::Vec3()));
         const HomeView home = homeView(*scene, kViewerFovyDegrees, 1.0);
         for (const osg::Vec3d& point : {osg::Vec3d(), osg::Vec3d(6.0, 0.0, 2.0)})

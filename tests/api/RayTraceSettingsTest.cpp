@@ -153,7 +153,8 @@ TEST_CASE("settings: names may be written in several ways", "[api][settings]")
 TEST_CASE("settings: text that is no value changes nothing", "[api][settings]")
 {
     const auto settings = make();
-    for (const char* text : {"", "0", "4097", "-1", "4.5", "4 ", " 4", "four", "1e2", "99999999999", "+"})
+    for (const char* text :
+         {"", "0", "4097", "-1", "4.5", "4 ", " 4", "four", "1e2", "99999999999", "+"})
     {
         INFO("'" << text << "'");
         CHECK_FALSE(settings->set("light-samples", text));

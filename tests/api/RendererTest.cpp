@@ -18,8 +18,8 @@
 #include <thread>
 
 using osgRayTrace::AreaLight;
-using osgRayTrace::Renderer;
 using osgRayTrace::RayTraceSettings;
+using osgRayTrace::Renderer;
 using osgRayTrace::Statistics;
 
 namespace
@@ -37,8 +37,10 @@ osg::ref_ptr<osg::Geode> quad(const osg::Vec3& corner, const osg::Vec3& u, const
 osg::ref_ptr<osg::Group> room()
 {
     osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->addChild(quad(osg::Vec3(-2.0f, -2.0f, 0.0f), osg::Vec3(4.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 4.0f, 0.0f)));
-    group->addChild(quad(osg::Vec3(-1.0f, -1.0f, 1.0f), osg::Vec3(1.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 1.0f, 0.0f)));
+    group->addChild(quad(osg::Vec3(-2.0f, -2.0f, 0.0f), osg::Vec3(4.0f, 0.0f, 0.0f),
+                         osg::Vec3(0.0f, 4.0f, 0.0f)));
+    group->addChild(quad(osg::Vec3(-1.0f, -1.0f, 1.0f), osg::Vec3(1.0f, 0.0f, 0.0f),
+                         osg::Vec3(0.0f, 1.0f, 0.0f)));
     group->addChild(new AreaLight(osg::Vec3(-0.5f, -0.5f, 2.0f), osg::Vec3(0.0f, 1.0f, 0.0f),
                                   osg::Vec3(1.0f, 0.0f, 0.0f), osg::Vec3(5.0f, 5.0f, 5.0f)));
     return group;
@@ -50,8 +52,8 @@ osg::ref_ptr<Renderer> rendererOf(osg::Node* scene)
     osg::ref_ptr<Renderer> renderer = new Renderer;
     renderer->setScene(scene);
     renderer->setSize(48, 32);
-    renderer->setViewMatrix(osg::Matrix::lookAt(osg::Vec3d(0.0, -6.0, 3.0), osg::Vec3d(0.0, 0.0, 0.5),
-                                                osg::Vec3d(0.0, 0.0, 1.0)));
+    renderer->setViewMatrix(osg::Matrix::lookAt(
+        osg::Vec3d(0.0, -6.0, 3.0), osg::Vec3d(0.0, 0.0, 0.5), osg::Vec3d(0.0, 0.0, 1.0)));
     renderer->setProjectionMatrix(osg::Matrix::perspective(45.0, 1.5, 1.0, 100.0));
     renderer->getSettings()->setThreads(2);
     renderer->getSettings()->setMaxPasses(4);
@@ -92,7 +94,8 @@ TEST_CASE("renderer: sizes and matrices that cannot be are refused", "[api][rend
 {
     const auto renderer = rendererOf(room());
     const int big = 1 << 15;
-    for (const auto& [width, height] : {std::pair{0, 4}, {4, 0}, {-4, 4}, {-1, -1}, {big, big}, {INT32_MAX, INT32_MAX}})
+    for (const auto& [width, height] :
+         {std::pair{0, 4}, {4, 0}, {-4, 4}, {-1, -1}, {big, big}, {INT32_MAX, INT32_MAX}})
     {
         INFO(width << " x " << height);
         renderer->setSize(width, height);
@@ -121,7 +124,8 @@ TEST_CASE("renderer: an empty scene shows exactly the clear colour", "[api][rend
     for (const auto rule : {RayTraceSettings::DISPLAY_REFERRED, RayTraceSettings::LINEAR})
     {
         renderer->getSettings()->setColorRule(rule);
-        for (const osg::Vec4& color : {osg::Vec4(0.2f, 0.2f, 0.4f, 1.0f), osg::Vec4(0.0f, 1.0f, 0.7f, 1.0f)})
+        for (const osg::Vec4& color :
+             {osg::Vec4(0.2f, 0.2f, 0.4f, 1.0f), osg::Vec4(0.0f, 1.0f, 0.7f, 1.0f)})
         {
             renderer->setClearColor(color);
             REQUIRE(renderer->render());
@@ -132,7 +136,7 @@ TEST_CASE("renderer: an empty scene shows exactly the clear colour", "[api][rend
             {
                 for (int x = 0; x < image->s(); ++x)
                 {
-                    for (int i = 0; i < 3; ++i)
+                    for (int i = 0; i < 4; ++i)
                         REQUIRE(int(image->data(x, y)[i]) == int(std::lround(255.0f * color[i])));
                 }
             }
@@ -178,10 +182,12 @@ TEST_CASE("renderer: images have the documented formats", "[api][renderer]")
     CHECK_FALSE(renderer->getChannelImage(""));
 }
 
-TEST_CASE("renderer: channels show the floor where it is, from the bottom row up", "[api][renderer]")
+TEST_CASE("renderer: channels show the floor where it is, from the bottom row up",
+          "[api][renderer]")
 {
-    const auto renderer = rendererOf(quad(osg::Vec3(-50.0f, -50.0f, 0.0f), osg::Vec3(100.0f, 0.0f, 0.0f),
-                                          osg::Vec3(0.0f, 100.0f, 0.0f)));
+    const auto renderer =
+        rendererOf(quad(osg::Vec3(-50.0f, -50.0f, 0.0f), osg::Vec3(100.0f, 0.0f, 0.0f),
+                        osg::Vec3(0.0f, 100.0f, 0.0f)));
     REQUIRE(renderer->render());
     const auto position = renderer->getChannelImage("position");
     const auto normal = renderer->getChannelImage("normal");
@@ -230,7 +236,8 @@ TEST_CASE("renderer: two at once give the images that each gives alone", "[api][
     REQUIRE(alone->render());
 
     const auto other = room();
-    other->addChild(quad(osg::Vec3(0.0f, 0.0f, 0.5f), osg::Vec3(1.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 1.0f, 0.0f)));
+    other->addChild(quad(osg::Vec3(0.0f, 0.0f, 0.5f), osg::Vec3(1.0f, 0.0f, 0.0f),
+                         osg::Vec3(0.0f, 1.0f, 0.0f)));
     const auto otherAlone = rendererOf(other);
     REQUIRE(otherAlone->render());
     CHECK_FALSE(sameBytes(alone->getColorImage(), otherAlone->getColorImage()));
@@ -280,7 +287,7 @@ TEST_CASE("renderer: cancel from another thread ends a long render", "[api][rend
     renderer->cancel();
     thread.join();
     const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - asked;
-    CHECK(waited.count() < 2.0); // a pass of this size takes about as long on a loaded machine
+    CHECK(waited.count() < 2.0); // tiles end at once; the rest is for a loaded machine
     CHECK(ok == (renderer->getStatistics().passes > 0));
     CHECK(renderer->getStatistics().passes < 1 << 24);
 
@@ -295,7 +302,8 @@ TEST_CASE("renderer: progress can stop a render, and its exceptions end there", 
     const auto renderer = rendererOf(room());
     CHECK(renderer->render(0.0, 0.0, [](const Statistics&) { return false; }));
     CHECK(renderer->getStatistics().passes == 1);
-    CHECK_FALSE(renderer->render(0.0, 0.0, [](const Statistics&) -> bool { throw std::runtime_error("no"); }));
+    CHECK_FALSE(renderer->render(
+        0.0, 0.0, [](const Statistics&) -> bool { throw std::runtime_error("no"); }));
     CHECK(renderer->getStatistics().message == "no");
     CHECK_FALSE(renderer->render(0.0, 0.0, [](const Statistics&) -> bool { throw 7; }));
     CHECK(renderer->render());
@@ -310,7 +318,7 @@ TEST_CASE("renderer: time and error stop it too", "[api][renderer]")
     REQUIRE(renderer->render(0.2));
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     CHECK(taken.count() > 0.15);
-    CHECK(taken.count() < 3.0);
+    CHECK(taken.count() < 10.0); // conversion and a pass beside it, on a loaded machine
 
     renderer->getSettings()->setSeed(1);
     REQUIRE(renderer->render(30.0, 0.05));
@@ -377,19 +385,24 @@ TEST_CASE("renderer: what was rendered before does not show", "[api][renderer]")
     REQUIRE(straight->render());
 
     const auto travelled = rendererOf(scene);
-    travelled->setViewMatrix(osg::Matrix::lookAt(osg::Vec3d(50.0, 3.0, 9.0), osg::Vec3d(), osg::Vec3d(0.0, 0.0, 1.0)));
+    travelled->setViewMatrix(
+        osg::Matrix::lookAt(osg::Vec3d(50.0, 3.0, 9.0), osg::Vec3d(), osg::Vec3d(0.0, 0.0, 1.0)));
     REQUIRE(travelled->render());
-    travelled->setViewMatrix(osg::Matrix::lookAt(osg::Vec3d(0.0, -6.0, 3.0), osg::Vec3d(0.0, 0.0, 0.5), osg::Vec3d(0.0, 0.0, 1.0)));
+    travelled->setViewMatrix(osg::Matrix::lookAt(
+        osg::Vec3d(0.0, -6.0, 3.0), osg::Vec3d(0.0, 0.0, 0.5), osg::Vec3d(0.0, 0.0, 1.0)));
     REQUIRE(travelled->render());
     CHECK(sameBytes(travelled->getColorImage(), straight->getColorImage()));
 }
 
 TEST_CASE("renderer: the headlight is osgViewer's", "[api][renderer]")
 {
-    // A white wall that faces the eye: material diffuse 0.8 times light 0.8, and ambient light on both.
-    const auto wall = quad(osg::Vec3(-50.0f, 0.0f, -50.0f), osg::Vec3(100.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 0.0f, 100.0f));
+    // A white wall that faces the eye: material diffuse 0.8 times light 0.8, and ambient light on
+    // both.
+    const auto wall = quad(osg::Vec3(-50.0f, 0.0f, -50.0f), osg::Vec3(100.0f, 0.0f, 0.0f),
+                           osg::Vec3(0.0f, 0.0f, 100.0f));
     const auto renderer = rendererOf(wall);
-    renderer->setViewMatrix(osg::Matrix::lookAt(osg::Vec3d(0.0, -5.0, 0.0), osg::Vec3d(), osg::Vec3d(0.0, 0.0, 1.0)));
+    renderer->setViewMatrix(
+        osg::Matrix::lookAt(osg::Vec3d(0.0, -5.0, 0.0), osg::Vec3d(), osg::Vec3d(0.0, 0.0, 1.0)));
     renderer->getSettings()->setIntegrator(RayTraceSettings::WHITTED);
     REQUIRE(renderer->render());
     const int lit = renderer->getDisplayImage()->data(24, 16)[0];

@@ -11,9 +11,8 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <vector>
 
-inline std::string contents(const std::filesystem::path& file)
+inline std::string contents(const std::string& file)
 {
     std::ifstream stream(file, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(stream), {});
@@ -26,34 +25,20 @@ struct Outcome
     std::string errors;
 };
 
-/// Arguments are split by the shell; prefix goes before the program ("NAME=value").
-inline Outcome osgraytrace(const std::filesystem::path& folder, const std::string& arguments,
+/// Runs it in the folder. The shell splits the arguments; prefix goes before the program ("NAME=value").
+inline Outcome osgraytrace(const TemporaryFolder& folder, const std::string& arguments,
                            const std::string& prefix = "")
 {
-    const std::filesystem::path output = folder / "stdout.txt";
-    const std::filesystem::path errors = folder / "stderr.txt";
-    const std::string command = "cd '" + folder.string() + "' && " + prefix + " timeout 60 '" OSGRAYTRACE_TEST_PROGRAM "' " +
-                                arguments + " >'" + output.string() + "' 2>'" + errors.string() + "' </dev/null";
+    const TemporaryFolder streams;
+    const std::string command = "cd '" + folder / "." + "' && " + prefix + " timeout 60 '" +
+                                OSGRAYTRACE_TEST_PROGRAM + "' " + arguments + " >'" + streams / "out" +
+                                "' 2>'" + streams / "errors" + "' </dev/null";
     const int status = std::system(command.c_str());
     Outcome outcome;
     if (WIFEXITED(status)) outcome.exitCode = WEXITSTATUS(status);
-    outcome.output = contents(output);
-    outcome.errors = contents(errors);
-    std::filesystem::remove(output);
-    std::filesystem::remove(errors);
+    outcome.output = contents(streams / "out");
+    outcome.errors = contents(streams / "errors");
     return outcome;
-}
-
-/// Names of all files in the folder, sorted.
-inline std::vector<std::string> filesIn(const std::filesystem::path& folder)
-{
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-    {
-        names.push_back(entry.path().filename().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
 }
 
 /// A scene of ours, quoted for the shell.

@@ -89,7 +89,8 @@ TEST_CASE("transforms of every kind place geometry as OSG does", "[bridge]")
     automatic->setAutoRotateMode(osg::AutoTransform::ROTATE_TO_CAMERA);
     CHECK(cornerError(automatic) < 1e-6f);
 
-    osg::ref_ptr<osg::MatrixTransform> absolute = new osg::MatrixTransform(osg::Matrixd::translate(9.0, 0.0, 0.0));
+    osg::ref_ptr<osg::MatrixTransform> absolute =
+        new osg::MatrixTransform(osg::Matrixd::translate(9.0, 0.0, 0.0));
     absolute->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
     const auto nested = placed(osg::Matrixd::translate(100.0, 0.0, 0.0), absolute);
     absolute->addChild(triangleGeometry());
@@ -149,8 +150,10 @@ TEST_CASE("shared geometry with large local coordinates in double keeps its shap
     REQUIRE(result.scene->meshes.size() == 1);
     const Instance& second = result.scene->instances[1];
     const Mesh& mesh = *result.scene->meshes[0];
-    CHECK(glm::length(transformPoint(second.engineFromLocal, mesh.positions[1]) - Vec3(0.1f, 0.0f, 1.0f)) < 1e-6f);
-    CHECK(glm::length(transformPoint(second.engineFromLocal, mesh.positions[2]) - Vec3(0.0f, 0.1f, 1.0f)) < 1e-6f);
+    CHECK(glm::length(transformPoint(second.engineFromLocal, mesh.positions[1]) -
+                      Vec3(0.1f, 0.0f, 1.0f)) < 1e-6f);
+    CHECK(glm::length(transformPoint(second.engineFromLocal, mesh.positions[2]) -
+                      Vec3(0.0f, 0.1f, 1.0f)) < 1e-6f);
 }
 
 TEST_CASE("singular, projective and not finite transforms are skipped and counted", "[bridge]")
@@ -176,7 +179,8 @@ TEST_CASE("shared geometry becomes one mesh with placed instances, single use is
     const auto shared = triangleGeometry();
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(placed(osg::Matrixd::translate(1.0, 0.0, 0.0), shared));
-    root->addChild(placed(osg::Matrixd::scale(-1.0, 2.0, 2.0) * osg::Matrixd::translate(5.0, 0.0, 0.0), shared));
+    root->addChild(placed(
+        osg::Matrixd::scale(-1.0, 2.0, 2.0) * osg::Matrixd::translate(5.0, 0.0, 0.0), shared));
     root->addChild(triangleAt(3.0));
     const ConversionResult result = convertGraph(root);
     REQUIRE(result.scene->instances.size() == 3);
@@ -186,8 +190,10 @@ TEST_CASE("shared geometry becomes one mesh with placed instances, single use is
     CHECK(instances[0].mesh == instances[1].mesh);
     CHECK_FALSE(instances[0].mirrored);
     CHECK(instances[1].mirrored);
-    CHECK(glm::length(instances[1].normalFromLocal * Vec3(1.0f, 0.0f, 0.0f) - Vec3(-1.0f, 0.0f, 0.0f)) < 1e-6f);
-    CHECK(glm::length(instances[1].normalFromLocal * Vec3(0.0f, 1.0f, 0.0f) - Vec3(0.0f, 0.5f, 0.0f)) < 1e-6f);
+    CHECK(glm::length(instances[1].normalFromLocal * Vec3(1.0f, 0.0f, 0.0f) -
+                      Vec3(-1.0f, 0.0f, 0.0f)) < 1e-6f);
+    CHECK(glm::length(instances[1].normalFromLocal * Vec3(0.0f, 1.0f, 0.0f) -
+                      Vec3(0.0f, 0.5f, 0.0f)) < 1e-6f);
     CHECK_FALSE(instances[2].placed);
     CHECK(visibleAt(result) == std::vector<float>{1.0f, 5.0f, 3.0f});
 }
@@ -245,7 +251,8 @@ TEST_CASE("node masks, switches and sequences hide what they hide in OSG", "[bri
     CHECK(converter.convert(input).scene->instances.empty());
 }
 
-TEST_CASE("levels of detail: the child for the eye's distance, in the LOD's own coordinates", "[bridge]")
+TEST_CASE("levels of detail: the child for the eye's distance, in the LOD's own coordinates",
+          "[bridge]")
 {
     osg::ref_ptr<osg::LOD> lod = new osg::LOD;
     lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
@@ -253,7 +260,8 @@ TEST_CASE("levels of detail: the child for the eye's distance, in the LOD's own 
     lod->setRadius(1.0f);
     lod->addChild(triangleAt(0.0), 0.0f, 10.0f);
     lod->addChild(triangleAt(1.0), 10.0f, 100.0f);
-    const auto root = placed(osg::Matrixd::scale(2.0, 2.0, 2.0) * osg::Matrixd::translate(6.0e6, 0.0, 0.0), lod);
+    const auto root =
+        placed(osg::Matrixd::scale(2.0, 2.0, 2.0) * osg::Matrixd::translate(6.0e6, 0.0, 0.0), lod);
     ConversionInput input = inputFor(root);
     input.origin.set(6.0e6, 0.0, 0.0);
     SceneConverter converter;
@@ -273,7 +281,8 @@ TEST_CASE("levels of detail: the child for the eye's distance, in the LOD's own 
 TEST_CASE("billboards turn to the eye", "[bridge]")
 {
     osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard; // axis z, normal -y
-    osg::ref_ptr<osg::Geometry> quad = osg::createTexturedQuadGeometry({-1.0f, 0.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f});
+    osg::ref_ptr<osg::Geometry> quad = osg::createTexturedQuadGeometry(
+        {-1.0f, 0.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f});
     billboard->addDrawable(quad, {10.0f, 0.0f, 0.0f});
     billboard->addDrawable(quad, {20.0f, 0.0f, 0.0f});
     ConversionInput input = inputFor(billboard);
@@ -302,7 +311,8 @@ TEST_CASE("cameras and projections inside the graph are not part of the scene", 
     target->setRenderOrder(osg::Camera::PRE_RENDER);
     target->addChild(triangleAt(2.0));
     root->addChild(target);
-    osg::ref_ptr<osg::Projection> projection = new osg::Projection(osg::Matrixd::ortho2D(0, 1, 0, 1));
+    osg::ref_ptr<osg::Projection> projection =
+        new osg::Projection(osg::Matrixd::ortho2D(0, 1, 0, 1));
     projection->addChild(triangleAt(3.0));
     root->addChild(projection);
     osg::ref_ptr<osg::Camera> nested = new osg::Camera;

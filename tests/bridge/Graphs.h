@@ -13,7 +13,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Lower left half of the unit square, counter-clockwise seen from +z. Shared arrays in Embree's layout.
+/// Lower left half of the unit square, counter-clockwise seen from +z. Shared arrays in Embree's
+/// layout.
 inline osg::ref_ptr<osg::Geometry> triangleGeometry()
 {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;

@@ -49,7 +49,10 @@ struct LitScene
     std::vector<Light> lights() { return converter.convert(input).scene->lights; }
 };
 
-bool near(const Vec3& a, const Vec3& b) { return glm::length(a - b) < 1e-5f; }
+bool near(const Vec3& a, const Vec3& b)
+{
+    return glm::length(a - b) < 1e-5f;
+}
 
 Vec3 triangleNormal(const Mesh& mesh, std::size_t i)
 {
@@ -172,7 +175,8 @@ TEST_CASE("area light: parallelogram, quad that points back at it, black lamp ma
 {
     osg::ref_ptr<osgRayTrace::AreaLight> light = new osgRayTrace::AreaLight(
         {1.0f, 0.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 3.0f, 0.0f}, {17.0f, 12.0f, 4.0f});
-    osg::ref_ptr<osg::MatrixTransform> root = new osg::MatrixTransform(osg::Matrixd::translate(6.0e6, 1.0, 0.0));
+    osg::ref_ptr<osg::MatrixTransform> root =
+        new osg::MatrixTransform(osg::Matrixd::translate(6.0e6, 1.0, 0.0));
     root->addChild(light);
     ConversionInput input = inputFor(root);
     input.origin.set(6.0e6, 0.0, 0.0);
@@ -240,7 +244,8 @@ TEST_CASE("geometry that emits is a light for each of its instances", "[bridge]"
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(triangleGeometry());
     root->addChild(geometry);
-    osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(0.0, 0.0, 5.0));
+    osg::ref_ptr<osg::MatrixTransform> moved =
+        new osg::MatrixTransform(osg::Matrixd::translate(0.0, 0.0, 5.0));
     moved->addChild(geometry);
     root->addChild(moved);
     const ConversionResult result = convertGraph(root);

@@ -127,7 +127,8 @@ TEST_CASE("unlit geometry shows its colour and nothing else", "[bridge]")
     CHECK(materialOf(geometry).vertexColorUse == VertexColorUse::AmbientAndDiffuse);
 
     geometry->setColorArray(nullptr);
-    CHECK(materialOf(geometry).diffuse == Vec3(0.2f, 0.0f, 0.0f)); // glColor as osg::Material leaves it
+    CHECK(materialOf(geometry).diffuse ==
+          Vec3(0.2f, 0.0f, 0.0f)); // glColor as osg::Material leaves it
 }
 
 TEST_CASE("lighting is on above the scene unless the view says otherwise", "[bridge]")
@@ -144,7 +145,8 @@ TEST_CASE("lighting is on above the scene unless the view says otherwise", "[bri
     CHECK(result.scene->ambient == Vec3(0.2f));
 }
 
-TEST_CASE("state is that of the path: overridden, protected, and not leaked to siblings", "[bridge]")
+TEST_CASE("state is that of the path: overridden, protected, and not leaked to siblings",
+          "[bridge]")
 {
     const auto leaf = triangleGeometry();
     leaf->getOrCreateStateSet()->setAttribute(newMaterial(osg::Material::OFF));
@@ -159,7 +161,8 @@ TEST_CASE("state is that of the path: overridden, protected, and not leaked to s
     CHECK(materialOf(above).diffuse == Vec3(0.2f, 0.0f, 0.0f));
     state->setAttribute(own, osg::StateAttribute::OVERRIDE);
     CHECK(materialOf(above).diffuse == Vec3(0.0f, 1.0f, 0.0f));
-    leaf->getStateSet()->setAttribute(newMaterial(osg::Material::OFF), osg::StateAttribute::PROTECTED);
+    leaf->getStateSet()->setAttribute(newMaterial(osg::Material::OFF),
+                                      osg::StateAttribute::PROTECTED);
     CHECK(materialOf(above).diffuse == Vec3(0.2f, 0.0f, 0.0f));
 
     osg::ref_ptr<osg::Group> root = new osg::Group;
@@ -170,7 +173,8 @@ TEST_CASE("state is that of the path: overridden, protected, and not leaked to s
     CHECK(result.scene->materials[result.scene->instances[1].material].diffuse == Vec3(0.8f));
 }
 
-TEST_CASE("one geometry under different state is one mesh with two materials; equal ones merge", "[bridge]")
+TEST_CASE("one geometry under different state is one mesh with two materials; equal ones merge",
+          "[bridge]")
 {
     const auto geometry = triangleGeometry();
     osg::ref_ptr<osg::Group> root = new osg::Group;
@@ -189,7 +193,7 @@ TEST_CASE("one geometry under different state is one mesh with two materials; eq
     CHECK(result.scene->meshes.size() == 1);
     CHECK(instances[0].material != instances[1].material);
     CHECK(instances[1].material == instances[2].material); // two objects of equal values
-    CHECK(result.scene->materials.size() == 2);            // no vertex colours: the color mode is no matter
+    CHECK(result.scene->materials.size() == 2); // no vertex colours: the color mode is no matter
 }
 
 TEST_CASE("light model: ambient of the scene, two sides of the material", "[bridge]")

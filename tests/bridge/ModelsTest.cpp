@@ -1,5 +1,5 @@
-// ModelsTest.cpp - real models convert; needs OSG_FILE_PATH to lead to the OpenSceneGraph sample data.
-// SPDX-License-Identifier: MIT
+// ModelsTest.cpp - real models convert; needs OSG_FILE_PATH to lead to the OpenSceneGraph sample
+// data. SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 
@@ -80,7 +80,8 @@ void checkModel(const std::string& file)
                 REQUIRE(t[corner] < mesh.positions.size());
                 const Vec3 local = mesh.positions[t[corner]];
                 REQUIRE(isFinite(local));
-                const Vec3 p = instance.placed ? transformPoint(instance.engineFromLocal, local) : local;
+                const Vec3 p =
+                    instance.placed ? transformPoint(instance.engineFromLocal, local) : local;
                 box.expandBy(p.x, p.y, p.z);
             }
         for (const auto size : {mesh.normals.size(), mesh.uvs.size(), mesh.colors.size()})
@@ -103,7 +104,8 @@ void checkModel(const std::string& file)
     const osg::BoundingSphere sphere = model->getBound();
     CHECK((osg::Vec3d(box.center()) - osg::Vec3d(sphere.center())).length() < sphere.radius());
     if (counter.hasBillboards) return; // OSG's bounds leave their positions out
-    CHECK((osg::Vec3d(box.center()) - osg::Vec3d(bounds.getBoundingBox().center())).length() < tolerance);
+    CHECK((osg::Vec3d(box.center()) - osg::Vec3d(bounds.getBoundingBox().center())).length() <
+          tolerance);
     CHECK(std::fabs(box.radius() - bounds.getBoundingBox().radius()) < tolerance);
 }
 
@@ -111,7 +113,7 @@ void checkModel(const std::string& file)
 
 TEST_CASE("sample models keep all their triangles, their size and their normals", "[osg-data]")
 {
-    for (const char* file : {"cow.osgt", "cessna.osgt", "glider.osgt", "lz.osgt", "dumptruck.osgt",
-                             "simpleroom.osgt"})
+    for (const char* file :
+         {"cow.osgt", "cessna.osgt", "glider.osgt", "lz.osgt", "dumptruck.osgt", "simpleroom.osgt"})
         checkModel(file);
 }

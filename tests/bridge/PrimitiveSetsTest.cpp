@@ -1,5 +1,5 @@
-// PrimitiveSetsTest.cpp - every primitive mode and index type gives the triangles that OpenGL draws.
-// SPDX-License-Identifier: MIT
+// PrimitiveSetsTest.cpp - every primitive mode and index type gives the triangles that OpenGL
+// draws. SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 
@@ -19,7 +19,10 @@ constexpr GLenum kModes[] = {GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN,
 struct CollectTriangles
 {
     std::vector<UVec3> triangles;
-    void operator()(unsigned int a, unsigned int b, unsigned int c) { triangles.emplace_back(a, b, c); }
+    void operator()(unsigned int a, unsigned int b, unsigned int c)
+    {
+        triangles.emplace_back(a, b, c);
+    }
 };
 
 /// Without those that have equal corners: our vertices have no other degenerate triangles.
@@ -58,7 +61,8 @@ void checkAgainstOsg(const osg::ref_ptr<osg::Geometry>& geometry)
     CHECK(turned(std::vector<UVec3>(got.begin(), got.end())) == turned(expected));
 }
 
-template <class Elements> osg::ref_ptr<Elements> elements(GLenum mode, std::initializer_list<int> indices)
+template <class Elements>
+osg::ref_ptr<Elements> elements(GLenum mode, std::initializer_list<int> indices)
 {
     osg::ref_ptr<Elements> set = new Elements(mode);
     for (const int index : indices)
@@ -68,7 +72,8 @@ template <class Elements> osg::ref_ptr<Elements> elements(GLenum mode, std::init
 
 } // namespace
 
-TEST_CASE("draw arrays: all modes match OSG's own triangles, with an offset and left-over vertices", "[bridge]")
+TEST_CASE("draw arrays: all modes match OSG's own triangles, with an offset and left-over vertices",
+          "[bridge]")
 {
     for (const GLenum mode : kModes)
         for (const int count : {4, 5, 8, 11})
@@ -138,7 +143,8 @@ TEST_CASE("indices out of range drop their triangle only, and are counted", "[br
     CHECK(countOf(result, "skipped.index-out-of-range") == 1);
 
     // A primitive restart index cuts a strip in two.
-    const auto strip = elements<osg::DrawElementsUShort>(GL_TRIANGLE_STRIP, {0, 1, 2, 3, 0xffff, 4, 5, 6});
+    const auto strip =
+        elements<osg::DrawElementsUShort>(GL_TRIANGLE_STRIP, {0, 1, 2, 3, 0xffff, 4, 5, 6});
     result = convertGraph(curveGeometry(20, strip));
     CHECK(soleMesh(result).triangles.size() == 3);
     CHECK(countOf(result, "skipped.index-out-of-range") == 3);
@@ -152,12 +158,15 @@ TEST_CASE("indices out of range drop their triangle only, and are counted", "[br
 TEST_CASE("draw arrays beyond the vertices are cut, whatever their count says", "[bridge]")
 {
     const int huge = std::numeric_limits<int>::max();
-    ConversionResult result = convertGraph(curveGeometry(6, new osg::DrawArrays(GL_TRIANGLES, 0, huge)));
+    ConversionResult result =
+        convertGraph(curveGeometry(6, new osg::DrawArrays(GL_TRIANGLES, 0, huge)));
     CHECK(soleMesh(result).triangles.size() == 2);
     CHECK(countOf(result, "skipped.index-out-of-range") == uint64_t(huge) / 3 - 2);
 
-    CHECK(convertGraph(curveGeometry(6, new osg::DrawArrays(GL_TRIANGLES, -3, 6))).scene->instances.empty());
-    CHECK(convertGraph(curveGeometry(6, new osg::DrawArrays(GL_TRIANGLES, huge, huge))).scene->instances.empty());
+    CHECK(convertGraph(curveGeometry(6, new osg::DrawArrays(GL_TRIANGLES, -3, 6)))
+              .scene->instances.empty());
+    CHECK(convertGraph(curveGeometry(6, new osg::DrawArrays(GL_TRIANGLES, huge, huge)))
+              .scene->instances.empty());
 
     osg::ref_ptr<osg::DrawArrayLengths> lengths = new osg::DrawArrayLengths(GL_TRIANGLE_STRIP, 0);
     for (const int length : {-5, 3, huge, huge})

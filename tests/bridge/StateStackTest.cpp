@@ -37,7 +37,10 @@ public:
     }
 };
 
-unsigned int pick(std::mt19937& random, unsigned int count) { return random() % count; }
+unsigned int pick(std::mt19937& random, unsigned int count)
+{
+    return random() % count;
+}
 
 osg::ref_ptr<osg::StateSet> randomStateSet(std::mt19937& random)
 {
@@ -88,7 +91,8 @@ TEST_CASE("state stack: agrees with osg::State for random nestings", "[bridge]")
         CHECK(state.isOn(3) == isOn(*expected, GL_LIGHT0 + 3));
         CHECK(state.isOn(kBlendBit) == isOn(*expected, GL_BLEND));
         CHECK(state.isOn(kTexture2DBit) == reference->isTexture2DOn());
-        CHECK(state.attributes[kMaterialSlot] == expected->getAttribute(osg::StateAttribute::MATERIAL));
+        CHECK(state.attributes[kMaterialSlot] ==
+              expected->getAttribute(osg::StateAttribute::MATERIAL));
         CHECK(state.attributes[kPhysicalMaterialSlot] ==
               expected->getAttribute(PhysicalMaterial::ATTRIBUTE_TYPE));
         CHECK(state.attributes[kTextureSlot] == reference->texture());

@@ -91,26 +91,32 @@ TEST_CASE("8-bit formats decode to RGBA bytes", "[bridge]")
 
 TEST_CASE("wide formats decode to floats, what is not finite to 0", "[bridge]")
 {
-    CHECK(floatsOf(*imageOf<uint16_t>(1, 1, GL_RG, GL_UNSIGNED_SHORT, {65535, 0})) == Floats{1, 0, 0, 1});
-    CHECK(floatsOf(*imageOf<uint16_t>(1, 1, GL_LUMINANCE, GL_HALF_FLOAT, {0x3e00})) == Floats{1.5f, 1.5f, 1.5f, 1});
+    CHECK(floatsOf(*imageOf<uint16_t>(1, 1, GL_RG, GL_UNSIGNED_SHORT, {65535, 0})) ==
+          Floats{1, 0, 0, 1});
+    CHECK(floatsOf(*imageOf<uint16_t>(1, 1, GL_LUMINANCE, GL_HALF_FLOAT, {0x3e00})) ==
+          Floats{1.5f, 1.5f, 1.5f, 1});
     const float inf = std::numeric_limits<float>::infinity();
-    CHECK(floatsOf(*imageOf<float>(1, 1, GL_RGBA, GL_FLOAT, {-2.0f, inf, 1e6f, 0.5f})) == Floats{-2, 0, 1e6f, 0.5f});
+    CHECK(floatsOf(*imageOf<float>(1, 1, GL_RGBA, GL_FLOAT, {-2.0f, inf, 1e6f, 0.5f})) ==
+          Floats{-2, 0, 1e6f, 0.5f});
     CHECK(floatsOf(*imageOf<int16_t>(1, 1, GL_RED, GL_SHORT, {32767})) == Floats{1, 0, 0, 1});
 }
 
-TEST_CASE("rows: packing and row length; the first in memory is the lowest, whatever the origin", "[bridge]")
+TEST_CASE("rows: packing and row length; the first in memory is the lowest, whatever the origin",
+          "[bridge]")
 {
     // 3 RGB pixels are 9 bytes, padded to 12.
     const Bytes rows{1, 1, 1, 2, 2, 2, 3, 3, 3, 0, 0, 0, 4, 4, 4, 5, 5, 5, 6, 6, 6};
     const auto image = imageOf<uint8_t>(3, 2, GL_RGB, GL_UNSIGNED_BYTE, rows, 4);
-    const Bytes expected{1, 1, 1, 255, 2, 2, 2, 255, 3, 3, 3, 255, 4, 4, 4, 255, 5, 5, 5, 255, 6, 6, 6, 255};
+    const Bytes expected{1, 1, 1, 255, 2, 2, 2, 255, 3, 3, 3, 255,
+                         4, 4, 4, 255, 5, 5, 5, 255, 6, 6, 6, 255};
     CHECK(bytesOf(*image) == expected);
     image->setOrigin(osg::Image::TOP_LEFT);
     CHECK(bytesOf(*image) == expected);
 
     static unsigned char wide[] = {1, 2, 9, 9, 3, 4, 9, 9};
     osg::ref_ptr<osg::Image> part = new osg::Image;
-    part->setImage(2, 2, 1, GL_LUMINANCE, GL_LUMINANCE, GL_UNSIGNED_BYTE, wide, osg::Image::NO_DELETE, 1, 4);
+    part->setImage(2, 2, 1, GL_LUMINANCE, GL_LUMINANCE, GL_UNSIGNED_BYTE, wide,
+                   osg::Image::NO_DELETE, 1, 4);
     CHECK(bytesOf(*part) == Bytes{1, 1, 1, 255, 2, 2, 2, 255, 3, 3, 3, 255, 4, 4, 4, 255});
 }
 
@@ -223,7 +229,8 @@ TEST_CASE("textures of a linear scene: colours are decoded, data and floats are 
     physical->setBaseColorTexture(color);
     physical->setMetallicRoughnessTexture(color);
     physical->setEmissionTexture(color);
-    osg::ref_ptr<osg::Texture2D> wide = new osg::Texture2D(imageOf<float>(1, 1, GL_RED, GL_FLOAT, {0.5f}));
+    osg::ref_ptr<osg::Texture2D> wide =
+        new osg::Texture2D(imageOf<float>(1, 1, GL_RED, GL_FLOAT, {0.5f}));
     physical->setTransmissionTexture(wide);
     const auto geometry = triangleGeometry();
     geometry->setTexCoordArray(0, new osg::Vec2Array(3));

@@ -40,7 +40,8 @@ void checkTriangle(const osg::ref_ptr<osg::Geometry>& geometry)
 
 osg::ref_ptr<osg::Geometry> twoFans()
 {
-    osg::ref_ptr<osg::Geometry> geometry = curveGeometry(6, new osg::DrawArrays(GL_TRIANGLE_FAN, 0, 4));
+    osg::ref_ptr<osg::Geometry> geometry =
+        curveGeometry(6, new osg::DrawArrays(GL_TRIANGLE_FAN, 0, 4));
     geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_FAN, 2, 4));
     return geometry;
 }
@@ -54,7 +55,8 @@ TEST_CASE("positions of all numeric array types", "[bridge]")
     checkTriangle(triangleOf<osg::Vec4Array>([](int x, int y) { return osg::Vec4(x, y, 0, 1); }));
     checkTriangle(triangleOf<osg::Vec2dArray>([](int x, int y) { return osg::Vec2d(x, y); }));
     checkTriangle(triangleOf<osg::Vec3dArray>([](int x, int y) { return osg::Vec3d(x, y, 0); }));
-    checkTriangle(triangleOf<osg::Vec4dArray>([](int x, int y) { return osg::Vec4d(3 * x, 3 * y, 0, 3); }));
+    checkTriangle(
+        triangleOf<osg::Vec4dArray>([](int x, int y) { return osg::Vec4d(3 * x, 3 * y, 0, 3); }));
     checkTriangle(triangleOf<osg::Vec3sArray>([](int x, int y) { return osg::Vec3s(x, y, 0); }));
     checkTriangle(triangleOf<osg::Vec3bArray>([](int x, int y) { return osg::Vec3b(x, y, 0); }));
     checkTriangle(triangleOf<osg::Vec2iArray>([](int x, int y) { return osg::Vec2i(x, y); }));
@@ -62,13 +64,15 @@ TEST_CASE("positions of all numeric array types", "[bridge]")
 
 TEST_CASE("positions in vertex attribute 0 are used without a vertex array", "[bridge]")
 {
-    const auto geometry = triangleOf<osg::Vec3Array>([](int x, int y) { return osg::Vec3(x, y, 0); });
+    const auto geometry =
+        triangleOf<osg::Vec3Array>([](int x, int y) { return osg::Vec3(x, y, 0); });
     geometry->setVertexAttribArray(0, geometry->getVertexArray(), osg::Array::BIND_PER_VERTEX);
     geometry->setVertexArray(nullptr);
     checkTriangle(geometry);
 }
 
-TEST_CASE("triangles with vertices that are not finite or too large are dropped and counted", "[bridge]")
+TEST_CASE("triangles with vertices that are not finite or too large are dropped and counted",
+          "[bridge]")
 {
     for (const float bad : {kNaN, kInf, -kInf, 2e18f, -3e38f})
     {
@@ -204,7 +208,8 @@ TEST_CASE("values per primitive set split the vertices that two sets use", "[bri
         {
             const uint32_t v = mesh.triangles[i][corner];
             CHECK(mesh.normals[v] == (first ? Vec3(0.0f, 0.0f, 1.0f) : Vec3(0.0f, 1.0f, 0.0f)));
-            CHECK(mesh.colors[v] == (first ? Vec4(1.0f, 0.0f, 0.0f, 1.0f) : Vec4(0.0f, 0.2f, 0.0f, 1.0f)));
+            CHECK(mesh.colors[v] ==
+                  (first ? Vec4(1.0f, 0.0f, 0.0f, 1.0f) : Vec4(0.0f, 0.2f, 0.0f, 1.0f)));
             CHECK(mesh.uvs[v].x == Approx(0.1f * mesh.positions[v].x));
         }
     }
@@ -248,7 +253,8 @@ TEST_CASE("normals follow a non-uniform, mirrored transform, and so do the front
     CHECK(front.z > 0.0f);
 }
 
-TEST_CASE("colours and texture coordinates of other types; bad values are replaced and counted", "[bridge]")
+TEST_CASE("colours and texture coordinates of other types; bad values are replaced and counted",
+          "[bridge]")
 {
     const auto geometry = triangleGeometry();
     osg::ref_ptr<osg::Vec3ubArray> colors = new osg::Vec3ubArray(2);

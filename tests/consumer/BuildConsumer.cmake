@@ -45,4 +45,8 @@ run(${CMAKE_COMMAND} -S "${SOURCE}" -B "${WORK}/build" -G "${GENERATOR}" -D CMAK
     -D "CMAKE_CXX_COMPILER=${COMPILER}" -D "CMAKE_PREFIX_PATH=${WORK}/moved")
 run(${CMAKE_COMMAND} --build "${WORK}/build")
 run("${WORK}/build/consumer")
-message(NOTICE "${output}")
+run("${WORK}/build/offscreenConsumer")
+
+# The installed programs find the installed library and plugins wherever they lie.
+run("${WORK}/moved/bin/osgraytrace" "${WORK}/moved/share/osgRayTrace/cornell_box.osgt"
+    -o "${WORK}/box.exr" --reference "${WORK}/box.exr" --size 8 8)

@@ -1,5 +1,5 @@
-// OffscreenTest.cpp - OSMesa and EGL contexts under OSG, one at a time and together. Layer:
-// offscreen. SPDX-License-Identifier: MIT
+// OffscreenTest.cpp - OSMesa and EGL contexts, alone and together. Layer: offscreen.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
 #include <osgRayTrace/offscreen/FrameCapture>

@@ -1,5 +1,5 @@
-// ExrForeignFileTest.cpp - OpenEXR files that other programs write: windows, tiles, integers.
-// Layer: osgPlugins. SPDX-License-Identifier: MIT
+// ExrForeignFileTest.cpp - OpenEXR files as other programs write them. Layer: osgPlugins.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/plugins/TemporaryFolder.h"
 

@@ -30,7 +30,8 @@ public:
     Folder()
     {
         const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-        _path = std::filesystem::temp_directory_path() / ("osgraytrace (" + std::to_string(now) + ").d");
+        _path = std::filesystem::temp_directory_path() /
+                ("osgraytrace (" + std::to_string(now) + ").d");
         std::filesystem::create_directories(_path);
         const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
         geode->setName("quad");
@@ -101,12 +102,14 @@ TEST_CASE("pseudo-loader: options are set by name, with or without brackets", "[
           "(integrator = path , max-passes = 64)", "integrator=path,passes=64"})
     {
         INFO(parameters);
-        const auto scene = readScene(folder.file(std::string("quad.osgt.") + parameters + ".raytrace"));
+        const auto scene =
+            readScene(folder.file(std::string("quad.osgt.") + parameters + ".raytrace"));
         CHECK(scene->getNumChildren() == 1);
         CHECK(scene->getSettings()->getIntegrator() == RayTraceSettings::PATH);
         CHECK(scene->getSettings()->getMaxPasses() == 64);
     }
-    const auto exposed = readScene(folder.file("quad.osgt.(exposure=-1.5,light-sampling=random).raytrace"));
+    const auto exposed =
+        readScene(folder.file("quad.osgt.(exposure=-1.5,light-sampling=random).raytrace"));
     CHECK(exposed->getSettings()->getExposure() == -1.5f);
     CHECK(exposed->getSettings()->getLightSampling() == RayTraceSettings::RANDOM);
     CHECK(readScene(folder.file("quad.osgt.().raytrace"))->getNumChildren() == 1);
@@ -169,7 +172,8 @@ TEST_CASE("pseudo-loader: a file that is cut short is an error", "[plugins]")
 {
     const Folder folder;
     std::ifstream whole(folder.file("quad.osgt"));
-    const std::string text((std::istreambuf_iterator<char>(whole)), std::istreambuf_iterator<char>());
+    const std::string text((std::istreambuf_iterator<char>(whole)),
+                           std::istreambuf_iterator<char>());
     const auto cut = text.find("VertexArray");
     REQUIRE(cut != std::string::npos);
     std::ofstream(folder.file("cut.osgt")) << text.substr(0, cut);

@@ -18,8 +18,8 @@
 
 using osgRayTrace::AreaLight;
 using osgRayTrace::PhysicalMaterial;
-using osgRayTrace::RayTracedScene;
 using osgRayTrace::RayTraceDrawable;
+using osgRayTrace::RayTracedScene;
 using osgRayTrace::RayTraceSettings;
 
 namespace

@@ -1,8 +1,6 @@
-// InputFiles.cpp - reads files through osgDB, and refuses what would make it hang. Layer: apps.
+// ModelFiles.cpp - reads models through osgDB, and refuses what would make it hang. Layer: apps.
 // SPDX-License-Identifier: MIT
-#include "InputFiles.h"
-
-#include "Failure.h"
+#include "ModelFiles.h"
 
 #include <osg/Group>
 #include <osgDB/FileNameUtils>
@@ -37,13 +35,6 @@ bool isCutShort(const std::string& file)
     return quoted || depth > 0;
 }
 
-Failure cannotLoad(const std::string& file, const osgDB::ReaderWriter::ReadResult& result)
-{
-    std::string reason = result.message();
-    if (reason.empty()) reason = result.notFound() ? "there is no such file" : result.statusMessage();
-    return Failure(kCannotLoad, "cannot load " + file + ": " + reason);
-}
-
 osg::ref_ptr<osg::Node> readModel(const std::string& file)
 {
     // Names with further extensions are for pseudo-loaders and may be no files themselves.
@@ -72,23 +63,11 @@ osg::ref_ptr<osg::Node> readScene(const std::vector<std::string>& files)
     return scene;
 }
 
-osg::ref_ptr<osg::Image> readReference(const std::string& file, int width, int height)
+Failure cannotLoad(const std::string& file, const osgDB::ReaderWriter::ReadResult& result)
 {
-    osgDB::Registry* registry = osgDB::Registry::instance();
-    osgDB::ReaderWriter::ReadResult result = registry->readImage(file, registry->getOptions());
-    if (!result.validImage()) throw cannotLoad(file, result);
-    const osg::ref_ptr<osg::Image> image = result.getImage();
-    const bool rgb = image->getPixelFormat() == GL_RGB || image->getPixelFormat() == GL_RGBA;
-    if (!rgb || image->getDataType() != GL_FLOAT)
-    {
-        throw Failure(kCannotLoad, "the reference " + file + " holds no linear radiance; it must be an .exr");
-    }
-    if (image->s() != width || image->t() != height)
-    {
-        throw Failure(kUsage, "the reference " + file + " is of --size " + std::to_string(image->s()) + " " +
-                                  std::to_string(image->t()));
-    }
-    return image;
+    std::string reason = result.message();
+    if (reason.empty()) reason = result.notFound() ? "there is no such file" : result.statusMessage();
+    return Failure(kCannotLoad, "cannot load " + file + ": " + reason);
 }
 
 } // namespace osgRayTrace::app

@@ -1,9 +1,11 @@
-// InputFiles.h - reads the models and the reference of the command line. Layer: apps.
+// ModelFiles.h - reads the models of a command line. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osg/Image>
+#include "Failure.h"
+
 #include <osg/Node>
+#include <osgDB/ReaderWriter>
 
 #include <string>
 #include <vector>
@@ -14,7 +16,7 @@ namespace osgRayTrace::app
 /// One file's node, or a group of several. Throws Failure(kCannotLoad).
 osg::ref_ptr<osg::Node> readScene(const std::vector<std::string>& files);
 
-/// GL_RGB or GL_RGBA, GL_FLOAT. Throws Failure(kCannotLoad); Failure(kUsage) if its size is another.
-osg::ref_ptr<osg::Image> readReference(const std::string& file, int width, int height);
+/// What to throw for a file that osgDB could not read.
+Failure cannotLoad(const std::string& file, const osgDB::ReaderWriter::ReadResult& result);
 
 } // namespace osgRayTrace::app

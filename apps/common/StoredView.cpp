@@ -1,0 +1,56 @@
+// StoredView.cpp - finds the nodes that describe a view. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "StoredView.h"
+
+#include <osg/CameraView>
+#include <osg/ClearNode>
+#include <osg/NodeVisitor>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+/// The first node of a class, and its place: its own transform is part of the matrix.
+template <typename NodeClass> class FindFirst : public osg::NodeVisitor
+{
+public:
+    FindFirst() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
+
+    void apply(NodeClass& node) override
+    {
+        if (!found) worldFromNode = osg::computeLocalToWorld(getNodePath());
+        if (!found) found = &node;
+    }
+    using osg::NodeVisitor::apply;
+
+    osg::ref_ptr<NodeClass> found;
+    osg::Matrixd worldFromNode;
+};
+
+} // namespace
+
+std::optional<Placement> storedPlacement(osg::Node& scene)
+{
+    FindFirst<osg::CameraView> find;
+    scene.accept(find);
+    if (!find.found || find.found->getFieldOfViewMode() != osg::CameraView::VERTICAL) return std::nullopt;
+
+    Placement placement;
+    placement.eye = find.worldFromNode.getTrans();
+    placement.center = placement.eye + osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), find.worldFromNode);
+    placement.up = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 1.0, 0.0), find.worldFromNode);
+    placement.fovyDegrees = find.found->getFieldOfView();
+    return placement;
+}
+
+std::optional<osg::Vec4> storedClearColor(osg::Node& scene)
+{
+    FindFirst<osg::ClearNode> find;
+    scene.accept(find);
+    if (!find.found) return std::nullopt;
+    return find.found->getClearColor();
+}
+
+} // namespace osgRayTrace::app

@@ -1,0 +1,276 @@
+// PictureTest.cpp - what osgraytrace writes and prints.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/apps/Program.h"
+
+#include "osgPlugins/exr/ExrImage.h"
+
+#include <osgRayTrace/RayTraceSettings>
+
+#include <osg/ShapeDrawable>
+#include <osgDB/WriteFile>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+using Catch::Matchers::Contains;
+using osgRayTrace::RayTraceSettings;
+using osgRayTrace::engine::ExrImage;
+using osgRayTrace::engine::readExr;
+
+namespace
+{
+
+const std::string kBox = dataFile("cornell_box.osgt");
+const std::string kQuick = " --size 64 48 --passes 4 ";
+
+struct Measures
+{
+    double rmse = -1.0;
+    double relMse = -1.0;
+    double meanRatio = -1.0;
+};
+
+Measures measuresIn(const std::string& output)
+{
+    Measures measures;
+    const size_t begin = output.find("RMSE ");
+    if (begin == std::string::npos) return measures;
+    std::sscanf(output.c_str() + begin, "RMSE %lf relMSE %lf mean ratio %lf", &measures.rmse, &measures.relMse,
+                &measures.meanRatio);
+    return measures;
+}
+
+nlohmann::json statistics(const TemporaryFolder& folder)
+{
+    return nlohmann::json::parse(contents(folder / "s.json"));
+}
+
+/// Lit by the headlight alone, before a background of osgviewer's blue.
+void writeFixedFunctionModel(const std::string& file)
+{
+    osg::ref_ptr<osg::ShapeDrawable> sphere = new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(), 1.0f));
+    sphere->setColor(osg::Vec4(0.8f, 0.4f, 0.2f, 1.0f));
+    osgDB::writeNodeFile(*sphere, file);
+}
+
+} // namespace
+
+TEST_CASE("osgraytrace: one render, several files of each kind", "[apps]")
+{
+    const TemporaryFolder folder;
+    const Outcome outcome = osgraytrace(folder, kBox + kQuick + "-o a.exr -o b.png -o c.jpg -o d.EXR");
+    CHECK(outcome.exitCode == 0);
+    CHECK(outcome.errors.empty()); // no progress bar: not a terminal
+    CHECK_THAT(outcome.output, Contains("path, 4 passes"));
+    CHECK(folder.fileNames() == std::vector<std::string>{"a.exr", "b.png", "c.jpg", "d.EXR"});
+    CHECK(contents(folder / "a.exr") == contents(folder / "d.EXR"));
+    CHECK(contents(folder / "b.png").substr(0, 8) == "\x89PNG\r\n\x1a\n");
+    CHECK(contents(folder / "c.jpg").substr(0, 3) == "\xff\xd8\xff");
+}
+
+TEST_CASE("osgraytrace: a terminal sees a progress bar", "[apps]")
+{
+    const TemporaryFolder folder;
+    const std::string command = "cd '" + folder / "." + "' && TERM=xterm script -qec \"'" +
+                                OSGRAYTRACE_TEST_PROGRAM "' " + kBox + kQuick + "-o x.png\" typescript >/dev/null";
+    REQUIRE(std::system(command.c_str()) == 0);
+    CHECK_THAT(contents(folder / "typescript"), Contains("\r[#") && Contains("M rays/s"));
+    CHECK(!contents(folder / "x.png").empty());
+}
+
+TEST_CASE("osgraytrace: EXR channels are those asked for", "[apps]")
+{
+    const TemporaryFolder folder;
+    REQUIRE(osgraytrace(folder, kBox + kQuick + "-o x.exr --aov depth,normal --aov id,albedo,position,error,distance")
+                .exitCode == 0);
+    ExrImage exr;
+    REQUIRE(readExr(folder / "x.exr", exr) == "");
+    CHECK(exr.width == 64);
+    CHECK(exr.height == 48);
+    CHECK(exr.channels.size() == 4 + 1 + 3 + 1 + 3 + 3 + 3 + 1);
+    for (const char* name : {"R", "G", "B", "A", "depth.Z", "normal.X", "id.I", "albedo.G", "position.Y", "error.B",
+                             "distance.Z"})
+    {
+        CAPTURE(name);
+        CHECK(exr.find(name));
+    }
+
+    // The floor's white, seen at the lower edge of the picture: its normal is +y, its albedo 0.73.
+    const size_t pixel = 2 * 64 + 32;
+    CHECK(exr.find("normal.Y")->values[pixel] == Approx(1.0f).margin(1e-5));
+    CHECK(exr.find("albedo.R")->values[pixel] == Approx(0.73f));
+    CHECK(exr.find("position.Y")->values[pixel] == Approx(0.0f).margin(1e-3));
+    CHECK(exr.find("id.I")->values[pixel] >= 1.0f);
+    CHECK(exr.find("depth.Z")->values[pixel] > 0.0f);
+    CHECK(exr.find("depth.Z")->values[pixel] < 1.0f);
+    CHECK(exr.find("error.R")->values[pixel] > 0.0f);
+}
+
+TEST_CASE("osgraytrace: --reference compares with a file of the same picture", "[apps]")
+{
+    const TemporaryFolder folder;
+    REQUIRE(osgraytrace(folder, kBox + kQuick + "-o r.exr").exitCode == 0);
+    const Measures same = measuresIn(osgraytrace(folder, kBox + kQuick + "-o x.png --reference r.exr").output);
+    CHECK(same.rmse == 0.0);
+    CHECK(same.relMse == 0.0);
+    CHECK(same.meanRatio == 1.0);
+
+    // Another seed: noise, but the same mean. Four passes are 1/sqrt(4 * 3072) of a pixel's noise apart.
+    const Outcome other = osgraytrace(folder, kBox + kQuick + "--seed 7 -o x.exr --reference r.exr --stats s.json");
+    const Measures noise = measuresIn(other.output);
+    CHECK(noise.rmse > 0.001);
+    CHECK(noise.relMse > 0.0001);
+    CHECK(noise.meanRatio == Approx(1.0).epsilon(0.05));
+
+    ExrImage picture, reference;
+    REQUIRE(readExr(folder / "x.exr", picture) == "");
+    REQUIRE(readExr(folder / "r.exr", reference) == "");
+    double relMse = 0.0;
+    for (const char* name : {"R", "G", "B"})
+    {
+        const auto& x = picture.find(name)->values;
+        const auto& r = reference.find(name)->values;
+        for (size_t i = 0; i < x.size(); ++i)
+        {
+            relMse += std::pow(x[i] - r[i], 2.0) / (double(r[i]) * r[i] + 0.01) / (3.0 * x.size());
+        }
+    }
+    CHECK(noise.relMse == Approx(relMse).epsilon(1e-4));
+    CHECK(statistics(folder)["reference"]["relMse"].get<double>() == Approx(relMse).epsilon(1e-4));
+}
+
+TEST_CASE("osgraytrace: --stats counts what was done", "[apps]")
+{
+    const TemporaryFolder folder;
+    REQUIRE(osgraytrace(folder, kBox + " " + kBox + kQuick + "-o x.png --stats s.json").exitCode == 0);
+    const nlohmann::json json = statistics(folder);
+    CHECK(json["models"].size() == 2);
+    CHECK(json["width"] == 64);
+    CHECK(json["height"] == 48);
+    CHECK(json["triangles"] == 2 * 38);
+    CHECK(json["instances"] == 2 * 19);
+    CHECK(json["integrator"] == "path");
+    CHECK(json["passes"] == 4);
+    CHECK(json["droppedSamples"] == 0);
+    CHECK(json["rays"]["camera"] == 64 * 48 * 4);
+    CHECK(json["rays"]["shadow"].get<uint64_t>() > 0);
+    CHECK(json["rays"]["total"] == json["rays"]["camera"].get<uint64_t>() + json["rays"]["shadow"].get<uint64_t>() +
+                                       json["rays"]["secondary"].get<uint64_t>());
+    CHECK(json["renderSeconds"].get<double>() > 0.0);
+    CHECK(json["buildSeconds"].get<double>() > 0.0);
+    CHECK(json["convertSeconds"].get<double>() > 0.0);
+    CHECK(json["relativeError"].get<double>() > 0.0);
+    CHECK(json["conversion"]["converted.area-light"] == 2);
+
+    // One pass has no error estimate: null, which every JSON reader takes.
+    REQUIRE(osgraytrace(folder, kBox + " --size 8 8 --passes 1 -o x.png --stats s.json").exitCode == 0);
+    CHECK(statistics(folder)["relativeError"].is_null());
+}
+
+TEST_CASE("osgraytrace: stops at passes, seconds or error, whichever comes first", "[apps]")
+{
+    const TemporaryFolder folder;
+    const std::string write = " --size 32 32 -o x.png --stats s.json ";
+    REQUIRE(osgraytrace(folder, kBox + write).exitCode == 0);
+    CHECK(statistics(folder)["passes"] == 64);
+
+    REQUIRE(osgraytrace(folder, kBox + write, "OSGRAYTRACE_MAX_PASSES=3").exitCode == 0);
+    CHECK(statistics(folder)["passes"] == 3);
+
+    REQUIRE(osgraytrace(folder, kBox + write + "--error 0.02").exitCode == 0);
+    CHECK(statistics(folder)["passes"].get<int>() > 2);
+    CHECK(statistics(folder)["relativeError"].get<double>() <= 0.02);
+
+    REQUIRE(osgraytrace(folder, kBox + write + "--error 1e-9 --passes 5").exitCode == 0);
+    CHECK(statistics(folder)["passes"] == 5);
+
+    REQUIRE(osgraytrace(folder, kBox + write + "--time 0.5").exitCode == 0);
+    CHECK(statistics(folder)["passes"].get<int>() > 64);
+    CHECK(statistics(folder)["renderSeconds"].get<double>() < 10.0);
+}
+
+TEST_CASE("osgraytrace: the same picture for any number of threads", "[apps]")
+{
+    const TemporaryFolder folder;
+    REQUIRE(osgraytrace(folder, kBox + kQuick + "--threads 1 -o a.exr").exitCode == 0);
+    REQUIRE(osgraytrace(folder, kBox + kQuick + "--threads 2 -o b.exr").exitCode == 0);
+    REQUIRE(osgraytrace(folder, kBox + kQuick + "--threads 5 -o c.exr").exitCode == 0);
+    CHECK(contents(folder / "a.exr") == contents(folder / "b.exr"));
+    CHECK(contents(folder / "a.exr") == contents(folder / "c.exr"));
+}
+
+TEST_CASE("osgraytrace: the same picture with OSMesa, EGL and no context", "[apps][gl]")
+{
+    const TemporaryFolder folder;
+    writeFixedFunctionModel(folder / "sphere.osgt");
+    for (const std::string& model : {kBox, std::string("sphere.osgt"), dataFile("grids.osgt")})
+    {
+        CAPTURE(model);
+        REQUIRE(osgraytrace(folder, model + kQuick + "-o none.exr -o none.png").exitCode == 0);
+        REQUIRE(osgraytrace(folder, model + kQuick + "--context osmesa -o osmesa.exr -o osmesa.png").exitCode == 0);
+        REQUIRE(osgraytrace(folder, model + kQuick + "--context egl -o egl.exr -o egl.png").exitCode == 0);
+        CHECK(contents(folder / "none.exr") == contents(folder / "osmesa.exr"));
+        CHECK(contents(folder / "none.exr") == contents(folder / "egl.exr"));
+        CHECK(contents(folder / "none.png") == contents(folder / "osmesa.png"));
+        CHECK(contents(folder / "none.png") == contents(folder / "egl.png"));
+    }
+}
+
+TEST_CASE("osgraytrace: a view stored in the scene is the default, options replace it", "[apps]")
+{
+    const TemporaryFolder folder;
+    REQUIRE(osgraytrace(folder, kBox + kQuick + "-o stored.exr").exitCode == 0);
+    const std::string published = "--eye 278 278 -800 --center 278 278 0 --up 0 1 0 --fovy 39.3 ";
+    const Measures same =
+        measuresIn(osgraytrace(folder, kBox + kQuick + published + "-o x.exr --reference stored.exr").output);
+    CHECK(same.meanRatio == Approx(1.0).epsilon(0.01));
+    CHECK(same.relMse < 0.001);
+
+    const Measures other =
+        measuresIn(osgraytrace(folder, kBox + kQuick + "--eye 278 278 -1600 -o x.exr --reference stored.exr").output);
+    CHECK(other.relMse > 0.1);
+}
+
+TEST_CASE("osgraytrace: the furnace is 1 everywhere", "[apps][statistics]")
+{
+    const TemporaryFolder folder;
+    REQUIRE(osgraytrace(folder, dataFile("furnace.osgt") + " --size 32 32 --passes 64 --max-bounces 40 -o x.exr")
+                .exitCode == 0);
+    ExrImage exr;
+    REQUIRE(readExr(folder / "x.exr", exr) == "");
+    double mean = 0.0;
+    for (const float value : exr.find("G")->values)
+    {
+        mean += value / (32.0 * 32.0);
+    }
+    // A path's radiance varies by less than 1: the mean of 65536 of them is right to 0.004 at one sigma.
+    CHECK(mean == Approx(1.0).margin(0.016));
+}
+
+TEST_CASE("osgraytrace: --list-options names every setting, and the README shows it", "[apps]")
+{
+    const TemporaryFolder folder;
+    const Outcome outcome = osgraytrace(folder, "--list-options");
+    REQUIRE(outcome.exitCode == 0);
+    for (const RayTraceSettings::Option& option : RayTraceSettings::options())
+    {
+        CHECK_THAT(outcome.output, Contains("`" + option.name + "`") && Contains(option.environment) &&
+                                       Contains(option.defaultValue) && Contains(option.help));
+    }
+    CHECK_THAT(contents(OSGRAYTRACE_TEST_SOURCE "/README.md"), Contains(outcome.output));
+}
+
+TEST_CASE("osgraytrace: --help names every option of the command line", "[apps]")
+{
+    const TemporaryFolder folder;
+    const Outcome outcome = osgraytrace(folder, "--help");
+    CHECK(outcome.exitCode == 0);
+    for (const char* option : {"--size", "--integrator", "--light-samples", "--light-sampling", "--passes", "--time",
+                               "--error", "--eye", "--center", "--up", "--fovy", "--exposure", "--max-bounces", "--seed",
+                               "--threads", "--aov", "--reference", "--stats", "--context", "--list-options"})
+    {
+        CHECK_THAT(outcome.output, Contains(option));
+    }
+}

@@ -1,0 +1,131 @@
+// SceneTraitsTest.cpp - what a scene needs is found, and nothing else.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+
+#include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/scene/SceneTraits.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+SceneTraits traitsOf(const Material& material)
+{
+    Scene scene;
+    scene.materials = {material};
+    return sceneTraits(scene);
+}
+
+} // namespace
+
+TEST_CASE("scene traits: an empty scene needs nothing", "[scene]")
+{
+    const SceneTraits traits = sceneTraits(Scene());
+    CHECK_FALSE(traits.instances);
+    CHECK_FALSE(traits.smoothNormals);
+    CHECK_FALSE(traits.textures);
+    CHECK_FALSE(traits.fixedFunction);
+    CHECK_FALSE(traits.physical);
+    CHECK_FALSE(traits.deltaLights);
+    CHECK_FALSE(traits.areaLights);
+    CHECK(traits.triangles == 0);
+}
+
+TEST_CASE("scene traits: triangles count once for each instance", "[scene]")
+{
+    SceneBuilder builder;
+    builder.add(quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), lambert(Vec3(0.5f)));
+    Instance placed = builder.scene->instances[0];
+    placed.placed = true;
+    builder.scene->instances.push_back(placed);
+    const SceneTraits traits = sceneTraits(*builder.scene);
+    CHECK(traits.triangles == 4);
+    CHECK(traits.instances);
+}
+
+TEST_CASE("scene traits: materials", "[scene]")
+{
+    CHECK(traitsOf(Material()).fixedFunction);
+    CHECK_FALSE(traitsOf(Material()).physical);
+    CHECK(traitsOf(lambert(Vec3(0.5f))).physical);
+    CHECK_FALSE(traitsOf(lambert(Vec3(0.5f))).specular);
+    CHECK_FALSE(traitsOf(lamp(Vec3(1.0f))).physical); // a lamp needs no path tracing
+    CHECK(traitsOf(mirror(Vec3(1.0f))).specular);
+    CHECK(traitsOf(glass(1.5f)).transmission);
+    CHECK(traitsOf(glass(1.5f)).specular);
+    CHECK_FALSE(traitsOf(glass(1.5f, 0.5f)).specular);
+
+    Material textured = lambert(Vec3(1.0f));
+    CHECK_FALSE(traitsOf(textured).textures);
+    textured.emissionTexture = 0;
+    CHECK(traitsOf(textured).textures);
+    Material colored;
+    CHECK_FALSE(traitsOf(colored).vertexColors);
+    colored.vertexColorUse = VertexColorUse::Diffuse;
+    CHECK(traitsOf(colored).vertexColors);
+}
+
+TEST_CASE("scene traits: lights and normals", "[scene]")
+{
+    SceneBuilder builder;
+    builder.addLight(pointLight(Vec3(0.0f)));
+    CHECK(sceneTraits(*builder.scene).deltaLights);
+    CHECK_FALSE(sceneTraits(*builder.scene).areaLights);
+    builder.addQuadLight({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Vec3(1.0f));
+    CHECK(sceneTraits(*builder.scene).areaLights);
+    CHECK_FALSE(sceneTraits(*builder.scene).smoothNormals);
+    auto smooth = quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    smooth->normals = std::vector<Vec3>(4, Vec3(0, 0, 1));
+    builder.add(smooth, lambert(Vec3(0.5f)));
+    CHECK(sceneTraits(*builder.scene).smoothNormals);
+}
+
+TEST_CASE("integrator: automatic takes the cheapest that is right for the scene", "[scene]")
+{
+    SceneTraits fixed;
+    fixed.fixedFunction = true;
+    SceneTraits physical;
+    physical.physical = true;
+    CHECK(chooseIntegrator(IntegratorKind::Automatic, fixed) == IntegratorKind::Whitted);
+    CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::Path);
+    CHECK(chooseIntegrator(IntegratorKind::Whitted, physical) == IntegratorKind::Whitted);
+    CHECK(chooseIntegrator(IntegratorKind::Debug, fixed) == IntegratorKind::Debug);
+}
+
+TEST_CASE("render options: what changes the image restarts it", "[scene]")
+{
+    const RenderOptions before;
+    CHECK_FALSE(before.needsRestart(before));
+    const auto restarts = [&before](auto change)
+    {
+        RenderOptions after = before;
+        change(after);
+        return after.needsRestart(before);
+    };
+    CHECK(restarts([](RenderOptions& o) { o.integrator = IntegratorKind::Path; }));
+    CHECK(restarts([](RenderOptions& o) { o.lightSampling = LightSampling::Random; }));
+    CHECK(restarts([](RenderOptions& o) { o.debugChannel = DebugChannel::Id; }));
+    CHECK(restarts([](RenderOptions& o) { o.lightSamples = 9; }));
+    CHECK(restarts([](RenderOptions& o) { o.maxBounces = 1; }));
+    CHECK(restarts([](RenderOptions& o) { o.shadows = false; }));
+    CHECK(restarts([](RenderOptions& o) { o.seed = 1; }));
+}
+
+TEST_CASE("render options: strategies with cells take whole squares", "[scene]")
+{
+    RenderOptions options;
+    options.lightSamples = 5;
+    options.lightSampling = LightSampling::Sobol;
+    CHECK(lightSampleCount(options) == 5);
+    options.lightSampling = LightSampling::Random;
+    CHECK(lightSampleCount(options) == 5);
+    options.lightSampling = LightSampling::Stratified;
+    CHECK(lightSampleCount(options) == 9);
+    options.lightSampling = LightSampling::UniformJitter;
+    CHECK(lightSampleCount(options) == 9);
+    options.lightSamples = 1;
+    CHECK(lightSampleCount(options) == 1);
+}

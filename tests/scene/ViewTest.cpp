@@ -1,0 +1,217 @@
+// ViewTest.cpp - camera rays of any projection against a reference in double.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+
+#include "osgRayTrace/scene/View.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <optional>
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr int kWidth = 1920, kHeight = 1080;
+
+struct Ray
+{
+    Vec3d origin, direction;
+};
+
+/// The ray through a pixel position, in engine space, from the linear form in float.
+Ray rayAt(const CameraRays& c, float x, float y)
+{
+    return {Vec3d(c.origin + x * c.originDx + y * c.originDy),
+            Vec3d(c.direction + x * c.directionDx + y * c.directionDy)};
+}
+
+/// Distance in pixels between (x, y) and the projection of points of the ray through it, in double.
+double pixelError(const View& view, const Vec3d& origin, const CameraRays& rays, double x, double y)
+{
+    const Ray ray = rayAt(rays, static_cast<float>(x), static_cast<float>(y));
+    const double length = glm::length(ray.direction);
+    double worst = 0.0;
+    for (const double s : {double(rays.nearS), 1.5 + rays.nearS, 100.0 / length + rays.nearS})
+    {
+        const Vec3d p = ray.origin + s * ray.direction;
+        // View and translation are put together first, where large numbers cancel.
+        Mat4d viewFromEngine = view.viewFromWorld;
+        viewFromEngine[3] = view.viewFromWorld * Vec4d(origin, 1.0);
+        const Vec4d clip = view.clipFromView * (viewFromEngine * Vec4d(p, 1.0));
+        const double px = (clip.x / clip.w + 1.0) * 0.5 * view.width;
+        const double py = (clip.y / clip.w + 1.0) * 0.5 * view.height;
+        worst = std::max(worst, std::hypot(px - x, py - y));
+    }
+    return worst;
+}
+
+double worstPixelError(const View& view, const Vec3d& origin)
+{
+    const std::optional<CameraRays> rays = cameraRays(view, origin);
+    REQUIRE(rays);
+    double worst = 0.0;
+    for (const double x : {0.5, 13.25, 960.0, 1919.5})
+    {
+        for (const double y : {0.5, 540.0, 1079.5})
+            worst = std::max(worst, pixelError(view, origin, *rays, x, y));
+    }
+    return worst;
+}
+
+View viewOf(const Mat4d& clipFromView, const Mat4d& viewFromWorld)
+{
+    View view;
+    view.width = kWidth;
+    view.height = kHeight;
+    view.clipFromView = clipFromView;
+    view.viewFromWorld = viewFromWorld;
+    return view;
+}
+
+const Mat4d kLookAt = glm::lookAt(Vec3d(3, -5, 2), Vec3d(0.5, 0.25, 0.125), Vec3d(0, 0, 1));
+
+/// glm::frustum with the far plane at infinity.
+Mat4d infiniteFrustum(double left, double right, double bottom, double top, double zNear)
+{
+    Mat4d m = glm::frustum(left, right, bottom, top, zNear, 2.0 * zNear);
+    m[2][2] = -1.0;
+    m[3][2] = -2.0 * zNear;
+    return m;
+}
+
+/// Depth from 1 at the near plane to -1 at the far plane.
+Mat4d reversed(Mat4d m)
+{
+    for (int column = 0; column < 4; ++column)
+        m[column][2] = -m[column][2];
+    return m;
+}
+
+} // namespace
+
+TEST_CASE("camera rays: within a thousandth of a pixel for every kind of projection", "[scene]")
+{
+    const double aspect = double(kWidth) / kHeight;
+    const Mat4d perspective = glm::perspective(0.8, aspect, 0.1, 100.0);
+    struct Case
+    {
+        const char* name;
+        Mat4d projection;
+        double tolerance = 1e-3; // [pixels]
+    };
+    // Rays are float: where a pixel subtends little of the direction, its 2^-24 are what can be seen.
+    const Case projections[] = {
+        {"perspective", perspective},
+        {"narrow", glm::perspective(0.02, aspect, 1.0, 1e4), 4e-3},
+        {"wide", glm::perspective(2.8, aspect, 0.1, 100.0), 2e-3},
+        {"off-axis wall", glm::frustum(-0.1, 0.35, -0.02, 0.3, 0.1, 100.0)},
+        {"wall beside the eye", glm::frustum(0.5, 0.9, 0.2, 0.6, 0.1, 100.0), 2e-3},
+        {"infinite far plane", infiniteFrustum(-0.1, 0.35, -0.02, 0.3, 0.1)},
+        {"reversed depth", reversed(perspective)},
+        {"reversed depth, infinite far plane", reversed(infiniteFrustum(-0.1, 0.1, -0.06, 0.06, 0.1))},
+        {"near .01, far 1e8", glm::perspective(0.8, aspect, 0.01, 1e8)},
+        {"near .01, far 1e8, off-axis", glm::frustum(-0.01, 0.035, -0.002, 0.03, 0.01, 1e8)},
+        {"orthographic", glm::ortho(-2.0, 3.0, -1.0, 2.0, 0.1, 50.0)},
+        {"orthographic, near plane behind", glm::ortho(-2.0, 3.0, -1.0, 2.0, -20.0, 50.0)},
+        {"scaled clip space", perspective * 7.5},
+    };
+    for (const Case& c : projections)
+    {
+        CAPTURE(c.name);
+        CHECK(worstPixelError(viewOf(c.projection, kLookAt), Vec3d(0.0)) < c.tolerance);
+    }
+}
+
+TEST_CASE("camera rays: the same at the radius of the earth, with the origin there", "[scene]")
+{
+    for (const Vec3d& far : {Vec3d(6.378137e6, 0, 0), Vec3d(4.51e6, 4.51e6, 0)})
+    {
+        const Mat4d viewFromWorld =
+            glm::lookAt(far + Vec3d(3, -5, 2), far + Vec3d(0.5, 0.25, 0.125), Vec3d(0, 0, 1));
+        for (const Mat4d& projection : {glm::perspective(0.8, 16.0 / 9.0, 0.1, 100.0),
+                                        glm::perspective(0.8, 16.0 / 9.0, 0.01, 1e8),
+                                        glm::frustum(-0.1, 0.35, -0.02, 0.3, 0.1, 100.0),
+                                        glm::ortho(-2.0, 3.0, -1.0, 2.0, 0.1, 50.0)})
+        {
+            const View view = viewOf(projection, viewFromWorld);
+            CHECK(worstPixelError(view, far) < 1e-3);
+            const std::optional<CameraRays> displaced = cameraRays(view, far);
+            const std::optional<CameraRays> atOrigin = cameraRays(viewOf(projection, kLookAt), Vec3d(0.0));
+            REQUIRE((displaced && atOrigin));
+            // The eye is known to the double precision of the matrix: 6e6 * 2^-53 * a few.
+            CHECK(glm::length(displaced->origin - atOrigin->origin) < 1e-6f);
+        }
+    }
+}
+
+TEST_CASE("camera rays: perspective rays start at the near plane, s = 1", "[scene]")
+{
+    for (const bool isReversed : {false, true})
+    {
+        Mat4d projection = glm::perspective(0.8, 1.0, 0.25, 100.0);
+        if (isReversed) projection = reversed(projection);
+        View view = viewOf(projection, kLookAt);
+        const std::optional<CameraRays> rays = cameraRays(view, Vec3d(0.0));
+        REQUIRE(rays);
+        CHECK_FALSE(rays->orthographic);
+        CHECK(rays->nearS == 1.0f);
+        const Ray ray = rayAt(*rays, 400.0f, 300.0f);
+        const Vec3d near = Vec3d(view.viewFromWorld * Vec4d(ray.origin + ray.direction, 1.0));
+        CHECK(near.z == Approx(-0.25).epsilon(1e-6));
+        CHECK(glm::length(ray.origin - Vec3d(3, -5, 2)) < 1e-6);
+    }
+}
+
+TEST_CASE("camera rays: orthographic rays start on the near plane and are parallel", "[scene]")
+{
+    const View view = viewOf(glm::ortho(-2.0, 3.0, -1.0, 2.0, 0.5, 50.0), kLookAt);
+    const std::optional<CameraRays> rays = cameraRays(view, Vec3d(0.0));
+    REQUIRE(rays);
+    CHECK(rays->orthographic);
+    CHECK(rays->nearS == 0.0f);
+    CHECK(rays->directionDx == Vec3(0.0f));
+    CHECK(rays->directionDy == Vec3(0.0f));
+    const Vec3d start = Vec3d(view.viewFromWorld * Vec4d(rayAt(*rays, 700.0f, 20.0f).origin, 1.0));
+    CHECK(start.z == Approx(-0.5).margin(1e-5));
+    const Vec3d forward = glm::dmat3(view.viewFromWorld) * glm::normalize(rayAt(*rays, 0.0f, 0.0f).direction);
+    CHECK(forward.z == Approx(-1.0));
+}
+
+TEST_CASE("camera rays: depth rows give the clip coordinates of engine points", "[scene]")
+{
+    const Vec3d origin(100.0, -50.0, 25.0);
+    const View view = viewOf(glm::perspective(0.8, 1.5, 0.1, 100.0), kLookAt);
+    const std::optional<CameraRays> rays = cameraRays(view, origin);
+    REQUIRE(rays);
+    const Vec3d world(0.5, 0.25, 0.125);
+    const Vec4d clip = view.clipFromView * view.viewFromWorld * Vec4d(world, 1.0);
+    const Vec4 p(Vec3(world - origin), 1.0f);
+    CHECK(glm::dot(rays->depthRow, p) == Approx(clip.z).epsilon(1e-4));
+    CHECK(glm::dot(rays->wRow, p) == Approx(clip.w).epsilon(1e-4));
+}
+
+TEST_CASE("camera rays: no size or no inverse gives none", "[scene]")
+{
+    const Mat4d projection = glm::perspective(0.8, 1.0, 0.1, 100.0);
+    View view = viewOf(projection, kLookAt);
+    for (const auto& [width, height] : {std::pair(0, 10), std::pair(10, 0), std::pair(0, 0), std::pair(-4, 10)})
+    {
+        view.width = width;
+        view.height = height;
+        CHECK_FALSE(cameraRays(view, Vec3d(0.0)));
+    }
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    Mat4d flat(1.0);
+    flat[2][2] = 0.0;
+    for (const Mat4d& bad : {Mat4d(0.0), flat, Mat4d(nan), Mat4d(HUGE_VAL)})
+    {
+        CHECK_FALSE(cameraRays(viewOf(bad, kLookAt), Vec3d(0.0)));
+        CHECK_FALSE(cameraRays(viewOf(projection, bad), Vec3d(0.0)));
+    }
+    CHECK_FALSE(cameraRays(viewOf(projection, kLookAt), Vec3d(nan)));
+}

@@ -1,0 +1,269 @@
+// BsdfEnergyTest.cpp - surfaces conserve energy, are reciprocal, and stay finite at the edges.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/Statistics.h"
+#include "tests/shading/BsdfKinds.h"
+
+#include "osgRayTrace/shading/Fresnel.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+Vec3 directionOf(double cosine, double phi)
+{
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    return Vec3(sine * std::cos(phi), sine * std::sin(phi), cosine);
+}
+
+/// Share of a photon's flux that goes on.
+Estimate albedo(const Bsdf& bsdf, Vec3 wo, int samples, uint32_t seed)
+{
+    Estimate estimate;
+    Uniform random(seed);
+    for (int i = 0; i < samples; ++i)
+    {
+        const float uLobe = random(), u = random(), v = random();
+        const std::optional<BsdfSample> sample = sampleBsdf(bsdf, wo, uLobe, u, v, Transport::Importance);
+        estimate.add(sample ? sample->weight.y : 0.0);
+    }
+    return estimate;
+}
+
+Bsdf perfectMetal(float alpha)
+{
+    Bsdf bsdf;
+    bsdf.reflectance = Vec3(1.0f);
+    bsdf.grazing = 1.0f;
+    bsdf.alpha = alpha;
+    return bsdf;
+}
+
+Bsdf roughGlass(float eta, float alpha)
+{
+    Bsdf bsdf;
+    bsdf.coat = 1.0f;
+    bsdf.eta = eta;
+    bsdf.coatAverage = fresnelDielectricAverage(eta);
+    bsdf.transmission = Vec3(1.0f);
+    bsdf.alpha = alpha;
+    return bsdf;
+}
+
+} // namespace
+
+TEST_CASE("bsdf: single-scattering GGX keeps what the white furnace table says", "[shading][statistics]")
+{
+    // 1 - ln 2 at alpha = 1 is exact; the others are rounded to 3 or 4 digits.
+    const struct
+    {
+        float alpha;
+        double albedo, rounding;
+    } table[] = {{1.0f, 1.0 - std::log(2.0), 0.0}, {0.5f, 0.688, 5e-4}, {0.3f, 0.878, 5e-4}, {0.1f, 0.988, 5e-4}, {0.01f, 0.9999, 5e-5}};
+    for (const auto& row : table)
+    {
+        CAPTURE(row.alpha);
+        CHECK(albedo(perfectMetal(row.alpha), Vec3(0, 0, 1), 400000, 1).agrees(row.albedo, row.rounding + 1e-6));
+    }
+}
+
+TEST_CASE("bsdf: no surface makes energy, from any angle", "[shading][statistics]")
+{
+    for (const BsdfKind& kind : allKinds())
+    {
+        for (const double cosine : {1.0, 0.8, 0.5, 0.2, 0.05, 0.01})
+        {
+            CAPTURE(kind.name, cosine);
+            const Estimate share = albedo(kind.bsdf, directionOf(cosine, 0.4), 40000, 2);
+            // The coat lets the base keep what a smooth coat lets through; a rough one reflects up to 1 %
+            // more than that.
+            CHECK(share.mean() < 1.01 + 4.0 * share.standardError());
+        }
+    }
+}
+
+TEST_CASE("bsdf: smooth surfaces and Lambert's keep all energy", "[shading][statistics]")
+{
+    for (const BsdfKind& kind : allKinds())
+    {
+        const bool lossless = kind.bsdf.isDiffuse() || kind.bsdf.isSmooth();
+        if (!lossless || kind.name == "smooth half glass" || kind.name == "smooth half glass, from inside") continue;
+        for (const double cosine : {1.0, 0.5, 0.1})
+        {
+            CAPTURE(kind.name, cosine);
+            const Estimate share = albedo(kind.bsdf, directionOf(cosine, 0.4), 100000, 3);
+            // Under a smooth coat this holds on average over angles of the light: exactly, for light from
+            // all sides. The quadrature of its mean reflectance is good to 1e-4.
+            CHECK(share.agrees(1.0, 2e-4));
+        }
+    }
+}
+
+TEST_CASE("bsdf: reflection is the same both ways", "[shading]")
+{
+    Uniform random(4);
+    for (const BsdfKind& kind : roughKinds())
+    {
+        CAPTURE(kind.name);
+        for (int i = 0; i < 2000; ++i)
+        {
+            const Vec3 a = directionOf(random.between(0.01, 1.0), random.between(0.0, 6.28));
+            const Vec3 b = directionOf(random.between(0.01, 1.0), random.between(0.0, 6.28));
+            const Vec3 ab = evalBsdf(kind.bsdf, a, b).fCos / b.z;
+            const Vec3 ba = evalBsdf(kind.bsdf, b, a).fCos / a.z;
+            REQUIRE(glm::length(ab - ba) <= 2e-4f * glm::length(ab) + 1e-6f);
+        }
+    }
+}
+
+TEST_CASE("bsdf: refraction of radiance is the adjoint of that of importance", "[shading]")
+{
+    // f(wo -> wi) of radiance with eta is f(wi -> wo) of importance with 1/eta, seen from the other side.
+    Uniform random(5);
+    const auto turned = [](Vec3 w) { return Vec3(w.x, w.y, -w.z); };
+    for (const float eta : {1.5f, 1.0f / 1.5f, 2.4f, 1.05f})
+    {
+        for (const float alpha : {0.05f, 0.3f, 1.0f})
+        {
+            const Bsdf near = roughGlass(eta, alpha), far = roughGlass(1.0f / eta, alpha);
+            int compared = 0;
+            for (int i = 0; i < 5000; ++i)
+            {
+                const Vec3 wo = directionOf(random.between(0.02, 1.0), random.between(0.0, 6.28));
+                const float u = random(), v = random();
+                const std::optional<BsdfSample> sample = sampleBsdf(near, wo, kOneMinusEpsilon, u, v);
+                if (!sample || !sample->transmitted || sample->wi.z > -0.02f) continue;
+                const Vec3 wi = sample->wi;
+                const float radiance = evalBsdf(near, wo, wi).fCos.x / -wi.z;
+                const float importance =
+                    evalBsdf(far, turned(wi), turned(wo), Transport::Importance).fCos.x / wo.z;
+                CAPTURE(eta, alpha, wo.z, wi.z);
+                REQUIRE(importance == Approx(radiance).epsilon(2e-2));
+                ++compared;
+            }
+            CHECK(compared > 100);
+        }
+    }
+}
+
+TEST_CASE("bsdf: radiance that enters glass is 1/eta^2 of the importance", "[shading]")
+{
+    for (const float alpha : {0.0f, 0.2f})
+    {
+        const Bsdf bsdf = roughGlass(1.5f, alpha);
+        const Vec3 wo = directionOf(0.7, 0.0);
+        const auto radiance = sampleBsdf(bsdf, wo, 0.9f, 0.2f, 0.3f, Transport::Radiance);
+        const auto importance = sampleBsdf(bsdf, wo, 0.9f, 0.2f, 0.3f, Transport::Importance);
+        REQUIRE((radiance && importance && radiance->transmitted));
+        CHECK(radiance->weight.x * 2.25f == Approx(importance->weight.x));
+        CHECK(radiance->pdfW == importance->pdfW);
+    }
+}
+
+TEST_CASE("bsdf: grazing and extreme arguments give finite, consistent samples", "[shading]")
+{
+    const float edges[] = {0.0f, 1e-7f, 0.25f, 0.5f, 0.999999f, kOneMinusEpsilon};
+    for (const BsdfKind& kind : allKinds())
+    {
+        for (const double cosine : {1.0, 1e-2, 1e-3, 1e-4, 1e-6, 1e-10, 1e-30})
+        {
+            const Vec3 wo = directionOf(cosine, 2.0);
+            for (const float uLobe : edges)
+            {
+                for (const float u : edges)
+                {
+                    for (const float v : edges)
+                    {
+                        for (const Transport transport : {Transport::Radiance, Transport::Importance})
+                        {
+                            const std::optional<BsdfSample> s = sampleBsdf(kind.bsdf, wo, uLobe, u, v, transport);
+                            if (!s) continue;
+                            CAPTURE(kind.name, cosine, uLobe, u, v);
+                            REQUIRE(isFinite(s->weight));
+                            REQUIRE((s->weight.x >= 0.0f && s->weight.y >= 0.0f && s->weight.z >= 0.0f));
+                            REQUIRE(std::isfinite(s->pdfW));
+                            REQUIRE(s->pdfW > 0.0f);
+                            REQUIRE(glm::length(s->wi) == Approx(1.0f).margin(1e-5));
+                            REQUIRE((s->wi.z < 0.0f) == s->transmitted);
+                        }
+                    }
+                }
+            }
+            for (const double other : {1.0, 1e-3, 1e-10, 1e-30, 0.0, -1e-30, -1e-10, -1e-3, -1.0})
+            {
+                CAPTURE(kind.name, cosine, other);
+                Vec3 wi = directionOf(std::abs(other), 2.5);
+                if (other < 0.0) wi.z = -wi.z;
+                const BsdfValue value = evalBsdf(kind.bsdf, wo, wi);
+                REQUIRE(isFinite(value.fCos));
+                REQUIRE(std::isfinite(value.pdfW));
+                REQUIRE(value.fCos.x >= 0.0f);
+                REQUIRE(value.pdfW >= 0.0f);
+            }
+        }
+    }
+}
+
+TEST_CASE("bsdf: from below, and black, nothing is scattered", "[shading]")
+{
+    for (const BsdfKind& kind : allKinds())
+    {
+        CHECK_FALSE(sampleBsdf(kind.bsdf, Vec3(0, 0, -1), 0.5f, 0.5f, 0.5f));
+        CHECK_FALSE(sampleBsdf(kind.bsdf, Vec3(1, 0, 0), 0.5f, 0.5f, 0.5f));
+        CHECK(evalBsdf(kind.bsdf, Vec3(0, 0, -1), Vec3(0, 0, 1)).pdfW == 0.0f);
+        CHECK(specularLobes(kind.bsdf, Vec3(0, 0, -1)).reflection == Vec3(0.0f));
+    }
+    CHECK_FALSE(sampleBsdf(Bsdf(), Vec3(0, 0, 1), 0.5f, 0.5f, 0.5f));
+}
+
+TEST_CASE("bsdf: an interface of index 1, or nearly 1, is invisible at any roughness", "[shading]")
+{
+    for (const float eta : {1.0f, 1.0f + 1.2e-7f, 1.0f - 1.2e-7f, 1.00001f})
+    {
+        for (const float alpha : {0.0f, 0.01f, 0.3f, 1.0f})
+        {
+            const Bsdf bsdf = roughGlass(eta, alpha);
+            for (const double cosine : {1.0, 0.5, 0.05})
+            {
+                CAPTURE(eta, alpha, cosine);
+                const Vec3 wo = directionOf(cosine, 1.0);
+                double weight = 0.0;
+                float away = 0.0f;
+                Uniform random(6);
+                for (int i = 0; i < 1000; ++i)
+                {
+                    const float uLobe = random(), u = random(), v = random();
+                    const std::optional<BsdfSample> sample = sampleBsdf(bsdf, wo, uLobe, u, v);
+                    if (!sample) continue;
+                    weight += sample->weight.x / 1000.0;
+                    if (sample->transmitted) away = std::max(away, glm::length(sample->wi + wo));
+                }
+                CHECK(weight == Approx(1.0).margin(1e-4));
+                CHECK(away < 1e-3f);
+            }
+        }
+    }
+}
+
+TEST_CASE("bsdf: a clear slab passes (1-R)/(1+R)", "[shading]")
+{
+    // All internal bounces of two parallel smooth faces, n = 1.5.
+    const struct
+    {
+        double degrees, transmittance;
+    } cases[] = {{0.0, 0.92307692}, {60.0, 0.83623246}};
+    for (const auto& c : cases)
+    {
+        const Vec3 wo = directionOf(std::cos(c.degrees * M_PI / 180.0), 0.0);
+        const SpecularLobes in = specularLobes(roughGlass(1.5f, 0.0f), wo);
+        const Vec3 inside(in.refracted.x, in.refracted.y, -in.refracted.z);
+        const SpecularLobes out = specularLobes(roughGlass(1.0f / 1.5f, 0.0f), inside);
+        const double through = double(in.refraction.x) * out.refraction.x, back = out.reflection.x;
+        CAPTURE(c.degrees);
+        CHECK(through / (1.0 - back * back) == Approx(c.transmittance).epsilon(1e-6));
+        CHECK(in.reflection.x == Approx(back).epsilon(1e-5)); // the same R from both sides
+        CHECK(out.refracted.x == Approx(-wo.x).margin(1e-6));  // parallel to where it came from
+    }
+}

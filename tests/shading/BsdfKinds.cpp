@@ -1,0 +1,106 @@
+// BsdfKinds.cpp - every kind of surface that the Bsdf can be, with ordinary and extreme parameters.
+// SPDX-License-Identifier: MIT
+#include "tests/shading/BsdfKinds.h"
+
+#include "osgRayTrace/shading/MaterialTable.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine::test
+{
+
+namespace
+{
+
+Bsdf bsdfOf(const Material& material, bool front)
+{
+    Scene scene;
+    scene.materials = {material};
+    MaterialPoint point;
+    point.front = front;
+    return MaterialTable(scene).bsdf(0, point);
+}
+
+Material physical(float roughness, float metallic, float transmission, float ior)
+{
+    Material material;
+    material.model = MaterialModel::Physical;
+    material.roughness = roughness;
+    material.metallic = metallic;
+    material.transmission = transmission;
+    material.ior = ior;
+    return material;
+}
+
+Material phong(float specular, float shininess)
+{
+    Material material;
+    material.diffuse = Vec3(1.0f);
+    material.specular = Vec3(specular);
+    material.shininess = shininess;
+    return material;
+}
+
+void add(std::vector<BsdfKind>& kinds, const std::string& name, const Material& material)
+{
+    kinds.push_back({name, bsdfOf(material, true)});
+    if (material.transmission > 0.0f) kinds.push_back({name + ", from inside", bsdfOf(material, false)});
+}
+
+} // namespace
+
+std::vector<BsdfKind> roughKinds()
+{
+    std::vector<BsdfKind> kinds;
+    add(kinds, "lambert", physical(1.0f, 0.0f, 0.0f, 1.0f));
+    add(kinds, "plastic", physical(0.5f, 0.0f, 0.0f, 1.5f));
+    add(kinds, "rough plastic", physical(1.0f, 0.0f, 0.0f, 1.5f));
+    add(kinds, "glossy plastic, high index", physical(0.1f, 0.0f, 0.0f, 2.4f));
+    add(kinds, "metal, rough", physical(1.0f, 1.0f, 0.0f, 1.5f));
+    add(kinds, "metal, medium", physical(0.5f, 1.0f, 0.0f, 1.5f));
+    add(kinds, "metal, barely rough", physical(0.034f, 1.0f, 0.0f, 1.5f));
+    add(kinds, "half metal", physical(0.4f, 0.5f, 0.0f, 1.5f));
+    add(kinds, "rough glass", physical(0.5f, 0.0f, 1.0f, 1.5f));
+    add(kinds, "very rough glass", physical(1.0f, 0.0f, 1.0f, 1.5f));
+    add(kinds, "barely rough glass", physical(0.05f, 0.0f, 1.0f, 1.5f));
+    add(kinds, "rough diamond", physical(0.3f, 0.0f, 1.0f, 2.4f));
+    add(kinds, "rough glass, nearly air", physical(0.5f, 0.0f, 1.0f, 1.02f));
+    add(kinds, "half clear plastic", physical(0.4f, 0.0f, 0.5f, 1.5f));
+    add(kinds, "everything at once", physical(0.4f, 0.3f, 0.5f, 1.5f));
+    add(kinds, "phong, broad", phong(0.5f, 4.0f));
+    add(kinds, "phong, sharp", phong(1.0f, 128.0f));
+    add(kinds, "phong, shininess 0", phong(1.0f, 0.0f));
+    return kinds;
+}
+
+std::vector<BsdfKind> smoothKinds()
+{
+    std::vector<BsdfKind> kinds;
+    add(kinds, "mirror", physical(0.0f, 1.0f, 0.0f, 1.5f));
+    add(kinds, "smooth plastic", physical(0.0f, 0.0f, 0.0f, 1.5f));
+    add(kinds, "smooth glass", physical(0.0f, 0.0f, 1.0f, 1.5f));
+    add(kinds, "smooth half glass", physical(0.0f, 0.2f, 0.5f, 1.5f));
+    add(kinds, "air", physical(0.0f, 0.0f, 1.0f, 1.0f));
+    return kinds;
+}
+
+std::vector<BsdfKind> allKinds()
+{
+    std::vector<BsdfKind> kinds = roughKinds();
+    for (BsdfKind& kind : smoothKinds())
+        kinds.push_back(kind);
+    return kinds;
+}
+
+std::vector<Vec3> outgoingDirections()
+{
+    std::vector<Vec3> directions{Vec3(0.0f, 0.0f, 1.0f)};
+    for (const double cosine : {0.95, 0.6, 0.3, 0.05})
+    {
+        const double sine = std::sqrt(1.0 - cosine * cosine);
+        directions.emplace_back(sine * std::cos(0.7), sine * std::sin(0.7), cosine);
+    }
+    return directions;
+}
+
+} // namespace osgRayTrace::engine::test

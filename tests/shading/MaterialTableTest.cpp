@@ -1,0 +1,171 @@
+// MaterialTableTest.cpp - material descriptions become the surfaces that they mean.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+
+#include "osgRayTrace/shading/Fresnel.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+Scene sceneOf(const Material& material)
+{
+    Scene scene;
+    scene.materials = {material};
+    return scene;
+}
+
+Bsdf bsdfOf(const Material& material, const MaterialPoint& point = {})
+{
+    const Scene scene = sceneOf(material);
+    return MaterialTable(scene).bsdf(0, point);
+}
+
+std::shared_ptr<Texture> constantTexture(Vec4 color)
+{
+    auto texture = std::make_shared<Texture>();
+    texture->width = texture->height = 1;
+    texture->floats = {color.x, color.y, color.z, color.w};
+    return texture;
+}
+
+} // namespace
+
+TEST_CASE("material: a Lambert surface is diffuse and nothing else", "[shading]")
+{
+    const Scene scene = sceneOf(lambert(Vec3(0.1f, 0.2f, 0.3f)));
+    const MaterialTable table(scene);
+    CHECK(table[0].plainDiffuse);
+    CHECK(table[0].constant);
+    CHECK_FALSE(table[0].emits);
+    CHECK_FALSE(table[0].fixedFunction);
+    CHECK(table[0].front.diffuse == Vec3(0.1f, 0.2f, 0.3f));
+    CHECK(table[0].front.isDiffuse());
+}
+
+TEST_CASE("material: metallic, roughness and base colour as in glTF", "[shading]")
+{
+    Material material = lambert(Vec3(0.8f, 0.4f, 0.2f));
+    material.ior = 1.5f;
+    material.metallic = 1.0f;
+    material.roughness = 0.5f;
+    Bsdf metal = bsdfOf(material);
+    CHECK(metal.diffuse == Vec3(0.0f));
+    CHECK(metal.reflectance == material.baseColor);
+    CHECK(metal.grazing == 1.0f);
+    CHECK(metal.coat == 0.0f);
+    CHECK(metal.alpha == 0.25f);
+    material.metallic = 0.0f;
+    Bsdf plastic = bsdfOf(material);
+    CHECK(plastic.diffuse == material.baseColor);
+    CHECK(plastic.reflectance == Vec3(0.0f));
+    CHECK(plastic.coat == 1.0f);
+    CHECK(plastic.eta == 1.5f);
+    CHECK(plastic.coatAverage == Approx(0.091778).margin(1e-4));
+    material.baseColor = Vec3(5.0f);
+    material.roughness = 3.0f;
+    CHECK(bsdfOf(material).diffuse == Vec3(1.0f)); // out of range is clamped
+    CHECK(bsdfOf(material).alpha == 1.0f);
+}
+
+TEST_CASE("material: glass has its index inverted from inside, an opaque body has not", "[shading]")
+{
+    MaterialPoint inside;
+    inside.front = false;
+    CHECK(bsdfOf(glass(1.5f)).eta == 1.5f);
+    CHECK(bsdfOf(glass(1.5f), inside).eta == Approx(1.0 / 1.5));
+    CHECK(bsdfOf(glass(1.5f), inside).coatAverage == Approx(0.596346).margin(1e-4));
+    CHECK(bsdfOf(glass(1.5f)).transmission == Vec3(1.0f));
+    CHECK(bsdfOf(glass(1.5f)).diffuse == Vec3(0.0f));
+    Material opaque = lambert(Vec3(0.5f));
+    opaque.ior = 1.5f;
+    CHECK(bsdfOf(opaque, inside).eta == 1.5f);
+}
+
+TEST_CASE("material: textures multiply the physical factors", "[shading]")
+{
+    Material material = lambert(Vec3(0.5f));
+    material.ior = 1.5f;
+    material.metallic = 0.5f;
+    material.roughness = 0.8f;
+    material.emission = Vec3(2.0f);
+    material.baseColorTexture = 0;
+    material.metallicRoughnessTexture = 1;
+    material.emissionTexture = 2;
+    Scene scene = sceneOf(material);
+    scene.textures = {constantTexture({0.5f, 1.0f, 0.0f, 1.0f}), constantTexture({0.9f, 0.5f, 0.2f, 1.0f}),
+                      constantTexture({1.0f, 0.5f, 0.25f, 1.0f})};
+    const MaterialTable table(scene);
+    CHECK_FALSE(table[0].constant);
+    CHECK(table[0].emits);
+    const Bsdf bsdf = table.bsdf(0, {});
+    CHECK(bsdf.alpha == Approx(0.16)); // (0.8 * G)^2
+    CHECK(bsdf.grazing == Approx(0.1)); // 0.5 * B
+    CHECK(bsdf.reflectance.x == Approx(0.1 * 0.25));
+    CHECK(bsdf.diffuse.y == Approx(0.9 * 0.5));
+    CHECK(table.emission(0, {}) == Vec3(2.0f, 1.0f, 0.5f));
+}
+
+TEST_CASE("material: the image of a fixed-function material", "[shading]")
+{
+    Material material;
+    material.diffuse = Vec3(0.6f, 0.4f, 0.2f);
+    CHECK(bsdfOf(material).isDiffuse());
+    CHECK(bsdfOf(material).diffuse == material.diffuse);
+    material.specular = Vec3(0.5f);
+    material.shininess = 30.0f;
+    const Bsdf shiny = bsdfOf(material);
+    CHECK(shiny.alpha == Approx(0.25)); // sqrt(2 / 32)
+    CHECK(shiny.reflectance.x == Approx(0.5 * 8.0 / 32.0));
+    CHECK(shiny.grazing == Approx(0.125));
+    CHECK(shiny.diffuse.x == Approx(0.6 * 0.875));
+    material.lit = false;
+    const Scene scene = sceneOf(material);
+    const MaterialTable table(scene);
+    CHECK(table[0].emits);
+    CHECK_FALSE(table[0].plainDiffuse);
+    CHECK(table.emission(0, {}) == material.diffuse);
+    CHECK(table.bsdf(0, {}).isDiffuse());
+    CHECK(table.bsdf(0, {}).diffuse == Vec3(0.0f));
+}
+
+TEST_CASE("material: vertex colours replace what OpenGL lets them replace", "[shading]")
+{
+    Material material;
+    material.ambient = Vec3(0.1f);
+    material.diffuse = Vec3(0.2f);
+    material.specular = Vec3(0.3f);
+    material.emission = Vec3(0.4f);
+    const Vec4 color(0.9f, 0.8f, 0.7f, 0.6f);
+    const auto with = [&](VertexColorUse use)
+    {
+        material.vertexColorUse = use;
+        return fixedFunctionColors(material, color);
+    };
+    const Vec3 rgb(color);
+    CHECK(with(VertexColorUse::None).diffuse == Vec3(0.2f));
+    CHECK(with(VertexColorUse::None).alpha == 1.0f);
+    CHECK(with(VertexColorUse::Ambient).ambient == rgb);
+    CHECK(with(VertexColorUse::Ambient).diffuse == Vec3(0.2f));
+    CHECK(with(VertexColorUse::Diffuse).diffuse == rgb);
+    CHECK(with(VertexColorUse::Diffuse).alpha == 0.6f);
+    CHECK(with(VertexColorUse::Specular).specular == rgb);
+    CHECK(with(VertexColorUse::Emission).emission == rgb);
+    CHECK(with(VertexColorUse::AmbientAndDiffuse).ambient == rgb);
+    CHECK(with(VertexColorUse::AmbientAndDiffuse).diffuse == rgb);
+    material.lit = false;
+    CHECK(with(VertexColorUse::AmbientAndDiffuse).diffuse == rgb);
+}
+
+TEST_CASE("material: texture environments", "[shading]")
+{
+    const Vec4 lit(0.8f, 0.4f, 0.2f, 0.5f), texture(0.5f, 0.5f, 1.0f, 0.25f);
+    CHECK(applyTextureEnvironment(TextureEnvironment::Modulate, lit, texture) == lit * texture);
+    CHECK(applyTextureEnvironment(TextureEnvironment::Replace, lit, texture) == texture);
+    const Vec4 decal = applyTextureEnvironment(TextureEnvironment::Decal, lit, texture);
+    CHECK(decal.x == Approx(0.8 * 0.75 + 0.5 * 0.25));
+    CHECK(decal.w == 0.5f);
+}
