@@ -3,20 +3,16 @@
 # OpenSceneGraph is found again where the package is used.
 include(CMakePackageConfigHelpers)
 
-set(libraries osgRayTrace)
-if(TARGET osgRayTraceOffscreen)
-    list(APPEND libraries osgRayTraceOffscreen)
-endif()
 set(OSGRAYTRACE_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/osgRayTrace")
 
-install(TARGETS ${libraries} EXPORT osgRayTraceTargets
+install(TARGETS osgRayTrace osgRayTraceOffscreen EXPORT osgRayTraceTargets
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
     FILE_SET headers DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
     FILE_SET generatedHeaders DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(EXPORT osgRayTraceTargets NAMESPACE osgRayTrace:: DESTINATION "${OSGRAYTRACE_PACKAGE_DIR}")
 
 # Target all_verify_interface_header_sets compiles each public header alone; a test builds it.
-set_target_properties(${libraries} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+set_target_properties(osgRayTrace osgRayTraceOffscreen PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 
 configure_package_config_file(
     "${PROJECT_SOURCE_DIR}/cmake/osgRayTraceConfig.cmake.in"

@@ -135,7 +135,7 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     scene.noteDrawn(renderInfo.getCurrentCamera(), osg::Matrixd::inverse(viewMatrix).getTrans(),
                     nearDistance(projection));
     noteProgress(view, version);
-    if (view->tracer.hasImage() && !view->display.draw(renderInfo))
+    if (view->display.width() > 0 && !view->display.draw(renderInfo))
         fail(engine::StatusCode::DeviceFailure, "OpenGL cannot compile the display's shaders");
 }
 

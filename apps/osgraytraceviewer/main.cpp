@@ -112,7 +112,8 @@ void showAsStored(osgViewer::Viewer& viewer, osg::Node& scene)
 
     // The trackball turns around the scene's middle, or what the view has before it there.
     const osg::Vec3d sight = placement->center - placement->eye;
-    const double distance = std::max((scene.getBound().center() - placement->eye) * sight, 1.0);
+    const osg::Vec3d middle = scene.getBound().center();
+    const double distance = std::max((middle - placement->eye) * sight, 1.0);
     osgGA::CameraManipulator* manipulator = viewer.getCameraManipulator();
     manipulator->setHomePosition(placement->eye, placement->eye + sight * distance, placement->up);
     manipulator->setAutoComputeHomePosition(false);

@@ -36,17 +36,16 @@ OSGRAYTRACE_INLINE bool traceable(float ox, float oy, float oz, float dx, float 
 OSGRAYTRACE_KERNEL
 LaneMask checkRays(const RayBlock& ray, LaneMask active, Lanes<int>& valid)
 {
-    OSGRAYTRACE_SIMD
+    LaneMask refused = 0;
+    OSGRAYTRACE_SIMD_OR(refused)
     for (int i = 0; i < kLanes; ++i)
     {
         const bool ok = traceable(ray.originX[i], ray.originY[i], ray.originZ[i], ray.directionX[i],
                                   ray.directionY[i], ray.directionZ[i], ray.tNear[i], ray.tFar[i]);
-        const int used = -static_cast<int>((active >> i) & 1u);
-        valid[i] = ok ? used : 0;
+        const uint32_t good = maskOf(ok);
+        valid[i] = static_cast<int>(good & laneBit(active, i));
+        refused |= bitOfLane(~good, i);
     }
-    LaneMask refused = 0;
-    for (int i = 0; i < kLanes; ++i)
-        refused |= static_cast<LaneMask>(valid[i] == 0) << i;
     return refused & active;
 }
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/Surface.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace osgRayTrace::engine
 {
@@ -79,11 +81,22 @@ OSGRAYTRACE_INLINE float largestOf(float a, float b, float c)
     return ab > std::fabs(c) ? ab : std::fabs(c);
 }
 
+/// 2^-n for x in [2^n, 2^(n+1)), 2^127 for 0.
+OSGRAYTRACE_INLINE float inversePowerOfTwo(float x)
+{
+    uint32_t bits;
+    std::memcpy(&bits, &x, sizeof(bits));
+    bits = (254u << 23) - (bits & 0x7f800000u);
+    float result;
+    std::memcpy(&result, &bits, sizeof(result));
+    return result;
+}
+
 OSGRAYTRACE_KERNEL
 void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
 {
-    Lanes<int> isFront;
-    OSGRAYTRACE_SIMD
+    LaneMask front = 0;
+    OSGRAYTRACE_SIMD_OR(front)
     for (int i = 0; i < kLanes; ++i)
     {
         const float u = block.u[i], v = block.v[i], w = 1.0f - u - v;
@@ -93,10 +106,11 @@ void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
 
         const float e1x = t.b.x[i] - t.a.x[i], e1y = t.b.y[i] - t.a.y[i], e1z = t.b.z[i] - t.a.z[i];
         const float e2x = t.c.x[i] - t.a.x[i], e2y = t.c.y[i] - t.a.y[i], e2z = t.c.z[i] - t.a.z[i];
-        // Edges are scaled to about 1 first: the product of micrometre edges would be denormal.
+        // Edges are scaled to about 1 first, by a power of two: the product of micrometre edges would be
+        // denormal.
         const float edge1 = largestOf(e1x, e1y, e1z), edge2 = largestOf(e2x, e2y, e2z);
         const float edge = edge1 > edge2 ? edge1 : edge2;
-        const float scale = 1.0f / (edge + 1e-37f);
+        const float scale = inversePowerOfTwo(edge);
         const float ax = e1x * scale, ay = e1y * scale, az = e1z * scale;
         const float bx = e2x * scale, by = e2y * scale, bz = e2z * scale;
         const float nx = ay * bz - az * by;
@@ -113,16 +127,13 @@ void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
         s.shadingNormal.x[i] = nx * inverse;
         s.shadingNormal.y[i] = ny * inverse;
         s.shadingNormal.z[i] = nz * inverse;
-        isFront[i] = cosine <= 0.0f;
+        front |= bitOfLane(maskOf(cosine <= 0.0f), i);
 
         const float bound = largestOf(t.a.x[i], t.b.x[i], t.c.x[i]) * std::fabs(nx * inverse) +
                             largestOf(t.a.y[i], t.b.y[i], t.c.y[i]) * std::fabs(ny * inverse) +
                             largestOf(t.a.z[i], t.b.z[i], t.c.z[i]) * std::fabs(nz * inverse);
         s.offset[i] = kOffsetScale * (bound + 2.0f * t.transformBound[i]) + kEdgeScale * edge;
     }
-    LaneMask front = 0;
-    for (int i = 0; i < kLanes; ++i)
-        front |= static_cast<LaneMask>(isFront[i] & 1) << i;
     s.front = front;
 }
 
@@ -146,6 +157,54 @@ void interpolateNormals(const RayHitBlock& block, const TriangleLanes& t, LaneMa
     }
 }
 
+/// True if all hits are on one triangle: the rule where triangles are larger than pixels.
+OSGRAYTRACE_KERNEL
+bool isOneTriangle(const RayHitBlock& block, LaneMask hits, int first)
+{
+    const uint32_t primitive = block.primitive[first], geometry = block.geometry[first],
+                   instance = block.instance[first];
+    uint32_t differs = 0;
+    OSGRAYTRACE_SIMD_OR(differs)
+    for (int i = 0; i < kLanes; ++i)
+        differs |= ((block.primitive[i] ^ primitive) | (block.geometry[i] ^ geometry) |
+                    (block.instance[i] ^ instance)) &
+                   laneBit(hits, i);
+    return differs == 0;
+}
+
+OSGRAYTRACE_KERNEL
+LaneMask hitLanes(const RayHitBlock& block, LaneMask active)
+{
+    LaneMask hits = 0;
+    OSGRAYTRACE_SIMD_OR(hits)
+    for (int i = 0; i < kLanes; ++i)
+        hits |= bitOfLane(maskOf(block.geometry[i] != kInvalid), i);
+    return hits & active;
+}
+
+/// One triangle in all lanes, stored as wide as it will be loaded.
+OSGRAYTRACE_KERNEL
+void broadcast(int from, bool smooth, TriangleLanes& t)
+{
+    Vec3Lanes* lists[] = {&t.a, &t.b, &t.c, &t.na, &t.nb, &t.nc};
+    for (int k = 0; k < (smooth ? 6 : 3); ++k)
+    {
+        Vec3Lanes& list = *lists[k];
+        const float x = list.x[from], y = list.y[from], z = list.z[from];
+        OSGRAYTRACE_SIMD
+        for (int i = 0; i < kLanes; ++i)
+        {
+            list.x[i] = x;
+            list.y[i] = y;
+            list.z[i] = z;
+        }
+    }
+    const float bound = t.transformBound[from];
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+        t.transformBound[i] = bound;
+}
+
 void clearLane(TriangleLanes& lanes, int i)
 {
     store(lanes.a, i, Vec3(0.0f));
@@ -160,22 +219,34 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
                 SurfaceLanes& surface)
 {
     TriangleLanes triangles;
-    LaneMask hits = 0;
+    const LaneMask hits = hitLanes(block, active);
     LaneMask smooth = 0;
-    for (int i = 0; i < kLanes; ++i)
+    const int first = hits ? __builtin_ctz(hits) : 0;
+    if (hits && isOneTriangle(block, hits, first))
     {
-        if (!((active >> i) & 1u) || block.geometry[i] == kInvalid)
-        {
-            clearLane(triangles, i);
-            surface.material[i] = 0;
-            continue;
-        }
-        const uint32_t instance = hitInstance(block.geometry[i], block.instance[i]);
+        const uint32_t instance = hitInstance(block.geometry[first], block.instance[first]);
         const SurfaceRecord& record = table[instance];
-        smooth |= static_cast<LaneMask>(loadTriangle(record, block.primitive[i], i, triangles)) << i;
-        surface.instance[i] = instance;
-        surface.material[i] = record.material;
-        hits |= 1u << i;
+        if (loadTriangle(record, block.primitive[first], first, triangles)) smooth = kAllLanes;
+        broadcast(first, smooth != 0, triangles);
+        std::fill_n(surface.instance.v, kLanes, instance);
+        std::fill_n(surface.material.v, kLanes, record.material);
+    }
+    else
+    {
+        for (int i = 0; i < kLanes; ++i)
+        {
+            if (!((hits >> i) & 1u))
+            {
+                clearLane(triangles, i);
+                surface.material[i] = 0;
+                continue;
+            }
+            const uint32_t instance = hitInstance(block.geometry[i], block.instance[i]);
+            const SurfaceRecord& record = table[instance];
+            smooth |= static_cast<LaneMask>(loadTriangle(record, block.primitive[i], i, triangles)) << i;
+            surface.instance[i] = instance;
+            surface.material[i] = record.material;
+        }
     }
     surface.hits = hits;
     geometry(block, triangles, surface);

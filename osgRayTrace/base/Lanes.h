@@ -7,9 +7,13 @@
 
 /// Before a loop over lanes whose turns do not depend on each other.
 #if defined(__GNUC__)
-#define OSGRAYTRACE_SIMD _Pragma("omp simd")
+#define OSGRAYTRACE_PRAGMA(text) _Pragma(#text)
+#define OSGRAYTRACE_SIMD OSGRAYTRACE_PRAGMA(omp simd)
+/// The same for loops that also or something into the variable mask.
+#define OSGRAYTRACE_SIMD_OR(mask) OSGRAYTRACE_PRAGMA(omp simd reduction(| : mask))
 #else
 #define OSGRAYTRACE_SIMD
+#define OSGRAYTRACE_SIMD_OR(mask)
 #endif
 
 /// Before a function whose loops are worth a version for each vector width; the loader picks one for the
@@ -56,6 +60,9 @@ OSGRAYTRACE_INLINE uint32_t maskOf(bool condition) { return 0u - static_cast<uin
 
 /// maskOf(lane i is in lanes)
 OSGRAYTRACE_INLINE uint32_t laneBit(LaneMask lanes, int i) { return 0u - ((lanes >> i) & 1u); }
+
+/// Bit i if mask is set in lane i.
+OSGRAYTRACE_INLINE LaneMask bitOfLane(uint32_t mask, int i) { return mask & (1u << i); }
 
 /// a where the mask is set, else b, without a branch that the compiler could move the making of a or b
 /// into: that would keep the loop around it from being vectorized.

@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/StatisticsFromEngine.h"
 #include "osgRayTrace/bridge/WarnOnce.h"
 
+#include <cmath>
 #include <exception>
 #include <new>
 #include <utility>
@@ -21,6 +22,12 @@ constexpr unsigned int kReferenceExpiry = 60; // frames without it: another came
 unsigned int frameNumberOf(const osg::FrameStamp* frameStamp)
 {
     return frameStamp ? frameStamp->getFrameNumber() : 0;
+}
+
+/// Of a singular view matrix.
+osg::Vec3d finiteOrZero(const osg::Vec3d& point)
+{
+    return std::isfinite(point.length2()) ? point : osg::Vec3d();
 }
 
 } // namespace
@@ -52,7 +59,7 @@ void SceneUpdater::noteDrawn(const void* camera, const osg::Vec3d& eye, double n
     if (!drawn.scene) return;
     const Vec3d origin = drawn.scene->scene().origin;
     const double distance = (eye - osg::Vec3d(origin.x, origin.y, origin.z)).length();
-    if (!(distance > kOriginDistance * nearDistance)) return;
+    if (!(nearDistance > 0.0 && distance > kOriginDistance * nearDistance)) return;
 
     std::lock_guard<std::mutex> lock(_notedMutex);
     if (camera == _noted.camera) _noted.origin = eye;
@@ -137,7 +144,7 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
     _fingerprint = fingerprint;
     _conditions = conditions;
     _colorRule = _settings->getColorRule();
-    if (noted.origin || !_origin) _origin = noted.origin.value_or(conditions.eye);
+    if (noted.origin || !_origin) _origin = finiteOrZero(noted.origin.value_or(conditions.eye));
     if (root)
         convert(*root, conditions);
     else

@@ -6,6 +6,7 @@
 #include "osgRayTrace/session/RenderSession.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -29,7 +30,7 @@ public:
     /// Display values and window depths, width() * height() pixels.
     void resolve(uint8_t* rgba, float* depth);
 
-    bool hasImage() const { return _session && _session->progress().passes > 0; }
+    bool hasImage() const { return _session && _session->width() > 0 && _session->progress().passes > 0; }
     int width() const { return _session->width(); }
     int height() const { return _session->height(); }
     std::vector<float> radiance() const { return _session->resolveRadiance(); }

@@ -65,18 +65,15 @@ void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lan
 OSGRAYTRACE_KERNEL
 static LaneMask finiteLanes(const RgbaLanes& rgba)
 {
-    UintLanes finite;
-    OSGRAYTRACE_SIMD
+    LaneMask finite = 0;
+    OSGRAYTRACE_SIMD_OR(finite)
     for (int i = 0; i < kLanes; ++i)
     {
         // x - x is 0 for numbers and NaN for all else.
         const float zero = (rgba.r[i] - rgba.r[i]) + (rgba.g[i] - rgba.g[i]) + (rgba.b[i] - rgba.b[i]);
-        finite[i] = maskOf(zero == 0.0f);
+        finite |= bitOfLane(maskOf(zero == 0.0f), i);
     }
-    LaneMask mask = 0;
-    for (int i = 0; i < kLanes; ++i)
-        mask |= (finite[i] & 1u) << i;
-    return mask;
+    return finite;
 }
 
 void dropNotFinite(TileResult& result)

@@ -131,7 +131,7 @@ void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightL
                              normal.z[i] * light.wi.z[i];
         const float positive = cosine > 0.0f ? cosine : 0.0f;
         const float pdfBsdf = positive * kInvPi;
-        const float ratio = pdfBsdf / light.pdfW[i];
+        const float ratio = pdfBsdf * light.weight[i];
         const float mis = select(delta, 1.0f, 1.0f / (1.0f + ratio * ratio));
         const float unmasked = pdfBsdf * light.weight[i] * mis;
         const float weight = select(laneBit(visible, i), unmasked, 0.0f);
@@ -196,7 +196,7 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
             continue;
         const BsdfValue value = evalBsdf(bounce.bsdfs[i], wo, wi);
         if (!(value.pdfW > 0.0f)) continue;
-        const float mis = delta ? 1.0f : powerHeuristic(light.pdfW[i], value.pdfW);
+        const float mis = delta ? 1.0f : powerHeuristic(1.0f, value.pdfW * light.weight[i]);
         const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
         tile.sums.add(block.pixel[i],
                       laneOf(block.throughput, i) * value.fCos * radiance * (light.weight[i] * mis));

@@ -19,12 +19,13 @@ struct Quad
     float area;
     float offset; ///< error bound of a point on it
     bool twoSided;
+    Vec3 radiance;
 };
 
 Quad quadOf(const Light& light, const LightTable& table, uint32_t index)
 {
     return {light.corner,     light.edgeU,         light.edgeV, glm::normalize(glm::cross(light.edgeU, light.edgeV)),
-            table.area(index), table.pointOffset(index), light.twoSided};
+            table.area(index), table.pointOffset(index), light.twoSided, light.radiance};
 }
 
 OSGRAYTRACE_INLINE void setShadowRay(RayBlock& ray, int i, float ox, float oy, float oz, float dx,
@@ -49,8 +50,9 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
                    LaneMask through, const FloatLanes& u, const FloatLanes& v, LightLanes& samples)
 {
     const Quad q = quad;
-    UintLanes lit;
-    OSGRAYTRACE_SIMD
+    const float inversePmf = 1.0f / pmf;
+    LaneMask lit = 0;
+    OSGRAYTRACE_SIMD_OR(lit)
     for (int i = 0; i < kLanes; ++i)
     {
         const float px = surface.position.x[i], py = surface.position.y[i], pz = surface.position.z[i];
@@ -83,16 +85,15 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
         const float cosL = -(wx * q.normal.x + wy * q.normal.y + wz * q.normal.z);
         const float cosine = select(q.twoSided, std::fabs(cosL), cosL);
         const float weight = cosine * q.area * inverse * inverse;
-        samples.weight[i] = weight / pmf;
-        samples.pdfW[i] = pmf / weight;
+        samples.weight[i] = weight * inversePmf;
         const uint32_t reachable = maskOf(above > 0.0f) | laneBit(through, i);
-        lit[i] = maskOf(weight > 0.0f) & maskOf(weight < 1e30f) & reachable;
+        lit |= bitOfLane(maskOf(weight > 0.0f) & maskOf(weight < 1e30f) & reachable, i);
+        samples.radiance[0][i] = q.radiance.x;
+        samples.radiance[1][i] = q.radiance.y;
+        samples.radiance[2][i] = q.radiance.z;
         setShadowRay(samples.shadow, i, ox, oy, oz, wx, wy, wz, distance);
     }
-    LaneMask mask = 0;
-    for (int i = 0; i < kLanes; ++i)
-        mask |= (lit[i] & 1u) << i;
-    return mask & active;
+    return lit & active;
 }
 
 void setRadiance(LightLanes& samples, int i, Vec3 radiance)
@@ -136,8 +137,7 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf, const Surfa
     const Vec3 wi = d / distance;
     setWi(samples, i, wi);
     setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, wi.x, wi.y, wi.z, distance);
-    samples.pdfW[i] = pmf * sample->pdfW;
-    samples.weight[i] = 1.0f / samples.pdfW[i];
+    samples.weight[i] = 1.0f / (pmf * sample->pdfW);
     const Instance& instance = context.traced->scene().instances[(*context.lights)[light].instance];
     MaterialPoint point;
     point.uv = sample->uv;
@@ -156,8 +156,6 @@ void areaLightLanes(const PassContext& context, uint32_t index, float pmf, const
     {
         samples.lit = quadLanes(quadOf(light, context.traced->lights(), index), pmf, surface, active,
                                 through, u, v, samples);
-        for (int i = 0; i < kLanes; ++i)
-            setRadiance(samples, i, light.radiance);
         return;
     }
     samples.lit = 0;
@@ -189,20 +187,26 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
                      sample.wi.z, sample.distance);
         setRadiance(samples, i, light.diffuse * (kPi * sample.attenuation));
         samples.weight[i] = 1.0f;
-        samples.pdfW[i] = 0.0f;
         samples.lit |= 1u << i;
     }
+}
+
+OSGRAYTRACE_KERNEL
+static LaneMask unoccluded(const RayBlock& shadow)
+{
+    LaneMask visible = 0;
+    OSGRAYTRACE_SIMD_OR(visible)
+    for (int i = 0; i < kLanes; ++i)
+        visible |= bitOfLane(maskOf(shadow.tFar[i] >= 0.0f), i);
+    return visible;
 }
 
 LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts)
 {
     if (!context.options.shadows || !samples.lit) return samples.lit;
     context.traced->intersector().occlusion(samples.shadow, samples.lit);
-    LaneMask visible = 0;
-    for (int i = 0; i < kLanes; ++i)
-        visible |= static_cast<LaneMask>(samples.shadow.tFar[i] >= 0.0f) << i;
     counts.shadowRays += static_cast<uint64_t>(__builtin_popcount(samples.lit));
-    return visible & samples.lit;
+    return unoccluded(samples.shadow) & samples.lit;
 }
 
 } // namespace osgRayTrace::engine

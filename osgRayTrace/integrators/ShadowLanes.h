@@ -14,8 +14,7 @@ struct LightLanes
 {
     Vec3Lanes wi;         ///< unit, towards the light
     FloatLanes radiance[3]; ///< towards the surface; of a delta light pi * colour * attenuation
-    FloatLanes weight;    ///< multiplies f cos: 1/pdfW and the pmf of the light's choice; 1 for delta lights
-    FloatLanes pdfW;      ///< [1/sr] as another strategy must compare with; 0 for delta lights
+    FloatLanes weight;    ///< multiplies f cos: 1 / (pmf of the light's choice * pdfW); 1 for delta lights
     LaneMask lit = 0;     ///< lanes that can get light from it; others are undefined
     RayBlock shadow;      ///< from the surface to the light, both ends clear of their own geometry
 };

@@ -36,6 +36,21 @@ struct SecondaryRay
     int depth;
 };
 
+/// Blocks of camera rays that are taken through the stages together: independent work for the CPU to
+/// overlap, small enough for the first-level cache.
+constexpr int kGroup = 8;
+
+/// Sixteen rays to be shaded, with what they count for in which pixel.
+struct ShadingBlock
+{
+    RayHitBlock rays;
+    SurfaceLanes surface;
+    UintLanes seed;
+    UintLanes pixel;
+    Vec3Lanes weight;
+    int depth[kLanes];
+};
+
 struct Tile
 {
     Tile(const PassContext& c, TileResult& r) : context(c), result(r) {}
@@ -51,19 +66,9 @@ struct Tile
     const PassContext& context;
     TileResult& result;
     std::vector<SecondaryRay> stack;
+    ShadingBlock group[kGroup];
     Bsdf bsdfs[kLanes];                ///< of the block at work
     FixedFunctionPoint points[kLanes]; ///< of the block at work
-};
-
-/// Sixteen rays to be shaded, with what they count for in which pixel.
-struct ShadingBlock
-{
-    RayHitBlock rays;
-    SurfaceLanes surface;
-    UintLanes seed;
-    UintLanes pixel;
-    Vec3Lanes weight;
-    int depth[kLanes];
 };
 
 /// What the lanes of a block are made of.
@@ -294,6 +299,14 @@ void spawn(Tile& tile, const ShadingBlock& block, const LaneMaterials& m)
     }
 }
 
+OSGRAYTRACE_KERNEL
+void clear(Vec3Lanes& sum)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+        sum.x[i] = sum.y[i] = sum.z[i] = 0.0f;
+}
+
 /// Adds what surfaces send by themselves, and the finished colour of fixed-function ones.
 void addOwnLight(const Tile& tile, const ShadingBlock& block, const LaneMaterials& m, Vec3Lanes& sum)
 {
@@ -308,21 +321,16 @@ void addOwnLight(const Tile& tile, const ShadingBlock& block, const LaneMaterial
     }
 }
 
-/// Adds weight * radiance of all hits of a block to their pixels; pushes the rays that go on.
-void shade(Tile& tile, ShadingBlock& block)
+/// Radiance of all hits of a block, zero elsewhere; pushes the rays that go on.
+void shade(Tile& tile, ShadingBlock& block, Vec3Lanes& sum)
 {
     LaneMaterials m;
     classify(tile, block, m);
-    Vec3Lanes sum = {};
+    clear(sum);
     addAreaLights(tile, block, m, sum);
     if (!tile.context.traced->lights().deltaLights().empty()) addDeltaLights(tile, block, m, sum);
 
     addOwnLight(tile, block, m, sum);
-    for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
-        tile.add(block.pixel[i], laneOf(block.weight, i) * laneOf(sum, i));
-    }
     if (m.physical) spawn(tile, block, m);
 }
 
@@ -363,33 +371,58 @@ void traceSecondary(Tile& tile)
         const int i = __builtin_ctz(lanes);
         tile.add(block.pixel[i], laneOf(block.weight, i) * background);
     }
-    if (block.surface.hits) shade(tile, block);
+    if (!block.surface.hits) return;
+    Vec3Lanes radiance;
+    shade(tile, block, radiance);
+    for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        tile.add(block.pixel[i], laneOf(block.weight, i) * laneOf(radiance, i));
+    }
 }
 
-void traceCamera(Tile& tile, int left, int bottom, int b)
+OSGRAYTRACE_KERNEL
+void setPixels(const Vec3Lanes& radiance, LaneMask hits, RgbaLanes& rgba)
 {
-    const TracedScene& traced = *tile.context.traced;
-    ShadingBlock block;
-    cameraRayLanes(tile.context.camera, tile.context.key, left, bottom, b, false, block.rays, block.seed);
+    OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        block.pixel[i] = static_cast<uint32_t>(b * kLanes + i);
-        setLane(block.weight, i, Vec3(1.0f));
-        block.depth[i] = 0;
+        const uint32_t hit = laneBit(hits, i);
+        rgba.r[i] = select(hit, radiance.x[i], 0.0f);
+        rgba.g[i] = select(hit, radiance.y[i], 0.0f);
+        rgba.b[i] = select(hit, radiance.z[i], 0.0f);
+        rgba.a[i] = select(hit, 1.0f, 0.0f);
     }
-    traced.intersector().closestHits(block.rays, kAllLanes, Coherence::Coherent);
-    tile.result.counts.cameraRays += kLanes;
-    countRays(tile, block, kAllLanes);
-    surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface);
-    if (tile.context.wantsDepth)
-        depthLanes(tile.context.camera, left, bottom, b, block.surface, tile.result.depth + b * kLanes);
-    for (int i = 0; i < kLanes; ++i)
+}
+
+/// Camera rays of blocks first to first + kGroup - 1, stage by stage.
+void traceCamera(Tile& tile, int left, int bottom, int first)
+{
+    const PassContext& context = tile.context;
+    const TracedScene& traced = *context.traced;
+    for (int k = 0; k < kGroup; ++k)
     {
-        RgbaLanes& rgba = tile.result.rgba[b];
-        rgba.r[i] = rgba.g[i] = rgba.b[i] = 0.0f;
-        rgba.a[i] = static_cast<float>((block.surface.hits >> i) & 1u);
+        ShadingBlock& block = tile.group[k];
+        cameraRayLanes(context.camera, context.key, left, bottom, first + k, false, block.rays, block.seed);
+        for (int i = 0; i < kLanes; ++i)
+            block.pixel[i] = static_cast<uint32_t>((first + k) * kLanes + i);
     }
-    if (block.surface.hits) shade(tile, block);
+    for (ShadingBlock& block : tile.group)
+        traced.intersector().closestHits(block.rays, kAllLanes, Coherence::Coherent);
+    for (ShadingBlock& block : tile.group)
+        surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface);
+    tile.result.counts.cameraRays += kGroup * kLanes;
+    for (int k = 0; k < kGroup; ++k)
+    {
+        ShadingBlock& block = tile.group[k];
+        countRays(tile, block, kAllLanes);
+        if (context.wantsDepth)
+            depthLanes(context.camera, left, bottom, first + k, block.surface,
+                       tile.result.depth + (first + k) * kLanes);
+        Vec3Lanes radiance;
+        if (block.surface.hits) shade(tile, block, radiance);
+        setPixels(radiance, block.surface.hits, tile.result.rgba[first + k]);
+    }
 }
 
 } // namespace
@@ -398,9 +431,17 @@ void WhittedIntegrator::renderTile(const PassContext& context, int left, int bot
                                    TileResult& result) const
 {
     Tile tile(context, result);
-    for (int b = 0; b < kTileBlocks; ++b)
+    for (ShadingBlock& block : tile.group)
     {
-        traceCamera(tile, left, bottom, b);
+        for (int i = 0; i < kLanes; ++i)
+        {
+            setLane(block.weight, i, Vec3(1.0f));
+            block.depth[i] = 0;
+        }
+    }
+    for (int first = 0; first < kTileBlocks; first += kGroup)
+    {
+        traceCamera(tile, left, bottom, first);
         while (!tile.stack.empty())
             traceSecondary(tile);
     }

@@ -34,10 +34,11 @@ inline PassKey passKey(uint32_t userSeed, int pass)
     return {hash(userSeed, static_cast<uint32_t>(pass) & 1u), static_cast<uint32_t>(pass) >> 1};
 }
 
-/// The key of everything random about a pixel, for pixels up to 2^16 a side.
+/// The key of everything random about a pixel, for pixels up to 2^16 a side. Hashed again with each
+/// dimension.
 OSGRAYTRACE_INLINE uint32_t pixelSeed(const PassKey& key, uint32_t x, uint32_t y)
 {
-    return hash(key.seed ^ hash(x | (y << 16)));
+    return key.seed ^ hash(x | (y << 16));
 }
 
 OSGRAYTRACE_INLINE uint32_t dimensionSeed(uint32_t pixelSeed, uint32_t dimension)

@@ -41,13 +41,20 @@ OSGRAYTRACE_INLINE uint32_t sobolSecondReversed(uint32_t index)
     return index;
 }
 
+/// Another seed from one that is a hash already.
+OSGRAYTRACE_INLINE uint32_t remix(uint32_t seed, uint32_t factor)
+{
+    seed *= factor;
+    return seed ^ (seed >> 15);
+}
+
 /// Point number index of the two-dimensional sequence that belongs to seed, in [0,1)^2. Sequences of
 /// different seeds are independent: shuffled and scrambled apart [Burley20, sect. 4].
 OSGRAYTRACE_INLINE void sobol2(uint32_t index, uint32_t seed, float& x, float& y)
 {
     const uint32_t shuffled = reverseBits(scrambleReversed(reverseBits(index), seed));
-    const uint32_t seedX = hash(seed ^ 0x68bc21ebu);
-    const uint32_t seedY = hash(seed ^ 0x02e5be93u);
+    const uint32_t seedX = remix(seed, 0x2c1b3c6du);
+    const uint32_t seedY = remix(seed, 0x297a2d39u);
     x = unitFloat(reverseBits(scrambleReversed(shuffled, seedX)));
     y = unitFloat(reverseBits(scrambleReversed(sobolSecondReversed(shuffled), seedY)));
 }
@@ -56,7 +63,7 @@ OSGRAYTRACE_INLINE void sobol2(uint32_t index, uint32_t seed, float& x, float& y
 OSGRAYTRACE_INLINE float sobol1(uint32_t index, uint32_t seed)
 {
     const uint32_t shuffled = reverseBits(scrambleReversed(reverseBits(index), seed));
-    return unitFloat(reverseBits(scrambleReversed(shuffled, hash(seed ^ 0x68bc21ebu))));
+    return unitFloat(reverseBits(scrambleReversed(shuffled, remix(seed, 0x2c1b3c6du))));
 }
 
 } // namespace osgRayTrace::engine

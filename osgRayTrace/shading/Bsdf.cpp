@@ -13,15 +13,16 @@ namespace osgRayTrace::engine
 namespace
 {
 
-float coatFresnel(const Bsdf& bsdf, float cosTheta)
+/// Reflectance of the interface that the base and the transmission lie under.
+float interfaceFresnel(const Bsdf& bsdf, float cosTheta)
 {
-    return bsdf.coat > 0.0f ? bsdf.coat * fresnelDielectric(cosTheta, bsdf.eta) : 0.0f;
+    return bsdf.coat > 0.0f ? fresnelDielectric(cosTheta, bsdf.eta) : 0.0f;
 }
 
 Vec3 reflectionFresnel(const Bsdf& bsdf, float cosTheta)
 {
     return fresnelSchlick(cosTheta, bsdf.reflectance, bsdf.grazing) +
-           Vec3(coatFresnel(bsdf, cosTheta));
+           Vec3(bsdf.coat * interfaceFresnel(bsdf, cosTheta));
 }
 
 /// f cos of the base.
@@ -29,8 +30,8 @@ Vec3 evalBase(const Bsdf& bsdf, Vec3 wo, Vec3 wi)
 {
     const Vec3 lambert = bsdf.diffuse * (kInvPi * wi.z);
     if (bsdf.coat == 0.0f) return lambert;
-    return lambert * ((1.0f - coatFresnel(bsdf, wi.z)) * (1.0f - coatFresnel(bsdf, wo.z)) /
-                      (1.0f - bsdf.coat * bsdf.coatAverage));
+    return lambert * ((1.0f - interfaceFresnel(bsdf, wi.z)) * (1.0f - interfaceFresnel(bsdf, wo.z)) /
+                      (1.0f - bsdf.coatAverage));
 }
 
 /// Probabilities of the three lobes for wo; they sum to 1, or are all 0 for a black surface.
@@ -43,12 +44,11 @@ struct LobePmf
 
 LobePmf lobePmf(const Bsdf& bsdf, Vec3 wo)
 {
-    const float coat = coatFresnel(bsdf, wo.z);
+    const float below = 1.0f - interfaceFresnel(bsdf, wo.z);
     LobePmf pmf;
-    pmf.base = luminance(bsdf.diffuse) * (1.0f - coat);
+    pmf.base = luminance(bsdf.diffuse) * below;
     if (bsdf.reflects()) pmf.reflection = luminance(reflectionFresnel(bsdf, wo.z));
-    if (bsdf.transmits())
-        pmf.refraction = luminance(bsdf.transmission) * (1.0f - coat / std::max(bsdf.coat, 1e-20f));
+    if (bsdf.transmits()) pmf.refraction = luminance(bsdf.transmission) * below;
     const float sum = pmf.base + pmf.reflection + pmf.refraction;
     if (!(sum > 0.0f)) return {};
     pmf.base /= sum;
@@ -126,6 +126,7 @@ std::optional<BsdfSample> sampleSmooth(const Bsdf& bsdf, Vec3 wo, const LobePmf&
 
 std::optional<Vec3> refract(Vec3 wo, Vec3 h, float eta)
 {
+    if (eta == 1.0f) return -wo; // also where 1 - cosI^2 rounds to 1
     const float cosI = glm::dot(wo, h);
     const float sin2T = std::max(0.0f, 1.0f - cosI * cosI) / (eta * eta);
     if (sin2T >= 1.0f) return std::nullopt;

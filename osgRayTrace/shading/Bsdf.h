@@ -22,12 +22,14 @@ enum class Transport
 /// One model for all surfaces; what a surface does not have has weight 0. Directions are local, the
 /// shading normal at +z on the side of wo, and point away from the surface.
 ///
-///   f = diffuse/pi (1-C(wi))(1-C(wo))/(1-C_avg)          base, under the coat   [Shirley97, eq. 6]
-///     + D G2 / (4 |wi.z wo.z|) (S(h) + C(h))             reflection             [Walter07, eq. 20]
+///   f = diffuse/pi (1-F(wi))(1-F(wo))/(1-F_avg)          base, under the coat   [Shirley97, eq. 6]
+///     + D G2 / (4 |wi.z wo.z|) (S(h) + coat F(h))        reflection             [Walter07, eq. 20]
 ///     + transmission D G2 (1-F(h)) ...                   refraction             [Walter07, eq. 21]
 ///
-/// C = coat * Fresnel of a dielectric of index eta, S = Schlick with reflectance and grazing. With alpha
-/// below kSmoothAlpha D is a delta function. No side makes energy: diffuse + transmission + grazing <= 1.
+/// F = Fresnel of a dielectric of index eta (0 without a coat), S = Schlick with reflectance and grazing.
+/// With alpha below kSmoothAlpha D is a delta function. Neither side makes energy, as diffuse +
+/// transmission <= coat = 1 - grazing; but a rough coat over a base, which is taken for a smooth one there,
+/// up to 1 % from outside and 8 % from inside.
 struct Bsdf
 {
     Vec3 diffuse{0.0f};      ///< albedo of the base

@@ -24,6 +24,9 @@ float maxComponent(Vec3 v) { return std::max(v.x, std::max(v.y, v.z)); }
 
 Vec3 clampUnit(Vec3 v) { return glm::clamp(v, 0.0f, 1.0f); }
 
+/// An index this close to 1 cannot be seen, and its microfacet normals drown in rounding: taken for 1.
+float usableIor(float ior) { return std::fabs(ior - 1.0f) < 1e-4f ? 1.0f : ior; }
+
 } // namespace
 
 MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
@@ -31,9 +34,10 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
     for (const Material& material : scene.materials)
     {
         const bool glass = material.model == MaterialModel::Physical && material.transmission > 0.0f;
-        const float outside = fresnelDielectricAverage(material.ior);
+        const float ior = usableIor(material.ior);
+        const float outside = fresnelDielectricAverage(ior);
         _coatAverages.emplace_back(outside,
-                                   glass ? fresnelDielectricAverage(1.0f / material.ior) : outside);
+                                   glass ? fresnelDielectricAverage(1.0f / ior) : outside);
     }
     for (uint32_t i = 0; i < scene.materials.size(); ++i)
     {
@@ -81,10 +85,11 @@ Bsdf MaterialTable::physical(const Material& m, const MaterialPoint& point) cons
     bsdf.diffuse = color * ((1.0f - metallic) * (1.0f - transmission));
     bsdf.reflectance = color * metallic;
     bsdf.grazing = metallic;
-    bsdf.coat = m.ior != 1.0f ? 1.0f - metallic : 0.0f;
+    const float ior = usableIor(m.ior);
+    bsdf.coat = ior != 1.0f ? 1.0f - metallic : 0.0f;
     bsdf.transmission = color * ((1.0f - metallic) * transmission);
     // From inside only glass is seen as such; an opaque body shows its outside on both sides.
-    bsdf.eta = point.front || !bsdf.transmits() ? m.ior : 1.0f / m.ior;
+    bsdf.eta = point.front || !bsdf.transmits() ? ior : 1.0f / ior;
     return bsdf;
 }
 
