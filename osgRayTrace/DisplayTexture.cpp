@@ -1,4 +1,4 @@
-// DisplayTexture.cpp - a picture with depth on the screen. Layer: public API, private to it.
+// DisplayTexture.cpp - a picture with depth on the screen. Layer: public API, private.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/DisplayTexture.h"
 
@@ -6,6 +6,8 @@
 #include <osg/GLExtensions>
 #include <osg/PolygonMode>
 #include <osg/State>
+
+#include <string>
 
 #ifndef GL_CONTEXT_PROFILE_MASK
 #define GL_CONTEXT_PROFILE_MASK 0x9126
@@ -24,11 +26,26 @@ constexpr unsigned int kColorUnit = 0;
 constexpr unsigned int kDepthUnit = 1;
 constexpr unsigned int kCornerLocation = 0;
 
-// gl_FragDepth is not mapped by glDepthRange, so the shader does that. Edges whose first sample missed have
-// the depth of the background, but must pass the test against it: they are drawn right in front of it.
-constexpr const char* kVertexShader = R"(#version 120
-attribute vec2 corner;
-varying vec2 position;
+// GLSL 1.20, and 3.30 for contexts that take no older one: one text, two dialects.
+constexpr const char* kVertexDialect = "#version 120\n"
+                                       "#define IN attribute\n"
+                                       "#define OUT varying\n";
+constexpr const char* kFragmentDialect = "#version 120\n"
+                                         "#define IN varying\n"
+                                         "#define SAMPLE texture2D\n"
+                                         "#define FRAGMENT gl_FragColor\n";
+constexpr const char* kCoreVertexDialect = "#version 330 core\n"
+                                           "#define IN in\n"
+                                           "#define OUT out\n";
+constexpr const char* kCoreFragmentDialect = "#version 330 core\n"
+                                             "#define IN in\n"
+                                             "#define SAMPLE texture\n"
+                                             "out vec4 fragment;\n"
+                                             "#define FRAGMENT fragment\n";
+
+constexpr const char* kVertexShader = R"(
+IN vec2 corner;
+OUT vec2 position;
 void main()
 {
     position = 0.5 * corner + 0.5;
@@ -36,51 +53,42 @@ void main()
 }
 )";
 
-constexpr const char* kFragmentShader = R"(#version 120
+// Colours come as encode(alpha * radiance). Blended so, edges would be brighter than both of their
+// sides; they are made alpha * encode(radiance) first. gl_FragDepth is not mapped by glDepthRange,
+// so the shader does that. Edges whose first sample missed have the depth of the background, but
+// must pass the test against it: they are drawn right in front of it.
+constexpr const char* kFragmentShader = R"(
 uniform sampler2D osgRayTrace_color;
 uniform sampler2D osgRayTrace_depth;
-varying vec2 position;
+uniform bool osgRayTrace_encoded;
+IN vec2 position;
+vec3 decode(vec3 c)
+{
+    return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c));
+}
+vec3 encode(vec3 c)
+{
+    return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+}
 void main()
 {
-    vec4 color = texture2D(osgRayTrace_color, position);
+    vec4 color = SAMPLE(osgRayTrace_color, position);
     if (color.a == 0.0) discard;
-    gl_FragColor = color;
-    float depth = min(texture2D(osgRayTrace_depth, position).r, 0.99999994);
+    if (osgRayTrace_encoded && color.a < 1.0)
+        color.rgb = color.a * encode(min(decode(color.rgb) / color.a, 1.0));
+    float depth = min(SAMPLE(osgRayTrace_depth, position).r, 0.99999994);
+    FRAGMENT = color;
     gl_FragDepth = gl_DepthRange.near + gl_DepthRange.diff * depth;
 }
 )";
 
-constexpr const char* kCoreVertexShader = R"(#version 330 core
-in vec2 corner;
-out vec2 position;
-void main()
-{
-    position = 0.5 * corner + 0.5;
-    gl_Position = vec4(corner, 0.0, 1.0);
-}
-)";
-
-constexpr const char* kCoreFragmentShader = R"(#version 330 core
-uniform sampler2D osgRayTrace_color;
-uniform sampler2D osgRayTrace_depth;
-in vec2 position;
-out vec4 fragment;
-void main()
-{
-    vec4 color = texture(osgRayTrace_color, position);
-    if (color.a == 0.0) discard;
-    fragment = color;
-    float depth = min(texture(osgRayTrace_depth, position).r, 0.99999994);
-    gl_FragDepth = gl_DepthRange.near + gl_DepthRange.diff * depth;
-}
-)";
-
-osg::ref_ptr<osg::Program> createProgram(const char* vertexSource, const char* fragmentSource)
+osg::ref_ptr<osg::Program> createProgram(const std::string& vertexDialect,
+                                         const std::string& fragmentDialect)
 {
     osg::ref_ptr<osg::Program> program = new osg::Program;
     program->setName("osgRayTrace");
-    program->addShader(new osg::Shader(osg::Shader::VERTEX, vertexSource));
-    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragmentSource));
+    program->addShader(new osg::Shader(osg::Shader::VERTEX, vertexDialect + kVertexShader));
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragmentDialect + kFragmentShader));
     program->addBindAttribLocation("corner", kCornerLocation);
     return program;
 }
@@ -130,8 +138,8 @@ void forgetVertexArrays(osg::State& state)
     state.applyDisablingOfVertexAttributes();
 }
 
-/// The image is applied even if osg::State thinks that the texture is bound: its values may be new, or it
-/// may stand at the address of one that is gone.
+/// The image is applied even if osg::State thinks that the texture is bound: its values may be new,
+/// or it may stand at the address of one that is gone.
 void applyTexture(osg::State& state, unsigned int unit, const osg::Texture2D& texture)
 {
     state.haveAppliedTextureAttribute(unit, osg::StateAttribute::TEXTURE);
@@ -141,13 +149,16 @@ void applyTexture(osg::State& state, unsigned int unit, const osg::Texture2D& te
 } // namespace
 
 DisplayTexture::DisplayTexture()
-    : _color(new osg::Image), _depth(new osg::Image),
+    : _color(new osg::Image),
+      _depth(new osg::Image),
       _colorTexture(createTexture(_color.get(), GL_RGBA8)),
       _depthTexture(createTexture(_depth.get(), GL_LUMINANCE32F_ARB)),
       _colorUnit(new osg::Uniform("osgRayTrace_color", static_cast<int>(kColorUnit))),
       _depthUnit(new osg::Uniform("osgRayTrace_depth", static_cast<int>(kDepthUnit))),
-      _program(createProgram(kVertexShader, kFragmentShader)),
-      _coreProgram(createProgram(kCoreVertexShader, kCoreFragmentShader)), _triangle(createTriangle())
+      _encoded(new osg::Uniform("osgRayTrace_encoded", false)),
+      _program(createProgram(kVertexDialect, kFragmentDialect)),
+      _coreProgram(createProgram(kCoreVertexDialect, kCoreFragmentDialect)),
+      _triangle(createTriangle())
 {
 }
 
@@ -168,11 +179,11 @@ void DisplayTexture::resize(int width, int height)
     if (width == this->width() && height == this->height()) return;
     _color->allocateImage(width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE);
     _depth->allocateImage(width, height, 1, GL_LUMINANCE, GL_FLOAT);
-    modified();
 }
 
-void DisplayTexture::modified()
+void DisplayTexture::modified(bool encoded)
 {
+    _encoded->set(encoded);
     _color->dirty();
     _depth->dirty();
 }
@@ -184,7 +195,8 @@ bool DisplayTexture::draw(osg::RenderInfo& renderInfo) const
     applyTexture(state, kColorUnit, *_colorTexture);
     applyTexture(state, kDepthUnit, *_depthTexture);
     _triangle->draw(renderInfo);
-    if (!state.useVertexArrayObject(_triangle->getUseVertexArrayObject())) forgetVertexArrays(state);
+    if (!state.useVertexArrayObject(_triangle->getUseVertexArrayObject()))
+        forgetVertexArrays(state);
     return true;
 }
 
@@ -198,7 +210,8 @@ bool DisplayTexture::useProgram(osg::State& state) const
     {
         _depth->setPixelFormat(GL_RED);
         _depthTexture->setInternalFormat(GL_R32F);
-        // Elsewhere not: with it OSG 3.6 leaves the vertex buffer bound, which breaks client-side arrays.
+        // Elsewhere not: with it OSG 3.6 leaves the vertex buffer bound, which breaks client-side
+        // arrays.
         _triangle->setUseVertexArrayObject(true);
     }
     state.haveAppliedAttribute(osg::StateAttribute::PROGRAM);
@@ -207,6 +220,7 @@ bool DisplayTexture::useProgram(osg::State& state) const
     if (!program || !program->isLinked()) return false;
     program->apply(*_colorUnit);
     program->apply(*_depthUnit);
+    program->apply(*_encoded);
     return true;
 }
 

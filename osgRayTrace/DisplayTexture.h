@@ -1,5 +1,4 @@
-// DisplayTexture.h - a picture with depth on the screen: the one place that calls OpenGL. Layer: public API,
-// private to it.
+// DisplayTexture.h - a picture with depth on the screen, all of OpenGL. Layer: public API, private.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,16 +15,17 @@
 namespace osgRayTrace
 {
 
-/// Colour and depth of one view, drawn as a triangle that covers the viewport and writes gl_FragDepth. The
-/// objects belong to the one context that draws it; storage in OpenGL is kept while the size stays.
-/// Draw thread of that context, unless stated otherwise.
+/// Colour and depth of one view, drawn as a triangle that covers the viewport and writes
+/// gl_FragDepth. The objects belong to the one context that draws it; storage in OpenGL is kept
+/// while the size stays. Draw thread of that context, unless stated otherwise.
 class DisplayTexture
 {
 public:
     DisplayTexture();
 
-    /// State that the drawable needs in its StateSet; what draw() sets beyond it is known to osg::State.
-    /// Premultiplied blending, a solid unculled triangle, drawn after the opaque things of bin 0.
+    /// State that the drawable needs in its StateSet; what draw() sets beyond it is known to
+    /// osg::State. Premultiplied blending, a solid unculled triangle, drawn after the opaque things
+    /// of bin 0.
     static osg::ref_ptr<osg::StateSet> createStateSet();
 
     /// Makes room for width * height pixels; values are lost if that is a change.
@@ -33,11 +33,13 @@ public:
     int width() const { return _color->s(); }
     int height() const { return _color->t(); }
 
-    /// To be written to, then modified(). Row 0 at the bottom. Premultiplied colours in display values,
-    /// 4 bytes a pixel: where alpha is 0, nothing is drawn. Window depths in [0,1].
+    /// To be written to, then modified(). Row 0 at the bottom. Display values, 4 bytes a pixel:
+    /// alpha is coverage, where it is 0 nothing is drawn. Window depths in [0,1].
     uint8_t* rgba() { return _color->data(); }
     float* depth() { return reinterpret_cast<float*>(_depth->data()); }
-    void modified();
+    /// encoded: the colours were premultiplied by alpha before they were encoded to sRGB; else
+    /// after.
+    void modified(bool encoded);
 
     /// Fills the current viewport. False, and nothing drawn, if the context has no usable GLSL.
     bool draw(osg::RenderInfo& renderInfo) const;
@@ -55,6 +57,7 @@ private:
     osg::ref_ptr<osg::Texture2D> _depthTexture;
     osg::ref_ptr<osg::Uniform> _colorUnit;
     osg::ref_ptr<osg::Uniform> _depthUnit;
+    osg::ref_ptr<osg::Uniform> _encoded;
     osg::ref_ptr<osg::Program> _program;     ///< GLSL 1.20
     osg::ref_ptr<osg::Program> _coreProgram; ///< GLSL 3.30, for contexts that take no older one
     osg::ref_ptr<osg::Geometry> _triangle;

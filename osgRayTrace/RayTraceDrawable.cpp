@@ -79,8 +79,8 @@ engine::PassIdentity passIdentity(osg::RenderInfo& renderInfo, const Rectangle& 
     return pass;
 }
 
-/// Distance of the near plane in the middle of the view; of orthographic views, whose near plane may be
-/// anywhere, half the height of the picture. 0 if the matrix cannot be inverted.
+/// Distance of the near plane in the middle of the view; of orthographic views, whose near plane
+/// may be anywhere, half the height of the picture. 0 if the matrix cannot be inverted.
 double nearDistance(const osg::Matrixd& projection)
 {
     osg::Matrixd viewFromClip;
@@ -99,7 +99,7 @@ struct RayTraceDrawable::Implementation
     engine::ViewRegistry<ViewState> views;
     std::atomic<bool> paused{false};
 
-    mutable std::mutex mutex; // draw threads write, any thread reads
+    mutable std::mutex mutex;        // draw threads write, any thread reads
     engine::RenderProgress progress; ///< of the view drawn last
     std::shared_ptr<ViewState> lastView;
     std::weak_ptr<const engine::TracedScene> untraceable; ///< failed before it gave any image
@@ -118,7 +118,8 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     if (!version.scene) return;
 
     const auto makeView = [] { return std::make_shared<ViewState>(); };
-    const std::shared_ptr<ViewState> view = views.acquire(passIdentity(renderInfo, viewport), makeView);
+    const std::shared_ptr<ViewState> view =
+        views.acquire(passIdentity(renderInfo, viewport), makeView);
     std::lock_guard<std::mutex> lock(view->mutex);
 
     const osg::Matrixd& viewMatrix = state.getModelViewMatrix();
@@ -129,8 +130,8 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     if (view->tracer.needsResolve(version))
     {
         view->display.resize(view->tracer.width(), view->tracer.height());
-        view->tracer.resolve(view->display.rgba(), view->display.depth());
-        view->display.modified();
+        const bool encoded = view->tracer.resolve(view->display.rgba(), view->display.depth());
+        view->display.modified(encoded);
     }
     scene.noteDrawn(renderInfo.getCurrentCamera(), osg::Matrixd::inverse(viewMatrix).getTrans(),
                     nearDistance(projection));
@@ -173,7 +174,9 @@ RayTraceDrawable::RayTraceDrawable()
 }
 
 RayTraceDrawable::RayTraceDrawable(const RayTraceDrawable& other, const osg::CopyOp& copyop)
-    : osg::Drawable(other, copyop), _scene(copyop(other._scene.get())), _settings(other._settings),
+    : osg::Drawable(other, copyop),
+      _scene(copyop(other._scene.get())),
+      _settings(other._settings),
       _implementation(std::make_unique<Implementation>())
 {
     _implementation->paused = other._implementation->paused.load();
@@ -279,7 +282,8 @@ void RayTraceDrawable::drawImplementation(osg::RenderInfo& renderInfo) const
     }
     catch (const std::bad_alloc&)
     {
-        _implementation->fail(engine::StatusCode::OutOfMemory, "there is not enough memory for a view");
+        _implementation->fail(engine::StatusCode::OutOfMemory,
+                              "there is not enough memory for a view");
     }
     catch (const std::exception& error)
     {

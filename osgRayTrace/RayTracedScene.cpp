@@ -11,15 +11,16 @@ namespace osgRayTrace
 namespace
 {
 
-/// Stands for the decorator without being it, so that the drawable neither owns what owns it nor meets
-/// itself below. The children do not get it as a parent: their own parents and paths stay as they are.
+/// Stands for the decorator without being it, so that the drawable neither owns what owns it nor
+/// meets itself below. The children do not get it as a parent: their own parents and paths stay as
+/// they are.
 class SceneRoot : public osg::Group
 {
 public:
     explicit SceneRoot(RayTracedScene* owner) : _owner(owner) {}
     META_Node(osgRayTrace, SceneRoot)
 
-    void traverse(osg::NodeVisitor& visitor) override
+        void traverse(osg::NodeVisitor& visitor) override
     {
         if (_owner) _owner->accept(visitor); // with its state and mask
     }
@@ -39,12 +40,14 @@ private:
     RayTracedScene* _owner = nullptr; // owns this, indirectly
 };
 
-/// Near and far planes are computed from what is drawn; a drawable without primitives counts by its bound.
+/// Near and far planes are computed from what is drawn; a drawable without primitives counts by its
+/// bound.
 class BoundingVolumeNearFar
 {
 public:
     explicit BoundingVolumeNearFar(osgUtil::CullVisitor& visitor)
-        : _visitor(visitor), _mode(visitor.getComputeNearFarMode()),
+        : _visitor(visitor),
+          _mode(visitor.getComputeNearFarMode()),
           _inheritance(visitor.getInheritanceMask())
     {
         if (_mode != osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR)
@@ -73,7 +76,9 @@ RayTracedScene::RayTracedScene() : _children(new SceneRoot(this)), _drawable(new
 }
 
 RayTracedScene::RayTracedScene(const RayTracedScene& other, const osg::CopyOp& copyop)
-    : osg::Group(other, copyop), _enabled(other._enabled), _children(new SceneRoot(this)),
+    : osg::Group(other, copyop),
+      _enabled(other._enabled),
+      _children(new SceneRoot(this)),
       _drawable(new RayTraceDrawable)
 {
     _drawable->setScene(_children.get());
@@ -131,7 +136,8 @@ void RayTracedScene::traverse(osg::NodeVisitor& visitor)
     osg::Group::traverse(visitor);
     // Before the first cull the light and the eye are not known: that cull converts.
     const bool update = visitor.getVisitorType() == osg::NodeVisitor::UPDATE_VISITOR;
-    if (update && _enabled && _drawable->isViewed()) _drawable->updateScene(visitor.getFrameStamp());
+    if (update && _enabled && _drawable->isViewed())
+        _drawable->updateScene(visitor.getFrameStamp());
 }
 
 osg::BoundingSphere RayTracedScene::computeBound() const

@@ -1,4 +1,4 @@
-// Failure.h - why osgraytrace ends early, and with which exit code. Layer: apps.
+// Failure.h - why a program ends early, and with which exit code. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -26,11 +26,16 @@ bool isCutShort(const std::string& file)
     for (std::istreambuf_iterator<char> at(stream), end; at != end; ++at)
     {
         const char c = *at;
-        if (escaped) escaped = false;
-        else if (quoted && c == '\\') escaped = true;
-        else if (c == '"') quoted = !quoted;
-        else if (!quoted && c == '{') ++depth;
-        else if (!quoted && c == '}') --depth;
+        if (escaped)
+            escaped = false;
+        else if (quoted && c == '\\')
+            escaped = true;
+        else if (c == '"')
+            quoted = !quoted;
+        else if (!quoted && c == '{')
+            ++depth;
+        else if (!quoted && c == '}')
+            --depth;
     }
     return quoted || depth > 0;
 }
@@ -66,7 +71,8 @@ osg::ref_ptr<osg::Node> readScene(const std::vector<std::string>& files)
 Failure cannotLoad(const std::string& file, const osgDB::ReaderWriter::ReadResult& result)
 {
     std::string reason = result.message();
-    if (reason.empty()) reason = result.notFound() ? "there is no such file" : result.statusMessage();
+    if (reason.empty())
+        reason = result.notFound() ? "there is no such file" : result.statusMessage();
     return Failure(kCannotLoad, "cannot load " + file + ": " + reason);
 }
 

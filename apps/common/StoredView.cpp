@@ -35,11 +35,13 @@ std::optional<Placement> storedPlacement(osg::Node& scene)
 {
     FindFirst<osg::CameraView> find;
     scene.accept(find);
-    if (!find.found || find.found->getFieldOfViewMode() != osg::CameraView::VERTICAL) return std::nullopt;
+    if (!find.found || find.found->getFieldOfViewMode() != osg::CameraView::VERTICAL)
+        return std::nullopt;
 
     Placement placement;
     placement.eye = find.worldFromNode.getTrans();
-    placement.center = placement.eye + osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), find.worldFromNode);
+    placement.center =
+        placement.eye + osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), find.worldFromNode);
     placement.up = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 1.0, 0.0), find.worldFromNode);
     placement.fovyDegrees = find.found->getFieldOfView();
     return placement;

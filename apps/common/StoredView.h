@@ -14,7 +14,7 @@ namespace osgRayTrace::app
 struct Placement
 {
     osg::Vec3d eye;
-    osg::Vec3d center;        ///< a point on the line of sight
+    osg::Vec3d center; ///< a point on the line of sight
     osg::Vec3d up;
     double fovyDegrees = 0.0; ///< vertical
 };

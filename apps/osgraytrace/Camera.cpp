@@ -17,7 +17,7 @@ namespace
 
 constexpr double kOsgViewerFovyDegrees = 29.148431; ///< of its default display settings
 const osg::Vec4 kOsgViewerClearColor(0.2f, 0.2f, 0.4f, 1.0f);
-constexpr double kNearFarRatio = 0.0005;            ///< osg::CullSettings' default
+constexpr double kNearFarRatio = 0.0005; ///< osg::CullSettings' default
 
 Placement homePlacement(const Options& options, osg::Node& scene)
 {

@@ -18,9 +18,9 @@ struct Camera
     osg::Vec4 clearColor; ///< of the scene's first osg::ClearNode, or else osgViewer's
 };
 
-/// The first osg::CameraView of the scene, or else the view that osgviewer opens with; what the options
-/// state replaces it. Near and far planes are those that osgviewer would compute from the scene's bound.
-/// Throws Failure(kUsage) if the options define no view.
+/// The first osg::CameraView of the scene, or else the view that osgviewer opens with; what the
+/// options state replaces it. Near and far planes are those that osgviewer would compute from the
+/// scene's bound. Throws Failure(kUsage) if the options define no view.
 Camera cameraOf(const Options& options, osg::Node& scene);
 
 } // namespace osgRayTrace::app

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "Options.h"
 
-#include "apps/common/Failure.h"
 #include "Output.h"
+#include "apps/common/Failure.h"
 
 #include <CLI/CLI.hpp>
 
@@ -22,8 +22,9 @@ constexpr int kDefaultPasses = 64;
 constexpr double kMaxPixels = 1 << 28;
 const char* const kChannels = "depth|distance|normal|albedo|position|id|error";
 
-const char* const kFooter = "Formats: .exr holds linear radiance and channels; .png and .jpg are tone mapped.\n"
-                            "Exit codes: 0 done, 1 usage, 2 cannot load, 3 cannot render, 4 cannot write.";
+const char* const kFooter =
+    "Formats: .exr holds linear radiance and channels; .png and .jpg are tone mapped.\n"
+    "Exit codes: 0 done, 1 usage, 2 cannot load, 3 cannot render, 4 cannot write.";
 
 /// What the command line holds before it is checked as a whole.
 struct RawOptions
@@ -56,8 +57,14 @@ CLI::Validator between(double low, double high, const std::string& wanted)
     return CLI::Validator(problem, "");
 }
 
-CLI::Validator finite() { return between(-HUGE_VAL, HUGE_VAL, "a finite number"); }
-CLI::Validator positive() { return between(0.0, HUGE_VAL, "a number above 0"); }
+CLI::Validator finite()
+{
+    return between(-HUGE_VAL, HUGE_VAL, "a finite number");
+}
+CLI::Validator positive()
+{
+    return between(0.0, HUGE_VAL, "a number above 0");
+}
 
 CLI::Validator oneOf(const std::string& words)
 {
@@ -76,12 +83,14 @@ void addSettings(CLI::App& app, RayTraceSettings& settings)
     {
         const bool passes = option.name == "max-passes";
         const std::string name = passes ? "--passes,--max-passes" : "--" + option.name;
-        const std::string help = passes ? "Stop after so many passes (64, unless --time or --error is given)" : option.help;
+        const std::string help =
+            passes ? "Stop after so many passes (64, unless --time or --error is given)"
+                   : option.help;
         const auto set = [&settings, option](const std::string& value)
         {
             if (settings.set(option.name, value)) return;
-            throw CLI::ValidationError("--" + option.name,
-                                       "'" + value + "' is not one of " + commaSeparated(option.range));
+            throw CLI::ValidationError("--" + option.name, "'" + value + "' is not one of " +
+                                                               commaSeparated(option.range));
         };
         app.add_option_function<std::string>(name, set, help)
             ->option_text(option.range)
@@ -92,19 +101,32 @@ void addSettings(CLI::App& app, RayTraceSettings& settings)
 void addOptions(CLI::App& app, Options& options, RawOptions& raw)
 {
     app.add_option("MODEL", options.models, "Files that OpenSceneGraph reads")->option_text("...");
-    app.add_option("-o,--output", options.outputs, "Picture to write: .exr, .png, .jpg; may be repeated")
+    app.add_option("-o,--output", options.outputs,
+                   "Picture to write: .exr, .png, .jpg; may be repeated")
         ->option_text("FILE")
         ->allow_extra_args(false);
     app.add_option("--size", raw.size, "Pixels (1280 720)")->option_text("W H")->expected(2);
 
-    app.add_option("--eye", raw.eye, "Position of the camera")->option_text("X Y Z")->expected(3)->check(finite());
-    app.add_option("--center", raw.center, "Point that it looks at")->option_text("X Y Z")->expected(3)->check(finite());
-    app.add_option("--up", raw.up, "What is up in the picture")->option_text("X Y Z")->expected(3)->check(finite());
-    app.add_option("--fovy", raw.fovyDegrees, "Vertical field of view; by default the view is osgviewer's")
+    app.add_option("--eye", raw.eye, "Position of the camera")
+        ->option_text("X Y Z")
+        ->expected(3)
+        ->check(finite());
+    app.add_option("--center", raw.center, "Point that it looks at")
+        ->option_text("X Y Z")
+        ->expected(3)
+        ->check(finite());
+    app.add_option("--up", raw.up, "What is up in the picture")
+        ->option_text("X Y Z")
+        ->expected(3)
+        ->check(finite());
+    app.add_option("--fovy", raw.fovyDegrees,
+                   "Vertical field of view; by default the view is osgviewer's")
         ->option_text("DEGREES")
         ->check(between(0.0, 180.0, "an angle between 0 and 180"));
 
-    app.add_option("--time", options.seconds, "Stop after so many seconds")->option_text("SECONDS")->check(positive());
+    app.add_option("--time", options.seconds, "Stop after so many seconds")
+        ->option_text("SECONDS")
+        ->check(positive());
     app.add_option("--error", options.relativeError, "Stop at this estimated relative error")
         ->option_text("RELATIVE")
         ->check(positive());
@@ -114,13 +136,17 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(oneOf(kChannels));
-    app.add_option("--reference", options.reference, "Prints RMSE, relMSE and mean ratio against it")
+    app.add_option("--reference", options.reference,
+                   "Prints RMSE, relMSE and mean ratio against it")
         ->option_text("FILE.exr");
-    app.add_option("--stats", options.statistics, "Writes counts, times and errors")->option_text("FILE.json");
-    app.add_option("--context", raw.context, "none, osmesa, egl; other than none: through RayTraceDrawable in it")
+    app.add_option("--stats", options.statistics, "Writes counts, times and errors")
+        ->option_text("FILE.json");
+    app.add_option("--context", raw.context,
+                   "none, osmesa, egl; other than none: through RayTraceDrawable in it")
         ->option_text("NAME")
         ->check(oneOf("none|osmesa|egl"));
-    app.add_flag("--list-options", options.listOptions, "Prints every setting with default, range and variable");
+    app.add_flag("--list-options", options.listOptions,
+                 "Prints every setting with default, range and variable");
 }
 
 osg::Vec3d vectorOf(const std::vector<double>& values)
@@ -154,17 +180,21 @@ void applyPasses(const CLI::App& app, Options& options)
 void check(const Options& options)
 {
     if (options.models.empty()) throw Failure(kUsage, "no MODEL given; --help shows the options");
-    if (options.outputs.empty()) throw Failure(kUsage, "no -o FILE given; --help shows the options");
-    if (options.width < 1 || options.height < 1 || double(options.width) * options.height > kMaxPixels)
+    if (options.outputs.empty())
+        throw Failure(kUsage, "no -o FILE given; --help shows the options");
+    if (options.width < 1 || options.height < 1 ||
+        double(options.width) * options.height > kMaxPixels)
     {
-        throw Failure(kUsage, "--size: width and height are at least 1, their product at most 2^28");
+        throw Failure(kUsage,
+                      "--size: width and height are at least 1, their product at most 2^28");
     }
 
     bool exr = false;
     for (const std::string& output : options.outputs)
     {
         const std::optional<Format> format = formatOf(output);
-        if (!format) throw Failure(kUsage, "-o " + output + ": the name ends in none of .exr, .png, .jpg");
+        if (!format)
+            throw Failure(kUsage, "-o " + output + ": the name ends in none of .exr, .png, .jpg");
         exr = exr || *format == Format::Exr;
     }
     if (!options.channels.empty() && !exr) throw Failure(kUsage, "--aov needs an -o FILE.exr");
@@ -182,7 +212,8 @@ std::optional<Options> parseOptions(int argc, char** argv)
     options.settings = new RayTraceSettings;
     RawOptions raw;
 
-    CLI::App app("Ray traces OpenSceneGraph models to pictures, without a graphics context.", "osgraytrace");
+    CLI::App app("Ray traces OpenSceneGraph models to pictures, without a graphics context.",
+                 "osgraytrace");
     app.footer(kFooter);
     addOptions(app, options, raw);
     addSettings(app, *options.settings);

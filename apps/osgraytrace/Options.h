@@ -36,8 +36,8 @@ struct Options
     double seconds = 0.0;       ///< 0: no limit
     double relativeError = 0.0; ///< 0: no target
     std::vector<std::string> channels;
-    std::string reference;      ///< empty: none
-    std::string statistics;     ///< empty: none
+    std::string reference;  ///< empty: none
+    std::string statistics; ///< empty: none
     Context context = Context::None;
     bool listOptions = false;
     osg::ref_ptr<RayTraceSettings> settings; ///< maxPasses is the limit of passes

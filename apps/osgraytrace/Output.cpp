@@ -37,7 +37,8 @@ fs::path fileBehind(const std::string& path)
     return error ? fs::path(path) : file;
 }
 
-void appendChannels(engine::ExrImage& exr, const osg::Image& image, const std::vector<std::string>& names)
+void appendChannels(engine::ExrImage& exr, const osg::Image& image,
+                    const std::vector<std::string>& names)
 {
     const size_t step = names.size();
     const size_t pixels = size_t(image.s()) * image.t();
@@ -60,7 +61,8 @@ std::vector<std::string> exrNames(const std::string& channel, bool vector)
 {
     if (channel == "id") return {"id.I"};
     if (!vector) return {channel + ".Z"};
-    if (channel == "normal" || channel == "position") return {channel + ".X", channel + ".Y", channel + ".Z"};
+    if (channel == "normal" || channel == "position")
+        return {channel + ".X", channel + ".Y", channel + ".Z"};
     return {channel + ".R", channel + ".G", channel + ".B"};
 }
 
@@ -93,13 +95,16 @@ osg::ref_ptr<osg::Image> withoutAlpha(const osg::Image& rgba)
 
 void writeDisplayFile(const std::string& file, const Picture& picture, const std::string& extension)
 {
-    osgDB::ReaderWriter* writer = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
+    osgDB::ReaderWriter* writer =
+        osgDB::Registry::instance()->getReaderWriterForExtension(extension);
     if (!writer) throw std::runtime_error("OpenSceneGraph has no plugin for ." + extension);
     std::ofstream stream(file, std::ios::binary);
-    const osgDB::ReaderWriter::WriteResult result = writer->writeImage(*withoutAlpha(*picture.display), stream);
+    const osgDB::ReaderWriter::WriteResult result =
+        writer->writeImage(*withoutAlpha(*picture.display), stream);
     stream.close();
     if (!stream) throw std::runtime_error(std::strerror(errno));
-    if (!result.success()) throw std::runtime_error("the " + extension + " plugin failed " + result.message());
+    if (!result.success())
+        throw std::runtime_error("the " + extension + " plugin failed " + result.message());
 }
 
 } // namespace
@@ -119,7 +124,8 @@ void checkWritable(const std::string& path)
     std::error_code error;
     if (fs::is_directory(file, error)) throw cannotWrite(path, "it is a folder");
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, error)) throw cannotWrite(path, "there is no folder " + folder.string());
+    if (!fs::is_directory(folder, error))
+        throw cannotWrite(path, "there is no folder " + folder.string());
     if (access(folder.c_str(), W_OK | X_OK) != 0) throw cannotWrite(path, std::strerror(errno));
 }
 

@@ -24,8 +24,8 @@ std::optional<Format> formatOf(const std::string& path);
 /// Throws Failure(kCannotWrite) if no file can be created there: better now than after the render.
 void checkWritable(const std::string& path);
 
-/// Lets write fill a file beside path, then renames it to path. Whatever write throws leaves path as it
-/// was and becomes a Failure(kCannotWrite).
+/// Lets write fill a file beside path, then renames it to path. Whatever write throws leaves path
+/// as it was and becomes a Failure(kCannotWrite).
 void replaceFile(const std::string& path, const std::function<void(const std::string&)>& write);
 
 /// By the extension. EXR: radiance and the picture's channels; else the display image. Throws

@@ -26,9 +26,11 @@ struct Picture
 };
 
 /// With osgRayTrace::Renderer. Throws Failure(kCannotRender).
-Picture renderWithoutContext(const Options& options, osg::Node& scene, const Camera& camera, Progress& progress);
+Picture renderWithoutContext(const Options& options, osg::Node& scene, const Camera& camera,
+                             Progress& progress);
 
 /// Through a RayTraceDrawable in an OpenGL context. Throws Failure(kCannotRender).
-Picture renderInContext(const Options& options, osg::Node& scene, const Camera& camera, Progress& progress);
+Picture renderInContext(const Options& options, osg::Node& scene, const Camera& camera,
+                        Progress& progress);
 
 } // namespace osgRayTrace::app

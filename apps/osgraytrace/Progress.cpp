@@ -19,7 +19,9 @@ constexpr double kInterval = 0.1; ///< between two pictures of the bar [s]
 } // namespace
 
 Progress::Progress(const Options& options)
-    : _options(options), _terminal(isatty(STDERR_FILENO) != 0), _start(std::chrono::steady_clock::now())
+    : _options(options),
+      _terminal(isatty(STDERR_FILENO) != 0),
+      _start(std::chrono::steady_clock::now())
 {
 }
 
@@ -41,14 +43,15 @@ void Progress::show(const Statistics& statistics)
     const double done = fraction(statistics);
     const int filled = static_cast<int>(done * kBarWidth);
     const uint64_t rays = statistics.cameraRays + statistics.shadowRays + statistics.secondaryRays;
-    const double rate = statistics.renderSeconds > 0.0 ? 1e-6 * rays / statistics.renderSeconds : 0.0;
+    const double rate =
+        statistics.renderSeconds > 0.0 ? 1e-6 * rays / statistics.renderSeconds : 0.0;
     std::fputs("\r[", stderr);
     for (int i = 0; i < kBarWidth; ++i)
     {
         std::fputc(i < filled ? '#' : '.', stderr);
     }
-    std::fprintf(stderr, "] %3d %%  pass %d  %.1f M rays/s", static_cast<int>(100.0 * done), statistics.passes,
-                 rate);
+    std::fprintf(stderr, "] %3d %%  pass %d  %.1f M rays/s", static_cast<int>(100.0 * done),
+                 statistics.passes, rate);
     if (statistics.passes > 1) std::fprintf(stderr, "  error %.2g", statistics.relativeError);
     if (done > 0.0) std::fprintf(stderr, "  %.0f s left", seconds() * (1.0 - done) / done);
     std::fputs("\033[K", stderr);

@@ -18,12 +18,13 @@ osg::ref_ptr<osg::Image> readReference(const std::string& file, int width, int h
     const bool rgb = image->getPixelFormat() == GL_RGB || image->getPixelFormat() == GL_RGBA;
     if (!rgb || image->getDataType() != GL_FLOAT)
     {
-        throw Failure(kCannotLoad, "the reference " + file + " holds no linear radiance; it must be an .exr");
+        throw Failure(kCannotLoad,
+                      "the reference " + file + " holds no linear radiance; it must be an .exr");
     }
     if (image->s() != width || image->t() != height)
     {
-        throw Failure(kUsage, "the reference " + file + " is of --size " + std::to_string(image->s()) + " " +
-                                  std::to_string(image->t()));
+        throw Failure(kUsage, "the reference " + file + " is of --size " +
+                                  std::to_string(image->s()) + " " + std::to_string(image->t()));
     }
     return image;
 }

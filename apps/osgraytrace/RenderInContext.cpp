@@ -22,11 +22,13 @@ namespace
 osg::ref_ptr<osg::GraphicsContext> createContext(const Options& options)
 {
     const bool osMesa = options.context == Context::OsMesa;
-    osg::ref_ptr<osg::GraphicsContext> context = osMesa ? createOSMesaContext(options.width, options.height)
-                                                        : createEGLContext(options.width, options.height);
+    osg::ref_ptr<osg::GraphicsContext> context =
+        osMesa ? createOSMesaContext(options.width, options.height)
+               : createEGLContext(options.width, options.height);
     if (context) return context;
     throw Failure(kCannotRender, std::string("no ") + (osMesa ? "OSMesa" : "EGL") + " context of " +
-                                     std::to_string(options.width) + "x" + std::to_string(options.height));
+                                     std::to_string(options.width) + "x" +
+                                     std::to_string(options.height));
 }
 
 bool finished(const Options& options, const Statistics& statistics)
@@ -38,7 +40,8 @@ bool finished(const Options& options, const Statistics& statistics)
 
 } // namespace
 
-Picture renderInContext(const Options& options, osg::Node& scene, const Camera& camera, Progress& progress)
+Picture renderInContext(const Options& options, osg::Node& scene, const Camera& camera,
+                        Progress& progress)
 {
     osg::ref_ptr<RayTracedScene> traced = new RayTracedScene;
     traced->setSettings(options.settings.get());
@@ -68,7 +71,8 @@ Picture renderInContext(const Options& options, osg::Node& scene, const Camera& 
         if (!picture.statistics.ok) throw Failure(kCannotRender, picture.statistics.message);
         if (picture.statistics.passes == passes)
         {
-            throw Failure(kCannotRender, "the context renders no further than pass " + std::to_string(passes));
+            throw Failure(kCannotRender,
+                          "the context renders no further than pass " + std::to_string(passes));
         }
         passes = picture.statistics.passes;
         progress.show(picture.statistics);

@@ -9,7 +9,8 @@
 namespace osgRayTrace::app
 {
 
-Picture renderWithoutContext(const Options& options, osg::Node& scene, const Camera& camera, Progress& progress)
+Picture renderWithoutContext(const Options& options, osg::Node& scene, const Camera& camera,
+                             Progress& progress)
 {
     osg::ref_ptr<Renderer> renderer = new Renderer;
     renderer->setScene(&scene);
@@ -30,7 +31,8 @@ Picture renderWithoutContext(const Options& options, osg::Node& scene, const Cam
     Picture picture;
     picture.radiance = renderer->getColorImage();
     picture.display = renderer->getDisplayImage();
-    if (!picture.radiance || !picture.display) throw Failure(kCannotRender, "no memory for the images");
+    if (!picture.radiance || !picture.display)
+        throw Failure(kCannotRender, "no memory for the images");
     picture.statistics = renderer->getStatistics();
     for (const std::string& channel : options.channels)
     {

@@ -57,18 +57,21 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
 
 std::string statisticsLine(const Statistics& statistics)
 {
-    const double rate =
-        statistics.renderSeconds > 0.0 ? 1e-6 * allRays(statistics) / statistics.renderSeconds : 0.0;
+    const double rate = statistics.renderSeconds > 0.0
+                            ? 1e-6 * allRays(statistics) / statistics.renderSeconds
+                            : 0.0;
     char text[160];
-    std::snprintf(text, sizeof(text), "%s, %d passes in %.1f s, %.3g M rays/s", statistics.integrator.c_str(),
-                  statistics.passes, statistics.renderSeconds, rate);
+    std::snprintf(text, sizeof(text), "%s, %d passes in %.1f s, %.3g M rays/s",
+                  statistics.integrator.c_str(), statistics.passes, statistics.renderSeconds, rate);
     std::string line = text;
     if (std::isfinite(statistics.relativeError))
     {
-        std::snprintf(text, sizeof(text), ", estimated error %.2g %%", 100.0 * statistics.relativeError);
+        std::snprintf(text, sizeof(text), ", estimated error %.2g %%",
+                      100.0 * statistics.relativeError);
         line += text;
     }
-    if (statistics.droppedSamples > 0) line += ", " + std::to_string(statistics.droppedSamples) + " samples dropped";
+    if (statistics.droppedSamples > 0)
+        line += ", " + std::to_string(statistics.droppedSamples) + " samples dropped";
     return line;
 }
 

@@ -30,13 +30,15 @@ Picture render(const Options& options, osg::Node& scene)
     Picture picture = options.context == Context::None
                           ? renderWithoutContext(options, scene, camera, progress)
                           : renderInContext(options, scene, camera, progress);
-    if (picture.statistics.triangles == 0) throw Failure(kCannotRender, "the scene holds no triangles to render");
+    if (picture.statistics.triangles == 0)
+        throw Failure(kCannotRender, "the scene holds no triangles to render");
     return picture;
 }
 
 void printMeasures(const ErrorMeasures& measures)
 {
-    std::printf("RMSE %.6g\nrelMSE %.6g\nmean ratio %.6g\n", measures.rmse, measures.relMse, measures.meanRatio);
+    std::printf("RMSE %.6g\nrelMSE %.6g\nmean ratio %.6g\n", measures.rmse, measures.relMse,
+                measures.meanRatio);
 }
 
 void run(const Options& options)
@@ -48,7 +50,8 @@ void run(const Options& options)
     }
     if (!options.statistics.empty()) checkWritable(options.statistics);
     osg::ref_ptr<osg::Image> reference;
-    if (!options.reference.empty()) reference = readReference(options.reference, options.width, options.height);
+    if (!options.reference.empty())
+        reference = readReference(options.reference, options.width, options.height);
     const osg::ref_ptr<osg::Node> scene = readScene(options.models);
 
     const Picture picture = render(options, *scene);

@@ -58,15 +58,30 @@ bool KeyHandler::press(int key)
     RayTraceDrawable& drawable = *_scene->getDrawable();
     switch (key)
     {
-    case 'i': cycle(settings, "integrator"); return true;
-    case 'n': cycle(settings, "light-sampling"); return true;
+    case 'i':
+        cycle(settings, "integrator");
+        return true;
+    case 'n':
+        cycle(settings, "light-sampling");
+        return true;
     case '+':
-    case '=': settings.setExposure(settings.getExposure() + kExposureStep); return true;
-    case '-': settings.setExposure(settings.getExposure() - kExposureStep); return true;
-    case 'p': drawable.setPaused(!drawable.getPaused()); return true;
-    case 'r': _scene->setEnabled(!_scene->getEnabled()); return true;
-    case 'c': writeScreenshot(); return true;
-    default: return false;
+    case '=':
+        settings.setExposure(settings.getExposure() + kExposureStep);
+        return true;
+    case '-':
+        settings.setExposure(settings.getExposure() - kExposureStep);
+        return true;
+    case 'p':
+        drawable.setPaused(!drawable.getPaused());
+        return true;
+    case 'r':
+        _scene->setEnabled(!_scene->getEnabled());
+        return true;
+    case 'c':
+        writeScreenshot();
+        return true;
+    default:
+        return false;
     }
 }
 
@@ -80,7 +95,8 @@ void KeyHandler::writeScreenshot() const
     }
     const std::string name = freeFileName();
     const bool written = osgDB::writeImageFile(*image, name);
-    OSG_NOTICE << "osgraytraceviewer: " << (written ? "wrote " : "could not write ") << name << std::endl;
+    OSG_NOTICE << "osgraytraceviewer: " << (written ? "wrote " : "could not write ") << name
+               << std::endl;
 }
 
 void KeyHandler::getUsage(osg::ApplicationUsage& usage) const

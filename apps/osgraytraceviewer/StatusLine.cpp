@@ -13,7 +13,7 @@ namespace osgRayTrace::app
 namespace
 {
 
-constexpr double kMargin = 10.0;       // pixels
+constexpr double kMargin = 10.0;        // pixels
 constexpr float kCharacterSize = 18.0f; // pixels
 
 osg::ref_ptr<osgText::Text> createText()
@@ -54,8 +54,7 @@ template <class... Values> std::string format(const char* pattern, Values... val
 
 } // namespace
 
-StatusLine::StatusLine(RayTracedScene* scene)
-    : _scene(scene), _text(createText())
+StatusLine::StatusLine(RayTracedScene* scene) : _scene(scene), _text(createText())
 {
     _camera = createOverlay(_text.get());
 }
@@ -64,7 +63,8 @@ bool StatusLine::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAda
 {
     if (event.getEventType() == osgGA::GUIEventAdapter::RESIZE)
     {
-        _camera->setProjectionMatrixAsOrtho2D(0.0, event.getWindowWidth(), 0.0, event.getWindowHeight());
+        _camera->setProjectionMatrixAsOrtho2D(0.0, event.getWindowWidth(), 0.0,
+                                              event.getWindowHeight());
         return false;
     }
     if (event.getEventType() != osgGA::GUIEventAdapter::FRAME) return false;

@@ -91,7 +91,8 @@ std::vector<std::string> modelNames(osg::ArgumentParser& arguments)
     return names;
 }
 
-void addHandlers(osgViewer::Viewer& viewer, RayTracedScene* scene, StatusLine* statusLine)
+void addHandlers(osgViewer::Viewer& viewer, RayTracedScene* scene, StatusLine* statusLine,
+                 osg::ApplicationUsage* usage)
 {
     viewer.addEventHandler(new KeyHandler(scene));
     viewer.addEventHandler(statusLine);
@@ -100,6 +101,7 @@ void addHandlers(osgViewer::Viewer& viewer, RayTracedScene* scene, StatusLine* s
     viewer.addEventHandler(new osgViewer::WindowSizeHandler);
     viewer.addEventHandler(new osgViewer::StatsHandler);
     viewer.addEventHandler(new osgViewer::LODScaleHandler);
+    viewer.addEventHandler(new osgViewer::HelpHandler(usage));
 }
 
 /// The view and background that the scene brings with it, if any.
@@ -145,8 +147,7 @@ int show(osgViewer::Viewer& viewer, const std::vector<std::string>& models,
     viewer.setSceneData(root.get());
     viewer.setCameraManipulator(new osgGA::TrackballManipulator);
     showAsStored(viewer, *root);
-    addHandlers(viewer, scene.get(), statusLine.get());
-    viewer.addEventHandler(new osgViewer::HelpHandler(usage));
+    addHandlers(viewer, scene.get(), statusLine.get(), usage);
     viewer.realize();
     osgViewer::Viewer::Windows windows;
     viewer.getWindows(windows);
@@ -168,7 +169,7 @@ int run(int argc, char** argv)
     if (help)
     {
         osg::ref_ptr<RayTracedScene> none = new RayTracedScene;
-        addHandlers(viewer, none.get(), new StatusLine(none.get()));
+        addHandlers(viewer, none.get(), new StatusLine(none.get()), &usage);
         viewer.getUsage(usage);
         usage.write(std::cout, osg::ApplicationUsage::COMMAND_LINE_OPTION |
                                    osg::ApplicationUsage::KEYBOARD_MOUSE_BINDING);

@@ -13,13 +13,19 @@ namespace
 
 using osg::Vec3;
 
-// Positions as measured [CornellBox]: x to the left in the picture, y up, z away from the camera [mm].
+// Positions as measured [CornellBox]: x to the left in the picture, y up, z away from the camera
+// [mm].
 const Quad kFloor{Vec3(552.8f, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 559.2f), Vec3(549.6f, 0, 559.2f)};
-const Quad kCeiling{Vec3(556, 548.8f, 0), Vec3(556, 548.8f, 559.2f), Vec3(0, 548.8f, 559.2f), Vec3(0, 548.8f, 0)};
-const Quad kLight{Vec3(343, 548.8f, 227), Vec3(343, 548.8f, 332), Vec3(213, 548.8f, 332), Vec3(213, 548.8f, 227)};
-const Quad kBackWall{Vec3(549.6f, 0, 559.2f), Vec3(0, 0, 559.2f), Vec3(0, 548.8f, 559.2f), Vec3(556, 548.8f, 559.2f)};
-const Quad kRightWall{Vec3(0, 0, 559.2f), Vec3(0, 0, 0), Vec3(0, 548.8f, 0), Vec3(0, 548.8f, 559.2f)};
-const Quad kLeftWall{Vec3(552.8f, 0, 0), Vec3(549.6f, 0, 559.2f), Vec3(556, 548.8f, 559.2f), Vec3(556, 548.8f, 0)};
+const Quad kCeiling{Vec3(556, 548.8f, 0), Vec3(556, 548.8f, 559.2f), Vec3(0, 548.8f, 559.2f),
+                    Vec3(0, 548.8f, 0)};
+const Quad kLight{Vec3(343, 548.8f, 227), Vec3(343, 548.8f, 332), Vec3(213, 548.8f, 332),
+                  Vec3(213, 548.8f, 227)};
+const Quad kBackWall{Vec3(549.6f, 0, 559.2f), Vec3(0, 0, 559.2f), Vec3(0, 548.8f, 559.2f),
+                     Vec3(556, 548.8f, 559.2f)};
+const Quad kRightWall{Vec3(0, 0, 559.2f), Vec3(0, 0, 0), Vec3(0, 548.8f, 0),
+                      Vec3(0, 548.8f, 559.2f)};
+const Quad kLeftWall{Vec3(552.8f, 0, 0), Vec3(549.6f, 0, 559.2f), Vec3(556, 548.8f, 559.2f),
+                     Vec3(556, 548.8f, 0)};
 
 const std::vector<Quad> kShortBlock{
     {Vec3(130, 165, 65), Vec3(82, 165, 225), Vec3(240, 165, 272), Vec3(290, 165, 114)},
@@ -42,7 +48,8 @@ const Vec3 kRed(0.65f, 0.05f, 0.05f);
 const Vec3 kGreen(0.12f, 0.45f, 0.15f);
 const Vec3 kRadiance(17.0f, 12.0f, 4.0f);
 
-/// The frame between an outer quad and an inner one: the ceiling around the light, which lies in it.
+/// The frame between an outer quad and an inner one: the ceiling around the light, which lies in
+/// it.
 std::vector<Quad> frame(const Quad& outer, const Quad& inner)
 {
     std::vector<Quad> quads;
@@ -64,15 +71,19 @@ osg::ref_ptr<osg::Group> cornellBox(CornellVariant variant)
     const bool blocks = variant != CornellVariant::GlassSphere;
 
     osg::ref_ptr<osg::Group> scene = newScene("Cornell box");
-    scene->addChild(storedView(osg::Vec3d(278, 278, -800), osg::Vec3d(278, 278, 0), osg::Vec3d(0, 1, 0), 39.3));
+    scene->addChild(
+        storedView(osg::Vec3d(278, 278, -800), osg::Vec3d(278, 278, 0), osg::Vec3d(0, 1, 0), 39.3));
     scene->addChild(surface("floor", {kFloor}, mirrorFloor ? mirror().get() : white.get()));
     scene->addChild(surface("ceiling", frame(kCeiling, kLight), white.get()));
     scene->addChild(surface("back wall", {kBackWall}, white.get()));
     scene->addChild(surface("right wall", {kRightWall}, lambert(kGreen).get()));
     scene->addChild(surface("left wall", {kLeftWall}, lambert(kRed).get()));
     if (blocks) scene->addChild(surface("short block", kShortBlock, white.get()));
-    if (blocks) scene->addChild(surface("tall block", kTallBlock, mirrorBlock ? mirror().get() : white.get()));
-    if (!blocks) scene->addChild(sphere("glass sphere", Vec3(278, 121, 279.6f), 120.0f, glass(1.5f).get()));
+    if (blocks)
+        scene->addChild(
+            surface("tall block", kTallBlock, mirrorBlock ? mirror().get() : white.get()));
+    if (!blocks)
+        scene->addChild(sphere("glass sphere", Vec3(278, 121, 279.6f), 120.0f, glass(1.5f).get()));
 
     // Its front, cross(edgeU, edgeV), looks down.
     osg::ref_ptr<AreaLight> light =

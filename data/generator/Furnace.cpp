@@ -14,8 +14,10 @@ osg::ref_ptr<osg::Group> furnace()
     wall->setEmission(half);
 
     osg::ref_ptr<osg::Group> scene = newScene("furnace");
-    scene->addChild(storedView(osg::Vec3d(0, -0.8, 0), osg::Vec3d(0, 0, 0), osg::Vec3d(0, 0, 1), 60.0));
-    scene->addChild(surface("room", boxQuads(osg::Vec3(-1, -1, -1), osg::Vec3(1, 1, 1)), wall.get()));
+    scene->addChild(
+        storedView(osg::Vec3d(0, -0.8, 0), osg::Vec3d(0, 0, 0), osg::Vec3d(0, 0, 1), 60.0));
+    scene->addChild(
+        surface("room", boxQuads(osg::Vec3(-1, -1, -1), osg::Vec3(1, 1, 1)), wall.get()));
     return scene;
 }
 

@@ -1,5 +1,5 @@
-// Grids.cpp - lattices under an area light, for soft shadows of many edges. Part of the scene generator.
-// SPDX-License-Identifier: MIT
+// Grids.cpp - lattices under an area light, for soft shadows of many edges. Part of the scene
+// generator. SPDX-License-Identifier: MIT
 #include "Scenes.h"
 #include "Surfaces.h"
 
@@ -35,7 +35,8 @@ std::vector<Quad> lattice()
         {
             quads.push_back(side);
         }
-        for (const Quad& side : boxQuads(Vec3(at, 0, kBarWidth) - alongY, Vec3(at, 0, kBarWidth) + alongY))
+        for (const Quad& side :
+             boxQuads(Vec3(at, 0, kBarWidth) - alongY, Vec3(at, 0, kBarWidth) + alongY))
         {
             quads.push_back(side);
         }
@@ -43,7 +44,8 @@ std::vector<Quad> lattice()
     return quads;
 }
 
-osg::ref_ptr<osg::MatrixTransform> placed(const std::string& name, const osg::Matrixd& matrix, osg::Node* node)
+osg::ref_ptr<osg::MatrixTransform> placed(const std::string& name, const osg::Matrixd& matrix,
+                                          osg::Node* node)
 {
     osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrix);
     transform->setName(name);
@@ -56,16 +58,19 @@ osg::ref_ptr<osg::MatrixTransform> placed(const std::string& name, const osg::Ma
 osg::ref_ptr<osg::Group> grids()
 {
     osg::ref_ptr<osg::Group> scene = newScene("grids");
-    scene->addChild(storedView(osg::Vec3d(0, -11, 7), osg::Vec3d(0, 0.3, 0.6), osg::Vec3d(0, 0, 1), 36.0));
+    scene->addChild(
+        storedView(osg::Vec3d(0, -11, 7), osg::Vec3d(0, 0.3, 0.6), osg::Vec3d(0, 0, 1), 36.0));
     const Quad floor{Vec3(-12, -12, 0), Vec3(12, -12, 0), Vec3(12, 12, 0), Vec3(-12, 12, 0)};
     scene->addChild(surface("floor", {floor}, lambert(Vec3(0.7f, 0.7f, 0.7f)).get()));
 
     // One grid, used three times: lying near the floor, lying high above it, standing.
-    const osg::ref_ptr<osg::Geode> grid = surface("grid", lattice(), lambert(Vec3(0.6f, 0.35f, 0.2f)).get());
+    const osg::ref_ptr<osg::Geode> grid =
+        surface("grid", lattice(), lambert(Vec3(0.6f, 0.35f, 0.2f)).get());
     scene->addChild(placed("low grid", osg::Matrixd::translate(-3.6, 0.0, 0.5), grid.get()));
     scene->addChild(placed("high grid", osg::Matrixd::translate(0.0, 0.0, 1.6), grid.get()));
     scene->addChild(placed("standing grid",
-                           osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0)) * osg::Matrixd::translate(3.8, 0.9, 1.56),
+                           osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0)) *
+                               osg::Matrixd::translate(3.8, 0.9, 1.56),
                            grid.get()));
 
     osg::ref_ptr<AreaLight> light =

@@ -1,5 +1,5 @@
-// Scenes.h - our own scenes; data/README.md says where each comes from. Part of the scene generator.
-// SPDX-License-Identifier: MIT
+// Scenes.h - our own scenes; data/README.md says where each comes from. Part of the scene
+// generator. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osg/Group>
@@ -9,18 +9,19 @@ namespace osgRayTrace::data
 
 enum class CornellVariant
 {
-    Diffuse,         ///< as published
-    MirrorFloor,     ///< floor and tall block are mirrors [McCarthySchulze17, fig. 4]
-    TallMirror,      ///< the tall block is a mirror
-    GlassSphere,     ///< a glass sphere in place of both blocks
+    Diffuse,     ///< as published
+    MirrorFloor, ///< floor and tall block are mirrors [McCarthy17, fig. 4]
+    TallMirror,  ///< the tall block is a mirror
+    GlassSphere, ///< a glass sphere in place of both blocks
 };
 
 osg::ref_ptr<osg::Group> cornellBox(CornellVariant variant);
 
-/// Lattices between an area light and a floor [McCarthySchulze17, fig. 1-3].
+/// Lattices between an area light and a floor [McCarthy17, fig. 1-3].
 osg::ref_ptr<osg::Group> grids();
 
-/// A closed room whose walls all emit 1/2 and reflect 1/2: seen from within, radiance is 1 everywhere.
+/// A closed room whose walls all emit 1/2 and reflect 1/2: seen from within, radiance is 1
+/// everywhere.
 osg::ref_ptr<osg::Group> furnace();
 
 } // namespace osgRayTrace::data

@@ -25,8 +25,10 @@ float srgbFromLinear(float value)
     return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1.0f / 2.4f) - 0.055f;
 }
 
-/// What the rasterizer shows: the base colour, brighter on faces that look up or to the viewer's left.
-osg::ref_ptr<osg::Material> rasterMaterial(const PhysicalMaterial& physical, const osg::Vec3& normal)
+/// What the rasterizer shows: the base colour, brighter on faces that look up or to the viewer's
+/// left.
+osg::ref_ptr<osg::Material> rasterMaterial(const PhysicalMaterial& physical,
+                                           const osg::Vec3& normal)
 {
     const osg::Vec3 up(0.35f, 0.8f, 0.5f);
     const float shade = 0.55f + 0.45f * std::abs(normal * up);
@@ -101,7 +103,8 @@ osg::ref_ptr<osg::Geode> sphere(const std::string& name, const osg::Vec3& center
     geode->setName(name);
     geode->addDrawable(new osg::ShapeDrawable(new osg::Sphere(center, radius), hints.get()));
     geode->getOrCreateStateSet()->setAttribute(material);
-    geode->getStateSet()->setAttributeAndModes(rasterMaterial(*material, osg::Vec3(0.0f, 0.5f, 0.0f)).get());
+    geode->getStateSet()->setAttributeAndModes(
+        rasterMaterial(*material, osg::Vec3(0.0f, 0.5f, 0.0f)).get());
     return geode;
 }
 
@@ -110,12 +113,18 @@ std::vector<Quad> boxQuads(const osg::Vec3& low, const osg::Vec3& high)
     const float x0 = low.x(), y0 = low.y(), z0 = low.z();
     const float x1 = high.x(), y1 = high.y(), z1 = high.z();
     return {
-        {osg::Vec3(x0, y0, z0), osg::Vec3(x0, y1, z0), osg::Vec3(x1, y1, z0), osg::Vec3(x1, y0, z0)},
-        {osg::Vec3(x0, y0, z1), osg::Vec3(x1, y0, z1), osg::Vec3(x1, y1, z1), osg::Vec3(x0, y1, z1)},
-        {osg::Vec3(x0, y0, z0), osg::Vec3(x1, y0, z0), osg::Vec3(x1, y0, z1), osg::Vec3(x0, y0, z1)},
-        {osg::Vec3(x1, y0, z0), osg::Vec3(x1, y1, z0), osg::Vec3(x1, y1, z1), osg::Vec3(x1, y0, z1)},
-        {osg::Vec3(x1, y1, z0), osg::Vec3(x0, y1, z0), osg::Vec3(x0, y1, z1), osg::Vec3(x1, y1, z1)},
-        {osg::Vec3(x0, y1, z0), osg::Vec3(x0, y0, z0), osg::Vec3(x0, y0, z1), osg::Vec3(x0, y1, z1)},
+        {osg::Vec3(x0, y0, z0), osg::Vec3(x0, y1, z0), osg::Vec3(x1, y1, z0),
+         osg::Vec3(x1, y0, z0)},
+        {osg::Vec3(x0, y0, z1), osg::Vec3(x1, y0, z1), osg::Vec3(x1, y1, z1),
+         osg::Vec3(x0, y1, z1)},
+        {osg::Vec3(x0, y0, z0), osg::Vec3(x1, y0, z0), osg::Vec3(x1, y0, z1),
+         osg::Vec3(x0, y0, z1)},
+        {osg::Vec3(x1, y0, z0), osg::Vec3(x1, y1, z0), osg::Vec3(x1, y1, z1),
+         osg::Vec3(x1, y0, z1)},
+        {osg::Vec3(x1, y1, z0), osg::Vec3(x0, y1, z0), osg::Vec3(x0, y1, z1),
+         osg::Vec3(x1, y1, z1)},
+        {osg::Vec3(x0, y1, z0), osg::Vec3(x0, y0, z0), osg::Vec3(x0, y0, z1),
+         osg::Vec3(x0, y1, z1)},
     };
 }
 

@@ -38,8 +38,8 @@ std::vector<Quad> boxQuads(const osg::Vec3& low, const osg::Vec3& high);
 osg::ref_ptr<osg::CameraView> storedView(const osg::Vec3d& eye, const osg::Vec3d& center,
                                          const osg::Vec3d& up, double fovyDegrees);
 
-/// An empty scene on a black background that area lights and emission alone light: osgviewer's headlight
-/// is off, and the rasterizer shows the materials' ambient colours.
+/// An empty scene on a black background that area lights and emission alone light: osgviewer's
+/// headlight is off, and the rasterizer shows the materials' ambient colours.
 osg::ref_ptr<osg::Group> newScene(const std::string& name);
 
 } // namespace osgRayTrace::data

@@ -14,33 +14,32 @@ namespace
 {
 
 /// Embree's distances are products of three lengths: beyond these they overflow or vanish. The engine's
-/// coordinates and directions of length 1 are far inside.
-constexpr float kLargestCoordinate = 1e18f;
+/// directions of length 1 are far inside.
 constexpr float kLargestDirection = 1e6f;
 constexpr float kSmallestDirection = 1e-6f;
 
 /// Below this many rays a packet does not pay on incoherent rays.
 constexpr int kFewRays = 2;
 
-OSGRAYTRACE_INLINE bool traceable(float ox, float oy, float oz, float dx, float dy, float dz,
+OSGRAYTRACE_INLINE bool traceable(float reach, float ox, float oy, float oz, float dx, float dy, float dz,
                                   float tNear, float tFar)
 {
     // Comparisons with NaN are false, so each of them refuses it. No branches: this runs on lanes.
     const float origin = std::fabs(ox) + std::fabs(oy) + std::fabs(oz);
     const float direction = std::fabs(dx) + std::fabs(dy) + std::fabs(dz);
-    return (origin < kLargestCoordinate) & (direction > kSmallestDirection) &
+    return (origin < reach) & (direction > kSmallestDirection) &
            (direction < kLargestDirection) & (tNear >= 0.0f) & (tNear <= tFar);
 }
 
 /// Embree's "valid" array: -1 for lanes that are active and traceable. Returns the active others.
 OSGRAYTRACE_KERNEL
-LaneMask checkRays(const RayBlock& ray, LaneMask active, Lanes<int>& valid)
+LaneMask checkRays(const RayBlock& ray, float reach, LaneMask active, Lanes<int>& valid)
 {
     LaneMask refused = 0;
     OSGRAYTRACE_SIMD_OR(refused)
     for (int i = 0; i < kLanes; ++i)
     {
-        const bool ok = traceable(ray.originX[i], ray.originY[i], ray.originZ[i], ray.directionX[i],
+        const bool ok = traceable(reach, ray.originX[i], ray.originY[i], ray.originZ[i], ray.directionX[i],
                                   ray.directionY[i], ray.directionZ[i], ray.tNear[i], ray.tFar[i]);
         const uint32_t good = maskOf(ok);
         valid[i] = static_cast<int>(good & laneBit(active, i));
@@ -130,8 +129,8 @@ RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar)
 
 } // namespace
 
-Intersector::Intersector(void* embreeScene, int nativeWidth)
-    : _scene(embreeScene), _nativeWidth(nativeWidth)
+Intersector::Intersector(void* embreeScene, int nativeWidth, float reach)
+    : _scene(embreeScene), _nativeWidth(nativeWidth), _reach(reach)
 {
 }
 
@@ -139,7 +138,7 @@ LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence
 {
     const auto scene = static_cast<RTCScene>(_scene);
     Lanes<int> valid;
-    const LaneMask refused = checkRays(block.ray, active, valid);
+    const LaneMask refused = checkRays(block.ray, _reach, active, valid);
     std::memset(&block.geometry, 0xff, sizeof(block.geometry));
     std::memset(&block.instance, 0xff, sizeof(block.instance));
 
@@ -201,7 +200,7 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
 {
     const auto scene = static_cast<RTCScene>(_scene);
     Lanes<int> valid;
-    const LaneMask refused = checkRays(block, active, valid);
+    const LaneMask refused = checkRays(block, _reach, active, valid);
 
     // Never the coherent flag here: it makes occlusion packets slower, and with instances Embree 3.13.5
     // may not return at all.
@@ -239,7 +238,7 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
 
 std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar) const
 {
-    if (!traceable(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tNear, tFar))
+    if (!traceable(_reach, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tNear, tFar))
         return std::nullopt;
     RTCRayHit single;
     single.ray = singleRay(origin, direction, tNear, tFar);
@@ -259,7 +258,7 @@ std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tN
 
 bool Intersector::occluded(Vec3 origin, Vec3 direction, float tNear, float tFar) const
 {
-    if (!traceable(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tNear, tFar))
+    if (!traceable(_reach, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tNear, tFar))
         return true;
     RTCRay single = singleRay(origin, direction, tNear, tFar);
     QueryArguments query(false);

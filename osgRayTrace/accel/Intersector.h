@@ -29,11 +29,12 @@ struct Hit
 class Intersector
 {
 public:
-    /// Opaque handle of an RTCScene; used by TracedScene.
-    Intersector(void* embreeScene, int nativeWidth);
+    /// Opaque handle of an RTCScene; used by TracedScene. Rays whose origin is farther than reach from the
+    /// scene's are refused.
+    Intersector(void* embreeScene, int nativeWidth, float reach);
 
-    /// Closest hits of the active lanes. Others keep their hit fields. Returns the lanes whose ray was
-    /// refused (geometry is kInvalid there).
+    /// Closest hits of the active lanes; geometry is kInvalid in the others. Returns the lanes whose ray was
+    /// refused (geometry is kInvalid there, too).
     LaneMask closestHits(RayHitBlock& block, LaneMask active, Coherence coherence) const;
 
     /// Sets tFar to -infinity in the active lanes that are occluded. Refused rays count as occluded.
@@ -45,6 +46,7 @@ public:
 private:
     void* _scene;
     int _nativeWidth;
+    float _reach;
 };
 
 } // namespace osgRayTrace::engine

@@ -46,9 +46,9 @@ bool loadTriangle(const SurfaceRecord& record, uint32_t primitive, int i, Triang
     Vec3 b = record.positions[t.y];
     Vec3 c = record.positions[t.z];
     lanes.transformBound[i] = 0.0f;
-    if (record.engineFromLocal)
+    if (record.placed)
     {
-        const Affine& m = *record.engineFromLocal;
+        const Affine& m = record.placed->engineFromLocal;
         lanes.transformBound[i] = transformMagnitude(m, a, b, c);
         a = transformPoint(m, a);
         b = transformPoint(m, b);
@@ -62,12 +62,13 @@ bool loadTriangle(const SurfaceRecord& record, uint32_t primitive, int i, Triang
     Vec3 na = record.normals[t.x];
     Vec3 nb = record.normals[t.y];
     Vec3 nc = record.normals[t.z];
-    if (record.normalFromLocal)
+    if (record.placed)
     {
+        const Mat3& normalFromLocal = record.placed->normalFromLocal;
         // Interpolation comes after normalisation in OpenGL, so vertex normals keep equal weights here.
-        na = glm::normalize(*record.normalFromLocal * na);
-        nb = glm::normalize(*record.normalFromLocal * nb);
-        nc = glm::normalize(*record.normalFromLocal * nc);
+        na = glm::normalize(normalFromLocal * na);
+        nb = glm::normalize(normalFromLocal * nb);
+        nc = glm::normalize(normalFromLocal * nc);
     }
     store(lanes.na, i, na);
     store(lanes.nb, i, nb);
@@ -213,6 +214,21 @@ void clearLane(TriangleLanes& lanes, int i)
     lanes.transformBound[i] = 0.0f;
 }
 
+bool isMirrored(const SurfaceRecord& record) { return record.placed && record.placed->mirrored; }
+
+/// The outside of a body stays its outside under a transform that reverses the winding.
+void turnMirrored(LaneMask lanes, SurfaceLanes& s)
+{
+    s.front ^= lanes;
+    for (; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        s.shadingNormal.x[i] = -s.shadingNormal.x[i];
+        s.shadingNormal.y[i] = -s.shadingNormal.y[i];
+        s.shadingNormal.z[i] = -s.shadingNormal.z[i];
+    }
+}
+
 } // namespace
 
 void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active,
@@ -220,13 +236,14 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
 {
     TriangleLanes triangles;
     const LaneMask hits = hitLanes(block, active);
-    LaneMask smooth = 0;
+    LaneMask smooth = 0, mirrored = 0;
     const int first = hits ? __builtin_ctz(hits) : 0;
     if (hits && isOneTriangle(block, hits, first))
     {
         const uint32_t instance = hitInstance(block.geometry[first], block.instance[first]);
         const SurfaceRecord& record = table[instance];
         if (loadTriangle(record, block.primitive[first], first, triangles)) smooth = kAllLanes;
+        if (isMirrored(record)) mirrored = kAllLanes;
         broadcast(first, smooth != 0, triangles);
         std::fill_n(surface.instance.v, kLanes, instance);
         std::fill_n(surface.material.v, kLanes, record.material);
@@ -244,12 +261,14 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
             const uint32_t instance = hitInstance(block.geometry[i], block.instance[i]);
             const SurfaceRecord& record = table[instance];
             smooth |= static_cast<LaneMask>(loadTriangle(record, block.primitive[i], i, triangles)) << i;
+            mirrored |= static_cast<LaneMask>(isMirrored(record)) << i;
             surface.instance[i] = instance;
             surface.material[i] = record.material;
         }
     }
     surface.hits = hits;
     geometry(block, triangles, surface);
+    if (mirrored) turnMirrored(mirrored, surface);
     if (smooth) interpolateNormals(block, triangles, smooth, surface);
 }
 

@@ -19,7 +19,7 @@ struct SurfaceLanes
     UintLanes instance;        ///< index into Scene::instances; undefined outside of hits
     UintLanes material;        ///< index into Scene::materials
     LaneMask hits = 0;
-    LaneMask front = 0;        ///< the ray comes from the counter-clockwise side
+    LaneMask front = 0;        ///< the ray comes from the mesh's counter-clockwise side
 };
 
 /// The surfaces at the hits of block's active lanes. Lanes without a hit are zero where they are floats.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/scene/Mesh.h"
 
 #include <vector>
 
@@ -17,8 +17,7 @@ struct SurfaceRecord
     const Vec3* normals = nullptr;
     const Vec2* uvs = nullptr;
     const Vec4* colors = nullptr;
-    const Affine* engineFromLocal = nullptr; ///< null: positions are in engine space
-    const Mat3* normalFromLocal = nullptr;
+    const Instance* placed = nullptr; ///< its transforms; null: positions are in engine space
     uint32_t material = 0;
     uint32_t light = kInvalid;
 };

@@ -7,6 +7,7 @@
 #include "osgRayTrace/accel/SurfaceTable.h"
 #include "osgRayTrace/base/Parallel.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <unordered_map>
@@ -36,19 +37,34 @@ struct Prototype
     SceneHandle scene;
 };
 
-/// Determinant and entries within what Embree can invert in float.
-bool isInvertible(const Affine& m)
+/// Embree's coordinates must stay below 1.8e18, also those of rays in the local space of instances.
+constexpr double kLargestCoordinate = 1e18;
+
+/// How far from the engine's origin a ray may start so that Embree can take it to the instance's local
+/// space; 0 if Embree, which does so in float, cannot use the transform.
+double reachOf(const Affine& m)
 {
-    float largest = 0.0f;
+    double largest = 0.0, columnProduct = 1.0;
     for (int column = 0; column < 3; ++column)
     {
-        if (!isFinite(m.linear[column])) return false;
         for (int row = 0; row < 3; ++row)
-            largest = std::max(largest, std::fabs(m.linear[column][row]));
+            largest = std::max(largest, std::fabs(double(m.linear[column][row])));
+        columnProduct *= glm::length(glm::dvec3(m.linear[column]));
     }
-    if (!isFinite(m.translation) || largest < 1e-12f || largest > 1e12f) return false;
+    // A flatter parallelepiped of columns has a determinant of rounding errors. NaN fails, too.
     const double determinant = glm::determinant(glm::dmat3(m.linear));
-    return std::fabs(determinant) > 1e-30 && std::isfinite(determinant);
+    if (!(largest < 1e12) || !(std::fabs(determinant) > 1e-6 * columnProduct)) return 0.0;
+
+    const glm::dmat3 localFromEngine = glm::inverse(glm::dmat3(m.linear));
+    double enlargement = 1.0; // largest sum of a row
+    for (int row = 0; row < 3; ++row)
+        enlargement = std::max(enlargement, std::fabs(localFromEngine[0][row]) + std::fabs(localFromEngine[1][row]) +
+                                                std::fabs(localFromEngine[2][row]));
+    const double reach = kLargestCoordinate / enlargement;
+    const double distance = std::max({std::fabs(double(m.translation.x)), std::fabs(double(m.translation.y)),
+                                      std::fabs(double(m.translation.z))});
+    if (!(enlargement < 2e9) || !isFinite(m.translation) || distance > 0.5 * reach) return 0.0;
+    return reach - distance;
 }
 
 GeometryHandle newTriangles(RTCDevice device, const Mesh& mesh)
@@ -134,11 +150,7 @@ void TracedScene::Implementation::fillSurfaces()
         record.normals = mesh.normals.empty() ? nullptr : mesh.normals.data();
         record.uvs = mesh.uvs.empty() ? nullptr : mesh.uvs.data();
         record.colors = mesh.colors.empty() ? nullptr : mesh.colors.data();
-        if (instance.placed)
-        {
-            record.engineFromLocal = &instance.engineFromLocal;
-            record.normalFromLocal = &instance.normalFromLocal;
-        }
+        if (instance.placed) record.placed = &instance;
         record.material = instance.material;
         record.light = instance.light;
         surfaces.push_back(record);
@@ -161,6 +173,7 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     built.scene = std::move(scene);
     const uint64_t bytesBefore = old ? built.device->bytes() : 0;
 
+    double reach = kLargestCoordinate;
     workers->run(
         [&]
         {
@@ -171,10 +184,15 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
                 const Instance& instance = built.scene->instances[i];
                 const std::shared_ptr<const Mesh>& mesh = built.scene->meshes[instance.mesh];
                 if (mesh->triangles.empty()) continue;
-                if (instance.placed && !isInvertible(instance.engineFromLocal))
+                if (instance.placed)
                 {
-                    ++built.statistics.invalidInstances;
-                    continue;
+                    const double instanceReach = reachOf(instance.engineFromLocal);
+                    if (instanceReach == 0.0)
+                    {
+                        ++built.statistics.invalidInstances;
+                        continue;
+                    }
+                    reach = std::min(reach, instanceReach);
                 }
                 GeometryHandle geometry;
                 if (instance.placed)
@@ -193,7 +211,8 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
         });
     built.device->checkErrors();
 
-    built.intersector = std::make_unique<Intersector>(built.root.get(), built.device->nativeWidth());
+    built.intersector = std::make_unique<Intersector>(built.root.get(), built.device->nativeWidth(),
+                                                      static_cast<float>(reach));
     built.fillSurfaces();
     built.materials = std::make_unique<MaterialTable>(*built.scene);
     built.lights = std::make_unique<LightTable>(*built.scene);

@@ -1,5 +1,5 @@
-// GeometryConverter.cpp - triangles and vertices of a geometry, checked and put together. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// GeometryConverter.cpp - checks triangles and vertices and makes a mesh of them. Layer: bridge.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GeometryConverter.h"
 
 #include "osgRayTrace/bridge/TriangleList.h"

@@ -1,5 +1,5 @@
-// GraphCollector.h - the visitor that finds what is visible in a scene graph, and where. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// GraphCollector.h - finds what is visible in a scene graph, and where. Layer: bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/bridge/SceneConverter.h"

@@ -1,4 +1,4 @@
-// GraphFingerprint.cpp - a cheap check whether a scene graph still converts to the same scene. Layer: bridge.
+// GraphFingerprint.cpp - a cheap check whether a scene graph has changed. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GraphFingerprint.h"
 
@@ -88,8 +88,8 @@ void addLight(Digest& digest, const osg::Light& light)
 {
     digest.add(light.getLightNum(), light.getAmbient(), light.getDiffuse(), light.getSpecular(),
                light.getPosition(), light.getDirection(), light.getConstantAttenuation(),
-               light.getLinearAttenuation(), light.getQuadraticAttenuation(), light.getSpotExponent(),
-               light.getSpotCutoff());
+               light.getLinearAttenuation(), light.getQuadraticAttenuation(),
+               light.getSpotExponent(), light.getSpotCutoff());
 }
 
 void addTexture(Digest& digest, const osg::Texture& texture)
@@ -193,8 +193,8 @@ public:
     void apply(osg::Node& node) override
     {
         if (const auto* light = dynamic_cast<const AreaLight*>(&node))
-            _digest.add(light->getCorner(), light->getEdgeU(), light->getEdgeV(), light->getRadiance(),
-                        light->getTwoSided());
+            _digest.add(light->getCorner(), light->getEdgeU(), light->getEdgeV(),
+                        light->getRadiance(), light->getTwoSided());
         enter(node);
     }
 
@@ -269,7 +269,7 @@ private:
         if (node.getStateSet()) addStateSet(_digest, *node.getStateSet());
     }
 
-    static constexpr int kEnd = -1; // of a node's children, so that moving a node one level up shows
+    static constexpr int kEnd = -1; // of the children: a node that moves one level up must show
 
     Digest _digest;
     osg::Vec3d _eye;

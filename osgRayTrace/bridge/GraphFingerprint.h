@@ -1,4 +1,4 @@
-// GraphFingerprint.h - a cheap check whether a scene graph still converts to the same scene. Layer: bridge.
+// GraphFingerprint.h - a cheap check whether a scene graph has changed. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,9 +12,10 @@ namespace osgRayTrace::engine
 {
 
 /// A number that changes with the children that are active for the eye, their order and masks, with
-/// transforms, with the modified counts and bounds of geometry, with state sets, and with the values of
-/// the attributes and lights that are traced; those of the inherited state included. Vertex data that is written without Array::dirty(), and
-/// images without Image::dirty(), go unseen: that is what dirtyScene() is for. Reads the graph only.
+/// transforms, with the modified counts and bounds of geometry, with state sets, and with the
+/// values of the attributes and lights that are traced; those of the inherited state included.
+/// Vertex data that is written without Array::dirty(), and images without Image::dirty(), go
+/// unseen: that is what dirtyScene() is for. Reads the graph only.
 uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions);
 
 } // namespace osgRayTrace::engine

@@ -1,5 +1,5 @@
-// MaterialConverter.cpp - what OpenGL's lighting and texturing state says about a surface. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// MaterialConverter.cpp - what OpenGL's state says about a surface. Layer: bridge.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/MaterialConverter.h"
 
 #include "osgRayTrace/bridge/VertexArrays.h"

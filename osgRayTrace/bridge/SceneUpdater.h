@@ -22,31 +22,35 @@ namespace osgRayTrace::engine
 /// What a draw thread needs to trace a view. Immutable: it stays what it is while update goes on.
 struct SceneVersion
 {
-    std::shared_ptr<const TracedScene> scene; ///< null: there is none yet, or none that can be traced
+    std::shared_ptr<const TracedScene>
+        scene; ///< null: there is none yet, or none that can be traced
     std::shared_ptr<Workers> workers;
     osg::ref_ptr<const RayTraceSettings> settings;
 };
 
-/// Update converts, draw takes the version there is. Cull notes who looks at the scene: the first camera
-/// that did, as long as it does, is the reference for what all views share (levels of detail, the light
-/// that osgViewer adds, the background colour).
+/// Update converts, draw takes the version there is. Cull notes who looks at the scene: the first
+/// camera that did, as long as it does, is the reference for what all views share (levels of
+/// detail, the light that osgViewer adds, the background colour).
 class SceneUpdater
 {
 public:
     /// A camera is about to draw the scene. Cull threads.
-    void noteView(const void* camera, const osg::FrameStamp* frameStamp, const ViewingConditions& conditions);
+    void noteView(const void* camera, const osg::FrameStamp* frameStamp,
+                  const ViewingConditions& conditions);
 
     /// True once a view was noted. Any thread.
     bool isViewed() const;
 
-    /// The camera has drawn from eye with its near plane at a distance; one engine origin has to serve
-    /// near things and far ones, see kOriginDistance. Draw threads.
+    /// The camera has drawn from eye with its near plane at a distance; one engine origin has to
+    /// serve near things and far ones, see kOriginDistance. Draw threads.
     void noteDrawn(const void* camera, const osg::Vec3d& eye, double nearDistance);
 
-    /// Takes the settings over and converts the graph if anything of it, of the settings or of the noted
-    /// conditions changed; once for a frame number, unless the latter did. Null root: no scene. Update
-    /// and cull threads. Does not throw: a failure leaves the last version and is in the statistics.
-    void update(osg::Node* root, const RayTraceSettings& settings, const osg::FrameStamp* frameStamp);
+    /// Takes the settings over and converts the graph if anything of it, of the settings or of the
+    /// noted conditions changed; once for a frame number, unless the latter did. Null root: no
+    /// scene. Update and cull threads. Does not throw: a failure leaves the last version and is in
+    /// the statistics.
+    void update(osg::Node* root, const RayTraceSettings& settings,
+                const osg::FrameStamp* frameStamp);
 
     /// The next update converts, whatever it sees. Any thread.
     void setDirty();

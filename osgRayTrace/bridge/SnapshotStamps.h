@@ -1,5 +1,5 @@
-// SnapshotStamps.h - gives each part of a new Scene the time stamp of its last change. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// SnapshotStamps.h - gives each part of a new Scene its time stamp. Layer: bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/scene/Scene.h"

@@ -1,5 +1,5 @@
-// StateStack.cpp - OVERRIDE and PROTECTED, and which modes and attributes are followed. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// StateStack.cpp - OVERRIDE, PROTECTED and the state that is followed. Layer: bridge.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/StateStack.h"
 
 #include <osgRayTrace/PhysicalMaterial>

@@ -1,5 +1,5 @@
-// StateStack.h - the OpenGL state that a drawable inherits, by the rules of osg::State. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// StateStack.h - the OpenGL state that a drawable inherits. Layer: bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osg/StateSet>

@@ -1,5 +1,5 @@
-// VertexArrays.cpp - reads, checks and transforms vertex data; shares what is ready to use. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// VertexArrays.cpp - reads, checks and transforms vertex data, or shares it. Layer: bridge.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/VertexArrays.h"
 
 #include "osgRayTrace/film/ToneMap.h"

@@ -1,5 +1,5 @@
-// VertexArrays.h - positions, normals, texture coordinates and colours of a geometry. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// VertexArrays.h - the vertex data of a geometry. Layer: bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/base/SharedArray.h"

@@ -12,24 +12,25 @@
 namespace osgRayTrace::engine
 {
 
-/// One pass over a scene. The pointers are names, never followed: an address that is used again at most
-/// continues with a state that is then restarted.
+/// One pass over a scene. The pointers are names, never followed: an address that is used again at
+/// most continues with a state that is then restarted.
 struct PassIdentity
 {
     const void* camera = nullptr;
-    const void* renderStage = nullptr; ///< osgViewer has one for each eye, and may alternate two sets
+    const void* renderStage = nullptr; ///< one for each eye; viewers may alternate two sets
     unsigned int contextId = 0;
-    uint64_t frameNumber = 0;          ///< of the camera's viewer
-    std::array<int, 4> viewport{};     ///< x, y, width, height
+    uint64_t frameNumber = 0;      ///< of the camera's viewer
+    std::array<int, 4> viewport{}; ///< x, y, width, height
 };
 
 /// The states of all views, found again frame after frame.
 ///
-/// A view is a camera, a context and an eye, and the viewport where one pass draws several. The eye is
-/// the place of the render stage among those that draw for the camera in this frame: neither matrices
-/// nor traversal masks nor cull visitors tell eyes apart in all of OSG's and its frameworks' stereo
-/// modes. A view whose viewport changes (a window is resized) keeps its state. What was not drawn for
-/// kExpiry rounds is forgotten; a round ends when some view draws for the second time.
+/// A view is a camera, a context and an eye, and the viewport where one pass draws several. The eye
+/// is the place of the render stage among those that draw for the camera in this frame: neither
+/// matrices nor traversal masks nor cull visitors tell eyes apart in all of OSG's and its
+/// frameworks' stereo modes. A view whose viewport changes (a window is resized) keeps its state.
+/// What was not drawn for kExpiry rounds is forgotten; a round ends when some view draws for the
+/// second time.
 ///
 /// Thread safe; the states are shared, and may outlive their entry while a draw thread uses them.
 template <class State> class ViewRegistry
@@ -107,7 +108,8 @@ private:
         return stages.size() - 1;
     }
 
-    /// The view itself; or one of the same eye that did not draw in this frame, whose viewport changed.
+    /// The view itself; or one of the same eye that did not draw in this frame, whose viewport
+    /// changed.
     Entry* find(const PassIdentity& pass, std::size_t eye)
     {
         Entry* moved = nullptr;

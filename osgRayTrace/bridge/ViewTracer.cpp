@@ -13,8 +13,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// OSG's culling clamps the planes of last frame's projection matrix again, so that the third column of a
-/// view at rest wanders by its last digits; an image must go on nevertheless.
+/// OSG's culling clamps the planes of last frame's projection matrix again, so that the third
+/// column of a view at rest wanders by its last digits; an image must go on nevertheless.
 bool sameButForRounding(const View& a, const View& b)
 {
     constexpr double kTolerance = 1e-9;
@@ -79,11 +79,12 @@ bool ViewTracer::needsResolve(const SceneVersion& version)
     return hasImage() && (_imageChanged || !_resolved || !same(_toneMap, *_resolved));
 }
 
-void ViewTracer::resolve(uint8_t* rgba, float* depth)
+bool ViewTracer::resolve(uint8_t* rgba, float* depth)
 {
     _session->resolveDisplay(_toneMap, rgba, depth);
     _resolved = _toneMap;
     _imageChanged = false;
+    return !_toneMap.displayReferred || _toneMap.exposureEv != 0.0f;
 }
 
 RenderProgress ViewTracer::progress() const

@@ -14,29 +14,33 @@
 namespace osgRayTrace::engine
 {
 
-/// A RenderSession under OSG: takes a frame's matrices and settings, and knows when there is something
-/// new to show. One thread at a time.
+/// A RenderSession under OSG: takes a frame's matrices and settings, and knows when there is
+/// something new to show. One thread at a time.
 class ViewTracer
 {
 public:
-    /// Traces the settings' passes of a frame, if the image needs any. Failures are in progress(), the
-    /// image stays. Throws std::bad_alloc only.
+    /// Traces the settings' passes of a frame, if the image needs any. Failures are in progress(),
+    /// the image stays. Throws std::bad_alloc only.
     void trace(const SceneVersion& version, const View& pass);
 
-    /// Takes the settings of how the image is shown. True if the image, or that, differs from what was
-    /// resolved last. False if there is no image.
+    /// Takes the settings of how the image is shown. True if the image, or that, differs from what
+    /// was resolved last. False if there is no image.
     bool needsResolve(const SceneVersion& version);
 
-    /// Display values and window depths, width() * height() pixels.
-    void resolve(uint8_t* rgba, float* depth);
+    /// Display values and window depths, width() * height() pixels. True if the values were encoded
+    /// to sRGB, false if they are as the scene's lighting made them.
+    bool resolve(uint8_t* rgba, float* depth);
 
-    bool hasImage() const { return _session && _session->width() > 0 && _session->progress().passes > 0; }
+    bool hasImage() const
+    {
+        return _session && _session->width() > 0 && _session->progress().passes > 0;
+    }
     int width() const { return _session->width(); }
     int height() const { return _session->height(); }
     std::vector<float> radiance() const { return _session->resolveRadiance(); }
 
-    /// Of the image. The error estimate is renewed when the passes have grown by an eighth: it costs as
-    /// much as a resolve.
+    /// Of the image. The error estimate is renewed when the passes have grown by an eighth: it
+    /// costs as much as a resolve.
     RenderProgress progress() const;
 
 private:

@@ -1,4 +1,4 @@
-// ViewingConditions.cpp - what a conversion takes from the pass that looks at the scene. Layer: bridge.
+// ViewingConditions.cpp - what a conversion takes from the pass. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/ViewingConditions.h"
 
@@ -34,9 +34,9 @@ PositionedLight firstLight(osgUtil::PositionalStateContainer& container, const o
     return found;
 }
 
-/// SceneView adds its light to the stage before it traverses the graph, with no matrix for a headlight
-/// and with the view matrix for a sky light. A camera in the graph inherits the container of its parent
-/// stage together with the matrix between the two eye spaces.
+/// SceneView adds its light to the stage before it traverses the graph, with no matrix for a
+/// headlight and with the view matrix for a sky light. A camera in the graph inherits the container
+/// of its parent stage together with the matrix between the two eye spaces.
 PositionedLight firstLight(osgUtil::RenderStage& stage)
 {
     PositionedLight found = firstLight(*stage.getPositionalStateContainer(), osg::Matrixd());
@@ -66,7 +66,8 @@ bool sameLight(const osg::Light* a, const osg::Light* b)
 
     const osg::ref_ptr<osg::Light> moved = new osg::Light(*b);
     if (!close(a->getPosition(), b->getPosition())) return false;
-    if (!close(osg::Vec4d(a->getDirection(), 0.0), osg::Vec4d(b->getDirection(), 0.0))) return false;
+    if (!close(osg::Vec4d(a->getDirection(), 0.0), osg::Vec4d(b->getDirection(), 0.0)))
+        return false;
     moved->setPosition(a->getPosition());
     moved->setDirection(a->getDirection());
     return a->compare(*moved) == 0;
@@ -95,7 +96,8 @@ ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor)
     {
         const osg::Matrixd sceneFromLight = found.eyeFromLight * sceneFromEye;
         light->setPosition(sceneFromLight.preMult(osg::Vec4d(light->getPosition())));
-        light->setDirection(osg::Matrixd::transform3x3(osg::Vec3d(light->getDirection()), sceneFromLight));
+        light->setDirection(
+            osg::Matrixd::transform3x3(osg::Vec3d(light->getDirection()), sceneFromLight));
     }
     conditions.light = light;
     return conditions;

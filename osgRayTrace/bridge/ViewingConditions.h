@@ -1,4 +1,4 @@
-// ViewingConditions.h - what a conversion takes from the pass that looks at the scene. Layer: bridge.
+// ViewingConditions.h - what a conversion takes from the pass. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -23,8 +23,8 @@ struct ViewingConditions
     osg::Vec3d eye;
     unsigned int traversalMask = 0xffffffffu;
 
-    /// The first light that the pass had when it came to the scene; that is osgViewer's own, which is in
-    /// no graph, unless it has none. Null: none. A copy.
+    /// The first light that the pass had when it came to the scene; that is osgViewer's own, which
+    /// is in no graph, unless it has none. Null: none. A copy.
     osg::ref_ptr<const osg::Light> light;
     bool lightInEyeSpace = true;
 
@@ -37,8 +37,8 @@ struct ViewingConditions
 /// Those of the visitor's pass, where it stands. Cull thread.
 ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor);
 
-/// True if a scene converted for a need not be converted again for b. The eye and the inherited state are
-/// not compared; a light that only moved by rounding is the same.
+/// True if a scene converted for a need not be converted again for b. The eye and the inherited
+/// state are not compared; a light that only moved by rounding is the same.
 bool convertAlike(const ViewingConditions& a, const ViewingConditions& b);
 
 } // namespace osgRayTrace::engine

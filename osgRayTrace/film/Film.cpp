@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/Film.h"
 
+#include "osgRayTrace/base/LargeArray.h"
 #include "osgRayTrace/base/Status.h"
 
 #include <algorithm>
@@ -68,10 +69,8 @@ void Film::reset(int width, int height)
         try
         {
             // Values are written before they are read, tile by tile: by the first pass of each half.
-            std::vector<float>().swap(_sums);
-            std::vector<float>().swap(_depth);
-            _sums.resize(tiles * 2 * kHalfFloats);
-            _depth.resize(tiles * kTilePixels);
+            allocateLarge(_sums, tiles * 2 * kHalfFloats);
+            allocateLarge(_depth, tiles * kTilePixels);
             _passes.assign(tiles, 0);
         }
         catch (const std::bad_alloc&)

@@ -19,7 +19,7 @@ OSGRAYTRACE_INLINE float exp2Lanes(float x)
     const float f = (x - whole) * 0.693147180559945f;
     const float series =
         1.0f + f * (1.0f + f * (0.5f + f * (1.0f / 6 + f * (1.0f / 24 + f * (1.0f / 120 + f / 720)))));
-    const int exponent = (static_cast<int>(whole) + 127) << 23;
+    const int exponent = (static_cast<int>(whole) + 127) * (1 << 23);
     float scale;
     std::memcpy(&scale, &exponent, sizeof(scale));
     return series * scale;
@@ -32,7 +32,7 @@ OSGRAYTRACE_INLINE float log2Lanes(float x)
     std::memcpy(&bits, &x, sizeof(bits));
     const int shifted = bits - 0x3f3504f3; // sqrt(1/2): the mantissa ends in [0.707, 1.414)
     const int exponent = shifted >> 23;
-    const int mantissaBits = bits - (exponent << 23);
+    const int mantissaBits = bits - exponent * (1 << 23);
     float m;
     std::memcpy(&m, &mantissaBits, sizeof(m));
     const float s = (m - 1.0f) / (m + 1.0f);

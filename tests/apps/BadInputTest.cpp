@@ -1,5 +1,5 @@
-// BadInputTest.cpp - osgraytrace refuses what it cannot do: one clear line, the right exit code, no file.
-// SPDX-License-Identifier: MIT
+// BadInputTest.cpp - osgraytrace refuses what it cannot do: one clear line, the right exit code, no
+// file. SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
 
@@ -66,7 +66,8 @@ TEST_CASE("osgraytrace: wrong usage ends with 1", "[apps]")
     refuses(1, kBox + " -o x.png --size 100000 100000", "2^28");
     refuses(1, kBox + " -o x.png --size 8.5 8", "--size");
     refuses(1, kBox + " -o x.png --integrator fast", "auto, whitted, path, debug");
-    refuses(1, kBox + " -o x.png --light-sampling grid", "random, uniform-jitter, stratified, sobol");
+    refuses(1, kBox + " -o x.png --light-sampling grid",
+            "random, uniform-jitter, stratified, sobol");
     refuses(1, kBox + " -o x.png --light-samples 0", "1 .. 4096");
     refuses(1, kBox + " -o x.png --passes 0", "'0'");
     refuses(1, kBox + " -o x.png --passes many", "'many'");
@@ -99,8 +100,8 @@ TEST_CASE("osgraytrace: a model that is cut short ends with 2, wherever it was c
     REQUIRE(whole.size() > 20000);
     const TemporaryFolder folder;
     // Within the header, a name in quotes, a number, between blocks.
-    for (const size_t length : {size_t(0), size_t(30), whole.find("Cornell") + 3, size_t(5001), size_t(17000),
-                                whole.rfind('}') - 1})
+    for (const size_t length : {size_t(0), size_t(30), whole.find("Cornell") + 3, size_t(5001),
+                                size_t(17000), whole.rfind('}') - 1})
     {
         CAPTURE(length);
         write(folder / "cut.osgt", whole.substr(0, length));
@@ -146,10 +147,11 @@ TEST_CASE("osgraytrace: vertices that are not numbers are left out and counted",
 
     scene->addChild(triangle(0.0f));
     osgDB::writeNodeFile(*scene, folder / "half.osgb");
-    const Outcome outcome =
-        osgraytrace(folder, "half.osgb -o x.png --stats s.json --eye 0 -5 0 --center 0 0 0" + kQuick);
+    const Outcome outcome = osgraytrace(
+        folder, "half.osgb -o x.png --stats s.json --eye 0 -5 0 --center 0 0 0" + kQuick);
     CHECK(outcome.exitCode == 0);
-    CHECK_THAT(contents(folder / "s.json"), Contains("\"triangles\": 1,") && Contains("\"droppedSamples\": 0,"));
+    CHECK_THAT(contents(folder / "s.json"),
+               Contains("\"triangles\": 1,") && Contains("\"droppedSamples\": 0,"));
     CHECK_THAT(contents(folder / "s.json"), Contains("\"skipped."));
 }
 
@@ -179,8 +181,9 @@ TEST_CASE("osgraytrace: a write that fails midway leaves nothing and the old pic
     for (const std::string picture : {"x.exr", "x.png"})
     {
         CAPTURE(picture);
-        const Outcome outcome = osgraytrace(folder, kBox + " --passes 1 --size 200 200 -o " + picture,
-                                            "trap '' XFSZ && ulimit -f 1 &&");
+        const Outcome outcome =
+            osgraytrace(folder, kBox + " --passes 1 --size 200 200 -o " + picture,
+                        "trap '' XFSZ && ulimit -f 1 &&");
         CHECK(outcome.exitCode == 4);
         CHECK_THAT(outcome.errors, Contains("osgraytrace: cannot write " + picture));
         CHECK(contents(folder / picture) == "old");

@@ -37,8 +37,8 @@ Measures measuresIn(const std::string& output)
     Measures measures;
     const size_t begin = output.find("RMSE ");
     if (begin == std::string::npos) return measures;
-    std::sscanf(output.c_str() + begin, "RMSE %lf relMSE %lf mean ratio %lf", &measures.rmse, &measures.relMse,
-                &measures.meanRatio);
+    std::sscanf(output.c_str() + begin, "RMSE %lf relMSE %lf mean ratio %lf", &measures.rmse,
+                &measures.relMse, &measures.meanRatio);
     return measures;
 }
 
@@ -50,7 +50,8 @@ nlohmann::json statistics(const TemporaryFolder& folder)
 /// Lit by the headlight alone, before a background of osgviewer's blue.
 void writeFixedFunctionModel(const std::string& file)
 {
-    osg::ref_ptr<osg::ShapeDrawable> sphere = new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(), 1.0f));
+    osg::ref_ptr<osg::ShapeDrawable> sphere =
+        new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(), 1.0f));
     sphere->setColor(osg::Vec4(0.8f, 0.4f, 0.2f, 1.0f));
     osgDB::writeNodeFile(*sphere, file);
 }
@@ -60,7 +61,8 @@ void writeFixedFunctionModel(const std::string& file)
 TEST_CASE("osgraytrace: one render, several files of each kind", "[apps]")
 {
     const TemporaryFolder folder;
-    const Outcome outcome = osgraytrace(folder, kBox + kQuick + "-o a.exr -o b.png -o c.jpg -o d.EXR");
+    const Outcome outcome =
+        osgraytrace(folder, kBox + kQuick + "-o a.exr -o b.png -o c.jpg -o d.EXR");
     CHECK(outcome.exitCode == 0);
     CHECK(outcome.errors.empty()); // no progress bar: not a terminal
     CHECK_THAT(outcome.output, Contains("path, 4 passes"));
@@ -74,7 +76,8 @@ TEST_CASE("osgraytrace: a terminal sees a progress bar", "[apps]")
 {
     const TemporaryFolder folder;
     const std::string command = "cd '" + folder / "." + "' && TERM=xterm script -qec \"'" +
-                                OSGRAYTRACE_TEST_PROGRAM "' " + kBox + kQuick + "-o x.png\" typescript >/dev/null";
+                                OSGRAYTRACE_TEST_PROGRAM "' " + kBox + kQuick +
+                                "-o x.png\" typescript >/dev/null";
     REQUIRE(std::system(command.c_str()) == 0);
     CHECK_THAT(contents(folder / "typescript"), Contains("\r[#") && Contains("M rays/s"));
     CHECK(!contents(folder / "x.png").empty());
@@ -83,15 +86,17 @@ TEST_CASE("osgraytrace: a terminal sees a progress bar", "[apps]")
 TEST_CASE("osgraytrace: EXR channels are those asked for", "[apps]")
 {
     const TemporaryFolder folder;
-    REQUIRE(osgraytrace(folder, kBox + kQuick + "-o x.exr --aov depth,normal --aov id,albedo,position,error,distance")
+    REQUIRE(osgraytrace(folder,
+                        kBox + kQuick +
+                            "-o x.exr --aov depth,normal --aov id,albedo,position,error,distance")
                 .exitCode == 0);
     ExrImage exr;
     REQUIRE(readExr(folder / "x.exr", exr) == "");
     CHECK(exr.width == 64);
     CHECK(exr.height == 48);
     CHECK(exr.channels.size() == 4 + 1 + 3 + 1 + 3 + 3 + 3 + 1);
-    for (const char* name : {"R", "G", "B", "A", "depth.Z", "normal.X", "id.I", "albedo.G", "position.Y", "error.B",
-                             "distance.Z"})
+    for (const char* name : {"R", "G", "B", "A", "depth.Z", "normal.X", "id.I", "albedo.G",
+                             "position.Y", "error.B", "distance.Z"})
     {
         CAPTURE(name);
         CHECK(exr.find(name));
@@ -112,13 +117,16 @@ TEST_CASE("osgraytrace: --reference compares with a file of the same picture", "
 {
     const TemporaryFolder folder;
     REQUIRE(osgraytrace(folder, kBox + kQuick + "-o r.exr").exitCode == 0);
-    const Measures same = measuresIn(osgraytrace(folder, kBox + kQuick + "-o x.png --reference r.exr").output);
+    const Measures same =
+        measuresIn(osgraytrace(folder, kBox + kQuick + "-o x.png --reference r.exr").output);
     CHECK(same.rmse == 0.0);
     CHECK(same.relMse == 0.0);
     CHECK(same.meanRatio == 1.0);
 
-    // Another seed: noise, but the same mean. Four passes are 1/sqrt(4 * 3072) of a pixel's noise apart.
-    const Outcome other = osgraytrace(folder, kBox + kQuick + "--seed 7 -o x.exr --reference r.exr --stats s.json");
+    // Another seed: noise, but the same mean. Four passes are 1/sqrt(4 * 3072) of a pixel's noise
+    // apart.
+    const Outcome other =
+        osgraytrace(folder, kBox + kQuick + "--seed 7 -o x.exr --reference r.exr --stats s.json");
     const Measures noise = measuresIn(other.output);
     CHECK(noise.rmse > 0.001);
     CHECK(noise.relMse > 0.0001);
@@ -144,7 +152,8 @@ TEST_CASE("osgraytrace: --reference compares with a file of the same picture", "
 TEST_CASE("osgraytrace: --stats counts what was done", "[apps]")
 {
     const TemporaryFolder folder;
-    REQUIRE(osgraytrace(folder, kBox + " " + kBox + kQuick + "-o x.png --stats s.json").exitCode == 0);
+    REQUIRE(osgraytrace(folder, kBox + " " + kBox + kQuick + "-o x.png --stats s.json").exitCode ==
+            0);
     const nlohmann::json json = statistics(folder);
     CHECK(json["models"].size() == 2);
     CHECK(json["width"] == 64);
@@ -156,7 +165,8 @@ TEST_CASE("osgraytrace: --stats counts what was done", "[apps]")
     CHECK(json["droppedSamples"] == 0);
     CHECK(json["rays"]["camera"] == 64 * 48 * 4);
     CHECK(json["rays"]["shadow"].get<uint64_t>() > 0);
-    CHECK(json["rays"]["total"] == json["rays"]["camera"].get<uint64_t>() + json["rays"]["shadow"].get<uint64_t>() +
+    CHECK(json["rays"]["total"] == json["rays"]["camera"].get<uint64_t>() +
+                                       json["rays"]["shadow"].get<uint64_t>() +
                                        json["rays"]["secondary"].get<uint64_t>());
     CHECK(json["renderSeconds"].get<double>() > 0.0);
     CHECK(json["buildSeconds"].get<double>() > 0.0);
@@ -165,7 +175,8 @@ TEST_CASE("osgraytrace: --stats counts what was done", "[apps]")
     CHECK(json["conversion"]["converted.area-light"] == 2);
 
     // One pass has no error estimate: null, which every JSON reader takes.
-    REQUIRE(osgraytrace(folder, kBox + " --size 8 8 --passes 1 -o x.png --stats s.json").exitCode == 0);
+    REQUIRE(osgraytrace(folder, kBox + " --size 8 8 --passes 1 -o x.png --stats s.json").exitCode ==
+            0);
     CHECK(statistics(folder)["relativeError"].is_null());
 }
 
@@ -209,8 +220,11 @@ TEST_CASE("osgraytrace: the same picture with OSMesa, EGL and no context", "[app
     {
         CAPTURE(model);
         REQUIRE(osgraytrace(folder, model + kQuick + "-o none.exr -o none.png").exitCode == 0);
-        REQUIRE(osgraytrace(folder, model + kQuick + "--context osmesa -o osmesa.exr -o osmesa.png").exitCode == 0);
-        REQUIRE(osgraytrace(folder, model + kQuick + "--context egl -o egl.exr -o egl.png").exitCode == 0);
+        REQUIRE(osgraytrace(folder, model + kQuick + "--context osmesa -o osmesa.exr -o osmesa.png")
+                    .exitCode == 0);
+        REQUIRE(
+            osgraytrace(folder, model + kQuick + "--context egl -o egl.exr -o egl.png").exitCode ==
+            0);
         CHECK(contents(folder / "none.exr") == contents(folder / "osmesa.exr"));
         CHECK(contents(folder / "none.exr") == contents(folder / "egl.exr"));
         CHECK(contents(folder / "none.png") == contents(folder / "osmesa.png"));
@@ -223,20 +237,22 @@ TEST_CASE("osgraytrace: a view stored in the scene is the default, options repla
     const TemporaryFolder folder;
     REQUIRE(osgraytrace(folder, kBox + kQuick + "-o stored.exr").exitCode == 0);
     const std::string published = "--eye 278 278 -800 --center 278 278 0 --up 0 1 0 --fovy 39.3 ";
-    const Measures same =
-        measuresIn(osgraytrace(folder, kBox + kQuick + published + "-o x.exr --reference stored.exr").output);
+    const Measures same = measuresIn(
+        osgraytrace(folder, kBox + kQuick + published + "-o x.exr --reference stored.exr").output);
     CHECK(same.meanRatio == Approx(1.0).epsilon(0.01));
     CHECK(same.relMse < 0.001);
 
-    const Measures other =
-        measuresIn(osgraytrace(folder, kBox + kQuick + "--eye 278 278 -1600 -o x.exr --reference stored.exr").output);
+    const Measures other = measuresIn(
+        osgraytrace(folder, kBox + kQuick + "--eye 278 278 -1600 -o x.exr --reference stored.exr")
+            .output);
     CHECK(other.relMse > 0.1);
 }
 
 TEST_CASE("osgraytrace: the furnace is 1 everywhere", "[apps][statistics]")
 {
     const TemporaryFolder folder;
-    REQUIRE(osgraytrace(folder, dataFile("furnace.osgt") + " --size 32 32 --passes 64 --max-bounces 40 -o x.exr")
+    REQUIRE(osgraytrace(folder, dataFile("furnace.osgt") +
+                                    " --size 32 32 --passes 64 --max-bounces 40 -o x.exr")
                 .exitCode == 0);
     ExrImage exr;
     REQUIRE(readExr(folder / "x.exr", exr) == "");
@@ -245,7 +261,8 @@ TEST_CASE("osgraytrace: the furnace is 1 everywhere", "[apps][statistics]")
     {
         mean += value / (32.0 * 32.0);
     }
-    // A path's radiance varies by less than 1: the mean of 65536 of them is right to 0.004 at one sigma.
+    // A path's radiance varies by less than 1: the mean of 65536 of them is right to 0.004 at one
+    // sigma.
     CHECK(mean == Approx(1.0).margin(0.016));
 }
 
@@ -256,7 +273,8 @@ TEST_CASE("osgraytrace: --list-options names every setting, and the README shows
     REQUIRE(outcome.exitCode == 0);
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
     {
-        CHECK_THAT(outcome.output, Contains("`" + option.name + "`") && Contains(option.environment) &&
+        CHECK_THAT(outcome.output, Contains("`" + option.name + "`") &&
+                                       Contains(option.environment) &&
                                        Contains(option.defaultValue) && Contains(option.help));
     }
     CHECK_THAT(contents(OSGRAYTRACE_TEST_SOURCE "/README.md"), Contains(outcome.output));
@@ -267,9 +285,11 @@ TEST_CASE("osgraytrace: --help names every option of the command line", "[apps]"
     const TemporaryFolder folder;
     const Outcome outcome = osgraytrace(folder, "--help");
     CHECK(outcome.exitCode == 0);
-    for (const char* option : {"--size", "--integrator", "--light-samples", "--light-sampling", "--passes", "--time",
-                               "--error", "--eye", "--center", "--up", "--fovy", "--exposure", "--max-bounces", "--seed",
-                               "--threads", "--aov", "--reference", "--stats", "--context", "--list-options"})
+    for (const char* option :
+         {"--size", "--integrator", "--light-samples", "--light-sampling", "--passes",
+          "--time", "--error",      "--eye",           "--center",         "--up",
+          "--fovy", "--exposure",   "--max-bounces",   "--seed",           "--threads",
+          "--aov",  "--reference",  "--stats",         "--context",        "--list-options"})
     {
         CHECK_THAT(outcome.output, Contains(option));
     }

@@ -25,14 +25,15 @@ struct Outcome
     std::string errors;
 };
 
-/// Runs it in the folder. The shell splits the arguments; prefix goes before the program ("NAME=value").
+/// Runs it in the folder. The shell splits the arguments; prefix goes before the program
+/// ("NAME=value").
 inline Outcome osgraytrace(const TemporaryFolder& folder, const std::string& arguments,
                            const std::string& prefix = "")
 {
     const TemporaryFolder streams;
     const std::string command = "cd '" + folder / "." + "' && " + prefix + " timeout 60 '" +
-                                OSGRAYTRACE_TEST_PROGRAM + "' " + arguments + " >'" + streams / "out" +
-                                "' 2>'" + streams / "errors" + "' </dev/null";
+                                OSGRAYTRACE_TEST_PROGRAM + "' " + arguments + " >'" +
+                                streams / "out" + "' 2>'" + streams / "errors" + "' </dev/null";
     const int status = std::system(command.c_str());
     Outcome outcome;
     if (WIFEXITED(status)) outcome.exitCode = WEXITSTATUS(status);

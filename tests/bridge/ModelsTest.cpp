@@ -1,5 +1,5 @@
-// ModelsTest.cpp - real models convert; needs OSG_FILE_PATH to lead to the OpenSceneGraph sample
-// data. SPDX-License-Identifier: MIT
+// ModelsTest.cpp - real models convert; OSG_FILE_PATH leads to the OpenSceneGraph sample data.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 

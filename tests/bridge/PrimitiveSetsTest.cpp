@@ -1,5 +1,5 @@
-// PrimitiveSetsTest.cpp - every primitive mode and index type gives the triangles that OpenGL
-// draws. SPDX-License-Identifier: MIT
+// PrimitiveSetsTest.cpp - every primitive mode and index type gives the triangles of OpenGL.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 

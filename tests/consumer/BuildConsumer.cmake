@@ -41,12 +41,26 @@ foreach(file IN LISTS packageFiles)
     endif()
 endforeach()
 
+# The README's example compiles as it stands there.
+file(READ "${LIBRARY_SOURCE}/README.md" example)
+string(FIND "${example}" "```cpp\n" begin)
+math(EXPR begin "${begin} + 7")
+string(SUBSTRING "${example}" ${begin} -1 example)
+string(FIND "${example}" "```" end)
+string(SUBSTRING "${example}" 0 ${end} example)
+file(WRITE "${WORK}/readme.cpp" "${example}")
+
 run(${CMAKE_COMMAND} -S "${SOURCE}" -B "${WORK}/build" -G "${GENERATOR}" -D CMAKE_BUILD_TYPE=Release
-    -D "CMAKE_CXX_COMPILER=${COMPILER}" -D "CMAKE_PREFIX_PATH=${WORK}/moved")
+    -D "CMAKE_CXX_COMPILER=${COMPILER}" -D "CMAKE_PREFIX_PATH=${WORK}/moved"
+    -D "README_EXAMPLE=${WORK}/readme.cpp")
 run(${CMAKE_COMMAND} --build "${WORK}/build")
 run("${WORK}/build/consumer")
 run("${WORK}/build/offscreenConsumer")
 
-# The installed programs find the installed library and plugins wherever they lie.
-run("${WORK}/moved/bin/osgraytrace" "${WORK}/moved/share/osgRayTrace/cornell_box.osgt"
-    -o "${WORK}/box.exr" --reference "${WORK}/box.exr" --size 8 8)
+# The installed program finds the installed library and plugins, to read scene and reference, where they lie.
+set(render "${WORK}/moved/bin/osgraytrace" "${WORK}/moved/share/osgRayTrace/cornell_box.osgt" --size 8 8)
+run(${render} -o "${WORK}/box.exr")
+run(${render} -o "${WORK}/box.png" --reference "${WORK}/box.exr")
+if(NOT output MATCHES "RMSE 0\n")
+    message(FATAL_ERROR "The same picture twice, but: ${output}")
+endif()

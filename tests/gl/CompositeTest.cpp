@@ -73,13 +73,15 @@ Seen expected(const osg::Camera& camera, double x, double y, double radius, doub
     return wall ? Seen::Wall : Seen::Background;
 }
 
-/// The corners of the pixel and a margin, for the sphere's tessellation, see the same as its centre.
+/// The corners of the pixel and a margin, for the sphere's tessellation, see the same as its
+/// centre.
 std::optional<Seen> certain(const osg::Camera& camera, int x, int y, double radius, double half)
 {
     const Seen seen = expected(camera, x + 0.5, y + 0.5, radius, half);
     for (double dx : {-0.75, 0.75})
         for (double dy : {-0.75, 0.75})
-            if (expected(camera, x + 0.5 + dx, y + 0.5 + dy, radius, half) != seen) return std::nullopt;
+            if (expected(camera, x + 0.5 + dx, y + 0.5 + dy, radius, half) != seen)
+                return std::nullopt;
     return seen;
 }
 
@@ -87,16 +89,20 @@ osg::Vec4 colorOf(Seen seen)
 {
     switch (seen)
     {
-    case Seen::Sphere: return osg::Vec4(255, 0, 0, 255);
-    case Seen::Wall: return osg::Vec4(0, 255, 0, 255);
-    case Seen::Background: break;
+    case Seen::Sphere:
+        return osg::Vec4(255, 0, 0, 255);
+    case Seen::Wall:
+        return osg::Vec4(0, 255, 0, 255);
+    case Seen::Background:
+        break;
     }
     return osg::Vec4(0, 0, 0, 255);
 }
 
 } // namespace
 
-TEST_CASE("composite: a rasterized sphere in a ray traced wall shows exactly its front half", "[gl]")
+TEST_CASE("composite: a rasterized sphere in a ray traced wall shows exactly its front half",
+          "[gl]")
 {
     const float radius = 1.0f, half = 2.0f;
     osg::ref_ptr<RayTracedScene> traced = tracedScene(unlitSquare(half, kGreen).get());
@@ -107,10 +113,18 @@ TEST_CASE("composite: a rasterized sphere in a ray traced wall shows exactly its
     root->addChild(traced);
     if (!first) root->addChild(rasterizedSphere(osg::Vec3(), radius));
 
-    TestViewer view(kSize, kSize, root.get());
+    const auto create = GENERATE(createOSMesaContext, createEGLContext);
+    const osg::ref_ptr<osg::GraphicsContext> context = create(kSize, kSize, nullptr);
+    if (!context)
+    {
+        WARN("skipped: no such context here");
+        return;
+    }
+    TestViewer view(kSize, kSize, root.get(), context);
     const bool orthographic = GENERATE(false, true);
     if (orthographic) view.camera().setProjectionMatrixAsOrtho(-2.5, 2.5, -2.5, 2.5, 1.0, 100.0);
-    const osg::Vec3d eye = GENERATE(osg::Vec3d(0.0, 0.0, 8.0), osg::Vec3d(6.0, 1.0, 4.0), osg::Vec3d(-5.0, -5.0, 2.0));
+    const osg::Vec3d eye =
+        GENERATE(osg::Vec3d(0.0, 0.0, 8.0), osg::Vec3d(6.0, 1.0, 4.0), osg::Vec3d(-5.0, -5.0, 2.0));
     view.look(eye);
     const osg::ref_ptr<osg::Image> picture = view.frames(2);
     REQUIRE(traced->getDrawable()->getStatistics().ok);
@@ -144,7 +158,8 @@ TEST_CASE("composite: depth is the rasterizer's", "[gl]")
     }
 
     view.frames();
-    osg::ref_ptr<osg::Image> depths = new osg::Image(*view.capture->getDepthImage(), osg::CopyOp::DEEP_COPY_ALL);
+    osg::ref_ptr<osg::Image> depths =
+        new osg::Image(*view.capture->getDepthImage(), osg::CopyOp::DEEP_COPY_ALL);
     traced->setEnabled(false);
     view.frames();
 
@@ -171,7 +186,8 @@ TEST_CASE("composite: what is see-through blends over the ray traced picture", "
     osg::ref_ptr<osg::Geometry> pane = unlitSquare(1.0f, osg::Vec4(1.0f, 0.0f, 0.0f, 0.5f));
     pane->getOrCreateStateSet()->setAttributeAndModes(new osg::BlendFunc);
     pane->getOrCreateStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
-    osg::ref_ptr<osg::MatrixTransform> inFront = new osg::MatrixTransform(osg::Matrix::translate(0, 0, 1));
+    osg::ref_ptr<osg::MatrixTransform> inFront =
+        new osg::MatrixTransform(osg::Matrix::translate(0, 0, 1));
     inFront->addChild(pane);
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(inFront);
@@ -183,9 +199,41 @@ TEST_CASE("composite: what is see-through blends over the ray traced picture", "
     CHECK(middle.g() == Approx(127.5).margin(1.0));
 }
 
+TEST_CASE("composite: edges lie between their two sides", "[gl]")
+{
+    // A linear scene, whose display values are encoded: a grey square on a background that is
+    // brighter in blue and darker in red and green. Turned a little, so that all kinds of coverage
+    // occur.
+    osg::ref_ptr<osg::MatrixTransform> turned =
+        new osg::MatrixTransform(osg::Matrix::rotate(0.3, osg::Vec3d(0, 0, 1)));
+    turned->addChild(unlitSquare(1.0f, osg::Vec4(0.5f, 0.5f, 0.5f, 1.0f)));
+    osg::ref_ptr<RayTracedScene> traced = tracedScene(turned.get());
+    traced->getSettings()->setColorRule(
+        GENERATE(RayTraceSettings::LINEAR, RayTraceSettings::DISPLAY_REFERRED));
+    traced->getSettings()->setPassesPerFrame(16);
+    TestViewer view(kSize, kSize, traced.get());
+    view.camera().setClearColor(osg::Vec4(0.2f, 0.2f, 0.8f, 1.0f));
+    const osg::ref_ptr<osg::Image> picture = view.frames();
+
+    const osg::Vec4 inside = pixel(*picture, kSize / 2, kSize / 2), outside = pixel(*picture, 1, 1);
+    int edges = 0, wrong = 0;
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x)
+        {
+            const osg::Vec4 color = pixel(*picture, x, y);
+            edges += color != inside && color != outside;
+            for (int c = 0; c < 3; ++c)
+                wrong += color[c] < std::min(inside[c], outside[c]) - 2.0f ||
+                         color[c] > std::max(inside[c], outside[c]) + 2.0f;
+        }
+    CHECK(edges > 50);
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("composite: the drawable leaves OSG's state as it was", "[gl]")
 {
-    // Quads that need textures, lighting and a material, to the left and the right, before and after.
+    // Quads that need textures, lighting and a material, to the left and the right, before and
+    // after.
     osg::ref_ptr<osg::Image> checks = new osg::Image;
     checks->allocateImage(8, 8, 1, GL_RGB, GL_UNSIGNED_BYTE);
     for (int i = 0; i < 64; ++i)
@@ -217,16 +265,19 @@ TEST_CASE("composite: the drawable leaves OSG's state as it was", "[gl]")
         for (bool lit : {false, true})
             for (bool textured : {false, true})
                 group->addChild(quadAt(-4.0f + float(column++), lit, textured));
-    // Bins are drawn in order, so these really come before and after; the last has no state of its own.
+    // Bins are drawn in order, so these really come before and after; the last has no state of its
+    // own.
     before->getOrCreateStateSet()->setRenderBinDetails(-1, "RenderBin");
     after->getOrCreateStateSet()->setRenderBinDetails(2, "RenderBin");
     osg::ref_ptr<osg::Geometry> plain = osg::createTexturedQuadGeometry(
         osg::Vec3(-4.0f, 1.5f, 1.0f), osg::Vec3(8.0f, 0, 0), osg::Vec3(0, 0.5f, 0));
     after->addChild(plain);
     root->addChild(before);
-    // Hidden behind the quads or out of their way: the picture's difference is the traced square alone.
+    // Hidden behind the quads or out of their way: the picture's difference is the traced square
+    // alone.
     osg::ref_ptr<RayTracedScene> traced = tracedScene(unlitSquare(1.0f, kGreen).get());
-    osg::ref_ptr<osg::MatrixTransform> below = new osg::MatrixTransform(osg::Matrix::translate(0, -2.3, 0));
+    osg::ref_ptr<osg::MatrixTransform> below =
+        new osg::MatrixTransform(osg::Matrix::translate(0, -2.3, 0));
     below->addChild(traced);
     root->addChild(below);
     root->addChild(after);
@@ -234,7 +285,8 @@ TEST_CASE("composite: the drawable leaves OSG's state as it was", "[gl]")
     TestViewer view(kSize, kSize, root.get());
     const bool vertexArrayObjects = GENERATE(false, true);
     if (vertexArrayObjects)
-        osg::DisplaySettings::instance()->setVertexBufferHint(osg::DisplaySettings::VERTEX_ARRAY_OBJECT);
+        osg::DisplaySettings::instance()->setVertexBufferHint(
+            osg::DisplaySettings::VERTEX_ARRAY_OBJECT);
     view.viewer.setDisplaySettings(osg::DisplaySettings::instance().get());
     const osg::ref_ptr<osg::Image> with = view.frames(3);
     CHECK(glGetError() == GL_NO_ERROR);

@@ -35,7 +35,8 @@ struct RemoveTextures : osg::NodeVisitor
             {
                 const auto unit = static_cast<unsigned int>(
                     std::max(node.getStateSet()->getTextureAttributeList().size(),
-                             node.getStateSet()->getTextureModeList().size()) - 1);
+                             node.getStateSet()->getTextureModeList().size()) -
+                    1);
                 node.getStateSet()->getTextureAttributeList().resize(unit);
                 node.getStateSet()->getTextureModeList().resize(unit);
             }
@@ -87,8 +88,9 @@ osg::ref_ptr<osg::Node> plainModel(const std::string& name)
     return model;
 }
 
-/// OpenGL's lighting [OpenGL 2.1, eq. 2.1-2.4] of a directional light without attenuation, but evaluated by
-/// pixel. The material is osg::Material's, or the vertex colour's where the model has none.
+/// OpenGL's lighting [OpenGL 2.1, eq. 2.1-2.4] of a directional light without attenuation, but
+/// evaluated by pixel. The material is osg::Material's, or the vertex colour's where the model has
+/// none.
 osg::ref_ptr<osg::Program> lightingByPixel(bool usesVertexColors)
 {
     const std::string define = usesVertexColors ? "#define MATERIAL gl_Color\n" : "";
@@ -174,9 +176,9 @@ Comparison compare(const Picture& a, const Picture& b)
         comparison.both += a.covered[i] && b.covered[i];
         comparison.either += a.covered[i] || b.covered[i];
     }
-    comparison.difference =
-        meanDifference(*a.color, *b.color, [&](int x, int y)
-                       { return a.covered[pixelOf(x, y)] && b.covered[pixelOf(x, y)]; });
+    comparison.difference = meanDifference(
+        *a.color, *b.color,
+        [&](int x, int y) { return a.covered[pixelOf(x, y)] && b.covered[pixelOf(x, y)]; });
     return comparison;
 }
 
@@ -184,16 +186,17 @@ Comparison compare(const Picture& a, const Picture& b)
 
 TEST_CASE("rasterizer match: plain lit models look as OpenGL draws them", "[gl][osg-data]")
 {
-    // The cessna's noses and leading edges are so coarse that OpenGL's lighting by vertex shows: there alone
-    // the difference is larger, and gone when OpenGL lights by pixel.
+    // The cessna's noses and leading edges are so coarse that OpenGL's lighting by vertex shows:
+    // there alone the difference is larger, and gone when OpenGL lights by pixel.
     struct Model
     {
         std::string name;
         bool hasMaterial;
         double byVertex;
     };
-    const Model tested = GENERATE(Model{"cow.osgt", true, 2.0}, Model{"cessna.osgt", true, 4.0},
-                                  Model{"glider.osgt", false, 2.0}, Model{"dumptruck.osgt", true, 2.0});
+    const Model tested =
+        GENERATE(Model{"cow.osgt", true, 2.0}, Model{"cessna.osgt", true, 4.0},
+                 Model{"glider.osgt", false, 2.0}, Model{"dumptruck.osgt", true, 2.0});
     const osg::ref_ptr<osg::Node> model = plainModel(tested.name);
     if (!model)
     {
@@ -208,8 +211,9 @@ TEST_CASE("rasterizer match: plain lit models look as OpenGL draws them", "[gl][
     shaded->getOrCreateStateSet()->setAttribute(lightingByPixel(!tested.hasMaterial));
     const Comparison byPixel = compare(traced, rasterize(shaded.get()));
 
-    std::cout << tested.name << ": mean difference " << byVertex.difference << "/255 lit by vertex, "
-              << byPixel.difference << "/255 by pixel, over " << byVertex.both << " pixels" << std::endl;
+    std::cout << tested.name << ": mean difference " << byVertex.difference
+              << "/255 lit by vertex, " << byPixel.difference << "/255 by pixel, over "
+              << byVertex.both << " pixels" << std::endl;
     CHECK(byVertex.difference < tested.byVertex);
     CHECK(byPixel.difference < 1.5);
     CHECK(byVertex.both > 1000);

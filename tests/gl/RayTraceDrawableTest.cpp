@@ -21,12 +21,21 @@ const osg::Vec4 kBlackPixel(0, 0, 0, 255);
 constexpr int kSize = 64;
 constexpr int kMiddle = kSize / 2;
 
-osg::ref_ptr<RayTracedScene> greenScene() { return tracedScene(unlitSquare(1.0f, kGreen).get()); }
+osg::ref_ptr<RayTracedScene> greenScene()
+{
+    return tracedScene(unlitSquare(1.0f, kGreen).get());
+}
 
 /// The debug channel of normals: something that no rasterizer shows.
-void showNormals(RayTracedScene& scene) { scene.getSettings()->setIntegrator(RayTraceSettings::DEBUG); }
+void showNormals(RayTracedScene& scene)
+{
+    scene.getSettings()->setIntegrator(RayTraceSettings::DEBUG);
+}
 
-int passes(const RayTracedScene& scene) { return scene.getDrawable()->getStatistics().passes; }
+int passes(const RayTracedScene& scene)
+{
+    return scene.getDrawable()->getStatistics().passes;
+}
 
 int countGreen(const osg::Image& image)
 {
@@ -142,8 +151,8 @@ TEST_CASE("traced scene: a change shows in the next frame", "[gl]")
         material->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
         material->setAmbient(osg::Material::FRONT_AND_BACK, osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
         scene->getOrCreateStateSet()->setAttribute(material, osg::StateAttribute::OVERRIDE);
-        scene->getOrCreateStateSet()->setMode(
-            GL_LIGHTING, osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+        scene->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON |
+                                                               osg::StateAttribute::OVERRIDE);
         CHECK(pixel(*view.frames(), kMiddle, kMiddle) == osg::Vec4(0, 0, 255, 255));
         material->setEmission(osg::Material::FRONT_AND_BACK, osg::Vec4(1.0f, 0.0f, 0.0f, 1.0f));
         CHECK(pixel(*view.frames(), kMiddle, kMiddle) == osg::Vec4(255, 0, 0, 255));
@@ -288,9 +297,11 @@ TEST_CASE("drawable: several contexts show one scene, each from its own side", "
 TEST_CASE("drawable: in stereo each eye keeps its own image", "[gl]")
 {
     osg::ref_ptr<RayTracedScene> scene = greenScene();
-    osg::ref_ptr<osg::DisplaySettings> stereo = new osg::DisplaySettings(*osg::DisplaySettings::instance());
+    osg::ref_ptr<osg::DisplaySettings> stereo =
+        new osg::DisplaySettings(*osg::DisplaySettings::instance());
     stereo->setStereo(true);
-    stereo->setStereoMode(GENERATE(osg::DisplaySettings::ANAGLYPHIC, osg::DisplaySettings::HORIZONTAL_SPLIT,
+    stereo->setStereoMode(GENERATE(osg::DisplaySettings::ANAGLYPHIC,
+                                   osg::DisplaySettings::HORIZONTAL_SPLIT,
                                    osg::DisplaySettings::VERTICAL_INTERLACE));
     TestViewer view(kSize, kSize, scene.get());
     view.camera().setDisplaySettings(stereo.get());
@@ -316,7 +327,8 @@ TEST_CASE("drawable: paused it keeps its picture", "[gl]")
 
 TEST_CASE("drawable: exposure changes the picture without tracing anew", "[gl]")
 {
-    osg::ref_ptr<RayTracedScene> scene = tracedScene(unlitSquare(1.0f, osg::Vec4(0.2f, 0.2f, 0.2f, 1.0f)).get());
+    osg::ref_ptr<RayTracedScene> scene =
+        tracedScene(unlitSquare(1.0f, osg::Vec4(0.2f, 0.2f, 0.2f, 1.0f)).get());
     scene->getSettings()->setMaxPasses(1);
     TestViewer view(kSize, kSize, scene.get());
     CHECK(pixel(*view.frames(), kMiddle, kMiddle).r() == 51.0f);
@@ -329,8 +341,9 @@ TEST_CASE("drawable: near and far planes are computed from the scene", "[gl]")
 {
     osg::ref_ptr<RayTracedScene> scene = greenScene();
     TestViewer view(kSize, kSize, scene.get());
-    view.camera().setComputeNearFarMode(GENERATE(osg::Camera::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES,
-                                                 osg::Camera::COMPUTE_NEAR_FAR_USING_PRIMITIVES));
+    view.camera().setComputeNearFarMode(
+        GENERATE(osg::Camera::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES,
+                 osg::Camera::COMPUTE_NEAR_FAR_USING_PRIMITIVES));
     // Far behind the far plane that the projection was given, and in front of the near plane.
     view.look(osg::Vec3d(0.0, 0.0, GENERATE(2000.0, 0.5)));
     view.camera().setProjectionMatrixAsPerspective(

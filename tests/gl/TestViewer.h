@@ -16,7 +16,8 @@
 namespace osgRayTrace::test
 {
 
-/// Single threaded, without a manipulator, near and far planes fixed unless changed; black background.
+/// Single threaded, without a manipulator, near and far planes fixed unless changed; black
+/// background.
 struct TestViewer
 {
     TestViewer(int width, int height, osg::Node* scene,
@@ -25,7 +26,8 @@ struct TestViewer
     {
         viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
         osg::Camera& camera = *viewer.getCamera();
-        camera.setGraphicsContext(context ? context.get() : createOSMesaContext(width, height).get());
+        camera.setGraphicsContext(context ? context.get()
+                                          : createOSMesaContext(width, height).get());
         camera.setViewport(0, 0, width, height);
         camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
         camera.setClearColor(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
@@ -98,13 +100,15 @@ inline double meanDifference(const osg::Image& a, const osg::Image& b)
 inline osg::ref_ptr<osg::Geometry> unlitSquare(float half, const osg::Vec4& color)
 {
     osg::ref_ptr<osg::Geometry> square = osg::createTexturedQuadGeometry(
-        osg::Vec3(-half, -half, 0.0f), osg::Vec3(2.0f * half, 0.0f, 0.0f), osg::Vec3(0.0f, 2.0f * half, 0.0f));
+        osg::Vec3(-half, -half, 0.0f), osg::Vec3(2.0f * half, 0.0f, 0.0f),
+        osg::Vec3(0.0f, 2.0f * half, 0.0f));
     square->setColorArray(new osg::Vec4Array(1, &color), osg::Array::BIND_OVERALL);
     square->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
     return square;
 }
 
-inline osg::ref_ptr<osg::ShapeDrawable> sphere(const osg::Vec3& center, float radius, const osg::Vec4& color)
+inline osg::ref_ptr<osg::ShapeDrawable> sphere(const osg::Vec3& center, float radius,
+                                               const osg::Vec4& color)
 {
     osg::ref_ptr<osg::TessellationHints> hints = new osg::TessellationHints;
     hints->setDetailRatio(4.0f);

@@ -44,7 +44,8 @@ TEST_CASE("threading: 50 frames of a moving scene in three contexts", "[gl]")
 
     osgViewer::Viewer viewer;
     viewer.getCamera()->setProjectionMatrixAsPerspective(40.0, 1.0, 1.0, 100.0);
-    viewer.getCamera()->setViewMatrixAsLookAt(osg::Vec3d(0, 0, 10), osg::Vec3d(), osg::Vec3d(0, 1, 0));
+    viewer.getCamera()->setViewMatrixAsLookAt(osg::Vec3d(0, 0, 10), osg::Vec3d(),
+                                              osg::Vec3d(0, 1, 0));
     const osg::ref_ptr<FrameCapture> captures[] = {
         addCamera(viewer, osg::Matrixd()), addCamera(viewer, osg::Matrixd::rotate(0.1, 0, 1, 0)),
         addCamera(viewer, osg::Matrixd::rotate(-0.1, 0, 1, 0))};

@@ -30,7 +30,7 @@ double solidAngle(const Mesh& mesh, Vec3d from)
 }
 
 /// Mean of 1/pdfW over stratified samples: the solid angle.
-double sampledSolidAngle(const LightTable& table, Vec3 from, int side = 516) // whole strata for 2 and for 12 triangles
+double sampledSolidAngle(const LightTable& table, Vec3 from, int side = 516) // whole strata for 2 and 12 triangles
 {
     double sum = 0.0;
     for (int y = 0; y < side; ++y)
