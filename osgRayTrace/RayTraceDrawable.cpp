@@ -205,6 +205,7 @@ void RayTraceDrawable::updateScene(const osg::FrameStamp* frameStamp)
 void RayTraceDrawable::dirtyScene()
 {
     _implementation->scene.setDirty();
+    forgetFailure();
     dirtyBound();
 }
 
@@ -326,6 +327,12 @@ bool RayTraceDrawable::canTrace() const
     const engine::SceneVersion version = _implementation->scene.version();
     std::lock_guard<std::mutex> lock(_implementation->mutex);
     return version.scene && _implementation->untraceable.lock() != version.scene;
+}
+
+void RayTraceDrawable::forgetFailure()
+{
+    std::lock_guard<std::mutex> lock(_implementation->mutex);
+    _implementation->untraceable.reset();
 }
 
 } // namespace osgRayTrace

@@ -94,6 +94,7 @@ RayTracedScene::~RayTracedScene()
 void RayTracedScene::setEnabled(bool enabled)
 {
     _enabled = enabled;
+    if (enabled) _drawable->forgetFailure();
 }
 
 void RayTracedScene::setSettings(RayTraceSettings* settings)

@@ -152,6 +152,8 @@ void GraphCollector::apply(osg::LightSource& node)
 void GraphCollector::apply(osg::Billboard& node)
 {
     const bool pushed = pushState(node);
+    if (node.getMode() == osg::Billboard::POINT_ROT_EYE)
+        _report.count("approximated.billboard"); // upright in the world, not in the view
     const osg::Vec3 eye = getEyePoint();
     for (unsigned int i = 0; i < node.getNumDrawables(); ++i)
     {

@@ -288,8 +288,8 @@ SharedArray<Vec4> VertexReader::colors(const osg::Array* array, ConversionCounts
     forEachRow(*array, rowsOfBinding(*array, IntegerMeaning::Normalized),
                [&](std::size_t i, const Vec4d& row)
                {
+                   if (!isWithin(Vec3d(row), kLargestCoordinate) || !std::isfinite(row.w)) return;
                    Vec4 color(row);
-                   if (!isFinite(Vec3(color)) || !std::isfinite(color.w)) return;
                    for (int c = 0; c < 3 && _request.decodeColors; ++c)
                        color[c] = linearFromSrgb(color[c]);
                    values[i] = color;

@@ -15,6 +15,7 @@
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/CameraLanes.h"
 #include "osgRayTrace/integrators/HitShading.h"
+#include "osgRayTrace/integrators/PathQueue.h"
 #include "osgRayTrace/integrators/ShadowLanes.h"
 
 #include <algorithm>
@@ -29,22 +30,6 @@ namespace
 
 constexpr int kRouletteBounce = 3;      ///< paths are not ended by chance before this bounce
 constexpr float kLargestSurvival = 0.95f;
-
-/// Sixteen paths.
-struct PathBlock
-{
-    RayHitBlock rays;
-    Vec3Lanes throughput;  ///< beta
-    FloatLanes pdfW;       ///< of the direction of the ray; infinite: no light sample could find it
-    UintLanes seed;        ///< of the pixel
-    UintLanes pixel;       ///< block * kLanes + lane, and kScattered
-    LaneMask active = 0;
-};
-
-/// Set once a path has left a surface that is not a mirror: from then on it does not see the background,
-/// which is a backdrop and not a light.
-constexpr uint32_t kScattered = 0x10000u;
-constexpr uint32_t kPixelBits = 0xffffu;
 
 OSGRAYTRACE_INLINE float powerHeuristic(float a, float b)
 {
@@ -82,8 +67,7 @@ struct Tile
     TileDiagnostics* diagnostics;
     int left, bottom;
     PixelSums sums;
-    PathBlock blocks[kTileBlocks];
-    int blockCount = kTileBlocks;
+    PathQueue paths;
     Bsdf bsdfs[kLanes]; ///< of the block at work
 };
 
@@ -384,7 +368,7 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
 /// Follows the paths of a block over one bounce.
 void bounceBlock(Tile& tile, int b, int number, bool last)
 {
-    PathBlock& block = tile.blocks[b];
+    PathBlock& block = tile.paths.blocks[b];
     const TracedScene& traced = *tile.context.traced;
     const Coherence coherence = number == 0 ? Coherence::Coherent : Coherence::Incoherent;
     traced.intersector().closestHits(block.rays, block.active, coherence);
@@ -427,50 +411,6 @@ void bounceBlock(Tile& tile, int b, int number, bool last)
     scatter(tile, block, bounce);
 }
 
-void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
-{
-    to.rays.ray.originX[k] = from.rays.ray.originX[i];
-    to.rays.ray.originY[k] = from.rays.ray.originY[i];
-    to.rays.ray.originZ[k] = from.rays.ray.originZ[i];
-    to.rays.ray.directionX[k] = from.rays.ray.directionX[i];
-    to.rays.ray.directionY[k] = from.rays.ray.directionY[i];
-    to.rays.ray.directionZ[k] = from.rays.ray.directionZ[i];
-    to.throughput.x[k] = from.throughput.x[i];
-    to.throughput.y[k] = from.throughput.y[i];
-    to.throughput.z[k] = from.throughput.z[i];
-    to.pdfW[k] = from.pdfW[i];
-    to.seed[k] = from.seed[i];
-    to.pixel[k] = from.pixel[i];
-}
-
-/// Moves the paths that go on into as few blocks as possible, in order.
-void closeRanks(Tile& tile)
-{
-    int count = 0;
-    for (int b = 0; b < tile.blockCount; ++b)
-    {
-        PathBlock& from = tile.blocks[b];
-        for (LaneMask lanes = from.active; lanes; lanes &= lanes - 1, ++count)
-        {
-            const int i = __builtin_ctz(lanes);
-            if (count != b * kLanes + i)
-                moveLane(from, i, tile.blocks[count / kLanes], count % kLanes);
-        }
-    }
-    tile.blockCount = (count + kLanes - 1) / kLanes;
-    for (int b = 0; b < tile.blockCount; ++b)
-    {
-        PathBlock& block = tile.blocks[b];
-        const int used = std::min(kLanes, count - b * kLanes);
-        block.active = (1u << used) - 1u;
-        for (int i = 0; i < kLanes; ++i)
-        {
-            block.rays.ray.tNear[i] = 0.0f;
-            block.rays.ray.tFar[i] = kInfinity;
-        }
-    }
-}
-
 void finish(const Tile& tile)
 {
     for (int b = 0; b < kTileBlocks; ++b)
@@ -492,7 +432,7 @@ void PathIntegrator::renderTile(const PassContext& context, int left, int bottom
     Tile tile(context, left, bottom, result);
     for (int b = 0; b < kTileBlocks; ++b)
     {
-        PathBlock& block = tile.blocks[b];
+        PathBlock& block = tile.paths.blocks[b];
         cameraRayLanes(context.camera, context.key, left, bottom, b, false, block.rays, block.seed);
         for (int i = 0; i < kLanes; ++i)
         {
@@ -502,12 +442,12 @@ void PathIntegrator::renderTile(const PassContext& context, int left, int bottom
         }
         block.active = kAllLanes;
     }
-    for (int number = 0; tile.blockCount > 0; ++number)
+    for (int number = 0; tile.paths.count > 0; ++number)
     {
         const bool last = number >= context.options.maxBounces;
-        for (int b = 0; b < tile.blockCount; ++b)
+        for (int b = 0; b < tile.paths.count; ++b)
             bounceBlock(tile, b, number, last);
-        closeRanks(tile);
+        closeRanks(tile.paths);
     }
     finish(tile);
 }

@@ -13,8 +13,8 @@
 #include "osgRayTrace/integrators/CameraLanes.h"
 #include "osgRayTrace/integrators/FixedFunctionLighting.h"
 #include "osgRayTrace/integrators/HitShading.h"
+#include "osgRayTrace/integrators/LightGrid.h"
 #include "osgRayTrace/integrators/ShadowLanes.h"
-#include "osgRayTrace/sampling/LightPoints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,12 +48,20 @@ struct ShadingBlock
     UintLanes seed;
     UintLanes pixel;
     Vec3Lanes weight;
+    FloatLanes firstU, firstV; ///< first sample on the first area light: drawn early, see drawFirst
     int depth[kLanes];
 };
 
+/// The first points of a block, ahead of use: they are a long chain of operations, which overlaps with
+/// those of other blocks here and with nothing where it is needed.
+void drawFirst(const LightGrid& grid, ShadingBlock& block)
+{
+    grid.draw(0, 0, block.seed, block.firstU, block.firstV);
+}
+
 struct Tile
 {
-    Tile(const PassContext& c, TileResult& r) : context(c), result(r) {}
+    Tile(const PassContext& c, TileResult& r) : context(c), result(r), grid(c) {}
 
     void add(uint32_t pixel, Vec3 radiance)
     {
@@ -65,6 +73,7 @@ struct Tile
 
     const PassContext& context;
     TileResult& result;
+    LightGrid grid;
     std::vector<SecondaryRay> stack;
     ShadingBlock group[kGroup];
     Bsdf bsdfs[kLanes];                ///< of the block at work
@@ -78,6 +87,7 @@ struct LaneMaterials
     LaneMask fixedFunction = 0; ///< lit by OpenGL's equations
     LaneMask physical = 0;      ///< the other ones that scatter
     LaneMask through = 0;       ///< lit from behind as well
+    LaneMask own = 0;           ///< with a colour of their own: emission, fixed-function lanes
     Vec3Lanes normal;           ///< shading, towards the ray
     Vec3Lanes albedo;           ///< of diffuse lanes
     Bsdf* bsdfs = nullptr;      ///< of physical lanes, and of fixed-function ones below area lights
@@ -89,17 +99,51 @@ Vec3 rayDirection(const RayBlock& ray, int i)
     return Vec3(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
 }
 
+OSGRAYTRACE_KERNEL
+bool isOneMaterial(const UintLanes& material, LaneMask hits, uint32_t first)
+{
+    uint32_t differs = 0;
+    OSGRAYTRACE_SIMD_OR(differs)
+    for (int i = 0; i < kLanes; ++i)
+        differs |= (material[i] ^ first) & laneBit(hits, i);
+    return differs == 0;
+}
+
+OSGRAYTRACE_KERNEL
+void fill(Vec3 value, Vec3Lanes& lanes)
+{
+    const float x = value.x, y = value.y, z = value.z;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        lanes.x[i] = x;
+        lanes.y[i] = y;
+        lanes.z[i] = z;
+    }
+}
+
 void classify(Tile& tile, const ShadingBlock& block, LaneMaterials& m)
 {
     m.bsdfs = tile.bsdfs;
     m.points = tile.points;
     facingNormalLanes(block.rays.ray, block.surface, m.normal);
     const MaterialTable& materials = tile.context.traced->materials();
+    const LaneMask hits = block.surface.hits;
+    const uint32_t first = block.surface.material[__builtin_ctz(hits)];
+    const MaterialRecord& firstRecord = materials[first];
+    if (firstRecord.plainDiffuse && !firstRecord.emits && !firstRecord.fixedFunction &&
+        isOneMaterial(block.surface.material, hits, first))
+    {
+        fill(firstRecord.front.diffuse, m.albedo);
+        if (firstRecord.front.diffuse != Vec3(0.0f)) m.diffuse = hits;
+        return;
+    }
     for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         const uint32_t material = block.surface.material[i];
         const MaterialRecord& record = materials[material];
+        m.own |= static_cast<LaneMask>(record.emits || record.fixedFunction) << i;
         if (record.fixedFunction)
         {
             if (!record.material->lit) continue; // all of it is emission
@@ -123,36 +167,6 @@ void classify(Tile& tile, const ShadingBlock& block, LaneMaterials& m)
                          : materials.bsdf(material, materialPoint(tile.context, block.rays, block.surface, i));
         m.physical |= 1u << i;
         m.through |= static_cast<LaneMask>(m.bsdfs[i].transmits()) << i;
-    }
-}
-
-/// Points on a light for sample j of each lane.
-OSGRAYTRACE_KERNEL
-void lightPoints(LightSampling strategy, uint32_t j, uint32_t n, uint32_t samples, uint32_t passIndex,
-                 uint32_t dimension, const UintLanes& seeds, FloatLanes& u, FloatLanes& v)
-{
-    switch (strategy)
-    {
-    case LightSampling::Random:
-        OSGRAYTRACE_SIMD
-        for (int i = 0; i < kLanes; ++i)
-            random2(passIndex * samples + j, dimensionSeed(seeds[i], dimension), u[i], v[i]);
-        return;
-    case LightSampling::UniformJitter:
-        OSGRAYTRACE_SIMD
-        for (int i = 0; i < kLanes; ++i)
-            uniformJitter2(j, n, passIndex, dimensionSeed(seeds[i], dimension), u[i], v[i]);
-        return;
-    case LightSampling::Stratified:
-        OSGRAYTRACE_SIMD
-        for (int i = 0; i < kLanes; ++i)
-            stratified2(j, n, passIndex, dimensionSeed(seeds[i], dimension), u[i], v[i]);
-        return;
-    case LightSampling::Sobol:
-        OSGRAYTRACE_SIMD
-        for (int i = 0; i < kLanes; ++i)
-            sobol2(passIndex * samples + j, dimensionSeed(seeds[i], dimension), u[i], v[i]);
-        return;
     }
 }
 
@@ -217,21 +231,18 @@ void addAreaLights(Tile& tile, const ShadingBlock& block, const LaneMaterials& m
     const std::vector<uint32_t>& lights = context.traced->lights().areaLights();
     const LaneMask lanes = m.diffuse | m.physical | m.fixedFunction;
     if (lights.empty() || !lanes) return;
-    const auto samples = static_cast<uint32_t>(lightSampleCount(context.options));
-    const auto n = static_cast<uint32_t>(std::lround(std::sqrt(static_cast<float>(samples))));
+    const LightGrid& grid = tile.grid;
+    const float scale = 1.0f / static_cast<float>(grid.samples());
     for (std::size_t k = 0; k < lights.size(); ++k)
     {
-        const uint32_t dimension = bounceDimension(static_cast<int>(k), DimensionLightPoint);
-        for (uint32_t j = 0; j < samples; ++j)
+        for (uint32_t j = 0; j < grid.samples(); ++j)
         {
-            FloatLanes u, v;
-            lightPoints(context.options.lightSampling, j, n, samples, context.key.index, dimension,
-                        block.seed, u, v);
+            FloatLanes u = block.firstU, v = block.firstV;
+            if (k + j > 0) grid.draw(k, j, block.seed, u, v);
             LightLanes light;
             areaLightLanes(context, lights[k], 1.0f, block.surface, lanes, m.through, u, v, light);
             countRays(tile, block, light.lit);
             const LaneMask visible = visibleLanes(context, light, tile.result.counts);
-            const float scale = 1.0f / static_cast<float>(samples);
             if (visible & m.diffuse)
                 addDiffuse(m.normal, m.albedo, light, visible & m.diffuse, scale, sum);
             if (visible & ~m.diffuse) addGeneral(block, m, light, visible & ~m.diffuse, scale, sum);
@@ -299,24 +310,15 @@ void spawn(Tile& tile, const ShadingBlock& block, const LaneMaterials& m)
     }
 }
 
-OSGRAYTRACE_KERNEL
-void clear(Vec3Lanes& sum)
-{
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < kLanes; ++i)
-        sum.x[i] = sum.y[i] = sum.z[i] = 0.0f;
-}
-
 /// Adds what surfaces send by themselves, and the finished colour of fixed-function ones.
 void addOwnLight(const Tile& tile, const ShadingBlock& block, const LaneMaterials& m, Vec3Lanes& sum)
 {
-    const MaterialTable& materials = tile.context.traced->materials();
-    for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
+    for (LaneMask lanes = m.own; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         if ((m.fixedFunction >> i) & 1u)
             addLane(sum, i, litColor(tile.context, m.points[i]));
-        else if (materials[block.surface.material[i]].emits)
+        else
             addLane(sum, i, emissionTowardsRay(tile.context, block.rays, block.surface, i));
     }
 }
@@ -326,7 +328,7 @@ void shade(Tile& tile, ShadingBlock& block, Vec3Lanes& sum)
 {
     LaneMaterials m;
     classify(tile, block, m);
-    clear(sum);
+    fill(Vec3(0.0f), sum);
     addAreaLights(tile, block, m, sum);
     if (!tile.context.traced->lights().deltaLights().empty()) addDeltaLights(tile, block, m, sum);
 
@@ -372,6 +374,7 @@ void traceSecondary(Tile& tile)
         tile.add(block.pixel[i], laneOf(block.weight, i) * background);
     }
     if (!block.surface.hits) return;
+    if (!traced.lights().areaLights().empty()) drawFirst(tile.grid, block);
     Vec3Lanes radiance;
     shade(tile, block, radiance);
     for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
@@ -400,12 +403,14 @@ void traceCamera(Tile& tile, int left, int bottom, int first)
 {
     const PassContext& context = tile.context;
     const TracedScene& traced = *context.traced;
+    const bool lit = !traced.lights().areaLights().empty();
     for (int k = 0; k < kGroup; ++k)
     {
         ShadingBlock& block = tile.group[k];
         cameraRayLanes(context.camera, context.key, left, bottom, first + k, false, block.rays, block.seed);
         for (int i = 0; i < kLanes; ++i)
             block.pixel[i] = static_cast<uint32_t>((first + k) * kLanes + i);
+        if (lit) drawFirst(tile.grid, block);
     }
     for (ShadingBlock& block : tile.group)
         traced.intersector().closestHits(block.rays, kAllLanes, Coherence::Coherent);

@@ -68,8 +68,9 @@ TEST_CASE("a changed array or primitive set makes one new mesh", "[bridge]")
 
     graph.second->setVertexArray(new osg::Vec3Array(*vertices));
     scene = checkSecondChanged(scene);
-    graph.second->setNormalArray(new osg::Vec3Array(1, new osg::Vec3(0.0f, 1.0f, 0.0f)),
-                                 osg::Array::BIND_OVERALL);
+    osg::ref_ptr<osg::Vec3Array> normal = new osg::Vec3Array;
+    normal->push_back({0.0f, 1.0f, 0.0f});
+    graph.second->setNormalArray(normal, osg::Array::BIND_OVERALL);
     scene = checkSecondChanged(scene);
     graph.second->setPrimitiveSet(0, new osg::DrawArrays(GL_TRIANGLES, 0, 3));
     scene = checkSecondChanged(scene);

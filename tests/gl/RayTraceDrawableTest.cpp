@@ -360,6 +360,27 @@ TEST_CASE("drawable: an empty scene draws nothing", "[gl]")
     CHECK(countGreen(*view.frames()) > 100);
 }
 
+TEST_CASE("traced scene: what cannot be traced is rasterized, until told to try again", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = greenScene();
+    showNormals(*scene);
+    TestViewer view(kSize, kSize, scene.get());
+    view.camera().removeFinalDrawCallback(view.capture.get()); // it would copy all that
+    view.camera().setProjectionResizePolicy(osg::Camera::FIXED);
+    view.camera().setViewport(0, 0, 20000, 20000); // more pixels than a film holds
+    view.frames();
+    CHECK_FALSE(scene->getDrawable()->getStatistics().ok);
+    CHECK_FALSE(scene->getDrawable()->getStatistics().message.empty());
+
+    view.camera().setViewport(0, 0, kSize, kSize);
+    view.camera().addFinalDrawCallback(view.capture.get());
+    CHECK(pixel(*view.frames(), kMiddle, kMiddle) == kGreenPixel);
+    SECTION("dirtyScene") { scene->dirtyScene(); }
+    SECTION("setEnabled") { scene->setEnabled(true); }
+    CHECK(pixel(*view.frames(), kMiddle, kMiddle) != kGreenPixel);
+    CHECK(scene->getDrawable()->getStatistics().ok);
+}
+
 TEST_CASE("traced scene: a clone has its own drawable and the same children", "[gl]")
 {
     osg::ref_ptr<RayTracedScene> scene = greenScene();

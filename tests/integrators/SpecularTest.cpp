@@ -8,7 +8,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// A box of radiance 1 around the thing.
+/// A room of radiance 1 around a box, which unlike facets of a sphere never traps light for long.
 std::shared_ptr<const TracedScene> inWhiteRoom(const Material& material, bool sampled)
 {
     SceneBuilder builder;
@@ -17,11 +17,11 @@ std::shared_ptr<const TracedScene> inWhiteRoom(const Material& material, bool sa
         builder.addEmissive(room, lamp(Vec3(1.0f)));
     else
         builder.add(room, lamp(Vec3(1.0f)));
-    builder.add(sphereMesh(Vec3(0.0f), 1.0f, 32), material);
+    builder.add(boxMesh({-0.9f, -0.8f, -0.7f}, {0.9f, 0.8f, 0.7f}), material);
     return builder.build();
 }
 
-View outside() { return perspectiveView({0, -2.5, 0.4}, {0, 0, 0}, {0, 0, 1}, 50.0, 48, 48); }
+View outside() { return perspectiveView({1.4, -2.1, 0.9}, {0, 0, 0}, {0, 0, 1}, 50.0, 48, 48); }
 
 /// Largest difference of any channel of any pixel.
 float largestDifference(const Picture& a, const Picture& b)
@@ -34,7 +34,7 @@ float largestDifference(const Picture& a, const Picture& b)
 
 } // namespace
 
-TEST_CASE("glass: a clear sphere in a white room cannot be seen", "[integrators][statistics]")
+TEST_CASE("glass: a clear body in a white room cannot be seen", "[integrators][statistics]")
 {
     for (const float ior : {1.5f, 1.0f, 1.0f + 1.2e-7f, 1.0f / 1.5f, 2.4f})
     {
@@ -73,10 +73,10 @@ TEST_CASE("rough glass: loses what single scattering loses, and makes nothing", 
         const Estimate found =
             measure(inWhiteRoom(glass(1.5f, roughness), false), outside(), optionsOf(IntegratorKind::Path, 100), 16);
         const Estimate sampled =
-            measure(inWhiteRoom(glass(1.5f, roughness), true), outside(), optionsOf(IntegratorKind::Path, 100), 64);
+            measure(inWhiteRoom(glass(1.5f, roughness), true), outside(), optionsOf(IntegratorKind::Path, 100), 32);
         CAPTURE(roughness, found.mean(), found.standardError(), sampled.mean(), sampled.standardError());
         CHECK(found.mean() < 1.0 + 4.0 * found.standardError());
-        CHECK(found.mean() > 0.95);
+        CHECK(found.mean() > (roughness < 0.2f ? 0.97 : 0.8));
         CHECK(std::abs(found.mean() - sampled.mean()) < 4.0 * std::hypot(found.standardError(), sampled.standardError()));
     }
 }
@@ -91,16 +91,15 @@ TEST_CASE("mirror: a white one in a white room cannot be seen, nor a mirror room
     }
 }
 
-TEST_CASE("mirror: shows the mirrored scene, tinted", "[integrators]")
+TEST_CASE("mirror: shows the mirrored scene", "[integrators]")
 {
     // Two lamps above a mirror floor against the same two below it without the mirror.
-    const Vec3 tint(0.9f, 0.5f, 0.25f);
     SceneBuilder reflected, direct;
-    reflected.add(quadMesh({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), mirror(tint));
+    reflected.add(quadMesh({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), mirror(Vec3(1.0f)));
     reflected.add(quadMesh({-2, -1, 2}, {0, 2, 0}, {1.5f, 0, 0}), lamp(Vec3(1.0f, 2.0f, 3.0f)));
     reflected.add(quadMesh({0.5f, 0, 2.5f}, {0, 2, 0}, {1.5f, 0, 0}), lamp(Vec3(4.0f)));
-    direct.add(quadMesh({-2, -1, -2}, {1.5f, 0, 0}, {0, 2, 0}), lamp(tint * Vec3(1.0f, 2.0f, 3.0f)));
-    direct.add(quadMesh({0.5f, 0, -2.5f}, {1.5f, 0, 0}, {0, 2, 0}), lamp(tint * Vec3(4.0f)));
+    direct.add(quadMesh({-2, -1, -2}, {1.5f, 0, 0}, {0, 2, 0}), lamp(Vec3(1.0f, 2.0f, 3.0f)));
+    direct.add(quadMesh({0.5f, 0, -2.5f}, {1.5f, 0, 0}, {0, 2, 0}), lamp(Vec3(4.0f)));
     const View view = perspectiveView({0, -3, 1.5}, {0, -0.6, -1}, {0, 0, 1}, 60.0, 64, 64);
     const Picture truth = render(direct.build(), view, optionsOf(IntegratorKind::Path), 1);
     CHECK(truth.mean().y > 0.05f);
@@ -119,6 +118,17 @@ TEST_CASE("mirror: shows the mirrored scene, tinted", "[integrators]")
     }
 }
 
+TEST_CASE("mirror: a metal tints what it reflects head-on", "[integrators]")
+{
+    const Vec3 tint(0.9f, 0.5f, 0.25f);
+    SceneBuilder builder;
+    builder.add(quadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), mirror(tint));
+    builder.add(quadMesh({-1, -1, 2}, {2, 0, 0}, {0, 2, 0}), lamp(Vec3(2.0f)));
+    const View view = patchView({0, 0, 0}, {0, 0, 1}, 0.1, 8);
+    for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
+        CHECK(glm::length(render(builder.build(), view, optionsOf(kind), 1).mean() - 2.0f * tint) < 1e-5f);
+}
+
 TEST_CASE("mirror: as roughness vanishes the image becomes the mirror's", "[integrators][statistics]")
 {
     const auto traced = [](float roughness)
@@ -133,24 +143,24 @@ TEST_CASE("mirror: as roughness vanishes the image becomes the mirror's", "[inte
     const View view = perspectiveView({0, -3, 1.5}, {0, -0.6, -1}, {0, 0, 1}, 60.0, 32, 32);
     const RenderOptions options = optionsOf(IntegratorKind::Path);
     const Picture smooth = render(traced(0.0f), view, options, 64);
-    const auto relativeError = [&](const Picture& picture)
+    const auto difference = [&](const Picture& picture) // relative, mean over pixels
     {
-        double sum = 0.0;
+        double sum = 0.0, total = 0.0;
         for (int y = 0; y < 32; ++y)
         {
             for (int x = 0; x < 32; ++x)
             {
-                const double d = picture.at(x, y).y - smooth.at(x, y).y, r = smooth.at(x, y).y + 0.01;
-                sum += d * d / (r * r) / 1024.0;
+                sum += std::abs(picture.at(x, y).y - smooth.at(x, y).y);
+                total += smooth.at(x, y).y;
             }
         }
-        return sum;
+        return sum / total;
     };
     CHECK(largestDifference(render(traced(0.02f), view, options, 64), smooth) == 0.0f); // alpha below 1e-3
     const Picture nearly = render(traced(0.035f), view, options, 64);
     CHECK(nearly.progress.droppedSamples == 0);
-    CHECK(relativeError(nearly) < 5e-3); // pixels at edges only
-    CHECK(relativeError(render(traced(0.5f), view, options, 64)) > relativeError(nearly));
+    CHECK(difference(nearly) < 5e-3);
+    CHECK(difference(render(traced(0.5f), view, options, 64)) > 0.1);
 }
 
 TEST_CASE("specular: mirrors facing each other end after maxBounces", "[integrators]")

@@ -1,0 +1,36 @@
+// PathQueue.h - the paths of a tile, sixteen to a block. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/RayBlock.h"
+#include "osgRayTrace/film/Film.h"
+
+namespace osgRayTrace::engine
+{
+
+/// Sixteen paths.
+struct PathBlock
+{
+    RayHitBlock rays;
+    Vec3Lanes throughput;  ///< beta
+    FloatLanes pdfW;       ///< of the direction of the ray; infinite: no light sample could find it
+    UintLanes seed;        ///< of the pixel
+    UintLanes pixel;       ///< block * kLanes + lane, and kScattered
+    LaneMask active = 0;
+};
+
+/// Set once a path has left a surface that is not a mirror: from then on it does not see the background,
+/// which is a backdrop and not a light.
+constexpr uint32_t kScattered = 0x10000u;
+constexpr uint32_t kPixelBits = 0xffffu;
+
+struct PathQueue
+{
+    PathBlock blocks[kTileBlocks];
+    int count = kTileBlocks; ///< of blocks in use
+};
+
+/// Moves the paths that go on into as few blocks as possible, in order, and readies their rays.
+void closeRanks(PathQueue& paths);
+
+} // namespace osgRayTrace::engine
