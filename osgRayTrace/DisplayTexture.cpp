@@ -53,29 +53,17 @@ void main()
 }
 )";
 
-// Colours come as encode(alpha * radiance). Blended so, edges would be brighter than both of their
-// sides; they are made alpha * encode(radiance) first. gl_FragDepth is not mapped by glDepthRange,
-// so the shader does that. Edges whose first sample missed have the depth of the background, but
-// must pass the test against it: they are drawn right in front of it.
+// gl_FragDepth is not mapped by glDepthRange, so the shader does that. Edges whose first sample
+// missed have the depth of the background, but must pass the test against it: they are drawn right
+// in front of it.
 constexpr const char* kFragmentShader = R"(
 uniform sampler2D osgRayTrace_color;
 uniform sampler2D osgRayTrace_depth;
-uniform bool osgRayTrace_encoded;
 IN vec2 position;
-vec3 decode(vec3 c)
-{
-    return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c));
-}
-vec3 encode(vec3 c)
-{
-    return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
-}
 void main()
 {
     vec4 color = SAMPLE(osgRayTrace_color, position);
     if (color.a == 0.0) discard;
-    if (osgRayTrace_encoded && color.a < 1.0)
-        color.rgb = color.a * encode(min(decode(color.rgb) / color.a, 1.0));
     float depth = min(SAMPLE(osgRayTrace_depth, position).r, 0.99999994);
     FRAGMENT = color;
     gl_FragDepth = gl_DepthRange.near + gl_DepthRange.diff * depth;
@@ -155,7 +143,6 @@ DisplayTexture::DisplayTexture()
       _depthTexture(createTexture(_depth.get(), GL_LUMINANCE32F_ARB)),
       _colorUnit(new osg::Uniform("osgRayTrace_color", static_cast<int>(kColorUnit))),
       _depthUnit(new osg::Uniform("osgRayTrace_depth", static_cast<int>(kDepthUnit))),
-      _encoded(new osg::Uniform("osgRayTrace_encoded", false)),
       _program(createProgram(kVertexDialect, kFragmentDialect)),
       _coreProgram(createProgram(kCoreVertexDialect, kCoreFragmentDialect)),
       _triangle(createTriangle())
@@ -181,9 +168,8 @@ void DisplayTexture::resize(int width, int height)
     _depth->allocateImage(width, height, 1, GL_LUMINANCE, GL_FLOAT);
 }
 
-void DisplayTexture::modified(bool encoded)
+void DisplayTexture::modified()
 {
-    _encoded->set(encoded);
     _color->dirty();
     _depth->dirty();
 }
@@ -220,7 +206,6 @@ bool DisplayTexture::useProgram(osg::State& state) const
     if (!program || !program->isLinked()) return false;
     program->apply(*_colorUnit);
     program->apply(*_depthUnit);
-    program->apply(*_encoded);
     return true;
 }
 

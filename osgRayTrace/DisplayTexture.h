@@ -34,12 +34,11 @@ public:
     int height() const { return _color->t(); }
 
     /// To be written to, then modified(). Row 0 at the bottom. Display values, 4 bytes a pixel:
-    /// alpha is coverage, where it is 0 nothing is drawn. Window depths in [0,1].
+    /// alpha is coverage, where it is 0 nothing is drawn; colours are multiplied with it. Window
+    /// depths in [0,1].
     uint8_t* rgba() { return _color->data(); }
     float* depth() { return reinterpret_cast<float*>(_depth->data()); }
-    /// encoded: the colours were premultiplied by alpha before they were encoded to sRGB; else
-    /// after.
-    void modified(bool encoded);
+    void modified();
 
     /// Fills the current viewport. False, and nothing drawn, if the context has no usable GLSL.
     bool draw(osg::RenderInfo& renderInfo) const;
@@ -57,7 +56,6 @@ private:
     osg::ref_ptr<osg::Texture2D> _depthTexture;
     osg::ref_ptr<osg::Uniform> _colorUnit;
     osg::ref_ptr<osg::Uniform> _depthUnit;
-    osg::ref_ptr<osg::Uniform> _encoded;
     osg::ref_ptr<osg::Program> _program;     ///< GLSL 1.20
     osg::ref_ptr<osg::Program> _coreProgram; ///< GLSL 3.30, for contexts that take no older one
     osg::ref_ptr<osg::Geometry> _triangle;

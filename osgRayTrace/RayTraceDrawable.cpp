@@ -130,8 +130,8 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     if (view->tracer.needsResolve(version))
     {
         view->display.resize(view->tracer.width(), view->tracer.height());
-        const bool encoded = view->tracer.resolve(view->display.rgba(), view->display.depth());
-        view->display.modified(encoded);
+        view->tracer.resolve(view->display.rgba(), view->display.depth());
+        view->display.modified();
     }
     scene.noteDrawn(renderInfo.getCurrentCamera(), osg::Matrixd::inverse(viewMatrix).getTrans(),
                     nearDistance(projection));

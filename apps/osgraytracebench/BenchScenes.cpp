@@ -97,7 +97,7 @@ BenchScene cornellBox(int width, int height)
     addQuad(*scene, {552.8f, 0, 0}, {549.6f, 0, 559.2f}, {556, 548.8f, 559.2f}, {556, 548.8f, 0}, red);
     addBlock(*scene, {{130, 0, 65}, {82, 0, 225}, {240, 0, 272}, {290, 0, 114}}, 165.0f, white);
     addBlock(*scene, {{423, 0, 247}, {265, 0, 296}, {314, 0, 456}, {472, 0, 406}}, 330.0f, white);
-    addLight(*scene, {343, 548.7f, 227}, {-130, 0, 0}, {0, 0, 105}, {17, 12, 4});
+    addLight(*scene, {343, 548.7f, 227}, {0, 0, 105}, {-130, 0, 0}, {17, 12, 4}); // looks down
     // The published view is square; from inside the box a wide frame is filled as well.
     return {scene, viewOf({278, 278, 20}, {278, 250, 559}, {0, 1, 0}, 50.0, width, height)};
 }

@@ -17,7 +17,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr unsigned int kReferenceExpiry = 60; // frames without it: another camera takes over
+constexpr unsigned int kReferenceExpiry = 500; // passes of others without it: another takes over
 
 unsigned int frameNumberOf(const osg::FrameStamp* frameStamp)
 {
@@ -37,10 +37,11 @@ void SceneUpdater::noteView(const void* camera, const osg::FrameStamp* frameStam
 {
     const unsigned int frameNumber = frameNumberOf(frameStamp);
     std::lock_guard<std::mutex> lock(_notedMutex);
-    const bool expired = frameNumber - _noted.frameNumber > kReferenceExpiry;
-    if (_noted.conditions && _noted.camera != camera && !expired) return;
+    if (_noted.conditions && _noted.camera != camera && ++_noted.othersSince < kReferenceExpiry)
+        return;
     // The second pass of a camera in one frame is its other eye.
-    const bool again = _noted.camera == camera && _noted.frameNumber == frameNumber && frameStamp;
+    const bool again = frameStamp && _noted.camera == camera && _noted.frameNumber == frameNumber;
+    _noted.othersSince = 0;
     if (_noted.conditions && again) return;
     _noted.camera = camera;
     _noted.frameNumber = frameNumber;

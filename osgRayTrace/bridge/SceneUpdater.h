@@ -69,6 +69,7 @@ private:
     {
         const void* camera = nullptr; ///< the reference; a name, not followed
         unsigned int frameNumber = 0; ///< it was last seen in
+        unsigned int othersSince = 0; ///< passes of other cameras since then
         std::optional<ViewingConditions> conditions;
         std::optional<osg::Vec3d> origin; ///< asked for
         bool dirty = true;

@@ -79,12 +79,11 @@ bool ViewTracer::needsResolve(const SceneVersion& version)
     return hasImage() && (_imageChanged || !_resolved || !same(_toneMap, *_resolved));
 }
 
-bool ViewTracer::resolve(uint8_t* rgba, float* depth)
+void ViewTracer::resolve(uint8_t* rgba, float* depth)
 {
     _session->resolveDisplay(_toneMap, rgba, depth);
     _resolved = _toneMap;
     _imageChanged = false;
-    return !_toneMap.displayReferred || _toneMap.exposureEv != 0.0f;
 }
 
 RenderProgress ViewTracer::progress() const

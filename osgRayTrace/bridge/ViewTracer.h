@@ -27,9 +27,8 @@ public:
     /// was resolved last. False if there is no image.
     bool needsResolve(const SceneVersion& version);
 
-    /// Display values and window depths, width() * height() pixels. True if the values were encoded
-    /// to sRGB, false if they are as the scene's lighting made them.
-    bool resolve(uint8_t* rgba, float* depth);
+    /// Display values and window depths, width() * height() pixels.
+    void resolve(uint8_t* rgba, float* depth);
 
     bool hasImage() const
     {

@@ -69,7 +69,8 @@ public:
     void halfMeans(int tile, TileRgba& first, TileRgba& second) const;
 
     /// Estimate of mean((x - r)^2 / (r^2 + 0.01)) over pixels and RGB, x this image and r the converged
-    /// one: sums over the tile's pixels inside the image, and their number. Needs two passes.
+    /// one: sums over the tile's pixels inside the image, and their number. Needs two passes. r is not known
+    /// but estimated with x: too low while pixels exist that were very bright in a few of their passes only.
     struct ErrorSum
     {
         double sum = 0.0;

@@ -75,6 +75,7 @@ void packDisplay(const RgbaLanes* __restrict blocks, UintLanes* __restrict packe
     }
 }
 
+/// alpha * encode(radiance) where the film holds alpha * radiance: as a display blends it.
 OSGRAYTRACE_KERNEL
 void packEncoded(const RgbaLanes* __restrict blocks, float exposure, UintLanes* __restrict packed)
 {
@@ -82,22 +83,27 @@ void packEncoded(const RgbaLanes* __restrict blocks, float exposure, UintLanes* 
     {
         OSGRAYTRACE_SIMD
         for (int i = 0; i < kLanes; ++i)
-            packed[b][i] = packLane(encodeLanes(clampUnit(blocks[b].r[i] * exposure)),
-                                    encodeLanes(clampUnit(blocks[b].g[i] * exposure)),
-                                    encodeLanes(clampUnit(blocks[b].b[i] * exposure)),
-                                    clampUnit(blocks[b].a[i]));
+        {
+            const float alpha = clampUnit(blocks[b].a[i]);
+            const float scale = exposure / (alpha > 0.0f ? alpha : 1.0f);
+            packed[b][i] = packLane(alpha * encodeLanes(clampUnit(blocks[b].r[i] * scale)),
+                                    alpha * encodeLanes(clampUnit(blocks[b].g[i] * scale)),
+                                    alpha * encodeLanes(clampUnit(blocks[b].b[i] * scale)), alpha);
+        }
     }
 }
 
+/// Colours stay multiplied with alpha.
 void decode(TileRgba& values)
 {
     for (RgbaLanes& block : values)
     {
         for (int i = 0; i < kLanes; ++i)
         {
-            block.r[i] = linearFromSrgb(block.r[i]);
-            block.g[i] = linearFromSrgb(block.g[i]);
-            block.b[i] = linearFromSrgb(block.b[i]);
+            const float alpha = block.a[i] > 0.0f ? block.a[i] : 1.0f;
+            block.r[i] = alpha * linearFromSrgb(block.r[i] / alpha);
+            block.g[i] = alpha * linearFromSrgb(block.g[i] / alpha);
+            block.b[i] = alpha * linearFromSrgb(block.b[i] / alpha);
         }
     }
 }

@@ -85,7 +85,9 @@ struct RenderSession::Implementation
 bool RenderSession::Implementation::begin()
 {
     const bool sameScene = scene == filmScene;
-    const bool restart = !sameScene || view != filmView || options.needsRestart(filmOptions);
+    const bool sameSize = view.width == film.width() && view.height == film.height(); // not after a failure
+    const bool restart =
+        !sameScene || !sameSize || view != filmView || options.needsRestart(filmOptions);
     progress.restarted = restart;
     progress.status = {};
     if (!scene)

@@ -78,8 +78,8 @@ public:
     void setOptions(const RenderOptions& options);
 
     /// Adds passes to the image until the rule says stop, cancel() is called or keepGoing, called after
-    /// each pass on this thread, returns false. A pass cut short by cancel() is thrown away whole, the
-    /// image keeps the complete ones. Never throws: failures are in the status, the last image stays.
+    /// each pass on this thread, returns false. The tiles of a pass that cancel() cut short keep it, and the
+    /// next render() does the rest of them. Never throws: failures are in the status, the last image stays.
     RenderProgress render(const StopRule& rule,
                           const std::function<bool(const RenderProgress&)>& keepGoing = {});
 

@@ -143,6 +143,38 @@ TEST_CASE("resolve: display-referred bytes at exposure 0 are the film's values",
         REQUIRE(int(bytes[4 * i]) == int(i));
 }
 
+TEST_CASE("resolve: at edges the radiance is encoded, and multiplied with coverage", "[film]")
+{
+    // A quarter of the pixel is covered by radiance 0.4; display-referred, by the display value 0.4.
+    Film film;
+    film.reset(16, 16);
+    TileRgba values;
+    for (RgbaLanes& block : values)
+    {
+        for (int i = 0; i < kLanes; ++i)
+        {
+            block.r[i] = block.g[i] = block.b[i] = 0.25f * 0.4f;
+            block.a[i] = 0.25f;
+        }
+    }
+    film.beginPass();
+    film.addPass(0, values);
+
+    std::vector<uint8_t> bytes(4 * 256);
+    ToneMap toneMap;
+    toneMap.exposureEv = 1.0f;
+    resolveTileDisplay(film, 0, toneMap, bytes.data(), nullptr);
+    CHECK(std::abs(bytes[0] - 255.0 * 0.25 * exactSrgb(0.8)) <= 0.51);
+    CHECK(int(bytes[3]) == 64);
+
+    toneMap.displayReferred = true;
+    resolveTileDisplay(film, 0, toneMap, bytes.data(), nullptr);
+    CHECK(std::abs(bytes[0] - 255.0 * 0.25 * exactSrgb(2.0 * linearFromSrgb(0.4f))) <= 0.51);
+    std::vector<float> radiance(4 * 256);
+    resolveTileRadiance(film, 0, true, radiance.data());
+    CHECK(radiance[0] == Approx(0.25f * linearFromSrgb(0.4f)));
+}
+
 TEST_CASE("resolve: a display-referred film's radiance is decoded", "[film]")
 {
     const Film film = filmOf(16, 16, [](int x, int) { return float(x) / 50.0f; });
