@@ -24,8 +24,9 @@ struct Quad
 
 Quad quadOf(const Light& light, const LightTable& table, uint32_t index)
 {
-    return {light.corner,     light.edgeU,         light.edgeV, glm::normalize(glm::cross(light.edgeU, light.edgeV)),
-            table.area(index), table.pointOffset(index), light.twoSided, light.radiance};
+    return {light.corner,       light.edgeU,        light.edgeV,
+            table.normal(index), table.area(index),  table.pointOffset(index),
+            light.twoSided,     light.radiance};
 }
 
 OSGRAYTRACE_INLINE void setShadowRay(RayBlock& ray, int i, float ox, float oy, float oz, float dx,

@@ -38,7 +38,21 @@ struct SecondaryRay
 
 /// Blocks of camera rays that are taken through the stages together: independent work for the CPU to
 /// overlap, small enough for the first-level cache.
-constexpr int kGroup = 8;
+constexpr int kGroup = 4;
+
+/// What the lanes of a block are made of.
+struct LaneMaterials
+{
+    LaneMask diffuse = 0;       ///< physical, constant, Lambert only
+    LaneMask fixedFunction = 0; ///< lit by OpenGL's equations
+    LaneMask physical = 0;      ///< the other ones that scatter
+    LaneMask through = 0;       ///< lit from behind as well
+    LaneMask own = 0;           ///< with a colour of their own: emission, fixed-function lanes
+    Vec3Lanes normal;           ///< shading, towards the ray
+    Vec3Lanes albedo;           ///< of diffuse lanes
+    Bsdf* bsdfs = nullptr;      ///< of physical lanes, and of fixed-function ones below area lights
+    FixedFunctionPoint* points = nullptr; ///< of fixed-function lanes
+};
 
 /// Sixteen rays to be shaded, with what they count for in which pixel.
 struct ShadingBlock
@@ -50,6 +64,10 @@ struct ShadingBlock
     Vec3Lanes weight;
     FloatLanes firstU, firstV; ///< first sample on the first area light: drawn early, see drawFirst
     int depth[kLanes];
+
+    LaneMaterials materials;
+    LightLanes light;          ///< the sample at work
+    Vec3Lanes radiance;        ///< so far
 };
 
 /// The first points of a block, ahead of use: they are a long chain of operations, which overlaps with
@@ -76,22 +94,8 @@ struct Tile
     LightGrid grid;
     std::vector<SecondaryRay> stack;
     ShadingBlock group[kGroup];
-    Bsdf bsdfs[kLanes];                ///< of the block at work
-    FixedFunctionPoint points[kLanes]; ///< of the block at work
-};
-
-/// What the lanes of a block are made of.
-struct LaneMaterials
-{
-    LaneMask diffuse = 0;       ///< physical, constant, Lambert only
-    LaneMask fixedFunction = 0; ///< lit by OpenGL's equations
-    LaneMask physical = 0;      ///< the other ones that scatter
-    LaneMask through = 0;       ///< lit from behind as well
-    LaneMask own = 0;           ///< with a colour of their own: emission, fixed-function lanes
-    Vec3Lanes normal;           ///< shading, towards the ray
-    Vec3Lanes albedo;           ///< of diffuse lanes
-    Bsdf* bsdfs = nullptr;      ///< of physical lanes, and of fixed-function ones below area lights
-    FixedFunctionPoint* points = nullptr; ///< of fixed-function lanes
+    std::vector<Bsdf> bsdfs;               ///< kLanes for each block of the group; empty until needed
+    std::vector<FixedFunctionPoint> points; ///< the same
 };
 
 Vec3 rayDirection(const RayBlock& ray, int i)
@@ -122,13 +126,14 @@ void fill(Vec3 value, Vec3Lanes& lanes)
     }
 }
 
-void classify(Tile& tile, const ShadingBlock& block, LaneMaterials& m)
+void classify(Tile& tile, ShadingBlock& block)
 {
-    m.bsdfs = tile.bsdfs;
-    m.points = tile.points;
+    LaneMaterials& m = block.materials;
+    m.diffuse = m.fixedFunction = m.physical = m.through = m.own = 0;
     facingNormalLanes(block.rays.ray, block.surface, m.normal);
     const MaterialTable& materials = tile.context.traced->materials();
     const LaneMask hits = block.surface.hits;
+    if (!hits) return;
     const uint32_t first = block.surface.material[__builtin_ctz(hits)];
     const MaterialRecord& firstRecord = materials[first];
     if (firstRecord.plainDiffuse && !firstRecord.emits && !firstRecord.fixedFunction &&
@@ -138,6 +143,14 @@ void classify(Tile& tile, const ShadingBlock& block, LaneMaterials& m)
         if (firstRecord.front.diffuse != Vec3(0.0f)) m.diffuse = hits;
         return;
     }
+    if (tile.bsdfs.empty())
+    {
+        tile.bsdfs.resize(kGroup * kLanes);
+        tile.points.resize(kGroup * kLanes);
+    }
+    const std::ptrdiff_t slot = (&block - tile.group) * kLanes;
+    m.bsdfs = &tile.bsdfs[static_cast<std::size_t>(slot)];
+    m.points = &tile.points[static_cast<std::size_t>(slot)];
     for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
@@ -200,9 +213,10 @@ void addLane(Vec3Lanes& sum, int i, Vec3 value)
 }
 
 /// The same for lanes with any other Bsdf.
-void addGeneral(const ShadingBlock& block, const LaneMaterials& m, const LightLanes& light,
-                LaneMask visible, float scale, Vec3Lanes& sum)
+void addGeneral(ShadingBlock& block, LaneMask visible, float scale)
 {
+    const LaneMaterials& m = block.materials;
+    const LightLanes& light = block.light;
     for (LaneMask lanes = visible; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
@@ -214,7 +228,7 @@ void addGeneral(const ShadingBlock& block, const LaneMaterials& m, const LightLa
             continue;
         const BsdfValue value = evalBsdf(m.bsdfs[i], wo, wi);
         const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
-        addLane(sum, i, value.fCos * radiance * (light.weight[i] * scale));
+        addLane(block.radiance, i, value.fCos * radiance * (light.weight[i] * scale));
     }
 }
 
@@ -225,38 +239,51 @@ void countRays(Tile& tile, const ShadingBlock& block, LaneMask lanes)
         tile.result.diagnostics->rays[block.pixel[__builtin_ctz(lanes)]] += 1.0f;
 }
 
-void addAreaLights(Tile& tile, const ShadingBlock& block, const LaneMaterials& m, Vec3Lanes& sum)
+/// Direct light from all area lights, sample by sample: each is taken through its stages for all blocks.
+void addAreaLights(Tile& tile, ShadingBlock* blocks, int count)
 {
     const PassContext& context = tile.context;
     const std::vector<uint32_t>& lights = context.traced->lights().areaLights();
-    const LaneMask lanes = m.diffuse | m.physical | m.fixedFunction;
-    if (lights.empty() || !lanes) return;
     const LightGrid& grid = tile.grid;
     const float scale = 1.0f / static_cast<float>(grid.samples());
     for (std::size_t k = 0; k < lights.size(); ++k)
     {
         for (uint32_t j = 0; j < grid.samples(); ++j)
         {
-            FloatLanes u = block.firstU, v = block.firstV;
-            if (k + j > 0) grid.draw(k, j, block.seed, u, v);
-            LightLanes light;
-            areaLightLanes(context, lights[k], 1.0f, block.surface, lanes, m.through, u, v, light);
-            countRays(tile, block, light.lit);
-            const LaneMask visible = visibleLanes(context, light, tile.result.counts);
-            if (visible & m.diffuse)
-                addDiffuse(m.normal, m.albedo, light, visible & m.diffuse, scale, sum);
-            if (visible & ~m.diffuse) addGeneral(block, m, light, visible & ~m.diffuse, scale, sum);
+            for (ShadingBlock* block = blocks; block != blocks + count; ++block)
+            {
+                const LaneMaterials& m = block->materials;
+                FloatLanes u = block->firstU, v = block->firstV;
+                if (k + j > 0) grid.draw(k, j, block->seed, u, v);
+                areaLightLanes(context, lights[k], 1.0f, block->surface,
+                               m.diffuse | m.physical | m.fixedFunction, m.through, u, v, block->light);
+            }
+            for (ShadingBlock* block = blocks; block != blocks + count; ++block)
+            {
+                countRays(tile, *block, block->light.lit);
+                block->light.lit = visibleLanes(context, block->light, tile.result.counts);
+            }
+            for (ShadingBlock* block = blocks; block != blocks + count; ++block)
+            {
+                const LaneMaterials& m = block->materials;
+                const LaneMask visible = block->light.lit;
+                if (visible & m.diffuse)
+                    addDiffuse(m.normal, m.albedo, block->light, visible & m.diffuse, scale,
+                               block->radiance);
+                if (visible & ~m.diffuse) addGeneral(*block, visible & ~m.diffuse, scale);
+            }
         }
     }
 }
 
-void addDeltaLights(Tile& tile, const ShadingBlock& block, LaneMaterials& m, Vec3Lanes& sum)
+void addDeltaLights(Tile& tile, ShadingBlock& block)
 {
     const PassContext& context = tile.context;
+    const LaneMaterials& m = block.materials;
+    LightLanes& samples = block.light;
     for (const uint32_t index : context.traced->lights().deltaLights())
     {
         const Light& light = (*context.lights)[index];
-        LightLanes samples;
         deltaLightLanes(context, index, block.surface, m.diffuse | m.physical | m.fixedFunction,
                         m.through, samples);
         // Fixed-function lanes that face away get the light's ambient term only: no ray for them.
@@ -275,8 +302,8 @@ void addDeltaLights(Tile& tile, const ShadingBlock& block, LaneMaterials& m, Vec
             addLight(m.points[i], light, laneOf(samples.wi, i), attenuation, (visible >> i) & 1u);
         }
         if (visible & m.diffuse)
-            addDiffuse(m.normal, m.albedo, samples, visible & m.diffuse, 1.0f, sum);
-        if (visible & m.physical) addGeneral(block, m, samples, visible & m.physical, 1.0f, sum);
+            addDiffuse(m.normal, m.albedo, samples, visible & m.diffuse, 1.0f, block.radiance);
+        if (visible & m.physical) addGeneral(block, visible & m.physical, 1.0f);
     }
 }
 
@@ -290,8 +317,9 @@ void push(Tile& tile, const ShadingBlock& block, int i, Vec3 direction, Vec3 wei
                           hash(block.seed[i] + 0x9e3779b9u), block.depth[i] + 1});
 }
 
-void spawn(Tile& tile, const ShadingBlock& block, const LaneMaterials& m)
+void spawn(Tile& tile, const ShadingBlock& block)
 {
+    const LaneMaterials& m = block.materials;
     for (LaneMask lanes = m.physical; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
@@ -311,36 +339,44 @@ void spawn(Tile& tile, const ShadingBlock& block, const LaneMaterials& m)
 }
 
 /// Adds what surfaces send by themselves, and the finished colour of fixed-function ones.
-void addOwnLight(const Tile& tile, const ShadingBlock& block, const LaneMaterials& m, Vec3Lanes& sum)
+void addOwnLight(const Tile& tile, ShadingBlock& block)
 {
+    const LaneMaterials& m = block.materials;
     for (LaneMask lanes = m.own; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         if ((m.fixedFunction >> i) & 1u)
-            addLane(sum, i, litColor(tile.context, m.points[i]));
+            addLane(block.radiance, i, litColor(tile.context, m.points[i]));
         else
-            addLane(sum, i, emissionTowardsRay(tile.context, block.rays, block.surface, i));
+            addLane(block.radiance, i,
+                    emissionTowardsRay(tile.context, block.rays, block.surface, i));
     }
 }
 
-/// Radiance of all hits of a block, zero elsewhere; pushes the rays that go on.
-void shade(Tile& tile, ShadingBlock& block, Vec3Lanes& sum)
+/// Sets the radiance of all hits of some blocks of the group, anything elsewhere; pushes the rays that
+/// go on.
+void shade(Tile& tile, ShadingBlock* blocks, int count)
 {
-    LaneMaterials m;
-    classify(tile, block, m);
-    fill(Vec3(0.0f), sum);
-    addAreaLights(tile, block, m, sum);
-    if (!tile.context.traced->lights().deltaLights().empty()) addDeltaLights(tile, block, m, sum);
-
-    addOwnLight(tile, block, m, sum);
-    if (m.physical) spawn(tile, block, m);
+    const LightTable& lights = tile.context.traced->lights();
+    for (ShadingBlock* block = blocks; block != blocks + count; ++block)
+    {
+        classify(tile, *block);
+        fill(Vec3(0.0f), block->radiance);
+    }
+    addAreaLights(tile, blocks, count);
+    for (ShadingBlock* block = blocks; block != blocks + count; ++block)
+    {
+        if (!lights.deltaLights().empty()) addDeltaLights(tile, *block);
+        if (block->materials.own) addOwnLight(tile, *block);
+        if (block->materials.physical) spawn(tile, *block);
+    }
 }
 
 /// Traces up to sixteen rays from the top of the stack.
 void traceSecondary(Tile& tile)
 {
     const TracedScene& traced = *tile.context.traced;
-    ShadingBlock block;
+    ShadingBlock& block = tile.group[0];
     LaneMask active = 0;
     for (int i = 0; i < kLanes && !tile.stack.empty(); ++i)
     {
@@ -375,12 +411,11 @@ void traceSecondary(Tile& tile)
     }
     if (!block.surface.hits) return;
     if (!traced.lights().areaLights().empty()) drawFirst(tile.grid, block);
-    Vec3Lanes radiance;
-    shade(tile, block, radiance);
+    shade(tile, &block, 1);
     for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        tile.add(block.pixel[i], laneOf(block.weight, i) * laneOf(radiance, i));
+        tile.add(block.pixel[i], laneOf(block.weight, i) * laneOf(block.radiance, i));
     }
 }
 
@@ -408,8 +443,12 @@ void traceCamera(Tile& tile, int left, int bottom, int first)
     {
         ShadingBlock& block = tile.group[k];
         cameraRayLanes(context.camera, context.key, left, bottom, first + k, false, block.rays, block.seed);
+        fill(Vec3(1.0f), block.weight);
         for (int i = 0; i < kLanes; ++i)
+        {
             block.pixel[i] = static_cast<uint32_t>((first + k) * kLanes + i);
+            block.depth[i] = 0;
+        }
         if (lit) drawFirst(tile.grid, block);
     }
     for (ShadingBlock& block : tile.group)
@@ -417,16 +456,15 @@ void traceCamera(Tile& tile, int left, int bottom, int first)
     for (ShadingBlock& block : tile.group)
         surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface);
     tile.result.counts.cameraRays += kGroup * kLanes;
+    shade(tile, tile.group, kGroup);
     for (int k = 0; k < kGroup; ++k)
     {
-        ShadingBlock& block = tile.group[k];
+        const ShadingBlock& block = tile.group[k];
         countRays(tile, block, kAllLanes);
         if (context.wantsDepth)
             depthLanes(context.camera, left, bottom, first + k, block.surface,
                        tile.result.depth + (first + k) * kLanes);
-        Vec3Lanes radiance;
-        if (block.surface.hits) shade(tile, block, radiance);
-        setPixels(radiance, block.surface.hits, tile.result.rgba[first + k]);
+        setPixels(block.radiance, block.surface.hits, tile.result.rgba[first + k]);
     }
 }
 
@@ -436,14 +474,6 @@ void WhittedIntegrator::renderTile(const PassContext& context, int left, int bot
                                    TileResult& result) const
 {
     Tile tile(context, result);
-    for (ShadingBlock& block : tile.group)
-    {
-        for (int i = 0; i < kLanes; ++i)
-        {
-            setLane(block.weight, i, Vec3(1.0f));
-            block.depth[i] = 0;
-        }
-    }
     for (int first = 0; first < kTileBlocks; first += kGroup)
     {
         traceCamera(tile, left, bottom, first);

@@ -43,7 +43,7 @@ struct Material
     std::string name;
     MaterialModel model = MaterialModel::FixedFunction;
 
-    // Fixed function [OpenGL 2.1, eq. 2.1-2.4]; the physical image of these is made by the Bsdf.
+    // Fixed function [OpenGL21, eq. 2.1-2.4]; the physical image of these is made by the Bsdf.
     Vec3 ambient{0.2f};
     Vec3 diffuse{0.8f};
     Vec3 specular{0.0f};

@@ -51,8 +51,8 @@ std::vector<float> cumulativeOf(const std::vector<double>& weights)
 } // namespace
 
 LightTable::LightTable(const Scene& scene)
-    : _scene(&scene), _areas(scene.lights.size(), 0.0f), _offsets(scene.lights.size(), 0.0f), _pmfs(scene.lights.size(), 0.0f),
-      _meshes(scene.lights.size())
+    : _scene(&scene), _areas(scene.lights.size(), 0.0f), _normals(scene.lights.size(), Vec3(0.0f)),
+      _offsets(scene.lights.size(), 0.0f), _pmfs(scene.lights.size(), 0.0f), _meshes(scene.lights.size())
 {
     std::vector<double> powers;
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
@@ -65,7 +65,10 @@ LightTable::LightTable(const Scene& scene)
         }
         if (light.kind == LightKind::Parallelogram)
         {
-            _areas[i] = glm::length(glm::cross(light.edgeU, light.edgeV));
+            // In double: the square of a small light's area is no normal float.
+            const Vec3d perpendicular = glm::cross(Vec3d(light.edgeU), Vec3d(light.edgeV));
+            _areas[i] = static_cast<float>(glm::length(perpendicular));
+            _normals[i] = Vec3(perpendicular / glm::length(perpendicular));
             _offsets[i] = kOffsetScale * (sumAbs(light.corner) + sumAbs(light.edgeU) + sumAbs(light.edgeV));
         }
         else
@@ -127,9 +130,8 @@ std::optional<AreaLightSample> LightTable::sampleArea(uint32_t index, Vec3 p, fl
     const Light& light = _scene->lights[index];
     if (light.kind == LightKind::Mesh) return sampleMesh(index, p, u, v);
 
-    const Vec3 normal = glm::normalize(glm::cross(light.edgeU, light.edgeV));
     const Vec3 q = light.corner + u * light.edgeU + v * light.edgeV;
-    return sampleAt(index, p, q, normal, Vec2(u, v), light.twoSided);
+    return sampleAt(index, p, q, _normals[index], Vec2(u, v), light.twoSided);
 }
 
 std::optional<AreaLightSample> LightTable::sampleMesh(uint32_t index, Vec3 p, float u, float v) const
@@ -143,7 +145,7 @@ std::optional<AreaLightSample> LightTable::sampleMesh(uint32_t index, Vec3 p, fl
         u = 1.0f - u;
         v = 1.0f - v;
     }
-    const Vec3 normal = glm::normalize(glm::cross(t.ab, t.ac));
+    const Vec3 normal(glm::normalize(glm::cross(Vec3d(t.ab), Vec3d(t.ac))));
     return sampleAt(index, p, t.a + u * t.ab + v * t.ac, normal, t.ua + u * t.uab + v * t.uac, true);
 }
 

@@ -53,6 +53,9 @@ public:
     /// Area of an area light [length^2], by index into Scene::lights. 0: never sampled.
     float area(uint32_t light) const { return _areas[light]; }
 
+    /// Unit normal of the front of a parallelogram.
+    Vec3 normal(uint32_t light) const { return _normals[light]; }
+
     /// How far a point on the light may be off it by rounding [length].
     float pointOffset(uint32_t light) const { return _offsets[light]; }
 
@@ -84,6 +87,7 @@ private:
     std::vector<uint32_t> _areaLights;
     std::vector<uint32_t> _deltaLights;
     std::vector<float> _areas;        ///< a light
+    std::vector<Vec3> _normals;       ///< a light; of parallelograms
     std::vector<float> _offsets;      ///< a light
     std::vector<float> _pmfs;         ///< a light
     std::vector<float> _cumulative;   ///< an area light; the last is 1
