@@ -16,10 +16,12 @@ namespace osgRayTrace::app
 namespace
 {
 
-/// Whether an .osgt file ends within a block or a string, where osgDB 3.6 would read on for ever.
+/// Whether an .osgt file ends before its first block, or within one or a string, where osgDB 3.6
+/// may read on for ever.
 bool isCutShort(const std::string& file)
 {
     std::ifstream stream(file, std::ios::binary);
+    int blocks = 0;
     int depth = 0;
     bool quoted = false;
     bool escaped = false;
@@ -33,11 +35,14 @@ bool isCutShort(const std::string& file)
         else if (c == '"')
             quoted = !quoted;
         else if (!quoted && c == '{')
+        {
+            ++blocks;
             ++depth;
+        }
         else if (!quoted && c == '}')
             --depth;
     }
-    return quoted || depth > 0;
+    return quoted || depth > 0 || blocks == 0;
 }
 
 osg::ref_ptr<osg::Node> readModel(const std::string& file)
