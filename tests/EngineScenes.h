@@ -37,7 +37,8 @@ std::shared_ptr<Mesh> sphereMesh(Vec3 centre, float radius, int rows);
 /// A closed axis-aligned box, its front outside.
 std::shared_ptr<Mesh> boxMesh(Vec3 low, Vec3 high);
 
-/// Positions are what a test cares about: each function appends and returns the index of what it added.
+/// Positions are what a test cares about: each function appends and returns the index of what it
+/// added.
 struct SceneBuilder
 {
     SceneBuilder();

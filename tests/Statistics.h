@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -25,11 +25,14 @@ public:
     }
 
     double mean() const { return _mean; }
-    double variance() const { return _count > 1 ? _squares / static_cast<double>(_count - 1) : 0.0; }
+    double variance() const
+    {
+        return _count > 1 ? _squares / static_cast<double>(_count - 1) : 0.0;
+    }
     double standardError() const { return std::sqrt(variance() / static_cast<double>(_count)); }
 
-    /// True if the mean lies within 4 standard errors of expected, and rounding beside them. A false
-    /// alarm has a probability of 6e-5 for many values, 1e-3 for sixteen.
+    /// True if the mean lies within 4 standard errors of expected, and rounding beside them. A
+    /// false alarm has a probability of 6e-5 for many values, 1e-3 for sixteen.
     bool agrees(double expected, double rounding = 0.0) const
     {
         return std::abs(_mean - expected) <= 4.0 * standardError() + rounding;
@@ -49,9 +52,10 @@ inline double chiSquareTail(double value, double degrees)
     return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
-/// Pearson's test of counts against expected ones; cells are pooled to an expected count of 5 at least.
-/// Returns the probability of a fit this bad or worse.
-inline double chiSquareTest(const std::vector<double>& observed, const std::vector<double>& expected)
+/// Pearson's test of counts against expected ones; cells are pooled to an expected count of 5 at
+/// least. Returns the probability of a fit this bad or worse.
+inline double chiSquareTest(const std::vector<double>& observed,
+                            const std::vector<double>& expected)
 {
     struct Cell
     {

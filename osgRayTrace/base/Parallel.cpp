@@ -10,6 +10,11 @@
 #include <immintrin.h>
 #endif
 
+#if defined(__SANITIZE_THREAD__)
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
+#endif
+
 namespace osgRayTrace::engine
 {
 
@@ -26,6 +31,25 @@ public:
 
 private:
     unsigned int _saved;
+#endif
+};
+
+/// Tells ThreadSanitizer what it cannot see in a TBB that is not sanitized: all before a loop happens
+/// before its bodies, and those before all after it; between bodies there is no order.
+class LoopOrder
+{
+public:
+#if defined(__SANITIZE_THREAD__)
+    LoopOrder() { __tsan_release(&_begin); }
+    ~LoopOrder() { __tsan_acquire(&_end); }
+    void enterBody() { __tsan_acquire(&_begin); }
+    void leaveBody() { __tsan_release(&_end); }
+
+private:
+    char _begin = 0, _end = 0;
+#else
+    void enterBody() {}
+    void leaveBody() {}
 #endif
 };
 
@@ -53,6 +77,7 @@ int Workers::threads() const
 
 void Workers::forEach(std::size_t count, const std::function<void(std::size_t)>& body) const
 {
+    LoopOrder order;
     _implementation->arena.execute(
         [&]
         {
@@ -61,8 +86,10 @@ void Workers::forEach(std::size_t count, const std::function<void(std::size_t)>&
                 [&](const tbb::blocked_range<std::size_t>& range)
                 {
                     FlushDenormals flush;
+                    order.enterBody();
                     for (std::size_t i = range.begin(); i != range.end(); ++i)
                         body(i);
+                    order.leaveBody();
                 },
                 tbb::simple_partitioner());
         });

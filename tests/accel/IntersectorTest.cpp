@@ -6,8 +6,6 @@
 
 #include "osgRayTrace/accel/Embree.h"
 
-#include <cstring>
-
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
 
@@ -56,8 +54,9 @@ std::vector<TestRay> badRays()
         rays.push_back(good);
         rays.back().direction = direction;
     }
-    for (const auto& [tNear, tFar] : {std::pair(nan, kInfinity), std::pair(0.0f, nan), std::pair(2.0f, 1.0f),
-                                      std::pair(-1.0f, 5.0f), std::pair(0.0f, -kInfinity), std::pair(nan, nan)})
+    for (const auto& [tNear, tFar] :
+         {std::pair(nan, kInfinity), std::pair(0.0f, nan), std::pair(2.0f, 1.0f),
+          std::pair(-1.0f, 5.0f), std::pair(0.0f, -kInfinity), std::pair(nan, nan)})
     {
         rays.push_back(good);
         rays.back().tNear = tNear;
@@ -81,17 +80,120 @@ TestRay randomRay(Uniform& random)
 {
     const Vec3 origin(random.between(-3, 6), random.between(-3, 3), random.between(2, 5));
     const Vec3 target(random.between(-1.5, 4.5), random.between(-1.5, 1.5), random.between(-1, 1));
-    return {origin, glm::normalize(target - origin), static_cast<float>(random.between(0, 0.5)), kInfinity};
+    return {origin, glm::normalize(target - origin), static_cast<float>(random.between(0, 0.5)),
+            kInfinity};
 }
 
-struct SceneRelease
+/// A box and an instance of it beside it in an Embree scene of our own, so that packets of all
+/// widths can be tried on any CPU.
+class EmbreeBoxes
 {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+public:
+    EmbreeBoxes()
+        : _device(rtcNewDevice(nullptr)),
+          _prototype(rtcNewScene(_device)),
+          _root(rtcNewScene(_device))
+    {
+        rtcSetSceneFlags(_prototype, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(_root, RTC_SCENE_FLAG_ROBUST);
+        attachBox(_prototype);
+        rtcCommitScene(_prototype);
+        attachBox(_root);
+        const RTCGeometry instance = rtcNewGeometry(_device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(instance, _prototype);
+        const float columns[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 3, 0, 0};
+        rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+        rtcCommitGeometry(instance);
+        rtcAttachGeometryByID(_root, instance, 1);
+        rtcReleaseGeometry(instance);
+        rtcCommitScene(_root);
+    }
+    ~EmbreeBoxes()
+    {
+        rtcReleaseScene(_root);
+        rtcReleaseScene(_prototype);
+        rtcReleaseDevice(_device);
+    }
+    EmbreeBoxes(const EmbreeBoxes&) = delete;
+    EmbreeBoxes& operator=(const EmbreeBoxes&) = delete;
+
+    RTCScene root() const { return _root; }
+
+private:
+    void attachBox(RTCScene scene) const
+    {
+        const RTCGeometry geometry = rtcNewGeometry(_device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                   _mesh->positions.data(), 0, sizeof(Vec3),
+                                   _mesh->positions.size());
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                   _mesh->triangles.data(), 0, sizeof(UVec3),
+                                   _mesh->triangles.size());
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene, geometry, 0);
+        rtcReleaseGeometry(geometry);
+    }
+
+    std::shared_ptr<Mesh> _mesh = boxMesh(Vec3(-1.0f), Vec3(1.0f));
+    RTCDevice _device;
+    RTCScene _prototype, _root;
 };
+
+struct Comparison
+{
+    int different = 0, hits = 0;
+};
+
+/// The active lanes of a block of rays against the same rays alone.
+Comparison compareHits(const Intersector& intersector, const TestRay (&rays)[kLanes], LaneMask mask,
+                       Coherence coherence)
+{
+    RayHitBlock block;
+    for (int i = 0; i < kLanes; ++i)
+        setRay(block.ray, i, rays[i]);
+    Comparison result;
+    result.different += intersector.closestHits(block, mask, coherence) != 0;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const auto single =
+            intersector.closestHit(rays[i].origin, rays[i].direction, rays[i].tNear, rays[i].tFar);
+        const bool found = block.geometry[i] != kInvalid;
+        if (!((mask >> i) & 1u) || !single)
+        {
+            result.different += found;
+            continue;
+        }
+        ++result.hits;
+        const bool same =
+            found && hitInstance(block.geometry[i], block.instance[i]) == single->instance &&
+            block.primitive[i] == single->primitive &&
+            std::abs(block.ray.tFar[i] - single->t) < 1e-5f &&
+            std::abs(block.u[i] - single->u) < 1e-5f && std::abs(block.v[i] - single->v) < 1e-5f;
+        result.different += !same;
+    }
+    return result;
+}
+
+int differentOcclusion(const Intersector& intersector, const TestRay (&rays)[kLanes], LaneMask mask)
+{
+    RayBlock block;
+    for (int i = 0; i < kLanes; ++i)
+        setRay(block, i, rays[i]);
+    int different = intersector.occlusion(block, mask) != 0;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const TestRay& ray = rays[i];
+        const bool expected = ((mask >> i) & 1u) &&
+                              intersector.occluded(ray.origin, ray.direction, ray.tNear, ray.tFar);
+        different += (block.tFar[i] == -kInfinity) != expected;
+    }
+    return different;
+}
 
 } // namespace
 
-TEST_CASE("intersector: rays that are not finite, zero or huge are refused, alone and in packets", "[accel]")
+TEST_CASE("intersector: rays that are not finite, zero or huge are refused, alone and in packets",
+          "[accel]")
 {
     const auto traced = twoBoxes().build();
     const Intersector& intersector = traced->intersector();
@@ -101,7 +203,8 @@ TEST_CASE("intersector: rays that are not finite, zero or huge are refused, alon
     int index = 0;
     for (const TestRay& bad : badRays())
     {
-        CAPTURE(index++, bad.origin.x, bad.origin.z, bad.direction.x, bad.direction.z, bad.tNear, bad.tFar);
+        CAPTURE(index++, bad.origin.x, bad.origin.z, bad.direction.x, bad.direction.z, bad.tNear,
+                bad.tFar);
         CHECK_FALSE(intersector.closestHit(bad.origin, bad.direction, bad.tNear, bad.tFar));
         CHECK(intersector.occluded(bad.origin, bad.direction, bad.tNear, bad.tFar));
         for (const Coherence coherence : {Coherence::Coherent, Coherence::Incoherent})
@@ -136,90 +239,32 @@ TEST_CASE("intersector: a whole block of bad rays", "[accel]")
 
 TEST_CASE("intersector: packets of every width and mask find what single rays find", "[accel]")
 {
-    // Own Embree scene, so that all widths run on any CPU: two triangles and an instance of them.
-    const RTCDevice device = rtcNewDevice(nullptr);
-    REQUIRE(device);
+    const EmbreeBoxes boxes;
+    Uniform random(1);
+    std::vector<LaneMask> masks{0u, kAllLanes, 1u, 0x8000u, 0xaaaau, 0xff00u, 0x0f0fu};
+    for (int i = 0; i < 200; ++i)
+        masks.push_back(static_cast<LaneMask>(random() * 65536.0f));
+    for (const int width : {16, 8, 4, 1})
     {
-        using Handle = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease>;
-        const auto mesh = boxMesh(Vec3(-1.0f), Vec3(1.0f));
-        const auto attach = [&](RTCScene scene, unsigned id)
+        const Intersector intersector(boxes.root(), width, 1e18f);
+        int different = 0, hits = 0;
+        for (const LaneMask mask : masks)
         {
-            const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-            rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                       mesh->positions.data(), 0, sizeof(Vec3), mesh->positions.size());
-            rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                       mesh->triangles.data(), 0, sizeof(UVec3), mesh->triangles.size());
-            rtcCommitGeometry(geometry);
-            rtcAttachGeometryByID(scene, geometry, id);
-            rtcReleaseGeometry(geometry);
-        };
-        const Handle prototype(rtcNewScene(device)), root(rtcNewScene(device));
-        rtcSetSceneFlags(prototype.get(), RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneFlags(root.get(), RTC_SCENE_FLAG_ROBUST);
-        attach(prototype.get(), 0);
-        rtcCommitScene(prototype.get());
-        attach(root.get(), 0);
-        const RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(instance, prototype.get());
-        const float columns[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 3, 0, 0};
-        rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
-        rtcCommitGeometry(instance);
-        rtcAttachGeometryByID(root.get(), instance, 1);
-        rtcReleaseGeometry(instance);
-        rtcCommitScene(root.get());
-
-        Uniform random(1);
-        std::vector<LaneMask> masks{0u, kAllLanes, 1u, 0x8000u, 0xaaaau, 0xff00u, 0x0f0fu};
-        for (int i = 0; i < 200; ++i)
-            masks.push_back(static_cast<LaneMask>(random() * 65536.0f));
-        for (const int width : {16, 8, 4, 1})
-        {
-            const Intersector intersector(root.get(), width, 1e18f);
-            int different = 0, hits = 0;
-            for (const LaneMask mask : masks)
+            TestRay rays[kLanes];
+            for (TestRay& ray : rays)
+                ray = randomRay(random);
+            for (const Coherence coherence : {Coherence::Coherent, Coherence::Incoherent})
             {
-                TestRay rays[kLanes];
-                for (TestRay& ray : rays)
-                    ray = randomRay(random);
-                for (const Coherence coherence : {Coherence::Coherent, Coherence::Incoherent})
-                {
-                    RayHitBlock block;
-                    for (int i = 0; i < kLanes; ++i)
-                        setRay(block.ray, i, rays[i]);
-                    different += intersector.closestHits(block, mask, coherence) != 0;
-                    for (int i = 0; i < kLanes; ++i)
-                    {
-                        const auto single = intersector.closestHit(rays[i].origin, rays[i].direction, rays[i].tNear, rays[i].tFar);
-                        const bool found = block.geometry[i] != kInvalid;
-                        if (!((mask >> i) & 1u) || !single)
-                        {
-                            different += found;
-                            continue;
-                        }
-                        ++hits;
-                        different += !found || hitInstance(block.geometry[i], block.instance[i]) != single->instance ||
-                                     block.primitive[i] != single->primitive ||
-                                     std::abs(block.ray.tFar[i] - single->t) > 1e-5f ||
-                                     std::abs(block.u[i] - single->u) > 1e-5f || std::abs(block.v[i] - single->v) > 1e-5f;
-                    }
-                }
-                RayBlock shadow;
-                for (int i = 0; i < kLanes; ++i)
-                    setRay(shadow, i, rays[i]);
-                different += intersector.occlusion(shadow, mask) != 0;
-                for (int i = 0; i < kLanes; ++i)
-                {
-                    const bool occluded = shadow.tFar[i] == -kInfinity;
-                    const bool active = (mask >> i) & 1u;
-                    different += occluded != (active && intersector.occluded(rays[i].origin, rays[i].direction, rays[i].tNear, rays[i].tFar));
-                }
+                const Comparison comparison = compareHits(intersector, rays, mask, coherence);
+                different += comparison.different;
+                hits += comparison.hits;
             }
-            CAPTURE(width);
-            CHECK(different == 0);
-            CHECK(hits > 1000);
+            different += differentOcclusion(intersector, rays, mask);
         }
+        CAPTURE(width);
+        CHECK(different == 0);
+        CHECK(hits > 1000);
     }
-    rtcReleaseDevice(device);
 }
 
 TEST_CASE("intersector: hits name the instance, tNear and tFar bound the search", "[accel]")
@@ -232,9 +277,11 @@ TEST_CASE("intersector: hits name the instance, tNear and tFar bound the search"
     CHECK(left->instance == 0);
     CHECK(right->instance == 1);
     CHECK(left->t == Approx(4.0));
-    CHECK(intersector.closestHit(Vec3(0.3f, 0.2f, 5), Vec3(0, 0, -1), 4.5f, kInfinity)->t == Approx(6.0));
+    CHECK(intersector.closestHit(Vec3(0.3f, 0.2f, 5), Vec3(0, 0, -1), 4.5f, kInfinity)->t ==
+          Approx(6.0));
     CHECK_FALSE(intersector.closestHit(Vec3(0.3f, 0.2f, 5), Vec3(0, 0, -1), 0.0f, 3.9f));
     CHECK(intersector.occluded(Vec3(3.3f, 0.2f, 5), Vec3(0, 0, -1), 0.0f, 4.1f));
     CHECK_FALSE(intersector.occluded(Vec3(3.3f, 0.2f, 5), Vec3(0, 0, -1), 0.0f, 3.9f));
-    CHECK_FALSE(intersector.occluded(Vec3(3.3f, 0.2f, 5), Vec3(0, 0, -1), 0.0f, 0.0f)); // a light at the point
+    CHECK_FALSE(intersector.occluded(Vec3(3.3f, 0.2f, 5), Vec3(0, 0, -1), 0.0f,
+                                     0.0f)); // a light at the point
 }

@@ -1,5 +1,5 @@
-// SurfaceTest.cpp - surface points lie on their triangles, and rays that leave them do not hit them.
-// SPDX-License-Identifier: MIT
+// SurfaceTest.cpp - surface points lie on their triangles, and rays that leave them do not hit
+// them. SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 #include "tests/Statistics.h"
@@ -15,7 +15,10 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-Vec3 at(const Vec3Lanes& lanes, int i) { return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]); }
+Vec3 at(const Vec3Lanes& lanes, int i)
+{
+    return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]);
+}
 
 void setRay(RayBlock& block, int lane, Vec3 origin, Vec3 direction)
 {
@@ -33,7 +36,8 @@ void setRay(RayBlock& block, int lane, Vec3 origin, Vec3 direction)
 
 Vec3d randomDirection(Uniform& random)
 {
-    const double z = random.between(-1, 1), phi = random.between(0, 2.0 * M_PI), r = std::sqrt(1.0 - z * z);
+    const double z = random.between(-1, 1), phi = random.between(0, 2.0 * M_PI),
+                 r = std::sqrt(1.0 - z * z);
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
@@ -53,7 +57,9 @@ Spawned spawn(double smallest, double largest, Vec3d translation, int blocks, ui
     {
         const double size = smallest * std::pow(largest / smallest, random());
         for (int corner = 0; corner < 3; ++corner)
-            positions.emplace_back(translation + size * Vec3d(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)));
+            positions.emplace_back(translation + size * Vec3d(random.between(-1, 1),
+                                                              random.between(-1, 1),
+                                                              random.between(-1, 1)));
         triangles.emplace_back(3 * t, 3 * t + 1, 3 * t + 2);
     }
     SceneBuilder builder;
@@ -62,56 +68,61 @@ Spawned spawn(double smallest, double largest, Vec3d translation, int blocks, ui
     const Intersector& intersector = traced->intersector();
 
     std::atomic<int64_t> rays{0}, selfHits{0}, offPlane{0};
-    Workers().forEach(static_cast<std::size_t>(blocks),
-                      [&](std::size_t b)
-                      {
-                          Uniform own(seed + 1 + static_cast<uint32_t>(b));
-                          RayHitBlock block;
-                          for (int i = 0; i < kLanes; ++i)
-                          {
-                              const auto t = static_cast<std::size_t>(own() * kTriangles);
-                              const Vec3d p0(positions[3 * t]), p1(positions[3 * t + 1]), p2(positions[3 * t + 2]);
-                              double u = own(), v = own();
-                              if (u + v > 1.0)
-                              {
-                                  u = 1.0 - u;
-                                  v = 1.0 - v;
-                              }
-                              const Vec3d target = p0 + u * (p1 - p0) + v * (p2 - p0);
-                              const Vec3d d = randomDirection(own);
-                              setRay(block.ray, i, Vec3(target - d * (2.0 * glm::length(p1 - p0))), Vec3(d));
-                          }
-                          intersector.closestHits(block, kAllLanes, Coherence::Incoherent);
-                          SurfaceLanes surface;
-                          surfacesOf(traced->surfaces(), block, kAllLanes, surface);
-                          for (int repeat = 0; repeat < 16; ++repeat)
-                          {
-                              RayHitBlock next;
-                              for (int i = 0; i < kLanes; ++i)
-                              {
-                                  const Vec3 d(randomDirection(own));
-                                  const Vec3 n = at(surface.geometricNormal, i);
-                                  const float side = glm::dot(d, n) >= 0.0f ? 1.0f : -1.0f;
-                                  setRay(next.ray, i, at(surface.position, i) + n * (side * surface.offset[i]), d);
-                              }
-                              intersector.closestHits(next, surface.hits, Coherence::Incoherent);
-                              for (int i = 0; i < kLanes; ++i)
-                              {
-                                  if (!((surface.hits >> i) & 1u)) continue;
-                                  ++rays;
-                                  selfHits += next.geometry[i] != kInvalid && next.primitive[i] == block.primitive[i];
-                              }
-                          }
-                          for (int i = 0; i < kLanes; ++i)
-                          {
-                              if (!((surface.hits >> i) & 1u)) continue;
-                              const UVec3 t = triangles[block.primitive[i]];
-                              const Vec3d a(positions[t.x]), ab = Vec3d(positions[t.y]) - a, ac = Vec3d(positions[t.z]) - a;
-                              const Vec3d n = glm::normalize(glm::cross(ab, ac));
-                              const double distance = std::abs(glm::dot(Vec3d(at(surface.position, i)) - a, n));
-                              offPlane += distance > surface.offset[i];
-                          }
-                      });
+    Workers().forEach(
+        static_cast<std::size_t>(blocks),
+        [&](std::size_t b)
+        {
+            Uniform own(seed + 1 + static_cast<uint32_t>(b));
+            RayHitBlock block;
+            for (int i = 0; i < kLanes; ++i)
+            {
+                const auto t = static_cast<std::size_t>(own() * kTriangles);
+                const Vec3d p0(positions[3 * t]), p1(positions[3 * t + 1]),
+                    p2(positions[3 * t + 2]);
+                double u = own(), v = own();
+                if (u + v > 1.0)
+                {
+                    u = 1.0 - u;
+                    v = 1.0 - v;
+                }
+                const Vec3d target = p0 + u * (p1 - p0) + v * (p2 - p0);
+                const Vec3d d = randomDirection(own);
+                setRay(block.ray, i, Vec3(target - d * (2.0 * glm::length(p1 - p0))), Vec3(d));
+            }
+            intersector.closestHits(block, kAllLanes, Coherence::Incoherent);
+            SurfaceLanes surface;
+            surfacesOf(traced->surfaces(), block, kAllLanes, surface);
+            for (int repeat = 0; repeat < 16; ++repeat)
+            {
+                RayHitBlock next;
+                for (int i = 0; i < kLanes; ++i)
+                {
+                    const Vec3 d(randomDirection(own));
+                    const Vec3 n = at(surface.geometricNormal, i);
+                    const float side = glm::dot(d, n) >= 0.0f ? 1.0f : -1.0f;
+                    setRay(next.ray, i, at(surface.position, i) + n * (side * surface.offset[i]),
+                           d);
+                }
+                intersector.closestHits(next, surface.hits, Coherence::Incoherent);
+                for (int i = 0; i < kLanes; ++i)
+                {
+                    if (!((surface.hits >> i) & 1u)) continue;
+                    ++rays;
+                    selfHits +=
+                        next.geometry[i] != kInvalid && next.primitive[i] == block.primitive[i];
+                }
+            }
+            for (int i = 0; i < kLanes; ++i)
+            {
+                if (!((surface.hits >> i) & 1u)) continue;
+                const UVec3 t = triangles[block.primitive[i]];
+                const Vec3d a(positions[t.x]), ab = Vec3d(positions[t.y]) - a,
+                                               ac = Vec3d(positions[t.z]) - a;
+                const Vec3d n = glm::normalize(glm::cross(ab, ac));
+                const double distance = std::abs(glm::dot(Vec3d(at(surface.position, i)) - a, n));
+                offPlane += distance > surface.offset[i];
+            }
+        });
     return {rays, selfHits, offPlane};
 }
 
@@ -119,15 +130,16 @@ Spawned spawn(double smallest, double largest, Vec3d translation, int blocks, ui
 
 TEST_CASE("surface: rays from it do not hit it again", "[accel][statistics]")
 {
-    // Two million rays with coordinates of 1e-3 to 1e4 around the origin: at most 2e-6 of them, those that
-    // are within 1e-6 of the tangent plane. None on translated scenes.
+    // Two million rays with coordinates of 1e-3 to 1e4 around the origin: at most 2e-6 of them,
+    // those that are within 1e-6 of the tangent plane. None on translated scenes.
     const Spawned origin = spawn(1e-3, 1e4, Vec3d(0.0), 10000, 1);
     CHECK(origin.rays > 2000000);
     CHECK(origin.selfHits <= static_cast<int64_t>(2e-6 * static_cast<double>(origin.rays)));
     CHECK(origin.offPlane == 0);
     for (const double translation : {1e3, 1e5})
     {
-        const Spawned moved = spawn(1.0, 10.0, Vec3d(translation, -translation, 0.5 * translation), 1500, 2);
+        const Spawned moved =
+            spawn(1.0, 10.0, Vec3d(translation, -translation, 0.5 * translation), 1500, 2);
         CAPTURE(translation);
         CHECK(moved.rays > 200000);
         CHECK(moved.selfHits == 0);
@@ -141,7 +153,8 @@ TEST_CASE("surface: planes through the origin have an offset, too", "[accel]")
     for (const float size : {1e-3f, 1.0f, 1e4f})
     {
         SceneBuilder builder;
-        builder.add(quadMesh({-size, -size, 0}, {2 * size, 0, 0}, {0, 2 * size, 0}), lambert(Vec3(0.5f)));
+        builder.add(quadMesh({-size, -size, 0}, {2 * size, 0, 0}, {0, 2 * size, 0}),
+                    lambert(Vec3(0.5f)));
         const auto traced = builder.build();
         Uniform random(3);
         int selfHits = 0;
@@ -149,14 +162,17 @@ TEST_CASE("surface: planes through the origin have an offset, too", "[accel]")
         {
             RayHitBlock block;
             for (int i = 0; i < kLanes; ++i)
-                setRay(block.ray, i, Vec3(0, 0, size), Vec3(glm::normalize(Vec3d(random.between(-0.5, 0.5), random.between(-0.5, 0.5), -1.0))));
+                setRay(block.ray, i, Vec3(0, 0, size),
+                       Vec3(glm::normalize(
+                           Vec3d(random.between(-0.5, 0.5), random.between(-0.5, 0.5), -1.0))));
             traced->intersector().closestHits(block, kAllLanes, Coherence::Coherent);
             SurfaceLanes surface;
             surfacesOf(traced->surfaces(), block, kAllLanes, surface);
             const Vec3d d = randomDirection(random);
             const Vec3 n = at(surface.geometricNormal, 0);
             const float side = glm::dot(Vec3(d), n) >= 0.0f ? 1.0f : -1.0f;
-            selfHits += traced->intersector().occluded(at(surface.position, 0) + n * (side * surface.offset[0]), Vec3(d), 0.0f, kInfinity);
+            selfHits += traced->intersector().occluded(
+                at(surface.position, 0) + n * (side * surface.offset[0]), Vec3(d), 0.0f, kInfinity);
         }
         CAPTURE(size);
         CHECK(selfHits == 0);
@@ -169,7 +185,8 @@ TEST_CASE("surface: an occluder at four times the error bound is found", "[accel
     {
         for (const float size : {0.01f, 1.0f, 100.0f})
         {
-            const Vec3 corner(static_cast<float>(translation) - 0.5f * size, -0.5f * size, static_cast<float>(translation));
+            const Vec3 corner(static_cast<float>(translation) - 0.5f * size, -0.5f * size,
+                              static_cast<float>(translation));
             SceneBuilder floor;
             floor.add(quadMesh(corner, {size, 0, 0}, {0, size, 0}), lambert(Vec3(0.5f)));
             const auto surfaceAt = [](const TracedScene& traced, Vec3 origin)
@@ -186,12 +203,16 @@ TEST_CASE("surface: an occluder at four times the error bound is found", "[accel
             const SurfaceLanes surface = surfaceAt(*floor.build(), above);
             REQUIRE(surface.hits == 1u);
             const float gap = 4.0f * surface.offset[0];
-            floor.add(quadMesh(corner + Vec3(-gap, -gap, gap), {size + 2 * gap, 0, 0}, {0, size + 2 * gap, 0}), lambert(Vec3(0.5f)));
+            floor.add(quadMesh(corner + Vec3(-gap, -gap, gap), {size + 2 * gap, 0, 0},
+                               {0, size + 2 * gap, 0}),
+                      lambert(Vec3(0.5f)));
             const auto both = floor.build();
-            const Vec3 origin = at(surface.position, 0) + at(surface.geometricNormal, 0) * surface.offset[0];
+            const Vec3 origin =
+                at(surface.position, 0) + at(surface.geometricNormal, 0) * surface.offset[0];
             CAPTURE(translation, size, gap);
             CHECK(both->intersector().occluded(origin, Vec3(0, 0, 1), 0.0f, kInfinity));
-            CHECK(both->intersector().occluded(origin, glm::normalize(Vec3(0.5f, 0, 1)), 0.0f, kInfinity));
+            CHECK(both->intersector().occluded(origin, glm::normalize(Vec3(0.5f, 0, 1)), 0.0f,
+                                               kInfinity));
             // Small against the thing: 1e-5 of its size or of its distance to the origin.
             CHECK(surface.offset[0] < 1e-5 * std::max(double(size), translation));
         }
@@ -247,7 +268,8 @@ TEST_CASE("surface: attributes that a mesh lacks have defaults", "[accel]")
 TEST_CASE("surface: vertex normals that cancel, or are zero, leave the geometric one", "[accel]")
 {
     auto mesh = newMesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}});
-    for (const auto& normals : {std::vector<Vec3>(3, Vec3(0.0f)), std::vector<Vec3>{{1, 0, 0}, {-1, 0, 0}, {0, 0, 0}}})
+    for (const auto& normals :
+         {std::vector<Vec3>(3, Vec3(0.0f)), std::vector<Vec3>{{1, 0, 0}, {-1, 0, 0}, {0, 0, 0}}})
     {
         mesh->normals = std::vector<Vec3>(normals);
         SceneBuilder builder;
@@ -265,7 +287,8 @@ TEST_CASE("surface: vertex normals that cancel, or are zero, leave the geometric
     }
 }
 
-TEST_CASE("surface: normals of instances by the inverse transpose, facing by the winding seen", "[accel]")
+TEST_CASE("surface: normals of instances by the inverse transpose, facing by the winding seen",
+          "[accel]")
 {
     auto mesh = quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 1});
     mesh->normals = std::vector<Vec3>(4, glm::normalize(Vec3(0, -1, 1)));

@@ -64,11 +64,19 @@ TEST_CASE("traced scene: transforms that Embree cannot invert are left out and c
     sheared.linear[2] = sheared.linear[0] + sheared.linear[1]; // columns in a plane
     Affine nearlyFlat = sheared;
     nearlyFlat.linear[2].z = 1e-7f;
-    const std::vector<Affine> bad{
-        scaled(1, 1, 0),         scaled(0, 0, 0),          scaled(nan, 1, 1),        scaled(1, 1, kInfinity),
-        scaled(1e-20f, 1e-20f, 1e-20f), scaled(1, 1, 1e-29f), scaled(1e12f, 1e-20f, 1e-20f), scaled(1e30f, 1e30f, 1e30f),
-        scaled(1, 1, 1, Vec3(nan, 0, 0)), scaled(1, 1, 1, Vec3(0, kInfinity, 0)), scaled(1, 1, 1, Vec3(1e30f, 0, 0)),
-        sheared,                 nearlyFlat};
+    const std::vector<Affine> bad{scaled(1, 1, 0),
+                                  scaled(0, 0, 0),
+                                  scaled(nan, 1, 1),
+                                  scaled(1, 1, kInfinity),
+                                  scaled(1e-20f, 1e-20f, 1e-20f),
+                                  scaled(1, 1, 1e-29f),
+                                  scaled(1e12f, 1e-20f, 1e-20f),
+                                  scaled(1e30f, 1e30f, 1e30f),
+                                  scaled(1, 1, 1, Vec3(nan, 0, 0)),
+                                  scaled(1, 1, 1, Vec3(0, kInfinity, 0)),
+                                  scaled(1, 1, 1, Vec3(1e30f, 0, 0)),
+                                  sheared,
+                                  nearlyFlat};
     for (std::size_t i = 0; i < bad.size(); ++i)
     {
         CAPTURE(i);
@@ -76,7 +84,8 @@ TEST_CASE("traced scene: transforms that Embree cannot invert are left out and c
         builder.add(boxMesh(Vec3(-1, -1, -9), Vec3(1, 1, -8)), lambert(Vec3(0.5f)));
         const auto traced = builder.build();
         CHECK(traced->statistics().invalidInstances == 1);
-        for (const Vec3& direction : {Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0.3f, 0.4f, -0.866f), Vec3(0, 0, -9e5f)})
+        for (const Vec3& direction :
+             {Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0.3f, 0.4f, -0.866f), Vec3(0, 0, -9e5f)})
         {
             const auto hit = shoot(*traced, Vec3(0.1f, 0.2f, 5.0f), direction);
             if (hit) CHECK(hit->instance == 1); // the rest of the scene stands
@@ -88,13 +97,14 @@ TEST_CASE("traced scene: transforms that Embree cannot invert are left out and c
 TEST_CASE("traced scene: small and far instances are safe for any ray", "[accel]")
 {
     for (const Affine& transform :
-         {scaled(1e-9f, 1e-9f, 1e-9f), scaled(1e-6f, 1e-6f, 1e-6f, Vec3(1e3f)), scaled(1e11f, 1e11f, 1e11f),
-          scaled(1, 1, 1, Vec3(1e17f)), scaled(1e-4f, 1.0f, 1e4f), scaled(1, 1, 1e-9f, Vec3(-1e8f))})
+         {scaled(1e-9f, 1e-9f, 1e-9f), scaled(1e-6f, 1e-6f, 1e-6f, Vec3(1e3f)),
+          scaled(1e11f, 1e11f, 1e11f), scaled(1, 1, 1, Vec3(1e17f)), scaled(1e-4f, 1.0f, 1e4f),
+          scaled(1, 1, 1e-9f, Vec3(-1e8f))})
     {
         const auto traced = placedBox(transform).build();
         CHECK(traced->statistics().invalidInstances == 0);
-        // Origins up to where Embree ends in engine space: those that would leave it in local space are
-        // refused, none aborts.
+        // Origins up to where Embree ends in engine space: those that would leave it in local space
+        // are refused, none aborts.
         for (const float distance : {0.0f, 5.0f, 1e6f, 1e9f, 1e12f, 1e15f, 5e17f, 2e18f})
         {
             for (const float length : {1.0f, 1e-5f, 9e5f})
@@ -107,19 +117,24 @@ TEST_CASE("traced scene: small and far instances are safe for any ray", "[accel]
         const float size = transform.linear[2].z;
         if (glm::length(centre) < 1.0f)
         {
-            const auto hit = shoot(*traced, centre + Vec3(0.1f * transform.linear[0].x, 0.2f * transform.linear[1].y, 5.0f * size), Vec3(0, 0, -1));
+            const auto hit = shoot(*traced,
+                                   centre + Vec3(0.1f * transform.linear[0].x,
+                                                 0.2f * transform.linear[1].y, 5.0f * size),
+                                   Vec3(0, 0, -1));
             REQUIRE(hit);
             CHECK(hit->t == Approx(4.0f * size));
         }
     }
 }
 
-TEST_CASE("traced scene: an instance is hit where its transform puts it, mirrored or not", "[accel]")
+TEST_CASE("traced scene: an instance is hit where its transform puts it, mirrored or not",
+          "[accel]")
 {
     Affine rotated;
     rotated.linear = Mat3(0, 2, 0, -1, 0, 0, 0, 0, 3);
     rotated.translation = Vec3(1, 2, 3);
-    for (const Affine& transform : {scaled(2, 3, 4, Vec3(1, 2, 3)), scaled(-1, 1, 1), scaled(1, -1e-4f, 1e4f), rotated})
+    for (const Affine& transform :
+         {scaled(2, 3, 4, Vec3(1, 2, 3)), scaled(-1, 1, 1), scaled(1, -1e-4f, 1e4f), rotated})
     {
         const auto placed = placedBox(transform).build();
         // The same triangles, transformed beforehand.
@@ -128,14 +143,16 @@ TEST_CASE("traced scene: an instance is hit where its transform puts it, mirrore
         std::vector<Vec3> positions;
         for (const Vec3& p : box->positions)
             positions.push_back(transformPoint(transform, p));
-        builder.add(newMesh(positions, {box->triangles.begin(), box->triangles.end()}), lambert(Vec3(0.5f)));
+        builder.add(newMesh(positions, {box->triangles.begin(), box->triangles.end()}),
+                    lambert(Vec3(0.5f)));
         const auto baked = builder.build();
         for (const Vec3& local : {Vec3(0.1f, 0.2f, 0.3f), Vec3(-0.5f, 0.4f, -0.6f)})
         {
             for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)})
             {
                 const Vec3 origin = transformPoint(transform, local); // inside
-                const auto a = shoot(*placed, origin, direction), b = shoot(*baked, origin, direction);
+                const auto a = shoot(*placed, origin, direction),
+                           b = shoot(*baked, origin, direction);
                 REQUIRE((a && b));
                 CHECK(a->primitive == b->primitive);
                 CHECK(a->t == Approx(b->t).epsilon(1e-5));
@@ -152,7 +169,8 @@ TEST_CASE("traced scene: meshes without area, or empty, are harmless", "[accel]"
     builder.add(newMesh(corners, {{0, 1, 3}, {0, 1, 1}}), lambert(Vec3(0.5f))); // lines
     builder.add(newMesh({}, {}), lambert(Vec3(0.5f)));
     builder.add(newMesh(corners, {}), lambert(Vec3(0.5f)));
-    const uint32_t good = builder.add(newMesh(corners, {{0, 1, 3}, {0, 1, 2}, {2, 2, 2}}), lambert(Vec3(0.5f)));
+    const uint32_t good =
+        builder.add(newMesh(corners, {{0, 1, 3}, {0, 1, 2}, {2, 2, 2}}), lambert(Vec3(0.5f)));
     const auto traced = builder.build();
     const auto hit = shoot(*traced, Vec3(0.2f, 0.2f, 1), Vec3(0, 0, -1));
     REQUIRE(hit);
@@ -166,7 +184,8 @@ TEST_CASE("traced scene: many equal triangles are one surface", "[accel]")
 {
     std::vector<UVec3> triangles(20000, UVec3(0, 1, 2));
     SceneBuilder builder;
-    builder.add(newMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::move(triangles)), lambert(Vec3(0.5f)));
+    builder.add(newMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::move(triangles)),
+                lambert(Vec3(0.5f)));
     const auto traced = builder.build();
     const auto hit = shoot(*traced, Vec3(0.2f, 0.2f, 1), Vec3(0, 0, -1));
     REQUIRE(hit);

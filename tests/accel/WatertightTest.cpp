@@ -10,7 +10,8 @@
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
 
-TEST_CASE("watertight: no ray leaves a closed sphere, at random or through edges", "[accel][statistics]")
+TEST_CASE("watertight: no ray leaves a closed sphere, at random or through edges",
+          "[accel][statistics]")
 {
     for (const Vec3& centre : {Vec3(0.0f), Vec3(148376.0f, 1234.0f, -223423.0f)})
     {
@@ -21,28 +22,36 @@ TEST_CASE("watertight: no ray leaves a closed sphere, at random or through edges
         Uniform random(1);
         int randomMisses = 0, edgeMisses = 0, vertexMisses = 0;
         constexpr int kRays = 100000;
-        const auto misses = [&](Vec3 direction)
-        { return !traced->intersector().closestHit(centre, glm::normalize(direction), 0.0f, kInfinity); };
+        const auto misses = [&](Vec3 direction) {
+            return !traced->intersector().closestHit(centre, glm::normalize(direction), 0.0f,
+                                                     kInfinity);
+        };
         for (int i = 0; i < kRays; ++i)
         {
-            randomMisses += misses(Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)) + Vec3(1e-3f));
-            const UVec3 t = mesh->triangles[static_cast<std::size_t>(random() * static_cast<float>(mesh->triangles.size()))];
+            randomMisses +=
+                misses(Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)) +
+                       Vec3(1e-3f));
+            const UVec3 t = mesh->triangles[static_cast<std::size_t>(
+                random() * static_cast<float>(mesh->triangles.size()))];
             const Vec3d a(mesh->positions[t.x]), b(mesh->positions[t.y]);
             edgeMisses += misses(Vec3(a + (b - a) * double(random()) - Vec3d(centre)));
             vertexMisses += misses(Vec3(a - Vec3d(centre)));
         }
         CAPTURE(centre.x);
         CHECK(randomMisses == 0);
-        // Embree's robust mode: none at the origin; far away directions of edges are rounded off them.
+        // Embree's robust mode: none at the origin; far away directions of edges are rounded off
+        // them.
         CHECK(edgeMisses <= (centre == Vec3(0.0f) ? 0 : kRays / 400));
         CHECK(vertexMisses <= kRays / 80);
     }
 }
 
-TEST_CASE("watertight: points on skinny triangles lie on them, however grazing the ray", "[accel][statistics]")
+TEST_CASE("watertight: points on skinny triangles lie on them, however grazing the ray",
+          "[accel][statistics]")
 {
-    // Aspect 10 to 1000, rays 0.1 to 1 degree off the plane from 100 to 500 away. The point that Embree
-    // reports may be hundreds of units off; ours may not leave the triangle by more than rounding.
+    // Aspect 10 to 1000, rays 0.1 to 1 degree off the plane from 100 to 500 away. The point that
+    // Embree reports may be hundreds of units off; ours may not leave the triangle by more than
+    // rounding.
     Uniform random(2);
     double worst = 0.0;
     int hits = 0;
@@ -62,8 +71,10 @@ TEST_CASE("watertight: points on skinny triangles lie on them, however grazing t
                 v = 1.0 - v;
             }
             const Vec3d target = a + u * (b - a) + v * (c - a);
-            const double angle = random.between(0.1, 1.0) * M_PI / 180.0, turn = random.between(0.0, 2.0 * M_PI);
-            const Vec3d d(std::cos(turn) * std::cos(angle), std::sin(turn) * std::cos(angle), -std::sin(angle));
+            const double angle = random.between(0.1, 1.0) * M_PI / 180.0,
+                         turn = random.between(0.0, 2.0 * M_PI);
+            const Vec3d d(std::cos(turn) * std::cos(angle), std::sin(turn) * std::cos(angle),
+                          -std::sin(angle));
             RayHitBlock block = {};
             const Vec3 origin(target - d * random.between(100.0, 500.0)), direction(d);
             block.ray.originX[0] = origin.x;

@@ -50,7 +50,9 @@ TEST_CASE("workers: no more bodies run at once than there are threads", "[base]"
                     {
                         const int now = ++running;
                         int seen = most;
-                        while (now > seen && !most.compare_exchange_weak(seen, now)) {}
+                        while (now > seen && !most.compare_exchange_weak(seen, now))
+                        {
+                        }
                         std::this_thread::yield();
                         --running;
                     });
@@ -120,7 +122,8 @@ TEST_CASE("workers: several host threads may use the same workers at once", "[ba
 }
 
 #if defined(__SSE__)
-TEST_CASE("workers: the host's floating-point mode stands, denormals are flushed in bodies only", "[base]")
+TEST_CASE("workers: the host's floating-point mode stands, denormals are flushed in bodies only",
+          "[base]")
 {
     constexpr unsigned int kRoundDown = 0x2000u;
     const unsigned int before = _mm_getcsr();
@@ -129,8 +132,8 @@ TEST_CASE("workers: the host's floating-point mode stands, denormals are flushed
         _mm_setcsr(mode);
         const Workers workers(2);
         std::atomic<int> unflushed{0};
-        workers.forEach(100, [&](std::size_t)
-                        { unflushed += (_mm_getcsr() & 0x8040u) != 0x8040u; });
+        workers.forEach(100,
+                        [&](std::size_t) { unflushed += (_mm_getcsr() & 0x8040u) != 0x8040u; });
         const unsigned int afterForEach = _mm_getcsr();
         workers.run([&] { unflushed += (_mm_getcsr() & 0x8040u) != 0x8040u; });
         const unsigned int afterRun = _mm_getcsr();
@@ -154,9 +157,8 @@ TEST_CASE("workers: the host's floating-point mode stands, denormals are flushed
 
 TEST_CASE("workers: the host's TBB limits stand", "[base]")
 {
-    const auto limit = [] {
-        return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    };
+    const auto limit = []
+    { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); };
     const std::size_t limitBefore = limit();
     const int arenaBefore = tbb::this_task_arena::max_concurrency();
     {

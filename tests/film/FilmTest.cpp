@@ -149,8 +149,9 @@ TEST_CASE("film: a million passes keep their mean to 1e-6", "[film]")
 
 TEST_CASE("film: the error estimate is the true error on average", "[film][statistics]")
 {
-    // Gaussian-like noise (sum of 4 uniforms) of known mean; 100 seeds, within 20 %, also for an odd
-    // number of passes and across folding. The relative spread of the mean over seeds is below 1 %.
+    // Gaussian-like noise (sum of 4 uniforms) of known mean; 100 seeds, within 20 %, also for an
+    // odd number of passes and across folding. The relative spread of the mean over seeds is below
+    // 1 %.
     const float reference = 2.0f;
     for (const int passes : {2, 5, 16, 300})
     {
@@ -177,8 +178,8 @@ TEST_CASE("film: the error estimate is the true error on average", "[film][stati
                 for (int i = 0; i < kLanes; ++i)
                 {
                     for (const float value : {block.r[i], block.g[i], block.b[i]})
-                        actual += double(value - reference) * (value - reference) / (reference * reference + 0.01) /
-                                  (3.0 * kTilePixels);
+                        actual += double(value - reference) * (value - reference) /
+                                  (reference * reference + 0.01) / (3.0 * kTilePixels);
                 }
             }
         }
@@ -194,7 +195,8 @@ TEST_CASE("film: the error estimate leaves out pixels beyond the image", "[film]
     TileRgba tile;
     for (int pass = 0; pass < 2; ++pass)
     {
-        fill(tile, [pass](int pixel, int) { return pixel == 15 ? 1000.0f * static_cast<float>(pass) : 1.0f; });
+        fill(tile, [pass](int pixel, int)
+             { return pixel == 15 ? 1000.0f * static_cast<float>(pass) : 1.0f; });
         film.beginPass();
         film.addPass(0, tile);
     }

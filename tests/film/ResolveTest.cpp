@@ -24,7 +24,8 @@ template <class Value> Film filmOf(int width, int height, const Value& value)
         {
             for (int i = 0; i < kLanes; ++i)
             {
-                const float v = value(film.tileX(tile) + laneX(b, i), film.tileY(tile) + laneY(b, i));
+                const float v =
+                    value(film.tileX(tile) + laneX(b, i), film.tileY(tile) + laneY(b, i));
                 values[b].r[i] = v;
                 values[b].g[i] = 2.0f * v;
                 values[b].b[i] = 3.0f * v;
@@ -46,14 +47,16 @@ double exactSrgb(double x)
 
 TEST_CASE("resolve: each pixel lands in its row and column, whatever the size", "[film]")
 {
-    for (const auto& [width, height] : {std::pair(16, 16), std::pair(1, 1), std::pair(17, 33), std::pair(40, 5), std::pair(1, 50)})
+    for (const auto& [width, height] : {std::pair(16, 16), std::pair(1, 1), std::pair(17, 33),
+                                        std::pair(40, 5), std::pair(1, 50)})
     {
         CAPTURE(width, height);
         const auto value = [width = width](int x, int y) { return float(x + y * width) / 8192.0f; };
         const Film film = filmOf(width, height, value);
         const auto pixels = static_cast<std::size_t>(width * height);
         // One more value behind each image: it must stay.
-        std::vector<float> radiance(4 * pixels + 1, -1.0f), depth(pixels + 1, -1.0f), displayDepth(pixels + 1, -1.0f);
+        std::vector<float> radiance(4 * pixels + 1, -1.0f), depth(pixels + 1, -1.0f),
+            displayDepth(pixels + 1, -1.0f);
         std::vector<uint8_t> bytes(4 * pixels + 1, 77);
         ToneMap asIs;
         asIs.displayReferred = true;
@@ -74,7 +77,8 @@ TEST_CASE("resolve: each pixel lands in its row and column, whatever the size", 
                 REQUIRE(radiance[4 * at + 3] == 1.0f);
                 REQUIRE(depth[at] == value(x, y));
                 REQUIRE(displayDepth[at] == value(x, y));
-                REQUIRE(int(bytes[4 * at + 2]) == int(std::min(1.0f, 3.0f * value(x, y)) * 255.0f + 0.5f));
+                REQUIRE(int(bytes[4 * at + 2]) ==
+                        int(std::min(1.0f, 3.0f * value(x, y)) * 255.0f + 0.5f));
                 REQUIRE(int(bytes[4 * at + 3]) == 255);
             }
         }
@@ -102,7 +106,8 @@ TEST_CASE("resolve: display bytes are the rounded exact sRGB values, and monoton
 {
     // All of [0,1] in steps of 1/65536: at most half a grey level and rounding off.
     constexpr int kSize = 256;
-    const Film film = filmOf(kSize, kSize, [](int x, int y) { return float(y * kSize + x) / 65536.0f; });
+    const Film film =
+        filmOf(kSize, kSize, [](int x, int y) { return float(y * kSize + x) / 65536.0f; });
     std::vector<uint8_t> bytes(4 * kSize * kSize);
     for (int tile = 0; tile < film.tileCount(); ++tile)
         resolveTileDisplay(film, tile, ToneMap(), bytes.data(), nullptr);
@@ -145,7 +150,8 @@ TEST_CASE("resolve: display-referred bytes at exposure 0 are the film's values",
 
 TEST_CASE("resolve: at edges the radiance is encoded, and multiplied with coverage", "[film]")
 {
-    // A quarter of the pixel is covered by radiance 0.4; display-referred, by the display value 0.4.
+    // A quarter of the pixel is covered by radiance 0.4; display-referred, by the display value
+    // 0.4.
     Film film;
     film.reset(16, 16);
     TileRgba values;
@@ -189,8 +195,9 @@ TEST_CASE("resolve: NaN shows as 0, infinities and out-of-range values are clamp
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<float> values{nan, kInfinity, -kInfinity, -1.0f, 5.0f, 1e30f, 1e-30f, -0.0f};
     const std::vector<int> expected{0, 255, 0, 0, 255, 255, 0, 0};
-    const Film film = filmOf(8, 1, [&](int x, int y)
-                             { return x < 8 && y == 0 ? values[static_cast<std::size_t>(x)] : 0.0f; });
+    const Film film = filmOf(
+        8, 1,
+        [&](int x, int y) { return x < 8 && y == 0 ? values[static_cast<std::size_t>(x)] : 0.0f; });
     std::vector<uint8_t> bytes(4 * 8);
     for (const bool displayReferred : {false, true})
     {

@@ -1,5 +1,5 @@
-// AreaLightTest.cpp - irradiance of square lights against Lambert's closed form, by every estimator.
-// SPDX-License-Identifier: MIT
+// AreaLightTest.cpp - irradiance of square lights against Lambert's closed form, by every
+// estimator. SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
 using namespace osgRayTrace::engine;
@@ -27,12 +27,13 @@ enum class Emitter
     Mesh,
 };
 
-std::shared_ptr<const TracedScene> receiverUnder(const Square& square, Emitter emitter, float radiance = 1.0f,
-                                                 float receiverSize = 1.0f)
+std::shared_ptr<const TracedScene> receiverUnder(const Square& square, Emitter emitter,
+                                                 float radiance = 1.0f, float receiverSize = 1.0f)
 {
     SceneBuilder builder;
     const float half = 0.5f * receiverSize;
-    builder.add(quadMesh({-half, -half, 0}, {receiverSize, 0, 0}, {0, receiverSize, 0}), lambert(Vec3(1.0f)));
+    builder.add(quadMesh({-half, -half, 0}, {receiverSize, 0, 0}, {0, receiverSize, 0}),
+                lambert(Vec3(1.0f)));
     if (emitter == Emitter::Parallelogram)
         builder.addQuadLight(square.corner, square.u, square.v, Vec3(radiance));
     else
@@ -40,40 +41,48 @@ std::shared_ptr<const TracedScene> receiverUnder(const Square& square, Emitter e
     return builder.build();
 }
 
-View receiverView(double side = 1e-3) { return patchView({0, 0, 0}, {0, 0, 1}, side, 16); }
+View receiverView(double side = 1e-3)
+{
+    return patchView({0, 0, 0}, {0, 0, 1}, side, 16);
+}
 
 } // namespace
 
-TEST_CASE("area light: irradiance by path tracing, as parallelogram and as mesh", "[integrators][statistics]")
+TEST_CASE("area light: irradiance by path tracing, as parallelogram and as mesh",
+          "[integrators][statistics]")
 {
     for (const Square& square : kSquares)
     {
         for (const Emitter emitter : {Emitter::Parallelogram, Emitter::Mesh})
         {
-            const Estimate radiance =
-                measure(receiverUnder(square, emitter), receiverView(), optionsOf(IntegratorKind::Path, 4), 64);
-            CAPTURE(square.name, int(emitter), radiance.mean() * M_PI, radiance.standardError() * M_PI);
+            const Estimate radiance = measure(receiverUnder(square, emitter), receiverView(),
+                                              optionsOf(IntegratorKind::Path, 4), 64);
+            CAPTURE(square.name, int(emitter), radiance.mean() * M_PI,
+                    radiance.standardError() * M_PI);
             CHECK(radiance.agrees(square.irradiance / M_PI, 2e-6));
             CHECK(radiance.standardError() < 2e-3 * square.irradiance);
         }
     }
 }
 
-TEST_CASE("area light: irradiance by Whitted's light samples, with every strategy", "[integrators][statistics]")
+TEST_CASE("area light: irradiance by Whitted's light samples, with every strategy",
+          "[integrators][statistics]")
 {
     for (const Square& square : kSquares)
     {
         for (const Emitter emitter : {Emitter::Parallelogram, Emitter::Mesh})
         {
             const auto traced = receiverUnder(square, emitter);
-            for (const LightSampling strategy : {LightSampling::Random, LightSampling::UniformJitter,
-                                                 LightSampling::Stratified, LightSampling::Sobol})
+            for (const LightSampling strategy :
+                 {LightSampling::Random, LightSampling::UniformJitter, LightSampling::Stratified,
+                  LightSampling::Sobol})
             {
                 RenderOptions options = optionsOf(IntegratorKind::Whitted);
                 options.lightSampling = strategy;
                 options.lightSamples = 9;
                 const Estimate radiance = measure(traced, receiverView(), options, 8);
-                CAPTURE(square.name, int(emitter), int(strategy), radiance.mean() * M_PI, radiance.standardError() * M_PI);
+                CAPTURE(square.name, int(emitter), int(strategy), radiance.mean() * M_PI,
+                        radiance.standardError() * M_PI);
                 CHECK(radiance.agrees(square.irradiance / M_PI, 2e-6));
                 CHECK(radiance.standardError() < 2e-3 * square.irradiance);
             }
@@ -81,7 +90,8 @@ TEST_CASE("area light: irradiance by Whitted's light samples, with every strateg
     }
 }
 
-TEST_CASE("area light: a light behind its back, or below the horizon, gives nothing", "[integrators]")
+TEST_CASE("area light: a light behind its back, or below the horizon, gives nothing",
+          "[integrators]")
 {
     const Square turned{"", {-0.5f, -0.5f, 1}, {1, 0, 0}, {0, 1, 0}, 0.0};
     const Square below{"", {-0.5f, -0.5f, -1}, {1, 0, 0}, {0, 1, 0}, 0.0};
@@ -89,7 +99,8 @@ TEST_CASE("area light: a light behind its back, or below the horizon, gives noth
     {
         for (const Square& square : {turned, below})
         {
-            const Picture picture = render(receiverUnder(square, Emitter::Parallelogram), receiverView(), optionsOf(kind), 4);
+            const Picture picture = render(receiverUnder(square, Emitter::Parallelogram),
+                                           receiverView(), optionsOf(kind), 4);
             CHECK(picture.mean() == Vec3(0.0f));
             CHECK(picture.progress.droppedSamples == 0);
         }
@@ -103,10 +114,12 @@ TEST_CASE("area light: a two-sided light shines from its back as well", "[integr
     builder.addQuadLight({-0.5f, -0.5f, 1}, {1, 0, 0}, {0, 1, 0}, Vec3(1.0f), true);
     const auto traced = builder.build();
     for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
-        CHECK(measure(traced, receiverView(), optionsOf(kind, 4), 32).agrees(0.75227469 / M_PI, 2e-6));
+        CHECK(measure(traced, receiverView(), optionsOf(kind, 4), 32)
+                  .agrees(0.75227469 / M_PI, 2e-6));
 }
 
-TEST_CASE("area light: very small and very distant lights are point lights", "[integrators][statistics]")
+TEST_CASE("area light: very small and very distant lights are point lights",
+          "[integrators][statistics]")
 {
     const Square tiny{"tiny", {-5e-7f, -5e-7f, 1}, {0, 1e-6f, 0}, {1e-6f, 0, 0}, 1.0};
     const Square distant{"distant", {-0.5f, -0.5f, 1e6f}, {0, 1, 0}, {1, 0, 0}, 1.0};
@@ -118,14 +131,16 @@ TEST_CASE("area light: very small and very distant lights are point lights", "[i
             {
                 CAPTURE(square.name, int(emitter), int(kind));
                 // Radiance 1e12: I / d^2 = 1.
-                const Estimate radiance = measure(receiverUnder(square, emitter, 1e12f), receiverView(), optionsOf(kind, 4), 4);
+                const Estimate radiance = measure(receiverUnder(square, emitter, 1e12f),
+                                                  receiverView(), optionsOf(kind, 4), 4);
                 CHECK(radiance.mean() * M_PI == Approx(1.0).epsilon(1e-4));
             }
         }
     }
 }
 
-TEST_CASE("area light: a receiver next to the middle of a light gets pi L", "[integrators][statistics]")
+TEST_CASE("area light: a receiver next to the middle of a light gets pi L",
+          "[integrators][statistics]")
 {
     // Only chance hits find this light: to be weighted right, they must stay finite.
     for (const float gap : {1e-2f, 1e-4f, 1e-6f})
@@ -135,9 +150,10 @@ TEST_CASE("area light: a receiver next to the middle of a light gets pi L", "[in
         const View view = patchView({0, 0, 0}, {0, 0, 1}, side, 16);
         for (const Emitter emitter : {Emitter::Parallelogram, Emitter::Mesh})
         {
-            const Estimate radiance =
-                measure(receiverUnder(close, emitter, 1.0f, 0.01f), view, optionsOf(IntegratorKind::Path, 4), 32);
-            const double expected = 1.0 - 4.0 * gap * gap; // less than this is missing at the horizon
+            const Estimate radiance = measure(receiverUnder(close, emitter, 1.0f, 0.01f), view,
+                                              optionsOf(IntegratorKind::Path, 4), 32);
+            const double expected =
+                1.0 - 4.0 * gap * gap; // less than this is missing at the horizon
             CAPTURE(gap, int(emitter), radiance.mean(), radiance.standardError());
             CHECK(radiance.agrees(expected, 1e-3));
             CHECK(radiance.standardError() < 0.01);
@@ -170,7 +186,8 @@ TEST_CASE("area light: triangles without area among the others change nothing", 
     builder.add(quadMesh({-0.5f, -0.5f, 0}, {1, 0, 0}, {0, 1, 0}), lambert(Vec3(1.0f)));
     const auto quad = quadMesh(square.corner, square.u, square.v);
     std::vector<Vec3> positions(quad->positions.begin(), quad->positions.end());
-    builder.addEmissive(newMesh(positions, {{0, 0, 1}, {0, 1, 2}, {2, 2, 2}, {0, 2, 3}, {1, 3, 1}}), lamp(Vec3(1.0f)));
+    builder.addEmissive(newMesh(positions, {{0, 0, 1}, {0, 1, 2}, {2, 2, 2}, {0, 2, 3}, {1, 3, 1}}),
+                        lamp(Vec3(1.0f)));
     const auto dirty = builder.build();
     for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
     {
@@ -207,11 +224,13 @@ TEST_CASE("area light: several lights of different power add up", "[integrators]
     }
 }
 
-TEST_CASE("area light: found by chance or sampled, every material shows the same", "[integrators][statistics]")
+TEST_CASE("area light: found by chance or sampled, every material shows the same",
+          "[integrators][statistics]")
 {
-    // A lamp that is in the light table against one that only bounces find: multiple importance sampling
-    // may not change the mean. 4 standard errors, 16 seeds each.
-    std::vector<std::pair<const char*, Material>> materials{{"lambert", lambert(Vec3(0.8f))}, {"rough glass", glass(1.5f, 0.5f)}};
+    // A lamp that is in the light table against one that only bounces find: multiple importance
+    // sampling may not change the mean. 4 standard errors, 16 seeds each.
+    std::vector<std::pair<const char*, Material>> materials{{"lambert", lambert(Vec3(0.8f))},
+                                                            {"rough glass", glass(1.5f, 0.5f)}};
     Material plastic = lambert(Vec3(0.8f));
     plastic.ior = 1.5f;
     plastic.roughness = 0.5f;
@@ -246,7 +265,8 @@ TEST_CASE("area light: found by chance or sampled, every material shows the same
         const Estimate a = measure(sampled.build(), view, optionsOf(IntegratorKind::Path, 12), 32);
         const Estimate b = measure(found.build(), view, optionsOf(IntegratorKind::Path, 12), 64);
         CAPTURE(name, a.mean(), a.standardError(), b.mean(), b.standardError());
-        CHECK(std::abs(a.mean() - b.mean()) < 4.0 * std::hypot(a.standardError(), b.standardError()));
+        CHECK(std::abs(a.mean() - b.mean()) <
+              4.0 * std::hypot(a.standardError(), b.standardError()));
         CHECK(a.standardError() < 0.02 * a.mean());
     }
 }

@@ -1,5 +1,5 @@
-// FixedFunctionTest.cpp - OpenGL's lighting equations, with shadows, as Whitted's tracer evaluates them.
-// SPDX-License-Identifier: MIT
+// FixedFunctionTest.cpp - OpenGL's lighting equations, with shadows, as Whitted's tracer evaluates
+// them. SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
 using namespace osgRayTrace::engine;
@@ -41,7 +41,8 @@ SceneBuilder floorOf(const Material& material)
 
 Vec3 seen(const SceneBuilder& builder, Vec3d normal = {0, 0, 1})
 {
-    const Picture picture = render(builder.build(), patchView({0, 0, 0}, normal, 0.01, 8), optionsOf(IntegratorKind::Whitted), 1);
+    const Picture picture = render(builder.build(), patchView({0, 0, 0}, normal, 0.01, 8),
+                                   optionsOf(IntegratorKind::Whitted), 1);
     CHECK(picture.progress.droppedSamples == 0);
     return picture.mean();
 }
@@ -76,7 +77,8 @@ TEST_CASE("fixed function: highlights with the viewer at infinity", "[integrator
     SceneBuilder builder = floorOf(shiny);
     builder.addLight(sun({0.6f, 0, -0.8f}));
     const Vec3 half = glm::normalize(Vec3(-0.6f, 0, 0.8f) + Vec3(0, 0, 1));
-    const Vec3 base = (Vec3(0.2f) + Vec3(0.1f)) * shiny.ambient + shiny.emission + Vec3(0.5f, 0.4f, 0.3f) * shiny.diffuse * 0.8f;
+    const Vec3 base = (Vec3(0.2f) + Vec3(0.1f)) * shiny.ambient + shiny.emission +
+                      Vec3(0.5f, 0.4f, 0.3f) * shiny.diffuse * 0.8f;
     checkColor(seen(builder), base + Vec3(0.2f * 0.5f * std::pow(half.z, 10.0f)));
 }
 
@@ -91,7 +93,8 @@ TEST_CASE("fixed function: light masks, unlit surfaces and clamping", "[integrat
     checkColor(seen(builder), Vec3(0.2f) * masked.ambient + masked.emission);
     light.number = 3;
     builder.scene->lights[0] = light;
-    checkColor(seen(builder), Vec3(0.3f) * masked.ambient + masked.emission + light.diffuse * masked.diffuse);
+    checkColor(seen(builder),
+               Vec3(0.3f) * masked.ambient + masked.emission + light.diffuse * masked.diffuse);
 
     Material unlit = phong();
     unlit.lit = false;
@@ -107,7 +110,8 @@ TEST_CASE("fixed function: light masks, unlit surfaces and clamping", "[integrat
     checkColor(seen(bright), Vec3(1.0f));
 }
 
-TEST_CASE("fixed function: back faces keep their normal unless lighting is two-sided", "[integrators]")
+TEST_CASE("fixed function: back faces keep their normal unless lighting is two-sided",
+          "[integrators]")
 {
     Material material = phong();
     SceneBuilder builder = floorOf(material);
@@ -134,12 +138,14 @@ TEST_CASE("fixed function: a headlight follows the view", "[integrators]")
     }
 }
 
-TEST_CASE("fixed function: physical surfaces show the same brightness under the same light", "[integrators]")
+TEST_CASE("fixed function: physical surfaces show the same brightness under the same light",
+          "[integrators]")
 {
     SceneBuilder builder;
     builder.add(quadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), lambert(Vec3(0.8f, 0.6f, 0.4f)));
     builder.addLight(sun({0.6f, 0, -0.8f}));
     const View view = patchView({0, 0, 0}, {0, 0, 1}, 0.01, 8);
     for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})
-        checkColor(render(builder.build(), view, optionsOf(kind), 1).mean(), Vec3(0.5f, 0.4f, 0.3f) * Vec3(0.8f, 0.6f, 0.4f) * 0.8f);
+        checkColor(render(builder.build(), view, optionsOf(kind), 1).mean(),
+                   Vec3(0.5f, 0.4f, 0.3f) * Vec3(0.8f, 0.6f, 0.4f) * 0.8f);
 }

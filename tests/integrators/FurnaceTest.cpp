@@ -28,14 +28,16 @@ double truncated(double albedo, int bounces)
 
 } // namespace
 
-TEST_CASE("furnace: path tracing reaches Le / (1 - rho), cut after maxBounces", "[integrators][statistics]")
+TEST_CASE("furnace: path tracing reaches Le / (1 - rho), cut after maxBounces",
+          "[integrators][statistics]")
 {
     const struct
     {
         float albedo;
         int bounces;
         double radiance;
-    } cases[] = {{0.5f, 64, 2.0}, {0.9f, 8, 6.125795}, {0.9f, 64, 9.989389}, {0.9f, 0, 1.0}, {0.9f, 1, 1.9}, {0.99f, 64, 47.966}};
+    } cases[] = {{0.5f, 64, 2.0}, {0.9f, 8, 6.125795}, {0.9f, 64, 9.989389},
+                 {0.9f, 0, 1.0},  {0.9f, 1, 1.9},      {0.99f, 64, 47.966}};
     for (const auto& c : cases)
     {
         CHECK(truncated(c.albedo, c.bounces) == Approx(c.radiance).epsilon(2e-5));
@@ -45,8 +47,8 @@ TEST_CASE("furnace: path tracing reaches Le / (1 - rho), cut after maxBounces", 
         for (const SceneBuilder* room : {&box, &sphere})
         {
             CAPTURE(c.albedo, c.bounces, room == &box);
-            const Estimate radiance =
-                measure(room->build(), insideView(32), optionsOf(IntegratorKind::Path, c.bounces), 8);
+            const Estimate radiance = measure(room->build(), insideView(32),
+                                              optionsOf(IntegratorKind::Path, c.bounces), 8);
             CAPTURE(radiance.mean(), radiance.standardError());
             CHECK(radiance.agrees(c.radiance, 2e-5 * c.radiance));
             CHECK(radiance.standardError() < 0.005 * c.radiance);
@@ -56,11 +58,13 @@ TEST_CASE("furnace: path tracing reaches Le / (1 - rho), cut after maxBounces", 
 
 TEST_CASE("furnace: the same far from the origin", "[integrators][statistics]")
 {
-    // Leaks would show as loss. Ray offsets are 0.6 there, and so is the error of positions about 1e-3.
+    // Leaks would show as loss. Ray offsets are 0.6 there, and so is the error of positions about
+    // 1e-3.
     const Vec3 centre(148376.0f, 1234.0f, -223423.0f);
     SceneBuilder sphere;
     sphere.addEmissive(sphereMesh(centre, 200.0f, 24), furnaceWall(0.5f));
-    const View view = perspectiveView(Vec3d(centre), Vec3d(centre) + Vec3d(1, 0.2, 0.3), {0, 0, 1}, 80.0, 32, 32);
+    const View view =
+        perspectiveView(Vec3d(centre), Vec3d(centre) + Vec3d(1, 0.2, 0.3), {0, 0, 1}, 80.0, 32, 32);
     const Estimate radiance = measure(sphere.build(), view, optionsOf(IntegratorKind::Path, 64), 8);
     CAPTURE(radiance.mean(), radiance.standardError());
     CHECK(radiance.agrees(2.0, 2e-3));
@@ -70,12 +74,14 @@ TEST_CASE("furnace: Whitted's one bounce gives Le (1 + rho)", "[integrators][sta
 {
     SceneBuilder sphere;
     sphere.addEmissive(sphereMesh(Vec3(0.0f), 1.0f, 48), furnaceWall(0.6f));
-    const Estimate radiance = measure(sphere.build(), insideView(32), optionsOf(IntegratorKind::Whitted), 8);
+    const Estimate radiance =
+        measure(sphere.build(), insideView(32), optionsOf(IntegratorKind::Whitted), 8);
     CAPTURE(radiance.mean(), radiance.standardError());
     CHECK(radiance.agrees(1.6, 2e-5));
 }
 
-TEST_CASE("sphere: a point light of intensity pi in a sphere of albedo 1/2 gives radiance 1", "[integrators][statistics]")
+TEST_CASE("sphere: a point light of intensity pi in a sphere of albedo 1/2 gives radiance 1",
+          "[integrators][statistics]")
 {
     // A light of diffuse 1 and quadratic attenuation has the intensity pi [W/sr].
     SceneBuilder sphere;
@@ -89,9 +95,11 @@ TEST_CASE("sphere: a point light of intensity pi in a sphere of albedo 1/2 gives
     CHECK(direct.mean() == Approx(0.5).margin(5e-4));
 }
 
-TEST_CASE("integrating sphere: indirect light is uniform wherever the light is", "[integrators][statistics]")
+TEST_CASE("integrating sphere: indirect light is uniform wherever the light is",
+          "[integrators][statistics]")
 {
-    // Direct rho cos / d^2, indirect rho E_ind / pi with E_ind = rho Phi / (4 pi (1 - rho)), Phi = 4 pi^2.
+    // Direct rho cos / d^2, indirect rho E_ind / pi with E_ind = rho Phi / (4 pi (1 - rho)), Phi =
+    // 4 pi^2.
     SceneBuilder sphere;
     sphere.add(sphereMesh(Vec3(0.0f), 1.0f, 100), lambert(Vec3(0.5f)));
     sphere.addLight(pointLight(Vec3(0.0f, 0.0f, 0.5f)));

@@ -9,7 +9,8 @@
 namespace osgRayTrace::engine::test
 {
 
-/// Mean green radiance of the picture, one value for each of 16 seeds. Demands that no sample was dropped.
+/// Mean green radiance of the picture, one value for each of 16 seeds. Demands that no sample was
+/// dropped.
 inline Estimate measure(const std::shared_ptr<const TracedScene>& traced, const View& view,
                         RenderOptions options, int passes)
 {

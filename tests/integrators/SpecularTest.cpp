@@ -21,7 +21,10 @@ std::shared_ptr<const TracedScene> inWhiteRoom(const Material& material, bool sa
     return builder.build();
 }
 
-View outside() { return perspectiveView({1.4, -2.1, 0.9}, {0, 0, 0}, {0, 0, 1}, 50.0, 48, 48); }
+View outside()
+{
+    return perspectiveView({1.4, -2.1, 0.9}, {0, 0, 0}, {0, 0, 1}, 50.0, 48, 48);
+}
 
 /// Largest difference of any channel of any pixel.
 float largestDifference(const Picture& a, const Picture& b)
@@ -40,18 +43,19 @@ TEST_CASE("glass: a clear body in a white room cannot be seen", "[integrators][s
     {
         for (const bool sampled : {false, true})
         {
-            const Estimate radiance =
-                measure(inWhiteRoom(glass(ior), sampled), outside(), optionsOf(IntegratorKind::Path, 100), 16);
+            const Estimate radiance = measure(inWhiteRoom(glass(ior), sampled), outside(),
+                                              optionsOf(IntegratorKind::Path, 100), 16);
             CAPTURE(ior, sampled, radiance.mean(), radiance.standardError());
             CHECK(radiance.agrees(1.0, 1e-4));
         }
     }
 }
 
-TEST_CASE("glass: without chance, Whitted's rays carry all energy but what cannot be seen", "[integrators]")
+TEST_CASE("glass: without chance, Whitted's rays carry all energy but what cannot be seen",
+          "[integrators]")
 {
-    const Picture picture =
-        render(inWhiteRoom(glass(1.5f), false), outside(), optionsOf(IntegratorKind::Whitted, 100), 4);
+    const Picture picture = render(inWhiteRoom(glass(1.5f), false), outside(),
+                                   optionsOf(IntegratorKind::Whitted, 100), 4);
     CHECK(picture.progress.droppedSamples == 0);
     float smallest = 2.0f, largest = 0.0f;
     for (int y = 0; y < picture.height; ++y)
@@ -66,26 +70,46 @@ TEST_CASE("glass: without chance, Whitted's rays carry all energy but what canno
     CHECK(largest < 1.0f + 1e-4f);
 }
 
-TEST_CASE("rough glass: loses what single scattering loses, and makes nothing", "[integrators][statistics]")
+TEST_CASE("glass: a lamp inside it shows (1-R)/n^2 of its radiance", "[integrators][statistics]")
 {
-    for (const float roughness : {0.1f, 0.4f})
+    SceneBuilder builder;
+    builder.add(boxMesh(Vec3(-1.0f), Vec3(1.0f)), glass(1.5f));
+    builder.add(quadMesh({-0.5f, -0.5f, 0}, {1, 0, 0}, {0, 1, 0}), lamp(Vec3(3.0f)));
+    const View view = patchView({0, 0, 1}, {0, 0, 1}, 0.01, 16);
+    for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
     {
-        const Estimate found =
-            measure(inWhiteRoom(glass(1.5f, roughness), false), outside(), optionsOf(IntegratorKind::Path, 100), 16);
-        const Estimate sampled =
-            measure(inWhiteRoom(glass(1.5f, roughness), true), outside(), optionsOf(IntegratorKind::Path, 100), 32);
-        CAPTURE(roughness, found.mean(), found.standardError(), sampled.mean(), sampled.standardError());
-        CHECK(found.mean() < 1.0 + 4.0 * found.standardError());
-        CHECK(found.mean() > (roughness < 0.2f ? 0.97 : 0.8));
-        CHECK(std::abs(found.mean() - sampled.mean()) < 4.0 * std::hypot(found.standardError(), sampled.standardError()));
+        const Estimate radiance = measure(builder.build(), view, optionsOf(kind), 64);
+        CAPTURE(int(kind), radiance.mean(), radiance.standardError());
+        CHECK(radiance.agrees(3.0 * 0.96 / 2.25, 1e-5));
+        CHECK(radiance.standardError() < 5e-3);
     }
 }
 
-TEST_CASE("mirror: a white one in a white room cannot be seen, nor a mirror room be left", "[integrators][statistics]")
+TEST_CASE("rough glass: loses what single scattering loses, and makes nothing",
+          "[integrators][statistics]")
+{
+    for (const float roughness : {0.1f, 0.4f})
+    {
+        const Estimate found = measure(inWhiteRoom(glass(1.5f, roughness), false), outside(),
+                                       optionsOf(IntegratorKind::Path, 100), 16);
+        const Estimate sampled = measure(inWhiteRoom(glass(1.5f, roughness), true), outside(),
+                                         optionsOf(IntegratorKind::Path, 100), 32);
+        CAPTURE(roughness, found.mean(), found.standardError(), sampled.mean(),
+                sampled.standardError());
+        CHECK(found.mean() < 1.0 + 4.0 * found.standardError());
+        CHECK(found.mean() > (roughness < 0.2f ? 0.97 : 0.8));
+        CHECK(std::abs(found.mean() - sampled.mean()) <
+              4.0 * std::hypot(found.standardError(), sampled.standardError()));
+    }
+}
+
+TEST_CASE("mirror: a white one in a white room cannot be seen, nor a mirror room be left",
+          "[integrators][statistics]")
 {
     for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
     {
-        const Estimate radiance = measure(inWhiteRoom(mirror(Vec3(1.0f)), false), outside(), optionsOf(kind, 20), 4);
+        const Estimate radiance =
+            measure(inWhiteRoom(mirror(Vec3(1.0f)), false), outside(), optionsOf(kind, 20), 4);
         CAPTURE(int(kind), radiance.mean());
         CHECK(radiance.mean() == Approx(1.0).epsilon(1e-5));
     }
@@ -105,7 +129,8 @@ TEST_CASE("mirror: shows the mirrored scene", "[integrators]")
     CHECK(truth.mean().y > 0.05f);
     for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
     {
-        // One sample a pixel, the same in both: only pixels that the lamps' edges run through may differ.
+        // One sample a pixel, the same in both: only pixels that the lamps' edges run through may
+        // differ.
         const Picture picture = render(reflected.build(), view, optionsOf(kind), 1);
         int different = 0;
         for (int y = 0; y < 64; ++y)
@@ -126,10 +151,12 @@ TEST_CASE("mirror: a metal tints what it reflects head-on", "[integrators]")
     builder.add(quadMesh({-1, -1, 2}, {2, 0, 0}, {0, 2, 0}), lamp(Vec3(2.0f)));
     const View view = patchView({0, 0, 0}, {0, 0, 1}, 0.1, 8);
     for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
-        CHECK(glm::length(render(builder.build(), view, optionsOf(kind), 1).mean() - 2.0f * tint) < 1e-5f);
+        CHECK(glm::length(render(builder.build(), view, optionsOf(kind), 1).mean() - 2.0f * tint) <
+              1e-5f);
 }
 
-TEST_CASE("mirror: as roughness vanishes the image becomes the mirror's", "[integrators][statistics]")
+TEST_CASE("mirror: as roughness vanishes the image becomes the mirror's",
+          "[integrators][statistics]")
 {
     const auto traced = [](float roughness)
     {
@@ -156,7 +183,8 @@ TEST_CASE("mirror: as roughness vanishes the image becomes the mirror's", "[inte
         }
         return sum / total;
     };
-    CHECK(largestDifference(render(traced(0.02f), view, options, 64), smooth) == 0.0f); // alpha below 1e-3
+    CHECK(largestDifference(render(traced(0.02f), view, options, 64), smooth) ==
+          0.0f); // alpha below 1e-3
     const Picture nearly = render(traced(0.035f), view, options, 64);
     CHECK(nearly.progress.droppedSamples == 0);
     CHECK(difference(nearly) < 5e-3);

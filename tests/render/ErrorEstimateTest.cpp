@@ -36,7 +36,8 @@ View viewWithoutLight()
     return perspectiveView({278, 400, 20}, {278, 100, 559}, {0, 1, 0}, 45.0, kSize, kSize);
 }
 
-/// Demands that over 100 seeds the estimated error is the true one to 20 %, after each number of passes.
+/// Demands that over 100 seeds the estimated error is the true one to 20 %, after each number of
+/// passes.
 void checkErrors(IntegratorKind kind, const View& view, const std::vector<int>& passCounts)
 {
     const auto traced = cornellBox().build();
@@ -63,12 +64,14 @@ void checkErrors(IntegratorKind kind, const View& view, const std::vector<int>& 
             REQUIRE(progress.droppedSamples == 0);
             const double estimate = session.estimateRelativeError();
             errors[i].estimated += estimate * estimate / 100.0;
-            errors[i].actual += relativeSquaredError(session.resolveRadiance(), reference.rgba) / 100.0;
+            errors[i].actual +=
+                relativeSquaredError(session.resolveRadiance(), reference.rgba) / 100.0;
         }
     }
     for (std::size_t i = 0; i < passCounts.size(); ++i)
     {
-        const double estimated = std::sqrt(errors[i].estimated), actual = std::sqrt(errors[i].actual);
+        const double estimated = std::sqrt(errors[i].estimated),
+                     actual = std::sqrt(errors[i].actual);
         CAPTURE(passCounts[i], estimated, actual);
         CHECK(estimated / actual == Approx(1.0).margin(0.2));
     }
@@ -83,15 +86,17 @@ TEST_CASE("error estimate: within 20 % of the true error of path tracing", "[ren
     checkErrors(IntegratorKind::Path, viewWithoutLight(), {4, 16, 64});
 }
 
-TEST_CASE("error estimate: within 20 % of the true error of Whitted's ray tracer", "[render][statistics]")
+TEST_CASE("error estimate: within 20 % of the true error of Whitted's ray tracer",
+          "[render][statistics]")
 {
     checkErrors(IntegratorKind::Whitted, viewWithoutLight(), {4, 16, 64});
 }
 
-TEST_CASE("error estimate: and with the edges of the light in view, after some passes", "[render][statistics]")
+TEST_CASE("error estimate: and with the edges of the light in view, after some passes",
+          "[render][statistics]")
 {
-    // Pixels that are bright in one pass out of many have their error underrated until more of their
-    // passes were bright: see Film::relativeSquaredError.
+    // Pixels that are bright in one pass out of many have their error underrated until more of
+    // their passes were bright: see Film::relativeSquaredError.
     checkErrors(IntegratorKind::Path, cornellView(kSize, kSize), {64});
     checkErrors(IntegratorKind::Whitted, cornellView(kSize, kSize), {64});
 }

@@ -26,7 +26,8 @@ std::vector<Estimate> tileMeans(const std::shared_ptr<const TracedScene>& traced
         {
             Vec3d sum(0.0);
             for (int i = 0; i < kTile * kTile; ++i)
-                sum += Vec3d(picture.at(tile % kTiles * kTile + i % kTile, tile / kTiles * kTile + i / kTile));
+                sum += Vec3d(picture.at(tile % kTiles * kTile + i % kTile,
+                                        tile / kTiles * kTile + i / kTile));
             for (int c = 0; c < 3; ++c)
                 means[static_cast<std::size_t>(3 * tile + c)].add(sum[c] / (kTile * kTile));
         }
@@ -34,8 +35,8 @@ std::vector<Estimate> tileMeans(const std::shared_ptr<const TracedScene>& traced
     return means;
 }
 
-/// Demands that no tile differs by more than 4 standard errors (Welch) and rounding. With 30 degrees of
-/// freedom a tile does by chance with a probability of 4e-4.
+/// Demands that no tile differs by more than 4 standard errors (Welch) and rounding. With 30
+/// degrees of freedom a tile does by chance with a probability of 4e-4.
 void checkEqual(const std::vector<Estimate>& a, const std::vector<Estimate>& b)
 {
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -48,7 +49,8 @@ void checkEqual(const std::vector<Estimate>& a, const std::vector<Estimate>& b)
 
 } // namespace
 
-TEST_CASE("agreement: direct light in the Cornell box, Whitted against one bounce of path tracing", "[render][statistics]")
+TEST_CASE("agreement: direct light in the Cornell box, Whitted against one bounce of path tracing",
+          "[render][statistics]")
 {
     const auto traced = cornellBox().build();
     const View view = cornellView(kSize, kSize);
@@ -67,14 +69,16 @@ TEST_CASE("agreement: all light strategies give the same image", "[render][stati
     const View view = cornellView(kSize, kSize);
     RenderOptions options = optionsOf(IntegratorKind::Whitted);
     const auto sobol = tileMeans(traced, view, options, 16);
-    for (const LightSampling strategy : {LightSampling::Random, LightSampling::UniformJitter, LightSampling::Stratified})
+    for (const LightSampling strategy :
+         {LightSampling::Random, LightSampling::UniformJitter, LightSampling::Stratified})
     {
         options.lightSampling = strategy;
         checkEqual(sobol, tileMeans(traced, view, options, 16));
     }
 }
 
-TEST_CASE("agreement: a parallelogram light and the same quad as an emissive mesh", "[render][statistics]")
+TEST_CASE("agreement: a parallelogram light and the same quad as an emissive mesh",
+          "[render][statistics]")
 {
     const View view = perspectiveView({0.5, -3, 2}, {0, 0, 0.2}, {0, 0, 1}, 40.0, kSize, kSize);
     const auto scene = [](bool mesh)
@@ -90,10 +94,12 @@ TEST_CASE("agreement: a parallelogram light and the same quad as an emissive mes
         return builder.build();
     };
     for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
-        checkEqual(tileMeans(scene(false), view, optionsOf(kind, 3), 16), tileMeans(scene(true), view, optionsOf(kind, 3), 16));
+        checkEqual(tileMeans(scene(false), view, optionsOf(kind, 3), 16),
+                   tileMeans(scene(true), view, optionsOf(kind, 3), 16));
 }
 
-TEST_CASE("agreement: a placed and mirrored scene shows what the scene moved beforehand shows", "[render][statistics]")
+TEST_CASE("agreement: a placed and mirrored scene shows what the scene moved beforehand shows",
+          "[render][statistics]")
 {
     // Glass from inside and outside, smooth normals, an emissive mesh and a diffuse floor.
     Affine transform;
@@ -102,7 +108,8 @@ TEST_CASE("agreement: a placed and mirrored scene shows what the scene moved bef
     const auto scene = [&](bool placed)
     {
         SceneBuilder builder;
-        const auto add = [&](const std::shared_ptr<Mesh>& mesh, const Material& material, bool emits)
+        const auto add =
+            [&](const std::shared_ptr<Mesh>& mesh, const Material& material, bool emits)
         {
             std::vector<Vec3> positions(mesh->positions.begin(), mesh->positions.end());
             std::vector<UVec3> triangles(mesh->triangles.begin(), mesh->triangles.end());
@@ -114,7 +121,8 @@ TEST_CASE("agreement: a placed and mirrored scene shows what the scene moved bef
                     std::swap(t.y, t.z); // the front stays the front
             }
             const auto copy = newMesh(std::move(positions), std::move(triangles));
-            const uint32_t index = emits ? builder.addEmissive(copy, material) : builder.add(copy, material);
+            const uint32_t index =
+                emits ? builder.addEmissive(copy, material) : builder.add(copy, material);
             Instance& instance = builder.scene->instances[index];
             instance.placed = instance.mirrored = placed;
             if (!placed) return;

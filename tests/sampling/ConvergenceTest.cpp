@@ -33,7 +33,8 @@ double kernel(double u, double v, double x, Occluder occluder)
     const double d2 = dx * dx + dy * dy + 1.0;
     if (occluder == Occluder::AxisEdge && u > 0.37 + 0.2 * x) return 0.0;
     const double turn = 17.0 * M_PI / 180.0;
-    if (occluder == Occluder::RotatedEdge && std::cos(turn) * dx + std::sin(turn) * dy > 0.11) return 0.0;
+    if (occluder == Occluder::RotatedEdge && std::cos(turn) * dx + std::sin(turn) * dy > 0.11)
+        return 0.0;
     return 1.0 / (d2 * d2);
 }
 
@@ -55,10 +56,18 @@ double variance(Strategy strategy, Occluder occluder, uint32_t n)
                 float u = 0.0f, v = 0.0f;
                 switch (strategy)
                 {
-                case Strategy::Random: random2(j, seed, u, v); break;
-                case Strategy::UniformJitter: uniformJitter2(j, n, 0, seed, u, v); break;
-                case Strategy::Stratified: stratified2(j, n, 0, seed, u, v); break;
-                case Strategy::Sobol: sobol2(j, seed, u, v); break;
+                case Strategy::Random:
+                    random2(j, seed, u, v);
+                    break;
+                case Strategy::UniformJitter:
+                    uniformJitter2(j, n, 0, seed, u, v);
+                    break;
+                case Strategy::Stratified:
+                    stratified2(j, n, 0, seed, u, v);
+                    break;
+                case Strategy::Sobol:
+                    sobol2(j, seed, u, v);
+                    break;
                 }
                 mean += kernel(u, v, x, occluder);
             }
@@ -88,8 +97,8 @@ Convergence convergence(Strategy strategy, Occluder occluder)
 
 } // namespace
 
-// Each slope is fitted to 3 numbers of samples with 3000 runs each: its standard error is about 0.03, so
-// the margins below are 4 of them.
+// Each slope is fitted to 3 numbers of samples with 3000 runs each: its standard error is about
+// 0.03, so the margins below are 4 of them.
 
 TEST_CASE("convergence: unoccluded square light", "[sampling][statistics]")
 {

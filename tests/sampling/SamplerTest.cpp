@@ -11,7 +11,8 @@
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
 
-TEST_CASE("hash: a bijection on a sample, and every output bit flips with every input bit", "[sampling][statistics]")
+TEST_CASE("hash: a bijection on a sample, and every output bit flips with every input bit",
+          "[sampling][statistics]")
 {
     std::set<uint32_t> seen;
     for (uint32_t i = 0; i < 200000; ++i)
@@ -69,17 +70,19 @@ TEST_CASE("sampler: pixels, dimensions and halves have seeds of their own", "[sa
             }
         }
     }
-    // 65,536 keys into 2^32 values: half a collision is expected by chance; 8 have a probability of 1e-8.
+    // 65,536 keys into 2^32 values: half a collision is expected by chance; 8 have a probability of
+    // 1e-8.
     CHECK(seeds.size() > keys - 8);
     CHECK(pixelSeed(passKey(0, 0), 3, 7) != pixelSeed(passKey(0, 0), 7, 3));
     CHECK(bounceDimension(0, 0) == DimensionBounceFirst);
     CHECK(bounceDimension(1, DimensionBsdfDirection) > bounceDimension(0, DimensionLightChoice));
 }
 
-TEST_CASE("sampler: neighbouring pixels, dimensions and halves are uncorrelated", "[sampling][statistics]")
+TEST_CASE("sampler: neighbouring pixels, dimensions and halves are uncorrelated",
+          "[sampling][statistics]")
 {
-    // Correlation of the first sample with that of the next key, over 2^16 pixels: below 4.5 / sqrt(n),
-    // a false alarm in 1.5e5 for each of 4.
+    // Correlation of the first sample with that of the next key, over 2^16 pixels: below 4.5 /
+    // sqrt(n), a false alarm in 1.5e5 for each of 4.
     constexpr uint32_t kSide = 256;
     double sums[4] = {};
     const auto value = [](int pass, uint32_t x, uint32_t y, uint32_t dimension)
@@ -122,7 +125,8 @@ TEST_CASE("light points: jittered strategies put one sample into each cell", "[s
                 uniformJitter2(j, n, pass, 99u, x, y);
                 REQUIRE((x < 1.0f && y < 1.0f));
                 uniform.insert(cell());
-                const float offsetX = x * n - std::floor(x * n), offsetY = y * n - std::floor(y * n);
+                const float offsetX = x * n - std::floor(x * n),
+                            offsetY = y * n - std::floor(y * n);
                 if (j == 0)
                 {
                     firstX = offsetX;

@@ -113,7 +113,8 @@ TEST_CASE("sobol2: over seeds each point is uniform on the square", "[sampling][
         {
             float x, y;
             sobol2(index, hash(s), x, y);
-            ++counts[static_cast<std::size_t>(y * kSide) * kSide + static_cast<std::size_t>(x * kSide)];
+            ++counts[static_cast<std::size_t>(y * kSide) * kSide +
+                     static_cast<std::size_t>(x * kSide)];
         }
         const std::vector<double> expected(counts.size(), double(kSeeds) / (kSide * kSide));
         CAPTURE(index);
@@ -142,9 +143,11 @@ TEST_CASE("sobol2: sequences of different seeds are uncorrelated", "[sampling][s
         CHECK(std::abs(sum * 12.0) < 4.5 * std::sqrt(double(kPairs)));
 }
 
-TEST_CASE("sobol2: reference points of an unscrambled sequence have the second matrix of Sobol", "[sampling]")
+TEST_CASE("sobol2: reference points of an unscrambled sequence have the second matrix of Sobol",
+          "[sampling]")
 {
-    // Reversed bits of 0..7 in base 2, and their second coordinate: 0, 1/2, 3/4, 1/4, 5/8, 1/8, 3/8, 7/8.
+    // Reversed bits of 0..7 in base 2, and their second coordinate: 0, 1/2, 3/4, 1/4, 5/8, 1/8,
+    // 3/8, 7/8.
     const double second[] = {0.0, 0.5, 0.75, 0.25, 0.625, 0.125, 0.375, 0.875};
     for (uint32_t i = 0; i < 8; ++i)
         CHECK(reverseBits(sobolSecondReversed(i)) * 0x1p-32 == second[i]);

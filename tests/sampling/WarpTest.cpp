@@ -17,7 +17,8 @@ TEST_CASE("sinCosTurn: within 2e-7 of the exact values", "[sampling]")
         float sine, cosine;
         sinCosTurn(turn, sine, cosine);
         const double angle = 2.0 * M_PI * double(turn);
-        worst = std::max({worst, std::abs(sine - std::sin(angle)), std::abs(cosine - std::cos(angle))});
+        worst =
+            std::max({worst, std::abs(sine - std::sin(angle)), std::abs(cosine - std::cos(angle))});
     }
     CHECK(worst < 2e-7);
 }
@@ -42,7 +43,8 @@ TEST_CASE("cosine hemisphere: unit directions of density cos/pi", "[sampling][st
         ++counts[static_cast<std::size_t>(row * kColumns + column)];
     }
     CHECK(worstLength < 5e-7);
-    CHECK(chiSquareTest(counts, std::vector<double>(counts.size(), double(kSamples) / (kRows * kColumns))) > 0.01);
+    CHECK(chiSquareTest(counts, std::vector<double>(counts.size(),
+                                                    double(kSamples) / (kRows * kColumns))) > 0.01);
     CHECK(squareToCosineHemispherePdf(1.0f) == Approx(1.0 / M_PI));
     CHECK(squareToCosineHemispherePdf(-0.5f) == 0.0f);
     for (const float u : {0.0f, 0.25f, 0.999999f})
@@ -59,7 +61,8 @@ TEST_CASE("cosine hemisphere: unit directions of density cos/pi", "[sampling][st
 TEST_CASE("frameOf: orthonormal and right-handed, also next to the south pole", "[sampling]")
 {
     Uniform random(2);
-    std::vector<Vec3d> normals{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, {1e-6, 0, -1}, {0, 1e-4, -1}, {1e-3, 1e-3, -1}};
+    std::vector<Vec3d> normals{{0, 0, 1},     {0, 0, -1},    {1, 0, 0},       {0, -1, 0},
+                               {1e-6, 0, -1}, {0, 1e-4, -1}, {1e-3, 1e-3, -1}};
     for (int i = 0; i < 100000; ++i)
         normals.emplace_back(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
     double worst = 0.0;
@@ -70,9 +73,9 @@ TEST_CASE("frameOf: orthonormal and right-handed, also next to the south pole", 
         Vec3 t, b;
         frameOf(n.x, n.y, n.z, t, b);
         const Vec3d nd(n), td(t), bd(b);
-        worst = std::max({worst, std::abs(glm::dot(nd, td)), std::abs(glm::dot(nd, bd)), std::abs(glm::dot(td, bd)),
-                          std::abs(glm::length(td) - 1.0), std::abs(glm::length(bd) - 1.0),
-                          glm::length(glm::cross(td, bd) - nd)});
+        worst = std::max({worst, std::abs(glm::dot(nd, td)), std::abs(glm::dot(nd, bd)),
+                          std::abs(glm::dot(td, bd)), std::abs(glm::length(td) - 1.0),
+                          std::abs(glm::length(bd) - 1.0), glm::length(glm::cross(td, bd) - nd)});
     }
     CHECK(worst < 1e-6);
 }

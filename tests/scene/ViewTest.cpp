@@ -104,7 +104,8 @@ TEST_CASE("camera rays: within a thousandth of a pixel for every kind of project
         Mat4d projection;
         double tolerance = 1e-3; // [pixels]
     };
-    // Rays are float: where a pixel subtends little of the direction, its 2^-24 are what can be seen.
+    // Rays are float: where a pixel subtends little of the direction, its 2^-24 are what can be
+    // seen.
     const Case projections[] = {
         {"perspective", perspective},
         {"narrow", glm::perspective(0.02, aspect, 1.0, 1e4), 4e-3},
@@ -113,7 +114,8 @@ TEST_CASE("camera rays: within a thousandth of a pixel for every kind of project
         {"wall beside the eye", glm::frustum(0.5, 0.9, 0.2, 0.6, 0.1, 100.0), 2e-3},
         {"infinite far plane", infiniteFrustum(-0.1, 0.35, -0.02, 0.3, 0.1)},
         {"reversed depth", reversed(perspective)},
-        {"reversed depth, infinite far plane", reversed(infiniteFrustum(-0.1, 0.1, -0.06, 0.06, 0.1))},
+        {"reversed depth, infinite far plane",
+         reversed(infiniteFrustum(-0.1, 0.1, -0.06, 0.06, 0.1))},
         {"near .01, far 1e8", glm::perspective(0.8, aspect, 0.01, 1e8)},
         {"near .01, far 1e8, off-axis", glm::frustum(-0.01, 0.035, -0.002, 0.03, 0.01, 1e8)},
         {"orthographic", glm::ortho(-2.0, 3.0, -1.0, 2.0, 0.1, 50.0)},
@@ -141,7 +143,8 @@ TEST_CASE("camera rays: the same at the radius of the earth, with the origin the
             const View view = viewOf(projection, viewFromWorld);
             CHECK(worstPixelError(view, far) < 1e-3);
             const std::optional<CameraRays> displaced = cameraRays(view, far);
-            const std::optional<CameraRays> atOrigin = cameraRays(viewOf(projection, kLookAt), Vec3d(0.0));
+            const std::optional<CameraRays> atOrigin =
+                cameraRays(viewOf(projection, kLookAt), Vec3d(0.0));
             REQUIRE((displaced && atOrigin));
             // The eye is known to the double precision of the matrix: 6e6 * 2^-53 * a few.
             CHECK(glm::length(displaced->origin - atOrigin->origin) < 1e-6f);
@@ -178,7 +181,8 @@ TEST_CASE("camera rays: orthographic rays start on the near plane and are parall
     CHECK(rays->directionDy == Vec3(0.0f));
     const Vec3d start = Vec3d(view.viewFromWorld * Vec4d(rayAt(*rays, 700.0f, 20.0f).origin, 1.0));
     CHECK(start.z == Approx(-0.5).margin(1e-5));
-    const Vec3d forward = glm::dmat3(view.viewFromWorld) * glm::normalize(rayAt(*rays, 0.0f, 0.0f).direction);
+    const Vec3d forward =
+        glm::dmat3(view.viewFromWorld) * glm::normalize(rayAt(*rays, 0.0f, 0.0f).direction);
     CHECK(forward.z == Approx(-1.0));
 }
 
@@ -199,7 +203,8 @@ TEST_CASE("camera rays: no size or no inverse gives none", "[scene]")
 {
     const Mat4d projection = glm::perspective(0.8, 1.0, 0.1, 100.0);
     View view = viewOf(projection, kLookAt);
-    for (const auto& [width, height] : {std::pair(0, 10), std::pair(10, 0), std::pair(0, 0), std::pair(-4, 10)})
+    for (const auto& [width, height] :
+         {std::pair(0, 10), std::pair(10, 0), std::pair(0, 0), std::pair(-4, 10)})
     {
         view.width = width;
         view.height = height;

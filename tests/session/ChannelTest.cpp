@@ -24,15 +24,19 @@ struct TiltedPlane
     {
         SceneBuilder builder;
         builder.scene->origin = origin;
-        builder.add(quadMesh(Vec3(500.0f), {1, 0, 0}, {0, 1, 0}), lambert(Vec3(0.1f))); // out of sight
-        builder.add(quadMesh(Vec3(corner - origin), Vec3(u), Vec3(v)), lambert(Vec3(0.2f, 0.4f, 0.6f)));
+        builder.add(quadMesh(Vec3(500.0f), {1, 0, 0}, {0, 1, 0}),
+                    lambert(Vec3(0.1f))); // out of sight
+        builder.add(quadMesh(Vec3(corner - origin), Vec3(u), Vec3(v)),
+                    lambert(Vec3(0.2f, 0.4f, 0.6f)));
         return builder;
     }
 };
 
 std::vector<View> views(const TiltedPlane& plane)
 {
-    View perspective = perspectiveView(plane.origin + Vec3d(0.5, 0.5, 6), plane.origin + Vec3d(0.2, 0, 0), {0, 1, 0}, 50.0, kWidth, kHeight);
+    View perspective =
+        perspectiveView(plane.origin + Vec3d(0.5, 0.5, 6), plane.origin + Vec3d(0.2, 0, 0),
+                        {0, 1, 0}, 50.0, kWidth, kHeight);
     perspective.clipFromView = glm::perspective(0.9, double(kWidth) / kHeight, 0.5, 40.0);
     View orthographic = perspective;
     orthographic.clipFromView = glm::ortho(-4.0, 3.0, -2.0, 2.0, 0.5, 40.0);
@@ -54,18 +58,22 @@ Truth truthAt(const View& view, const TiltedPlane& plane, int x, int y)
     const Mat4d worldFromClip = glm::inverse(view.clipFromView * view.viewFromWorld);
     const auto point = [&](double z)
     {
-        const Vec4d p = worldFromClip * Vec4d(2.0 * (x + 0.5) / kWidth - 1.0, 2.0 * (y + 0.5) / kHeight - 1.0, z, 1.0);
+        const Vec4d p = worldFromClip * Vec4d(2.0 * (x + 0.5) / kWidth - 1.0,
+                                              2.0 * (y + 0.5) / kHeight - 1.0, z, 1.0);
         return Vec3d(p) / p.w;
     };
     const Vec3d near = point(-1.0), far = point(1.0);
-    const double t = glm::dot(plane.corner - near, plane.normal) / glm::dot(far - near, plane.normal);
+    const double t =
+        glm::dot(plane.corner - near, plane.normal) / glm::dot(far - near, plane.normal);
     Truth truth;
     truth.position = near + t * (far - near);
     const Vec3d local = truth.position - plane.corner;
     const Vec4d clip = view.clipFromView * view.viewFromWorld * Vec4d(truth.position, 1.0);
     // The parallelogram's coordinates.
-    const double uu = glm::dot(plane.u, plane.u), vv = glm::dot(plane.v, plane.v), uv = glm::dot(plane.u, plane.v);
-    const double lu = glm::dot(local, plane.u), lv = glm::dot(local, plane.v), det = uu * vv - uv * uv;
+    const double uu = glm::dot(plane.u, plane.u), vv = glm::dot(plane.v, plane.v),
+                 uv = glm::dot(plane.u, plane.v);
+    const double lu = glm::dot(local, plane.u), lv = glm::dot(local, plane.v),
+                 det = uu * vv - uv * uv;
     const double a = (lu * vv - lv * uv) / det, b = (lv * uu - lu * uv) / det;
     truth.hit = a > 0.0 && a < 1.0 && b > 0.0 && b < 1.0 && t > 0.0;
     if (truth.hit) truth.depth = 0.5 * clip.z / clip.w + 0.5;
@@ -103,7 +111,8 @@ TEST_CASE("channels: depth, normal, position and id agree with the matrices", "[
                 const Truth truth = truthAt(view, plane, x, y);
                 const auto at = static_cast<std::size_t>(y * kWidth + x);
                 CAPTURE(x, y);
-                // The first pass looks for depth somewhere in the pixel: at the plane's edge it may miss.
+                // The first pass looks for depth somewhere in the pixel: at the plane's edge it may
+                // miss.
                 depthErrors += std::abs(depth[at] - truth.depth) > 2e-6;
                 if (!truth.hit)
                 {
@@ -137,7 +146,8 @@ TEST_CASE("channels: depth, normal, position and id agree with the matrices", "[
 TEST_CASE("channels: normals face the viewer on back sides", "[session]")
 {
     SceneBuilder builder;
-    builder.add(quadMesh({-5, -5, 0}, {0, 10, 0}, {10, 0, 0}), lambert(Vec3(0.5f))); // its front looks down
+    builder.add(quadMesh({-5, -5, 0}, {0, 10, 0}, {10, 0, 0}),
+                lambert(Vec3(0.5f))); // its front looks down
     RenderSession session(std::make_shared<Workers>(1));
     session.setScene(builder.build());
     session.setView(patchView({0, 0, 0}, {0, 0, 1}, 1.0, 4));
@@ -157,15 +167,18 @@ TEST_CASE("channels: the error channel holds the halves' difference", "[session]
     StopRule rule;
     rule.passes = 8;
     session.render(rule);
-    const std::vector<float> error = session.resolveChannel(Channel::Error), image = session.resolveRadiance();
+    const std::vector<float> error = session.resolveChannel(Channel::Error),
+                             image = session.resolveRadiance();
     // The square root of its mean square, relative as the session's estimate is.
     double sum = 0.0;
     for (std::size_t i = 0; i < 32 * 32; ++i)
     {
         for (std::size_t c = 0; c < 3; ++c)
-            sum += double(error[3 * i + c]) * error[3 * i + c] / (double(image[4 * i + c]) * image[4 * i + c] + 0.01);
+            sum += double(error[3 * i + c]) * error[3 * i + c] /
+                   (double(image[4 * i + c]) * image[4 * i + c] + 0.01);
     }
-    CHECK(std::sqrt(sum / (3.0 * 32 * 32)) == Approx(session.estimateRelativeError()).epsilon(1e-4));
+    CHECK(std::sqrt(sum / (3.0 * 32 * 32)) ==
+          Approx(session.estimateRelativeError()).epsilon(1e-4));
 }
 
 TEST_CASE("channels: their sizes", "[session]")
@@ -197,12 +210,14 @@ TEST_CASE("debug integrator: each channel shows what it says", "[session]")
         return picture.mean();
     };
     CHECK(glm::length(shown(DebugChannel::Normal) - Vec3(0.5f, 0.5f, 1.0f)) < 1e-6f);
-    CHECK(glm::length(shown(DebugChannel::Uv) - Vec3(0.8f, 0.2f, 0.0f)) < 5e-3f); // (2.8, 1.2) modulo 1
+    CHECK(glm::length(shown(DebugChannel::Uv) - Vec3(0.8f, 0.2f, 0.0f)) <
+          5e-3f); // (2.8, 1.2) modulo 1
     CHECK(glm::length(shown(DebugChannel::Albedo) - Vec3(0.2f, 0.4f, 0.6f)) < 1e-6f);
     CHECK(shown(DebugChannel::Dropped) == Vec3(0.0f));
     CHECK(shown(DebugChannel::Id) == shown(DebugChannel::Id));
     CHECK(shown(DebugChannel::Id) != Vec3(0.0f));
     CHECK(shown(DebugChannel::Cost).x >= 1.0f / 64.0f);
-    // A plane halfway between near and far plane of an orthographic view: 0.5 to 2 sides away, it is at 1.
+    // A plane halfway between near and far plane of an orthographic view: 0.5 to 2 sides away, it
+    // is at 1.
     CHECK(shown(DebugChannel::Depth).x == Approx(1.0 / 3.0).epsilon(1e-3));
 }

@@ -1,5 +1,5 @@
-// DeterminismTest.cpp - images do not depend on threads, on the order of tiles or on where the world is.
-// SPDX-License-Identifier: MIT
+// DeterminismTest.cpp - images do not depend on threads, on the order of tiles or on where the
+// world is. SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
@@ -27,7 +27,8 @@ SceneBuilder mixedBox(Vec3 offset = Vec3(0.0f))
     plastic.ior = 1.5f;
     plastic.roughness = 0.3f;
     builder.add(sphereMesh(Vec3(250, 240, 180) + offset, 50.0f, 24), plastic);
-    builder.addEmissive(boxMesh(Vec3(480, 400, 400) + offset, Vec3(520, 440, 440) + offset), lamp(Vec3(2.0f, 3.0f, 8.0f)));
+    builder.addEmissive(boxMesh(Vec3(480, 400, 400) + offset, Vec3(520, 440, 440) + offset),
+                        lamp(Vec3(2.0f, 3.0f, 8.0f)));
     Light lamp = pointLight(Vec3(278, 273, 100) + offset, Vec3(20000.0f));
     builder.addLight(lamp);
     return builder;
@@ -90,7 +91,8 @@ TEST_CASE("determinism: equal images for any order of tiles", "[session]")
     }
 }
 
-TEST_CASE("determinism: a scene at the radius of the earth looks as it does at the origin", "[session]")
+TEST_CASE("determinism: a scene at the radius of the earth looks as it does at the origin",
+          "[session]")
 {
     SceneBuilder near = mixedBox();
     SceneBuilder far = near;
@@ -106,7 +108,8 @@ TEST_CASE("determinism: a scene at the radius of the earth looks as it does at t
         CHECK(there.rgba == here.rgba);
 
         // Turned, the eye moves by 1e-9: a handful of paths may meet an edge from its other side.
-        View turned = perspectiveView({150, 300, -700}, {290, 250, 10}, {0.1, 1, 0.05}, 37.0, 48, 48);
+        View turned =
+            perspectiveView({150, 300, -700}, {290, 250, 10}, {0.1, 1, 0.05}, 37.0, 48, 48);
         const Picture hereTurned = render(near.build(), turned, optionsOf(kind), 2);
         turned.viewFromWorld = glm::translate(turned.viewFromWorld, -far.scene->origin);
         const Picture thereTurned = render(far.build(), turned, optionsOf(kind), 2);
@@ -129,11 +132,16 @@ TEST_CASE("determinism: a scene scaled by powers of two looks the same", "[sessi
     const auto scaled = [](float scale)
     {
         SceneBuilder builder;
-        builder.add(quadMesh(Vec3(-1, -1, 0) * scale, Vec3(2, 0, 0) * scale, Vec3(0, 2, 0) * scale), lambert(Vec3(0.7f)));
-        builder.add(boxMesh(Vec3(-0.3f, -0.2f, 0) * scale, Vec3(0.2f, 0.3f, 0.4f) * scale), lambert(Vec3(0.5f)));
-        builder.addQuadLight(Vec3(-0.5f, -0.5f, 1.5f) * scale, Vec3(0, 0.7f, 0) * scale, Vec3(0.7f, 0, 0) * scale, Vec3(4.0f));
-        View view = perspectiveView(Vec3d(0.5, -3, 2) * double(scale), Vec3d(0.0), {0, 0, 1}, 40.0, 32, 32);
-        view.clipFromView = glm::perspective(0.7, 1.0, 0.125 * double(scale), 100.0 * double(scale));
+        builder.add(quadMesh(Vec3(-1, -1, 0) * scale, Vec3(2, 0, 0) * scale, Vec3(0, 2, 0) * scale),
+                    lambert(Vec3(0.7f)));
+        builder.add(boxMesh(Vec3(-0.3f, -0.2f, 0) * scale, Vec3(0.2f, 0.3f, 0.4f) * scale),
+                    lambert(Vec3(0.5f)));
+        builder.addQuadLight(Vec3(-0.5f, -0.5f, 1.5f) * scale, Vec3(0, 0.7f, 0) * scale,
+                             Vec3(0.7f, 0, 0) * scale, Vec3(4.0f));
+        View view =
+            perspectiveView(Vec3d(0.5, -3, 2) * double(scale), Vec3d(0.0), {0, 0, 1}, 40.0, 32, 32);
+        view.clipFromView =
+            glm::perspective(0.7, 1.0, 0.125 * double(scale), 100.0 * double(scale));
         return render(builder.build(), view, optionsOf(IntegratorKind::Path, 3), 4);
     };
     const Picture reference = scaled(1.0f);

@@ -107,7 +107,8 @@ TEST_CASE("session: stops at the estimated error that was asked for", "[session]
     CHECK(progress.relativeError == box.session.estimateRelativeError());
     CHECK(progress.passes > 2);
     CHECK(progress.passes < 4096);
-    CHECK(errors.front() == std::numeric_limits<double>::infinity()); // one pass knows nothing of its error
+    CHECK(errors.front() ==
+          std::numeric_limits<double>::infinity()); // one pass knows nothing of its error
     for (const double error : errors)
         CHECK(error > 0.12); // and it did not go on after it
 }
@@ -123,12 +124,14 @@ TEST_CASE("session: stops when its time is over, or when told to", "[session]")
 
     int calls = 0;
     StopRule endless;
-    const RenderProgress told = box.session.render(endless, [&](const RenderProgress&) { return ++calls < 3; });
+    const RenderProgress told =
+        box.session.render(endless, [&](const RenderProgress&) { return ++calls < 3; });
     CHECK(told.passes == timed.passes + 3);
     CHECK(calls == 3);
 }
 
-TEST_CASE("session: cancelled again and again, the image is still that of an uninterrupted render", "[session]")
+TEST_CASE("session: cancelled again and again, the image is still that of an uninterrupted render",
+          "[session]")
 {
     constexpr int kPasses = 40;
     BoxSession calm(IntegratorKind::Path, 100), disturbed(IntegratorKind::Path, 100);
@@ -163,14 +166,16 @@ TEST_CASE("session: cancelled again and again, the image is still that of an uni
     CHECK(disturbed.session.progress().rays.total() == calm.session.progress().rays.total());
 }
 
-TEST_CASE("session: without a scene, or with an empty one, there is a status or the background", "[session]")
+TEST_CASE("session: without a scene, or with an empty one, there is a status or the background",
+          "[session]")
 {
     RenderSession session(std::make_shared<Workers>(1));
     CHECK(session.render(StopRule()).status.code == StatusCode::EmptyScene);
     CHECK(session.resolveRadiance().empty());
     CHECK(session.resolveChannel(Channel::Normal).empty());
 
-    for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted, IntegratorKind::Debug})
+    for (const IntegratorKind kind :
+         {IntegratorKind::Path, IntegratorKind::Whitted, IntegratorKind::Debug})
     {
         SceneBuilder empty;
         const Picture picture = render(empty.build(), cornellView(20, 10), optionsOf(kind), 2);
@@ -192,12 +197,14 @@ TEST_CASE("session: a scene without lights is black, and covered", "[session]")
     }
 }
 
-TEST_CASE("session: a view that cannot be rendered is reported, and the last image stays", "[session]")
+TEST_CASE("session: a view that cannot be rendered is reported, and the last image stays",
+          "[session]")
 {
     BoxSession box;
     box.renderTo(2);
     const std::vector<float> before = box.session.resolveRadiance();
-    View bad[4] = {cornellView(40, 40), cornellView(40, 40), cornellView(40, 40), cornellView(40, 40)};
+    View bad[4] = {cornellView(40, 40), cornellView(40, 40), cornellView(40, 40),
+                   cornellView(40, 40)};
     bad[0].width = 0;
     bad[1].height = -1;
     bad[2].clipFromView = Mat4d(0.0);
@@ -232,7 +239,8 @@ TEST_CASE("session: images of any shape", "[session]")
     {
         for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
         {
-            const Picture picture = render(traced, cornellView(width, height), optionsOf(kind, 3), 2);
+            const Picture picture =
+                render(traced, cornellView(width, height), optionsOf(kind, 3), 2);
             CHECK(picture.progress.status.ok());
             CHECK(picture.rgba.size() == static_cast<std::size_t>(4 * width * height));
             CHECK(picture.progress.droppedSamples == 0);
@@ -249,7 +257,8 @@ TEST_CASE("session: camera inside a thing, or on a surface", "[session]")
     {
         for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
         {
-            const View view = perspectiveView(eye, eye + Vec3d(0.3, 0.1, 1.0), {0, 1, 0}, 60.0, 32, 32);
+            const View view =
+                perspectiveView(eye, eye + Vec3d(0.3, 0.1, 1.0), {0, 1, 0}, 60.0, 32, 32);
             const Picture picture = render(traced, view, optionsOf(kind), 4);
             CHECK(picture.progress.status.ok());
             CHECK(picture.progress.droppedSamples == 0);

@@ -18,8 +18,8 @@ namespace
 constexpr int kRows = 20, kColumns = 16;
 constexpr int kSamples = 200000;
 
-/// Cells around an axis: rows of angles that grow geometrically from the width of the lobe's peak, so that
-/// narrow and broad lobes are resolved alike.
+/// Cells around an axis: rows of angles that grow geometrically from the width of the lobe's peak,
+/// so that narrow and broad lobes are resolved alike.
 struct Grid
 {
     Vec3d axis, tangent, bitangent;
@@ -50,13 +50,14 @@ struct Grid
         if (phi < 0.0) phi += 2.0 * M_PI;
         const auto at = std::upper_bound(edges.begin() + 1, edges.end() - 1, theta);
         const auto row = static_cast<std::size_t>(at - edges.begin() - 1);
-        const auto column = std::min<std::size_t>(kColumns - 1, static_cast<std::size_t>(phi / (2.0 * M_PI) * kColumns));
+        const auto column = std::min<std::size_t>(
+            kColumns - 1, static_cast<std::size_t>(phi / (2.0 * M_PI) * kColumns));
         return row * kColumns + column;
     }
 };
 
-/// Integral of the density over a cell, on one side of the surface; splits where it must, and all along
-/// the horizon.
+/// Integral of the density over a cell, on one side of the surface; splits where it must, and all
+/// along the horizon.
 class CellIntegral
 {
 public:
@@ -94,7 +95,8 @@ private:
         return sum * (theta1 - theta0) * (phi1 - phi0);
     }
 
-    double refined(double theta0, double theta1, double phi0, double phi1, double whole, int depth) const
+    double refined(double theta0, double theta1, double phi0, double phi1, double whole,
+                   int depth) const
     {
         const double theta = 0.5 * (theta0 + theta1), phi = 0.5 * (phi0 + phi1);
         const double a = rule(theta0, theta, phi0, phi), b = rule(theta0, theta, phi, phi1);
@@ -103,8 +105,10 @@ private:
         const double reach = 0.5 * (theta1 - theta0) + 0.5 * (phi1 - phi0) * std::sin(theta);
         const bool horizon = std::abs(_grid.direction(theta, phi).z) < reach && depth < 4;
         if (depth >= 7 || (depth > 0 && !horizon && std::abs(sum - whole) < 1e-7)) return sum;
-        return refined(theta0, theta, phi0, phi, a, depth + 1) + refined(theta0, theta, phi, phi1, b, depth + 1) +
-               refined(theta, theta1, phi0, phi, c, depth + 1) + refined(theta, theta1, phi, phi1, d, depth + 1);
+        return refined(theta0, theta, phi0, phi, a, depth + 1) +
+               refined(theta0, theta, phi, phi1, b, depth + 1) +
+               refined(theta, theta1, phi0, phi, c, depth + 1) +
+               refined(theta, theta1, phi, phi1, d, depth + 1);
     }
 
     const Bsdf& _bsdf;
@@ -115,11 +119,11 @@ private:
 
 struct Result
 {
-    double fit = 1.0;          ///< probability of the chi-square test
-    double total = 0.0;        ///< integral of the density
-    double accepted = 0.0;     ///< share of samples that were not discarded
+    double fit = 1.0;            ///< probability of the chi-square test
+    double total = 0.0;          ///< integral of the density
+    double accepted = 0.0;       ///< share of samples that were not discarded
     double withoutDensity = 0.0; ///< samples in cells of zero density
-    int inconsistent = 0;      ///< samples whose density or weight differs from evalBsdf's
+    int inconsistent = 0;        ///< samples whose density or weight differs from evalBsdf's
 };
 
 Result testDensity(const Bsdf& bsdf, Vec3 wo, uint32_t seed)
@@ -137,11 +141,13 @@ Result testDensity(const Bsdf& bsdf, Vec3 wo, uint32_t seed)
         const std::optional<BsdfSample> sample = sampleBsdf(bsdf, wo, uLobe, u, v);
         if (!sample) continue;
         const bool isAbove = sample->wi.z > 0.0f;
-        ++observed[isAbove ? above.cellOf(sample->wi) : kRows * kColumns + below.cellOf(sample->wi)];
+        ++observed[isAbove ? above.cellOf(sample->wi)
+                           : kRows * kColumns + below.cellOf(sample->wi)];
         result.accepted += 1.0 / kSamples;
         const BsdfValue value = evalBsdf(bsdf, wo, sample->wi);
         const Vec3 difference = sample->weight * sample->pdfW - value.fCos;
-        result.inconsistent += sample->pdfW != value.pdfW || sample->delta || sample->transmitted == isAbove ||
+        result.inconsistent += sample->pdfW != value.pdfW || sample->delta ||
+                               sample->transmitted == isAbove ||
                                glm::length(difference) > 1e-5f * (glm::length(value.fCos) + 1e-20f);
     }
     for (int side = 0; side < 2; ++side)
@@ -154,9 +160,11 @@ Result testDensity(const Bsdf& bsdf, Vec3 wo, uint32_t seed)
             for (std::size_t column = 0; column < kColumns; ++column)
             {
                 const double width = 2.0 * M_PI / kColumns;
-                const double probability = integral(grid.edges[row], grid.edges[row + 1],
-                                                    width * double(column), width * double(column + 1));
-                const std::size_t cell = (static_cast<std::size_t>(side) * kRows + row) * kColumns + column;
+                const double probability =
+                    integral(grid.edges[row], grid.edges[row + 1], width * double(column),
+                             width * double(column + 1));
+                const std::size_t cell =
+                    (static_cast<std::size_t>(side) * kRows + row) * kColumns + column;
                 expected[cell] = probability * kSamples;
                 result.total += probability;
                 if (probability == 0.0) result.withoutDensity += observed[cell];
@@ -169,7 +177,8 @@ Result testDensity(const Bsdf& bsdf, Vec3 wo, uint32_t seed)
 
 } // namespace
 
-TEST_CASE("bsdf: samples follow the density of evalBsdf, for every rough kind and angle", "[shading][statistics]")
+TEST_CASE("bsdf: samples follow the density of evalBsdf, for every rough kind and angle",
+          "[shading][statistics]")
 {
     // Chi-square on up to 640 cells with 2e5 samples each; 1 % false alarms in all (Sidak).
     const std::vector<BsdfKind> kinds = roughKinds();
@@ -179,7 +188,8 @@ TEST_CASE("bsdf: samples follow the density of evalBsdf, for every rough kind an
                       [&](std::size_t i)
                       {
                           results[i] = testDensity(kinds[i / directions.size()].bsdf,
-                                                   directions[i % directions.size()], static_cast<uint32_t>(i));
+                                                   directions[i % directions.size()],
+                                                   static_cast<uint32_t>(i));
                       });
     const double significance = sidak(0.01, static_cast<int>(results.size()));
     for (std::size_t i = 0; i < results.size(); ++i)
@@ -187,16 +197,19 @@ TEST_CASE("bsdf: samples follow the density of evalBsdf, for every rough kind an
         const Result& result = results[i];
         CAPTURE(kinds[i / directions.size()].name, directions[i % directions.size()].z);
         CHECK(result.fit > significance);
-        CHECK(result.withoutDensity < 5); // slivers of cells above the horizon, too thin for the quadrature
+        CHECK(result.withoutDensity <
+              5); // slivers of cells above the horizon, too thin for the quadrature
         CHECK(result.inconsistent == 0);
         CHECK(result.total < 1.0 + 1e-3);
         // What the density lacks to 1 are the discarded samples: 5 sigma.
-        const double spread = std::sqrt(result.total * std::max(1.0 - result.total, 0.0) / kSamples);
+        const double spread =
+            std::sqrt(result.total * std::max(1.0 - result.total, 0.0) / kSamples);
         CHECK(result.accepted == Approx(result.total).margin(5.0 * spread + 2e-4));
     }
 }
 
-TEST_CASE("bsdf: smooth lobes are chosen with the probability that they claim", "[shading][statistics]")
+TEST_CASE("bsdf: smooth lobes are chosen with the probability that they claim",
+          "[shading][statistics]")
 {
     for (const BsdfKind& kind : smoothKinds())
     {

@@ -27,7 +27,8 @@ Estimate albedo(const Bsdf& bsdf, Vec3 wo, int samples, uint32_t seed)
     for (int i = 0; i < samples; ++i)
     {
         const float uLobe = random(), u = random(), v = random();
-        const std::optional<BsdfSample> sample = sampleBsdf(bsdf, wo, uLobe, u, v, Transport::Importance);
+        const std::optional<BsdfSample> sample =
+            sampleBsdf(bsdf, wo, uLobe, u, v, Transport::Importance);
         estimate.add(sample ? sample->weight.y : 0.0);
     }
     return estimate;
@@ -55,18 +56,24 @@ Bsdf roughGlass(float eta, float alpha)
 
 } // namespace
 
-TEST_CASE("bsdf: single-scattering GGX keeps what the white furnace table says", "[shading][statistics]")
+TEST_CASE("bsdf: single-scattering GGX keeps what the white furnace table says",
+          "[shading][statistics]")
 {
     // 1 - ln 2 at alpha = 1 is exact; the others are rounded to 3 or 4 digits.
     const struct
     {
         float alpha;
         double albedo, rounding;
-    } table[] = {{1.0f, 1.0 - std::log(2.0), 0.0}, {0.5f, 0.688, 5e-4}, {0.3f, 0.878, 5e-4}, {0.1f, 0.988, 5e-4}, {0.01f, 0.9999, 5e-5}};
+    } table[] = {{1.0f, 1.0 - std::log(2.0), 0.0},
+                 {0.5f, 0.688, 5e-4},
+                 {0.3f, 0.878, 5e-4},
+                 {0.1f, 0.988, 5e-4},
+                 {0.01f, 0.9999, 5e-5}};
     for (const auto& row : table)
     {
         CAPTURE(row.alpha);
-        CHECK(albedo(perfectMetal(row.alpha), Vec3(0, 0, 1), 400000, 1).agrees(row.albedo, row.rounding + 1e-6));
+        CHECK(albedo(perfectMetal(row.alpha), Vec3(0, 0, 1), 400000, 1)
+                  .agrees(row.albedo, row.rounding + 1e-6));
     }
 }
 
@@ -79,7 +86,8 @@ TEST_CASE("bsdf: no surface makes energy, from any angle", "[shading][statistics
             CAPTURE(kind.name, cosine);
             const Estimate share = albedo(kind.bsdf, directionOf(cosine, 0.4), 40000, 2);
             // Under a rough coat the base gets what a smooth one would let through: see Bsdf.h.
-            const bool inside = kind.bsdf.eta < 1.0f && !kind.bsdf.isDiffuse() && !kind.bsdf.isSmooth();
+            const bool inside =
+                kind.bsdf.eta < 1.0f && !kind.bsdf.isDiffuse() && !kind.bsdf.isSmooth();
             const double limit = kind.bsdf.isSmooth() ? 1.0002 : inside ? 1.08 : 1.01;
             CHECK(share.mean() < limit + 4.0 * share.standardError());
         }
@@ -96,8 +104,8 @@ TEST_CASE("bsdf: smooth surfaces and Lambert's keep all energy", "[shading][stat
         {
             CAPTURE(kind.name, cosine);
             const Estimate share = albedo(kind.bsdf, directionOf(cosine, 0.4), 100000, 3);
-            // Under a smooth coat this holds on average over angles of the light: exactly, for light from
-            // all sides. The quadrature of its mean reflectance is good to 1e-4.
+            // Under a smooth coat this holds on average over angles of the light: exactly, for
+            // light from all sides. The quadrature of its mean reflectance is good to 1e-4.
             CHECK(share.agrees(1.0, 2e-4));
         }
     }
@@ -122,7 +130,8 @@ TEST_CASE("bsdf: reflection is the same both ways", "[shading]")
 
 TEST_CASE("bsdf: refraction of radiance is the adjoint of that of importance", "[shading]")
 {
-    // f(wo -> wi) of radiance with eta is f(wi -> wo) of importance with 1/eta, seen from the other side.
+    // f(wo -> wi) of radiance with eta is f(wi -> wo) of importance with 1/eta, seen from the other
+    // side.
     Uniform random(5);
     const auto turned = [](Vec3 w) { return Vec3(w.x, w.y, -w.z); };
     for (const float eta : {1.5f, 1.0f / 1.5f, 2.4f, 1.05f})
@@ -135,7 +144,8 @@ TEST_CASE("bsdf: refraction of radiance is the adjoint of that of importance", "
             {
                 const Vec3 wo = directionOf(random.between(0.02, 1.0), random.between(0.0, 6.28));
                 const float u = random(), v = random();
-                const std::optional<BsdfSample> sample = sampleBsdf(near, wo, kOneMinusEpsilon, u, v);
+                const std::optional<BsdfSample> sample =
+                    sampleBsdf(near, wo, kOneMinusEpsilon, u, v);
                 if (!sample || !sample->transmitted || sample->wi.z > -0.02f) continue;
                 const Vec3 wi = sample->wi;
                 const float radiance = evalBsdf(near, wo, wi).fCos.x / -wi.z;
@@ -169,9 +179,9 @@ TEST_CASE("bsdf: grazing and extreme arguments give finite, consistent samples",
     const float edges[] = {0.0f, 1e-7f, 0.25f, 0.5f, 0.999999f, kOneMinusEpsilon};
     const auto isGood = [](const BsdfSample& s)
     {
-        return isFinite(s.weight) && s.weight.x >= 0.0f && s.weight.y >= 0.0f && s.weight.z >= 0.0f &&
-               std::isfinite(s.pdfW) && s.pdfW > 0.0f && std::abs(glm::length(s.wi) - 1.0f) < 1e-5f &&
-               (s.wi.z < 0.0f) == s.transmitted;
+        return isFinite(s.weight) && s.weight.x >= 0.0f && s.weight.y >= 0.0f &&
+               s.weight.z >= 0.0f && std::isfinite(s.pdfW) && s.pdfW > 0.0f &&
+               std::abs(glm::length(s.wi) - 1.0f) < 1e-5f && (s.wi.z < 0.0f) == s.transmitted;
     };
     for (const BsdfKind& kind : allKinds())
     {
@@ -183,7 +193,8 @@ TEST_CASE("bsdf: grazing and extreme arguments give finite, consistent samples",
             {
                 for (const Transport transport : {Transport::Radiance, Transport::Importance})
                 {
-                    const auto s = sampleBsdf(kind.bsdf, wo, edges[i / 36], edges[i / 6 % 6], edges[i % 6], transport);
+                    const auto s = sampleBsdf(kind.bsdf, wo, edges[i / 36], edges[i / 6 % 6],
+                                              edges[i % 6], transport);
                     if (s) bad += !isGood(*s);
                 }
             }
@@ -192,7 +203,8 @@ TEST_CASE("bsdf: grazing and extreme arguments give finite, consistent samples",
                 Vec3 wi = directionOf(std::abs(other), 2.5);
                 if (other < 0.0) wi.z = -wi.z;
                 const BsdfValue value = evalBsdf(kind.bsdf, wo, wi);
-                bad += !(isFinite(value.fCos) && std::isfinite(value.pdfW) && value.fCos.x >= 0.0f && value.pdfW >= 0.0f);
+                bad += !(isFinite(value.fCos) && std::isfinite(value.pdfW) &&
+                         value.fCos.x >= 0.0f && value.pdfW >= 0.0f);
             }
             CAPTURE(kind.name, cosine);
             CHECK(bad == 0);
@@ -258,6 +270,6 @@ TEST_CASE("bsdf: a clear slab passes (1-R)/(1+R)", "[shading]")
         CAPTURE(c.degrees);
         CHECK(through / (1.0 - back * back) == Approx(c.transmittance).epsilon(1e-6));
         CHECK(in.reflection.x == Approx(back).epsilon(1e-5)); // the same R from both sides
-        CHECK(glm::length(out.refracted + wo) < 1e-6f); // parallel to where it came from
+        CHECK(glm::length(out.refracted + wo) < 1e-6f);       // parallel to where it came from
     }
 }

@@ -44,7 +44,8 @@ Material phong(float specular, float shininess)
 void add(std::vector<BsdfKind>& kinds, const std::string& name, const Material& material)
 {
     kinds.push_back({name, bsdfOf(material, true)});
-    if (material.transmission > 0.0f) kinds.push_back({name + ", from inside", bsdfOf(material, false)});
+    if (material.transmission > 0.0f)
+        kinds.push_back({name + ", from inside", bsdfOf(material, false)});
 }
 
 } // namespace

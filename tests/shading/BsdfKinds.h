@@ -16,7 +16,8 @@ struct BsdfKind
     Bsdf bsdf;
 };
 
-/// Made by MaterialTable, as in a scene; white, so that a furnace shows energy that is made or lost.
+/// Made by MaterialTable, as in a scene; white, so that a furnace shows energy that is made or
+/// lost.
 std::vector<BsdfKind> roughKinds();
 
 /// Kinds with delta lobes.

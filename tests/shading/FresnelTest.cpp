@@ -10,7 +10,10 @@ using namespace osgRayTrace::engine;
 namespace
 {
 
-double radians(double degrees) { return degrees * M_PI / 180.0; }
+double radians(double degrees)
+{
+    return degrees * M_PI / 180.0;
+}
 
 float reflectance(double degrees, float eta)
 {
@@ -44,13 +47,15 @@ TEST_CASE("fresnel: glass of index 1.5", "[shading]")
 
 TEST_CASE("fresnel: the formula of the two polarisations for all angles and indices", "[shading]")
 {
-    for (const float eta : {1.01f, 1.33f, 1.5f, 2.4f, 1.0f / 1.33f, 1.0f / 1.5f, 1.0f / 2.4f, 10.0f})
+    for (const float eta :
+         {1.01f, 1.33f, 1.5f, 2.4f, 1.0f / 1.33f, 1.0f / 1.5f, 1.0f / 2.4f, 10.0f})
     {
         for (int i = 0; i <= 1000; ++i)
         {
             const float cosine = static_cast<float>(i) / 1000.0f;
             CAPTURE(eta, cosine);
-            REQUIRE(fresnelDielectric(cosine, eta) == Approx(exact(cosine, eta)).margin(2e-6).epsilon(2e-4));
+            REQUIRE(fresnelDielectric(cosine, eta) ==
+                    Approx(exact(cosine, eta)).margin(2e-6).epsilon(2e-4));
         }
     }
 }
@@ -61,11 +66,14 @@ TEST_CASE("fresnel: total reflection begins at the critical angle", "[shading]")
     const double critical = 41.810315;
     for (const double above : {1e-5, 1e-3, 1.0})
         CHECK(reflectance(critical + above, eta) == Approx(1.0).margin(above < 1e-4 ? 3e-3 : 0.0));
-    // The reflectance falls as the root of the distance: float cosines are 6e-8 apart, which is 2e-3 at 1e-5
-    // degrees and below 1e-4 from 1e-3 degrees on.
-    CHECK(reflectance(critical - 1e-5, eta) == Approx(exact(std::cos(radians(critical - 1e-5)), 1.0 / 1.5)).margin(3e-3));
-    CHECK(reflectance(critical - 1e-2, eta) == Approx(exact(std::cos(radians(critical - 1e-2)), 1.0 / 1.5)).margin(1e-4));
-    CHECK_FALSE(refract(Vec3(std::sin(radians(41.82)), 0, std::cos(radians(41.82))), Vec3(0, 0, 1), eta));
+    // The reflectance falls as the root of the distance: float cosines are 6e-8 apart, which is
+    // 2e-3 at 1e-5 degrees and below 1e-4 from 1e-3 degrees on.
+    CHECK(reflectance(critical - 1e-5, eta) ==
+          Approx(exact(std::cos(radians(critical - 1e-5)), 1.0 / 1.5)).margin(3e-3));
+    CHECK(reflectance(critical - 1e-2, eta) ==
+          Approx(exact(std::cos(radians(critical - 1e-2)), 1.0 / 1.5)).margin(1e-4));
+    CHECK_FALSE(
+        refract(Vec3(std::sin(radians(41.82)), 0, std::cos(radians(41.82))), Vec3(0, 0, 1), eta));
     CHECK(refract(Vec3(std::sin(radians(41.80)), 0, std::cos(radians(41.80))), Vec3(0, 0, 1), eta));
 }
 

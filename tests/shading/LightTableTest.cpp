@@ -17,7 +17,8 @@ double solidAngle(Vec3d a, Vec3d b, Vec3d c)
 {
     const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
     const double numerator = std::abs(glm::dot(a, glm::cross(b, c)));
-    return 2.0 * std::atan2(numerator, la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+    return 2.0 * std::atan2(numerator, la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la +
+                                           glm::dot(c, a) * lb);
 }
 
 double solidAngle(const Mesh& mesh, Vec3d from)
@@ -30,15 +31,17 @@ double solidAngle(const Mesh& mesh, Vec3d from)
 }
 
 /// Mean of 1/pdfW over stratified samples: the solid angle.
-double sampledSolidAngle(const LightTable& table, Vec3 from, int side = 516) // whole strata for 2 and 12 triangles
+double sampledSolidAngle(const LightTable& table, Vec3 from,
+                         int side = 516) // whole strata for 2 and 12 triangles
 {
     double sum = 0.0;
     for (int y = 0; y < side; ++y)
     {
         for (int x = 0; x < side; ++x)
         {
-            const auto sample = table.sampleArea(0, from, (static_cast<float>(x) + 0.5f) / static_cast<float>(side),
-                                                 (static_cast<float>(y) + 0.5f) / static_cast<float>(side));
+            const auto sample =
+                table.sampleArea(0, from, (static_cast<float>(x) + 0.5f) / static_cast<float>(side),
+                                 (static_cast<float>(y) + 0.5f) / static_cast<float>(side));
             if (sample) sum += 1.0 / sample->pdfW;
         }
     }
@@ -71,7 +74,8 @@ TEST_CASE("area light: a closed emissive mesh is seen twice, front and back", "[
     CHECK(table.area(0) == Approx(24.0));
     CHECK(sampledSolidAngle(table, Vec3(0.0f)) == Approx(4.0 * M_PI).epsilon(2e-3));
     const Vec3 outside(3.0f, 0.5f, 0.2f);
-    CHECK(sampledSolidAngle(table, outside) == Approx(solidAngle(*builder.scene->meshes[0], Vec3d(outside))).epsilon(2e-3));
+    CHECK(sampledSolidAngle(table, outside) ==
+          Approx(solidAngle(*builder.scene->meshes[0], Vec3d(outside))).epsilon(2e-3));
 }
 
 TEST_CASE("area light: one-sided lights are dark behind", "[shading]")
@@ -90,11 +94,13 @@ TEST_CASE("area light: one-sided lights are dark behind", "[shading]")
     CHECK_FALSE(table.sampleArea(0, Vec3(3.0f, 0.5f, 1.0f), 0.25f, 0.75f)); // on its plane
 }
 
-TEST_CASE("area light: triangles of a mesh are chosen by area, those without area never", "[shading][statistics]")
+TEST_CASE("area light: triangles of a mesh are chosen by area, those without area never",
+          "[shading][statistics]")
 {
     // Areas 0.5, 0, 1.5, 0; the second has two equal corners, the fourth lies on a line.
-    const auto mesh = newMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {8, 0, 0}, {5, 1, 0}, {6.5f, 0, 0}},
-                              {{0, 1, 2}, {0, 0, 2}, {3, 4, 5}, {3, 6, 4}});
+    const auto mesh =
+        newMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {8, 0, 0}, {5, 1, 0}, {6.5f, 0, 0}},
+                {{0, 1, 2}, {0, 0, 2}, {3, 4, 5}, {3, 6, 4}});
     SceneBuilder builder;
     builder.addEmissive(mesh, lamp(Vec3(1.0f)));
     const LightTable table(*builder.scene);
@@ -128,7 +134,8 @@ TEST_CASE("area light: triangles of a mesh are chosen by area, those without are
 TEST_CASE("area light: a mesh without any area, or without radiance, is never sampled", "[shading]")
 {
     SceneBuilder builder;
-    builder.addEmissive(newMesh({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}, {1, 1, 1}}), lamp(Vec3(1.0f)));
+    builder.addEmissive(newMesh({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}, {1, 1, 1}}),
+                        lamp(Vec3(1.0f)));
     builder.addEmissive(quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), lamp(Vec3(0.0f)));
     builder.addQuadLight({0, 0, 0}, {1, 0, 0}, {2, 0, 0}, Vec3(1.0f));
     const LightTable table(*builder.scene);
@@ -138,10 +145,12 @@ TEST_CASE("area light: a mesh without any area, or without radiance, is never sa
     CHECK_FALSE(table.sampleArea(0, Vec3(0.0f, 0.0f, 1.0f), 0.5f, 0.5f));
 }
 
-TEST_CASE("area light: placed meshes are sampled where they are, with their area there", "[shading]")
+TEST_CASE("area light: placed meshes are sampled where they are, with their area there",
+          "[shading]")
 {
     SceneBuilder builder;
-    const uint32_t index = builder.addEmissive(quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), lamp(Vec3(1.0f)));
+    const uint32_t index =
+        builder.addEmissive(quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), lamp(Vec3(1.0f)));
     Instance& instance = builder.scene->instances[index];
     instance.placed = true;
     instance.engineFromLocal.linear = Mat3(3.0f);
@@ -158,7 +167,8 @@ TEST_CASE("area light: lights are chosen by power", "[shading]")
     SceneBuilder builder;
     builder.addQuadLight({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Vec3(1.0f));
     builder.addLight(pointLight(Vec3(0.0f)));
-    builder.addQuadLight({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Vec3(1.0f), true); // both sides: twice the power
+    builder.addQuadLight({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Vec3(1.0f),
+                         true); // both sides: twice the power
     builder.addQuadLight({0, 0, 0}, {1, 0, 0}, {0, 5, 0}, Vec3(1.0f));
     const LightTable table(*builder.scene);
     CHECK(table.areaLights() == std::vector<uint32_t>{0, 2, 3});
@@ -193,7 +203,8 @@ TEST_CASE("delta light: attenuation and spot terms of OpenGL", "[shading]")
     light.spotExponent = 2.0f;
     CHECK(sampleDelta(light, Vec3(0.0f)).attenuation == Approx(1.0));
     const float x = 2.0f * std::tan(glm::radians(20.0f));
-    CHECK(sampleDelta(light, Vec3(x, 0, 0)).attenuation == Approx(std::pow(std::cos(glm::radians(20.0)), 2.0)));
+    CHECK(sampleDelta(light, Vec3(x, 0, 0)).attenuation ==
+          Approx(std::pow(std::cos(glm::radians(20.0)), 2.0)));
     CHECK(sampleDelta(light, Vec3(2.0f * std::tan(glm::radians(31.0f)), 0, 0)).attenuation == 0.0f);
     CHECK(sampleDelta(light, Vec3(0, 0, 4)).attenuation == 0.0f); // behind the spot
 

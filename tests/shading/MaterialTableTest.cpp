@@ -96,13 +96,14 @@ TEST_CASE("material: textures multiply the physical factors", "[shading]")
     material.metallicRoughnessTexture = 1;
     material.emissionTexture = 2;
     Scene scene = sceneOf(material);
-    scene.textures = {constantTexture({0.5f, 1.0f, 0.0f, 1.0f}), constantTexture({0.9f, 0.5f, 0.2f, 1.0f}),
+    scene.textures = {constantTexture({0.5f, 1.0f, 0.0f, 1.0f}),
+                      constantTexture({0.9f, 0.5f, 0.2f, 1.0f}),
                       constantTexture({1.0f, 0.5f, 0.25f, 1.0f})};
     const MaterialTable table(scene);
     CHECK_FALSE(table[0].constant);
     CHECK(table[0].emits);
     const Bsdf bsdf = table.bsdf(0, {});
-    CHECK(bsdf.alpha == Approx(0.16)); // (0.8 * G)^2
+    CHECK(bsdf.alpha == Approx(0.16));  // (0.8 * G)^2
     CHECK(bsdf.grazing == Approx(0.1)); // 0.5 * B
     CHECK(bsdf.reflectance.x == Approx(0.1 * 0.25));
     CHECK(bsdf.diffuse.y == Approx(0.9 * 0.5));

@@ -28,7 +28,10 @@ Texture ramp(bool linear, TextureWrap wrap)
     return texture;
 }
 
-float red(const Texture& texture, float u, float v) { return sampleTexture(texture, Vec2(u, v)).x; }
+float red(const Texture& texture, float u, float v)
+{
+    return sampleTexture(texture, Vec2(u, v)).x;
+}
 
 } // namespace
 
@@ -50,7 +53,8 @@ TEST_CASE("texture: bilinear between texel centres", "[shading]")
     CHECK(red(texture, 0.25f, 0.25f) == Approx(0.05));
     CHECK(red(texture, 0.5f, 0.7f) == Approx(0.15));
     CHECK(sampleTexture(texture, Vec2(0.3f, 0.5f)).y == Approx(0.05));
-    CHECK(red(texture, 0.0f, 0.0f) == Approx(0.0).margin(1e-7)); // beyond the outer centres: clamped
+    CHECK(red(texture, 0.0f, 0.0f) ==
+          Approx(0.0).margin(1e-7)); // beyond the outer centres: clamped
     CHECK(red(texture, 1.0f, 0.0f) == Approx(0.3));
 }
 
@@ -90,14 +94,16 @@ TEST_CASE("texture: sRGB bytes are decoded before filtering, alpha never", "[sha
 TEST_CASE("texture: any coordinate is safe", "[shading]")
 {
     const float nan = std::nanf("");
-    for (const TextureWrap wrap : {TextureWrap::Repeat, TextureWrap::ClampToEdge, TextureWrap::Mirror})
+    for (const TextureWrap wrap :
+         {TextureWrap::Repeat, TextureWrap::ClampToEdge, TextureWrap::Mirror})
     {
         for (const bool linear : {false, true})
         {
             const Texture texture = ramp(linear, wrap);
             for (const float u : {nan, kInfinity, -kInfinity, 1e30f, -1e30f, 2e8f, -2e8f})
             {
-                const Vec4 a = sampleTexture(texture, Vec2(u, 0.3f)), b = sampleTexture(texture, Vec2(0.3f, u));
+                const Vec4 a = sampleTexture(texture, Vec2(u, 0.3f)),
+                           b = sampleTexture(texture, Vec2(0.3f, u));
                 CHECK((a.x >= 0.0f && a.x <= 0.3f));
                 CHECK((b.y >= 0.0f && b.y <= 0.1f));
             }
