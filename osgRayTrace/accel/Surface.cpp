@@ -93,6 +93,64 @@ OSGRAYTRACE_INLINE float inversePowerOfTwo(float x)
     return result;
 }
 
+/// The plane of a triangle and the error bound of points on it.
+struct Plane
+{
+    float nx, ny, nz; ///< unit, of the counter-clockwise side; 0 for a triangle without area
+    float offset;
+};
+
+OSGRAYTRACE_INLINE Plane planeOf(float ax, float ay, float az, float bx, float by, float bz, float cx,
+                                 float cy, float cz, float transformBound)
+{
+    const float e1x = bx - ax, e1y = by - ay, e1z = bz - az;
+    const float e2x = cx - ax, e2y = cy - ay, e2z = cz - az;
+    // Edges are scaled to about 1 first, by a power of two: the product of micrometre edges would be
+    // denormal.
+    const float edge1 = largestOf(e1x, e1y, e1z), edge2 = largestOf(e2x, e2y, e2z);
+    const float edge = edge1 > edge2 ? edge1 : edge2;
+    const float scale = inversePowerOfTwo(edge);
+    const float ux = e1x * scale, uy = e1y * scale, uz = e1z * scale;
+    const float vx = e2x * scale, vy = e2y * scale, vz = e2z * scale;
+    const float nx = uy * vz - uz * vy;
+    const float ny = uz * vx - ux * vz;
+    const float nz = ux * vy - uy * vx;
+    const float length2 = nx * nx + ny * ny + nz * nz;
+    const float inverse = select(length2 > 0.0f, 1.0f / std::sqrt(length2), 0.0f);
+    Plane plane;
+    plane.nx = nx * inverse;
+    plane.ny = ny * inverse;
+    plane.nz = nz * inverse;
+    const float bound = largestOf(ax, bx, cx) * std::fabs(plane.nx) +
+                        largestOf(ay, by, cy) * std::fabs(plane.ny) +
+                        largestOf(az, bz, cz) * std::fabs(plane.nz);
+    plane.offset = kOffsetScale * (bound + 2.0f * transformBound) + kEdgeScale * edge;
+    return plane;
+}
+
+/// Everything about lane i of a surface but its interpolated normal. Returns all bits if the ray comes
+/// from the front.
+OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, const Plane& plane, float ax,
+                                       float ay, float az, float bx, float by, float bz, float cx,
+                                       float cy, float cz, SurfaceLanes& s)
+{
+    const float u = block.u[i], v = block.v[i], w = 1.0f - u - v;
+    s.position.x[i] = w * ax + u * bx + v * cx;
+    s.position.y[i] = w * ay + u * by + v * cy;
+    s.position.z[i] = w * az + u * bz + v * cz;
+    const float cosine = plane.nx * block.ray.directionX[i] + plane.ny * block.ray.directionY[i] +
+                         plane.nz * block.ray.directionZ[i];
+    const float side = select(cosine > 0.0f, -1.0f, 1.0f);
+    s.geometricNormal.x[i] = plane.nx * side;
+    s.geometricNormal.y[i] = plane.ny * side;
+    s.geometricNormal.z[i] = plane.nz * side;
+    s.shadingNormal.x[i] = plane.nx;
+    s.shadingNormal.y[i] = plane.ny;
+    s.shadingNormal.z[i] = plane.nz;
+    s.offset[i] = plane.offset;
+    return maskOf(cosine <= 0.0f);
+}
+
 OSGRAYTRACE_KERNEL
 void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
 {
@@ -100,41 +158,27 @@ void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
     OSGRAYTRACE_SIMD_OR(front)
     for (int i = 0; i < kLanes; ++i)
     {
-        const float u = block.u[i], v = block.v[i], w = 1.0f - u - v;
-        s.position.x[i] = w * t.a.x[i] + u * t.b.x[i] + v * t.c.x[i];
-        s.position.y[i] = w * t.a.y[i] + u * t.b.y[i] + v * t.c.y[i];
-        s.position.z[i] = w * t.a.z[i] + u * t.b.z[i] + v * t.c.z[i];
-
-        const float e1x = t.b.x[i] - t.a.x[i], e1y = t.b.y[i] - t.a.y[i], e1z = t.b.z[i] - t.a.z[i];
-        const float e2x = t.c.x[i] - t.a.x[i], e2y = t.c.y[i] - t.a.y[i], e2z = t.c.z[i] - t.a.z[i];
-        // Edges are scaled to about 1 first, by a power of two: the product of micrometre edges would be
-        // denormal.
-        const float edge1 = largestOf(e1x, e1y, e1z), edge2 = largestOf(e2x, e2y, e2z);
-        const float edge = edge1 > edge2 ? edge1 : edge2;
-        const float scale = inversePowerOfTwo(edge);
-        const float ax = e1x * scale, ay = e1y * scale, az = e1z * scale;
-        const float bx = e2x * scale, by = e2y * scale, bz = e2z * scale;
-        const float nx = ay * bz - az * by;
-        const float ny = az * bx - ax * bz;
-        const float nz = ax * by - ay * bx;
-        const float length2 = nx * nx + ny * ny + nz * nz;
-        const float inverse = select(length2 > 0.0f, 1.0f / std::sqrt(length2), 0.0f);
-        const float cosine = nx * block.ray.directionX[i] + ny * block.ray.directionY[i] +
-                             nz * block.ray.directionZ[i];
-        const float side = select(cosine > 0.0f, -inverse, inverse);
-        s.geometricNormal.x[i] = nx * side;
-        s.geometricNormal.y[i] = ny * side;
-        s.geometricNormal.z[i] = nz * side;
-        s.shadingNormal.x[i] = nx * inverse;
-        s.shadingNormal.y[i] = ny * inverse;
-        s.shadingNormal.z[i] = nz * inverse;
-        front |= bitOfLane(maskOf(cosine <= 0.0f), i);
-
-        const float bound = largestOf(t.a.x[i], t.b.x[i], t.c.x[i]) * std::fabs(nx * inverse) +
-                            largestOf(t.a.y[i], t.b.y[i], t.c.y[i]) * std::fabs(ny * inverse) +
-                            largestOf(t.a.z[i], t.b.z[i], t.c.z[i]) * std::fabs(nz * inverse);
-        s.offset[i] = kOffsetScale * (bound + 2.0f * t.transformBound[i]) + kEdgeScale * edge;
+        const float ax = t.a.x[i], ay = t.a.y[i], az = t.a.z[i];
+        const float bx = t.b.x[i], by = t.b.y[i], bz = t.b.z[i];
+        const float cx = t.c.x[i], cy = t.c.y[i], cz = t.c.z[i];
+        const Plane plane = planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[i]);
+        front |= bitOfLane(setSurface(block, i, plane, ax, ay, az, bx, by, bz, cx, cy, cz, s), i);
     }
+    s.front = front;
+}
+
+/// The same where all hits are on the triangle of lane from: one plane for all.
+OSGRAYTRACE_KERNEL
+void geometryOfOne(const RayHitBlock& block, const TriangleLanes& t, int from, SurfaceLanes& s)
+{
+    const float ax = t.a.x[from], ay = t.a.y[from], az = t.a.z[from];
+    const float bx = t.b.x[from], by = t.b.y[from], bz = t.b.z[from];
+    const float cx = t.c.x[from], cy = t.c.y[from], cz = t.c.z[from];
+    const Plane plane = planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[from]);
+    LaneMask front = 0;
+    OSGRAYTRACE_SIMD_OR(front)
+    for (int i = 0; i < kLanes; ++i)
+        front |= bitOfLane(setSurface(block, i, plane, ax, ay, az, bx, by, bz, cx, cy, cz, s), i);
     s.front = front;
 }
 
@@ -183,27 +227,22 @@ LaneMask hitLanes(const RayHitBlock& block, LaneMask active)
     return hits & active;
 }
 
-/// One triangle in all lanes, stored as wide as it will be loaded.
+/// The vertex normals of one lane in all lanes, stored as wide as they will be loaded.
 OSGRAYTRACE_KERNEL
-void broadcast(int from, bool smooth, TriangleLanes& t)
+void broadcastNormals(int from, TriangleLanes& t)
 {
-    Vec3Lanes* lists[] = {&t.a, &t.b, &t.c, &t.na, &t.nb, &t.nc};
-    for (int k = 0; k < (smooth ? 6 : 3); ++k)
+    Vec3Lanes* lists[] = {&t.na, &t.nb, &t.nc};
+    for (Vec3Lanes* list : lists)
     {
-        Vec3Lanes& list = *lists[k];
-        const float x = list.x[from], y = list.y[from], z = list.z[from];
+        const float x = list->x[from], y = list->y[from], z = list->z[from];
         OSGRAYTRACE_SIMD
         for (int i = 0; i < kLanes; ++i)
         {
-            list.x[i] = x;
-            list.y[i] = y;
-            list.z[i] = z;
+            list->x[i] = x;
+            list->y[i] = y;
+            list->z[i] = z;
         }
     }
-    const float bound = t.transformBound[from];
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < kLanes; ++i)
-        t.transformBound[i] = bound;
 }
 
 void clearLane(TriangleLanes& lanes, int i)
@@ -236,6 +275,7 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
 {
     TriangleLanes triangles;
     const LaneMask hits = hitLanes(block, active);
+    surface.hits = hits;
     LaneMask smooth = 0, mirrored = 0;
     const int first = hits ? __builtin_ctz(hits) : 0;
     if (hits && isOneTriangle(block, hits, first))
@@ -244,7 +284,8 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
         const SurfaceRecord& record = table[instance];
         if (loadTriangle(record, block.primitive[first], first, triangles)) smooth = kAllLanes;
         if (isMirrored(record)) mirrored = kAllLanes;
-        broadcast(first, smooth != 0, triangles);
+        geometryOfOne(block, triangles, first, surface);
+        if (smooth) broadcastNormals(first, triangles);
         std::fill_n(surface.instance.v, kLanes, instance);
         std::fill_n(surface.material.v, kLanes, record.material);
     }
@@ -265,9 +306,8 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
             surface.instance[i] = instance;
             surface.material[i] = record.material;
         }
+        geometry(block, triangles, surface);
     }
-    surface.hits = hits;
-    geometry(block, triangles, surface);
     if (mirrored) turnMirrored(mirrored, surface);
     if (smooth) interpolateNormals(block, triangles, smooth, surface);
 }

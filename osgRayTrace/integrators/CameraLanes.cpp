@@ -22,7 +22,7 @@ void pixelPoints(const PassKey& key, int left, int bottom, bool centres, FloatLa
         const int px = left + (i & 3), py = bottom + (i >> 2);
         const uint32_t seed = pixelSeed(k, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
         float jx, jy;
-        sobol2(k.index, dimensionSeed(seed, DimensionPixel), jx, jy);
+        sobol2Ordered(k.index, dimensionSeed(seed, DimensionPixel), jx, jy);
         seeds[i] = seed;
         x[i] = static_cast<float>(px) + select(centres, 0.5f, jx);
         y[i] = static_cast<float>(py) + select(centres, 0.5f, jy);

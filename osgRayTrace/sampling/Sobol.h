@@ -59,6 +59,14 @@ OSGRAYTRACE_INLINE void sobol2(uint32_t index, uint32_t seed, float& x, float& y
     y = unitFloat(reverseBits(scrambleReversed(sobolSecondReversed(shuffled), seedY)));
 }
 
+/// The same without shuffling the index, which is only needed to keep two sequences apart: for the first
+/// dimensions of a sample.
+OSGRAYTRACE_INLINE void sobol2Ordered(uint32_t index, uint32_t seed, float& x, float& y)
+{
+    x = unitFloat(reverseBits(scrambleReversed(index, remix(seed, 0x2c1b3c6du))));
+    y = unitFloat(reverseBits(scrambleReversed(sobolSecondReversed(index), remix(seed, 0x297a2d39u))));
+}
+
 /// Point number index of the one-dimensional sequence of seed, in [0,1).
 OSGRAYTRACE_INLINE float sobol1(uint32_t index, uint32_t seed)
 {

@@ -182,7 +182,7 @@ RenderProgress RenderSession::Implementation::run(
     const bool wantsError = rule.relativeError > 0.0 || static_cast<bool>(keepGoing);
     for (int made = 0; made < rule.newPasses && film.passes() < rule.passes; ++made)
     {
-        if (secondsSince(start) >= rule.seconds) break;
+        if (made > 0 && secondsSince(start) >= rule.seconds) break;
         const Clock::time_point passStart = Clock::now();
         renderPass(contextOfPass(film.passes()), *integrator);
         progress.seconds += secondsSince(passStart);

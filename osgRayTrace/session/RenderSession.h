@@ -24,7 +24,7 @@ struct StopRule
 {
     int passes = std::numeric_limits<int>::max(); ///< accumulated passes, those of earlier calls included
     int newPasses = std::numeric_limits<int>::max(); ///< of this call
-    double seconds = std::numeric_limits<double>::infinity(); ///< of this call
+    double seconds = std::numeric_limits<double>::infinity(); ///< of this call; at least one pass is made
     double relativeError = 0.0;                   ///< estimated, of the accumulated image; 0: not used
 };
 

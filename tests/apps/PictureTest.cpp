@@ -129,14 +129,14 @@ TEST_CASE("osgraytrace: --reference compares with a file of the same picture", "
     CHECK(same.relMse == 0.0);
     CHECK(same.meanRatio == 1.0);
 
-    // Another seed: noise, but the same mean. Four passes are 1/sqrt(4 * 3072) of a pixel's noise
-    // apart.
+    // Another seed: noise, but the same mean. The light is a few bright pixels, whose edges carry most of
+    // the mean's noise: over 300 seeds its standard deviation is 2.7 %, so 4 sigma of a ratio are 15 %.
     const Outcome other =
         osgraytrace(folder, kBox + kQuick + "--seed 7 -o x.exr --reference r.exr --stats s.json");
     const Measures noise = measuresIn(other.output);
     CHECK(noise.rmse > 0.001);
     CHECK(noise.relMse > 0.0001);
-    CHECK(noise.meanRatio == Approx(1.0).epsilon(0.05));
+    CHECK(noise.meanRatio == Approx(1.0).epsilon(0.15));
 
     ExrImage picture, reference;
     REQUIRE(readExr(folder / "x.exr", picture) == "");
