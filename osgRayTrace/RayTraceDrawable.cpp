@@ -125,8 +125,17 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     const osg::Matrixd& viewMatrix = state.getModelViewMatrix();
     const osg::Matrixd& projection = state.getProjectionMatrix();
     if (!paused || !view->tracer.hasImage())
-        view->tracer.trace(version, engine::viewFromMatrices(viewMatrix, projection, viewport.width,
-                                                             viewport.height));
+    {
+        // Traced into the display at once, unless its size changes: then it shows the last image until
+        // there is a new one.
+        DisplayTexture& display = view->display;
+        const bool fits = display.width() == viewport.width && display.height() == viewport.height;
+        if (view->tracer.trace(version,
+                               engine::viewFromMatrices(viewMatrix, projection, viewport.width,
+                                                        viewport.height),
+                               fits ? display.rgba() : nullptr, fits ? display.depth() : nullptr))
+            display.modified();
+    }
     if (view->tracer.needsResolve(version))
     {
         view->display.resize(view->tracer.width(), view->tracer.height());

@@ -40,9 +40,8 @@ public:
         _session.setOptions(_options);
         StopRule rule;
         rule.passes = 1;
-        const RenderProgress progress = _session.render(rule);
-        _session.resolveDisplay(ToneMap(), _rgba.data(), _depth.data());
-        return progress;
+        const DisplayTarget display{ToneMap(), _rgba.data(), _depth.data()};
+        return _session.render(rule, {}, &display);
     }
 
 private:

@@ -35,7 +35,7 @@ bool same(const ToneMap& a, const ToneMap& b)
 
 } // namespace
 
-void ViewTracer::trace(const SceneVersion& version, const View& pass)
+bool ViewTracer::trace(const SceneVersion& version, const View& pass, uint8_t* rgba, float* depth)
 {
     if (_workers != version.workers)
     {
@@ -51,13 +51,14 @@ void ViewTracer::trace(const SceneVersion& version, const View& pass)
     StopRule rule;
     rule.passes = version.settings->getMaxPasses();
     rule.newPasses = version.settings->getPassesPerFrame();
-    const RenderProgress made = _session->render(rule);
-    if (!made.status.ok()) return;
-    if (made.restarted || made.passes != passesBefore)
-    {
-        _imageChanged = true;
-        estimateError(rule.passes, made.restarted);
-    }
+    const DisplayTarget display{toneMapFromSettings(*version.settings, version.scene->scene()), rgba, depth};
+    const RenderProgress made = _session->render(rule, {}, rgba ? &display : nullptr);
+    if (!made.status.ok() || (!made.restarted && made.passes == passesBefore)) return false;
+
+    estimateError(rule.passes, made.restarted);
+    _imageChanged = !rgba;
+    if (rgba) _resolved = display.toneMap;
+    return rgba != nullptr;
 }
 
 void ViewTracer::estimateError(int maxPasses, bool restarted)

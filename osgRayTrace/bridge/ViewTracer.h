@@ -21,7 +21,10 @@ class ViewTracer
 public:
     /// Traces the settings' passes of a frame, if the image needs any. Failures are in progress(),
     /// the image stays. Throws std::bad_alloc only.
-    void trace(const SceneVersion& version, const View& pass);
+    /// If rgba is not null it takes display values and depth of a new image as resolve() would write
+    /// them, for less: buffers of the pass's size. True if it did.
+    bool trace(const SceneVersion& version, const View& pass, uint8_t* rgba = nullptr,
+               float* depth = nullptr);
 
     /// Takes the settings of how the image is shown. True if the image, or that, differs from what
     /// was resolved last. False if there is no image.

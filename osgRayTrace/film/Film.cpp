@@ -19,15 +19,8 @@ constexpr std::size_t kChannels = 4;
 constexpr std::size_t kHalfFloats = kChannels * kTilePixels;
 
 OSGRAYTRACE_KERNEL
-void setOrAdd(float* __restrict sums, const float* __restrict values, bool set)
+void add(float* __restrict sums, const float* __restrict values)
 {
-    if (set)
-    {
-        OSGRAYTRACE_SIMD
-        for (std::size_t i = 0; i < kHalfFloats; ++i)
-            sums[i] = values[i];
-        return;
-    }
     OSGRAYTRACE_SIMD
     for (std::size_t i = 0; i < kHalfFloats; ++i)
         sums[i] += values[i];
@@ -51,7 +44,6 @@ void scaled(const float* __restrict sums, float scale, float* __restrict out)
 }
 
 float* floatsOf(TileRgba& values) { return values[0].r.v; }
-const float* floatsOf(const TileRgba& values) { return values[0].r.v; }
 
 } // namespace
 
@@ -69,7 +61,7 @@ void Film::reset(int width, int height)
         try
         {
             // Values are written before they are read, tile by tile: by the first pass of each half.
-            allocateLarge(_sums, tiles * 2 * kHalfFloats);
+            allocateLarge(_sums, tiles * 2 * kTileBlocks);
             allocateLarge(_depth, tiles * kTilePixels);
             _passes.assign(tiles, 0);
         }
@@ -93,7 +85,7 @@ int Film::passes() const
 
 float* Film::sums(int tile, int half)
 {
-    return &_sums[(static_cast<std::size_t>(tile) * 2 + static_cast<std::size_t>(half)) * kHalfFloats];
+    return _sums[(static_cast<std::size_t>(tile) * 2 + static_cast<std::size_t>(half)) * kTileBlocks].r.v;
 }
 
 const float* Film::sums(int tile, int half) const { return const_cast<Film*>(this)->sums(tile, half); }
@@ -102,15 +94,29 @@ void Film::beginPass()
 {
     const int next = passes();
     const bool folds = (next >> 1) % kFoldPasses == kFoldPasses - 1;
-    if (folds && _totals.empty()) _totals.assign(_sums.size(), 0.0);
+    if (folds && _totals.empty()) _totals.assign(_sums.size() * kChannels * kLanes, 0.0);
 }
 
-void Film::addPass(int tile, const TileRgba& values)
+RgbaLanes* Film::firstPassStorage(int tile)
+{
+    const int passes = tilePasses(tile);
+    return passes < 2 ? reinterpret_cast<RgbaLanes*>(sums(tile, passes)) : nullptr;
+}
+
+void Film::addPass(int tile, const RgbaLanes* values)
+{
+    if (RgbaLanes* storage = firstPassStorage(tile))
+        std::copy(values, values + kTileBlocks, storage);
+    else
+        add(sums(tile, tilePasses(tile) & 1), values[0].r.v);
+    finishPass(tile);
+}
+
+void Film::finishPass(int tile)
 {
     int& passes = _passes[static_cast<std::size_t>(tile)];
     const int half = passes & 1;
     const int index = passes >> 1;
-    setOrAdd(sums(tile, half), floatsOf(values), index == 0);
     ++passes;
     if (index % kFoldPasses == kFoldPasses - 1) fold(tile, half);
 }
@@ -118,7 +124,7 @@ void Film::addPass(int tile, const TileRgba& values)
 void Film::fold(int tile, int half)
 {
     float* floats = sums(tile, half);
-    double* totals = &_totals[static_cast<std::size_t>(floats - _sums.data())];
+    double* totals = &_totals[static_cast<std::size_t>(floats - _sums[0].r.v)];
     for (std::size_t i = 0; i < kHalfFloats; ++i)
         totals[i] += floats[i];
     std::fill(floats, floats + kHalfFloats, 0.0f);
@@ -138,7 +144,7 @@ void Film::halfMean(int tile, int half, TileRgba& values) const
         scaled(floats, 1.0f / static_cast<float>(count), floatsOf(values));
         return;
     }
-    const double* totals = &_totals[static_cast<std::size_t>(floats - _sums.data())];
+    const double* totals = &_totals[static_cast<std::size_t>(floats - _sums[0].r.v)];
     float* out = floatsOf(values);
     for (std::size_t i = 0; i < kHalfFloats; ++i)
         out[i] = static_cast<float>((totals[i] + floats[i]) / count);

@@ -55,8 +55,13 @@ public:
     /// Before the tiles of a pass, alone.
     void beginPass();
 
+    /// Where the next pass of a tile can be written without a copy, kTileBlocks blocks; null if its half
+    /// has passes already: then addPass. Completed by finishPass.
+    RgbaLanes* firstPassStorage(int tile);
+    void finishPass(int tile);
+
     /// Adds the next pass of a tile.
-    void addPass(int tile, const TileRgba& values);
+    void addPass(int tile, const RgbaLanes* values);
 
     /// Window depth of the tile's pixels, lanes of block b at b*kLanes. Written with its first pass.
     float* depth(int tile) { return &_depth[static_cast<std::size_t>(tile) * kTilePixels]; }
@@ -90,7 +95,7 @@ private:
     int _height = 0;
     int _tilesX = 0;
     int _tilesY = 0;
-    std::vector<float> _sums;      ///< tile, half, block, channel, lane
+    std::vector<RgbaLanes> _sums;  ///< tile, half, block
     std::vector<double> _totals;   ///< the same; empty until a half has kFoldPasses
     std::vector<float> _depth;     ///< tile, block, lane
     std::vector<int> _passes;      ///< a tile

@@ -44,7 +44,7 @@ struct TileDiagnostics
 
 struct TileResult
 {
-    TileRgba rgba;                          ///< radiance and coverage of one sample a pixel; finite
+    RgbaLanes* rgba = nullptr;              ///< kTileBlocks of radiance and coverage, one sample a pixel; finite
     float depth[kTilePixels];               ///< window depth at pixel centres; if wanted
     TileCounts counts;
     TileDiagnostics* diagnostics = nullptr; ///< null: nobody wants them

@@ -57,9 +57,12 @@ struct RenderSession::Implementation
     explicit Implementation(std::shared_ptr<Workers> w) : workers(std::move(w)) {}
 
     bool begin();
-    void renderPass(const PassContext& context, const Integrator& integrator);
+    TileCounts renderTile(const PassContext& context, const Integrator& integrator, int tile);
+    void renderPass(const PassContext& context, const Integrator& integrator, const DisplayTarget* display);
     double estimateError() const;
-    RenderProgress run(const StopRule& rule, const std::function<bool(const RenderProgress&)>& keepGoing);
+    RenderProgress run(const StopRule& rule, const std::function<bool(const RenderProgress&)>& keepGoing,
+                       const DisplayTarget* display);
+    void resolve(const DisplayTarget& display) const;
     PassContext contextOfPass(int pass) const;
 
     std::shared_ptr<Workers> workers;
@@ -130,28 +133,47 @@ PassContext RenderSession::Implementation::contextOfPass(int pass) const
     return context;
 }
 
-/// Adds one pass to every tile that does not have it yet.
-void RenderSession::Implementation::renderPass(const PassContext& context, const Integrator& integrator)
+/// Adds the next pass of a tile, in the film itself where that is possible.
+TileCounts RenderSession::Implementation::renderTile(const PassContext& context,
+                                                     const Integrator& integrator, int tile)
+{
+    TileRgba local;
+    TileResult result;
+    RgbaLanes* inFilm = film.firstPassStorage(tile);
+    result.rgba = inFilm ? inFilm : local;
+    integrator.renderTile(context, film.tileX(tile), film.tileY(tile), result);
+    if (context.wantsDepth) std::copy(result.depth, result.depth + kTilePixels, film.depth(tile));
+    if (inFilm)
+        film.finishPass(tile);
+    else
+        film.addPass(tile, local);
+    return result.counts;
+}
+
+/// Adds one pass to every tile that does not have it yet, and shows it.
+void RenderSession::Implementation::renderPass(const PassContext& context, const Integrator& integrator,
+                                               const DisplayTarget* display)
 {
     const int pass = film.passes();
     std::mutex mutex; // progress: this thread and the workers
+    const auto count = [&](const TileCounts& counts)
+    {
+        std::lock_guard<std::mutex> lock(mutex);
+        progress.rays.camera += counts.cameraRays;
+        progress.rays.shadow += counts.shadowRays;
+        progress.rays.secondary += counts.secondaryRays;
+        progress.droppedSamples += counts.droppedSamples;
+    };
     film.beginPass();
     workers->forEach(static_cast<std::size_t>(film.tileCount()),
                      [&](std::size_t index)
                      {
                          const int tile = static_cast<int>(index);
-                         if (film.tilePasses(tile) != pass) return;
-                         if (cancelled.load(std::memory_order_relaxed)) return;
-                         TileResult result;
-                         integrator.renderTile(context, film.tileX(tile), film.tileY(tile), result);
-                         if (context.wantsDepth)
-                             std::copy(result.depth, result.depth + kTilePixels, film.depth(tile));
-                         film.addPass(tile, result.rgba);
-                         std::lock_guard<std::mutex> lock(mutex);
-                         progress.rays.camera += result.counts.cameraRays;
-                         progress.rays.shadow += result.counts.shadowRays;
-                         progress.rays.secondary += result.counts.secondaryRays;
-                         progress.droppedSamples += result.counts.droppedSamples;
+                         if (film.tilePasses(tile) == pass && !cancelled.load(std::memory_order_relaxed))
+                             count(renderTile(context, integrator, tile));
+                         if (display)
+                             resolveTileDisplay(film, tile, display->toneMap, display->rgba,
+                                                display->depth);
                      });
 }
 
@@ -173,18 +195,22 @@ double RenderSession::Implementation::estimateError() const
 }
 
 RenderProgress RenderSession::Implementation::run(
-    const StopRule& rule, const std::function<bool(const RenderProgress&)>& keepGoing)
+    const StopRule& rule, const std::function<bool(const RenderProgress&)>& keepGoing,
+    const DisplayTarget* display)
 {
     cancelled = false;
     if (!begin()) return progress;
     const std::unique_ptr<Integrator> integrator = newIntegrator(progress.integrator);
     const Clock::time_point start = Clock::now();
     const bool wantsError = rule.relativeError > 0.0 || static_cast<bool>(keepGoing);
-    for (int made = 0; made < rule.newPasses && film.passes() < rule.passes; ++made)
+    int made = 0;
+    bool shown = false;
+    for (; made < rule.newPasses && film.passes() < rule.passes; ++made)
     {
         if (made > 0 && secondsSince(start) >= rule.seconds) break;
         const Clock::time_point passStart = Clock::now();
-        renderPass(contextOfPass(film.passes()), *integrator);
+        shown = made + 1 == rule.newPasses || film.passes() + 1 == rule.passes;
+        renderPass(contextOfPass(film.passes()), *integrator, shown ? display : nullptr);
         progress.seconds += secondsSince(passStart);
         progress.passes = film.passes();
         if (cancelled)
@@ -196,7 +222,18 @@ RenderProgress RenderSession::Implementation::run(
         if (rule.relativeError > 0.0 && progress.relativeError <= rule.relativeError) break;
         if (keepGoing && !keepGoing(progress)) break;
     }
+    if (display && made > 0 && !shown) resolve(*display);
     return progress;
+}
+
+void RenderSession::Implementation::resolve(const DisplayTarget& display) const
+{
+    workers->forEach(static_cast<std::size_t>(film.tileCount()),
+                     [&](std::size_t tile)
+                     {
+                         resolveTileDisplay(film, static_cast<int>(tile), display.toneMap, display.rgba,
+                                            display.depth);
+                     });
 }
 
 RenderSession::RenderSession(std::shared_ptr<Workers> workers)
@@ -216,12 +253,13 @@ void RenderSession::setView(const View& view) { _implementation->view = view; }
 void RenderSession::setOptions(const RenderOptions& options) { _implementation->options = options; }
 
 RenderProgress RenderSession::render(const StopRule& rule,
-                                     const std::function<bool(const RenderProgress&)>& keepGoing)
+                                     const std::function<bool(const RenderProgress&)>& keepGoing,
+                                     const DisplayTarget* display)
 {
     RenderProgress& progress = _implementation->progress;
     try
     {
-        return _implementation->run(rule, keepGoing);
+        return _implementation->run(rule, keepGoing, display);
     }
     catch (const EngineError& error)
     {
@@ -261,10 +299,7 @@ std::vector<float> RenderSession::resolveRadiance() const
 
 void RenderSession::resolveDisplay(const ToneMap& toneMap, uint8_t* rgba, float* depth) const
 {
-    const Film& film = _implementation->film;
-    _implementation->workers->forEach(
-        static_cast<std::size_t>(film.tileCount()), [&](std::size_t tile)
-        { resolveTileDisplay(film, static_cast<int>(tile), toneMap, rgba, depth); });
+    _implementation->resolve({toneMap, rgba, depth});
 }
 
 int channelSize(Channel channel)

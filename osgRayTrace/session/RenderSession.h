@@ -28,6 +28,15 @@ struct StopRule
     double relativeError = 0.0;                   ///< estimated, of the accumulated image; 0: not used
 };
 
+/// Where display values go while an image is made: see RenderSession::resolveDisplay. For an image of the
+/// size of the session's view.
+struct DisplayTarget
+{
+    ToneMap toneMap;
+    uint8_t* rgba = nullptr;
+    float* depth = nullptr; ///< may be null
+};
+
 struct RayCounts
 {
     uint64_t camera = 0;
@@ -80,8 +89,11 @@ public:
     /// Adds passes to the image until the rule says stop, cancel() is called or keepGoing, called after
     /// each pass on this thread, returns false. The tiles of a pass that cancel() cut short keep it, and the
     /// next render() does the rest of them. Never throws: failures are in the status, the last image stays.
+    /// With a display target the image is there at the end as resolveDisplay would write it, for less: each
+    /// tile's part is written while the tile is still in the cache. Nothing is written if no pass is made.
     RenderProgress render(const StopRule& rule,
-                          const std::function<bool(const RenderProgress&)>& keepGoing = {});
+                          const std::function<bool(const RenderProgress&)>& keepGoing = {},
+                          const DisplayTarget* display = nullptr);
 
     /// Stops a running render() within a tile. Any thread.
     void cancel();

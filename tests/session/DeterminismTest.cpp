@@ -79,7 +79,9 @@ TEST_CASE("determinism: equal images for any order of tiles", "[session]")
             film.beginPass();
             for (const int tile : order)
             {
+                TileRgba rgba;
                 TileResult result;
+                result.rgba = rgba;
                 integrator->renderTile(context, film.tileX(tile), film.tileY(tile), result);
                 film.addPass(tile, result.rgba);
             }
