@@ -6,6 +6,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+
 #if defined(__SSE__)
 #include <immintrin.h>
 #endif
@@ -77,12 +79,16 @@ int Workers::threads() const
 
 void Workers::forEach(std::size_t count, const std::function<void(std::size_t)>& body) const
 {
+    // Ranges short enough that no thread waits long for the last one, long enough to cost nothing.
+    constexpr std::size_t kRangesPerThread = 128;
+    const std::size_t grain =
+        std::max<std::size_t>(1, count / (kRangesPerThread * static_cast<std::size_t>(threads())));
     LoopOrder order;
     _implementation->arena.execute(
         [&]
         {
             tbb::parallel_for(
-                tbb::blocked_range<std::size_t>(0, count, 1),
+                tbb::blocked_range<std::size_t>(0, count, grain),
                 [&](const tbb::blocked_range<std::size_t>& range)
                 {
                     FlushDenormals flush;

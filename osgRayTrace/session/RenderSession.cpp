@@ -13,7 +13,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 #include <new>
 
 namespace osgRayTrace::engine
@@ -80,6 +79,7 @@ struct RenderSession::Implementation
     std::vector<Light> lights;
     Film film;
     RenderProgress progress;
+    std::vector<TileCounts> tileCounts; // of the pass that is rendered
 
     std::atomic<bool> cancelled{false}; // cancel(): any thread; render(): the session's and the workers
 };
@@ -155,26 +155,25 @@ void RenderSession::Implementation::renderPass(const PassContext& context, const
                                                const DisplayTarget* display)
 {
     const int pass = film.passes();
-    std::mutex mutex; // progress: this thread and the workers
-    const auto count = [&](const TileCounts& counts)
-    {
-        std::lock_guard<std::mutex> lock(mutex);
-        progress.rays.camera += counts.cameraRays;
-        progress.rays.shadow += counts.shadowRays;
-        progress.rays.secondary += counts.secondaryRays;
-        progress.droppedSamples += counts.droppedSamples;
-    };
+    tileCounts.assign(static_cast<std::size_t>(film.tileCount()), TileCounts());
     film.beginPass();
     workers->forEach(static_cast<std::size_t>(film.tileCount()),
                      [&](std::size_t index)
                      {
                          const int tile = static_cast<int>(index);
                          if (film.tilePasses(tile) == pass && !cancelled.load(std::memory_order_relaxed))
-                             count(renderTile(context, integrator, tile));
+                             tileCounts[index] = renderTile(context, integrator, tile);
                          if (display)
                              resolveTileDisplay(film, tile, display->toneMap, display->rgba,
                                                 display->depth);
                      });
+    for (const TileCounts& counts : tileCounts)
+    {
+        progress.rays.camera += counts.cameraRays;
+        progress.rays.shadow += counts.shadowRays;
+        progress.rays.secondary += counts.secondaryRays;
+        progress.droppedSamples += counts.droppedSamples;
+    }
 }
 
 /// Square root of the estimated mean squared relative error.
