@@ -176,8 +176,7 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
         const Vec3 wiWorld = laneOf(light.wi, i);
         const Vec3 wi = frame.toLocal(wiWorld);
         // Light and shading normal must agree on the side, or light leaks through smooth surfaces.
-        if ((wi.z > 0.0f) != (glm::dot(wiWorld, laneOf(bounce.surface.geometricNormal, i)) > 0.0f))
-            continue;
+        if ((wi.z > 0.0f) != isAbove(bounce.surface, i, wiWorld)) continue;
         const BsdfValue value = evalBsdf(bounce.bsdfs[i], wo, wi);
         if (!(value.pdfW > 0.0f)) continue;
         const float mis = delta ? 1.0f : powerHeuristic(1.0f, value.pdfW * light.weight[i]);
@@ -243,6 +242,7 @@ OSGRAYTRACE_KERNEL
 void diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface, const FloatLanes& u,
                        const FloatLanes& v, Vec3Lanes& wi, Vec3Lanes& origin, FloatLanes& pdfW)
 {
+    const Vec3Lanes& start = rayStarts(surface);
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
@@ -259,9 +259,9 @@ void diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface, con
         wi.y[i] = sign * b * lx + (sign + ny * ny * a) * ly + ny * lz;
         wi.z[i] = -sign * nx * lx - ny * ly + nz * lz;
         pdfW[i] = lz * kInvPi;
-        origin.x[i] = surface.position.x[i] + surface.geometricNormal.x[i] * surface.offset[i];
-        origin.y[i] = surface.position.y[i] + surface.geometricNormal.y[i] * surface.offset[i];
-        origin.z[i] = surface.position.z[i] + surface.geometricNormal.z[i] * surface.offset[i];
+        origin.x[i] = start.x[i] + surface.geometricNormal.x[i] * surface.offset[i];
+        origin.y[i] = start.y[i] + surface.geometricNormal.y[i] * surface.offset[i];
+        origin.z[i] = start.z[i] + surface.geometricNormal.z[i] * surface.offset[i];
     }
 }
 
@@ -283,7 +283,7 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         for (LaneMask lanes = bounce.diffuse; lanes; lanes &= lanes - 1)
         {
             const int i = __builtin_ctz(lanes);
-            const bool above = glm::dot(laneOf(wi, i), laneOf(bounce.surface.geometricNormal, i)) > 0.0f;
+            const bool above = isAbove(bounce.surface, i, laneOf(wi, i));
             alive |= static_cast<LaneMask>(above && pdfW[i] > 0.0f) << i;
         }
     }
@@ -296,13 +296,9 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         const std::optional<BsdfSample> sample = sampleBsdf(bounce.bsdfs[i], wo, lobe[i], u[i], v[i]);
         if (!sample) continue;
         const Vec3 direction = frame.toWorld(sample->wi);
-        const Vec3 geometric = laneOf(bounce.surface.geometricNormal, i);
-        const float side = glm::dot(direction, geometric);
-        if ((side < 0.0f) != sample->transmitted) continue;
+        if (isAbove(bounce.surface, i, direction) == sample->transmitted) continue;
         setLane(wi, i, direction);
-        setLane(origin, i,
-                laneOf(bounce.surface.position, i) +
-                    geometric * (side < 0.0f ? -bounce.surface.offset[i] : bounce.surface.offset[i]));
+        setLane(origin, i, leave(bounce.surface, i, direction));
         setLane(weight, i, sample->weight);
         pdfW[i] = sample->delta ? kInfinity : sample->pdfW;
         alive |= 1u << i;
@@ -363,6 +359,7 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
         bounce.general |= 1u << i;
         bounce.through |= static_cast<LaneMask>(bounce.bsdfs[i].transmits()) << i;
     }
+    bounce.surface.lifted &= ~bounce.through; // refraction depends on where the facet is
 }
 
 /// Follows the paths of a block over one bounce.
@@ -379,7 +376,8 @@ void bounceBlock(Tile& tile, int b, int number, bool last)
     Bounce bounce;
     bounce.number = number;
     bounce.bsdfs = tile.bsdfs;
-    surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface);
+    surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface,
+               rayStart(tile.context.options));
     const Vec3 background(traced.scene().background);
     for (LaneMask lanes = block.active & ~bounce.surface.hits; lanes; lanes &= lanes - 1)
     {

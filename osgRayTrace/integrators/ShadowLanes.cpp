@@ -3,6 +3,7 @@
 #include "osgRayTrace/integrators/ShadowLanes.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/integrators/HitShading.h"
 
 #include <cmath>
 
@@ -51,12 +52,13 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
                    LaneMask through, const FloatLanes& u, const FloatLanes& v, LightLanes& samples)
 {
     const Quad q = quad;
+    const Vec3Lanes& start = rayStarts(surface);
     const float inversePmf = 1.0f / pmf;
     LaneMask lit = 0;
     OSGRAYTRACE_SIMD_OR(lit)
     for (int i = 0; i < kLanes; ++i)
     {
-        const float px = surface.position.x[i], py = surface.position.y[i], pz = surface.position.z[i];
+        const float px = start.x[i], py = start.y[i], pz = start.z[i];
         const float nx = surface.geometricNormal.x[i], ny = surface.geometricNormal.y[i],
                     nz = surface.geometricNormal.z[i];
         const float lx = q.corner.x + u[i] * q.edgeU.x + v[i] * q.edgeV.x;
@@ -106,13 +108,6 @@ void setRadiance(LightLanes& samples, int i, Vec3 radiance)
 
 Vec3 at(const Vec3Lanes& lanes, int i) { return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]); }
 
-/// Start of a ray that leaves the surface towards wi.
-Vec3 leave(const SurfaceLanes& surface, int i, Vec3 wi)
-{
-    const Vec3 n = at(surface.geometricNormal, i);
-    return at(surface.position, i) + n * (glm::dot(wi, n) >= 0.0f ? surface.offset[i] : -surface.offset[i]);
-}
-
 void setWi(LightLanes& samples, int i, Vec3 wi)
 {
     samples.wi.x[i] = wi.x;
@@ -125,7 +120,7 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf, const Surfa
               float u, float v, bool through, LightLanes& samples)
 {
     const LightTable& table = context.traced->lights();
-    const Vec3 p = at(surface.position, i);
+    const Vec3 p = at(rayStarts(surface), i);
     const std::optional<AreaLightSample> sample = table.sampleArea(light, p, u, v);
     if (!sample || !(sample->pdfW > 0.0f) || !(sample->pdfW < 1e30f)) return false;
     const Vec3 n = at(surface.geometricNormal, i);
@@ -153,6 +148,7 @@ void areaLightLanes(const PassContext& context, uint32_t index, float pmf, const
                     LightLanes& samples)
 {
     const Light& light = (*context.lights)[index];
+    through |= surface.lifted;
     if (light.kind == LightKind::Parallelogram)
     {
         samples.lit = quadLanes(quadOf(light, context.traced->lights(), index), pmf, surface, active,
@@ -172,6 +168,7 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
                      LaneMask active, LaneMask through, LightLanes& samples)
 {
     const Light& light = (*context.lights)[index];
+    through |= surface.lifted;
     samples.lit = 0;
     for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
     {
@@ -183,9 +180,19 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
         if (!((through >> i) & 1u) && glm::dot(at(surface.geometricNormal, i), sample.wi) <= 0.0f)
             continue;
         const Vec3 origin = leave(surface, i, sample.wi);
+        Vec3 towards = sample.wi;
+        float distance = sample.distance;
+        if (((surface.lifted >> i) & 1u) && distance < kInfinity)
+        {
+            // The lift is no small thing: to the light itself, not past it.
+            towards = at(surface.position, i) + sample.wi * distance - origin;
+            distance = glm::length(towards);
+            if (!(distance > 0.0f)) continue;
+            towards /= distance;
+        }
         setWi(samples, i, sample.wi);
-        setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, sample.wi.x, sample.wi.y,
-                     sample.wi.z, sample.distance);
+        setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, towards.x, towards.y, towards.z,
+                     distance);
         setRadiance(samples, i, light.diffuse * (kPi * sample.attenuation));
         samples.weight[i] = 1.0f;
         samples.lit |= 1u << i;
