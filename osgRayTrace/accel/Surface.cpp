@@ -222,20 +222,20 @@ OSGRAYTRACE_INLINE TangentLift tangentLift(float px, float py, float pz, float v
     const float length2 = nx * nx + ny * ny + nz * nz;
     const float cosine = nx * gx + ny * gy + nz * gz;
     const float height = (px - vx) * nx + (py - vy) * ny + (pz - vz) * nz;
-    TangentLift lift;
+    TangentLift result;
     // Both signs change with n: the lift is to the ray's side, where g is, whichever way n looks.
     const float below = select(height * cosine < 0.0f, -height, 0.0f);
-    lift.usable = maskOf(length2 > kShortestNormal2) & maskOf(cosine * cosine > kLargestTurn2 * length2);
-    lift.scale = below / select(length2 > kShortestNormal2, length2, 1.0f);
-    return lift;
+    result.usable = maskOf(length2 > kShortestNormal2) & maskOf(cosine * cosine > kLargestTurn2 * length2);
+    result.scale = below / select(length2 > kShortestNormal2, length2, 1.0f);
+    return result;
 }
 
-/// Moves the start of rays onto the tangent planes of the vertices, weighted as the vertices are
+/// Moves points, from where rays start, onto the tangent planes of the vertices, weighted as the vertices are
 /// [Hanika21, sect. 4.3]. On a sphere this is as far above the sphere as the facet is below it, enough for
 /// every ray above the plane of the shading normal to clear the facets around. On hollow sides nothing
 /// moves.
 OSGRAYTRACE_KERNEL
-void liftStarts(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth, SurfaceLanes& s)
+void lift(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth, SurfaceLanes& s)
 {
     LaneMask lifted = 0;
     OSGRAYTRACE_SIMD_OR(lifted)
@@ -258,9 +258,12 @@ void liftStarts(const RayHitBlock& block, const TriangleLanes& t, LaneMask smoot
         // Less than a few error bounds is rounding, as on flat facets.
         const uint32_t clear = maskOf(x * gx + y * gy + z * gz > kSmallestLift * s.offset[i]);
         const uint32_t use = clear & a.usable & b.usable & c.usable & laneBit(smooth, i);
-        s.lift.x[i] = px + select(use, x, 0.0f);
-        s.lift.y[i] = py + select(use, y, 0.0f);
-        s.lift.z[i] = pz + select(use, z, 0.0f);
+        s.onTriangle.x[i] = px;
+        s.onTriangle.y[i] = py;
+        s.onTriangle.z[i] = pz;
+        s.position.x[i] = px + select(use, x, 0.0f);
+        s.position.y[i] = py + select(use, y, 0.0f);
+        s.position.z[i] = pz + select(use, z, 0.0f);
         lifted |= bitOfLane(use, i);
     }
     s.lifted = lifted & s.hits;
@@ -376,7 +379,7 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
     if (mirrored) turnMirrored(mirrored, surface);
     if (!smooth) return;
     interpolateNormals(block, triangles, smooth, surface);
-    if (start == RayStart::Smooth) liftStarts(block, triangles, smooth, surface);
+    if (start == RayStart::Smooth) lift(block, triangles, smooth, surface);
 }
 
 Vec2 interpolateUv(const SurfaceRecord& record, uint32_t primitive, float u, float v)

@@ -12,7 +12,7 @@ namespace osgRayTrace::engine
 /// Hit points rebuilt from barycentric coordinates, with the bound of their rounding error.
 struct SurfaceLanes
 {
-    Vec3Lanes position;
+    Vec3Lanes position;        ///< on the triangle, but for lifted lanes: where their rays start
     Vec3Lanes geometricNormal; ///< unit, on the side that the ray comes from
     Vec3Lanes shadingNormal;   ///< unit; as the mesh has it: not turned to either side
     FloatLanes offset;         ///< distance along geometricNormal that clears the error of position
@@ -20,8 +20,8 @@ struct SurfaceLanes
     UintLanes material;        ///< index into Scene::materials
     LaneMask hits = 0;
     LaneMask front = 0;        ///< the ray comes from the mesh's counter-clockwise side
-    LaneMask lifted = 0;       ///< hits whose rays to the ray's side start at lift
-    Vec3Lanes lift;            ///< where rays start: position but for lifted lanes; unset if there are none
+    LaneMask lifted = 0;       ///< hits whose position is above their triangle: see RayStart
+    Vec3Lanes onTriangle;      ///< position if it were not lifted; unset if no lane is
 };
 
 /// Where the rays of a smooth triangle that leave it on the ray's side start.
@@ -31,10 +31,23 @@ enum class RayStart
     Smooth,   ///< where it is a facet of a convex body: on the surface that its vertex normals mean
 };
 
-/// Where rays that leave the surface start, but for the offset.
-inline const Vec3Lanes& rayStarts(const SurfaceLanes& surface)
+/// The points on the triangles, whether lifted or not.
+inline const Vec3Lanes& trianglePoints(const SurfaceLanes& surface)
 {
-    return surface.lifted ? surface.lift : surface.position;
+    return surface.lifted ? surface.onTriangle : surface.position;
+}
+
+/// Puts the positions of lanes back onto their triangles.
+inline void dropLift(SurfaceLanes& surface, LaneMask lanes)
+{
+    for (LaneMask m = surface.lifted & lanes; m; m &= m - 1)
+    {
+        const int i = __builtin_ctz(m);
+        surface.position.x[i] = surface.onTriangle.x[i];
+        surface.position.y[i] = surface.onTriangle.y[i];
+        surface.position.z[i] = surface.onTriangle.z[i];
+    }
+    surface.lifted &= ~lanes;
 }
 
 /// The surfaces at the hits of block's active lanes. Lanes without a hit are zero where they are floats.

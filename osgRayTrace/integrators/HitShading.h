@@ -45,7 +45,7 @@ inline RayStart rayStart(const RenderOptions& options)
 inline Vec3 leave(const SurfaceLanes& surface, int i, Vec3 wi)
 {
     const Vec3 n = laneOf(surface.geometricNormal, i);
-    return laneOf(rayStarts(surface), i) +
+    return laneOf(surface.position, i) +
            n * (glm::dot(wi, n) >= 0.0f ? surface.offset[i] : -surface.offset[i]);
 }
 

@@ -52,13 +52,12 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
                    LaneMask through, const FloatLanes& u, const FloatLanes& v, LightLanes& samples)
 {
     const Quad q = quad;
-    const Vec3Lanes& start = rayStarts(surface);
     const float inversePmf = 1.0f / pmf;
     LaneMask lit = 0;
     OSGRAYTRACE_SIMD_OR(lit)
     for (int i = 0; i < kLanes; ++i)
     {
-        const float px = start.x[i], py = start.y[i], pz = start.z[i];
+        const float px = surface.position.x[i], py = surface.position.y[i], pz = surface.position.z[i];
         const float nx = surface.geometricNormal.x[i], ny = surface.geometricNormal.y[i],
                     nz = surface.geometricNormal.z[i];
         const float lx = q.corner.x + u[i] * q.edgeU.x + v[i] * q.edgeV.x;
@@ -120,7 +119,7 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf, const Surfa
               float u, float v, bool through, LightLanes& samples)
 {
     const LightTable& table = context.traced->lights();
-    const Vec3 p = at(rayStarts(surface), i);
+    const Vec3 p = at(surface.position, i);
     const std::optional<AreaLightSample> sample = table.sampleArea(light, p, u, v);
     if (!sample || !(sample->pdfW > 0.0f) || !(sample->pdfW < 1e30f)) return false;
     const Vec3 n = at(surface.geometricNormal, i);
@@ -175,7 +174,8 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
         const int i = __builtin_ctz(lanes);
         const Material& material = context.traced->scene().materials[surface.material[i]];
         if (light.number < 32 && !((material.lightMask >> light.number) & 1u)) continue;
-        const DeltaLightSample sample = sampleDelta(light, at(surface.position, i));
+        const Vec3 point = at(trianglePoints(surface), i);
+        const DeltaLightSample sample = sampleDelta(light, point);
         if (!(sample.attenuation > 0.0f)) continue;
         if (!((through >> i) & 1u) && glm::dot(at(surface.geometricNormal, i), sample.wi) <= 0.0f)
             continue;
@@ -185,7 +185,7 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
         if (((surface.lifted >> i) & 1u) && distance < kInfinity)
         {
             // The lift is no small thing: to the light itself, not past it.
-            towards = at(surface.position, i) + sample.wi * distance - origin;
+            towards = point + sample.wi * distance - origin;
             distance = glm::length(towards);
             if (!(distance > 0.0f)) continue;
             towards /= distance;

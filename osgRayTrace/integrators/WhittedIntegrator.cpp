@@ -167,7 +167,7 @@ void classify(Tile& tile, ShadingBlock& block)
             // OpenGL lights by the vertex normal alone, which may look the other way than the face.
             m.through |= 1u << i;
             if (!(glm::dot(m.points[i].normal, laneOf(block.surface.geometricNormal, i)) > 0.0f))
-                block.surface.lifted &= ~(1u << i);
+                dropLift(block.surface, 1u << i);
             continue;
         }
         if (record.plainDiffuse)
@@ -183,7 +183,7 @@ void classify(Tile& tile, ShadingBlock& block)
         m.physical |= 1u << i;
         if (!m.bsdfs[i].transmits()) continue;
         m.through |= 1u << i;
-        block.surface.lifted &= ~(1u << i); // refraction depends on where the facet is
+        dropLift(block.surface, 1u << i); // refraction depends on where the facet is
     }
 }
 
@@ -301,7 +301,8 @@ void addDeltaLights(Tile& tile, ShadingBlock& block)
         for (LaneMask lanes = reached & m.fixedFunction; lanes; lanes &= lanes - 1)
         {
             const int i = __builtin_ctz(lanes);
-            const float attenuation = sampleDelta(light, laneOf(block.surface.position, i)).attenuation;
+            const Vec3 point = laneOf(trianglePoints(block.surface), i);
+            const float attenuation = sampleDelta(light, point).attenuation;
             addLight(m.points[i], light, laneOf(samples.wi, i), attenuation, (visible >> i) & 1u);
         }
         if (visible & m.diffuse)

@@ -355,15 +355,20 @@ TEST_CASE("surface: rays of a smooth facet start on the tangent planes of its ve
             if (side < 0.0f) // hollow
             {
                 CHECK(surface.lifted == 0u);
-                CHECK(&rayStarts(surface) == &surface.position);
+                CHECK(&trianglePoints(surface) == &surface.position);
                 continue;
             }
             CHECK(surface.lifted == kAllLanes);
-            const Vec3 lift = at(rayStarts(surface), 7) - at(surface.position, 7);
+            const Vec3 lift = at(surface.position, 7) - at(trianglePoints(surface), 7);
             CHECK(glm::length(lift) == Approx(0.25f * edge * edge).epsilon(0.02));
             CHECK(glm::dot(lift, n) > 0.0f);
+            dropLift(surface, 3u);
+            CHECK(surface.lifted == (kAllLanes & ~3u));
+            CHECK(at(surface.position, 1) == at(trianglePoints(surface), 1));
+            CHECK(at(surface.position, 2) != at(trianglePoints(surface), 2));
             surfacesOf(traced->surfaces(), block, kAllLanes, surface);
             CHECK(surface.lifted == 0u);
+            CHECK(glm::length(at(surface.position, 7) - middle) < 1e-6f);
         }
     }
 }
@@ -390,7 +395,7 @@ TEST_CASE("surface: lifts are the same in blocks of one triangle and of several,
         SurfaceLanes surface;
         surfacesOf(traced->surfaces(), block, kAllLanes, surface, RayStart::Smooth);
         REQUIRE((surface.lifted & 1u) == 1u);
-        return at(rayStarts(surface), 0);
+        return at(surface.position, 0);
     };
     const Vec3 start = startFrom(false, 1.0f, false);
     CHECK(glm::length(start) > 1.0f);

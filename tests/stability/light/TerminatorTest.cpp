@@ -295,3 +295,24 @@ TEST_CASE("stability 53: light reaches no side that looks away from it, nor thro
         }
     }
 }
+
+TEST_CASE("stability 53: depths are those of the facets", "[stability]")
+{
+    SceneBuilder builder;
+    builder.add(smoothSphere(6), lambert(Vec3(0.5f)));
+    builder.add(quadMesh({-3, -3, -1.3f}, {6, 0, 0}, {0, 6, 0}), lambert(Vec3(0.5f)));
+    const auto traced = builder.build();
+    const auto depthsWith = [&traced](bool correction, IntegratorKind kind)
+    {
+        RenderSession session(std::make_shared<Workers>(0));
+        session.setScene(traced);
+        session.setView(perspectiveView({-0.8, -4, 1}, {0, 0, 0}, {0, 0, 1}, 32.0, kSmall, kSmall));
+        session.setOptions(optionsWith(kind, correction));
+        StopRule rule;
+        rule.passes = 1;
+        session.render(rule);
+        return session.resolveChannel(Channel::Depth);
+    };
+    for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})
+        CHECK(depthsWith(true, kind) == depthsWith(false, kind));
+}
