@@ -231,7 +231,7 @@ OSGRAYTRACE_INLINE TangentLift tangentLift(float px, float py, float pz, float v
 }
 
 /// Moves points, from where rays start, onto the tangent planes of the vertices, weighted as the vertices are
-/// [Hanika21, sect. 4.3]. On a sphere this is as far above the sphere as the facet is below it, enough for
+/// [Hanika21]. On a sphere this is as far above the sphere as the facet is below it, enough for
 /// every ray above the plane of the shading normal to clear the facets around. On hollow sides nothing
 /// moves.
 OSGRAYTRACE_KERNEL

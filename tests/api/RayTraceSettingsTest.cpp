@@ -78,11 +78,11 @@ TEST_CASE("settings: the table names all twelve options once", "[api][settings]"
         names.insert(option.name);
         variables.insert(option.environment);
     }
-    CHECK(names.size() == 12);
-    CHECK(variables.size() == 12);
+    CHECK(names.size() == 13);
+    CHECK(variables.size() == 13);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 12);
+    CHECK(RayTraceSettings::options().size() == 13);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")
