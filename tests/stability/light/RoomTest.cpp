@@ -20,7 +20,7 @@ TEST_CASE("stability 37: a closed room of albedo 0.99", "[stability][statistics]
     for (const auto& c : cases)
     {
         SceneBuilder room;
-        if (c.bounces < 1000)
+        if (c.bounces < 64)
             room.addEmissive(boxMesh(Vec3(-1.0f), Vec3(1.0f)), wall);
         else
             room.add(boxMesh(Vec3(-1.0f), Vec3(1.0f)), wall); // shadow rays would double the time
