@@ -69,7 +69,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getExposure() == 0.0f);
 }
 
-TEST_CASE("settings: the table names all twelve options once", "[api][settings]")
+TEST_CASE("settings: the table names all thirteen options once", "[api][settings]")
 {
     std::set<std::string> names;
     std::set<std::string> variables;
