@@ -169,6 +169,8 @@ const std::vector<OptionRow>& optionTable()
         numberRow("light-samples", kLightSamplesRange, &S::getLightSamples, &S::setLightSamples,
                   "Samples a hit and area light"),
         switchRow("shadows", &S::getShadows, &S::setShadows, "Shadows of all lights"),
+        switchRow("terminator-correction", &S::getTerminatorCorrection, &S::setTerminatorCorrection,
+                  "No step where light ends on smooth-shaded facets"),
         numberRow("max-bounces", kMaxBouncesRange, &S::getMaxBounces, &S::setMaxBounces,
                   "Edges of a path after the camera ray"),
         numberRow("max-passes", kMaxPassesRange, &S::getMaxPasses, &S::setMaxPasses,
@@ -261,6 +263,7 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _lightSamples(other._lightSamples),
       _maxBounces(other._maxBounces),
       _shadows(other._shadows),
+      _terminatorCorrection(other._terminatorCorrection),
       _maxPasses(other._maxPasses),
       _passesPerFrame(other._passesPerFrame),
       _threads(other._threads),
@@ -304,6 +307,11 @@ void RayTraceSettings::setMaxBounces(int value)
 void RayTraceSettings::setShadows(bool value)
 {
     change(_shadows, value, _modifiedCount);
+}
+
+void RayTraceSettings::setTerminatorCorrection(bool value)
+{
+    change(_terminatorCorrection, value, _modifiedCount);
 }
 
 void RayTraceSettings::setMaxPasses(int value)

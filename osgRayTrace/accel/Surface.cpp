@@ -15,6 +15,12 @@ namespace
 constexpr float kOffsetScale = 32.0f * 0x1p-24f;
 constexpr float kEdgeScale = 8.0f * 0x1p-24f;
 
+constexpr float kSmallestLift = 4.0f;       ///< [error bounds]
+constexpr float kShortestNormal2 = 1e-12f;  ///< squared length below which a normal is none
+/// Squared cosine of 40 degrees. A facet that a vertex normal leaves by more is no piece of a smooth surface,
+/// but a side of a body whose edges were averaged: two sides of a box make 45 degrees.
+constexpr float kLargestTurn2 = 0.5868f;
+
 /// What is read from the meshes, lane by lane; everything after it is arithmetic on lanes.
 struct TriangleLanes
 {
@@ -202,6 +208,67 @@ void interpolateNormals(const RayHitBlock& block, const TriangleLanes& t, LaneMa
     }
 }
 
+/// The terms of the lift that one vertex adds to: how far the point is below the vertex's tangent plane,
+/// along its normal n of any length, on the side of the sign.
+struct TangentLift
+{
+    float scale;     ///< times n is the way to the tangent plane; 0 if the point is above it
+    uint32_t usable; ///< n is about that of the facet
+};
+
+OSGRAYTRACE_INLINE TangentLift tangentLift(float px, float py, float pz, float vx, float vy, float vz,
+                                           float nx, float ny, float nz, float gx, float gy, float gz)
+{
+    const float length2 = nx * nx + ny * ny + nz * nz;
+    const float cosine = nx * gx + ny * gy + nz * gz;
+    const float height = (px - vx) * nx + (py - vy) * ny + (pz - vz) * nz;
+    TangentLift result;
+    // Both signs change with n: the lift is to the ray's side, where g is, whichever way n looks.
+    const float below = select(height * cosine < 0.0f, -height, 0.0f);
+    result.usable = maskOf(length2 > kShortestNormal2) & maskOf(cosine * cosine > kLargestTurn2 * length2);
+    result.scale = below / select(length2 > kShortestNormal2, length2, 1.0f);
+    return result;
+}
+
+/// Moves points, from where rays start, onto the tangent planes of the vertices, weighted as the vertices are
+/// [Hanika21]. On a sphere this is as far above the sphere as the facet is below it, enough for
+/// every ray above the plane of the shading normal to clear the facets around. On hollow sides nothing
+/// moves.
+OSGRAYTRACE_KERNEL
+void lift(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth, SurfaceLanes& s)
+{
+    LaneMask lifted = 0;
+    OSGRAYTRACE_SIMD_OR(lifted)
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float u = block.u[i], v = block.v[i], w = 1.0f - u - v;
+        const float px = s.position.x[i], py = s.position.y[i], pz = s.position.z[i];
+        const float gx = s.geometricNormal.x[i], gy = s.geometricNormal.y[i],
+                    gz = s.geometricNormal.z[i];
+        const TangentLift a = tangentLift(px, py, pz, t.a.x[i], t.a.y[i], t.a.z[i], t.na.x[i], t.na.y[i],
+                                          t.na.z[i], gx, gy, gz);
+        const TangentLift b = tangentLift(px, py, pz, t.b.x[i], t.b.y[i], t.b.z[i], t.nb.x[i], t.nb.y[i],
+                                          t.nb.z[i], gx, gy, gz);
+        const TangentLift c = tangentLift(px, py, pz, t.c.x[i], t.c.y[i], t.c.z[i], t.nc.x[i], t.nc.y[i],
+                                          t.nc.z[i], gx, gy, gz);
+        const float wa = w * a.scale, wb = u * b.scale, wc = v * c.scale;
+        const float x = wa * t.na.x[i] + wb * t.nb.x[i] + wc * t.nc.x[i];
+        const float y = wa * t.na.y[i] + wb * t.nb.y[i] + wc * t.nc.y[i];
+        const float z = wa * t.na.z[i] + wb * t.nb.z[i] + wc * t.nc.z[i];
+        // Less than a few error bounds is rounding, as on flat facets.
+        const uint32_t clear = maskOf(x * gx + y * gy + z * gz > kSmallestLift * s.offset[i]);
+        const uint32_t use = clear & a.usable & b.usable & c.usable & laneBit(smooth, i);
+        s.onTriangle.x[i] = px;
+        s.onTriangle.y[i] = py;
+        s.onTriangle.z[i] = pz;
+        s.position.x[i] = px + select(use, x, 0.0f);
+        s.position.y[i] = py + select(use, y, 0.0f);
+        s.position.z[i] = pz + select(use, z, 0.0f);
+        lifted |= bitOfLane(use, i);
+    }
+    s.lifted = lifted & s.hits;
+}
+
 /// True if all hits are on one triangle: the rule where triangles are larger than pixels.
 OSGRAYTRACE_KERNEL
 bool isOneTriangle(const RayHitBlock& block, LaneMask hits, int first)
@@ -227,12 +294,11 @@ LaneMask hitLanes(const RayHitBlock& block, LaneMask active)
     return hits & active;
 }
 
-/// The vertex normals of one lane in all lanes, stored as wide as they will be loaded.
+/// Vertices or their normals of one lane in all lanes, stored as wide as they will be loaded.
 OSGRAYTRACE_KERNEL
-void broadcastNormals(int from, TriangleLanes& t)
+void broadcast(int from, Vec3Lanes& a, Vec3Lanes& b, Vec3Lanes& c)
 {
-    Vec3Lanes* lists[] = {&t.na, &t.nb, &t.nc};
-    for (Vec3Lanes* list : lists)
+    for (Vec3Lanes* list : {&a, &b, &c})
     {
         const float x = list->x[from], y = list->y[from], z = list->z[from];
         OSGRAYTRACE_SIMD
@@ -271,11 +337,12 @@ void turnMirrored(LaneMask lanes, SurfaceLanes& s)
 } // namespace
 
 void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active,
-                SurfaceLanes& surface)
+                SurfaceLanes& surface, RayStart start)
 {
     TriangleLanes triangles;
     const LaneMask hits = hitLanes(block, active);
     surface.hits = hits;
+    surface.lifted = 0;
     LaneMask smooth = 0, mirrored = 0;
     const int first = hits ? __builtin_ctz(hits) : 0;
     if (hits && isOneTriangle(block, hits, first))
@@ -285,7 +352,8 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
         if (loadTriangle(record, block.primitive[first], first, triangles)) smooth = kAllLanes;
         if (isMirrored(record)) mirrored = kAllLanes;
         geometryOfOne(block, triangles, first, surface);
-        if (smooth) broadcastNormals(first, triangles);
+        if (smooth) broadcast(first, triangles.na, triangles.nb, triangles.nc);
+        if (smooth && start == RayStart::Smooth) broadcast(first, triangles.a, triangles.b, triangles.c);
         std::fill_n(surface.instance.v, kLanes, instance);
         std::fill_n(surface.material.v, kLanes, record.material);
     }
@@ -309,7 +377,9 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
         geometry(block, triangles, surface);
     }
     if (mirrored) turnMirrored(mirrored, surface);
-    if (smooth) interpolateNormals(block, triangles, smooth, surface);
+    if (!smooth) return;
+    interpolateNormals(block, triangles, smooth, surface);
+    if (start == RayStart::Smooth) lift(block, triangles, smooth, surface);
 }
 
 Vec2 interpolateUv(const SurfaceRecord& record, uint32_t primitive, float u, float v)

@@ -12,7 +12,7 @@ namespace osgRayTrace::engine
 /// Hit points rebuilt from barycentric coordinates, with the bound of their rounding error.
 struct SurfaceLanes
 {
-    Vec3Lanes position;
+    Vec3Lanes position;        ///< on the triangle, but for lifted lanes: where their rays start
     Vec3Lanes geometricNormal; ///< unit, on the side that the ray comes from
     Vec3Lanes shadingNormal;   ///< unit; as the mesh has it: not turned to either side
     FloatLanes offset;         ///< distance along geometricNormal that clears the error of position
@@ -20,15 +20,47 @@ struct SurfaceLanes
     UintLanes material;        ///< index into Scene::materials
     LaneMask hits = 0;
     LaneMask front = 0;        ///< the ray comes from the mesh's counter-clockwise side
+    LaneMask lifted = 0;       ///< hits whose position is above their triangle: see RayStart
+    Vec3Lanes onTriangle;      ///< position if it were not lifted; unset if no lane is
 };
+
+/// Where the rays of a smooth triangle that leave it on the ray's side start.
+enum class RayStart
+{
+    Triangle, ///< on the triangle
+    Smooth,   ///< where it is a facet of a convex body: on the surface that its vertex normals mean
+};
+
+/// The points on the triangles, whether lifted or not.
+inline const Vec3Lanes& trianglePoints(const SurfaceLanes& surface)
+{
+    return surface.lifted ? surface.onTriangle : surface.position;
+}
+
+/// Puts the positions of lanes back onto their triangles.
+inline void dropLift(SurfaceLanes& surface, LaneMask lanes)
+{
+    for (LaneMask m = surface.lifted & lanes; m; m &= m - 1)
+    {
+        const int i = __builtin_ctz(m);
+        surface.position.x[i] = surface.onTriangle.x[i];
+        surface.position.y[i] = surface.onTriangle.y[i];
+        surface.position.z[i] = surface.onTriangle.z[i];
+    }
+    surface.lifted &= ~lanes;
+}
 
 /// The surfaces at the hits of block's active lanes. Lanes without a hit are zero where they are floats.
 /// A point is k * 2^-24 * sum(max |vertex coordinate| * |normal|) off its triangle at most; k = 32 leaves
 /// 1.5e-6 false hits at worst, and none on translated scenes (measured with Embree 3.13.5). Added to it is
 /// Embree's own error of the distance to the plane, 8 * 2^-24 * longest edge: a plane through the origin
 /// has no coordinates to err by.
+///
+/// RayStart::Smooth is against the terminator of the facets, which shows where the shading normals still
+/// see a light that the facet turns its back to: where the light is, for these lanes, is a matter of the
+/// shading normal alone. Flat facets and hollow sides are not lifted.
 void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active,
-                SurfaceLanes& surface);
+                SurfaceLanes& surface, RayStart start = RayStart::Triangle);
 
 /// Texture coordinates of unit 0 at a hit; zero if the mesh has none.
 Vec2 interpolateUv(const SurfaceRecord& record, uint32_t primitive, float u, float v);

@@ -73,6 +73,7 @@ RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings)
     options.lightSamples = settings.getLightSamples();
     options.maxBounces = settings.getMaxBounces();
     options.shadows = settings.getShadows();
+    options.terminatorCorrection = settings.getTerminatorCorrection();
     options.seed = settings.getSeed();
     return options;
 }

@@ -106,7 +106,15 @@ void cameraRayLanes(const CameraRays& camera, const PassKey& key, int left, int 
 void depthLanes(const CameraRays& camera, int left, int bottom, int block, const SurfaceLanes& surface,
                 float* depth)
 {
-    planeDepths(camera, left + laneX(block, 0), bottom + laneY(block, 0), surface, depth);
+    const int blockLeft = left + laneX(block, 0), blockBottom = bottom + laneY(block, 0);
+    if (!surface.lifted)
+    {
+        planeDepths(camera, blockLeft, blockBottom, surface, depth);
+        return;
+    }
+    SurfaceLanes onTriangles = surface;
+    dropLift(onTriangles, kAllLanes);
+    planeDepths(camera, blockLeft, blockBottom, onTriangles, depth);
 }
 
 } // namespace osgRayTrace::engine

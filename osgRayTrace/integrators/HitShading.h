@@ -35,6 +35,27 @@ struct ShadingFrame
     Vec3 normal, tangent, bitangent;
 };
 
+/// What the options want of rays that leave smooth-shaded facets.
+inline RayStart rayStart(const RenderOptions& options)
+{
+    return options.terminatorCorrection ? RayStart::Smooth : RayStart::Triangle;
+}
+
+/// Start of a ray that leaves the surface towards wi.
+inline Vec3 leave(const SurfaceLanes& surface, int i, Vec3 wi)
+{
+    const Vec3 n = laneOf(surface.geometricNormal, i);
+    return laneOf(surface.position, i) +
+           n * (glm::dot(wi, n) >= 0.0f ? surface.offset[i] : -surface.offset[i]);
+}
+
+/// True if the direction is on the ray's side of the surface as light goes: of the facet, or for lifted
+/// lanes of the shading normal alone, on whose side it must be in both cases.
+inline bool isAbove(const SurfaceLanes& surface, int i, Vec3 wi)
+{
+    return ((surface.lifted >> i) & 1u) || glm::dot(wi, laneOf(surface.geometricNormal, i)) > 0.0f;
+}
+
 /// Where on its material hit lane i of the block is.
 MaterialPoint materialPoint(const PassContext& context, const RayHitBlock& rays,
                             const SurfaceLanes& surface, int i);

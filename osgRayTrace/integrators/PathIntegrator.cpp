@@ -8,7 +8,9 @@
 //   beta_{k+1} = beta_k f cos / pdfW / q
 //
 // with the power heuristic w = p_a^2 / (p_a^2 + p_b^2), y sampled on one area light chosen by power, and
-// q the survival probability of Russian roulette. Sixteen paths are followed together; those that end are
+// q the survival probability of Russian roulette: beta as it would be outside of all glass, at most 1. A
+// smaller cap would let beta grow past 1 along paths that lose less than it does, and their variance with it;
+// beta in glass is 1/eta^2 of what comes out again. Sixteen paths are followed together; those that end are
 // replaced by closing the ranks of the tile after each bounce.
 #include "osgRayTrace/integrators/PathIntegrator.h"
 
@@ -29,7 +31,6 @@ namespace
 {
 
 constexpr int kRouletteBounce = 3;      ///< paths are not ended by chance before this bounce
-constexpr float kLargestSurvival = 0.95f;
 
 OSGRAYTRACE_INLINE float powerHeuristic(float a, float b)
 {
@@ -176,8 +177,7 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
         const Vec3 wiWorld = laneOf(light.wi, i);
         const Vec3 wi = frame.toLocal(wiWorld);
         // Light and shading normal must agree on the side, or light leaks through smooth surfaces.
-        if ((wi.z > 0.0f) != (glm::dot(wiWorld, laneOf(bounce.surface.geometricNormal, i)) > 0.0f))
-            continue;
+        if ((wi.z > 0.0f) != isAbove(bounce.surface, i, wiWorld)) continue;
         const BsdfValue value = evalBsdf(bounce.bsdfs[i], wo, wi);
         if (!(value.pdfW > 0.0f)) continue;
         const float mis = delta ? 1.0f : powerHeuristic(1.0f, value.pdfW * light.weight[i]);
@@ -238,12 +238,15 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
     }
 }
 
-/// Next directions of diffuse lanes: vector code. Weight is the albedo, pdfW = cos/pi.
+/// Next directions of diffuse lanes: vector code. Weight is the albedo, pdfW = cos/pi. Returns the lanes whose
+/// direction is one that light comes from: see isAbove.
 OSGRAYTRACE_KERNEL
-void diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface, const FloatLanes& u,
+LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface, const FloatLanes& u,
                        const FloatLanes& v, Vec3Lanes& wi, Vec3Lanes& origin, FloatLanes& pdfW)
 {
-    OSGRAYTRACE_SIMD
+    const LaneMask lifted = surface.lifted;
+    LaneMask alive = 0;
+    OSGRAYTRACE_SIMD_OR(alive)
     for (int i = 0; i < kLanes; ++i)
     {
         const float nx = normal.x[i], ny = normal.y[i], nz = normal.z[i];
@@ -255,14 +258,22 @@ void diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface, con
         const float sign = nz >= 0.0f ? 1.0f : -1.0f;
         const float a = -1.0f / (sign + nz);
         const float b = nx * ny * a;
-        wi.x[i] = (1.0f + sign * nx * nx * a) * lx + b * ly + nx * lz;
-        wi.y[i] = sign * b * lx + (sign + ny * ny * a) * ly + ny * lz;
-        wi.z[i] = -sign * nx * lx - ny * ly + nz * lz;
+        const float wx = (1.0f + sign * nx * nx * a) * lx + b * ly + nx * lz;
+        const float wy = sign * b * lx + (sign + ny * ny * a) * ly + ny * lz;
+        const float wz = -sign * nx * lx - ny * ly + nz * lz;
+        const float gx = surface.geometricNormal.x[i], gy = surface.geometricNormal.y[i],
+                    gz = surface.geometricNormal.z[i];
+        wi.x[i] = wx;
+        wi.y[i] = wy;
+        wi.z[i] = wz;
         pdfW[i] = lz * kInvPi;
-        origin.x[i] = surface.position.x[i] + surface.geometricNormal.x[i] * surface.offset[i];
-        origin.y[i] = surface.position.y[i] + surface.geometricNormal.y[i] * surface.offset[i];
-        origin.z[i] = surface.position.z[i] + surface.geometricNormal.z[i] * surface.offset[i];
+        origin.x[i] = surface.position.x[i] + gx * surface.offset[i];
+        origin.y[i] = surface.position.y[i] + gy * surface.offset[i];
+        origin.z[i] = surface.position.z[i] + gz * surface.offset[i];
+        const uint32_t above = maskOf(wx * gx + wy * gy + wz * gz > 0.0f) | laneBit(lifted, i);
+        alive |= bitOfLane(above & maskOf(lz > 0.0f), i);
     }
+    return alive;
 }
 
 /// Sets the ray of each lane that goes on; the others leave block.active.
@@ -278,15 +289,7 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
     Vec3Lanes weight = bounce.albedo;
     LaneMask alive = 0;
     if (bounce.diffuse)
-    {
-        diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, pdfW);
-        for (LaneMask lanes = bounce.diffuse; lanes; lanes &= lanes - 1)
-        {
-            const int i = __builtin_ctz(lanes);
-            const bool above = glm::dot(laneOf(wi, i), laneOf(bounce.surface.geometricNormal, i)) > 0.0f;
-            alive |= static_cast<LaneMask>(above && pdfW[i] > 0.0f) << i;
-        }
-    }
+        alive = diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, pdfW) & bounce.diffuse;
     for (LaneMask lanes = bounce.general; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
@@ -296,15 +299,12 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         const std::optional<BsdfSample> sample = sampleBsdf(bounce.bsdfs[i], wo, lobe[i], u[i], v[i]);
         if (!sample) continue;
         const Vec3 direction = frame.toWorld(sample->wi);
-        const Vec3 geometric = laneOf(bounce.surface.geometricNormal, i);
-        const float side = glm::dot(direction, geometric);
-        if ((side < 0.0f) != sample->transmitted) continue;
+        if (isAbove(bounce.surface, i, direction) == sample->transmitted) continue;
         setLane(wi, i, direction);
-        setLane(origin, i,
-                laneOf(bounce.surface.position, i) +
-                    geometric * (side < 0.0f ? -bounce.surface.offset[i] : bounce.surface.offset[i]));
+        setLane(origin, i, leave(bounce.surface, i, direction));
         setLane(weight, i, sample->weight);
         pdfW[i] = sample->delta ? kInfinity : sample->pdfW;
+        if (sample->transmitted) block.etaScale[i] *= bounce.bsdfs[i].eta * bounce.bsdfs[i].eta;
         alive |= 1u << i;
     }
 
@@ -315,9 +315,9 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         Vec3 throughput = laneOf(block.throughput, i) * laneOf(weight, i);
         const float largest = std::max(throughput.x, std::max(throughput.y, throughput.z));
         if (!(largest > 0.0f)) continue;
-        if (bounce.number + 1 >= kRouletteBounce)
+        const float survival = largest * block.etaScale[i];
+        if (bounce.number + 1 >= kRouletteBounce && survival < 1.0f)
         {
-            const float survival = std::min(largest, kLargestSurvival);
             if (roulette[i] >= survival) continue;
             throughput /= survival;
         }
@@ -363,6 +363,7 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
         bounce.general |= 1u << i;
         bounce.through |= static_cast<LaneMask>(bounce.bsdfs[i].transmits()) << i;
     }
+    dropLift(bounce.surface, bounce.through); // refraction depends on where the facet is
 }
 
 /// Follows the paths of a block over one bounce.
@@ -379,7 +380,8 @@ void bounceBlock(Tile& tile, int b, int number, bool last)
     Bounce bounce;
     bounce.number = number;
     bounce.bsdfs = tile.bsdfs;
-    surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface);
+    surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface,
+               rayStart(tile.context.options));
     const Vec3 background(traced.scene().background);
     for (LaneMask lanes = block.active & ~bounce.surface.hits; lanes; lanes &= lanes - 1)
     {
@@ -438,6 +440,7 @@ void PathIntegrator::renderTile(const PassContext& context, int left, int bottom
         {
             setLane(block.throughput, i, Vec3(1.0f));
             block.pdfW[i] = kInfinity;
+            block.etaScale[i] = 1.0f;
             block.pixel[i] = static_cast<uint32_t>(b * kLanes + i);
         }
         block.active = kAllLanes;

@@ -22,6 +22,7 @@ void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
     to.throughput.y[k] = from.throughput.y[i];
     to.throughput.z[k] = from.throughput.z[i];
     to.pdfW[k] = from.pdfW[i];
+    to.etaScale[k] = from.etaScale[i];
     to.seed[k] = from.seed[i];
     to.pixel[k] = from.pixel[i];
 }

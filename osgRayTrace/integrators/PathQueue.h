@@ -14,6 +14,7 @@ struct PathBlock
     RayHitBlock rays;
     Vec3Lanes throughput;  ///< beta
     FloatLanes pdfW;       ///< of the direction of the ray; infinite: no light sample could find it
+    FloatLanes etaScale;   ///< throughput outside of glass over throughput
     UintLanes seed;        ///< of the pixel
     UintLanes pixel;       ///< block * kLanes + lane, and kScattered
     LaneMask active = 0;

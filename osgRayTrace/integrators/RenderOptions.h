@@ -43,6 +43,7 @@ struct RenderOptions
     int lightSamples = 4;    ///< a hit and light; rounded up to a square for the n x n strategies
     int maxBounces = 8;      ///< edges of a path after the camera ray
     bool shadows = true;
+    bool terminatorCorrection = true; ///< rays of smooth-shaded facets start as RayStart::Smooth says
     uint32_t seed = 0;
 
     /// True if an accumulated image made with previous cannot be continued with *this.
@@ -51,7 +52,7 @@ struct RenderOptions
         return integrator != previous.integrator || lightSampling != previous.lightSampling ||
                debugChannel != previous.debugChannel || lightSamples != previous.lightSamples ||
                maxBounces != previous.maxBounces || shadows != previous.shadows ||
-               seed != previous.seed;
+               terminatorCorrection != previous.terminatorCorrection || seed != previous.seed;
     }
 };
 

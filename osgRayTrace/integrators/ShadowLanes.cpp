@@ -3,6 +3,7 @@
 #include "osgRayTrace/integrators/ShadowLanes.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/integrators/HitShading.h"
 
 #include <cmath>
 
@@ -106,13 +107,6 @@ void setRadiance(LightLanes& samples, int i, Vec3 radiance)
 
 Vec3 at(const Vec3Lanes& lanes, int i) { return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]); }
 
-/// Start of a ray that leaves the surface towards wi.
-Vec3 leave(const SurfaceLanes& surface, int i, Vec3 wi)
-{
-    const Vec3 n = at(surface.geometricNormal, i);
-    return at(surface.position, i) + n * (glm::dot(wi, n) >= 0.0f ? surface.offset[i] : -surface.offset[i]);
-}
-
 void setWi(LightLanes& samples, int i, Vec3 wi)
 {
     samples.wi.x[i] = wi.x;
@@ -153,6 +147,7 @@ void areaLightLanes(const PassContext& context, uint32_t index, float pmf, const
                     LightLanes& samples)
 {
     const Light& light = (*context.lights)[index];
+    through |= surface.lifted;
     if (light.kind == LightKind::Parallelogram)
     {
         samples.lit = quadLanes(quadOf(light, context.traced->lights(), index), pmf, surface, active,
@@ -172,20 +167,32 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
                      LaneMask active, LaneMask through, LightLanes& samples)
 {
     const Light& light = (*context.lights)[index];
+    through |= surface.lifted;
     samples.lit = 0;
     for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         const Material& material = context.traced->scene().materials[surface.material[i]];
         if (light.number < 32 && !((material.lightMask >> light.number) & 1u)) continue;
-        const DeltaLightSample sample = sampleDelta(light, at(surface.position, i));
+        const Vec3 point = at(trianglePoints(surface), i);
+        const DeltaLightSample sample = sampleDelta(light, point);
         if (!(sample.attenuation > 0.0f)) continue;
         if (!((through >> i) & 1u) && glm::dot(at(surface.geometricNormal, i), sample.wi) <= 0.0f)
             continue;
         const Vec3 origin = leave(surface, i, sample.wi);
+        Vec3 towards = sample.wi;
+        float distance = sample.distance;
+        if (((surface.lifted >> i) & 1u) && distance < kInfinity)
+        {
+            // The lift is no small thing: to the light itself, not past it.
+            towards = point + sample.wi * distance - origin;
+            distance = glm::length(towards);
+            if (!(distance > 0.0f)) continue;
+            towards /= distance;
+        }
         setWi(samples, i, sample.wi);
-        setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, sample.wi.x, sample.wi.y,
-                     sample.wi.z, sample.distance);
+        setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, towards.x, towards.y, towards.z,
+                     distance);
         setRadiance(samples, i, light.diffuse * (kPi * sample.attenuation));
         samples.weight[i] = 1.0f;
         samples.lit |= 1u << i;

@@ -166,6 +166,8 @@ void classify(Tile& tile, ShadingBlock& block)
             m.fixedFunction |= 1u << i;
             // OpenGL lights by the vertex normal alone, which may look the other way than the face.
             m.through |= 1u << i;
+            if (!(glm::dot(m.points[i].normal, laneOf(block.surface.geometricNormal, i)) > 0.0f))
+                dropLift(block.surface, 1u << i);
             continue;
         }
         if (record.plainDiffuse)
@@ -179,7 +181,9 @@ void classify(Tile& tile, ShadingBlock& block)
                          ? (front ? record.front : record.back)
                          : materials.bsdf(material, materialPoint(tile.context, block.rays, block.surface, i));
         m.physical |= 1u << i;
-        m.through |= static_cast<LaneMask>(m.bsdfs[i].transmits()) << i;
+        if (!m.bsdfs[i].transmits()) continue;
+        m.through |= 1u << i;
+        dropLift(block.surface, 1u << i); // refraction depends on where the facet is
     }
 }
 
@@ -224,8 +228,7 @@ void addGeneral(ShadingBlock& block, LaneMask visible, float scale)
         const Vec3 wo = frame.toLocal(-rayDirection(block.rays.ray, i));
         const Vec3 wiWorld = laneOf(light.wi, i);
         const Vec3 wi = frame.toLocal(wiWorld);
-        if ((wi.z > 0.0f) != (glm::dot(wiWorld, laneOf(block.surface.geometricNormal, i)) > 0.0f))
-            continue;
+        if ((wi.z > 0.0f) != isAbove(block.surface, i, wiWorld)) continue;
         const BsdfValue value = evalBsdf(m.bsdfs[i], wo, wi);
         const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
         addLane(block.radiance, i, value.fCos * radiance * (light.weight[i] * scale));
@@ -298,7 +301,8 @@ void addDeltaLights(Tile& tile, ShadingBlock& block)
         for (LaneMask lanes = reached & m.fixedFunction; lanes; lanes &= lanes - 1)
         {
             const int i = __builtin_ctz(lanes);
-            const float attenuation = sampleDelta(light, laneOf(block.surface.position, i)).attenuation;
+            const Vec3 point = laneOf(trianglePoints(block.surface), i);
+            const float attenuation = sampleDelta(light, point).attenuation;
             addLight(m.points[i], light, laneOf(samples.wi, i), attenuation, (visible >> i) & 1u);
         }
         if (visible & m.diffuse)
@@ -311,9 +315,7 @@ void push(Tile& tile, const ShadingBlock& block, int i, Vec3 direction, Vec3 wei
 {
     const float largest = std::max(weight.x, std::max(weight.y, weight.z));
     if (!(largest >= kSmallestWeight)) return;
-    const Vec3 n = laneOf(block.surface.geometricNormal, i);
-    const float side = glm::dot(direction, n) < 0.0f ? -block.surface.offset[i] : block.surface.offset[i];
-    tile.stack.push_back({laneOf(block.surface.position, i) + n * side, direction, weight, block.pixel[i],
+    tile.stack.push_back({leave(block.surface, i, direction), direction, weight, block.pixel[i],
                           hash(block.seed[i] + 0x9e3779b9u), block.depth[i] + 1});
 }
 
@@ -330,7 +332,7 @@ void spawn(Tile& tile, const ShadingBlock& block)
         const Vec3 weight = laneOf(block.weight, i);
         const Vec3 geometric = laneOf(block.surface.geometricNormal, i);
         const Vec3 mirrored = frame.toWorld(Vec3(-wo.x, -wo.y, wo.z));
-        if (lobes.reflection != Vec3(0.0f) && glm::dot(mirrored, geometric) > 0.0f)
+        if (lobes.reflection != Vec3(0.0f) && isAbove(block.surface, i, mirrored))
             push(tile, block, i, mirrored, weight * lobes.reflection);
         if (lobes.refraction == Vec3(0.0f)) continue;
         const Vec3 refracted = frame.toWorld(lobes.refracted);
@@ -402,7 +404,7 @@ void traceSecondary(Tile& tile)
     traced.intersector().closestHits(block.rays, active, Coherence::Incoherent);
     tile.result.counts.secondaryRays += static_cast<uint64_t>(__builtin_popcount(active));
     countRays(tile, block, active);
-    surfacesOf(traced.surfaces(), block.rays, active, block.surface);
+    surfacesOf(traced.surfaces(), block.rays, active, block.surface, rayStart(tile.context.options));
     const Vec3 background(traced.scene().background);
     for (LaneMask lanes = active & ~block.surface.hits; lanes; lanes &= lanes - 1)
     {
@@ -454,7 +456,7 @@ void traceCamera(Tile& tile, int left, int bottom, int first)
     for (ShadingBlock& block : tile.group)
         traced.intersector().closestHits(block.rays, kAllLanes, Coherence::Coherent);
     for (ShadingBlock& block : tile.group)
-        surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface);
+        surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface, rayStart(context.options));
     tile.result.counts.cameraRays += kGroup * kLanes;
     shade(tile, tile.group, kGroup);
     for (int k = 0; k < kGroup; ++k)

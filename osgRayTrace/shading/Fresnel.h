@@ -15,10 +15,11 @@ inline float fresnelDielectric(float cosThetaI, float eta)
 {
     if (eta == 1.0f) return 0.0f;
     const float c = std::fabs(cosThetaI);
-    const float g2 = (eta - 1.0f) * (eta + 1.0f) + c * c; // eta^2 - 1 would lose digits for indices near 1
-    if (g2 <= 0.0f) return 1.0f;
-    const float g = std::sqrt(g2);
-    // So would g - c: (g^2 - c^2) / (g + c) keeps them.
+    // Near the critical angle next to nothing is left of c^2: in double, or the root of it has 3 digits.
+    const double g2 = (double(eta) - 1.0) * (double(eta) + 1.0) + double(c) * double(c);
+    if (g2 <= 0.0) return 1.0f;
+    const auto g = static_cast<float>(std::sqrt(g2));
+    // g - c would lose digits for indices near 1: (g^2 - c^2) / (g + c) keeps them.
     const float gMinusC = (eta - 1.0f) * (eta + 1.0f) / (g + c);
     const float a = gMinusC / (g + c);
     const float b = (c * (g + c) - 1.0f) / (c * gMinusC + 1.0f);

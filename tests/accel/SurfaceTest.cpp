@@ -325,3 +325,85 @@ TEST_CASE("surface: normals of instances by the inverse transpose, facing by the
         CHECK((surface.front & 4u) == 4u);
     }
 }
+
+TEST_CASE("surface: rays of a smooth facet start on the tangent planes of its vertices", "[accel]")
+{
+    // A facet of the unit sphere: the middle of an edge of length L is L^2/4 from its tangent
+    // planes, twice its depth below the sphere. Normals need not be unit, and look either way.
+    const Vec3 a(0, 0, 1), b(std::sin(0.4f), 0, std::cos(0.4f)),
+        c = glm::normalize(Vec3(0.2f, 0.4f, 1.0f));
+    const float edge = glm::length(b - a);
+    for (const float length : {1.0f, -2.5f})
+    {
+        for (const float side : {1.0f, -1.0f})
+        {
+            auto mesh = newMesh({a, b, c}, {{0, 1, 2}});
+            mesh->normals = std::vector<Vec3>{a * length, b * length, c * length};
+            SceneBuilder builder;
+            builder.add(mesh, lambert(Vec3(0.5f)));
+            const auto traced = builder.build();
+            const Vec3 middle = 0.4995f * (a + b) + 0.001f * c;
+            const Vec3 n = glm::normalize(glm::cross(b - a, c - a));
+            RayHitBlock block;
+            for (int i = 0; i < kLanes; ++i)
+                setRay(block.ray, i, middle + n * side, n * -side);
+            traced->intersector().closestHits(block, kAllLanes, Coherence::Coherent);
+            SurfaceLanes surface;
+            surfacesOf(traced->surfaces(), block, kAllLanes, surface, RayStart::Smooth);
+            REQUIRE(surface.hits == kAllLanes);
+            CAPTURE(length, side);
+            if (side < 0.0f) // hollow
+            {
+                CHECK(surface.lifted == 0u);
+                CHECK(&trianglePoints(surface) == &surface.position);
+                continue;
+            }
+            CHECK(surface.lifted == kAllLanes);
+            const Vec3 lift = at(surface.position, 7) - at(trianglePoints(surface), 7);
+            CHECK(glm::length(lift) == Approx(0.25f * edge * edge).epsilon(0.02));
+            CHECK(glm::dot(lift, n) > 0.0f);
+            dropLift(surface, 3u);
+            CHECK(surface.lifted == (kAllLanes & ~3u));
+            CHECK(at(surface.position, 1) == at(trianglePoints(surface), 1));
+            CHECK(at(surface.position, 2) != at(trianglePoints(surface), 2));
+            surfacesOf(traced->surfaces(), block, kAllLanes, surface);
+            CHECK(surface.lifted == 0u);
+            CHECK(glm::length(at(surface.position, 7) - middle) < 1e-6f);
+        }
+    }
+}
+
+TEST_CASE("surface: lifts are the same in blocks of one triangle and of several, placed or not",
+          "[accel]")
+{
+    auto mesh = sphereMesh(Vec3(0.0f), 1.0f, 6);
+    mesh->normals = std::vector<Vec3>(mesh->positions.begin(), mesh->positions.end());
+    const auto startFrom = [&](bool placed, float mirror, bool mixed)
+    {
+        SceneBuilder builder;
+        Instance& instance = builder.scene->instances[builder.add(mesh, lambert(Vec3(0.5f)))];
+        instance.placed = placed;
+        instance.mirrored = mirror < 0.0f;
+        instance.engineFromLocal.linear = Mat3(mirror, 0, 0, 0, 1, 0, 0, 0, 1);
+        instance.normalFromLocal = instance.engineFromLocal.linear;
+        const auto traced = builder.build();
+        RayHitBlock block;
+        for (int i = 0; i < kLanes; ++i)
+            setRay(block.ray, i, Vec3(mirror * 0.3f, mixed && i > 0 ? -0.6f : 0.2f, 3),
+                   Vec3(0, 0, -1));
+        traced->intersector().closestHits(block, kAllLanes, Coherence::Coherent);
+        SurfaceLanes surface;
+        surfacesOf(traced->surfaces(), block, kAllLanes, surface, RayStart::Smooth);
+        REQUIRE((surface.lifted & 1u) == 1u);
+        return at(surface.position, 0);
+    };
+    const Vec3 start = startFrom(false, 1.0f, false);
+    CHECK(glm::length(start) > 1.0f);
+    CHECK(glm::length(start) < 1.1f);
+    for (const bool mixed : {false, true})
+    {
+        CHECK(glm::length(startFrom(false, 1.0f, mixed) - start) < 1e-6f);
+        CHECK(glm::length(startFrom(true, 1.0f, mixed) - start) < 1e-6f);
+        CHECK(glm::length(startFrom(true, -1.0f, mixed) - start * Vec3(-1, 1, 1)) < 1e-6f);
+    }
+}

@@ -69,7 +69,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getExposure() == 0.0f);
 }
 
-TEST_CASE("settings: the table names all twelve options once", "[api][settings]")
+TEST_CASE("settings: the table names all thirteen options once", "[api][settings]")
 {
     std::set<std::string> names;
     std::set<std::string> variables;
@@ -78,11 +78,11 @@ TEST_CASE("settings: the table names all twelve options once", "[api][settings]"
         names.insert(option.name);
         variables.insert(option.environment);
     }
-    CHECK(names.size() == 12);
-    CHECK(variables.size() == 12);
+    CHECK(names.size() == 13);
+    CHECK(variables.size() == 13);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 12);
+    CHECK(RayTraceSettings::options().size() == 13);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")

@@ -49,7 +49,7 @@ View receiverView(double side = 1e-3)
 } // namespace
 
 TEST_CASE("area light: irradiance by path tracing, as parallelogram and as mesh",
-          "[integrators][statistics]")
+          "[integrators][statistics][stability 23]")
 {
     for (const Square& square : kSquares)
     {
@@ -66,7 +66,7 @@ TEST_CASE("area light: irradiance by path tracing, as parallelogram and as mesh"
 }
 
 TEST_CASE("area light: irradiance by Whitted's light samples, with every strategy",
-          "[integrators][statistics]")
+          "[integrators][statistics][stability 23]")
 {
     for (const Square& square : kSquares)
     {
@@ -119,7 +119,7 @@ TEST_CASE("area light: a two-sided light shines from its back as well", "[integr
 }
 
 TEST_CASE("area light: very small and very distant lights are point lights",
-          "[integrators][statistics]")
+          "[integrators][statistics][stability 25]")
 {
     const Square tiny{"tiny", {-5e-7f, -5e-7f, 1}, {0, 1e-6f, 0}, {1e-6f, 0, 0}, 1.0};
     const Square distant{"distant", {-0.5f, -0.5f, 1e6f}, {0, 1, 0}, {1, 0, 0}, 1.0};
@@ -178,7 +178,8 @@ TEST_CASE("area light: a receiver on the light's plane gets nothing, and no NaN"
     }
 }
 
-TEST_CASE("area light: triangles without area among the others change nothing", "[integrators]")
+TEST_CASE("area light: triangles without area among the others change nothing",
+          "[integrators][stability 28]")
 {
     const Square& square = kSquares[0];
     const auto clean = receiverUnder(square, Emitter::Mesh);

@@ -189,6 +189,7 @@ TEST_CASE("serializers: RayTraceSettings keep every option against the environme
     settings->set("integrator", "path");
     settings->set("light-sampling", "uniform-jitter");
     settings->set("shadows", "off");
+    settings->set("terminator-correction", "off");
     settings->set("max-passes", "77");
     settings->set("seed", "4294967295");
     settings->set("exposure", "-0.1");

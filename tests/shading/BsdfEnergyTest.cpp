@@ -57,7 +57,7 @@ Bsdf roughGlass(float eta, float alpha)
 } // namespace
 
 TEST_CASE("bsdf: single-scattering GGX keeps what the white furnace table says",
-          "[shading][statistics]")
+          "[shading][statistics][stability 32]")
 {
     // 1 - ln 2 at alpha = 1 is exact; the others are rounded to 3 or 4 digits.
     const struct
@@ -174,7 +174,8 @@ TEST_CASE("bsdf: radiance that enters glass is 1/eta^2 of the importance", "[sha
     }
 }
 
-TEST_CASE("bsdf: grazing and extreme arguments give finite, consistent samples", "[shading]")
+TEST_CASE("bsdf: grazing and extreme arguments give finite, consistent samples",
+          "[shading][stability 35]")
 {
     const float edges[] = {0.0f, 1e-7f, 0.25f, 0.5f, 0.999999f, kOneMinusEpsilon};
     const auto isGood = [](const BsdfSample& s)
@@ -224,7 +225,8 @@ TEST_CASE("bsdf: from below, and black, nothing is scattered", "[shading]")
     CHECK_FALSE(sampleBsdf(Bsdf(), Vec3(0, 0, 1), 0.5f, 0.5f, 0.5f));
 }
 
-TEST_CASE("bsdf: an interface of index 1, or nearly 1, is invisible at any roughness", "[shading]")
+TEST_CASE("bsdf: an interface of index 1, or nearly 1, is invisible at any roughness",
+          "[shading][stability 33]")
 {
     for (const float ior : {1.0f, 1.0f + 1.2e-7f, 1.0f - 1.2e-7f, 1.00005f})
     {
