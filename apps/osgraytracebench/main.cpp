@@ -3,6 +3,7 @@
 #include "apps/common/Failure.h"
 #include "apps/common/PluginPath.h"
 #include "apps/osgraytracebench/LimitMode.h"
+#include "apps/osgraytracebench/report/CompareMode.h"
 #include "apps/osgraytracebench/report/ReportMode.h"
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,8 @@ using namespace osgRayTrace::bench;
 
 namespace
 {
+
+constexpr int kCompareUsage = 2;
 
 int runLimit(const std::string& json)
 {
@@ -46,12 +49,21 @@ struct CommandLine
         report.add_option("--expectations", options.expectations,
                           "check a quick report against this file, not the built-in one");
         report.add_option("MODEL", options.models, "measure these files, together one scene");
+
+        compare.add_option("BEFORE", before, "report.json")->required();
+        compare.add_option("AFTER", after, "report.json")->required();
+        compare.add_option("--false-alarms", falseAlarmRate, "probability that chance alone makes a change")
+            ->check(CLI::Range(1e-9, 0.5))
+            ->capture_default_str();
+        compare.footer("Ends with 0 if no row changed by more than its noise, 1 if one did, 2 if the files cannot "
+                       "be compared.");
         application.require_subcommand(1);
     }
 
     int run()
     {
         if (limit) return runLimit(limitJson);
+        if (compare) return runCompare(before, after, falseAlarmRate);
         app::addPluginPath();
         return runReport(options);
     }
@@ -61,7 +73,10 @@ struct CommandLine
         "limit", "a whole frame, a path traced one and a build against Embree alone");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
-    std::string limitJson;
+    CLI::App& compare =
+        *application.add_subcommand("compare", "which rows of two reports differ by more than their noise");
+    std::string limitJson, before, after;
+    double falseAlarmRate = 0.01;
     ReportOptions options;
 };
 
@@ -77,7 +92,10 @@ int main(int argc, char** argv)
     }
     catch (const CLI::ParseError& error)
     {
-        return commandLine.application.exit(error) == 0 ? app::kDone : app::kUsage;
+        if (commandLine.application.exit(error) == 0) return app::kDone;
+        // compare's 1 says that something changed.
+        const bool comparing = argc > 1 && std::string(argv[1]) == "compare";
+        return comparing ? kCompareUsage : app::kUsage;
     }
     catch (const app::Failure& failure)
     {
