@@ -7,8 +7,9 @@
 #include "apps/osgraytracebench/report/BoxScenes.h"
 #include "apps/osgraytracebench/report/Expectations.h"
 #include "apps/osgraytracebench/report/Machine.h"
-#include "apps/osgraytracebench/report/Measurement.h"
+#include "apps/osgraytracebench/report/Plots.h"
 #include "apps/osgraytracebench/report/ReportFiles.h"
+#include "apps/osgraytracebench/report/ReportPage.h"
 #include "apps/osgraytracebench/report/SamplerStudy.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/integrators/Integrator.h"
@@ -37,6 +38,7 @@ struct Run
     int width;
     std::shared_ptr<engine::Workers> workers;
     Report report;
+    std::vector<SceneThumbnails> thumbnails;
 };
 
 std::vector<ReportScene> scenesOf(const Run& run)
@@ -85,6 +87,7 @@ void printLine(const ReportLine& line)
 void measureScene(Run& run, const ReportScene& scene)
 {
     const Reference reference = referenceOf(run, scene);
+    SceneThumbnails thumbnails{scene.name, scene.title, thumbnail(reference), {}};
     for (std::size_t p = 0; p < scene.placements.size(); ++p)
     {
         const PreparedScene prepared = prepare(scene, scene.placements[p], run.width, run.workers);
@@ -94,8 +97,15 @@ void measureScene(Run& run, const ReportScene& scene)
                                                   reference, planFor(run, p));
             printLine(measured.line);
             run.report.lines.push_back(measured.line);
+            if (p > 0) continue; // it looks the same elsewhere
+            char budget[40];
+            std::snprintf(budget, sizeof budget, "%g %s", measured.pictureBudget,
+                          run.options.quick ? "passes" : "s");
+            thumbnails.lines.push_back({method.name, budget, thumbnail(measured.picture, reference),
+                                        errorThumbnail(measured.picture, reference)});
         }
     }
+    run.thumbnails.push_back(thumbnails);
 }
 
 void measureSamplers(Run& run)
@@ -119,18 +129,17 @@ std::string expectationsOf(const ReportOptions& options)
     return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
-/// False if one is not met. All are said.
-bool meetsExpectations(const Run& run)
+/// Says all of them; returns how many are not met.
+int printVerdicts(const std::vector<Verdict>& verdicts)
 {
     int failed = 0;
-    const std::vector<Verdict> verdicts = checkExpectations(run.report, expectationsOf(run.options));
     for (const Verdict& verdict : verdicts)
     {
         std::printf("%s  %s\n", verdict.met ? "ok    " : "FAILED", verdict.text.c_str());
         failed += verdict.met ? 0 : 1;
     }
     std::printf("%zu checks, %d failed\n", verdicts.size(), failed);
-    return failed == 0;
+    return failed;
 }
 
 } // namespace
@@ -142,7 +151,7 @@ int runReport(const ReportOptions& options)
     if (error) throw app::Failure(app::kCannotWrite, "cannot make the folder " + options.folder);
 
     const int width = options.width > 0 ? options.width : options.quick ? kQuickWidth : kFullWidth;
-    Run run{options, width, std::make_shared<engine::Workers>(), {}};
+    Run run{options, width, std::make_shared<engine::Workers>(), {}, {}};
     run.report.machine = describeMachine(run.workers->threads());
     run.report.timed = !options.quick;
     run.report.width = width;
@@ -155,8 +164,12 @@ int runReport(const ReportOptions& options)
 
     writeJson(run.report, options.folder + "/report.json");
     writeCsv(run.report, options.folder + "/report.csv");
-    if (!options.quick || !whole) return app::kDone;
-    return meetsExpectations(run) ? app::kDone : kCheckFailed;
+    std::vector<Verdict> verdicts;
+    if (options.quick && whole) verdicts = checkExpectations(run.report, expectationsOf(options));
+    if (!haveGnuplot()) std::printf("gnuplot was not found: the page has tables, but no plots\n");
+    writeWhole(options.folder + "/report.html", reportPage(run.report, run.thumbnails, verdicts));
+    if (verdicts.empty()) return app::kDone;
+    return printVerdicts(verdicts) == 0 ? app::kDone : kCheckFailed;
 }
 
 } // namespace osgRayTrace::bench
