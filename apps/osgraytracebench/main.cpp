@@ -24,7 +24,8 @@ int runLimit(const std::string& json)
 {
     const Rows rows = measureLimit();
     printRows(rows);
-    if (!json.empty() && !writeRows(rows, json)) throw app::Failure(app::kCannotWrite, "cannot write " + json);
+    if (!json.empty() && !writeRows(rows, json))
+        throw app::Failure(app::kCannotWrite, "cannot write " + json);
     return app::kDone;
 }
 
@@ -37,25 +38,32 @@ struct CommandLine
 
         report.add_option("-o,--output", options.folder, "folder of report.html, .csv and .json")
             ->capture_default_str();
-        report.add_flag("--quick", options.quick,
-                        "count passes, not seconds, and check what came out: minutes; ends with 5 if a "
-                        "check fails");
+        report.add_flag(
+            "--quick", options.quick,
+            "count passes, not seconds, and check what came out: minutes; ends with 5 if a "
+            "check fails");
         report.add_option("--longest", options.longest, "longest budget of a picture [s]")
             ->check(CLI::Range(0.125, 86400.0))
             ->capture_default_str();
-        report.add_option("--width", options.width, "width of the pictures [pixels]; 0: 128, quick 32")
+        report
+            .add_option("--width", options.width,
+                        "width of the pictures [pixels]; 0: 128, quick 32")
             ->check(CLI::Range(0, 4096));
-        report.add_option("--only", options.only, "scenes whose name holds this; \"samplers\" for these alone");
+        report.add_option("--only", options.only,
+                          "scenes whose name holds this; \"samplers\" for these alone");
         report.add_option("--expectations", options.expectations,
                           "check a quick report against this file, not the built-in one");
         report.add_option("MODEL", options.models, "measure these files, together one scene");
 
         compare.add_option("BEFORE", before, "report.json")->required();
         compare.add_option("AFTER", after, "report.json")->required();
-        compare.add_option("--false-alarms", falseAlarmRate, "probability that chance alone makes a change")
+        compare
+            .add_option("--false-alarms", falseAlarmRate,
+                        "probability that chance alone makes a change")
             ->check(CLI::Range(1e-9, 0.5))
             ->capture_default_str();
-        compare.footer("Ends with 0 if no row changed by more than its noise, 1 if one did, 2 if the files cannot "
+        compare.footer("Ends with 0 if no row changed by more than its noise, 1 if one did, 2 if "
+                       "the files cannot "
                        "be compared.");
         application.require_subcommand(1);
     }
@@ -73,8 +81,8 @@ struct CommandLine
         "limit", "a whole frame, a path traced one and a build against Embree alone");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
-    CLI::App& compare =
-        *application.add_subcommand("compare", "which rows of two reports differ by more than their noise");
+    CLI::App& compare = *application.add_subcommand(
+        "compare", "which rows of two reports differ by more than their noise");
     std::string limitJson, before, after;
     double falseAlarmRate = 0.01;
     ReportOptions options;

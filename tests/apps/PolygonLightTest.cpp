@@ -20,7 +20,8 @@ Polygon square(double x, double y, double z)
             Vec3d(x - 0.5, y + 0.5, z)};
 }
 
-/// The same by adding up small pieces of a unit square light at height 1 that the function lets through.
+/// The same by adding up small pieces of a unit square light at height 1 that the function lets
+/// through.
 template <typename Visible> double summed(const Vec3d& point, const Visible& visible)
 {
     constexpr int kPieces = 1500;
@@ -43,7 +44,8 @@ TEST_CASE("polygon light: unit squares in closed form", "[report]")
 {
     CHECK(irradiance(square(0, 0, 1), Vec3d(), kUp) == Approx(0.75227469).epsilon(1e-8));
     CHECK(irradiance(square(1, 0, 1), Vec3d(), kUp) == Approx(0.26500485).epsilon(1e-7));
-    const Polygon standing{Vec3d(1, -0.5, 0), Vec3d(1, 0.5, 0), Vec3d(1, 0.5, 1), Vec3d(1, -0.5, 1)};
+    const Polygon standing{Vec3d(1, -0.5, 0), Vec3d(1, 0.5, 0), Vec3d(1, 0.5, 1),
+                           Vec3d(1, -0.5, 1)};
     CHECK(irradiance(standing, Vec3d(), kUp) == Approx(0.22334663).epsilon(1e-7));
 }
 
@@ -51,7 +53,8 @@ TEST_CASE("polygon light: what is below the horizon does not count", "[report]")
 {
     const Polygon upper{Vec3d(1, -0.5, 0), Vec3d(1, 0.5, 0), Vec3d(1, 0.5, 1), Vec3d(1, -0.5, 1)};
     const Polygon whole{Vec3d(1, -0.5, -3), Vec3d(1, 0.5, -3), Vec3d(1, 0.5, 1), Vec3d(1, -0.5, 1)};
-    CHECK(irradiance(whole, Vec3d(), kUp) == Approx(irradiance(upper, Vec3d(), kUp)).epsilon(1e-12));
+    CHECK(irradiance(whole, Vec3d(), kUp) ==
+          Approx(irradiance(upper, Vec3d(), kUp)).epsilon(1e-12));
     CHECK(irradiance(square(0, 0, -1), Vec3d(), kUp) == 0.0);
 }
 
@@ -65,7 +68,8 @@ TEST_CASE("polygon light: occluders against sums of pieces", "[report]")
     const Polygon edge{start - along * 9.0, start + across * 9.0 - along * 9.0,
                        start + across * 9.0 + along * 9.0, start + along * 9.0};
     const auto before = [&](const Vec3d& q) { return across * ((point + q) * 0.5 - start) < 0.0; };
-    CHECK(irradiance(square(0, 0, 1), edge, point, kUp) == Approx(summed(point, before)).margin(1e-3));
+    CHECK(irradiance(square(0, 0, 1), edge, point, kUp) ==
+          Approx(summed(point, before)).margin(1e-3));
 
     const Polygon small{Vec3d(0.0, -0.1, 0.5), Vec3d(0.2, -0.1, 0.5), Vec3d(0.1, 0.1, 0.5)};
     const auto around = [&](const Vec3d& q)
@@ -75,8 +79,10 @@ TEST_CASE("polygon light: occluders against sums of pieces", "[report]")
             if (((small[(i + 1) % 3] - small[i]) ^ (m - small[i])).z() < 0.0) return true;
         return false;
     };
-    CHECK(irradiance(square(0, 0, 1), small, point, kUp) == Approx(summed(point, around)).margin(1e-3));
-    CHECK(irradiance(square(0, 0, 1), small, point, kUp) < irradiance(square(0, 0, 1), point, kUp) - 0.01);
+    CHECK(irradiance(square(0, 0, 1), small, point, kUp) ==
+          Approx(summed(point, around)).margin(1e-3));
+    CHECK(irradiance(square(0, 0, 1), small, point, kUp) <
+          irradiance(square(0, 0, 1), point, kUp) - 0.01);
 }
 
 TEST_CASE("polygon light: the way round an occluder's corners does not matter", "[report]")

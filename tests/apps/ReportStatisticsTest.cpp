@@ -77,7 +77,8 @@ TEST_CASE("slopes: power laws are found, with their error", "[report]")
         errors.add(found->error * found->error);
     }
     CHECK(slopes.agrees(-1.5));
-    CHECK(std::sqrt(errors.mean() / slopes.variance()) == Approx(1.0).margin(0.25)); // 4 standard errors
+    CHECK(std::sqrt(errors.mean() / slopes.variance()) ==
+          Approx(1.0).margin(0.25)); // 4 standard errors
 }
 
 TEST_CASE("slopes: the time to a target lies on the line between its neighbours", "[report]")
@@ -111,7 +112,8 @@ TEST_CASE("budget sums: errors, variance and bias of pictures with known noise",
     CHECK(row.mse == Approx(mse).epsilon(0.05));
     CHECK(row.relMse == Approx(mse / (4.0 + 0.0004)).epsilon(0.05));
     CHECK(row.relMseFixed == Approx(mse / 4.01).epsilon(0.05));
-    CHECK(row.mseError == Approx(mse * std::sqrt(2.0 / 19200)).epsilon(0.6)); // itself from 16 values
+    CHECK(row.mseError ==
+          Approx(mse * std::sqrt(2.0 / 19200)).epsilon(0.6)); // itself from 16 values
     CHECK(row.efficiency == Approx(1.0 / (0.09 * 0.5)).epsilon(0.05));
     // 0.3 / sqrt(19200) of 2 is 0.108 %.
     CHECK(row.biasError == Approx(0.108).epsilon(0.05));
@@ -137,7 +139,8 @@ TEST_CASE("budget sums: the reference's own noise is taken off", "[report]")
         sums.add(noisyPicture(2.0, 0.3, random), {});
     CHECK(sums.row().mse == Approx(0.09).epsilon(0.1));
     CHECK(std::abs(sums.row().biasPercent) < 4.0 * sums.row().biasError);
-    CHECK(sums.row().biasError == Approx(100.0 * std::sqrt((0.09 / 16 + 0.04) / 1200) / 2.0).epsilon(0.1));
+    CHECK(sums.row().biasError ==
+          Approx(100.0 * std::sqrt((0.09 / 16 + 0.04) / 1200) / 2.0).epsilon(0.1));
 }
 
 TEST_CASE("budget sums: what is not finite is counted, not averaged", "[report]")

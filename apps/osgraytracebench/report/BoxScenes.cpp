@@ -20,7 +20,8 @@ void useStoredView(ReportScene& scene)
 {
     const app::Placement place = *app::storedPlacement(*scene.graph);
     const osg::BoundingSphere& bound = scene.graph->getBound();
-    const double farthest = (place.eye - osg::Vec3d(bound.center())).length() + 2.0 * bound.radius();
+    const double farthest =
+        (place.eye - osg::Vec3d(bound.center())).length() + 2.0 * bound.radius();
     scene.view = osg::Matrixd::lookAt(place.eye, place.center, place.up);
     scene.projection =
         osg::Matrixd::perspective(place.fovyDegrees, scene.aspect, 1e-3 * farthest, farthest);

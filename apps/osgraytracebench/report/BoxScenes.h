@@ -20,8 +20,8 @@ ReportScene cornellScene(CornellKind kind);
 /// Lattices below an area light: direct light by all strategies.
 ReportScene gridsScene();
 
-/// A scene with the view that it stores, or osgviewer's home view; the integrator that AUTOMATIC takes, with
-/// all strategies if that samples lights by them.
+/// A scene with the view that it stores, or osgviewer's home view; the integrator that AUTOMATIC
+/// takes, with all strategies if that samples lights by them.
 ReportScene modelScene(const std::string& name, osg::Node& graph, bool physical);
 
 } // namespace osgRayTrace::bench

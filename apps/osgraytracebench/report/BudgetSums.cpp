@@ -5,7 +5,8 @@
 //
 //   MSE      = mean over k and pixels of (x_k - r)^2 - v
 //   V        = mean over pixels of the unbiased variance of x_k over k
-//   bias     = mean over k and pixels of x_k - r, with variance sum over pixels (var_k / K + v) / pixels^2
+//   bias     = mean over k and pixels of x_k - r, with variance sum over pixels (var_k / K + v) /
+//   pixels^2
 #include "apps/osgraytracebench/report/BudgetSums.h"
 
 #include "apps/common/ErrorMeasures.h"
@@ -23,7 +24,8 @@ namespace
 
 constexpr double kRelativeOffset = 0.01; ///< of the mean luminance
 
-/// Rounding of floats on the way from a light sample to a pixel's mean does not average out altogether.
+/// Rounding of floats on the way from a light sample to a pixel's mean does not average out
+/// altogether.
 constexpr double kRounding = 0x1p-22;
 
 double offsetOf(const Reference& reference)
@@ -34,7 +36,9 @@ double offsetOf(const Reference& reference)
 } // namespace
 
 BudgetSums::BudgetSums(const Reference& reference)
-    : _reference(reference), _difference(reference.mean.size()), _squares(reference.mean.size()),
+    : _reference(reference),
+      _difference(reference.mean.size()),
+      _squares(reference.mean.size()),
       _pixelSquares(reference.mean.size() / 3)
 {
     const double offset = offsetOf(reference), count = static_cast<double>(reference.mean.size());
@@ -121,7 +125,8 @@ ReportRow BudgetSums::row() const
 
 void BudgetSums::addBias(ReportRow& row) const
 {
-    // The colours of a pixel come from the same samples: a pixel is one value, the sum of its colours.
+    // The colours of a pixel come from the same samples: a pixel is one value, the sum of its
+    // colours.
     const double count = static_cast<double>(seeds());
     double bias = 0.0, variance = 0.0;
     for (std::size_t p = 0; p < _pixelSquares.size(); ++p)
@@ -133,9 +138,8 @@ void BudgetSums::addBias(ReportRow& row) const
             referenceDeviation += std::sqrt(_reference.variance[i]); // as if fully correlated
         }
         bias += sum / count;
-        const double scatter = seeds() > 1
-                                   ? (_pixelSquares[p] - sum * sum / count) / (count - 1.0)
-                                   : _pixelSquares[p];
+        const double scatter =
+            seeds() > 1 ? (_pixelSquares[p] - sum * sum / count) / (count - 1.0) : _pixelSquares[p];
         variance += std::max(scatter, 0.0) / count + referenceDeviation * referenceDeviation;
     }
     const double values = static_cast<double>(_difference.size());

@@ -45,7 +45,7 @@ private:
     int64_t _nonFinite = 0;
     double _relativeNoise = 0.0; ///< what the reference's variance adds to relMse
     double _relativeNoiseFixed = 0.0;
-    double _noise = 0.0;         ///< to mse
+    double _noise = 0.0; ///< to mse
 };
 
 } // namespace osgRayTrace::bench

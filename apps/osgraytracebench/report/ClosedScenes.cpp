@@ -18,7 +18,8 @@ namespace
 using osg::Vec3;
 using osg::Vec3d;
 
-constexpr int kBounces = 256; ///< what lies beyond is below 1e-11 of the whole for albedos up to 0.9
+constexpr int kBounces =
+    256; ///< what lies beyond is below 1e-11 of the whole for albedos up to 0.9
 
 constexpr double kSphereAlbedo = 0.5;
 const Vec3d kSpot(0.35, 0.2, 0.15); ///< the point light in the unit sphere
@@ -71,8 +72,8 @@ osg::ref_ptr<osg::LightSource> pointLight()
     return source;
 }
 
-/// Direct light, and indirect light that is the same everywhere: for a flux F that lands on the wall
-/// of radius 1 the irradiance albedo F / (4 pi (1 - albedo)), however it is spread.
+/// Direct light, and indirect light that is the same everywhere: for a flux F that lands on the
+/// wall of radius 1 the irradiance albedo F / (4 pi (1 - albedo)), however it is spread.
 Vec3d sphereRadiance(const Vec3d& origin, const Vec3d& direction)
 {
     const Vec3d ray = direction / direction.length();
@@ -90,7 +91,8 @@ Vec3d sphereRadiance(const Vec3d& origin, const Vec3d& direction)
 ReportScene furnaceScene(double albedo)
 {
     const float reflected = static_cast<float>(albedo);
-    const osg::ref_ptr<PhysicalMaterial> wall = data::lambert(Vec3(reflected, reflected, reflected));
+    const osg::ref_ptr<PhysicalMaterial> wall =
+        data::lambert(Vec3(reflected, reflected, reflected));
     wall->setEmission(Vec3(1, 1, 1));
     const osg::ref_ptr<osg::Group> graph = data::newScene("furnace");
     graph->addChild(

@@ -44,8 +44,10 @@ std::map<std::string, Measured> measuredRows(const Report& report)
         for (const ReportRow& row : line.rows)
         {
             char budget[32];
-            std::snprintf(budget, sizeof budget, "%g %s", row.budget, report.timed ? "s" : "passes");
-            Measured& measured = rows[line.scene + ", " + line.placement + ", " + line.method + ", " + budget];
+            std::snprintf(budget, sizeof budget, "%g %s", row.budget,
+                          report.timed ? "s" : "passes");
+            Measured& measured =
+                rows[line.scene + ", " + line.placement + ", " + line.method + ", " + budget];
             measured.quantities = {{"relMSE", row.relMse, row.relMseError, row.seeds - 1.0, true},
                                    {"bias [%]", row.biasPercent, row.biasError, 0.0, false}};
             measured.nonFinite = row.nonFinite;
@@ -55,7 +57,8 @@ std::map<std::string, Measured> measuredRows(const Report& report)
     for (const SamplerLine& line : report.samplers)
     {
         for (const SamplerPoint& point : line.points)
-            rows["samplers, " + line.scene + ", " + line.strategy + ", N = " + std::to_string(point.samples)]
+            rows["samplers, " + line.scene + ", " + line.strategy +
+                 ", N = " + std::to_string(point.samples)]
                 .quantities = {{"MSE", point.mse, point.mseError, kSamplerGroups - 1.0, true}};
     }
     return rows;
@@ -94,7 +97,8 @@ struct Pair
 
 Comparison compareReports(const Report& before, const Report& after, double falseAlarmRate)
 {
-    const std::map<std::string, Measured> first = measuredRows(before), second = measuredRows(after);
+    const std::map<std::string, Measured> first = measuredRows(before),
+                                          second = measuredRows(after);
     Comparison result;
     std::vector<Pair> pairs;
     std::vector<double> speeds;
@@ -114,7 +118,8 @@ Comparison compareReports(const Report& before, const Report& after, double fals
                 pairs.push_back({&row, &a.quantities[q], &b.quantities[q], probability});
         }
         if (a.nonFinite != b.nonFinite)
-            result.changes.push_back({row, "non-finite samples", double(a.nonFinite), double(b.nonFinite), 0.0});
+            result.changes.push_back(
+                {row, "non-finite samples", double(a.nonFinite), double(b.nonFinite), 0.0});
         if (a.raysPerSecond > 0.0 && b.raysPerSecond > 0.0)
             speeds.push_back(b.raysPerSecond / a.raysPerSecond);
     }
@@ -153,14 +158,17 @@ int runCompare(const std::string& before, const std::string& after, double false
     }
 
     for (const Change& change : comparison.changes)
-        std::printf("changed: %s: %s %.4g -> %.4g, p = %.2g\n", change.row.c_str(), change.quantity.c_str(),
-                    change.before, change.after, change.probability);
-    std::printf("%zu of %zu tests say changed. By chance alone one or more would in %g %% of comparisons: each "
+        std::printf("changed: %s: %s %.4g -> %.4g, p = %.2g\n", change.row.c_str(),
+                    change.quantity.c_str(), change.before, change.after, change.probability);
+    std::printf("%zu of %zu tests say changed. By chance alone one or more would in %g %% of "
+                "comparisons: each "
                 "test has a significance of %.2g.\n",
-                comparison.changes.size(), comparison.tests, 100.0 * falseAlarmRate, comparison.significance);
+                comparison.changes.size(), comparison.tests, 100.0 * falseAlarmRate,
+                comparison.significance);
     if (comparison.untested > 0)
         std::printf("%zu values of single pictures could not be tested.\n", comparison.untested);
-    if (comparison.onlyInOne > 0) std::printf("%zu rows are in one report only.\n", comparison.onlyInOne);
+    if (comparison.onlyInOne > 0)
+        std::printf("%zu rows are in one report only.\n", comparison.onlyInOne);
     if (comparison.raysPerSecond > 0.0)
         std::printf("Rays a second, after by before, median over rows: %.3f (not tested).\n",
                     comparison.raysPerSecond);

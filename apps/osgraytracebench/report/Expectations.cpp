@@ -34,17 +34,19 @@ std::string nameOf(const ReportLine& line)
     return line.scene + ", " + line.placement + ", " + line.method;
 }
 
-const ReportLine* findLine(const Report& report, const std::string& scene, const std::string& placement,
-                           const std::string& method)
+const ReportLine* findLine(const Report& report, const std::string& scene,
+                           const std::string& placement, const std::string& method)
 {
     for (const ReportLine& line : report.lines)
     {
-        if (line.scene == scene && line.placement == placement && line.method == method) return &line;
+        if (line.scene == scene && line.placement == placement && line.method == method)
+            return &line;
     }
     return nullptr;
 }
 
-const SamplerLine* findSampler(const Report& report, const std::string& scene, const std::string& strategy)
+const SamplerLine* findSampler(const Report& report, const std::string& scene,
+                               const std::string& strategy)
 {
     for (const SamplerLine& line : report.samplers)
     {
@@ -61,7 +63,8 @@ Verdict notMeasured(const std::string& what)
 /// Formula scenes, at their largest budget.
 void checkBias(const Report& report, const json& wanted, std::vector<Verdict>& verdicts)
 {
-    const double mostPercent = wanted.at("largest_percent"), mostErrors = wanted.at("largest_errors");
+    const double mostPercent = wanted.at("largest_percent"),
+                 mostErrors = wanted.at("largest_errors");
     bool any = false;
     for (const ReportLine& line : report.lines)
     {
@@ -70,8 +73,8 @@ void checkBias(const Report& report, const json& wanted, std::vector<Verdict>& v
         const ReportRow& row = line.rows.back();
         const double errors = row.biasPercent / row.biasError;
         const bool met = std::abs(row.biasPercent) < mostPercent && std::abs(errors) <= mostErrors;
-        verdicts.push_back({text("bias of %s: %+.2g %%, %+.2f standard errors", nameOf(line).c_str(),
-                                 row.biasPercent, errors),
+        verdicts.push_back({text("bias of %s: %+.2g %%, %+.2f standard errors",
+                                 nameOf(line).c_str(), row.biasPercent, errors),
                             met});
     }
     if (!any) verdicts.push_back(notMeasured("bias of any scene with a formula"));
@@ -101,11 +104,13 @@ void checkPlacements(const Report& report, const json& wanted, std::vector<Verdi
             continue;
         }
         const ReportRow &here = line.rows.back(), &there = origin->rows.back();
-        const double bias = (here.biasPercent - there.biasPercent) / std::hypot(here.biasError, there.biasError);
-        const double error = (here.relMse - there.relMse) / std::hypot(here.relMseError, there.relMseError);
-        verdicts.push_back(
-            {text("%s against the origin: mean %+.2f, relMSE %+.2f standard errors", nameOf(line).c_str(), bias, error),
-             std::abs(bias) <= mostErrors && std::abs(error) <= mostErrors});
+        const double bias =
+            (here.biasPercent - there.biasPercent) / std::hypot(here.biasError, there.biasError);
+        const double error =
+            (here.relMse - there.relMse) / std::hypot(here.relMseError, there.relMseError);
+        verdicts.push_back({text("%s against the origin: mean %+.2f, relMSE %+.2f standard errors",
+                                 nameOf(line).c_str(), bias, error),
+                            std::abs(bias) <= mostErrors && std::abs(error) <= mostErrors});
     }
 }
 
@@ -121,10 +126,11 @@ void checkSlopes(const Report& report, const json& wanted, std::vector<Verdict>&
             continue;
         }
         const double most = entry.at("at_most"), least = entry.value("at_least", -100.0);
-        verdicts.push_back({text("slope of %s, %s: %.3f +- %.3f, wanted at most %g%s", scene.c_str(),
-                                 strategy.c_str(), line->slope, line->slopeError, most,
-                                 least > -100.0 ? text(" and at least %g", least).c_str() : ""),
-                            line->slope <= most && line->slope >= least});
+        verdicts.push_back(
+            {text("slope of %s, %s: %.3f +- %.3f, wanted at most %g%s", scene.c_str(),
+                  strategy.c_str(), line->slope, line->slopeError, most,
+                  least > -100.0 ? text(" and at least %g", least).c_str() : ""),
+             line->slope <= most && line->slope >= least});
     }
 }
 
@@ -162,7 +168,8 @@ void checkRatios(const Report& report, const json& wanted, std::vector<Verdict>&
 {
     for (const json& entry : wanted)
     {
-        const std::string scene = entry.at("scene"), method = entry.at("method"), over = entry.at("over");
+        const std::string scene = entry.at("scene"), method = entry.at("method"),
+                          over = entry.at("over");
         const ReportLine* line = findLine(report, scene, "origin", method);
         const ReportLine* other = findLine(report, scene, "origin", over);
         if (!line || !other)
@@ -196,7 +203,8 @@ std::vector<Verdict> checkExpectations(const Report& report, const std::string& 
     }
     catch (const json::exception& error)
     {
-        throw app::Failure(app::kCannotLoad, std::string("the expectations cannot be read: ") + error.what());
+        throw app::Failure(app::kCannotLoad,
+                           std::string("the expectations cannot be read: ") + error.what());
     }
 }
 

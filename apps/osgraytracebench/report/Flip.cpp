@@ -1,8 +1,8 @@
 // Flip.cpp - LDR-FLIP from its publication. Layer: apps.
 // SPDX-License-Identifier: MIT
 //
-// Two pipelines of [Andersson20, sect. 4]: colours, blurred as the eye blurs them, compared in a space of equal
-// differences; edges and points, which count for more than their colours do.
+// Two pipelines of [Andersson20, sect. 4]: colours, blurred as the eye blurs them, compared in a
+// space of equal differences; edges and points, which count for more than their colours do.
 //
 //   FLIP = colourDifference^(1 - featureDifference)
 #include "apps/osgraytracebench/report/Flip.h"
@@ -30,9 +30,10 @@ struct Size
 };
 
 // sRGB's primaries with white point D65 [IEC61966].
-constexpr double kXyzFromRgb[3][3] = {{10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
-                                      {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
-                                      {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}};
+constexpr double kXyzFromRgb[3][3] = {
+    {10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
+    {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
+    {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}};
 
 Color xyzFromRgb(const Color& rgb)
 {
@@ -88,9 +89,11 @@ Color perceived(const Color& rgb)
     const auto bent = [](double t)
     {
         constexpr double kDelta = 6.0 / 29.0;
-        return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3.0 * kDelta * kDelta) + 4.0 / 29.0;
+        return t > kDelta * kDelta * kDelta ? std::cbrt(t)
+                                            : t / (3.0 * kDelta * kDelta) + 4.0 / 29.0;
     };
-    const double x = bent(xyz[0] / white()[0]), y = bent(xyz[1] / white()[1]), z = bent(xyz[2] / white()[2]);
+    const double x = bent(xyz[0] / white()[0]), y = bent(xyz[1] / white()[1]),
+                 z = bent(xyz[2] / white()[2]);
     const double lightness = 116.0 * y - 16.0;
     return {lightness, 0.01 * lightness * 500.0 * (x - y), 0.01 * lightness * 200.0 * (y - z)};
 }
@@ -101,7 +104,8 @@ double hyab(const Color& a, const Color& b)
     return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
 }
 
-/// Differences compressed to [0,1]: almost all of the range for small ones [Andersson20, sect. 4.1.4].
+/// Differences compressed to [0,1]: almost all of the range for small ones [Andersson20,
+/// sect. 4.1.4].
 double colourDifference(double distance)
 {
     constexpr double kExponent = 0.7, kKnee = 0.4, kKneeValue = 0.95;
@@ -117,7 +121,8 @@ Plane filtered(const Plane& in, Size size, const std::vector<double>& alongX,
                const std::vector<double>& alongY)
 {
     const auto at = [](int x, int limit) { return std::clamp(x, 0, limit - 1); };
-    const auto index = [size](int x, int y) { return static_cast<std::size_t>(y) * size.width + x; };
+    const auto index = [size](int x, int y)
+    { return static_cast<std::size_t>(y) * size.width + x; };
     const int radius = static_cast<int>(alongX.size() / 2);
     Plane rows(in.size()), out(in.size());
     for (int y = 0; y < size.height; ++y)
@@ -156,16 +161,16 @@ struct Gaussian
     double a, b;
 };
 
-constexpr std::array<std::array<Gaussian, 2>, 3> kSensitivity = {
-    {{{{1.0, 0.0047}, {0.0, 1e-5}}}, {{{1.0, 0.0053}, {0.0, 1e-5}}}, {{{34.1, 0.04}, {13.5, 0.025}}}}};
+constexpr std::array<std::array<Gaussian, 2>, 3> kSensitivity = {{{{{1.0, 0.0047}, {0.0, 1e-5}}},
+                                                                  {{{1.0, 0.0053}, {0.0, 1e-5}}},
+                                                                  {{{34.1, 0.04}, {13.5, 0.025}}}}};
 constexpr double kWidestB = 0.04;
 
 Plane seen(const Plane& channel, Size size, const std::array<Gaussian, 2>& gaussians,
            double pixelsPerDegree)
 {
     const int radius = static_cast<int>(
-        std::ceil(3.0 * std::sqrt(kWidestB / (2.0 * M_PI * M_PI)) *
-                  pixelsPerDegree));
+        std::ceil(3.0 * std::sqrt(kWidestB / (2.0 * M_PI * M_PI)) * pixelsPerDegree));
     Plane sum(channel.size());
     double weightSum = 0.0;
     for (const Gaussian& g : gaussians)
@@ -211,7 +216,8 @@ Features featuresOf(const Plane& luminance, Size size, double pixelsPerDegree)
     constexpr double kWidthDegrees = 0.082;
     const double deviation = 0.5 * kWidthDegrees * pixelsPerDegree;
     const int radius = static_cast<int>(std::ceil(3.0 * deviation));
-    const auto bell = [deviation](int i) { return std::exp(-0.5 * i * i / (deviation * deviation)); };
+    const auto bell = [deviation](int i)
+    { return std::exp(-0.5 * i * i / (deviation * deviation)); };
     std::vector<double> smooth = sampled(radius, bell);
     const double total = sumOf(smooth);
     for (double& value : smooth)
@@ -261,8 +267,8 @@ Prepared prepared(const std::vector<float>& picture, Size size, double pixelsPer
         result.colours[c] = seen(opponent[c], size, kSensitivity[c], pixelsPerDegree);
     for (std::size_t i = 0; i < size.pixels(); ++i)
     {
-        Color rgb = rgbFromXyz(xyzFromOpponent(
-            {result.colours[0][i], result.colours[1][i], result.colours[2][i]}));
+        Color rgb = rgbFromXyz(
+            xyzFromOpponent({result.colours[0][i], result.colours[1][i], result.colours[2][i]}));
         for (double& value : rgb)
             value = std::clamp(value, 0.0, 1.0);
         const Color color = perceived(rgb);

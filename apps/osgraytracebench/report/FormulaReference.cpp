@@ -64,15 +64,17 @@ Reference formulaReference(const ReportScene& scene, int width, const engine::Wo
                 for (const Node& v : nodes)
                 {
                     const double clipX = 2.0 * (x + u.at) / width - 1.0;
-                    const double clipY = 2.0 * (static_cast<double>(y) + v.at) / reference.height - 1.0;
+                    const double clipY =
+                        2.0 * (static_cast<double>(y) + v.at) / reference.height - 1.0;
                     const osg::Vec3d near = osg::Vec3d(clipX, clipY, -1.0) * sceneFromClip;
                     const osg::Vec3d far = osg::Vec3d(clipX, clipY, 1.0) * sceneFromClip;
                     sum += scene.formula(near, far - near) * (u.weight * v.weight);
                 }
             }
             for (int c = 0; c < 3; ++c)
-                reference.mean[3 * (y * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) +
-                               static_cast<std::size_t>(c)] = sum[c];
+                reference
+                    .mean[3 * (y * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) +
+                          static_cast<std::size_t>(c)] = sum[c];
         }
     };
     workers.forEach(static_cast<std::size_t>(reference.height), row);

@@ -8,7 +8,8 @@
 namespace osgRayTrace::bench
 {
 
-/// Processor, threads, instruction set, versions of this project, Embree, OpenSceneGraph and the compiler.
+/// Processor, threads, instruction set, versions of this project, Embree, OpenSceneGraph and the
+/// compiler.
 std::map<std::string, std::string> describeMachine(int threads);
 
 } // namespace osgRayTrace::bench

@@ -28,8 +28,8 @@ engine::StopRule ruleFor(const BudgetPlan& plan, double budget, double secondsSo
 }
 
 /// Takes one picture through all the budgets that this seed is to reach.
-void renderSeed(const PreparedScene& prepared, const Method& method, int seed, const BudgetPlan& plan,
-                std::vector<BudgetSums>& sums, MeasuredLine& measured)
+void renderSeed(const PreparedScene& prepared, const Method& method, int seed,
+                const BudgetPlan& plan, std::vector<BudgetSums>& sums, MeasuredLine& measured)
 {
     const auto session = newSession(prepared, method, static_cast<uint32_t>(seed + 1));
     engine::RenderProgress progress;

@@ -11,9 +11,9 @@ namespace osgRayTrace::bench
 /// Budgets, each the double of the one before, and how many seeds get that far.
 struct BudgetPlan
 {
-    bool timed = true;            ///< seconds, else passes
+    bool timed = true; ///< seconds, else passes
     std::vector<double> budgets;
-    std::vector<int> seeds;       ///< of each budget, falling
+    std::vector<int> seeds; ///< of each budget, falling
 };
 
 /// 1/8 s to the longest, 64 s if not told otherwise: 16 seeds up to 2 s, 4 up to 8 s, 2 beyond.

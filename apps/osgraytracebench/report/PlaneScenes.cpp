@@ -114,7 +114,8 @@ osg::Vec3d planeScale()
 
 PlaneLighting squareLighting()
 {
-    return {{Vec3d(-0.5, -0.5, 1), Vec3d(0.5, -0.5, 1), Vec3d(0.5, 0.5, 1), Vec3d(-0.5, 0.5, 1)}, {}};
+    return {{Vec3d(-0.5, -0.5, 1), Vec3d(0.5, -0.5, 1), Vec3d(0.5, 0.5, 1), Vec3d(-0.5, 0.5, 1)},
+            {}};
 }
 
 PlaneLighting axisEdgeLighting()

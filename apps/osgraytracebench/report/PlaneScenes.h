@@ -1,6 +1,5 @@
-// PlaneScenes.h - a plane under an area light, with and without an occluder: direct light that has a
-// formula. Layer: apps.
-// SPDX-License-Identifier: MIT
+// PlaneScenes.h - a plane under an area light, with and without an occluder: direct light that has
+// a formula. Layer: apps. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "apps/osgraytracebench/report/PolygonLight.h"
@@ -35,7 +34,8 @@ PlaneLighting roundBlockerLighting();
 /// The plane, the light as a node of its own (AreaLight if it has four corners) and the occluder.
 osg::ref_ptr<osg::Group> planeGraph(const PlaneLighting& lighting);
 
-/// Radiance that leaves the plane for an irradiance of 1 from light of unit radiance, red, green, blue.
+/// Radiance that leaves the plane for an irradiance of 1 from light of unit radiance, red, green,
+/// blue.
 osg::Vec3d planeScale();
 
 } // namespace osgRayTrace::bench

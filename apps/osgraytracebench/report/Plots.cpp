@@ -42,7 +42,8 @@ struct Guide
 /// What gnuplot prints for the script; empty if it fails.
 std::string gnuplot(const std::string& script)
 {
-    std::string pattern = (std::filesystem::temp_directory_path() / "osgraytracebenchXXXXXX").string();
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "osgraytracebenchXXXXXX").string();
     const int handle = mkstemp(pattern.data());
     if (handle < 0) return {};
     close(handle);
@@ -94,9 +95,11 @@ std::string plot(const std::vector<Curve>& curves, const std::vector<Guide>& gui
 
     static int number = 0;
     std::ostringstream script;
-    script << "set terminal svg size 620,420 font 'sans-serif,13' name 'plot" << ++number << "'\n"
-           << "set logscale xy\nset format x '10^{%T}'\nset format y '10^{%T}'\nset grid lc rgb '#dddddd'\n"
-           << "set key outside right top reverse Left samplen 2\nset style fill transparent solid 0.2 noborder\n"
+    script << "set terminal svg size 800,440 font 'sans-serif,13' name 'plot" << ++number << "'\n"
+           << "set logscale xy\nset format x '10^{%T}'\nset format y '10^{%T}'\nset grid lc rgb "
+              "'#dddddd'\n"
+           << "set key outside right top reverse Left samplen 2\nset style fill transparent solid "
+              "0.2 noborder\n"
            << "set xlabel '" << xLabel << "'\nset ylabel '" << yLabel << "'\n"
            << "set xrange [" << 0.8 * xs.low << ':' << 1.25 * xs.high << "]\n"
            << "set yrange [" << ys.bottom() << ':' << ys.top() << "]\n";
@@ -107,21 +110,25 @@ std::string plot(const std::vector<Curve>& curves, const std::vector<Guide>& gui
         {
             if (!(point.y > 0.0)) continue;
             const double error = std::isfinite(point.error) ? point.error : 0.0;
-            script << point.x << ' ' << point.y << ' ' << std::max(point.y - error, 1e-3 * point.y) << ' '
-                   << point.y + error << '\n';
+            script << point.x << ' ' << point.y << ' ' << std::max(point.y - error, 1e-3 * point.y)
+                   << ' ' << point.y + error << '\n';
         }
         script << "EOD\n";
     }
     script << "plot ";
     for (const Guide& guide : guides)
         script << ys.high << "*(x/" << xs.low << ")**(" << guide.slope << ") with lines lw 1 dt "
-               << (guide.slope < -2.5 ? 4 : guide.slope < -1.75 ? 3 : guide.slope < -1.25 ? 2 : 5)
+               << (guide.slope < -2.5    ? 4
+                   : guide.slope < -1.75 ? 3
+                   : guide.slope < -1.25 ? 2
+                                         : 5)
                << " lc rgb '#888888' title 'slope " << guide.name << "', ";
     for (std::size_t c = 0; c < curves.size(); ++c)
     {
         const char* colour = kColours[c % std::size(kColours)];
-        script << "$curve" << c << " using 1:3:4 with filledcurves lc rgb '" << colour << "' notitle, $curve"
-               << c << " using 1:2 with linespoints lw 2 pt 7 ps 0.5 lc rgb '" << colour << "' title '"
+        script << "$curve" << c << " using 1:3:4 with filledcurves lc rgb '" << colour
+               << "' notitle, $curve" << c
+               << " using 1:2 with linespoints lw 2 pt 7 ps 0.5 lc rgb '" << colour << "' title '"
                << curves[c].name << "'" << (c + 1 < curves.size() ? ", " : "\n");
     }
     return svgPart(gnuplot(script.str()));
@@ -160,8 +167,8 @@ std::string samplerPlot(const std::vector<const SamplerLine*>& lines)
             curve.points.push_back({static_cast<double>(point.samples), point.mse, point.mseError});
         curves.push_back(curve);
     }
-    return plot(curves, {{-1.0, "-1"}, {-1.5, "-3/2"}, {-2.0, "-2"}, {-3.0, "-3"}}, "light samples N",
-                "mean squared error of E/L");
+    return plot(curves, {{-1.0, "-1"}, {-1.5, "-3/2"}, {-2.0, "-2"}, {-3.0, "-3"}},
+                "light samples N", "mean squared error of E/L");
 }
 
 } // namespace osgRayTrace::bench

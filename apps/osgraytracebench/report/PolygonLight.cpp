@@ -49,8 +49,7 @@ double irradiance(const Polygon& light, const Polygon& occluder, const Vec3d& po
     Polygon hidden = light;
     for (std::size_t i = 0; i < occluder.size() && !hidden.empty(); ++i)
     {
-        const Vec3d side =
-            (occluder[i] - point) ^ (occluder[(i + 1) % occluder.size()] - point);
+        const Vec3d side = (occluder[i] - point) ^ (occluder[(i + 1) % occluder.size()] - point);
         hidden = clip(hidden, point, side * (centre - point) >= 0.0 ? side : -side);
     }
     return whole - irradiance(hidden, point, normal);

@@ -19,9 +19,9 @@ Polygon clip(const Polygon& polygon, const osg::Vec3d& origin, const osg::Vec3d&
 /// light's front is turned [Lambert60; Baum89, eq. 4]. The light is cut at the surface's horizon.
 double irradiance(const Polygon& light, const osg::Vec3d& point, const osg::Vec3d& normal);
 
-/// The same with a convex occluder between the point and every point of the light: what is left when the part
-/// of the light within the pyramid from the point through the occluder is taken away. An empty occluder
-/// hides nothing.
+/// The same with a convex occluder between the point and every point of the light: what is left
+/// when the part of the light within the pyramid from the point through the occluder is taken away.
+/// An empty occluder hides nothing.
 double irradiance(const Polygon& light, const Polygon& occluder, const osg::Vec3d& point,
                   const osg::Vec3d& normal);
 

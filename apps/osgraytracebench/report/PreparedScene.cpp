@@ -67,9 +67,9 @@ void hashMaterial(Hasher& hasher, const Material& material)
     for (const float value : {material.shininess, material.metallic, material.roughness,
                               material.transmission, material.ior, material.alpha})
         hasher.add(value);
-    for (const uint32_t index : {material.lightMask, material.baseColorTexture,
-                                 material.metallicRoughnessTexture, material.transmissionTexture,
-                                 material.emissionTexture})
+    for (const uint32_t index :
+         {material.lightMask, material.baseColorTexture, material.metallicRoughnessTexture,
+          material.transmissionTexture, material.emissionTexture})
         hasher.add(index);
     hasher.add(material.model);
     hasher.add(material.lit);
@@ -156,7 +156,10 @@ PreparedScene prepare(const ReportScene& scene, const Placement& placement, int 
     input.clearColor = scene.clearColor;
     if (scene.headlight) input.viewLight = headlight();
     result.buildSeconds = secondsOf(
-        [&] { result.traced = TracedScene::build(SceneConverter().convert(input).scene, result.workers); });
+        [&] {
+            result.traced =
+                TracedScene::build(SceneConverter().convert(input).scene, result.workers);
+        });
     return result;
 }
 
@@ -175,7 +178,8 @@ uint64_t hashOf(const PreparedScene& prepared, const Method& method)
     return hasher.value();
 }
 
-std::unique_ptr<RenderSession> newSession(const PreparedScene& scene, const Method& method, uint32_t seed)
+std::unique_ptr<RenderSession> newSession(const PreparedScene& scene, const Method& method,
+                                          uint32_t seed)
 {
     auto session = std::make_unique<RenderSession>(scene.workers);
     RenderOptions options = method.options;

@@ -26,7 +26,8 @@ struct PreparedScene
     double buildSeconds = 0.0; ///< conversion and BVH
 };
 
-/// The way of every user: the graph below a transform, the converter, the BVHs, with the eye as the origin.
+/// The way of every user: the graph below a transform, the converter, the BVHs, with the eye as the
+/// origin.
 PreparedScene prepare(const ReportScene& scene, const Placement& placement, int width,
                       std::shared_ptr<engine::Workers> workers);
 

@@ -34,9 +34,9 @@ void finish(Reference& reference);
 /// The formula's mean over each pixel, by Gauss's quadrature.
 Reference formulaReference(const ReportScene& scene, int width, const engine::Workers& workers);
 
-/// From the folder's cache if it holds one of the same scene, method, size and plan; rendered and kept
-/// there otherwise. The cache is NAME.json (seeds, passes, mean variance, hash) beside NAME.f64 (mean, then
-/// variance, doubles of this machine).
+/// From the folder's cache if it holds one of the same scene, method, size and plan; rendered and
+/// kept there otherwise. The cache is NAME.json (seeds, passes, mean variance, hash) beside
+/// NAME.f64 (mean, then variance, doubles of this machine).
 Reference renderedReference(const ReportScene& scene, const PreparedScene& prepared,
                             const ReferencePlan& plan, const std::string& folder);
 

@@ -30,7 +30,8 @@ std::string hexadecimal(uint64_t value)
 bool readValues(std::ifstream& stream, std::vector<double>& values, std::size_t count)
 {
     values.resize(count);
-    stream.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(count * sizeof(double)));
+    stream.read(reinterpret_cast<char*>(values.data()),
+                static_cast<std::streamsize>(count * sizeof(double)));
     return static_cast<bool>(stream);
 }
 
@@ -46,13 +47,15 @@ bool readCached(const std::string& stem, const ordered_json& wanted, Reference& 
         if (!found.contains(key) || found[key] != value) return false;
     }
     const std::size_t count = 3 * static_cast<std::size_t>(reference.width) * reference.height;
-    if (!readValues(values, reference.mean, count) || !readValues(values, reference.variance, count))
+    if (!readValues(values, reference.mean, count) ||
+        !readValues(values, reference.variance, count))
         return false;
     reference.origin = found.value("origin", "cached");
     return true;
 }
 
-void writeCached(const std::string& stem, const ordered_json& description, const Reference& reference)
+void writeCached(const std::string& stem, const ordered_json& description,
+                 const Reference& reference)
 {
     std::filesystem::create_directories(std::filesystem::path(stem).parent_path());
     {
@@ -112,7 +115,8 @@ Reference renderedReference(const ReportScene& scene, const PreparedScene& prepa
                              {"seeds", plan.seeds},
                              {"planned_passes", plan.passes},
                              {"planned_seconds", plan.seconds}};
-    const std::string stem = folder + "/references/" + scene.name + "-" + std::to_string(reference.width);
+    const std::string stem =
+        folder + "/references/" + scene.name + "-" + std::to_string(reference.width);
     if (!readCached(stem, description, reference))
     {
         const int passes = renderSeeds(scene, prepared, plan, reference);

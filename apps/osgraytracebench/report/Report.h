@@ -15,15 +15,16 @@ namespace osgRayTrace::bench
 /// The means of several pictures with independent seeds that had the same budget.
 struct ReportRow
 {
-    double budget = 0.0;        ///< [s] or passes
-    int seeds = 0;              ///< pictures
-    double seconds = 0.0;       ///< of rendering; the BVH is not in it
+    double budget = 0.0;  ///< [s] or passes
+    int seeds = 0;        ///< pictures
+    double seconds = 0.0; ///< of rendering; the BVH is not in it
     double passes = 0.0;
-    double samples = 0.0;       ///< a pixel: passes times light samples (Whitted)
+    double samples = 0.0; ///< a pixel: passes times light samples (Whitted)
     double rays = 0.0;
-    double relMse = 0.0;        ///< mean((x - r)^2 / (r^2 + e^2)), e = 1 % of the reference's mean luminance
-    double relMseError = 0.0;   ///< standard error, from the scatter of the seeds
-    double relMseFixed = 0.0;   ///< the same with r^2 + 0.01: that of osgraytrace --reference
+    double relMse =
+        0.0; ///< mean((x - r)^2 / (r^2 + e^2)), e = 1 % of the reference's mean luminance
+    double relMseError = 0.0; ///< standard error, from the scatter of the seeds
+    double relMseFixed = 0.0; ///< the same with r^2 + 0.01: that of osgraytrace --reference
     double mse = 0.0;
     double mseError = 0.0;
     double biasPercent = 0.0;   ///< of the mean radiance, signed
@@ -40,12 +41,13 @@ constexpr std::array<double, 4> kTargets{1e-1, 1e-2, 1e-3, 1e-4}; ///< of relMSE
 struct ReportLine
 {
     std::string scene, placement, method;
-    std::string reference;   ///< what it was compared with
+    std::string reference;     ///< what it was compared with
     double buildSeconds = 0.0; ///< conversion and BVH
     std::vector<ReportRow> rows;
     double slope = 0.0;      ///< of log relMSE over log seconds, or over log passes
     double slopeError = 0.0; ///< standard error
-    std::array<std::optional<double>, 4> secondsTo; ///< kTargets; none: not reached, or met before the first row
+    std::array<std::optional<double>, 4>
+        secondsTo; ///< kTargets; none: not reached, or met before the first row
 };
 
 /// Mean squared error of E/L against the number of light samples N, one pass, single receivers.

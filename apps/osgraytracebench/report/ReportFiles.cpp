@@ -190,8 +190,8 @@ void writeCsv(const Report& report, const std::string& file)
     {
         for (const ReportRow& row : line.rows)
         {
-            csv << line.scene << ',' << line.placement << ',' << line.method << ',' << row.seeds << ','
-                << row.nonFinite;
+            csv << line.scene << ',' << line.placement << ',' << line.method << ',' << row.seeds
+                << ',' << row.nonFinite;
             for (const Column& column : kColumns)
                 csv << ',' << row.*column.value;
             csv << ',' << line.slope << ',' << line.slopeError << '\n';
@@ -201,8 +201,9 @@ void writeCsv(const Report& report, const std::string& file)
     for (const SamplerLine& line : report.samplers)
     {
         for (const SamplerPoint& point : line.points)
-            csv << line.scene << ",\"" << line.strategy << "\"," << point.samples << ',' << point.mse
-                << ',' << point.mseError << ',' << line.slope << ',' << line.slopeError << '\n';
+            csv << line.scene << ",\"" << line.strategy << "\"," << point.samples << ','
+                << point.mse << ',' << point.mseError << ',' << line.slope << ',' << line.slopeError
+                << '\n';
     }
     writeWhole(file, csv.str());
 }

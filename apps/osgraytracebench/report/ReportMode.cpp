@@ -27,7 +27,8 @@ namespace
 
 constexpr int kQuickWidth = 32, kFullWidth = 128;
 constexpr int kQuickReferencePasses = 1024;
-constexpr double kReferenceTimes = 0.5; ///< seconds of each of the 8 reference seeds, by the longest budget
+constexpr double kReferenceTimes =
+    0.5; ///< seconds of each of the 8 reference seeds, by the longest budget
 constexpr double kLongestDisplaced = 8.0; ///< [s]: enough to compare with the origin
 constexpr int kCheckFailed = 5;
 
@@ -77,7 +78,8 @@ BudgetPlan planFor(const Run& run, std::size_t placement)
 void printLine(const ReportLine& line)
 {
     const ReportRow& row = line.rows.back();
-    std::printf("%-18s %-10s %-22s %8.3g s  relMSE %9.3g +- %-8.2g bias %+.2g %% (%+.1f)  slope %.3f +- %.3f\n",
+    std::printf("%-18s %-10s %-22s %8.3g s  relMSE %9.3g +- %-8.2g bias %+.2g %% (%+.1f)  slope "
+                "%.3f +- %.3f\n",
                 line.scene.c_str(), line.placement.c_str(), line.method.c_str(), row.seconds,
                 row.relMse, row.relMseError, row.biasPercent, row.biasPercent / row.biasError,
                 line.slope, line.slopeError);
@@ -93,8 +95,8 @@ void measureScene(Run& run, const ReportScene& scene)
         const PreparedScene prepared = prepare(scene, scene.placements[p], run.width, run.workers);
         for (const Method& method : scene.methods)
         {
-            const MeasuredLine measured = measure(scene, scene.placements[p], method, prepared,
-                                                  reference, planFor(run, p));
+            const MeasuredLine measured =
+                measure(scene, scene.placements[p], method, prepared, reference, planFor(run, p));
             printLine(measured.line);
             run.report.lines.push_back(measured.line);
             if (p > 0) continue; // it looks the same elsewhere
@@ -160,7 +162,8 @@ int runReport(const ReportOptions& options)
         if (scene.name.find(options.only) != std::string::npos) measureScene(run, scene);
     }
     const bool whole = options.models.empty() && options.only.empty();
-    if (whole || std::string("samplers").find(options.only) != std::string::npos) measureSamplers(run);
+    if (whole || std::string("samplers").find(options.only) != std::string::npos)
+        measureSamplers(run);
 
     writeJson(run.report, options.folder + "/report.json");
     writeCsv(run.report, options.folder + "/report.csv");

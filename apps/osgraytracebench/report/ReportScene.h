@@ -38,22 +38,23 @@ struct ReportScene
     std::string name;  ///< of files and rows
     std::string title; ///< for people
     osg::ref_ptr<osg::Node> graph;
-    osg::Matrixd view;       ///< scene coordinates
+    osg::Matrixd view; ///< scene coordinates
     osg::Matrixd projection;
-    double aspect = 1.0;     ///< width / height
+    double aspect = 1.0; ///< width / height
     osg::Vec4 clearColor{0.0f, 0.0f, 0.0f, 1.0f};
-    bool headlight = false;  ///< of osgViewer
+    bool headlight = false;            ///< of osgViewer
     std::vector<Method> methods;       ///< those that are right for it
     std::vector<Placement> placements; ///< the first is the scene itself
-    Formula formula;         ///< empty: the reference is rendered
-    int formulaNodes = 4;    ///< of Gauss's quadrature, along each side of a pixel
-    Method reference;        ///< of a rendered one
+    Formula formula;                   ///< empty: the reference is rendered
+    int formulaNodes = 4;              ///< of Gauss's quadrature, along each side of a pixel
+    Method reference;                  ///< of a rendered one
 };
 
 Placement atOrigin();
 Placement displaced(); ///< by 6378137 along x: the earth's radius in metres
 
-/// Direct light by all four strategies, 16 samples a hit and pass, and by path tracing cut after one bounce.
+/// Direct light by all four strategies, 16 samples a hit and pass, and by path tracing cut after
+/// one bounce.
 std::vector<Method> directMethods();
 
 /// Path tracing with this many edges after the camera ray.

@@ -30,10 +30,18 @@ Method whittedMethod(LightSampling strategy, int lightSamples)
     method.options.lightSamples = lightSamples;
     switch (strategy)
     {
-    case LightSampling::Random: method.name = "WHITTED random"; break;
-    case LightSampling::UniformJitter: method.name = "WHITTED uniform jitter"; break;
-    case LightSampling::Stratified: method.name = "WHITTED stratified"; break;
-    case LightSampling::Sobol: method.name = "WHITTED Sobol"; break;
+    case LightSampling::Random:
+        method.name = "WHITTED random";
+        break;
+    case LightSampling::UniformJitter:
+        method.name = "WHITTED uniform jitter";
+        break;
+    case LightSampling::Stratified:
+        method.name = "WHITTED stratified";
+        break;
+    case LightSampling::Sobol:
+        method.name = "WHITTED Sobol";
+        break;
     }
     return method;
 }
@@ -58,10 +66,18 @@ std::vector<Method> directMethods()
 
 std::vector<ReportScene> reportScenes()
 {
-    return {squareLightScene(),  hexagonLightScene(),     axisEdgeScene(),
-            rotatedEdgeScene(),  roundBlockerScene(),     furnaceScene(0.5),
-            furnaceScene(0.9),   integratingSphereScene(), cornellScene(CornellKind::Diffuse),
-            cornellScene(CornellKind::Mirror), cornellScene(CornellKind::Glass), gridsScene()};
+    return {squareLightScene(),
+            hexagonLightScene(),
+            axisEdgeScene(),
+            rotatedEdgeScene(),
+            roundBlockerScene(),
+            furnaceScene(0.5),
+            furnaceScene(0.9),
+            integratingSphereScene(),
+            cornellScene(CornellKind::Diffuse),
+            cornellScene(CornellKind::Mirror),
+            cornellScene(CornellKind::Glass),
+            gridsScene()};
 }
 
 } // namespace osgRayTrace::bench

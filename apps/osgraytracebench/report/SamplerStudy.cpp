@@ -15,9 +15,9 @@ namespace osgRayTrace::bench
 namespace
 {
 
-constexpr int kSide = 16;         ///< pixels of a receiver: independent runs
-constexpr double kPixel = 1e-6;   ///< of the light's side
-constexpr int kGroups = 16;       ///< of pixels: their scatter gives the standard errors
+constexpr int kSide = 16;       ///< pixels of a receiver: independent runs
+constexpr double kPixel = 1e-6; ///< of the light's side
+constexpr int kGroups = 16;     ///< of pixels: their scatter gives the standard errors
 constexpr int kFewestSamples = 16;
 constexpr uint32_t kSeed = 1;
 
@@ -55,7 +55,8 @@ struct Sums
     double seconds = 0.0, lightSamples = 0.0;
 
     explicit Sums(const std::vector<int>& counts)
-        : squares(kGroups, std::vector<double>(counts.size())), samples(counts.begin(), counts.end())
+        : squares(kGroups, std::vector<double>(counts.size())),
+          samples(counts.begin(), counts.end())
     {
     }
 
@@ -117,17 +118,19 @@ void addSquares(Sums& sums, std::size_t n, const std::vector<double>& values, do
 }
 
 /// A strategy, and the ratio estimator with its samples.
-void studyStrategy(const Case& studied, engine::LightSampling strategy, const std::vector<int>& counts,
-                   int receivers, const std::shared_ptr<engine::Workers>& workers,
-                   std::vector<SamplerLine>& lines)
+void studyStrategy(const Case& studied, engine::LightSampling strategy,
+                   const std::vector<int>& counts, int receivers,
+                   const std::shared_ptr<engine::Workers>& workers, std::vector<SamplerLine>& lines)
 {
     Sums full(counts), ratio(counts);
     const osg::Vec3d up(0, 0, 1);
     for (int r = 0; r < receivers; ++r)
     {
         const osg::Vec3d point = receiver(r, receivers);
-        const double right = irradiance(studied.lighting.light, studied.lighting.occluder, point, up);
-        const PreparedScene prepared = prepare(telescope(studied, point), atOrigin(), kSide, workers);
+        const double right =
+            irradiance(studied.lighting.light, studied.lighting.occluder, point, up);
+        const PreparedScene prepared =
+            prepare(telescope(studied, point), atOrigin(), kSide, workers);
         for (std::size_t n = 0; n < counts.size(); ++n)
         {
             Method method = whittedMethod(strategy, counts[n]);
@@ -137,20 +140,21 @@ void studyStrategy(const Case& studied, engine::LightSampling strategy, const st
             full.lightSamples += static_cast<double>(counts[n]) * kSide * kSide;
             if (studied.lighting.occluder.empty()) continue;
 
-            // The same samples without their shadows: a renderer would sum both at once, so that their
-            // time is not counted; that of the formula at each pixel is.
+            // The same samples without their shadows: a renderer would sum both at once, so that
+            // their time is not counted; that of the formula at each pixel is.
             method.options.shadows = false;
             std::vector<double> values = render(prepared, method).values;
             double open = 0.0;
-            ratio.seconds += shadowed.seconds + secondsOf(
-                [&]
-                {
-                    for (std::size_t i = 0; i < values.size(); ++i)
-                    {
-                        open = irradiance(studied.lighting.light, point, up);
-                        values[i] = open * shadowed.values[i] / values[i];
-                    }
-                });
+            ratio.seconds +=
+                shadowed.seconds + secondsOf(
+                                       [&]
+                                       {
+                                           for (std::size_t i = 0; i < values.size(); ++i)
+                                           {
+                                               open = irradiance(studied.lighting.light, point, up);
+                                               values[i] = open * shadowed.values[i] / values[i];
+                                           }
+                                       });
             ratio.lightSamples += static_cast<double>(counts[n]) * kSide * kSide;
             addSquares(ratio, n, values, right);
         }
@@ -172,7 +176,8 @@ std::vector<SamplerLine> studySamplers(int receivers, int mostSamples,
     std::vector<SamplerLine> lines;
     for (const Case& studied :
          {Case{"open", squareLighting()}, Case{"axis edge", axisEdgeLighting()},
-          Case{"rotated edge", rotatedEdgeLighting()}, Case{"round blocker", roundBlockerLighting()}})
+          Case{"rotated edge", rotatedEdgeLighting()},
+          Case{"round blocker", roundBlockerLighting()}})
     {
         for (const engine::LightSampling strategy :
              {engine::LightSampling::Random, engine::LightSampling::UniformJitter,

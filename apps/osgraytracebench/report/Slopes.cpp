@@ -102,12 +102,14 @@ std::optional<Slope> logLogSlope(const std::vector<Series>& series)
         if (const std::optional<double> part = slopeWithout(series, s)) parts.push_back(*part);
     }
     if (parts.size() < 2) return Slope{*whole, std::numeric_limits<double>::infinity()};
-    // The jackknife: (n - 1)/n times the sum of squares is (n - 1)^2 times that of the mean's error.
+    // The jackknife: (n - 1)/n times the sum of squares is (n - 1)^2 times that of the mean's
+    // error.
     const double n = static_cast<double>(parts.size());
     return Slope{*whole, (n - 1.0) * meanOf(parts).error};
 }
 
-std::optional<double> crossing(const std::vector<double>& x, const std::vector<double>& y, double target)
+std::optional<double> crossing(const std::vector<double>& x, const std::vector<double>& y,
+                               double target)
 {
     for (std::size_t i = 1; i < x.size(); ++i)
     {

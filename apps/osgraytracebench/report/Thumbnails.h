@@ -27,8 +27,8 @@ struct SceneThumbnails
 std::string thumbnail(const Reference& reference);
 std::string thumbnail(const Pixels& pixels, const Reference& reference);
 
-/// Relative error of each pixel's luminance, black 1e-4 and below, through red and yellow to white, 1 and
-/// above, logarithmic.
+/// Relative error of each pixel's luminance, black 1e-4 and below, through red and yellow to white,
+/// 1 and above, logarithmic.
 std::string errorThumbnail(const Pixels& pixels, const Reference& reference);
 
 } // namespace osgRayTrace::bench
