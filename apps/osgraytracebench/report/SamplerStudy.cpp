@@ -18,7 +18,7 @@ namespace
 constexpr int kSide = 16;       ///< pixels of a receiver: independent runs
 constexpr double kPixel = 1e-6; ///< of the light's side
 constexpr int kGroups = 16;     ///< of pixels: their scatter gives the standard errors
-constexpr int kFewestSamples = 16;
+constexpr int kFewestFitted = 16; ///< slopes are those of larger numbers
 constexpr uint32_t kSeed = 1;
 
 struct Case
@@ -77,6 +77,7 @@ SamplerLine Sums::line(const Case& studied, const std::string& strategy, int rec
         for (std::size_t g = 0; g < kGroups; ++g)
         {
             groups.push_back(squares[g][n] / runs);
+            if (samples[n] < kFewestFitted) continue;
             series[g].x.push_back(samples[n]);
             series[g].y.push_back(groups.back());
         }
@@ -171,7 +172,7 @@ std::vector<SamplerLine> studySamplers(int receivers, int mostSamples,
                                        const std::shared_ptr<engine::Workers>& workers)
 {
     std::vector<int> counts; // squares, and powers of two
-    for (int n = kFewestSamples; n <= mostSamples; n *= 4)
+    for (int n = 1; n <= mostSamples; n *= 4)
         counts.push_back(n);
     std::vector<SamplerLine> lines;
     for (const Case& studied :
