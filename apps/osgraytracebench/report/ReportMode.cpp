@@ -53,7 +53,14 @@ std::vector<ReportScene> scenesOf(const Run& run)
     const bool physical =
         engine::chooseIntegrator(engine::IntegratorKind::Automatic, prepared.traced->traits()) ==
         engine::IntegratorKind::Path;
-    return {modelScene(name, *graph, physical)};
+    bool areaLights = false;
+    for (const engine::Light& light : prepared.traced->scene().lights)
+        areaLights |=
+            light.kind == engine::LightKind::Parallelogram || light.kind == engine::LightKind::Mesh;
+    ReportScene scene = modelScene(name, *graph, physical);
+    // Without them the strategies are one and the same.
+    if (!physical && !areaLights) scene.methods = {scene.reference};
+    return {scene};
 }
 
 Reference referenceOf(Run& run, const ReportScene& scene)
@@ -162,8 +169,9 @@ int runReport(const ReportOptions& options)
         if (scene.name.find(options.only) != std::string::npos) measureScene(run, scene);
     }
     const bool whole = options.models.empty() && options.only.empty();
-    if (whole || std::string("samplers").find(options.only) != std::string::npos)
-        measureSamplers(run);
+    const bool samplersAlone =
+        !options.only.empty() && std::string("samplers").find(options.only) == 0;
+    if (whole || samplersAlone) measureSamplers(run);
 
     writeJson(run.report, options.folder + "/report.json");
     writeCsv(run.report, options.folder + "/report.csv");
