@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "ErrorMeasures.h"
 #include "Options.h"
+
+#include "apps/common/ErrorMeasures.h"
 
 #include <osgRayTrace/Statistics>
 

@@ -1,13 +1,13 @@
 // main.cpp - osgraytrace: ray traces models to files, without any OpenGL context. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "Camera.h"
-#include "ErrorMeasures.h"
 #include "Options.h"
 #include "Output.h"
 #include "Picture.h"
 #include "Progress.h"
 #include "Reference.h"
 #include "StatisticsText.h"
+#include "apps/common/ErrorMeasures.h"
 #include "apps/common/Failure.h"
 #include "apps/common/ModelFiles.h"
 #include "apps/common/PluginPath.h"

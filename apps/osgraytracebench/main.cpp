@@ -1,61 +1,118 @@
-// main.cpp - osgraytracebench MODE [--json FILE]. Layer: apps.
+// main.cpp - osgraytracebench: speed and error. Layer: apps.
 // SPDX-License-Identifier: MIT
+#include "apps/common/Failure.h"
+#include "apps/common/PluginPath.h"
 #include "apps/osgraytracebench/LimitMode.h"
+#include "apps/osgraytracebench/report/CompareMode.h"
+#include "apps/osgraytracebench/report/ReportMode.h"
+
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <string>
 
+using namespace osgRayTrace;
 using namespace osgRayTrace::bench;
 
 namespace
 {
 
-struct Mode
-{
-    const char* name;
-    const char* help;
-    Rows (*measure)();
-};
+constexpr int kCompareUsage = 2;
 
-const Mode kModes[] = {
-    {"limit", "a whole frame, a path traced one and a build against Embree alone", measureLimit},
-};
-
-int usage()
+int runLimit(const std::string& json)
 {
-    std::fprintf(stderr, "usage: osgraytracebench MODE [--json FILE]\n");
-    for (const Mode& mode : kModes)
-        std::fprintf(stderr, "  %-10s %s\n", mode.name, mode.help);
-    return 1;
+    const Rows rows = measureLimit();
+    printRows(rows);
+    if (!json.empty() && !writeRows(rows, json))
+        throw app::Failure(app::kCannotWrite, "cannot write " + json);
+    return app::kDone;
 }
+
+/// The modes of the command line.
+struct CommandLine
+{
+    CommandLine()
+    {
+        limit.add_option("--json", limitJson, "write the rows to this file as well");
+
+        report.add_option("-o,--output", options.folder, "folder of report.html, .csv and .json")
+            ->capture_default_str();
+        report.add_flag(
+            "--quick", options.quick,
+            "count passes, not seconds, and check what came out: minutes; ends with 5 if a "
+            "check fails");
+        report.add_option("--longest", options.longest, "longest budget of a picture [s]")
+            ->check(CLI::Range(0.125, 86400.0))
+            ->capture_default_str();
+        report
+            .add_option("--width", options.width,
+                        "width of the pictures [pixels]; 0: 128, quick 32")
+            ->check(CLI::Range(0, 4096));
+        report.add_option("--only", options.only,
+                          "scenes whose name holds this; \"samplers\" for these alone");
+        report.add_option("--expectations", options.expectations,
+                          "check a quick report against this file, not the built-in one");
+        report.add_option("MODEL", options.models, "measure these files, together one scene");
+
+        compare.add_option("BEFORE", before, "report.json")->required();
+        compare.add_option("AFTER", after, "report.json")->required();
+        compare
+            .add_option("--false-alarms", falseAlarmRate,
+                        "probability that chance alone makes a change")
+            ->check(CLI::Range(1e-9, 0.5))
+            ->capture_default_str();
+        compare.footer("Ends with 0 if no row changed by more than its noise, 1 if one did, 2 if "
+                       "the files cannot "
+                       "be compared.");
+        application.require_subcommand(1);
+    }
+
+    int run()
+    {
+        if (limit) return runLimit(limitJson);
+        if (compare) return runCompare(before, after, falseAlarmRate);
+        app::addPluginPath();
+        return runReport(options);
+    }
+
+    CLI::App application{"Speed and error of osgRayTrace."};
+    CLI::App& limit = *application.add_subcommand(
+        "limit", "a whole frame, a path traced one and a build against Embree alone");
+    CLI::App& report =
+        *application.add_subcommand("report", "error against time, of all methods on many scenes");
+    CLI::App& compare = *application.add_subcommand(
+        "compare", "which rows of two reports differ by more than their noise");
+    std::string limitJson, before, after;
+    double falseAlarmRate = 0.01;
+    ReportOptions options;
+};
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-    const bool json = argc == 4 && std::strcmp(argv[2], "--json") == 0;
-    if (argc != 2 && !json) return usage();
-    for (const Mode& mode : kModes)
+    CommandLine commandLine;
+    try
     {
-        if (std::strcmp(argv[1], mode.name) != 0) continue;
-        try
-        {
-            const Rows rows = mode.measure();
-            printRows(rows);
-            if (json && !writeRows(rows, argv[3]))
-            {
-                std::fprintf(stderr, "osgraytracebench: cannot write %s\n", argv[3]);
-                return 4;
-            }
-            return 0;
-        }
-        catch (const std::exception& error)
-        {
-            std::fprintf(stderr, "osgraytracebench: %s\n", error.what());
-            return 3;
-        }
+        commandLine.application.parse(argc, argv);
+        return commandLine.run();
     }
-    return usage();
+    catch (const CLI::ParseError& error)
+    {
+        if (commandLine.application.exit(error) == 0) return app::kDone;
+        // compare's 1 says that something changed.
+        const bool comparing = argc > 1 && std::string(argv[1]) == "compare";
+        return comparing ? kCompareUsage : app::kUsage;
+    }
+    catch (const app::Failure& failure)
+    {
+        std::fprintf(stderr, "osgraytracebench: %s\n", failure.what());
+        return failure.code();
+    }
+    catch (const std::exception& error)
+    {
+        std::fprintf(stderr, "osgraytracebench: %s\n", error.what());
+        return app::kCannotRender;
+    }
 }

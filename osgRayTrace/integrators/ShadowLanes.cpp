@@ -76,10 +76,14 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
         const float dx = lx + q.normal.x * lightSide - ox;
         const float dy = ly + q.normal.y * lightSide - oy;
         const float dz = lz + q.normal.z * lightSide - oz;
-        const float distance2 = dx * dx + dy * dy + dz * dz;
-        const float distance = std::sqrt(distance2);
-        const float inverse = 1.0f / distance;
-        const float wx = dx * inverse, wy = dy * inverse, wz = dz * inverse;
+        const float distance = std::sqrt(dx * dx + dy * dy + dz * dz);
+        const float perDistance = 1.0f / distance;
+
+        // The shadow ray is lifted off both surfaces; the geometry term is not, or the light of large
+        // surfaces would be wrong by their error bound.
+        const float inverse =
+            1.0f / std::sqrt(towardsX * towardsX + towardsY * towardsY + towardsZ * towardsZ);
+        const float wx = -towardsX * inverse, wy = -towardsY * inverse, wz = -towardsZ * inverse;
         samples.wi.x[i] = wx;
         samples.wi.y[i] = wy;
         samples.wi.z[i] = wz;
@@ -93,7 +97,8 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
         samples.radiance[0][i] = q.radiance.x;
         samples.radiance[1][i] = q.radiance.y;
         samples.radiance[2][i] = q.radiance.z;
-        setShadowRay(samples.shadow, i, ox, oy, oz, wx, wy, wz, distance);
+        setShadowRay(samples.shadow, i, ox, oy, oz, dx * perDistance, dy * perDistance, dz * perDistance,
+                     distance);
     }
     return lit & active;
 }

@@ -7,21 +7,17 @@
 namespace osgRayTrace::app
 {
 
-namespace
+ErrorMeasures ErrorSum::measures() const
 {
-
-constexpr double kRelMseOffset = 0.01; ///< keeps dark pixels from deciding
-
-} // namespace
+    const double count = static_cast<double>(_count);
+    return {std::sqrt(_squares / count), _relativeSquares / count, _pictureSum / _referenceSum};
+}
 
 ErrorMeasures errorMeasures(const osg::Image& picture, const osg::Image& reference)
 {
     const int pictureStep = picture.getPixelFormat() == GL_RGBA ? 4 : 3;
     const int referenceStep = reference.getPixelFormat() == GL_RGBA ? 4 : 3;
-    double squares = 0.0;
-    double relativeSquares = 0.0;
-    double pictureSum = 0.0;
-    double referenceSum = 0.0;
+    ErrorSum sum;
     for (int y = 0; y < picture.t(); ++y)
     {
         const float* x = reinterpret_cast<const float*>(picture.data(0, y));
@@ -29,18 +25,10 @@ ErrorMeasures errorMeasures(const osg::Image& picture, const osg::Image& referen
         for (int column = 0; column < picture.s(); ++column, x += pictureStep, r += referenceStep)
         {
             for (int c = 0; c < 3; ++c)
-            {
-                const double difference = double(x[c]) - r[c];
-                squares += difference * difference;
-                relativeSquares += difference * difference / (double(r[c]) * r[c] + kRelMseOffset);
-                pictureSum += x[c];
-                referenceSum += r[c];
-            }
+                sum.add(x[c], r[c]);
         }
     }
-
-    const double count = 3.0 * picture.s() * picture.t();
-    return {std::sqrt(squares / count), relativeSquares / count, pictureSum / referenceSum};
+    return sum.measures();
 }
 
 } // namespace osgRayTrace::app

@@ -1,0 +1,27 @@
+// BoxScenes.h - scenes without a formula, as in data/. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "apps/osgraytracebench/report/ReportScene.h"
+
+namespace osgRayTrace::bench
+{
+
+enum class CornellKind
+{
+    Diffuse,
+    Mirror, ///< the tall block is one
+    Glass,  ///< a sphere of it in place of the blocks
+};
+
+/// The published box, by path tracing.
+ReportScene cornellScene(CornellKind kind);
+
+/// Lattices below an area light: direct light by all strategies.
+ReportScene gridsScene();
+
+/// A scene with the view that it stores, or osgviewer's home view; the integrator that AUTOMATIC
+/// takes, with all strategies if that samples lights by them.
+ReportScene modelScene(const std::string& name, osg::Node& graph, bool physical);
+
+} // namespace osgRayTrace::bench

@@ -1,0 +1,42 @@
+// Measurement.h - renders a method's pictures and works out its rows. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "apps/osgraytracebench/report/Reference.h"
+#include "apps/osgraytracebench/report/Report.h"
+
+namespace osgRayTrace::bench
+{
+
+/// Budgets, each the double of the one before, and how many seeds get that far.
+struct BudgetPlan
+{
+    bool timed = true; ///< seconds, else passes
+    std::vector<double> budgets;
+    std::vector<int> seeds; ///< of each budget, falling
+};
+
+/// 1/8 s to the longest, 64 s if not told otherwise: 16 seeds up to 2 s, 4 up to 8 s, 2 beyond.
+BudgetPlan timedPlan(double longest);
+
+/// 2 to 64 passes, 16 seeds.
+BudgetPlan quickPlan();
+
+/// One picture of each line for people, by the first seed, at a budget in the middle.
+struct MeasuredLine
+{
+    ReportLine line;
+    Pixels picture;
+    double pictureBudget = 0.0;
+};
+
+/// Each seed's picture is made once and looked at when it reaches a budget.
+MeasuredLine measure(const ReportScene& scene, const Placement& placement, const Method& method,
+                     const PreparedScene& prepared, const Reference& reference,
+                     const BudgetPlan& plan);
+
+/// Display values of a picture at the exposure that brings the reference's mean luminance to 0.4.
+std::vector<float> displayValues(const Pixels& pixels, const Reference& reference);
+std::vector<float> displayValues(const Reference& reference);
+
+} // namespace osgRayTrace::bench

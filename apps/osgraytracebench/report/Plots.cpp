@@ -1,0 +1,174 @@
+// Plots.cpp - scripts for gnuplot, and what it answers. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "apps/osgraytracebench/report/Plots.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+namespace osgRayTrace::bench
+{
+
+namespace
+{
+
+/// Distinct for most kinds of colour blindness (Okabe and Ito's).
+constexpr const char* kColours[] = {"#999999", "#E69F00", "#56B4E9", "#D55E00",
+                                    "#009E73", "#CC79A7", "#0072B2", "#000000"};
+
+struct Point
+{
+    double x, y, error;
+};
+
+struct Curve
+{
+    std::string name;
+    std::vector<Point> points;
+};
+
+struct Guide
+{
+    double slope;
+    const char* name;
+};
+
+/// What gnuplot prints for the script; empty if it fails.
+std::string gnuplot(const std::string& script)
+{
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "osgraytracebenchXXXXXX").string();
+    const int handle = mkstemp(pattern.data());
+    if (handle < 0) return {};
+    close(handle);
+    std::ofstream(pattern) << script;
+    std::string output;
+    if (std::FILE* pipe = popen(("gnuplot '" + pattern + "' 2>/dev/null").c_str(), "r"))
+    {
+        std::array<char, 4096> buffer;
+        while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe))
+            output.append(buffer.data(), count);
+        if (pclose(pipe) != 0) output.clear();
+    }
+    std::filesystem::remove(pattern);
+    return output;
+}
+
+std::string svgPart(const std::string& document)
+{
+    const std::size_t begin = document.find("<svg");
+    return begin == std::string::npos ? std::string() : document.substr(begin);
+}
+
+/// Powers of ten that hold all values.
+struct Range
+{
+    double low = 1e300, high = 0.0;
+
+    void add(double value)
+    {
+        if (!(value > 0.0)) return;
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    double bottom() const { return std::pow(10.0, std::floor(std::log10(low) - 0.05)); }
+    double top() const { return std::pow(10.0, std::ceil(std::log10(high) + 0.05)); }
+};
+
+std::string plot(const std::vector<Curve>& curves, const std::vector<Guide>& guides,
+                 const std::string& xLabel, const std::string& yLabel)
+{
+    Range xs, ys;
+    for (const Curve& curve : curves)
+        for (const Point& point : curve.points)
+        {
+            xs.add(point.x);
+            ys.add(point.y);
+        }
+    if (ys.high <= 0.0) return {};
+
+    static int number = 0;
+    std::ostringstream script;
+    script << "set terminal svg size 800,440 font 'sans-serif,13' name 'plot" << ++number << "'\n"
+           << "set logscale xy\nset format x '10^{%T}'\nset format y '10^{%T}'\nset grid lc rgb "
+              "'#dddddd'\n"
+           << "set key outside right top reverse Left samplen 2\nset style fill transparent solid "
+              "0.2 noborder\n"
+           << "set xlabel '" << xLabel << "'\nset ylabel '" << yLabel << "'\n"
+           << "set xrange [" << 0.8 * xs.low << ':' << 1.25 * xs.high << "]\n"
+           << "set yrange [" << ys.bottom() << ':' << ys.top() << "]\n";
+    for (std::size_t c = 0; c < curves.size(); ++c)
+    {
+        script << "$curve" << c << " << EOD\n";
+        for (const Point& point : curves[c].points)
+        {
+            if (!(point.y > 0.0)) continue;
+            const double error = std::isfinite(point.error) ? point.error : 0.0;
+            script << point.x << ' ' << point.y << ' ' << std::max(point.y - error, 1e-3 * point.y)
+                   << ' ' << point.y + error << '\n';
+        }
+        script << "EOD\n";
+    }
+    script << "plot ";
+    for (const Guide& guide : guides)
+        script << ys.high << "*(x/" << xs.low << ")**(" << guide.slope << ") with lines lw 1 dt "
+               << (guide.slope < -2.5    ? 4
+                   : guide.slope < -1.75 ? 3
+                   : guide.slope < -1.25 ? 2
+                                         : 5)
+               << " lc rgb '#888888' title 'slope " << guide.name << "', ";
+    for (std::size_t c = 0; c < curves.size(); ++c)
+    {
+        const char* colour = kColours[c % std::size(kColours)];
+        script << "$curve" << c << " using 1:3:4 with filledcurves lc rgb '" << colour
+               << "' notitle, $curve" << c
+               << " using 1:2 with linespoints lw 2 pt 7 ps 0.5 lc rgb '" << colour << "' title '"
+               << curves[c].name << "'" << (c + 1 < curves.size() ? ", " : "\n");
+    }
+    return svgPart(gnuplot(script.str()));
+}
+
+} // namespace
+
+bool haveGnuplot()
+{
+    static const bool have = std::system("gnuplot --version >/dev/null 2>&1") == 0;
+    return have;
+}
+
+std::string errorPlot(const std::vector<const ReportLine*>& lines)
+{
+    if (!haveGnuplot()) return {};
+    std::vector<Curve> curves;
+    for (const ReportLine* line : lines)
+    {
+        Curve curve{line->method, {}};
+        for (const ReportRow& row : line->rows)
+            curve.points.push_back({row.seconds, row.relMse, row.relMseError});
+        curves.push_back(curve);
+    }
+    return plot(curves, {{-1.0, "-1"}, {-1.5, "-3/2"}, {-2.0, "-2"}}, "seconds", "relMSE");
+}
+
+std::string samplerPlot(const std::vector<const SamplerLine*>& lines)
+{
+    if (!haveGnuplot()) return {};
+    std::vector<Curve> curves;
+    for (const SamplerLine* line : lines)
+    {
+        Curve curve{line->strategy, {}};
+        for (const SamplerPoint& point : line->points)
+            curve.points.push_back({static_cast<double>(point.samples), point.mse, point.mseError});
+        curves.push_back(curve);
+    }
+    return plot(curves, {{-1.0, "-1"}, {-1.5, "-3/2"}, {-2.0, "-2"}, {-3.0, "-3"}},
+                "light samples N", "mean squared error of E/L");
+}
+
+} // namespace osgRayTrace::bench

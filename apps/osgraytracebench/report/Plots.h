@@ -1,0 +1,24 @@
+// Plots.h - the report's plots, by gnuplot. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "apps/osgraytracebench/report/Report.h"
+
+#include <string>
+#include <vector>
+
+namespace osgRayTrace::bench
+{
+
+/// Whether the program can be run. Plots are empty without it.
+bool haveGnuplot();
+
+/// relMSE against seconds of lines of one scene, log-log, one standard error up and down, with
+/// guides of slope -1, -3/2 and -2: an <svg> element.
+std::string errorPlot(const std::vector<const ReportLine*>& lines);
+
+/// Mean squared error against the number of samples of the strategies of one case, with guides of
+/// slope -1, -3/2, -2 and -3: an <svg> element.
+std::string samplerPlot(const std::vector<const SamplerLine*>& lines);
+
+} // namespace osgRayTrace::bench

@@ -1,0 +1,210 @@
+// PreparedScene.cpp - graph to session, the public way. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "apps/osgraytracebench/report/PreparedScene.h"
+
+#include "apps/osgraytracebench/Timing.h"
+#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/bridge/SceneConverter.h"
+#include "osgRayTrace/bridge/ViewFromMatrices.h"
+
+#include <osg/Light>
+#include <osg/MatrixTransform>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::bench
+{
+
+using namespace engine;
+
+namespace
+{
+
+/// FNV-1a over the bytes of plain values.
+class Hasher
+{
+public:
+    template <typename T> void add(const T& value)
+    {
+        static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>, "no padding");
+        const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
+        for (std::size_t i = 0; i < sizeof value; ++i)
+            _value = (_value ^ bytes[i]) * 0x100000001b3ull;
+    }
+    template <int n> void add(const glm::vec<n, float>& v)
+    {
+        for (int i = 0; i < n; ++i)
+            add(v[i]);
+    }
+    template <int n> void add(const glm::vec<n, uint32_t>& v)
+    {
+        for (int i = 0; i < n; ++i)
+            add(v[i]);
+    }
+    template <int c, int r, typename T> void add(const glm::mat<c, r, T>& matrix)
+    {
+        for (int i = 0; i < c * r; ++i)
+            add(matrix[i / r][i % r]);
+    }
+    template <typename List> void addAll(const List& list)
+    {
+        add(list.size());
+        for (std::size_t i = 0; i < list.size(); ++i)
+            add(list[i]);
+    }
+    uint64_t value() const { return _value; }
+
+private:
+    uint64_t _value = 0xcbf29ce484222325ull;
+};
+
+void hashMaterial(Hasher& hasher, const Material& material)
+{
+    for (const Vec3& color : {material.ambient, material.diffuse, material.specular,
+                              material.baseColor, material.emission})
+        hasher.add(color);
+    for (const float value : {material.shininess, material.metallic, material.roughness,
+                              material.transmission, material.ior, material.alpha})
+        hasher.add(value);
+    for (const uint32_t index :
+         {material.lightMask, material.baseColorTexture, material.metallicRoughnessTexture,
+          material.transmissionTexture, material.emissionTexture})
+        hasher.add(index);
+    hasher.add(material.model);
+    hasher.add(material.lit);
+    hasher.add(material.twoSidedLighting);
+    hasher.add(material.vertexColorUse);
+    hasher.add(material.textureEnvironment);
+}
+
+void hashLight(Hasher& hasher, const Light& light)
+{
+    hasher.add(light.kind);
+    for (const Vec3& v : {light.ambient, light.diffuse, light.specular, light.position,
+                          light.direction, light.corner, light.edgeU, light.edgeV, light.radiance})
+        hasher.add(v);
+    for (const float value : {light.attenuationConstant, light.attenuationLinear,
+                              light.attenuationQuadratic, light.spotExponent, light.spotCosCutoff})
+        hasher.add(value);
+    hasher.add(light.eyeSpace);
+    hasher.add(light.twoSided);
+}
+
+void hashScene(Hasher& hasher, const Scene& scene)
+{
+    for (const auto& mesh : scene.meshes)
+    {
+        hasher.addAll(mesh->positions);
+        hasher.addAll(mesh->triangles);
+        hasher.addAll(mesh->normals);
+        hasher.addAll(mesh->uvs);
+        hasher.addAll(mesh->colors);
+    }
+    for (const Instance& instance : scene.instances)
+    {
+        hasher.add(instance.mesh);
+        hasher.add(instance.material);
+        if (!instance.placed) continue;
+        hasher.add(instance.engineFromLocal.linear);
+        hasher.add(instance.engineFromLocal.translation);
+    }
+    for (const Material& material : scene.materials)
+        hashMaterial(hasher, material);
+    for (const auto& texture : scene.textures)
+    {
+        hasher.addAll(texture->bytes);
+        hasher.addAll(texture->floats);
+    }
+    for (const Light& light : scene.lights)
+        hashLight(hasher, light);
+    hasher.add(scene.ambient);
+    hasher.add(scene.background);
+    hasher.add(scene.displayReferred);
+}
+
+osg::ref_ptr<osg::Light> headlight()
+{
+    osg::ref_ptr<osg::Light> light = new osg::Light(0);
+    light->setAmbient(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    light->setDiffuse(osg::Vec4(0.8f, 0.8f, 0.8f, 1.0f));
+    light->setSpecular(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f));
+    return light;
+}
+
+} // namespace
+
+int heightOf(const ReportScene& scene, int width)
+{
+    return std::max(1, static_cast<int>(std::lround(width / scene.aspect)));
+}
+
+PreparedScene prepare(const ReportScene& scene, const Placement& placement, int width,
+                      std::shared_ptr<Workers> workers)
+{
+    osg::ref_ptr<osg::MatrixTransform> world = new osg::MatrixTransform(placement.worldFromScene);
+    world->addChild(scene.graph.get());
+    const osg::Matrixd viewFromWorld = osg::Matrixd::inverse(placement.worldFromScene) * scene.view;
+
+    PreparedScene result;
+    result.workers = std::move(workers);
+    result.view = viewFromMatrices(viewFromWorld, scene.projection, width, heightOf(scene, width));
+    ConversionInput input;
+    input.root = world.get();
+    input.eye = osg::Matrixd::inverse(viewFromWorld).getTrans();
+    input.origin = input.eye;
+    input.clearColor = scene.clearColor;
+    if (scene.headlight) input.viewLight = headlight();
+    result.buildSeconds = secondsOf(
+        [&] {
+            result.traced =
+                TracedScene::build(SceneConverter().convert(input).scene, result.workers);
+        });
+    return result;
+}
+
+uint64_t hashOf(const PreparedScene& prepared, const Method& method)
+{
+    Hasher hasher;
+    hashScene(hasher, prepared.traced->scene());
+    hasher.add(prepared.view.viewFromWorld);
+    hasher.add(prepared.view.clipFromView);
+    hasher.add(prepared.view.width);
+    hasher.add(prepared.view.height);
+    hasher.add(method.options.integrator);
+    hasher.add(method.options.lightSampling);
+    hasher.add(method.options.lightSamples);
+    hasher.add(method.options.maxBounces);
+    return hasher.value();
+}
+
+std::unique_ptr<RenderSession> newSession(const PreparedScene& scene, const Method& method,
+                                          uint32_t seed)
+{
+    auto session = std::make_unique<RenderSession>(scene.workers);
+    RenderOptions options = method.options;
+    options.seed = seed;
+    session->setScene(scene.traced);
+    session->setView(scene.view);
+    session->setOptions(options);
+    return session;
+}
+
+RenderProgress renderOn(RenderSession& session, const StopRule& rule)
+{
+    const RenderProgress progress = session.render(rule);
+    if (!progress.status.ok()) throw EngineError(progress.status.code, progress.status.message);
+    return progress;
+}
+
+Pixels pixelsOf(const RenderSession& session)
+{
+    const std::vector<float> rgba = session.resolveRadiance();
+    Pixels pixels{session.width(), session.height(), {}};
+    pixels.rgb.reserve(rgba.size() / 4 * 3);
+    for (std::size_t i = 0; i < rgba.size(); i += 4)
+        pixels.rgb.insert(pixels.rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+    return pixels;
+}
+
+} // namespace osgRayTrace::bench

@@ -1,0 +1,43 @@
+// Reference.h - what is right for a scene, pixel by pixel. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "apps/osgraytracebench/report/PreparedScene.h"
+
+#include <string>
+#include <vector>
+
+namespace osgRayTrace::bench
+{
+
+struct Reference
+{
+    int width = 0, height = 0;
+    std::vector<double> mean;     ///< linear RGB, three a pixel
+    std::vector<double> variance; ///< of mean; zeros if it is a formula's
+    std::string origin;           ///< for people: the formula, or how it was rendered
+    double meanLuminance = 0.0;   ///< of the picture; linear Rec. 709 weights
+    double meanValue = 0.0;       ///< over pixels and colours
+};
+
+/// How a reference is rendered: independent pictures, whose scatter is the variance.
+struct ReferencePlan
+{
+    int seeds = 8;
+    int passes = 0;       ///< of each; 0: as many as the first one makes in the seconds
+    double seconds = 0.0; ///< of each
+};
+
+/// Fills in the means over the picture.
+void finish(Reference& reference);
+
+/// The formula's mean over each pixel, by Gauss's quadrature.
+Reference formulaReference(const ReportScene& scene, int width, const engine::Workers& workers);
+
+/// From the folder's cache if it holds one of the same scene, method, size and plan; rendered and
+/// kept there otherwise. The cache is NAME.json (seeds, passes, mean variance, hash) beside
+/// NAME.f64 (mean, then variance, doubles of this machine).
+Reference renderedReference(const ReportScene& scene, const PreparedScene& prepared,
+                            const ReferencePlan& plan, const std::string& folder);
+
+} // namespace osgRayTrace::bench

@@ -1,0 +1,78 @@
+// Report.h - the result of a report: lines of rows. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgRayTrace::bench
+{
+
+/// The means of several pictures with independent seeds that had the same budget.
+struct ReportRow
+{
+    double budget = 0.0;  ///< [s] or passes
+    int seeds = 0;        ///< pictures
+    double seconds = 0.0; ///< of rendering; the BVH is not in it
+    double passes = 0.0;
+    double samples = 0.0; ///< a pixel: passes times light samples (Whitted)
+    double rays = 0.0;
+    double relMse =
+        0.0; ///< mean((x - r)^2 / (r^2 + e^2)), e = 1 % of the reference's mean luminance
+    double relMseError = 0.0; ///< standard error, from the scatter of the seeds
+    double relMseFixed = 0.0; ///< the same with r^2 + 0.01: that of osgraytrace --reference
+    double mse = 0.0;
+    double mseError = 0.0;
+    double biasPercent = 0.0;   ///< of the mean radiance, signed
+    double biasError = 0.0;     ///< its standard error [percent], rounding of floats included
+    double percentile999 = 0.0; ///< of |x - r|
+    double flip = 0.0;          ///< mean, of display values at an exposure fitted to the reference
+    int64_t nonFinite = 0;      ///< samples dropped and values in pictures, of all seeds
+    double efficiency = 0.0;    ///< 1 / (variance * seconds)
+};
+
+constexpr std::array<double, 4> kTargets{1e-1, 1e-2, 1e-3, 1e-4}; ///< of relMSE
+
+/// One method on one scene.
+struct ReportLine
+{
+    std::string scene, placement, method;
+    std::string reference;     ///< what it was compared with
+    double buildSeconds = 0.0; ///< conversion and BVH
+    std::vector<ReportRow> rows;
+    double slope = 0.0;      ///< of log relMSE over log seconds, or over log passes
+    double slopeError = 0.0; ///< standard error
+    std::array<std::optional<double>, 4>
+        secondsTo; ///< kTargets; none: not reached, or met before the first row
+};
+
+/// Mean squared error of E/L against the number of light samples N, one pass, single receivers.
+struct SamplerPoint
+{
+    int samples = 0;
+    double mse = 0.0;
+    double mseError = 0.0;
+};
+
+struct SamplerLine
+{
+    std::string scene, strategy;
+    std::vector<SamplerPoint> points;
+    double slope = 0.0, slopeError = 0.0;
+    double secondsPerSample = 0.0; ///< wall clock of all points by all their samples
+};
+
+struct Report
+{
+    std::map<std::string, std::string> machine; ///< cpu, threads, isa, versions
+    bool timed = true;                          ///< budgets are seconds, else passes
+    int width = 0;
+    std::vector<ReportLine> lines;
+    std::vector<SamplerLine> samplers;
+};
+
+} // namespace osgRayTrace::bench

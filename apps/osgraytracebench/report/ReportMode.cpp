@@ -1,0 +1,186 @@
+// ReportMode.cpp - measures the scenes and writes the report. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "apps/osgraytracebench/report/ReportMode.h"
+
+#include "apps/common/Failure.h"
+#include "apps/common/ModelFiles.h"
+#include "apps/osgraytracebench/report/BoxScenes.h"
+#include "apps/osgraytracebench/report/Expectations.h"
+#include "apps/osgraytracebench/report/Machine.h"
+#include "apps/osgraytracebench/report/Plots.h"
+#include "apps/osgraytracebench/report/ReportFiles.h"
+#include "apps/osgraytracebench/report/ReportPage.h"
+#include "apps/osgraytracebench/report/SamplerStudy.h"
+#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/integrators/Integrator.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace osgRayTrace::bench
+{
+
+namespace
+{
+
+constexpr int kQuickWidth = 32, kFullWidth = 128;
+constexpr int kQuickReferencePasses = 1024;
+constexpr double kReferenceTimes =
+    0.5; ///< seconds of each of the 8 reference seeds, by the longest budget
+constexpr double kLongestDisplaced = 8.0; ///< [s]: enough to compare with the origin
+constexpr int kCheckFailed = 5;
+
+/// What all parts of a run need.
+struct Run
+{
+    const ReportOptions& options;
+    int width;
+    std::shared_ptr<engine::Workers> workers;
+    Report report;
+    std::vector<SceneThumbnails> thumbnails;
+};
+
+std::vector<ReportScene> scenesOf(const Run& run)
+{
+    if (run.options.models.empty()) return reportScenes();
+    const osg::ref_ptr<osg::Node> graph = app::readScene(run.options.models);
+    // Its materials are known once it is converted.
+    const std::string name = std::filesystem::path(run.options.models.front()).stem().string();
+    const ReportScene asPhysical = modelScene(name, *graph, true);
+    const PreparedScene prepared = prepare(asPhysical, atOrigin(), run.width, run.workers);
+    const bool physical =
+        engine::chooseIntegrator(engine::IntegratorKind::Automatic, prepared.traced->traits()) ==
+        engine::IntegratorKind::Path;
+    bool areaLights = false;
+    for (const engine::Light& light : prepared.traced->scene().lights)
+        areaLights |=
+            light.kind == engine::LightKind::Parallelogram || light.kind == engine::LightKind::Mesh;
+    ReportScene scene = modelScene(name, *graph, physical);
+    // Without them the strategies are one and the same.
+    if (!physical && !areaLights) scene.methods = {scene.reference};
+    return {scene};
+}
+
+Reference referenceOf(Run& run, const ReportScene& scene)
+{
+    if (scene.formula) return formulaReference(scene, run.width, *run.workers);
+    ReferencePlan plan;
+    if (run.options.quick)
+        plan.passes = kQuickReferencePasses;
+    else
+        plan.seconds = kReferenceTimes * run.options.longest;
+    const PreparedScene prepared = prepare(scene, scene.placements.front(), run.width, run.workers);
+    return renderedReference(scene, prepared, plan, run.options.folder);
+}
+
+BudgetPlan planFor(const Run& run, std::size_t placement)
+{
+    if (run.options.quick) return quickPlan();
+    return timedPlan(placement == 0 ? run.options.longest
+                                    : std::min(run.options.longest, kLongestDisplaced));
+}
+
+void printLine(const ReportLine& line)
+{
+    const ReportRow& row = line.rows.back();
+    std::printf("%-18s %-10s %-22s %8.3g s  relMSE %9.3g +- %-8.2g bias %+.2g %% (%+.1f)  slope "
+                "%.3f +- %.3f\n",
+                line.scene.c_str(), line.placement.c_str(), line.method.c_str(), row.seconds,
+                row.relMse, row.relMseError, row.biasPercent, row.biasPercent / row.biasError,
+                line.slope, line.slopeError);
+    std::fflush(stdout);
+}
+
+void measureScene(Run& run, const ReportScene& scene)
+{
+    const Reference reference = referenceOf(run, scene);
+    SceneThumbnails thumbnails{scene.name, scene.title, thumbnail(reference), {}};
+    for (std::size_t p = 0; p < scene.placements.size(); ++p)
+    {
+        const PreparedScene prepared = prepare(scene, scene.placements[p], run.width, run.workers);
+        for (const Method& method : scene.methods)
+        {
+            const MeasuredLine measured =
+                measure(scene, scene.placements[p], method, prepared, reference, planFor(run, p));
+            printLine(measured.line);
+            run.report.lines.push_back(measured.line);
+            if (p > 0) continue; // it looks the same elsewhere
+            char budget[40];
+            std::snprintf(budget, sizeof budget, "%g %s", measured.pictureBudget,
+                          run.options.quick ? "passes" : "s");
+            thumbnails.lines.push_back({method.name, budget, thumbnail(measured.picture, reference),
+                                        errorThumbnail(measured.picture, reference)});
+        }
+    }
+    run.thumbnails.push_back(thumbnails);
+}
+
+void measureSamplers(Run& run)
+{
+    const int receivers = run.options.quick ? 8 : 60, mostSamples = run.options.quick ? 1024 : 4096;
+    run.report.samplers = studySamplers(receivers, mostSamples, run.workers);
+    for (const SamplerLine& line : run.report.samplers)
+    {
+        std::printf("%-18s %-22s", line.scene.c_str(), line.strategy.c_str());
+        for (const SamplerPoint& point : line.points)
+            std::printf(" %9.2e", point.mse);
+        std::printf("  slope %.3f +- %.3f\n", line.slope, line.slopeError);
+    }
+}
+
+std::string expectationsOf(const ReportOptions& options)
+{
+    if (options.expectations.empty()) return builtInExpectations();
+    std::ifstream stream(options.expectations);
+    if (!stream) throw app::Failure(app::kCannotLoad, "cannot read " + options.expectations);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+/// Says all of them; returns how many are not met.
+int printVerdicts(const std::vector<Verdict>& verdicts)
+{
+    int failed = 0;
+    for (const Verdict& verdict : verdicts)
+    {
+        std::printf("%s  %s\n", verdict.met ? "ok    " : "FAILED", verdict.text.c_str());
+        failed += verdict.met ? 0 : 1;
+    }
+    std::printf("%zu checks, %d failed\n", verdicts.size(), failed);
+    return failed;
+}
+
+} // namespace
+
+int runReport(const ReportOptions& options)
+{
+    std::error_code error;
+    std::filesystem::create_directories(options.folder, error);
+    if (error) throw app::Failure(app::kCannotWrite, "cannot make the folder " + options.folder);
+
+    const int width = options.width > 0 ? options.width : options.quick ? kQuickWidth : kFullWidth;
+    Run run{options, width, std::make_shared<engine::Workers>(), {}, {}};
+    run.report.machine = describeMachine(run.workers->threads());
+    run.report.timed = !options.quick;
+    run.report.width = width;
+    for (const ReportScene& scene : scenesOf(run))
+    {
+        if (scene.name.find(options.only) != std::string::npos) measureScene(run, scene);
+    }
+    const bool whole = options.models.empty() && options.only.empty();
+    const bool samplersAlone =
+        !options.only.empty() && std::string("samplers").find(options.only) == 0;
+    if (whole || samplersAlone) measureSamplers(run);
+
+    writeJson(run.report, options.folder + "/report.json");
+    writeCsv(run.report, options.folder + "/report.csv");
+    std::vector<Verdict> verdicts;
+    if (options.quick && whole) verdicts = checkExpectations(run.report, expectationsOf(options));
+    if (!haveGnuplot()) std::printf("gnuplot was not found: the page has tables, but no plots\n");
+    writeWhole(options.folder + "/report.html", reportPage(run.report, run.thumbnails, verdicts));
+    if (verdicts.empty()) return app::kDone;
+    return printVerdicts(verdicts) == 0 ? app::kDone : kCheckFailed;
+}
+
+} // namespace osgRayTrace::bench

@@ -1,0 +1,26 @@
+// ReportMode.h - osgraytracebench report. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace osgRayTrace::bench
+{
+
+struct ReportOptions
+{
+    std::string folder = "report";
+    bool quick = false;
+    double longest = 64.0;           ///< longest budget [s]
+    int width = 0;                   ///< of pictures [pixels]; 0: 32 if quick, else 128
+    std::string only;                ///< scenes whose name holds this
+    std::vector<std::string> models; ///< measured in place of the report's own scenes
+    std::string expectations;        ///< file; empty: those of this program
+};
+
+/// Writes report.html, .csv and .json into the folder. Returns the program's exit code: 5 if a
+/// quick report fails one of its checks. Throws app::Failure and engine::EngineError.
+int runReport(const ReportOptions& options);
+
+} // namespace osgRayTrace::bench

@@ -1,0 +1,69 @@
+// ReportScene.h - what the report measures: a scene, how to trace it, what is right. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/integrators/RenderOptions.h"
+
+#include <osg/Group>
+#include <osg/Matrixd>
+#include <osg/Vec3d>
+#include <osg/Vec4>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace osgRayTrace::bench
+{
+
+/// An algorithm with all its options but the seed.
+struct Method
+{
+    std::string name;
+    engine::RenderOptions options;
+};
+
+/// Where the scene lies in the world: a rigid transform of it and of the camera.
+struct Placement
+{
+    std::string name;
+    osg::Matrixd worldFromScene;
+};
+
+/// Radiance along a ray from the origin, in scene coordinates. The direction is not unit.
+using Formula = std::function<osg::Vec3d(const osg::Vec3d& origin, const osg::Vec3d& direction)>;
+
+struct ReportScene
+{
+    std::string name;  ///< of files and rows
+    std::string title; ///< for people
+    osg::ref_ptr<osg::Node> graph;
+    osg::Matrixd view; ///< scene coordinates
+    osg::Matrixd projection;
+    double aspect = 1.0; ///< width / height
+    osg::Vec4 clearColor{0.0f, 0.0f, 0.0f, 1.0f};
+    bool headlight = false;            ///< of osgViewer
+    std::vector<Method> methods;       ///< those that are right for it
+    std::vector<Placement> placements; ///< the first is the scene itself
+    Formula formula;                   ///< empty: the reference is rendered
+    int formulaNodes = 4;              ///< of Gauss's quadrature, along each side of a pixel
+    Method reference;                  ///< of a rendered one
+};
+
+Placement atOrigin();
+Placement displaced(); ///< by 6378137 along x: the earth's radius in metres
+
+/// Direct light by all four strategies, 16 samples a hit and pass, and by path tracing cut after
+/// one bounce.
+std::vector<Method> directMethods();
+
+/// Path tracing with this many edges after the camera ray.
+Method pathMethod(int maxBounces);
+
+/// One strategy.
+Method whittedMethod(engine::LightSampling strategy, int lightSamples);
+
+/// All that there are, the ones with formulas first. A new scene is one function and one line.
+std::vector<ReportScene> reportScenes();
+
+} // namespace osgRayTrace::bench

@@ -1,0 +1,83 @@
+// ReportScenes.cpp - the list of scenes and methods. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "apps/osgraytracebench/report/ReportScene.h"
+
+#include "apps/osgraytracebench/report/BoxScenes.h"
+#include "apps/osgraytracebench/report/ClosedScenes.h"
+#include "apps/osgraytracebench/report/PlaneScenes.h"
+
+namespace osgRayTrace::bench
+{
+
+using engine::IntegratorKind;
+using engine::LightSampling;
+
+Placement atOrigin()
+{
+    return {"origin", osg::Matrixd::identity()};
+}
+
+Placement displaced()
+{
+    return {"displaced", osg::Matrixd::translate(6378137.0, 0.0, 0.0)};
+}
+
+Method whittedMethod(LightSampling strategy, int lightSamples)
+{
+    Method method;
+    method.options.integrator = IntegratorKind::Whitted;
+    method.options.lightSampling = strategy;
+    method.options.lightSamples = lightSamples;
+    switch (strategy)
+    {
+    case LightSampling::Random:
+        method.name = "WHITTED random";
+        break;
+    case LightSampling::UniformJitter:
+        method.name = "WHITTED uniform jitter";
+        break;
+    case LightSampling::Stratified:
+        method.name = "WHITTED stratified";
+        break;
+    case LightSampling::Sobol:
+        method.name = "WHITTED Sobol";
+        break;
+    }
+    return method;
+}
+
+Method pathMethod(int maxBounces)
+{
+    Method method;
+    method.name = "PATH";
+    method.options.integrator = IntegratorKind::Path;
+    method.options.maxBounces = maxBounces;
+    return method;
+}
+
+std::vector<Method> directMethods()
+{
+    constexpr int kSamples = 16;
+    return {whittedMethod(LightSampling::Random, kSamples),
+            whittedMethod(LightSampling::UniformJitter, kSamples),
+            whittedMethod(LightSampling::Stratified, kSamples),
+            whittedMethod(LightSampling::Sobol, kSamples), pathMethod(1)};
+}
+
+std::vector<ReportScene> reportScenes()
+{
+    return {squareLightScene(),
+            hexagonLightScene(),
+            axisEdgeScene(),
+            rotatedEdgeScene(),
+            roundBlockerScene(),
+            furnaceScene(0.5),
+            furnaceScene(0.9),
+            integratingSphereScene(),
+            cornellScene(CornellKind::Diffuse),
+            cornellScene(CornellKind::Mirror),
+            cornellScene(CornellKind::Glass),
+            gridsScene()};
+}
+
+} // namespace osgRayTrace::bench
