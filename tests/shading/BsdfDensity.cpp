@@ -71,12 +71,16 @@ public:
         return refined(theta0, theta1, phi0, phi1, rule(theta0, theta1, phi0, phi1), 0);
     }
 
+    int bad() const { return _bad; }
+
 private:
     double density(double theta, double phi) const
     {
         const Vec3 wi(_grid.direction(theta, phi));
         if (wi.z == 0.0f || (wi.z > 0.0f) != _above) return 0.0;
-        return evalBsdf(_bsdf, _wo, wi).pdfW * std::sin(theta);
+        const double pdfW = evalBsdf(_bsdf, _wo, wi).pdfW;
+        _bad += !(pdfW >= 0.0 && std::isfinite(pdfW));
+        return pdfW * std::sin(theta);
     }
 
     /// Gauss-Legendre, 3 x 3 points.
@@ -103,8 +107,8 @@ private:
         const double c = rule(theta, theta1, phi0, phi), d = rule(theta, theta1, phi, phi1);
         const double sum = a + b + c + d;
         const double reach = 0.5 * (theta1 - theta0) + 0.5 * (phi1 - phi0) * std::sin(theta);
-        const bool horizon = std::abs(_grid.direction(theta, phi).z) < reach && depth < 4;
-        if (depth >= 7 || (depth > 0 && !horizon && std::abs(sum - whole) < 1e-7)) return sum;
+        const bool horizon = std::abs(_grid.direction(theta, phi).z) < reach;
+        if (depth >= 7 || (depth > 1 && !horizon && std::abs(sum - whole) < 1e-7)) return sum;
         return refined(theta0, theta, phi0, phi, a, depth + 1) +
                refined(theta0, theta, phi, phi1, b, depth + 1) +
                refined(theta, theta1, phi0, phi, c, depth + 1) +
@@ -115,6 +119,7 @@ private:
     Vec3 _wo;
     const Grid& _grid;
     bool _above;
+    mutable int _bad = 0; ///< densities that are negative or not finite
 };
 
 } // namespace
@@ -122,25 +127,37 @@ private:
 DensityResult testDensity(const Bsdf& bsdf, Vec3 wo, uint32_t seed, int samples)
 {
     const double smallest = std::max(0.1 * bsdf.alpha, 1e-4);
-    const std::optional<Vec3> through = refract(wo, Vec3(0.0f, 0.0f, 1.0f), bsdf.eta);
-    const Grid above(Vec3(-wo.x, -wo.y, wo.z), smallest), below(through ? *through : -wo, smallest);
+    // Refraction by the middle one of the visible normals: from grazing angles few look straight
+    // up.
+    const std::optional<Vec3> through =
+        refract(wo, sampleGgxVisible(wo, bsdf.alpha, 0.5f, 0.5f), bsdf.eta);
+    // Normals that scatter by alpha turn refracted rays by |eta - 1| of that.
+    const double bend = std::min(1.0, std::abs(bsdf.eta - 1.0) + 1e-3);
+    const Grid above(Vec3(-wo.x, -wo.y, wo.z), smallest),
+        below(through ? *through : -wo, smallest * bend);
 
-    std::vector<double> observed(2 * kRows * kColumns, 0.0), expected(observed.size(), 0.0);
+    std::vector<double> observed(2 * kRows * kColumns + 1, 0.0), expected(observed.size(), 0.0);
     DensityResult result;
+    double deltaPmf = 0.0; // a last cell for refraction that is not rough
     Uniform random(seed);
     for (int i = 0; i < samples; ++i)
     {
         const float uLobe = random(), u = random(), v = random();
         const std::optional<BsdfSample> sample = sampleBsdf(bsdf, wo, uLobe, u, v);
         if (!sample) continue;
+        result.accepted += 1.0 / samples;
+        if (sample->delta)
+        {
+            ++observed.back();
+            deltaPmf = sample->pdfW;
+            continue;
+        }
         const bool isAbove = sample->wi.z > 0.0f;
         ++observed[isAbove ? above.cellOf(sample->wi)
                            : kRows * kColumns + below.cellOf(sample->wi)];
-        result.accepted += 1.0 / samples;
         const BsdfValue value = evalBsdf(bsdf, wo, sample->wi);
         const Vec3 difference = sample->weight * sample->pdfW - value.fCos;
-        result.inconsistent += sample->pdfW != value.pdfW || sample->delta ||
-                               sample->transmitted == isAbove ||
+        result.inconsistent += sample->pdfW != value.pdfW || sample->transmitted == isAbove ||
                                glm::length(difference) > 1e-5f * (glm::length(value.fCos) + 1e-20f);
     }
     for (int side = 0; side < 2; ++side)
@@ -163,7 +180,10 @@ DensityResult testDensity(const Bsdf& bsdf, Vec3 wo, uint32_t seed, int samples)
                 if (probability == 0.0) result.withoutDensity += observed[cell];
             }
         }
+        result.bad += integral.bad();
     }
+    expected.back() = deltaPmf * samples;
+    result.total += deltaPmf;
     result.fit = chiSquareTest(observed, expected);
     return result;
 }

@@ -18,8 +18,8 @@ struct DensityResult
     int bad = 0;                 ///< densities that are negative or not finite
 };
 
-/// Chi-square of samples over cells around the mirror and the refracted direction, up to 640, against
-/// the integral of the density over each.
+/// Chi-square of samples over cells around the mirror and the refracted direction, up to 640,
+/// against the integral of the density over each.
 DensityResult testDensity(const Bsdf& bsdf, Vec3 wo, uint32_t seed, int samples);
 
 } // namespace osgRayTrace::engine::test
