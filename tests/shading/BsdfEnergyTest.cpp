@@ -164,12 +164,17 @@ TEST_CASE("bsdf: refraction of radiance is the adjoint of that of importance", "
                     sampleBsdf(near, wo, kOneMinusEpsilon, u, v);
                 if (!sample || !sample->transmitted || sample->wi.z > -0.02f) continue;
                 const Vec3 wi = sample->wi;
+                // Microfacets that are nearly edge-on are near total reflection from the other
+                // side, where 1 - F hangs on the last bits of the cosine.
+                const Vec3d h = glm::normalize(Vec3d(wo) + Vec3d(wi) * double(eta));
+                if (std::abs(glm::dot(Vec3d(wo), h)) < 0.01 ||
+                    std::abs(glm::dot(Vec3d(wi), h)) < 0.01)
+                    continue;
                 const float radiance = evalBsdf(near, wo, wi).fCos.x / -wi.z;
                 const float importance =
                     evalBsdf(far, turned(wi), turned(wo), Transport::Importance).fCos.x / wo.z;
                 CAPTURE(eta, alpha, wo.z, wi.z);
-                // Rounding shows where microfacets are nearly edge-on: far below the peak.
-                REQUIRE(importance == Approx(radiance).epsilon(2e-2).margin(1e-5 / alpha));
+                REQUIRE(importance == Approx(radiance).epsilon(2e-2));
                 ++compared;
             }
             CHECK(compared > 100);
