@@ -127,7 +127,8 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
     app.add_option("--time", options.seconds, "Stop after so many seconds")
         ->option_text("SECONDS")
         ->check(positive());
-    app.add_option("--error", options.relativeError, "Stop at this estimated relative error")
+    app.add_option("--error", options.relativeError,
+                   "Stop at this estimated error, relative to the brightness of 16 x 16 pixels")
         ->option_text("RELATIVE")
         ->check(positive());
 

@@ -45,6 +45,60 @@ void scaled(const float* __restrict sums, float scale, float* __restrict out)
 
 float* floatsOf(TileRgba& values) { return values[0].r.v; }
 
+/// Of one channel of a tile.
+struct HalfSums
+{
+    double squares = 0.0; ///< of the halves' differences
+    double first = 0.0, second = 0.0;
+};
+
+/// Lane by lane, so that the loop needs no order of its additions; in double, where squares of bright
+/// values have room.
+OSGRAYTRACE_KERNEL
+void sumLanes(const float* __restrict first, const float* __restrict second, double* __restrict squares,
+              double* __restrict firsts, double* __restrict seconds)
+{
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        const std::size_t at = static_cast<std::size_t>(b) * kChannels * kLanes;
+        OSGRAYTRACE_SIMD
+        for (std::size_t i = 0; i < kLanes; ++i)
+        {
+            const double x = first[at + i], y = second[at + i];
+            squares[i] += (x - y) * (x - y);
+            firsts[i] += x;
+            seconds[i] += y;
+        }
+    }
+}
+
+HalfSums sumHalves(const float* first, const float* second)
+{
+    Lanes<double> squares{}, firsts{}, seconds{};
+    sumLanes(first, second, squares.v, firsts.v, seconds.v);
+    HalfSums sums;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        sums.squares += squares[i];
+        sums.first += firsts[i];
+        sums.second += seconds[i];
+    }
+    return sums;
+}
+
+/// Makes the pixels of a tile that are not in the image black.
+void clearOutside(int columns, int rows, TileRgba& values)
+{
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        for (int i = 0; i < kLanes; ++i)
+        {
+            if (laneX(b, i) < columns && laneY(b, i) < rows) continue;
+            values[b].r[i] = values[b].g[i] = values[b].b[i] = 0.0f;
+        }
+    }
+}
+
 } // namespace
 
 void Film::reset(int width, int height)
@@ -179,27 +233,36 @@ void Film::halfMeans(int tile, TileRgba& first, TileRgba& second) const
     halfMean(tile, 1, second);
 }
 
+float Film::errorScale(int tile) const
+{
+    // The variance of independent passes: Var(m) = Var(a - b) n_a n_b / (n_a + n_b)^2.
+    const double second = tilePasses(tile) / 2, first = tilePasses(tile) - second;
+    return second > 0.0 ? static_cast<float>(std::sqrt(first * second) / (first + second)) : 0.0f;
+}
+
 Film::ErrorSum Film::relativeSquaredError(int tile) const
 {
     TileRgba first, second;
     halfMeans(tile, first, second);
-    ErrorSum error;
-    for (int b = 0; b < kTileBlocks; ++b)
+    const int columns = std::min(kTileSize, _width - tileX(tile));
+    const int rows = std::min(kTileSize, _height - tileY(tile));
+    if (columns < kTileSize || rows < kTileSize)
     {
-        const FloatLanes* firsts[] = {&first[b].r, &first[b].g, &first[b].b};
-        const FloatLanes* seconds[] = {&second[b].r, &second[b].g, &second[b].b};
-        for (int i = 0; i < kLanes; ++i)
-        {
-            if (tileX(tile) + laneX(b, i) >= _width || tileY(tile) + laneY(b, i) >= _height) continue;
-            for (int c = 0; c < 3; ++c)
-            {
-                const double x = (*firsts[c])[i], y = (*seconds[c])[i];
-                const double mean = 0.5 * (x + y);
-                error.sum += 0.25 * (x - y) * (x - y) / (mean * mean + 0.01);
-                ++error.count;
-            }
-        }
+        clearOutside(columns, rows, first);
+        clearOutside(columns, rows, second);
     }
+    const double pixels = double(columns) * rows;
+    const double scale = errorScale(tile);
+    const double firstWeight = double((tilePasses(tile) + 1) / 2) / tilePasses(tile);
+    ErrorSum error;
+    for (std::size_t channel = 0; channel < 3; ++channel)
+    {
+        const HalfSums sums =
+            sumHalves(floatsOf(first) + channel * kLanes, floatsOf(second) + channel * kLanes);
+        const double mean = (sums.first * firstWeight + sums.second * (1.0 - firstWeight)) / pixels;
+        error.sum += sums.squares * scale * scale / (mean * mean + 0.01);
+    }
+    error.count = 3 * int64_t(columns) * rows;
     return error;
 }
 

@@ -31,7 +31,7 @@ using TileRgba = RgbaLanes[kTileBlocks];
 
 /// Passes 0, 2, 4, ... go to the first half, the others to the second. The halves are sampled
 /// independently, so for the mean m = (a + b)/2 of their means the variance estimate (a - b)^2/4 is
-/// unbiased [Rousselle12, sect. 3]. Tiles are independent: different threads may write different tiles.
+/// unbiased [Rousselle12, sect. 3]; see errorScale for an odd number of passes. Tiles are independent: different threads may write different tiles.
 /// Sums of a bounded number of passes are float, their totals double.
 class Film
 {
@@ -73,9 +73,15 @@ public:
     /// Means of the two halves; needs two passes.
     void halfMeans(int tile, TileRgba& first, TileRgba& second) const;
 
-    /// Estimate of mean((x - r)^2 / (r^2 + 0.01)) over pixels and RGB, x this image and r the converged
-    /// one: sums over the tile's pixels inside the image, and their number. Needs two passes. r is not known
-    /// but estimated with x: too low while pixels exist that were very bright in a few of their passes only.
+    /// Factor of |a - b| that makes it the standard error of the mean of all passes, a and b the halves'
+    /// means: 1/2, and less for an odd number of passes, as the halves then differ in size. 0 below two.
+    float errorScale(int tile) const;
+
+    /// Estimate of the sum over the tile's pixels and RGB of (x - r)^2 / (R^2 + 0.01), and the number of terms;
+    /// x is this image, r the converged one, R the mean of r over the pixels of the tile, channel by channel.
+    /// Needs two passes. R is not known but taken from x; the tile has so many samples that this matters only
+    /// where errors are greater than what is seen: a pixel's own r, or that of a block of 4 x 4, would be
+    /// as noisy as the error at a light's edge, and hide most of it.
     struct ErrorSum
     {
         double sum = 0.0;

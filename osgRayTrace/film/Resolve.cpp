@@ -192,6 +192,7 @@ void resolveTileError(const Film& film, int tile, bool displayReferred, float* i
 {
     TileRgba first, second;
     film.halfMeans(tile, first, second);
+    const float scale = film.errorScale(tile);
     if (displayReferred)
     {
         decode(first);
@@ -201,9 +202,9 @@ void resolveTileError(const Film& film, int tile, bool displayReferred, float* i
                  [&](std::size_t pixel, int block, int lane)
                  {
                      float* out = image + 3 * pixel;
-                     out[0] = 0.5f * std::fabs(first[block].r[lane] - second[block].r[lane]);
-                     out[1] = 0.5f * std::fabs(first[block].g[lane] - second[block].g[lane]);
-                     out[2] = 0.5f * std::fabs(first[block].b[lane] - second[block].b[lane]);
+                     out[0] = scale * std::fabs(first[block].r[lane] - second[block].r[lane]);
+                     out[1] = scale * std::fabs(first[block].g[lane] - second[block].g[lane]);
+                     out[2] = scale * std::fabs(first[block].b[lane] - second[block].b[lane]);
                  });
 }
 

@@ -41,11 +41,18 @@ OSGRAYTRACE_INLINE uint32_t sobolSecondReversed(uint32_t index)
     return index;
 }
 
-/// Another seed from one that is a hash already.
-OSGRAYTRACE_INLINE uint32_t remix(uint32_t seed, uint32_t factor)
+/// Seeds of the two coordinates from one that is a hash already. The shifts differ: with equal ones the low
+/// bits of the two, which become the high bits of the point, depend on each other.
+OSGRAYTRACE_INLINE uint32_t seedOfX(uint32_t seed)
 {
-    seed *= factor;
+    seed *= 0x2c1b3c6du;
     return seed ^ (seed >> 15);
+}
+
+OSGRAYTRACE_INLINE uint32_t seedOfY(uint32_t seed)
+{
+    seed *= 0x297a2d39u;
+    return seed ^ (seed >> 17);
 }
 
 /// Point number index of the two-dimensional sequence that belongs to seed, in [0,1)^2. Sequences of
@@ -53,25 +60,23 @@ OSGRAYTRACE_INLINE uint32_t remix(uint32_t seed, uint32_t factor)
 OSGRAYTRACE_INLINE void sobol2(uint32_t index, uint32_t seed, float& x, float& y)
 {
     const uint32_t shuffled = reverseBits(scrambleReversed(reverseBits(index), seed));
-    const uint32_t seedX = remix(seed, 0x2c1b3c6du);
-    const uint32_t seedY = remix(seed, 0x297a2d39u);
-    x = unitFloat(reverseBits(scrambleReversed(shuffled, seedX)));
-    y = unitFloat(reverseBits(scrambleReversed(sobolSecondReversed(shuffled), seedY)));
+    x = unitFloat(reverseBits(scrambleReversed(shuffled, seedOfX(seed))));
+    y = unitFloat(reverseBits(scrambleReversed(sobolSecondReversed(shuffled), seedOfY(seed))));
 }
 
 /// The same without shuffling the index, which is only needed to keep two sequences apart: for the first
 /// dimensions of a sample.
 OSGRAYTRACE_INLINE void sobol2Ordered(uint32_t index, uint32_t seed, float& x, float& y)
 {
-    x = unitFloat(reverseBits(scrambleReversed(index, remix(seed, 0x2c1b3c6du))));
-    y = unitFloat(reverseBits(scrambleReversed(sobolSecondReversed(index), remix(seed, 0x297a2d39u))));
+    x = unitFloat(reverseBits(scrambleReversed(index, seedOfX(seed))));
+    y = unitFloat(reverseBits(scrambleReversed(sobolSecondReversed(index), seedOfY(seed))));
 }
 
 /// Point number index of the one-dimensional sequence of seed, in [0,1).
 OSGRAYTRACE_INLINE float sobol1(uint32_t index, uint32_t seed)
 {
     const uint32_t shuffled = reverseBits(scrambleReversed(reverseBits(index), seed));
-    return unitFloat(reverseBits(scrambleReversed(shuffled, remix(seed, 0x2c1b3c6du))));
+    return unitFloat(reverseBits(scrambleReversed(shuffled, seedOfX(seed))));
 }
 
 } // namespace osgRayTrace::engine

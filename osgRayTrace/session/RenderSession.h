@@ -25,7 +25,7 @@ struct StopRule
     int passes = std::numeric_limits<int>::max(); ///< accumulated passes, those of earlier calls included
     int newPasses = std::numeric_limits<int>::max(); ///< of this call
     double seconds = std::numeric_limits<double>::infinity(); ///< of this call; at least one pass is made
-    double relativeError = 0.0;                   ///< estimated, of the accumulated image; 0: not used
+    double relativeError = 0.0; ///< estimated, see RenderProgress; of the accumulated image; 0: not used
 };
 
 /// Where display values go while an image is made: see RenderSession::resolveDisplay. For an image of the
@@ -52,7 +52,8 @@ struct RenderProgress
     IntegratorKind integrator = IntegratorKind::Automatic; ///< the one that was chosen
     int passes = 0;               ///< complete ones
     double seconds = 0.0;         ///< spent in passes since the restart
-    /// Last estimate of sqrt(mean((x - r)^2 / (r^2 + 0.01))) against the converged image r; infinite
+    /// Last estimate of sqrt(mean((x - r)^2 / (R^2 + 0.01))) over pixels and RGB, r the converged image and
+    /// R its mean over the pixel's tile of 16 x 16: an error in terms of the brightness around. Infinite
     /// below 2 passes. Made after each pass if the rule or keepGoing asks for it.
     double relativeError = std::numeric_limits<double>::infinity();
     RayCounts rays;

@@ -13,6 +13,15 @@ namespace osgRayTrace::engine
 namespace
 {
 
+/// Microfacets turned by alpha bend refracted rays by (eta - 1) alpha / cos^2. Where directions in float do
+/// not resolve that to 1 %, refraction is a delta function at any roughness.
+bool refractsSmoothly(const Bsdf& bsdf, Vec3 wo)
+{
+    constexpr float kSmoothBend = 3e-5f;
+    return bsdf.isSmooth() ||
+           std::fabs(bsdf.eta - 1.0f) * bsdf.alpha < kSmoothBend * wo.z * wo.z;
+}
+
 /// Reflectance of the interface that the base and the transmission lie under.
 float interfaceFresnel(const Bsdf& bsdf, float cosTheta)
 {
@@ -68,8 +77,9 @@ void addReflection(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, BsdfValue& val
     const Vec3 sum = wo + wi;
     const float length2 = glm::dot(sum, sum);
     if (length2 < 1e-14f) return;
-    const Vec3 h = sum / std::sqrt(length2);
-    const float cosH = glm::dot(wo, h);
+    const float length = std::sqrt(length2);
+    const Vec3 h = sum / length;
+    const float cosH = 0.5f * length; // the same for wo and wi, to the last bit
     const float d = evalGgx(h, bsdf.alpha);
     value.fCos += reflectionFresnel(bsdf, cosH) * (d * ggxG2(wo, wi, bsdf.alpha) / (4.0f * wo.z));
     value.pdfW += pmf * ggxG1(wo, bsdf.alpha) * d / (4.0f * wo.z);
@@ -78,8 +88,8 @@ void addReflection(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, BsdfValue& val
 void addRefraction(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, Transport transport,
                    BsdfValue& value)
 {
-    if (bsdf.eta == 1.0f) return; // an invisible interface is a delta function at any roughness
-    Vec3 h = -(wo + wi * bsdf.eta);
+    // wo + eta wi, with its digits where wi is nearly -wo.
+    Vec3 h = -((wo + wi) + wi * (bsdf.eta - 1.0f));
     const float length2 = glm::dot(h, h);
     if (length2 < 1e-14f) return;
     h /= std::sqrt(length2);
@@ -87,11 +97,10 @@ void addRefraction(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, Transport tran
     const float cosO = glm::dot(wo, h);
     const float cosI = glm::dot(wi, h);
     if (cosO <= 0.0f || cosI >= 0.0f) return;
-    const float denominator = cosO + bsdf.eta * cosI;
-    if (denominator == 0.0f) return;
 
     const float d = evalGgx(h, bsdf.alpha);
-    const float jacobian = bsdf.eta * bsdf.eta * -cosI / (denominator * denominator);
+    // (cosO + eta cosI)^2 of the paper is the square of that sum's length, which loses no digits.
+    const float jacobian = bsdf.eta * bsdf.eta * -cosI / length2;
     const float transmittance = 1.0f - fresnelDielectric(cosO, bsdf.eta);
     // Masking and shadowing on opposite sides multiply [Walter07, eq. 23].
     const float g = ggxG1(wo, bsdf.alpha) * ggxG1(-wi, bsdf.alpha);
@@ -149,7 +158,7 @@ std::optional<BsdfSample> sampleBsdf(const Bsdf& bsdf, Vec3 wo, float uLobe, flo
         sample.wi = squareToCosineHemisphere(u, v);
         if (!(sample.wi.z > 0.0f)) return std::nullopt;
     }
-    else if (bsdf.isSmooth() || (!reflect && bsdf.eta == 1.0f))
+    else if (reflect ? bsdf.isSmooth() : refractsSmoothly(bsdf, wo))
     {
         return sampleSmooth(bsdf, wo, pmf, reflect, transport);
     }
@@ -187,7 +196,7 @@ BsdfValue evalBsdf(const Bsdf& bsdf, Vec3 wo, Vec3 wi, Transport transport)
         value.pdfW = pmf.base * squareToCosineHemispherePdf(wi.z);
         if (bsdf.reflects() && !bsdf.isSmooth()) addReflection(bsdf, wo, wi, pmf.reflection, value);
     }
-    else if (bsdf.transmits() && !bsdf.isSmooth())
+    else if (bsdf.transmits() && !refractsSmoothly(bsdf, wo))
     {
         addRefraction(bsdf, wo, wi, pmf.refraction, transport, value);
     }
@@ -198,9 +207,8 @@ SpecularLobes specularLobes(const Bsdf& bsdf, Vec3 wo)
 {
     SpecularLobes lobes;
     if (!(wo.z > 0.0f)) return lobes;
-    const bool smooth = bsdf.isSmooth();
-    if (bsdf.reflects() && smooth) lobes.reflection = reflectionFresnel(bsdf, wo.z);
-    if (!bsdf.transmits() || !(smooth || bsdf.eta == 1.0f)) return lobes;
+    if (bsdf.reflects() && bsdf.isSmooth()) lobes.reflection = reflectionFresnel(bsdf, wo.z);
+    if (!bsdf.transmits() || !refractsSmoothly(bsdf, wo)) return lobes;
     const std::optional<Vec3> refracted = refract(wo, Vec3(0.0f, 0.0f, 1.0f), bsdf.eta);
     if (!refracted) return lobes;
     lobes.refracted = *refracted;

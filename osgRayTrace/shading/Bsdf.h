@@ -27,7 +27,8 @@ enum class Transport
 ///     + transmission D G2 (1-F(h)) ...                   refraction             [Walter07, eq. 21]
 ///
 /// F = Fresnel of a dielectric of index eta (0 without a coat), S = Schlick with reflectance and grazing.
-/// With alpha below kSmoothAlpha D is a delta function. Neither side makes energy, as diffuse +
+/// With alpha below kSmoothAlpha D is a delta function; refraction is one, too, where microfacets turn it by
+/// too little, which takes an index close to 1. Neither side makes energy, as diffuse +
 /// transmission <= coat = 1 - grazing; but a rough coat over a base, which is taken for a smooth one there,
 /// up to 1 % from outside and 8 % from inside.
 struct Bsdf

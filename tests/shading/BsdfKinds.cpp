@@ -48,7 +48,34 @@ void add(std::vector<BsdfKind>& kinds, const std::string& name, const Material& 
         kinds.push_back({name + ", from inside", bsdfOf(material, false)});
 }
 
+std::vector<BsdfKind> kindsOfRoughness(const std::vector<float>& roughnesses)
+{
+    std::vector<BsdfKind> kinds;
+    for (const float roughness : roughnesses)
+    {
+        const std::string rough = "roughness " + std::to_string(roughness);
+        add(kinds, rough + ", metal", physical(roughness, 1.0f, 0.0f, 1.5f));
+        for (const float ior : {1.0001f, 1.5f, 3.0f})
+        {
+            const std::string index = rough + ", index " + std::to_string(ior);
+            add(kinds, index + ", plastic", physical(roughness, 0.0f, 0.0f, ior));
+            add(kinds, index + ", glass", physical(roughness, 0.0f, 1.0f, ior));
+        }
+    }
+    return kinds;
+}
+
 } // namespace
+
+std::vector<BsdfKind> extremeKinds()
+{
+    return kindsOfRoughness({0.0317f, 0.1f, 1.0f});
+}
+
+std::vector<BsdfKind> extremeSmoothKinds()
+{
+    return kindsOfRoughness({0.0f, 1e-3f, 0.01f, 0.0316f});
+}
 
 std::vector<BsdfKind> roughKinds()
 {
@@ -100,6 +127,18 @@ std::vector<Vec3> outgoingDirections()
     {
         const double sine = std::sqrt(1.0 - cosine * cosine);
         directions.emplace_back(sine * std::cos(0.7), sine * std::sin(0.7), cosine);
+    }
+    return directions;
+}
+
+std::vector<Vec3> grazingDirections()
+{
+    std::vector<Vec3> directions{Vec3(0.0f, 0.0f, 1.0f)};
+    for (const double degrees : {60.0, 85.0, 89.0, 89.9})
+    {
+        const double theta = degrees * M_PI / 180.0;
+        directions.emplace_back(std::sin(theta) * std::cos(0.7), std::sin(theta) * std::sin(0.7),
+                                std::cos(theta));
     }
     return directions;
 }

@@ -20,6 +20,13 @@ struct BsdfKind
 /// lost.
 std::vector<BsdfKind> roughKinds();
 
+/// Metal, plastic and glass from the least roughness that is not smooth to 1, of indices 1.0001, 1.5
+/// and 3, from outside and inside.
+std::vector<BsdfKind> extremeKinds();
+
+/// The same below that roughness, down to 0.
+std::vector<BsdfKind> extremeSmoothKinds();
+
 /// Kinds with delta lobes.
 std::vector<BsdfKind> smoothKinds();
 
@@ -28,5 +35,8 @@ std::vector<BsdfKind> allKinds();
 
 /// Unit directions above the surface, from normal to grazing.
 std::vector<Vec3> outgoingDirections();
+
+/// Down to 0.1 degrees above the surface.
+std::vector<Vec3> grazingDirections();
 
 } // namespace osgRayTrace::engine::test

@@ -1,0 +1,167 @@
+// CoverageTest.cpp - intervals of 68 and 95 % made from the two halves hold the truth as often.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+#include "tests/PValues.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr int kSize = 48, kTile = 16, kTiles = kSize / kTile;
+constexpr int kSeeds = 250;
+
+/// A sum of independent errors, estimated from the halves of each: for the degrees of freedom that
+/// such an estimate has see Satterthwaite, An Approximate Distribution of Estimates of Variance
+/// Components, 1946.
+struct Interval
+{
+    double mean = 0.0;
+    double variance = 0.0; ///< of the mean
+    double fourths = 0.0;  ///< sum of squares of the variance's terms
+
+    double degrees() const
+    {
+        // A squared normal error has a fourth moment of 3 variances squared.
+        return fourths > 0.0 ? 3.0 * variance * variance / fourths : 1.0;
+    }
+};
+
+/// Green of each tile, its error from the channel that holds that of each pixel.
+std::vector<Interval> tileIntervals(const RenderSession& session)
+{
+    const std::vector<float> image = session.resolveRadiance(),
+                             errors = session.resolveChannel(Channel::Error);
+    std::vector<Interval> tiles(kTiles * kTiles);
+    for (int pixel = 0; pixel < kSize * kSize; ++pixel)
+    {
+        const int x = pixel % kSize, y = pixel / kSize;
+        Interval& tile = tiles[static_cast<std::size_t>(y / kTile * kTiles + x / kTile)];
+        const double share = 1.0 / (kTile * kTile);
+        // Green alone: the channels of a pixel share their samples.
+        const double error = errors[static_cast<std::size_t>(3 * pixel + 1)] * share;
+        tile.mean += image[static_cast<std::size_t>(4 * pixel + 1)] * share;
+        tile.variance += error * error;
+        tile.fourths += error * error * error * error;
+    }
+    return tiles;
+}
+
+/// The whole image from its tiles.
+Interval wholeOf(const std::vector<Interval>& tiles)
+{
+    Interval whole;
+    const double share = 1.0 / static_cast<double>(tiles.size());
+    for (const Interval& tile : tiles)
+    {
+        whole.mean += tile.mean * share;
+        whole.variance += tile.variance * share * share;
+        whole.fourths += tile.fourths * share * share * share * share;
+    }
+    return whole;
+}
+
+struct Coverage
+{
+    int trials = 0, in68 = 0, in95 = 0;
+
+    void add(const Interval& interval, const Interval& truth)
+    {
+        const double z =
+            (interval.mean - truth.mean) / std::sqrt(interval.variance + truth.variance);
+        const double p = studentTail(z, interval.degrees());
+        ++trials;
+        in68 += p > 1.0 - 0.6827;
+        in95 += p > 0.05;
+    }
+
+    double share68() const { return double(in68) / trials; }
+    double share95() const { return double(in95) / trials; }
+};
+
+/// Shares of trials are binomial: 3.9 sigma, a false alarm in 10 000 for each check.
+void checkShare(double share, double claimed, int trials)
+{
+    const double spread = std::sqrt(claimed * (1.0 - claimed) / trials);
+    CAPTURE(share, claimed, spread);
+    CHECK(std::abs(share - claimed) < 3.9 * spread);
+}
+
+void checkCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
+                   RenderOptions options, int passes)
+{
+    RenderSession session(std::make_shared<Workers>());
+    session.setScene(traced);
+    session.setView(view);
+    const auto rendered = [&](uint32_t seed, int count)
+    {
+        options.seed = seed;
+        session.setOptions(options);
+        StopRule rule;
+        rule.passes = count;
+        REQUIRE(session.render(rule).passes == count);
+        return tileIntervals(session);
+    };
+    const std::vector<Interval> truth = rendered(99999, 256 * passes);
+
+    Coverage tiles, whole;
+    for (uint32_t seed = 0; seed < kSeeds; ++seed)
+    {
+        const std::vector<Interval> intervals = rendered(seed, passes);
+        for (std::size_t i = 0; i < intervals.size(); ++i)
+            if (intervals[i].variance > 0.0) tiles.add(intervals[i], truth[i]);
+        whole.add(wholeOf(intervals), wholeOf(truth));
+    }
+    CAPTURE(passes, int(options.integrator), int(options.lightSampling), tiles.trials,
+            tiles.share68(), tiles.share95(), whole.share68(), whole.share95());
+    CHECK(tiles.trials > kSeeds * kTiles);
+    checkShare(tiles.share68(), 0.6827, tiles.trials);
+    checkShare(tiles.share95(), 0.95, tiles.trials);
+    checkShare(whole.share68(), 0.6827, whole.trials);
+    checkShare(whole.share95(), 0.95, whole.trials);
+}
+
+View withoutLight()
+{
+    return perspectiveView({278, 400, 20}, {278, 100, 559}, {0, 1, 0}, 45.0, kSize, kSize);
+}
+
+} // namespace
+
+TEST_CASE("coverage: path tracing with Sobol points", "[statistics]")
+{
+    for (const int passes : {4, 16})
+        checkCoverage(cornellBox().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),
+                      passes);
+}
+
+TEST_CASE("coverage: Whitted's ray tracer with Sobol points", "[statistics]")
+{
+    RenderOptions options = optionsOf(IntegratorKind::Whitted);
+    options.lightSamples = 1;
+    for (const int passes : {4, 9, 32})
+        checkCoverage(cornellBox().build(), withoutLight(), options, passes);
+}
+
+TEST_CASE("coverage: the other light strategies", "[statistics]")
+{
+    RenderOptions options = optionsOf(IntegratorKind::Whitted);
+    for (const LightSampling strategy :
+         {LightSampling::Random, LightSampling::UniformJitter, LightSampling::Stratified})
+    {
+        options.lightSampling = strategy;
+        checkCoverage(cornellBox().build(), withoutLight(), options, 8);
+    }
+}
+
+TEST_CASE("coverage: with the light's edges in view", "[statistics]")
+{
+    // The few pixels along the edges make the error of their tile: it takes Whitted's ray tracer,
+    // which has no other noise there, more passes until theirs is normally distributed.
+    checkCoverage(cornellBox().build(), cornellView(kSize, kSize),
+                  optionsOf(IntegratorKind::Path, 4), 16);
+    checkCoverage(cornellBox().build(), cornellView(kSize, kSize),
+                  optionsOf(IntegratorKind::Whitted), 64);
+}

@@ -1,0 +1,21 @@
+// ReferenceTracer.h - a path tracer that shares nothing with the integrators but surfaces and rays.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/EngineScenes.h"
+
+namespace osgRayTrace::engine::test
+{
+
+/// Linear RGB, 3 doubles a pixel, of paths of up to maxBounces edges after the camera ray:
+///
+///   L = sum over bounces k of beta_k Le(x_k) + sum over delta lights of beta_k f cos pi I V
+///   beta_{k+1} = beta_k f cos 2 pi     (4 pi where light also goes through)
+///
+/// Directions are uniform over the hemisphere, mirror-like lobes are chosen evenly with those. No
+/// light is sampled, no path is ended by chance, one ray at a time, hit points in double: slow,
+/// noisy and too simple to be wrong in the way that the integrators could be.
+std::vector<double> tracePaths(const TracedScene& traced, const View& view, int maxBounces,
+                               int pathsPerPixel, uint32_t seed);
+
+} // namespace osgRayTrace::engine::test

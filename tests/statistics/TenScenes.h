@@ -1,0 +1,22 @@
+// TenScenes.h - scenes that between them have every kind of surface, light and placement.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/EngineScenes.h"
+
+#include <string>
+
+namespace osgRayTrace::engine::test
+{
+
+struct ComparedScene
+{
+    std::string name;
+    std::shared_ptr<const TracedScene> traced;
+    View view;
+    bool mirrors = false; ///< has smooth surfaces, which reflect things in WHITTED's direct light
+};
+
+std::vector<ComparedScene> tenScenes(int width, int height);
+
+} // namespace osgRayTrace::engine::test
