@@ -51,7 +51,8 @@ osg::Vec3d LocalCentres::of(const osg::Geometry& geometry)
     const bool known = old != _previous.end() && old->second.vertices == vertices &&
                        old->second.modified == vertices->getModifiedCount();
     Entry& entry = _current[&geometry];
-    entry = known ? old->second : Entry{vertices, vertices->getModifiedCount(), centreOf(*vertices)};
+    entry =
+        known ? old->second : Entry{vertices, vertices->getModifiedCount(), centreOf(*vertices)};
     return entry.centre;
 }
 

@@ -10,16 +10,16 @@
 namespace osgRayTrace::engine
 {
 
-/// The origin that suits a geometry's instances. osg::Geometry knows its own bound, but finds it through
-/// the indices, and reads memory that is not its own where one is out of range.
+/// The origin that suits a geometry's instances. osg::Geometry knows its own bound, but finds it
+/// through the indices, and reads memory that is not its own where one is out of range.
 class LocalCentres
 {
 public:
     /// Forgets what was not asked for since the last call.
     void begin();
 
-    /// The centre of the vertices if they are far from the local origin, else that origin. Kept while
-    /// the vertex array and its modified count stay.
+    /// The centre of the vertices if they are far from the local origin, else that origin. Kept
+    /// while the vertex array and its modified count stay.
     osg::Vec3d of(const osg::Geometry& geometry);
 
 private:

@@ -44,7 +44,8 @@ void addDriver(const dl_phdr_info& info)
 bool isDriver(const void* caller)
 {
     const auto address = reinterpret_cast<uintptr_t>(caller);
-    return std::any_of(drivers, drivers + 8, [&](const AddressRange& r)
+    return std::any_of(drivers, drivers + 8,
+                       [&](const AddressRange& r)
                        { return address >= r.begin && address < r.end; });
 }
 
@@ -142,17 +143,59 @@ using osgRayTrace::test::release;
 #define CALLER __builtin_return_address(0)
 constexpr std::size_t kUsual = alignof(std::max_align_t);
 
-void* operator new(std::size_t size) { return allocateOrThrow(size, kUsual, CALLER); }
-void* operator new[](std::size_t size) { return allocateOrThrow(size, kUsual, CALLER); }
-void* operator new(std::size_t size, std::align_val_t a) { return allocateOrThrow(size, std::size_t(a), CALLER); }
-void* operator new[](std::size_t size, std::align_val_t a) { return allocateOrThrow(size, std::size_t(a), CALLER); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocate(size, kUsual, CALLER); }
-void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return allocate(size, kUsual, CALLER); }
-void operator delete(void* memory) noexcept { release(memory); }
-void operator delete[](void* memory) noexcept { release(memory); }
-void operator delete(void* memory, std::size_t) noexcept { release(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { release(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
+void* operator new(std::size_t size)
+{
+    return allocateOrThrow(size, kUsual, CALLER);
+}
+void* operator new[](std::size_t size)
+{
+    return allocateOrThrow(size, kUsual, CALLER);
+}
+void* operator new(std::size_t size, std::align_val_t a)
+{
+    return allocateOrThrow(size, std::size_t(a), CALLER);
+}
+void* operator new[](std::size_t size, std::align_val_t a)
+{
+    return allocateOrThrow(size, std::size_t(a), CALLER);
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept
+{
+    return allocate(size, kUsual, CALLER);
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept
+{
+    return allocate(size, kUsual, CALLER);
+}
+void operator delete(void* memory) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory, std::align_val_t) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept
+{
+    release(memory);
+}

@@ -15,8 +15,8 @@ enum class Failing
 };
 
 /// While it lives the n-th allocation from now on (0 is the next), of any thread, throws
-/// std::bad_alloc. At most one at a time. Not counted are those of OpenGL's drivers, which are built
-/// without exceptions.
+/// std::bad_alloc. At most one at a time. Not counted are those of OpenGL's drivers, which are
+/// built without exceptions.
 class FailingMemory
 {
 public:
@@ -30,7 +30,8 @@ public:
 /// Calls of operator new that are not deleted yet.
 int64_t liveAllocations();
 
-/// The largest single allocation since the last call [bytes], and the most that lived at once since then.
+/// The largest single allocation since the last call [bytes], and the most that lived at once since
+/// then.
 struct MemoryPeak
 {
     std::size_t single = 0, total = 0;

@@ -20,12 +20,14 @@ namespace
 
 constexpr int kFiles = 20000; ///< seeds
 
-/// The plugin's limit for pictures that a file of a few KiB claims to hold, times channels and formats.
+/// The plugin's limit for pictures that a file of a few KiB claims to hold, times channels and
+/// formats.
 constexpr std::size_t kMostBytes = std::size_t(700) << 20;
 
 osgDB::ReaderWriter* exrPlugin()
 {
-    static osgDB::ReaderWriter* plugin = osgDB::Registry::instance()->getReaderWriterForExtension("exr");
+    static osgDB::ReaderWriter* plugin =
+        osgDB::Registry::instance()->getReaderWriterForExtension("exr");
     return plugin;
 }
 
@@ -40,7 +42,8 @@ std::string validFile(Dice& dice)
     auto* values = reinterpret_cast<float*>(image->data());
     const bool smooth = dice.oneIn(2); // compresses well: the chunks are short
     for (unsigned int i = 0; i < image->getTotalSizeInBytes() / sizeof(float); ++i)
-        values[i] = smooth ? static_cast<float>(i % 7) : static_cast<float>(dice.between(-1.0, 3.0));
+        values[i] =
+            smooth ? static_cast<float>(i % 7) : static_cast<float>(dice.between(-1.0, 3.0));
     std::ostringstream stream;
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(dice.oneOf(kOptions));
     REQUIRE(exrPlugin()->writeImage(*image, stream, options).success());
@@ -69,12 +72,14 @@ void editHeader(std::string& file, Dice& dice)
         int numbers;
     };
     constexpr Attribute kAttributes[] = {
-        {"dataWindow", "box2i", 4}, {"dataWindow", "box2i", 4}, {"displayWindow", "box2i", 4},
-        {"compression", "compression", 1}, {"lineOrder", "lineOrder", 1}, {"channels", "chlist", 8},
+        {"dataWindow", "box2i", 4},       {"dataWindow", "box2i", 4},
+        {"displayWindow", "box2i", 4},    {"compression", "compression", 1},
+        {"lineOrder", "lineOrder", 1},    {"channels", "chlist", 8},
         {"pixelAspectRatio", "float", 1}, {"screenWindowWidth", "float", 1}};
-    constexpr uint32_t kNumbers[] = {0u, 1u, 2u, 3u, 7u, 15u, 31u, 255u, 4095u, 16383u, 65535u,
-                                     (1u << 20) - 1, 1u << 20, 0x7fffffffu, 0x80000000u, 0xffffffffu,
-                                     0xfffffff0u, 0xfff00000u};
+    constexpr uint32_t kNumbers[] = {
+        0u,       1u,          2u,          3u,          7u,          15u,
+        31u,      255u,        4095u,       16383u,      65535u,      (1u << 20) - 1,
+        1u << 20, 0x7fffffffu, 0x80000000u, 0xffffffffu, 0xfffffff0u, 0xfff00000u};
     const Attribute attribute = dice.oneOf(kAttributes);
     const std::size_t at = valueOf(file, attribute.name, attribute.type);
     if (at == std::string::npos) return;
@@ -89,24 +94,35 @@ void editHeader(std::string& file, Dice& dice)
 
 void damage(std::string& file, Dice& dice)
 {
-    const auto place = [&] { return static_cast<std::size_t>(dice.below(static_cast<int>(file.size()))); };
+    const auto place = [&]
+    { return static_cast<std::size_t>(dice.below(static_cast<int>(file.size()))); };
     switch (dice.below(6))
     {
-    case 0: file.resize(place()); return;
+    case 0:
+        file.resize(place());
+        return;
     case 1:
         for (int i = 1 + dice.below(16); i > 0; --i)
             file[place()] = static_cast<char>(dice.bits());
         return;
-    case 2: file[place()] ^= static_cast<char>(1 << dice.below(8)); return;
-    case 3: file.erase(place(), static_cast<std::size_t>(1 + dice.below(20))); return;
-    case 4: file.insert(place(), std::string(static_cast<std::size_t>(1 + dice.below(20)), '\0')); return;
-    default: editHeader(file, dice);
+    case 2:
+        file[place()] ^= static_cast<char>(1 << dice.below(8));
+        return;
+    case 3:
+        file.erase(place(), static_cast<std::size_t>(1 + dice.below(20)));
+        return;
+    case 4:
+        file.insert(place(), std::string(static_cast<std::size_t>(1 + dice.below(20)), '\0'));
+        return;
+    default:
+        editHeader(file, dice);
     }
 }
 
 } // namespace
 
-TEST_CASE("fuzz: a damaged .exr file gives an error or an image, and no absurd allocation", "[fuzz]")
+TEST_CASE("fuzz: a damaged .exr file gives an error or an image, and no absurd allocation",
+          "[fuzz]")
 {
     osg::setNotifyLevel(osg::FATAL);
     REQUIRE(exrPlugin());
@@ -120,9 +136,11 @@ TEST_CASE("fuzz: a damaged .exr file gives an error or an image, and no absurd a
                         damage(file, dice);
                     std::istringstream stream(file);
                     const char* const kOptions[] = {"", "half", "srgb8"};
-                    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(dice.oneOf(kOptions));
+                    const osg::ref_ptr<osgDB::Options> options =
+                        new osgDB::Options(dice.oneOf(kOptions));
                     takeMemoryPeak();
-                    osgDB::ReaderWriter::ReadResult result = exrPlugin()->readImage(stream, options);
+                    osgDB::ReaderWriter::ReadResult result =
+                        exrPlugin()->readImage(stream, options);
                     const MemoryPeak peak = takeMemoryPeak();
                     CAPTURE(peak.single, file.size());
                     REQUIRE(peak.total < kMostBytes);

@@ -39,10 +39,28 @@ int numberFrom(const char* variable, int otherwise)
 double Dice::strange(double size, int rarity)
 {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    constexpr double kStrange[] = {
-        std::numeric_limits<double>::quiet_NaN(), kInfinite, -kInfinite,
-        0.0,    -0.0,   1.0,   -1.0,  1e-45,  1e-38, 1e-30, 1e-12, 1e6, -1e6,
-        1e12,   1e17,   1e18,  1.9e18, -1e19, 1e30,  3.4e38, -3.4e38, 1e300};
+    constexpr double kStrange[] = {std::numeric_limits<double>::quiet_NaN(),
+                                   kInfinite,
+                                   -kInfinite,
+                                   0.0,
+                                   -0.0,
+                                   1.0,
+                                   -1.0,
+                                   1e-45,
+                                   1e-38,
+                                   1e-30,
+                                   1e-12,
+                                   1e6,
+                                   -1e6,
+                                   1e12,
+                                   1e17,
+                                   1e18,
+                                   1.9e18,
+                                   -1e19,
+                                   1e30,
+                                   3.4e38,
+                                   -3.4e38,
+                                   1e300};
     if (!oneIn(rarity)) return between(-size, size);
     return oneOf(kStrange);
 }

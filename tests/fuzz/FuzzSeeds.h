@@ -36,8 +36,8 @@ private:
     std::mt19937 _engine;
 };
 
-/// Number of seeds: that of OSGRAYTRACE_FUZZ_SEEDS, else `usual`; under a sanitizer an eighth of it,
-/// which takes about as long.
+/// Number of seeds: that of OSGRAYTRACE_FUZZ_SEEDS, else `usual`; under a sanitizer an eighth of
+/// it, which takes about as long.
 int seedCount(int usual);
 
 /// Calls test for the seeds 0, 1, ... A seed that ends the process is named on standard error; one

@@ -13,18 +13,29 @@ namespace osgRayTrace::test
 namespace
 {
 
-constexpr GLenum kModes[] = {GL_TRIANGLES,      GL_TRIANGLES,      GL_TRIANGLES, GL_TRIANGLE_STRIP,
-                             GL_TRIANGLE_FAN,   GL_QUADS,          GL_QUAD_STRIP, GL_POLYGON,
-                             GL_LINES,          GL_POINTS,         GL_LINE_LOOP,  GL_LINES_ADJACENCY,
-                             GL_PATCHES,        GL_TRIANGLES_ADJACENCY, 0x77u};
+constexpr GLenum kModes[] = {GL_TRIANGLES,
+                             GL_TRIANGLES,
+                             GL_TRIANGLES,
+                             GL_TRIANGLE_STRIP,
+                             GL_TRIANGLE_FAN,
+                             GL_QUADS,
+                             GL_QUAD_STRIP,
+                             GL_POLYGON,
+                             GL_LINES,
+                             GL_POINTS,
+                             GL_LINE_LOOP,
+                             GL_LINES_ADJACENCY,
+                             GL_PATCHES,
+                             GL_TRIANGLES_ADJACENCY,
+                             0x77u};
 
 constexpr int kSizes[] = {0, 1, 2, 3, 4, 5, 8, 13, 40, 200};
 
 /// Numbers of elements, or first elements, that callers have got wrong.
 int strangeCount(Dice& dice, int usual)
 {
-    constexpr int kStrange[] = {-1, 0, 1, 2, 1000000, std::numeric_limits<int>::max(),
-                                std::numeric_limits<int>::min()};
+    constexpr int kStrange[] = {
+        -1, 0, 1, 2, 1000000, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()};
     if (dice.oneIn(12)) return dice.oneOf(kStrange);
     return dice.below(usual + 2);
 }
@@ -75,35 +86,48 @@ osg::ref_ptr<osg::Array> oddArray(Dice& dice, int size, int rarity)
 {
     switch (dice.below(14))
     {
-    case 0: return arrayOf<osg::Vec2Array>(dice, size, rarity);
-    case 1: return arrayOf<osg::Vec4Array>(dice, size, rarity);
-    case 2: return arrayOf<osg::Vec3dArray>(dice, size, rarity);
-    case 3: return arrayOf<osg::Vec4dArray>(dice, size, rarity);
-    case 4: return arrayOf<osg::Vec2dArray>(dice, size, rarity);
-    case 5: return arrayOf<osg::Vec3sArray>(dice, size, rarity);
-    case 6: return arrayOf<osg::Vec3bArray>(dice, size, rarity);
-    case 7: return arrayOf<osg::Vec4ubArray>(dice, size, rarity);
-    case 8: return arrayOf<osg::Vec4usArray>(dice, size, rarity);
-    case 9: return arrayOf<osg::Vec3iArray>(dice, size, rarity);
-    case 10: return arrayOf<osg::Vec2uiArray>(dice, size, rarity);
-    case 11: return scalarArray(dice, size, rarity);
-    case 12: return matrixArray(size);
-    default: return nullptr;
+    case 0:
+        return arrayOf<osg::Vec2Array>(dice, size, rarity);
+    case 1:
+        return arrayOf<osg::Vec4Array>(dice, size, rarity);
+    case 2:
+        return arrayOf<osg::Vec3dArray>(dice, size, rarity);
+    case 3:
+        return arrayOf<osg::Vec4dArray>(dice, size, rarity);
+    case 4:
+        return arrayOf<osg::Vec2dArray>(dice, size, rarity);
+    case 5:
+        return arrayOf<osg::Vec3sArray>(dice, size, rarity);
+    case 6:
+        return arrayOf<osg::Vec3bArray>(dice, size, rarity);
+    case 7:
+        return arrayOf<osg::Vec4ubArray>(dice, size, rarity);
+    case 8:
+        return arrayOf<osg::Vec4usArray>(dice, size, rarity);
+    case 9:
+        return arrayOf<osg::Vec3iArray>(dice, size, rarity);
+    case 10:
+        return arrayOf<osg::Vec2uiArray>(dice, size, rarity);
+    case 11:
+        return scalarArray(dice, size, rarity);
+    case 12:
+        return matrixArray(size);
+    default:
+        return nullptr;
     }
 }
 
 /// Of the usual type or of another, of the vertices' size or of another.
-template <class Usual>
-osg::ref_ptr<osg::Array> attributeArray(Dice& dice, int vertices, int rarity)
+template <class Usual> osg::ref_ptr<osg::Array> attributeArray(Dice& dice, int vertices, int rarity)
 {
     const int size = dice.oneIn(6) ? dice.oneOf(kSizes) : vertices;
     osg::ref_ptr<osg::Array> array =
         dice.oneIn(5) ? oddArray(dice, size, rarity) : arrayOf<Usual>(dice, size, rarity);
     if (!array) return nullptr;
     constexpr osg::Array::Binding kBindings[] = {
-        osg::Array::BIND_PER_VERTEX,        osg::Array::BIND_PER_VERTEX,
-        osg::Array::BIND_OVERALL,           osg::Array::BIND_PER_PRIMITIVE_SET,
-        osg::Array::BIND_OFF,               osg::Array::BIND_UNDEFINED};
+        osg::Array::BIND_PER_VERTEX, osg::Array::BIND_PER_VERTEX,
+        osg::Array::BIND_OVERALL,    osg::Array::BIND_PER_PRIMITIVE_SET,
+        osg::Array::BIND_OFF,        osg::Array::BIND_UNDEFINED};
     array->setBinding(dice.oneOf(kBindings));
     array->setNormalize(dice.oneIn(2));
     if (dice.oneIn(6)) array->setDataVariance(osg::Object::DYNAMIC);
@@ -130,9 +154,12 @@ osg::ref_ptr<osg::PrimitiveSet> randomSet(Dice& dice, int vertices)
     switch (dice.below(7))
     {
     case 0:
-    case 1: return indexSet<osg::DrawElementsUInt>(dice, vertices);
-    case 2: return indexSet<osg::DrawElementsUShort>(dice, vertices);
-    case 3: return indexSet<osg::DrawElementsUByte>(dice, vertices);
+    case 1:
+        return indexSet<osg::DrawElementsUInt>(dice, vertices);
+    case 2:
+        return indexSet<osg::DrawElementsUShort>(dice, vertices);
+    case 3:
+        return indexSet<osg::DrawElementsUByte>(dice, vertices);
     case 4:
     {
         const int first = dice.oneIn(3) ? strangeCount(dice, vertices) : 0;
@@ -206,7 +233,8 @@ uint64_t trianglesOfSets(const osg::Geometry& geometry)
             for (const GLsizei length : *lengths)
                 triangles += trianglesOfRange(mode, length);
         else if (const auto* multi = dynamic_cast<const osg::MultiDrawArrays*>(set))
-            for (std::size_t d = 0; d < std::min(multi->getFirsts().size(), multi->getCounts().size()); ++d)
+            for (std::size_t d = 0;
+                 d < std::min(multi->getFirsts().size(), multi->getCounts().size()); ++d)
                 triangles += trianglesOfRange(mode, multi->getCounts()[d]);
         else
             triangles += trianglesOfRange(mode, set->getNumIndices());

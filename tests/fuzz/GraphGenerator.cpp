@@ -1,5 +1,5 @@
-// GraphGenerator.cpp - scene graphs of random nodes, matrices, states, lights and geometries. Layer:
-// tests. SPDX-License-Identifier: MIT
+// GraphGenerator.cpp - scene graphs of random nodes, matrices, states, lights and geometries.
+// Layer: tests. SPDX-License-Identifier: MIT
 #include "GraphGenerator.h"
 
 #include "GeometryGenerator.h"
@@ -37,10 +37,16 @@ osg::Matrixd randomMatrix(Dice& dice)
                           Matrixd::translate(vectorWithin(dice, 1.0));
     switch (dice.below(10))
     {
-    case 0: return Matrixd::scale(dice.oneOf(kScales), dice.oneOf(kScales), dice.oneOf(kScales));
-    case 1: matrix(dice.below(4), dice.below(4)) = dice.strange(1.0, 2); return matrix;
-    case 2: matrix.postMultTranslate(osg::Vec3d(dice.strange(1e7, 2), 0.0, 0.0)); return matrix;
-    default: return matrix;
+    case 0:
+        return Matrixd::scale(dice.oneOf(kScales), dice.oneOf(kScales), dice.oneOf(kScales));
+    case 1:
+        matrix(dice.below(4), dice.below(4)) = dice.strange(1.0, 2);
+        return matrix;
+    case 2:
+        matrix.postMultTranslate(osg::Vec3d(dice.strange(1e7, 2), 0.0, 0.0));
+        return matrix;
+    default:
+        return matrix;
     }
 }
 
@@ -76,7 +82,8 @@ public:
 private:
     osg::ref_ptr<osg::Node> node(int depth)
     {
-        if (!_made.empty() && _dice.oneIn(5)) return _made[_dice.below(static_cast<int>(_made.size()))];
+        if (!_made.empty() && _dice.oneIn(5))
+            return _made[_dice.below(static_cast<int>(_made.size()))];
         osg::ref_ptr<osg::Node> made = depth > 3 || _dice.oneIn(2) ? leaf() : group(depth);
         if (_dice.oneIn(3)) made->setStateSet(randomStateSet(_dice));
         _made.push_back(made);
@@ -87,10 +94,14 @@ private:
     {
         switch (_dice.below(8))
         {
-        case 0: return areaLight();
-        case 1: return lightSource();
-        case 2: return shape();
-        default: return geometry();
+        case 0:
+            return areaLight();
+        case 1:
+            return lightSource();
+        case 2:
+            return shape();
+        default:
+            return geometry();
         }
     }
 
@@ -105,11 +116,13 @@ private:
     osg::ref_ptr<osg::Node> areaLight()
     {
         const int rarity = _dice.oneIn(2) ? 1 << 30 : 5;
-        const auto vector = [&](double size) {
+        const auto vector = [&](double size)
+        {
             return osg::Vec3(strangeFloat(_dice, size, rarity), strangeFloat(_dice, size, rarity),
                              strangeFloat(_dice, size, rarity));
         };
-        osg::ref_ptr<AreaLight> light = new AreaLight(vector(2.0), vector(1.0), vector(1.0), vector(10.0));
+        osg::ref_ptr<AreaLight> light =
+            new AreaLight(vector(2.0), vector(1.0), vector(1.0), vector(10.0));
         light->setTwoSided(_dice.oneIn(2));
         return light;
     }
@@ -148,8 +161,10 @@ private:
     {
         switch (_dice.below(10))
         {
-        case 0: return new osg::Switch;
-        case 1: return new osg::Sequence;
+        case 0:
+            return new osg::Switch;
+        case 1:
+            return new osg::Sequence;
         case 2:
         {
             osg::ref_ptr<osg::LOD> lod = new osg::LOD;
@@ -162,7 +177,8 @@ private:
             osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
             const osg::ref_ptr<osg::Geometry> drawn = geometry();
             billboard->addDrawable(drawn, osg::Vec3(vectorWithin(_dice, 1.0)));
-            billboard->setMode(_dice.oneIn(2) ? osg::Billboard::POINT_ROT_EYE : osg::Billboard::AXIAL_ROT);
+            billboard->setMode(_dice.oneIn(2) ? osg::Billboard::POINT_ROT_EYE
+                                              : osg::Billboard::AXIAL_ROT);
             return billboard;
         }
         case 4:
@@ -172,8 +188,10 @@ private:
             if (_dice.oneIn(2)) camera->setRenderOrder(osg::Camera::NESTED_RENDER);
             return camera;
         }
-        case 5: return new osg::Group;
-        default: return new osg::MatrixTransform(randomMatrix(_dice));
+        case 5:
+            return new osg::Group;
+        default:
+            return new osg::MatrixTransform(randomMatrix(_dice));
         }
     }
 

@@ -44,9 +44,11 @@ std::string faultOf(const Mesh& mesh)
             if (!mesh.normals.empty() &&
                 !(std::fabs(glm::dot(mesh.normals[i], mesh.normals[i]) - 1.0f) < 1e-2f))
                 return "a normal is not of unit length";
-            if (!mesh.uvs.empty() && !(std::isfinite(mesh.uvs[i].x) && std::isfinite(mesh.uvs[i].y)))
+            if (!mesh.uvs.empty() &&
+                !(std::isfinite(mesh.uvs[i].x) && std::isfinite(mesh.uvs[i].y)))
                 return "a texture coordinate is not finite";
-            if (!mesh.colors.empty() && !(isFinite(Vec3(mesh.colors[i])) && std::isfinite(mesh.colors[i].w)))
+            if (!mesh.colors.empty() &&
+                !(isFinite(Vec3(mesh.colors[i])) && std::isfinite(mesh.colors[i].w)))
                 return "a colour is not finite";
         }
     }
@@ -66,7 +68,8 @@ void requireAllTrianglesCounted(const osg::Geometry& geometry)
 {
     const ConvertedMesh converted = convertGeometry(geometry, MeshRequest());
     const ConversionCounts& counts = converted.counts;
-    for (const char* whole : {"skipped.deprecated-data", "not-traced.no-vertices", "skipped.vertex-type"})
+    for (const char* whole :
+         {"skipped.deprecated-data", "not-traced.no-vertices", "skipped.vertex-type"})
         if (countIn(counts, whole)) return;
     if (converted.mesh) REQUIRE(faultOf(*converted.mesh) == "");
     const uint64_t kept = converted.mesh ? converted.mesh->triangles.size() : 0;

@@ -38,16 +38,42 @@ osg::Vec3 strangeVector(Dice& dice, double size, int rarity)
             strangeFloat(dice, size, rarity)};
 }
 
-constexpr GLenum kFormats[] = {GL_RGBA, GL_RGBA, GL_RGB, GL_BGRA, GL_BGR, GL_LUMINANCE,
-                               GL_LUMINANCE_ALPHA, GL_ALPHA, GL_INTENSITY, GL_RED, GL_RG,
-                               GL_DEPTH_COMPONENT, GL_COLOR_INDEX, GL_STENCIL_INDEX,
-                               GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_COMPRESSED_RGBA_S3TC_DXT3_EXT,
-                               GL_COMPRESSED_RGBA_S3TC_DXT5_EXT, GL_COMPRESSED_RED_RGTC1_EXT, 0x12345u};
+constexpr GLenum kFormats[] = {GL_RGBA,
+                               GL_RGBA,
+                               GL_RGB,
+                               GL_BGRA,
+                               GL_BGR,
+                               GL_LUMINANCE,
+                               GL_LUMINANCE_ALPHA,
+                               GL_ALPHA,
+                               GL_INTENSITY,
+                               GL_RED,
+                               GL_RG,
+                               GL_DEPTH_COMPONENT,
+                               GL_COLOR_INDEX,
+                               GL_STENCIL_INDEX,
+                               GL_COMPRESSED_RGB_S3TC_DXT1_EXT,
+                               GL_COMPRESSED_RGBA_S3TC_DXT3_EXT,
+                               GL_COMPRESSED_RGBA_S3TC_DXT5_EXT,
+                               GL_COMPRESSED_RED_RGTC1_EXT,
+                               0x12345u};
 
-constexpr GLenum kTypes[] = {GL_UNSIGNED_BYTE, GL_UNSIGNED_BYTE, GL_UNSIGNED_BYTE, GL_BYTE,
-                             GL_UNSIGNED_SHORT, GL_SHORT, GL_UNSIGNED_INT, GL_INT, GL_FLOAT,
-                             GL_HALF_FLOAT, GL_DOUBLE, GL_UNSIGNED_SHORT_5_6_5,
-                             GL_UNSIGNED_SHORT_4_4_4_4, GL_UNSIGNED_INT_8_8_8_8_REV, GL_BITMAP, 0u};
+constexpr GLenum kTypes[] = {GL_UNSIGNED_BYTE,
+                             GL_UNSIGNED_BYTE,
+                             GL_UNSIGNED_BYTE,
+                             GL_BYTE,
+                             GL_UNSIGNED_SHORT,
+                             GL_SHORT,
+                             GL_UNSIGNED_INT,
+                             GL_INT,
+                             GL_FLOAT,
+                             GL_HALF_FLOAT,
+                             GL_DOUBLE,
+                             GL_UNSIGNED_SHORT_5_6_5,
+                             GL_UNSIGNED_SHORT_4_4_4_4,
+                             GL_UNSIGNED_INT_8_8_8_8_REV,
+                             GL_BITMAP,
+                             0u};
 
 osg::ref_ptr<osg::Image> randomImage(Dice& dice)
 {
@@ -123,8 +149,10 @@ osg::StateAttribute::GLModeValue randomMode(Dice& dice)
 void addTextures(osg::StateSet& stateSet, Dice& dice)
 {
     stateSet.setTextureAttributeAndModes(0, randomTexture(dice), randomMode(dice));
-    if (dice.oneIn(6)) stateSet.setTextureAttributeAndModes(0, new osg::Texture1D, randomMode(dice));
-    if (dice.oneIn(6)) stateSet.setTextureAttributeAndModes(1, randomTexture(dice), randomMode(dice));
+    if (dice.oneIn(6))
+        stateSet.setTextureAttributeAndModes(0, new osg::Texture1D, randomMode(dice));
+    if (dice.oneIn(6))
+        stateSet.setTextureAttributeAndModes(1, randomTexture(dice), randomMode(dice));
     if (dice.oneIn(6)) stateSet.setTextureAttributeAndModes(0, new osg::TexGen, randomMode(dice));
     if (dice.oneIn(6)) stateSet.setTextureAttribute(0, new osg::TexMat);
     constexpr osg::TexEnv::Mode kModes[] = {osg::TexEnv::MODULATE, osg::TexEnv::REPLACE,
@@ -151,9 +179,11 @@ osg::ref_ptr<osg::StateSet> randomStateSet(Dice& dice)
     if (dice.oneIn(2)) addTextures(*stateSet, dice);
     if (dice.oneIn(3)) stateSet->setMode(GL_LIGHTING, randomMode(dice));
     if (dice.oneIn(3)) stateSet->setAttributeAndModes(new osg::BlendFunc, randomMode(dice));
-    if (dice.oneIn(6)) stateSet->setAttribute(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK,
-                                                                   osg::PolygonMode::LINE));
-    for (const GLenum mode : {GL_ALPHA_TEST, GL_CULL_FACE, GL_FOG, GL_CLIP_PLANE0, GL_LIGHT0, GL_LIGHT3})
+    if (dice.oneIn(6))
+        stateSet->setAttribute(
+            new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+    for (const GLenum mode :
+         {GL_ALPHA_TEST, GL_CULL_FACE, GL_FOG, GL_CLIP_PLANE0, GL_LIGHT0, GL_LIGHT3})
         if (dice.oneIn(6)) stateSet->setMode(mode, randomMode(dice));
     if (dice.oneIn(5))
     {
