@@ -1,5 +1,6 @@
 // main.cpp - osgraytracebench MODE [--json FILE]. Layer: apps.
 // SPDX-License-Identifier: MIT
+#include "apps/osgraytracebench/FeaturesMode.h"
 #include "apps/osgraytracebench/LimitMode.h"
 
 #include <cstdio>
@@ -21,6 +22,7 @@ struct Mode
 
 const Mode kModes[] = {
     {"limit", "a whole frame, a path traced one and a build against Embree alone", measureLimit},
+    {"features", "what features cost a scene that does not use them", measureFeatures},
 };
 
 int usage()

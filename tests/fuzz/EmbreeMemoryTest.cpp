@@ -8,6 +8,8 @@
 #include "osgRayTrace/base/Status.h"
 
 #include <atomic>
+#include <deque>
+#include <string>
 #include <utility>
 
 using namespace osgRayTrace::engine;
@@ -18,18 +20,23 @@ namespace
 std::atomic<int64_t> untilRefused{-1}; ///< requests that are granted; negative: all
 std::atomic<bool> refused{false};
 
-// What the engine asked for: one device at a time.
-RTCMemoryMonitorFunction engineMonitor = nullptr;
-void* engineData = nullptr;
+/// What the engine asked for. Kept: Embree calls it as long as a device lives.
+struct EngineMonitor
+{
+    RTCMemoryMonitorFunction function;
+    void* data;
+};
+std::deque<EngineMonitor> engineMonitors;
 
-bool refusingMonitor(void*, ssize_t bytes, bool post)
+bool refusingMonitor(void* self, ssize_t bytes, bool post)
 {
     if (bytes > 0 && !post && untilRefused >= 0 && untilRefused.fetch_sub(1) == 0)
     {
         refused = true;
         return false;
     }
-    return !engineMonitor || engineMonitor(engineData, bytes, post);
+    const auto& monitor = *static_cast<const EngineMonitor*>(self);
+    return !monitor.function || monitor.function(monitor.data, bytes, post);
 }
 
 /// Meshes of their own, and one with several instances.
@@ -76,9 +83,8 @@ extern "C"
     __wrap_rtcSetDeviceMemoryMonitorFunction(RTCDevice device, RTCMemoryMonitorFunction function,
                                              void* data)
     {
-        engineMonitor = function;
-        engineData = data;
-        __real_rtcSetDeviceMemoryMonitorFunction(device, refusingMonitor, nullptr);
+        engineMonitors.push_back({function, data});
+        __real_rtcSetDeviceMemoryMonitorFunction(device, refusingMonitor, &engineMonitors.back());
     }
 }
 
