@@ -160,7 +160,7 @@ std::vector<ScenePair> generalWays(int size)
             {"all meshes placed, not one flat BVH", plain, boxWith(size, placeAll)},
             {"one mesh placed, beside a flat BVH", plain,
              boxWith(size, [](Scene&, Hidden& h) { h.instance.placed = true; })},
-            {"lights chosen from a table, not the only one", plain, boxWith(size, emitFaintly)}};
+            {"a second area light, out of sight", plain, boxWith(size, emitFaintly)}};
 }
 
 } // namespace osgRayTrace::bench
