@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # test.sh - builds osgRayTrace and runs the whole test suite: everything in release, tests of parts, of
-# OpenGL and of the programs again under AddressSanitizer and UBSan, the engine's threads under
-# ThreadSanitizer (OSG is not sanitized itself, whose locks it would not see).
+# OpenGL and of the programs and those with random input again under AddressSanitizer and UBSan, the engine's
+# threads and the drawable's under ThreadSanitizer (what that does not see of OSG: tests/RaceSuppressions.txt).
+# OSGRAYTRACE_FUZZ_SEEDS=<number> takes that many random inputs.
 # Sample models of OpenSceneGraph are found by OSG_FILE_PATH, or in a folder openscenegraph-data beside
 # or near the source; tests that need them are skipped without. SPDX-License-Identifier: MIT
 set -euo pipefail
@@ -30,7 +31,7 @@ build release
 check release
 
 build asan
-check asan -L 'unit|gl'
+check asan -L 'unit|gl|fuzz'
 
-build tsan baseTest sessionTest
-check tsan -R '^(base|session)Test$'
+build tsan baseTest sessionTest displayTest
+check tsan -R '^(base|session|display)Test$'

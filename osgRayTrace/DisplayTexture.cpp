@@ -163,9 +163,12 @@ osg::ref_ptr<osg::StateSet> DisplayTexture::createStateSet()
 
 void DisplayTexture::resize(int width, int height)
 {
-    if (width == this->width() && height == this->height()) return;
+    if (width == _width && height == _height) return;
+    _width = _height = 0; // until both are there: memory may suffice for one of them only
     _color->allocateImage(width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE);
     _depth->allocateImage(width, height, 1, GL_LUMINANCE, GL_FLOAT);
+    _width = width;
+    _height = height;
 }
 
 void DisplayTexture::modified()

@@ -30,8 +30,8 @@ public:
 
     /// Makes room for width * height pixels; values are lost if that is a change.
     void resize(int width, int height);
-    int width() const { return _color->s(); }
-    int height() const { return _color->t(); }
+    int width() const { return _width; }
+    int height() const { return _height; }
 
     /// To be written to, then modified(). Row 0 at the bottom. Display values, 4 bytes a pixel:
     /// alpha is coverage, where it is 0 nothing is drawn; colours are multiplied with it. Window
@@ -50,6 +50,8 @@ public:
 private:
     bool useProgram(osg::State& state) const;
 
+    int _width = 0;
+    int _height = 0;
     osg::ref_ptr<osg::Image> _color;
     osg::ref_ptr<osg::Image> _depth;
     osg::ref_ptr<osg::Texture2D> _colorTexture;

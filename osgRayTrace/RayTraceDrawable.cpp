@@ -106,7 +106,8 @@ struct RayTraceDrawable::Implementation
 
     void draw(osg::RenderInfo& renderInfo);
     void noteProgress(const std::shared_ptr<ViewState>& view, const engine::SceneVersion& version);
-    void fail(engine::StatusCode code, const std::string& message);
+    void fail(engine::StatusCode code, const char* message) noexcept;
+    void failToDraw(engine::StatusCode code, const char* message) noexcept;
 };
 
 void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
@@ -165,11 +166,29 @@ void RayTraceDrawable::Implementation::noteProgress(const std::shared_ptr<ViewSt
     if (failed && made.passes == 0) untraceable = version.scene;
 }
 
-void RayTraceDrawable::Implementation::fail(engine::StatusCode code, const std::string& message)
+/// Memory may be what is missing: then the message is one that fits into a string as it is.
+void RayTraceDrawable::Implementation::fail(engine::StatusCode code, const char* message) noexcept
 {
-    engine::warnOnce(message);
     std::lock_guard<std::mutex> lock(mutex);
-    progress.status = {code, message};
+    progress.status.code = code;
+    try
+    {
+        progress.status.message = message;
+        engine::warnOnce(progress.status.message);
+    }
+    catch (const std::exception&)
+    {
+        progress.status.message = "out of memory";
+    }
+}
+
+/// Nothing was drawn: the children take its place.
+void RayTraceDrawable::Implementation::failToDraw(engine::StatusCode code, const char* message) noexcept
+{
+    fail(code, message);
+    const engine::SceneVersion version = scene.version();
+    std::lock_guard<std::mutex> lock(mutex);
+    untraceable = version.scene;
 }
 
 RayTraceDrawable::RayTraceDrawable()
@@ -292,16 +311,16 @@ void RayTraceDrawable::drawImplementation(osg::RenderInfo& renderInfo) const
     }
     catch (const std::bad_alloc&)
     {
-        _implementation->fail(engine::StatusCode::OutOfMemory,
-                              "there is not enough memory for a view");
+        _implementation->failToDraw(engine::StatusCode::OutOfMemory,
+                                    "there is not enough memory for a view");
     }
     catch (const std::exception& error)
     {
-        _implementation->fail(engine::StatusCode::DeviceFailure, error.what());
+        _implementation->failToDraw(engine::StatusCode::DeviceFailure, error.what());
     }
     catch (...)
     {
-        _implementation->fail(engine::StatusCode::DeviceFailure, "a view could not be traced");
+        _implementation->failToDraw(engine::StatusCode::DeviceFailure, "a view could not be traced");
     }
 }
 
@@ -322,8 +341,15 @@ void RayTraceDrawable::resizeGLObjectBuffers(unsigned int maxSize)
 void RayTraceDrawable::noteView(osgUtil::CullVisitor& visitor)
 {
     osgUtil::RenderStage* stage = visitor.getCurrentRenderStage();
-    _implementation->scene.noteView(stage ? stage->getCamera() : nullptr, visitor.getFrameStamp(),
-                                    engine::viewingConditions(visitor));
+    try
+    {
+        _implementation->scene.noteView(stage ? stage->getCamera() : nullptr,
+                                        visitor.getFrameStamp(), engine::viewingConditions(visitor));
+    }
+    catch (const std::exception& error)
+    {
+        _implementation->fail(engine::StatusCode::OutOfMemory, error.what());
+    }
 }
 
 bool RayTraceDrawable::isViewed() const

@@ -288,10 +288,18 @@ bool Renderer::render(double seconds, double relativeError, const Progress& prog
 {
     Implementation& self = *_implementation;
     self.cancelled = false;
-    const auto failed = [&self](const std::string& message)
+    // Memory may be what is missing: then the message is one that fits into a string as it is.
+    const auto failed = [&self](const char* message)
     {
         self.statistics.ok = false;
-        self.statistics.message = message;
+        try
+        {
+            self.statistics.message = message;
+        }
+        catch (const std::bad_alloc&)
+        {
+            self.statistics.message = "out of memory";
+        }
         return false;
     };
 

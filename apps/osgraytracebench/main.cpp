@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/common/Failure.h"
 #include "apps/common/PluginPath.h"
+#include "apps/osgraytracebench/FeaturesMode.h"
 #include "apps/osgraytracebench/LimitMode.h"
 #include "apps/osgraytracebench/report/CompareMode.h"
 #include "apps/osgraytracebench/report/ReportMode.h"
@@ -20,9 +21,10 @@ namespace
 
 constexpr int kCompareUsage = 2;
 
-int runLimit(const std::string& json)
+/// A mode that makes rows.
+int runRows(Rows (*measure)(), const std::string& json)
 {
-    const Rows rows = measureLimit();
+    const Rows rows = measure();
     printRows(rows);
     if (!json.empty() && !writeRows(rows, json))
         throw app::Failure(app::kCannotWrite, "cannot write " + json);
@@ -34,7 +36,8 @@ struct CommandLine
 {
     CommandLine()
     {
-        limit.add_option("--json", limitJson, "write the rows to this file as well");
+        for (CLI::App* rows : {&limit, &features})
+            rows->add_option("--json", json, "write the rows to this file as well");
 
         report.add_option("-o,--output", options.folder, "folder of report.html, .csv and .json")
             ->capture_default_str();
@@ -70,7 +73,8 @@ struct CommandLine
 
     int run()
     {
-        if (limit) return runLimit(limitJson);
+        if (limit) return runRows(measureLimit, json);
+        if (features) return runRows(measureFeatures, json);
         if (compare) return runCompare(before, after, falseAlarmRate);
         app::addPluginPath();
         return runReport(options);
@@ -79,11 +83,13 @@ struct CommandLine
     CLI::App application{"Speed and error of osgRayTrace."};
     CLI::App& limit = *application.add_subcommand(
         "limit", "a whole frame, a path traced one and a build against Embree alone");
+    CLI::App& features =
+        *application.add_subcommand("features", "what features cost a scene that does not use them");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(
         "compare", "which rows of two reports differ by more than their noise");
-    std::string limitJson, before, after;
+    std::string json, before, after;
     double falseAlarmRate = 0.01;
     ReportOptions options;
 };

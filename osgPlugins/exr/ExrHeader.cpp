@@ -20,6 +20,15 @@ constexpr std::size_t kMaxNameLength = 255;
 constexpr long long kMaxScanlinesInChunk = 256;
 constexpr long long kOffsetBytes = 8; ///< of a chunk in the table that follows the headers
 
+/// How much smaller a file can be than its pixels. Deflate writes a bit or more for 129 bytes (a ratio of
+/// 1032 at most, and PXR24 leaves out a quarter first), Huffman codes of PIZ less; DWA has runs below that.
+constexpr long long kLargestRatio = 2048;
+constexpr long long kLargestDwaRatio = 1 << 16;
+
+/// Pixels of a display window for which a file need not be of any length: what lies outside of its data
+/// window is 0.
+constexpr long long kFreePixels = 1LL << 24;
+
 const char* const kTruncated = "the file ends within its header";
 
 struct Box
@@ -37,6 +46,15 @@ struct Part
     std::int32_t tileWidth = 0; ///< 0: scanlines
     std::int32_t tileHeight = 0;
     std::int32_t chunkCount = 0;
+    std::uint8_t compression = 0; ///< as in the file
+    long long pixelBytes = 0;     ///< not compressed, of channels with a value for each pixel
+
+    long long largestRatio() const
+    {
+        constexpr int kNone = 0, kDwaa = 8;
+        if (compression == kNone) return 1;
+        return compression < kDwaa ? kLargestRatio : kLargestDwaRatio;
+    }
 };
 
 class HeaderReader
@@ -116,11 +134,29 @@ private:
         if (attribute == "dataWindow" && size == 16) part.dataWindow = box();
         if (attribute == "displayWindow" && size == 16) part.displayWindow = box();
         if (attribute == "chunkCount" && size == 4) part.chunkCount = signedNumber();
+        if (attribute == "compression" && size == 1)
+            part.compression = static_cast<std::uint8_t>(_stream.get());
+        if (attribute == "channels") part.pixelBytes = pixelBytes(_stream.tellg() + std::istream::off_type(size));
         if (attribute == "tiles" && size == 9)
         {
             part.tileWidth = signedNumber();
             part.tileHeight = signedNumber();
         }
+    }
+
+    /// Of a list of (name, type, 4 bytes, sampling in x, in y) that ends with an empty name.
+    long long pixelBytes(std::istream::pos_type end)
+    {
+        constexpr std::int32_t kHalf = 1;
+        long long sum = 0;
+        while (_stream && _stream.tellg() < end && !name().empty())
+        {
+            const std::int32_t type = signedNumber();
+            signedNumber();
+            const bool full = signedNumber() == 1 && signedNumber() == 1;
+            if (full) sum += type == kHalf ? 2 : 4;
+        }
+        return sum;
     }
 
     Box box()
@@ -152,7 +188,12 @@ private:
                      ((window.height() + part.tileHeight - 1) / part.tileHeight);
         }
         if (part.chunkCount > chunks) chunks = part.chunkCount;
-        if (chunks * kOffsetBytes > _sizeBytes) return "the file is shorter than its picture";
+        const long long ratio = part.largestRatio();
+        const long long pixels = window.width() * window.height();
+        const long long shown = part.displayWindow.width() * part.displayWindow.height();
+        if (chunks * kOffsetBytes > _sizeBytes || pixels * part.pixelBytes / ratio > _sizeBytes ||
+            (shown > kFreePixels && shown / kLargestRatio > _sizeBytes))
+            return "the file is shorter than its picture";
         return "";
     }
 

@@ -4,6 +4,9 @@
 
 #include "osgRayTrace/base/Status.h"
 
+#include <cstdio>
+#include <string>
+
 namespace osgRayTrace::engine
 {
 
@@ -31,20 +34,22 @@ EmbreeDevice::~EmbreeDevice()
 void EmbreeDevice::checkErrors()
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    if (_error.empty()) return;
-    std::string message;
-    message.swap(_error);
-    const bool outOfMemory = _outOfMemory;
+    if (!*_error) return;
+    const EngineError error(_outOfMemory ? StatusCode::OutOfMemory : StatusCode::DeviceFailure,
+                            std::string("Embree: ") + _error);
+    *_error = 0;
     _outOfMemory = false;
-    throw EngineError(outOfMemory ? StatusCode::OutOfMemory : StatusCode::DeviceFailure, message);
+    throw error;
 }
 
-void EmbreeDevice::onError(void* self, RTCError code, const char* text)
+/// Called from within Embree, through which no exception may pass.
+void EmbreeDevice::onError(void* self, RTCError code, const char* text) noexcept
 {
     auto* device = static_cast<EmbreeDevice*>(self);
     std::lock_guard<std::mutex> lock(device->_mutex);
     device->_outOfMemory |= code == RTC_ERROR_OUT_OF_MEMORY;
-    device->_error = std::string("Embree: ") + (text && *text ? text : "unknown error");
+    if (*device->_error) return; // those that follow from it say less
+    std::snprintf(device->_error, sizeof(device->_error), "%s", text && *text ? text : "unknown error");
 }
 
 bool EmbreeDevice::onMemory(void* self, ssize_t bytes, bool)

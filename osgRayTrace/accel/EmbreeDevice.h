@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <string>
 
 namespace osgRayTrace::engine
 {
@@ -34,14 +33,14 @@ public:
     void checkErrors();
 
 private:
-    static void onError(void* self, RTCError code, const char* text);
+    static void onError(void* self, RTCError code, const char* text) noexcept;
     static bool onMemory(void* self, ssize_t bytes, bool post);
 
     RTCDevice _device = nullptr;
     int _nativeWidth = 1;
     std::atomic<int64_t> _bytes{0};
-    std::mutex _mutex; // _error, _outOfMemory: any thread that calls Embree
-    std::string _error;
+    std::mutex _mutex; // what follows: any thread that calls Embree
+    char _error[128] = ""; ///< the first one; no std::string, which may need the memory that is gone
     bool _outOfMemory = false;
 };
 

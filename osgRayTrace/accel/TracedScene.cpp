@@ -85,6 +85,15 @@ SceneHandle newScene(RTCDevice device)
     return scene;
 }
 
+/// Throws EngineError if this or anything before it failed. Embree would build a geometry that lacks a
+/// buffer, for want of memory, and read from nowhere.
+void commit(EmbreeDevice& device, RTCScene scene)
+{
+    device.checkErrors();
+    rtcCommitScene(scene);
+    device.checkErrors();
+}
+
 GeometryHandle newInstance(RTCDevice device, RTCScene prototype, const Affine& m)
 {
     GeometryHandle geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE));
@@ -133,7 +142,7 @@ TracedScene::Implementation::prototype(const std::shared_ptr<const Mesh>& mesh,
     built->mesh = mesh;
     built->scene = newScene(device->handle());
     rtcAttachGeometry(built->scene.get(), newTriangles(device->handle(), *mesh).get());
-    rtcCommitScene(built->scene.get());
+    commit(*device, built->scene.get());
     ++statistics.builtMeshes;
     return entry = std::move(built);
 }
@@ -207,9 +216,8 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
                 }
                 rtcAttachGeometryByID(built.root.get(), geometry.get(), static_cast<unsigned>(i));
             }
-            rtcCommitScene(built.root.get());
+            commit(*built.device, built.root.get());
         });
-    built.device->checkErrors();
 
     built.intersector = std::make_unique<Intersector>(built.root.get(), built.device->nativeWidth(),
                                                       static_cast<float>(reach));

@@ -36,8 +36,9 @@ private:
 #endif
 };
 
-/// Tells ThreadSanitizer what it cannot see in a TBB that is not sanitized: all before a loop happens
-/// before its bodies, and those before all after it; between bodies there is no order.
+/// Tells ThreadSanitizer what it cannot see in a TBB that is not sanitized: all before a loop (or a run,
+/// whose body another thread of a busy arena may take over) happens before its bodies, and those before all
+/// after it; between bodies there is no order.
 class LoopOrder
 {
 public:
@@ -103,11 +104,14 @@ void Workers::forEach(std::size_t count, const std::function<void(std::size_t)>&
 
 void Workers::run(const std::function<void()>& body) const
 {
+    LoopOrder order;
     _implementation->arena.execute(
         [&]
         {
             FlushDenormals flush;
+            order.enterBody();
             body();
+            order.leaveBody();
         });
 }
 

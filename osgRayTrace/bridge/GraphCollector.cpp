@@ -155,12 +155,20 @@ void GraphCollector::apply(osg::Billboard& node)
     if (node.getMode() == osg::Billboard::POINT_ROT_EYE)
         _report.count("approximated.billboard"); // upright in the world, not in the view
     const osg::Vec3 eye = getEyePoint();
+    // Since OSG 3.6 any child can be added, and one that is no drawable has no position.
+    const std::size_t positions = node.getPositionList().size();
     for (unsigned int i = 0; i < node.getNumDrawables(); ++i)
     {
+        osg::Drawable* drawable = node.getDrawable(i);
+        if (!drawable || i >= positions)
+        {
+            _report.count("not-traced.billboard-child");
+            continue;
+        }
         osg::Matrixd worldFromLocal = _worldFromLocal.back();
         node.computeMatrix(worldFromLocal, eye, node.getPosition(i));
         if (!pushMatrix(worldFromLocal)) continue;
-        node.getDrawable(i)->accept(*this);
+        drawable->accept(*this);
         _worldFromLocal.pop_back();
     }
     if (pushed) _states.pop();

@@ -24,6 +24,15 @@ Vec3 rgb(const osg::Vec4& color)
     return {color.r(), color.g(), color.b()};
 }
 
+constexpr float kLargestCoordinate = 1e18f; ///< as for vertices: Embree's limit is 1.844e18
+
+/// False for NaN as well.
+bool isWithinReach(const Vec3& p)
+{
+    return std::fabs(p.x) <= kLargestCoordinate && std::fabs(p.y) <= kLargestCoordinate &&
+           std::fabs(p.z) <= kLargestCoordinate;
+}
+
 bool isFiniteLight(const Light& light)
 {
     for (const Vec3& v :
@@ -102,14 +111,14 @@ std::optional<ConvertedAreaLight> convertAreaLight(const AreaLight& source,
     light.twoSided = source.getTwoSided();
 
     const float area = glm::length(glm::cross(light.edgeU, light.edgeV));
-    if (!(area > 0.0f) || !std::isfinite(area) || !isFinite(light.corner) ||
-        !isFinite(light.radiance))
-        return std::nullopt;
+    if (!(area > 0.0f) || !std::isfinite(area) || !isFinite(light.radiance)) return std::nullopt;
 
     std::vector<Vec3> positions;
     positions.reserve(5); // Embree reads past the last one
     positions = {light.corner, light.corner + light.edgeU, light.corner + light.edgeU + light.edgeV,
                  light.corner + light.edgeV};
+    for (const Vec3& p : positions)
+        if (!isWithinReach(p)) return std::nullopt;
     result.mesh = std::make_shared<Mesh>();
     result.mesh->name = light.name;
     result.mesh->positions = std::move(positions);

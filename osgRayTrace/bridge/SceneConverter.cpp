@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/GeometryCache.h"
 #include "osgRayTrace/bridge/GraphCollector.h"
 #include "osgRayTrace/bridge/LightConverter.h"
+#include "osgRayTrace/bridge/LocalCentres.h"
 #include "osgRayTrace/bridge/MaterialConverter.h"
 #include "osgRayTrace/bridge/SnapshotStamps.h"
 #include "osgRayTrace/bridge/TextureConverter.h"
@@ -26,10 +27,6 @@ namespace
 /// Above the scene: osgUtil::SceneView's light model, or OpenGL's where osgViewer sets none.
 constexpr float kViewerAmbient = 0.1f;
 constexpr float kOpenGLAmbient = 0.2f;
-
-/// Local coordinates are moved to their centre if that is so many radii away: else an instance
-/// would lose in float what its large coordinates lose.
-constexpr double kFarFromOrigin = 64.0;
 
 /// Of GeometryCache: the mesh that all uses share. The use number n that cannot is n + 1.
 constexpr uint32_t kOwnVariant = 0;
@@ -54,15 +51,6 @@ bool isPlaceable(const Affine& affine)
         if (!(length >= kSmallest && length <= kLargest)) return false;
     }
     return std::fabs(glm::determinant(glm::dmat3(affine.linear))) > 1e-28;
-}
-
-/// Where a shared geometry's mesh has its origin, in the geometry's coordinates.
-osg::Vec3d localCentre(const osg::Geometry& geometry)
-{
-    const osg::BoundingBox& box = geometry.getBoundingBox();
-    const osg::Vec3d centre(box.center());
-    const bool isFar = box.valid() && centre.length() > kFarFromOrigin * box.radius();
-    return isFar && std::isfinite(centre.length2()) ? centre : osg::Vec3d();
 }
 
 bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
@@ -100,6 +88,7 @@ struct ConversionCaches
 {
     GeometryCache geometries;
     TextureConverter textures;
+    LocalCentres centres;
     std::vector<std::shared_ptr<const Mesh>>
         areaLights; ///< their quads, in the order of the traversal
 };
@@ -206,7 +195,7 @@ void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse
 
 void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
 {
-    const osg::Vec3d centre = localCentre(*geometry.geometry);
+    const osg::Vec3d centre = _caches.centres.of(*geometry.geometry);
     const MeshRequest request = requestFor(osg::Matrixd::translate(-centre));
     const auto mesh =
         _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report);
@@ -275,7 +264,7 @@ void SceneBuilder::addAreaLight(const CollectedAreaLight& source, std::shared_pt
     if (!converted)
     {
         _report.warn("skipped.area-light", "area light '" + source.path + "'",
-                     "no area or not finite, skipped");
+                     "no area, not finite or above 1e18, skipped");
         return;
     }
     _report.count("converted.area-light");
@@ -364,6 +353,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     const bool linear = isLinear(graph, input.colorRule);
     state.caches.geometries.begin(now);
     state.caches.textures.begin(linear, now);
+    state.caches.centres.begin();
     SceneBuilder builder(input, graph, linear, now, state.caches, report);
     state.last = stampChanges(builder.build(), state.last, now);
     state.caches.geometries.end();

@@ -118,7 +118,8 @@ SceneUpdater::Noted SceneUpdater::takeNoted()
 
 void SceneUpdater::takeSettings(const RayTraceSettings& settings)
 {
-    if (!_workers || _settings->getThreads() != settings.getThreads())
+    // The settings last: they are there only if all else is.
+    if (!_settings || _settings->getThreads() != settings.getThreads())
         _workers = std::make_shared<Workers>(settings.getThreads());
     _settings = new RayTraceSettings(settings);
 
@@ -182,12 +183,20 @@ void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene, const Stati
     _statistics = statistics;
 }
 
-void SceneUpdater::fail(const std::string& message)
+/// Memory may be what is missing: then the message is one that fits into a string as it is.
+void SceneUpdater::fail(const char* message) noexcept
 {
-    warnOnce(message);
     std::lock_guard<std::mutex> lock(_versionMutex);
     _statistics.ok = false;
-    _statistics.message = message;
+    try
+    {
+        _statistics.message = message;
+        warnOnce(_statistics.message);
+    }
+    catch (const std::exception&)
+    {
+        _statistics.message = "out of memory";
+    }
 }
 
 } // namespace osgRayTrace::engine

@@ -80,7 +80,7 @@ private:
     void convertIfChanged(osg::Node* root, const Noted& noted, const osg::FrameStamp* frameStamp);
     void convert(osg::Node& root, const ViewingConditions& conditions);
     void publish(std::shared_ptr<const TracedScene> scene, const Statistics& statistics);
-    void fail(const std::string& message);
+    void fail(const char* message) noexcept;
 
     mutable std::mutex _notedMutex; // cull and draw threads write, update reads
     Noted _noted;

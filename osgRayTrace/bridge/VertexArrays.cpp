@@ -288,10 +288,12 @@ SharedArray<Vec4> VertexReader::colors(const osg::Array* array, ConversionCounts
     forEachRow(*array, rowsOfBinding(*array, IntegerMeaning::Normalized),
                [&](std::size_t i, const Vec4d& row)
                {
-                   if (!isWithin(Vec3d(row), kLargestCoordinate) || !std::isfinite(row.w)) return;
+                   if (!isWithin(Vec3d(row), kLargestCoordinate) || !(std::fabs(row.w) <= kLargestCoordinate))
+                       return;
                    Vec4 color(row);
                    for (int c = 0; c < 3 && _request.decodeColors; ++c)
                        color[c] = linearFromSrgb(color[c]);
+                   if (!isFinite(Vec3(color))) return; // 1e16 is 1e38 in linear light
                    values[i] = color;
                    missing[i] = 0;
                });

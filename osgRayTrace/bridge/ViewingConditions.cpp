@@ -46,11 +46,20 @@ PositionedLight firstLight(osgUtil::RenderStage& stage)
     return found;
 }
 
+/// A state set of no node is SceneView's own, to which its draw adds a colour mask while the next update
+/// reads: copied in cull, before that draw. Those of nodes stay themselves, so that the next update sees
+/// what the application changes in them.
+osg::ref_ptr<const osg::StateSet> unchanging(const osg::StateSet& stateSet)
+{
+    if (stateSet.getNumParents() > 0) return &stateSet;
+    return new osg::StateSet(stateSet, osg::CopyOp::SHALLOW_COPY);
+}
+
 std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState(const osgUtil::StateGraph* graph)
 {
     std::vector<osg::ref_ptr<const osg::StateSet>> stateSets;
     for (; graph; graph = graph->_parent)
-        if (graph->getStateSet()) stateSets.emplace_back(graph->getStateSet());
+        if (graph->getStateSet()) stateSets.push_back(unchanging(*graph->getStateSet()));
     std::reverse(stateSets.begin(), stateSets.end());
     return stateSets;
 }

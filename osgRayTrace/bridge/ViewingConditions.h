@@ -28,7 +28,7 @@ struct ViewingConditions
     osg::ref_ptr<const osg::Light> light;
     bool lightInEyeSpace = true;
 
-    /// The state sets above the place, the outermost first.
+    /// The state sets above the place, the outermost first; no thread of OSG's changes them.
     std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState;
 
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f};

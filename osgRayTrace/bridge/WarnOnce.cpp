@@ -4,6 +4,7 @@
 
 #include <osg/Notify>
 
+#include <exception>
 #include <mutex>
 #include <unordered_set>
 
@@ -26,9 +27,13 @@ bool isNew(const std::string& message)
 
 } // namespace
 
-void warnOnce(const std::string& message)
+void warnOnce(const std::string& message) noexcept
+try
 {
     if (isNew(message)) OSG_WARN << "osgRayTrace: " << message << std::endl;
+}
+catch (const std::exception&)
+{
 }
 
 } // namespace osgRayTrace::engine

@@ -7,7 +7,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Says a message through osg::notify(WARN), once in the life of the process. Any thread.
-void warnOnce(const std::string& message);
+/// Says a message through osg::notify(WARN), once in the life of the process; not at all if
+/// there is no memory left for that. Any thread.
+void warnOnce(const std::string& message) noexcept;
 
 } // namespace osgRayTrace::engine

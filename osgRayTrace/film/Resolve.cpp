@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace osgRayTrace::engine
 {
@@ -96,6 +97,13 @@ void packEncoded(const RgbaLanes* __restrict blocks, float exposure, UintLanes* 
     }
 }
 
+/// A value that was shown as white anyway may be too large for linear light.
+float decoded(float encoded, float alpha)
+{
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    return std::clamp(alpha * linearFromSrgb(encoded / alpha), -kLargest, kLargest);
+}
+
 /// Colours stay multiplied with alpha.
 void decode(TileRgba& values)
 {
@@ -104,9 +112,9 @@ void decode(TileRgba& values)
         for (int i = 0; i < kLanes; ++i)
         {
             const float alpha = block.a[i] > 0.0f ? block.a[i] : 1.0f;
-            block.r[i] = alpha * linearFromSrgb(block.r[i] / alpha);
-            block.g[i] = alpha * linearFromSrgb(block.g[i] / alpha);
-            block.b[i] = alpha * linearFromSrgb(block.b[i] / alpha);
+            block.r[i] = decoded(block.r[i], alpha);
+            block.g[i] = decoded(block.g[i], alpha);
+            block.b[i] = decoded(block.b[i], alpha);
         }
     }
 }

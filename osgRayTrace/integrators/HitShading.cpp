@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/HitShading.h"
 
+#include <cmath>
+
 namespace osgRayTrace::engine
 {
 
@@ -62,6 +64,9 @@ void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lan
     }
 }
 
+/// Sums of more than this could overflow: taken for infinite.
+constexpr float kLargestRadiance = 1e30f;
+
 OSGRAYTRACE_KERNEL
 static LaneMask finiteLanes(const RgbaLanes& rgba)
 {
@@ -69,9 +74,11 @@ static LaneMask finiteLanes(const RgbaLanes& rgba)
     OSGRAYTRACE_SIMD_OR(finite)
     for (int i = 0; i < kLanes; ++i)
     {
-        // x - x is 0 for numbers and NaN for all else.
-        const float zero = (rgba.r[i] - rgba.r[i]) + (rgba.g[i] - rgba.g[i]) + (rgba.b[i] - rgba.b[i]);
-        finite |= bitOfLane(maskOf(zero == 0.0f), i);
+        // Comparisons with NaN are false.
+        const bool small = (std::fabs(rgba.r[i]) < kLargestRadiance) &
+                           (std::fabs(rgba.g[i]) < kLargestRadiance) &
+                           (std::fabs(rgba.b[i]) < kLargestRadiance);
+        finite |= bitOfLane(maskOf(small), i);
     }
     return finite;
 }

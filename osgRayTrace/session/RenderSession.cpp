@@ -43,6 +43,22 @@ std::vector<Light> placedLights(const Scene& scene, const View& view)
     return lights;
 }
 
+/// Memory may be what is missing: then the message is one that fits into a string as it is.
+RenderProgress failed(RenderProgress& progress, StatusCode code, const char* message)
+{
+    progress.status.code = code;
+    try
+    {
+        progress.status.message = message;
+        return progress;
+    }
+    catch (const std::bad_alloc&)
+    {
+        progress.status.message = "out of memory";
+        return progress;
+    }
+}
+
 Vec3 viewerAxis(const View& view)
 {
     const glm::dmat3 viewFromWorld(view.viewFromWorld);
@@ -107,12 +123,13 @@ bool RenderSession::Implementation::begin()
                            "the view has no size, or matrices that cannot be inverted"};
         return false;
     }
+    std::vector<Light> placed = placedLights(scene->scene(), view); // before the film changes: it may throw
     film.reset(view.width, view.height);
     camera = *rays;
     filmScene = scene;
     filmView = view;
     filmOptions = options;
-    lights = placedLights(scene->scene(), view);
+    lights = std::move(placed);
     progress = RenderProgress();
     progress.restarted = true;
     progress.integrator = chooseIntegrator(options.integrator, scene->traits());
@@ -255,24 +272,22 @@ RenderProgress RenderSession::render(const StopRule& rule,
                                      const std::function<bool(const RenderProgress&)>& keepGoing,
                                      const DisplayTarget* display)
 {
-    RenderProgress& progress = _implementation->progress;
     try
     {
         return _implementation->run(rule, keepGoing, display);
     }
     catch (const EngineError& error)
     {
-        progress.status = {error.code(), error.what()};
+        return failed(_implementation->progress, error.code(), error.what());
     }
     catch (const std::bad_alloc&)
     {
-        progress.status = {StatusCode::OutOfMemory, "out of memory"};
+        return failed(_implementation->progress, StatusCode::OutOfMemory, "out of memory");
     }
     catch (const std::exception& error)
     {
-        progress.status = {StatusCode::DeviceFailure, error.what()};
+        return failed(_implementation->progress, StatusCode::DeviceFailure, error.what());
     }
-    return progress;
 }
 
 void RenderSession::cancel() { _implementation->cancelled = true; }

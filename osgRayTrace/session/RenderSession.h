@@ -57,7 +57,7 @@ struct RenderProgress
     /// below 2 passes. Made after each pass if the rule or keepGoing asks for it.
     double relativeError = std::numeric_limits<double>::infinity();
     RayCounts rays;
-    uint64_t droppedSamples = 0;  ///< not finite: left out of the image and counted
+    uint64_t droppedSamples = 0;  ///< not finite, or above 1e30: left out of the image and counted
     bool restarted = false;       ///< this call began a new image
 };
 

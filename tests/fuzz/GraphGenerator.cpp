@@ -1,0 +1,210 @@
+// GraphGenerator.cpp - scene graphs of random nodes, matrices, states, lights and geometries.
+// Layer: tests. SPDX-License-Identifier: MIT
+#include "GraphGenerator.h"
+
+#include "GeometryGenerator.h"
+#include "StateGenerator.h"
+
+#include <osgRayTrace/AreaLight>
+
+#include <osg/Billboard>
+#include <osg/Camera>
+#include <osg/Geode>
+#include <osg/LOD>
+#include <osg/LightSource>
+#include <osg/MatrixTransform>
+#include <osg/Sequence>
+#include <osg/ShapeDrawable>
+#include <osg/Switch>
+
+namespace osgRayTrace::test
+{
+
+namespace
+{
+
+osg::Vec3d vectorWithin(Dice& dice, double size)
+{
+    return {dice.between(-size, size), dice.between(-size, size), dice.between(-size, size)};
+}
+
+osg::Matrixd randomMatrix(Dice& dice)
+{
+    using osg::Matrixd;
+    constexpr double kScales[] = {0.0, -1.0, 1e-20, 1e-7, 1e3, 1e9, 1e20, 1e300};
+    osg::Matrixd matrix = Matrixd::scale(osg::Vec3d(1, 1, 1) + vectorWithin(dice, 0.5)) *
+                          Matrixd::rotate(dice.between(0.0, 6.3), vectorWithin(dice, 1.0)) *
+                          Matrixd::translate(vectorWithin(dice, 1.0));
+    switch (dice.below(10))
+    {
+    case 0:
+        return Matrixd::scale(dice.oneOf(kScales), dice.oneOf(kScales), dice.oneOf(kScales));
+    case 1:
+        matrix(dice.below(4), dice.below(4)) = dice.strange(1.0, 2);
+        return matrix;
+    case 2:
+        matrix.postMultTranslate(osg::Vec3d(dice.strange(1e7, 2), 0.0, 0.0));
+        return matrix;
+    default:
+        return matrix;
+    }
+}
+
+/// OSG's own reads through indices, and beyond the arrays if those are wrong: what an application
+/// with such a geometry has to set before OSG can draw it.
+struct BoundOfVertices : osg::Drawable::ComputeBoundingBoxCallback
+{
+    osg::BoundingBox computeBound(const osg::Drawable& drawable) const override
+    {
+        osg::BoundingBox box;
+        const osg::Geometry& geometry = *drawable.asGeometry();
+        const auto* vertices = dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray());
+        for (std::size_t i = 0; vertices && i < vertices->size(); ++i)
+            box.expandBy((*vertices)[i]);
+        return box;
+    }
+};
+
+class GraphMaker
+{
+public:
+    explicit GraphMaker(Dice& dice) : _dice(dice) {}
+
+    RandomGraph make()
+    {
+        _graph.bounded = _dice.oneIn(2);
+        _graph.root = new osg::Group;
+        for (int i = 1 + _dice.below(4); i > 0; --i)
+            _graph.root->addChild(node(0));
+        return std::move(_graph);
+    }
+
+private:
+    osg::ref_ptr<osg::Node> node(int depth)
+    {
+        if (!_made.empty() && _dice.oneIn(5))
+            return _made[_dice.below(static_cast<int>(_made.size()))];
+        osg::ref_ptr<osg::Node> made = depth > 3 || _dice.oneIn(2) ? leaf() : group(depth);
+        if (_dice.oneIn(3)) made->setStateSet(randomStateSet(_dice));
+        _made.push_back(made);
+        return made;
+    }
+
+    osg::ref_ptr<osg::Node> leaf()
+    {
+        switch (_dice.below(8))
+        {
+        case 0:
+            return areaLight();
+        case 1:
+            return lightSource();
+        case 2:
+            return shape();
+        default:
+            return geometry();
+        }
+    }
+
+    osg::ref_ptr<osg::Geometry> geometry()
+    {
+        osg::ref_ptr<osg::Geometry> made = randomGeometry(_dice);
+        if (_graph.bounded) made->setComputeBoundingBoxCallback(new BoundOfVertices);
+        _graph.geometries.push_back(made);
+        return made;
+    }
+
+    osg::ref_ptr<osg::Node> areaLight()
+    {
+        const int rarity = _dice.oneIn(2) ? 1 << 30 : 5;
+        const auto vector = [&](double size)
+        {
+            return osg::Vec3(strangeFloat(_dice, size, rarity), strangeFloat(_dice, size, rarity),
+                             strangeFloat(_dice, size, rarity));
+        };
+        osg::ref_ptr<AreaLight> light =
+            new AreaLight(vector(2.0), vector(1.0), vector(1.0), vector(10.0));
+        light->setTwoSided(_dice.oneIn(2));
+        return light;
+    }
+
+    osg::ref_ptr<osg::Node> lightSource()
+    {
+        osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+        source->setLight(_dice.oneIn(12) ? nullptr : randomLight(_dice).get());
+        if (_dice.oneIn(4)) source->setReferenceFrame(osg::LightSource::ABSOLUTE_RF);
+        source->setStateSetModes(*_graph.root->getOrCreateStateSet(), osg::StateAttribute::ON);
+        return source;
+    }
+
+    osg::ref_ptr<osg::Node> shape()
+    {
+        const osg::Vec3 centre(vectorWithin(_dice, 1.0));
+        const float size = _dice.oneIn(6) ? strangeFloat(_dice, 1.0, 2)
+                                          : static_cast<float>(_dice.between(0.1, 1.0));
+        osg::ref_ptr<osg::Shape> made = new osg::Box(centre, size);
+        if (_dice.oneIn(2)) made = new osg::Sphere(centre, size);
+        osg::ref_ptr<osg::TessellationHints> hints = new osg::TessellationHints;
+        hints->setDetailRatio(0.3f);
+        return new osg::ShapeDrawable(made.get(), hints.get());
+    }
+
+    osg::ref_ptr<osg::Node> group(int depth)
+    {
+        osg::ref_ptr<osg::Group> made = emptyGroup();
+        if (_dice.oneIn(10)) made->setNodeMask(_dice.bits());
+        for (int i = _dice.below(4); i > 0; --i)
+            made->addChild(node(depth + 1));
+        return made;
+    }
+
+    osg::ref_ptr<osg::Group> emptyGroup()
+    {
+        switch (_dice.below(10))
+        {
+        case 0:
+            return new osg::Switch;
+        case 1:
+            return new osg::Sequence;
+        case 2:
+        {
+            osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+            lod->setCenter(osg::Vec3()); // else OSG takes that of its bound
+            lod->setRange(0, 0.0f, strangeFloat(_dice, 100.0, 2));
+            return lod;
+        }
+        case 3:
+        {
+            osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
+            const osg::ref_ptr<osg::Geometry> drawn = geometry();
+            billboard->addDrawable(drawn, osg::Vec3(vectorWithin(_dice, 1.0)));
+            billboard->setMode(_dice.oneIn(2) ? osg::Billboard::POINT_ROT_EYE
+                                              : osg::Billboard::AXIAL_ROT);
+            return billboard;
+        }
+        case 4:
+        {
+            osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+            camera->setViewMatrix(randomMatrix(_dice));
+            if (_dice.oneIn(2)) camera->setRenderOrder(osg::Camera::NESTED_RENDER);
+            return camera;
+        }
+        case 5:
+            return new osg::Group;
+        default:
+            return new osg::MatrixTransform(randomMatrix(_dice));
+        }
+    }
+
+    Dice& _dice;
+    RandomGraph _graph;
+    std::vector<osg::ref_ptr<osg::Node>> _made; // to be used again: shared subgraphs
+};
+
+} // namespace
+
+RandomGraph randomGraph(Dice& dice)
+{
+    return GraphMaker(dice).make();
+}
+
+} // namespace osgRayTrace::test

@@ -1,0 +1,198 @@
+// SceneFuzzTest.cpp - random scene graphs converted, built and rendered. Layer: tests.
+// SPDX-License-Identifier: MIT
+#include "GeometryGenerator.h"
+#include "GraphGenerator.h"
+#include "tests/Catch.h"
+
+#include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/bridge/GeometryConverter.h"
+#include "osgRayTrace/bridge/GraphFingerprint.h"
+#include "osgRayTrace/bridge/SceneConverter.h"
+#include "osgRayTrace/session/RenderSession.h"
+
+#include <osg/Notify>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::test;
+
+namespace
+{
+
+constexpr int kSize = 16;
+constexpr int kGeometries = 20000, kGraphs = 20000; ///< seeds
+
+/// Empty, or what is wrong with a mesh that Embree and the integrators are to trust.
+std::string faultOf(const Mesh& mesh)
+{
+    const std::size_t count = mesh.positions.size();
+    for (const UVec3& t : mesh.triangles)
+    {
+        if (t.x >= count || t.y >= count || t.z >= count) return "an index is out of range";
+        for (const uint32_t i : {t.x, t.y, t.z})
+        {
+            const Vec3& p = mesh.positions[i];
+            if (!(std::fabs(p.x) <= 1e18f && std::fabs(p.y) <= 1e18f && std::fabs(p.z) <= 1e18f))
+                return "a corner is not finite or too far";
+            if (!mesh.normals.empty() &&
+                !(std::fabs(glm::dot(mesh.normals[i], mesh.normals[i]) - 1.0f) < 1e-2f))
+                return "a normal is not of unit length";
+            if (!mesh.uvs.empty() &&
+                !(std::isfinite(mesh.uvs[i].x) && std::isfinite(mesh.uvs[i].y)))
+                return "a texture coordinate is not finite";
+            if (!mesh.colors.empty() &&
+                !(isFinite(Vec3(mesh.colors[i])) && std::isfinite(mesh.colors[i].w)))
+                return "a colour is not finite";
+        }
+    }
+    for (const std::size_t size : {mesh.normals.size(), mesh.uvs.size(), mesh.colors.size()})
+        if (size != 0 && size != count) return "an attribute has another size than the positions";
+    return "";
+}
+
+uint64_t countIn(const ConversionCounts& counts, const std::string& what)
+{
+    const auto found = counts.find(what);
+    return found == counts.end() ? 0 : found->second;
+}
+
+/// A geometry that is not refused as a whole: each triangle of its sets is in the mesh or counted.
+void requireAllTrianglesCounted(const osg::Geometry& geometry)
+{
+    const ConvertedMesh converted = convertGeometry(geometry, MeshRequest());
+    const ConversionCounts& counts = converted.counts;
+    for (const char* whole :
+         {"skipped.deprecated-data", "not-traced.no-vertices", "skipped.vertex-type"})
+        if (countIn(counts, whole)) return;
+    if (converted.mesh) REQUIRE(faultOf(*converted.mesh) == "");
+    const uint64_t kept = converted.mesh ? converted.mesh->triangles.size() : 0;
+    REQUIRE(kept + countIn(counts, "skipped.index-out-of-range") +
+                countIn(counts, "skipped.not-finite") + countIn(counts, "skipped.degenerate") ==
+            trianglesOfSets(geometry));
+}
+
+void requireSound(const ConversionResult& result)
+{
+    const Scene& scene = *result.scene;
+    REQUIRE(countIn(result.counts, "converted.instance") == scene.instances.size());
+    REQUIRE(countIn(result.counts, "converted.light") == scene.lights.size());
+    for (const auto& mesh : scene.meshes)
+        REQUIRE(faultOf(*mesh) == "");
+    for (const Instance& instance : scene.instances)
+    {
+        REQUIRE(instance.mesh < scene.meshes.size());
+        REQUIRE(instance.material < scene.materials.size());
+        if (instance.light != kInvalid) REQUIRE(instance.light < scene.lights.size());
+    }
+    for (const auto& texture : scene.textures)
+    {
+        const std::size_t values = 4 * std::size_t(texture->width) * std::size_t(texture->height);
+        REQUIRE(std::max(texture->bytes.size(), texture->floats.size()) == values);
+        for (const float value : texture->floats)
+            REQUIRE(std::isfinite(value));
+    }
+}
+
+View viewOfOrigin()
+{
+    View view;
+    view.width = view.height = kSize;
+    view.clipFromView = glm::perspective(0.8, 1.0, 0.1, 100.0);
+    view.viewFromWorld = glm::lookAt(Vec3d(2.0, 1.5, 5.0), Vec3d(0.0), Vec3d(0.0, 1.0, 0.0));
+    return view;
+}
+
+/// True if anything is seen.
+bool requireFinitePass(const std::shared_ptr<const TracedScene>& traced,
+                       const std::shared_ptr<Workers>& workers, IntegratorKind kind)
+{
+    RenderSession session(workers);
+    session.setScene(traced);
+    session.setView(viewOfOrigin());
+    RenderOptions options;
+    options.integrator = kind;
+    options.maxBounces = 4;
+    session.setOptions(options);
+    StopRule rule;
+    rule.passes = 1;
+    const RenderProgress progress = session.render(rule);
+    CAPTURE(int(kind), progress.status.message);
+    REQUIRE(progress.status.ok());
+    REQUIRE(progress.rays.camera == kSize * kSize);
+    const std::vector<float> image = session.resolveRadiance();
+    REQUIRE(image.size() == 4 * kSize * kSize);
+    bool finite = true;
+    for (const float value : image)
+        finite &= std::isfinite(value);
+    REQUIRE(finite);
+
+    std::vector<uint8_t> shown(4 * kSize * kSize);
+    std::vector<float> depth(kSize * kSize);
+    session.resolveDisplay(ToneMap(), shown.data(), depth.data());
+    bool inRange = true;
+    for (const float value : depth)
+        inRange &= value >= 0.0f && value <= 1.0f;
+    REQUIRE(inRange);
+    return *std::min_element(depth.begin(), depth.end()) < 1.0f;
+}
+
+} // namespace
+
+TEST_CASE("fuzz: any geometry is converted, each triangle kept or counted", "[fuzz]")
+{
+    osg::setNotifyLevel(osg::FATAL);
+    uint64_t kept = 0;
+    forEachSeed(kGeometries,
+                [&](uint32_t seed)
+                {
+                    Dice dice(seed);
+                    const osg::ref_ptr<osg::Geometry> geometry = randomGeometry(dice);
+                    requireAllTrianglesCounted(*geometry);
+                    const ConvertedMesh converted = convertGeometry(*geometry, MeshRequest());
+                    kept += converted.mesh != nullptr;
+                });
+    // The generator is no use if nothing gets through.
+    CHECK(kept > static_cast<uint64_t>(seedCount(kGeometries)) / 4);
+}
+
+TEST_CASE("fuzz: any scene graph is converted, built and rendered, and stays finite", "[fuzz]")
+{
+    osg::setNotifyLevel(osg::FATAL);
+    const auto workers = std::make_shared<Workers>(2);
+    uint64_t seen = 0;
+    forEachSeed(kGraphs,
+                [&](uint32_t seed)
+                {
+                    Dice dice(seed);
+                    const RandomGraph graph = randomGraph(dice);
+                    ConversionInput input;
+                    input.root = graph.root.get();
+                    input.eye = osg::Vec3d(2.0, 1.5, 5.0);
+                    if (dice.oneIn(3)) input.origin = input.eye;
+                    SceneConverter converter;
+                    const ConversionResult result = converter.convert(input);
+                    requireSound(result);
+                    // As in the next frame: nothing has changed.
+                    REQUIRE(converter.convert(input).scene->instances.size() ==
+                            result.scene->instances.size());
+                    if (graph.bounded)
+                        REQUIRE(graphFingerprint(*graph.root, ViewingConditions()) ==
+                                graphFingerprint(*graph.root, ViewingConditions()));
+
+                    const auto traced = TracedScene::build(result.scene, workers);
+                    uint64_t triangles = 0;
+                    for (const Instance& instance : result.scene->instances)
+                        triangles += result.scene->meshes[instance.mesh]->triangles.size();
+                    REQUIRE(traced->traits().triangles == triangles);
+                    seen += requireFinitePass(traced, workers, IntegratorKind::Whitted);
+                    requireFinitePass(traced, workers, IntegratorKind::Path);
+                });
+    CHECK(seen > static_cast<uint64_t>(seedCount(kGraphs)) / 4);
+}

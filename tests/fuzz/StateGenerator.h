@@ -1,0 +1,20 @@
+// StateGenerator.h - state sets, textures and lights with values that nobody would set. Layer:
+// tests. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "FuzzSeeds.h"
+
+#include <osg/Light>
+#include <osg/StateSet>
+
+namespace osgRayTrace::test
+{
+
+osg::ref_ptr<osg::StateSet> randomStateSet(Dice& dice);
+
+osg::ref_ptr<osg::Light> randomLight(Dice& dice);
+
+/// As Dice::strange, with infinity for what is larger than any float.
+float strangeFloat(Dice& dice, double size, int rarity);
+
+} // namespace osgRayTrace::test
