@@ -20,8 +20,8 @@ struct BsdfKind
 /// lost.
 std::vector<BsdfKind> roughKinds();
 
-/// Metal, plastic and glass from the least roughness that is not smooth to 1, of indices 1.0001, 1.5
-/// and 3, from outside and inside.
+/// Metal, plastic and glass from the least roughness that is not smooth to 1, of
+/// indices 1.0001, 1.5 and 3, from outside and inside.
 std::vector<BsdfKind> extremeKinds();
 
 /// The same below that roughness, down to 0.
