@@ -16,7 +16,7 @@ enum class Failing
 
 /// While it lives the n-th allocation from now on (0 is the next), of any thread, throws
 /// std::bad_alloc. At most one at a time. Not counted are those of OpenGL's drivers, which are
-/// built without exceptions.
+/// built without exceptions, and of Embree and TBB, which do not survive it.
 class FailingMemory
 {
 public:
