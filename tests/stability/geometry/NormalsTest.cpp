@@ -31,8 +31,7 @@ osg::ref_ptr<osg::Geometry> box(const osg::Vec3* normalOfAll, bool physical)
     if (normalOfAll) geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
     geometry->addPrimitiveSet(
         new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<int>(vertices->size())));
-    if (physical)
-        geometry->getOrCreateStateSet()->setAttribute(new osgRayTrace::PhysicalMaterial);
+    if (physical) geometry->getOrCreateStateSet()->setAttribute(new osgRayTrace::PhysicalMaterial);
     return geometry;
 }
 

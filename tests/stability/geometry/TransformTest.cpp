@@ -30,11 +30,10 @@ osg::ref_ptr<osg::Geometry> ball(const osg::Matrixd& matrix = osg::Matrixd(), in
 {
     const auto sphere = sphereMesh(Vec3(0.0f), 1.0f, rows);
     const osg::Matrixd inverse = osg::Matrixd::inverse(matrix);
-    const bool mirrored =
-        (osg::Vec3d(matrix(0, 0), matrix(0, 1), matrix(0, 2)) ^
-         osg::Vec3d(matrix(1, 0), matrix(1, 1), matrix(1, 2))) *
-            osg::Vec3d(matrix(2, 0), matrix(2, 1), matrix(2, 2)) <
-        0.0;
+    const bool mirrored = (osg::Vec3d(matrix(0, 0), matrix(0, 1), matrix(0, 2)) ^
+                           osg::Vec3d(matrix(1, 0), matrix(1, 1), matrix(1, 2))) *
+                              osg::Vec3d(matrix(2, 0), matrix(2, 1), matrix(2, 2)) <
+                          0.0;
     osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array, normals = new osg::Vec3Array;
     for (const Vec3& p : sphere->positions)
     {
@@ -92,11 +91,15 @@ std::optional<Point> shoot(const TracedScene& traced, const Vec3d& origin, const
     SurfaceLanes s;
     surfacesOf(traced.surfaces(), block, 1u, s);
     if (!s.hits) return std::nullopt;
-    const auto at = [](const Vec3Lanes& lanes) { return Vec3d(lanes.x[0], lanes.y[0], lanes.z[0]); };
+    const auto at = [](const Vec3Lanes& lanes)
+    { return Vec3d(lanes.x[0], lanes.y[0], lanes.z[0]); };
     return Point{at(s.position), at(s.geometricNormal), at(s.shadingNormal), (s.front & 1u) != 0};
 }
 
-Vec3d toGlm(const osg::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
+Vec3d toGlm(const osg::Vec3d& v)
+{
+    return {v.x(), v.y(), v.z()};
+}
 
 } // namespace
 
@@ -171,7 +174,8 @@ TEST_CASE("stability 16: mirrored and uneven scales give the normals of the move
         for (int k = 0; k < 3000; ++k)
         {
             // From outside or inside to a point within, in the ball's own coordinates.
-            const auto within = [&] {
+            const auto within = [&]
+            {
                 return osg::Vec3d(random.between(-0.5, 0.5), random.between(-0.5, 0.5),
                                   random.between(-0.5, 0.5));
             };
@@ -192,10 +196,10 @@ TEST_CASE("stability 16: mirrored and uneven scales give the normals of the move
                 const std::optional<Point> point = shoot(*traced, origin, direction);
                 REQUIRE(point);
                 wrongSide += point->front != outside;
-                worst = std::max(
-                    {worst, glm::length(local(point->position) - local(expected->position)),
-                     glm::length(point->geometricNormal - expected->geometricNormal),
-                     glm::length(point->shadingNormal - expected->shadingNormal)});
+                worst = std::max({worst,
+                                  glm::length(local(point->position) - local(expected->position)),
+                                  glm::length(point->geometricNormal - expected->geometricNormal),
+                                  glm::length(point->shadingNormal - expected->shadingNormal)});
                 ++compared;
             }
         }
@@ -233,9 +237,9 @@ TEST_CASE("stability 16: a mirrored ball of glass refracts as one that was made 
     CHECK(moved.mean().y > 0.05f);
     for (const bool instanced : {false, true})
     {
-        const Picture other = pictured(instanced ? osg::ref_ptr<osg::Node>(
-                                                       shared(matrix, ball(osg::Matrixd(), 96)))
-                                                 : placed(matrix, ball(osg::Matrixd(), 96)));
+        const Picture other =
+            pictured(instanced ? osg::ref_ptr<osg::Node>(shared(matrix, ball(osg::Matrixd(), 96)))
+                               : placed(matrix, ball(osg::Matrixd(), 96)));
         // A last bit may send a path to the other side of an edge: few pixels, not their mean.
         int different = 0;
         for (std::size_t i = 0; i < moved.rgba.size(); ++i)
