@@ -102,7 +102,7 @@ void GraphCollector::apply(osg::Node& node)
 {
     if (!node.asGroup() && collectLeaf(node)) return;
     const bool pushed = pushState(node);
-    traverse(node);
+    traverseChildren(node);
     if (pushed) _states.pop();
 }
 
@@ -211,6 +211,20 @@ float GraphCollector::getDistanceToViewPoint(const osg::Vec3& position, bool use
     return getDistanceToEyePoint(position, useLodScale);
 }
 
+void GraphCollector::traverseChildren(osg::Node& node)
+{
+    if (getNodePath().size() < kDeepestPath)
+    {
+        traverse(node);
+        return;
+    }
+    const osg::Group* group = node.asGroup();
+    if (!group || group->getNumChildren() == 0) return;
+    _report.warn("skipped.too-deep", "node '" + node.getName() + "'",
+                 "lies below " + std::to_string(kDeepestPath - 1) +
+                     " others, its children are skipped");
+}
+
 bool GraphCollector::pushState(osg::Node& node)
 {
     const osg::StateSet* stateSet = node.getStateSet();
@@ -234,7 +248,7 @@ bool GraphCollector::pushMatrix(const osg::Matrixd& worldFromLocal)
 void GraphCollector::traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node& node)
 {
     if (!pushMatrix(worldFromLocal)) return;
-    traverse(node);
+    traverseChildren(node);
     _worldFromLocal.pop_back();
 }
 

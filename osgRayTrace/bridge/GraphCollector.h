@@ -22,6 +22,10 @@ class AreaLight;
 namespace osgRayTrace::engine
 {
 
+/// Nodes on a path from the root; what is deeper is skipped. Traversals are recursive, in OSG as here: a
+/// transform takes about 400 bytes of stack, more in debug builds, and threads may have little.
+constexpr std::size_t kDeepestPath = 5000;
+
 /// One path to a drawable.
 struct GeometryUse
 {
@@ -87,6 +91,7 @@ public:
     float getDistanceToViewPoint(const osg::Vec3& position, bool useLodScale) const override;
 
 private:
+    void traverseChildren(osg::Node& node);
     bool pushState(osg::Node& node);
     bool pushMatrix(const osg::Matrixd& worldFromLocal);
     void traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node& node);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GraphFingerprint.h"
 
+#include "osgRayTrace/bridge/GraphCollector.h"
+
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/PhysicalMaterial>
 
@@ -251,7 +253,7 @@ private:
     {
         _digest.add(&node);
         addStateSetOf(node);
-        traverse(node);
+        if (getNodePath().size() < kDeepestPath) traverse(node);
         _digest.add(kEnd);
     }
 

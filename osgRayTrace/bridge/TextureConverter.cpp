@@ -48,6 +48,14 @@ std::string nameOf(const osg::Texture2D& texture, const osg::Image& image)
     return image.getFileName().empty() ? image.getName() : image.getFileName();
 }
 
+/// More than the engine takes, or than osg::Image can address in the 32 bits of its offsets.
+bool isTooLarge(const osg::Image& image)
+{
+    constexpr int64_t kMostTexels = int64_t(1) << 28, kMostBytes = (int64_t(1) << 32) - 1;
+    return int64_t(image.s()) * image.t() > kMostTexels ||
+           int64_t(image.getRowStepInBytes()) * image.t() > kMostBytes;
+}
+
 void fillMagenta(Texture& texture)
 {
     texture.width = 1;
@@ -85,7 +93,13 @@ uint32_t TextureConverter::index(const osg::Texture2D* texture, TextureContent c
         }
         auto converted = std::make_shared<Texture>();
         converted->name = nameOf(*texture, *image);
-        if (!decodePixels(*image, *converted))
+        if (isTooLarge(*image))
+        {
+            report.warn("approximated.texture-size", "texture '" + converted->name + "'",
+                        "more than 2^28 texels or 4 GiB, shown in magenta");
+            fillMagenta(*converted);
+        }
+        else if (!decodePixels(*image, *converted))
         {
             report.warn("approximated.pixel-format", "texture '" + converted->name + "'",
                         "pixel format cannot be read, shown in magenta");

@@ -5,6 +5,7 @@
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/HitShading.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -126,18 +127,24 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf, const Surfa
     const LightTable& table = context.traced->lights();
     const Vec3 p = at(surface.position, i);
     const std::optional<AreaLightSample> sample = table.sampleArea(light, p, u, v);
-    if (!sample || !(sample->pdfW > 0.0f) || !(sample->pdfW < 1e30f)) return false;
+    if (!sample) return false;
     const Vec3 n = at(surface.geometricNormal, i);
     if (!through && glm::dot(n, sample->wi) <= 0.0f) return false;
 
+    // Measured from where the ray starts, as the path tracer does when it meets the light by chance: far from
+    // the origin that is not where the surface is, and densities that disagree would weight light twice.
     const Vec3 origin = leave(surface, i, sample->wi);
-    const Vec3 d = sample->target - origin;
+    const Vec3 d = sample->point - origin;
     const float distance = glm::length(d);
     if (!(distance > 0.0f)) return false;
     const Vec3 wi = d / distance;
+    const float cosThetaL = std::fabs(glm::dot(wi, sample->normal));
+    const float pdfW = table.pdfArea(light, distance, cosThetaL);
+    if (!(cosThetaL > 0.0f) || !(pdfW > 0.0f) || !(pdfW < 1e30f)) return false;
+    const float clear = std::max(0.0f, distance - sample->offset / cosThetaL);
     setWi(samples, i, wi);
-    setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, wi.x, wi.y, wi.z, distance);
-    samples.weight[i] = 1.0f / (pmf * sample->pdfW);
+    setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, wi.x, wi.y, wi.z, clear);
+    samples.weight[i] = 1.0f / (pmf * pdfW);
     const Instance& instance = context.traced->scene().instances[(*context.lights)[light].instance];
     MaterialPoint point;
     point.uv = sample->uv;

@@ -163,7 +163,9 @@ std::optional<AreaLightSample> LightTable::sampleAt(uint32_t index, Vec3 p, Vec3
     if (!(sample.cosThetaL > 0.0f)) return std::nullopt;
     sample.uv = uv;
     sample.pdfW = pdfArea(index, sample.distance, sample.cosThetaL);
-    sample.target = q + normal * (cosine >= 0.0f ? _offsets[index] : -_offsets[index]);
+    sample.point = q;
+    sample.normal = normal;
+    sample.offset = _offsets[index];
     return sample;
 }
 

@@ -18,7 +18,9 @@ struct AreaLightSample
     float cosThetaL = 0.0f; ///< cosine at the light, > 0 on an emitting side
     Vec2 uv{0.0f};        ///< texture coordinates there
     float pdfW = 0.0f;    ///< [1/sr] with respect to the lit point
-    Vec3 target{0.0f};    ///< the point, moved to the lit side clear of the light's own surface
+    Vec3 point{0.0f};     ///< on the light
+    Vec3 normal{0.0f};    ///< unit, of the light there; of either side
+    float offset = 0.0f;  ///< distance off the light's plane that is clear of its own surface
 };
 
 /// What a directional, point or spot light sends to a point.

@@ -118,7 +118,7 @@ TEST_CASE("renderer: sizes and matrices that cannot be are refused", "[api][rend
     CHECK(sameBytes(before, renderer->getColorImage())); // the last good image stays
 }
 
-TEST_CASE("renderer: an empty scene shows exactly the clear colour", "[api][renderer]")
+TEST_CASE("renderer: an empty scene shows exactly the clear colour", "[api][renderer][stability 21]")
 {
     const auto renderer = rendererOf(new osg::Group);
     for (const auto rule : {RayTraceSettings::DISPLAY_REFERRED, RayTraceSettings::LINEAR})

@@ -135,7 +135,8 @@ TEST_CASE("points, lines, adjacency and patches are counted as not traced", "[br
     CHECK(countOf(result, "converted.geometry") == 0);
 }
 
-TEST_CASE("indices out of range drop their triangle only, and are counted", "[bridge]")
+TEST_CASE("indices out of range drop their triangle only, and are counted",
+          "[bridge][stability 14]")
 {
     const auto good = elements<osg::DrawElementsUInt>(GL_TRIANGLES, {0, 1, 2, 2, 1, 20, 3, 4, 5});
     ConversionResult result = convertGraph(curveGeometry(20, good));
@@ -175,7 +176,8 @@ TEST_CASE("draw arrays beyond the vertices are cut, whatever their count says", 
     CHECK(soleMesh(result).triangles.size() == 2);
 }
 
-TEST_CASE("empty and broken geometry converts to nothing and does not crash", "[bridge]")
+TEST_CASE("empty and broken geometry converts to nothing and does not crash",
+          "[bridge][stability 14]")
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(new osg::Geometry);

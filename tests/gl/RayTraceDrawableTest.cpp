@@ -225,7 +225,7 @@ TEST_CASE("traced scene: visitors other than cull reach the children", "[gl]")
     CHECK(count->calls == 3);
 }
 
-TEST_CASE("drawable: the viewport may change, start anywhere and be empty", "[gl]")
+TEST_CASE("drawable: the viewport may change, start anywhere and be empty", "[gl][stability 20]")
 {
     osg::ref_ptr<RayTracedScene> scene = greenScene();
     scene->getSettings()->setMaxPasses(1);

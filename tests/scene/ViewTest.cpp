@@ -94,7 +94,8 @@ Mat4d reversed(Mat4d m)
 
 } // namespace
 
-TEST_CASE("camera rays: within a thousandth of a pixel for every kind of projection", "[scene]")
+TEST_CASE("camera rays: within a thousandth of a pixel for every kind of projection",
+          "[scene][stability 18][stability 19]")
 {
     const double aspect = double(kWidth) / kHeight;
     const Mat4d perspective = glm::perspective(0.8, aspect, 0.1, 100.0);
@@ -112,6 +113,8 @@ TEST_CASE("camera rays: within a thousandth of a pixel for every kind of project
         {"wide", glm::perspective(2.8, aspect, 0.1, 100.0), 2e-3},
         {"off-axis wall", glm::frustum(-0.1, 0.35, -0.02, 0.3, 0.1, 100.0)},
         {"wall beside the eye", glm::frustum(0.5, 0.9, 0.2, 0.6, 0.1, 100.0), 2e-3},
+        {"left eye", glm::frustum(-0.085, 0.105, -0.05, 0.055, 0.1, 100.0)},
+        {"right eye", glm::frustum(-0.105, 0.085, -0.05, 0.055, 0.1, 100.0)},
         {"infinite far plane", infiniteFrustum(-0.1, 0.35, -0.02, 0.3, 0.1)},
         {"reversed depth", reversed(perspective)},
         {"reversed depth, infinite far plane",
@@ -199,7 +202,7 @@ TEST_CASE("camera rays: depth rows give the clip coordinates of engine points", 
     CHECK(glm::dot(rays->wRow, p) == Approx(clip.w).epsilon(1e-4));
 }
 
-TEST_CASE("camera rays: no size or no inverse gives none", "[scene]")
+TEST_CASE("camera rays: no size or no inverse gives none", "[scene][stability 20]")
 {
     const Mat4d projection = glm::perspective(0.8, 1.0, 0.1, 100.0);
     View view = viewOf(projection, kLookAt);

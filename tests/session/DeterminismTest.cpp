@@ -36,7 +36,8 @@ SceneBuilder mixedBox(Vec3 offset = Vec3(0.0f))
 
 } // namespace
 
-TEST_CASE("determinism: equal images for 1, 2 and 3 threads, bit by bit", "[session]")
+TEST_CASE("determinism: equal images for 1, 2, 3 and 16 threads and in every run, bit by bit",
+          "[session][stability 50]")
 {
     const auto traced = mixedBox().build();
     for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
@@ -44,9 +45,10 @@ TEST_CASE("determinism: equal images for 1, 2 and 3 threads, bit by bit", "[sess
         const Picture one = render(traced, cornellView(70, 50), optionsOf(kind), 6, 1);
         CHECK(one.progress.droppedSamples == 0);
         CHECK(one.mean().y > 0.01f);
-        for (const int threads : {2, 3})
+        for (const int threads : {1, 2, 3, 16})
         {
-            const Picture many = render(traced, cornellView(70, 50), optionsOf(kind), 6, threads);
+            const Picture many =
+                render(mixedBox().build(threads), cornellView(70, 50), optionsOf(kind), 6, threads);
             CAPTURE(int(kind), threads);
             CHECK(many.rgba == one.rgba);
             CHECK(many.progress.rays.total() == one.progress.rays.total());

@@ -88,8 +88,10 @@ TEST_CASE("area light: one-sided lights are dark behind", "[shading]")
     CHECK(below->cosThetaL > 0.0f);
     CHECK(below->distance == Approx(std::sqrt(1.0 + 2.0 * 0.0625)));
     CHECK(below->pdfW == Approx(table.pdfArea(0, below->distance, below->cosThetaL)));
-    CHECK(below->target.z < 1.0f); // on the lit side of its own surface
-    CHECK(below->target.z > 1.0f - 1e-4f);
+    CHECK(below->point.z == 1.0f);
+    CHECK(std::abs(below->normal.z) == 1.0f);
+    CHECK(below->offset > 0.0f); // clear of its own surface
+    CHECK(below->offset < 1e-4f);
     CHECK_FALSE(table.sampleArea(0, Vec3(0.5f, 0.5f, 2.0f), 0.25f, 0.75f));
     CHECK_FALSE(table.sampleArea(0, Vec3(3.0f, 0.5f, 1.0f), 0.25f, 0.75f)); // on its plane
 }
@@ -114,7 +116,7 @@ TEST_CASE("area light: triangles of a mesh are chosen by area, those without are
         const auto sample = table.sampleArea(0, Vec3(2.0f, 3.0f, 4.0f), u, v);
         REQUIRE(sample);
         REQUIRE(isFinite(sample->wi));
-        const Vec3 q = sample->target;
+        const Vec3 q = sample->point;
         if (q.x < 4.0f)
         {
             ++first;
@@ -159,7 +161,7 @@ TEST_CASE("area light: placed meshes are sampled where they are, with their area
     CHECK(table.area(0) == Approx(9.0));
     const auto sample = table.sampleArea(0, Vec3(0.0f), 0.1f, 0.1f);
     REQUIRE(sample);
-    CHECK(sample->target.z == Approx(10.0));
+    CHECK(sample->point.z == Approx(10.0));
 }
 
 TEST_CASE("area light: lights are chosen by power", "[shading]")
