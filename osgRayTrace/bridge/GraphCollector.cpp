@@ -92,6 +92,19 @@ GraphCollector::GraphCollector(const ConversionInput& input, ConversionReport& r
     setTraversalMask(input.traversalMask);
 }
 
+void applyUnit(double unit, CollectedGraph& graph)
+{
+    if (unit == 1.0) return;
+    const osg::Matrixd scale = osg::Matrixd::scale(1.0 / unit, 1.0 / unit, 1.0 / unit);
+    for (CollectedGeometry& geometry : graph.geometries)
+        for (GeometryUse& use : geometry.uses)
+            use.engineFromLocal.postMult(scale);
+    for (CollectedLight& light : graph.lights)
+        if (!light.eyeSpace) light.engineFromLocal.postMult(scale);
+    for (CollectedAreaLight& light : graph.areaLights)
+        light.engineFromLocal.postMult(scale);
+}
+
 CollectedGraph GraphCollector::take()
 {
     _graph.states = _states.states();

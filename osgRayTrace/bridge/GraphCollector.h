@@ -25,7 +25,7 @@ namespace osgRayTrace::engine
 /// One path to a drawable.
 struct GeometryUse
 {
-    osg::Matrixd engineFromLocal; ///< affine, finite, invertible
+    osg::Matrixd engineFromLocal; ///< affine, finite, invertible; see applyUnit
     uint32_t state = 0;           ///< index into CollectedGraph::states
 };
 
@@ -59,6 +59,10 @@ struct CollectedGraph
     std::vector<CollectedAreaLight> areaLights;
     std::vector<GraphState> states;
 };
+
+/// The collector knows the origin of engine space, but not its unit yet: it leaves lengths as they are
+/// in the world. This puts all matrices into units of Scene::unit.
+void applyUnit(double unit, CollectedGraph& graph);
 
 /// Visits active children only (masks, switches, levels of detail for the eye point), multiplies
 /// transforms in double and accumulates state. Counts what is not a part of the traced scene.

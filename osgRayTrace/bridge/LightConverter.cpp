@@ -46,7 +46,7 @@ float cosCutoff(float degrees)
 } // namespace
 
 std::optional<Light> convertLight(const osg::Light& source, const osg::Matrixd& engineFromLocal,
-                                  bool eyeSpace)
+                                  bool eyeSpace, double unit)
 {
     Light light;
     light.name = source.getName();
@@ -72,8 +72,10 @@ std::optional<Light> convertLight(const osg::Light& source, const osg::Matrixd& 
         osg::Matrixd::transform3x3(osg::Vec3d(source.getDirection()), engineFromLocal);
     if (axis.normalize() > 0.0) light.direction = toVec3(axis);
     light.attenuationConstant = source.getConstantAttenuation();
-    light.attenuationLinear = source.getLinearAttenuation();
-    light.attenuationQuadratic = source.getQuadraticAttenuation();
+    // Given for world lengths, evaluated with engine lengths.
+    light.attenuationLinear = static_cast<float>(source.getLinearAttenuation() * unit);
+    light.attenuationQuadratic =
+        static_cast<float>(source.getQuadraticAttenuation() * unit * unit);
     light.spotExponent = source.getSpotExponent();
     light.spotCosCutoff = cosCutoff(source.getSpotCutoff());
     return isFiniteLight(light) ? std::optional<Light>(light) : std::nullopt;
