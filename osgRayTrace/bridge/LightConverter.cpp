@@ -103,7 +103,9 @@ std::optional<ConvertedAreaLight> convertAreaLight(const AreaLight& source,
     light.radiance = {source.getRadiance().x(), source.getRadiance().y(), source.getRadiance().z()};
     light.twoSided = source.getTwoSided();
 
-    const float area = glm::length(glm::cross(light.edgeU, light.edgeV));
+    // In double: the square of a small light's area is no normal float.
+    const auto area =
+        static_cast<float>(glm::length(glm::cross(Vec3d(light.edgeU), Vec3d(light.edgeV))));
     if (!(area > 0.0f) || !std::isfinite(area) || !isFinite(light.corner) ||
         !isFinite(light.radiance))
         return std::nullopt;
