@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,7 @@ public:
                                      const MeshRequest& request, const std::string& path,
                                      ConversionReport& report);
 
-    /// Of the geometry's positions, from the last snapshot if they are the same.
+    /// Of the geometry's positions, from the last snapshot if they are the same. Valid until end().
     const VertexBounds& bounds(const osg::Geometry& geometry);
 
     /// Ends the snapshot: forgets geometry that was not asked for in it.
@@ -76,7 +77,7 @@ private:
     static Fingerprint fingerprintOf(const osg::Geometry& geometry);
 
     std::map<std::pair<const osg::Geometry*, uint32_t>, Entry> _entries;
-    std::map<const osg::Array*, BoundsEntry> _bounds;
+    std::unordered_map<const osg::Array*, BoundsEntry> _bounds;
     Stamp _stamp = 0;
 };
 

@@ -188,7 +188,7 @@ void GraphCollector::apply(osg::Geometry& geometry)
 {
     if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
     const auto [found, isNew] = _indexOf.try_emplace(&geometry, _graph.geometries.size());
-    if (isNew) _graph.geometries.push_back({&geometry, path(), {}});
+    if (isNew) _graph.geometries.push_back({&geometry, path(), {}, nullptr});
 
     const bool pushed = pushState(geometry);
     _graph.geometries[found->second].uses.push_back({engineFromLocal(), _states.top()});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/SceneConverter.h"
+#include "osgRayTrace/bridge/SceneExtent.h"
 #include "osgRayTrace/bridge/StateStack.h"
 
 #include <osg/Geometry>
@@ -34,6 +35,7 @@ struct CollectedGeometry
     const osg::Geometry* geometry = nullptr;
     std::string path; ///< of the first use: "root/child/geometry"
     std::vector<GeometryUse> uses;
+    const VertexBounds* bounds = nullptr; ///< not the collector's: see SceneConverter
 };
 
 struct CollectedLight

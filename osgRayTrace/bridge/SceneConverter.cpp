@@ -86,13 +86,19 @@ MeshFrame meshFrame(const VertexBounds& bounds)
     return frame;
 }
 
+void setBounds(CollectedGraph& graph, GeometryCache& geometries)
+{
+    for (CollectedGeometry& geometry : graph.geometries)
+        geometry.bounds = &geometries.bounds(*geometry.geometry);
+}
+
 /// Of all that is traced, where the lengths of the graph are those of the world.
-double unitOf(const CollectedGraph& graph, GeometryCache& geometries)
+double unitOf(const CollectedGraph& graph)
 {
     LengthCounts lengths;
     for (const CollectedGeometry& geometry : graph.geometries)
     {
-        const VertexBounds& bounds = geometries.bounds(*geometry.geometry);
+        const VertexBounds& bounds = *geometry.bounds;
         if (bounds.count == 0) continue;
         for (const GeometryUse& use : geometry.uses)
             lengths.add(largestCoordinate(bounds, use.engineFromLocal), bounds.count);
@@ -230,9 +236,8 @@ uint32_t SceneBuilder::addMesh(const std::shared_ptr<const Mesh>& mesh)
 /// The error was made before the graph came here: it can only be named.
 void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
 {
-    const osg::Array* positions = positionArray(*geometry.geometry);
-    if (!positions || positions->getDataType() != GL_FLOAT) return;
-    if (!areCoarseInFloat(_caches.geometries.bounds(*geometry.geometry))) return;
+    if (!areCoarseInFloat(*geometry.bounds)) return;
+    if (positionArray(*geometry.geometry)->getDataType() != GL_FLOAT) return;
     _report.warn("warned.far-vertices", "geometry '" + geometry.path + "'",
                  "vertices far from the geometry's own origin are coarse in float: use local "
                  "coordinates below a transform");
@@ -267,7 +272,7 @@ void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse
 
 void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
 {
-    const MeshFrame frame = meshFrame(_caches.geometries.bounds(*geometry.geometry));
+    const MeshFrame frame = meshFrame(*geometry.bounds);
     const MeshRequest request = requestFor(frame.meshFromLocal);
     const auto mesh =
         _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report);
@@ -426,7 +431,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
 
     const bool linear = isLinear(graph, input.colorRule);
     state.caches.geometries.begin(now);
-    const double unit = unitOf(graph, state.caches.geometries);
+    setBounds(graph, state.caches.geometries);
+    const double unit = unitOf(graph);
     applyUnit(unit, graph);
     state.caches.textures.begin(linear, now);
     SceneBuilder builder(input, graph, unit, linear, now, state.caches, report);

@@ -192,6 +192,13 @@ TEST_CASE("a change of the unit gives all parts new stamps", "[bridge]")
     CHECK(after->meshes[0] != before->meshes[0]);
     CHECK(after->meshes[0]->changed == after->changed);
     CHECK(converter.convert(inputFor(root)).scene == after);
+
+    // Twice as large a world in twice as large a unit: all parts are the same, but not the scene.
+    root->setMatrix(osg::Matrixd::scale(2e-12, 2e-12, 2e-12));
+    const auto doubled = converter.convert(inputFor(root)).scene;
+    CHECK(doubled->unit == 2.0 * after->unit);
+    CHECK(doubled->meshes[0] == after->meshes[0]);
+    CHECK(doubled != after);
 }
 
 TEST_CASE("a light that moves in a small scene has moved", "[bridge]")
