@@ -18,22 +18,23 @@ bool GeometryCache::BufferPrint::operator==(const BufferPrint& other) const
     return values(*this) == values(other);
 }
 
+GeometryCache::BufferPrint GeometryCache::printOf(const osg::BufferData* buffer, unsigned int kind)
+{
+    BufferPrint print;
+    print.buffer = buffer;
+    print.kind = kind;
+    if (!buffer) return print;
+    print.modified = buffer->getModifiedCount();
+    print.data = buffer->getDataPointer();
+    print.bytes = buffer->getTotalDataSize();
+    return print;
+}
+
 GeometryCache::Fingerprint GeometryCache::fingerprintOf(const osg::Geometry& geometry)
 {
     Fingerprint prints;
     const auto add = [&prints](const osg::BufferData* buffer, unsigned int kind) -> BufferPrint&
-    {
-        BufferPrint print;
-        print.buffer = buffer;
-        print.kind = kind;
-        if (buffer)
-        {
-            print.modified = buffer->getModifiedCount();
-            print.data = buffer->getDataPointer();
-            print.bytes = buffer->getTotalDataSize();
-        }
-        return prints.emplace_back(print);
-    };
+    { return prints.emplace_back(printOf(buffer, kind)); };
     for (const osg::Array* array : {positionArray(geometry), geometry.getNormalArray(),
                                     geometry.getColorArray(), geometry.getTexCoordArray(0)})
         add(array, static_cast<unsigned int>(osg::getBinding(array)));
@@ -76,8 +77,27 @@ std::shared_ptr<const Mesh> GeometryCache::mesh(const osg::Geometry& geometry, u
     return entry.mesh;
 }
 
+const VertexBounds& GeometryCache::bounds(const osg::Geometry& geometry)
+{
+    static const VertexBounds none;
+    const osg::Array* array = positionArray(geometry);
+    if (!isReadable(array)) return none;
+
+    BoundsEntry& entry = _bounds[array];
+    const BufferPrint positions = printOf(array, static_cast<unsigned int>(array->getDataType()));
+    if (entry.used == 0 || !(entry.positions == positions))
+    {
+        entry.positions = positions;
+        entry.bounds = vertexBounds(*array);
+    }
+    entry.used = _stamp;
+    return entry.bounds;
+}
+
 void GeometryCache::end()
 {
+    for (auto entry = _bounds.begin(); entry != _bounds.end();)
+        entry = entry->second.used == _stamp ? std::next(entry) : _bounds.erase(entry);
     for (auto entry = _entries.begin(); entry != _entries.end();)
         entry = entry->second.used == _stamp ? std::next(entry) : _entries.erase(entry);
 }

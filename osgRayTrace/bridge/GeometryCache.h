@@ -3,12 +3,14 @@
 #pragma once
 
 #include "osgRayTrace/bridge/GeometryConverter.h"
+#include "osgRayTrace/bridge/SceneExtent.h"
 
 #include <osg/observer_ptr>
 
 #include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,9 @@ public:
     std::shared_ptr<const Mesh> mesh(const osg::Geometry& geometry, uint32_t variant,
                                      const MeshRequest& request, const std::string& path,
                                      ConversionReport& report);
+
+    /// Of the geometry's positions, from the last snapshot if they are the same. Valid until end().
+    const VertexBounds& bounds(const osg::Geometry& geometry);
 
     /// Ends the snapshot: forgets geometry that was not asked for in it.
     void end();
@@ -61,9 +66,18 @@ private:
         Stamp used = 0;
     };
 
+    struct BoundsEntry
+    {
+        BufferPrint positions; ///< its reference keeps the array's address its own
+        VertexBounds bounds;
+        Stamp used = 0;
+    };
+
+    static BufferPrint printOf(const osg::BufferData* buffer, unsigned int kind);
     static Fingerprint fingerprintOf(const osg::Geometry& geometry);
 
     std::map<std::pair<const osg::Geometry*, uint32_t>, Entry> _entries;
+    std::unordered_map<const osg::Array*, BoundsEntry> _bounds;
     Stamp _stamp = 0;
 };
 

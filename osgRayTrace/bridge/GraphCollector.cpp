@@ -92,6 +92,19 @@ GraphCollector::GraphCollector(const ConversionInput& input, ConversionReport& r
     setTraversalMask(input.traversalMask);
 }
 
+void applyUnit(double unit, CollectedGraph& graph)
+{
+    if (unit == 1.0) return;
+    const osg::Matrixd scale = osg::Matrixd::scale(1.0 / unit, 1.0 / unit, 1.0 / unit);
+    for (CollectedGeometry& geometry : graph.geometries)
+        for (GeometryUse& use : geometry.uses)
+            use.engineFromLocal.postMult(scale);
+    for (CollectedLight& light : graph.lights)
+        if (!light.eyeSpace) light.engineFromLocal.postMult(scale);
+    for (CollectedAreaLight& light : graph.areaLights)
+        light.engineFromLocal.postMult(scale);
+}
+
 CollectedGraph GraphCollector::take()
 {
     _graph.states = _states.states();
@@ -183,7 +196,7 @@ void GraphCollector::apply(osg::Geometry& geometry)
 {
     if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
     const auto [found, isNew] = _indexOf.try_emplace(&geometry, _graph.geometries.size());
-    if (isNew) _graph.geometries.push_back({&geometry, path(), {}});
+    if (isNew) _graph.geometries.push_back({&geometry, path(), {}, nullptr});
 
     const bool pushed = pushState(geometry);
     _graph.geometries[found->second].uses.push_back({engineFromLocal(), _states.top()});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/SceneConverter.h"
+#include "osgRayTrace/bridge/SceneExtent.h"
 #include "osgRayTrace/bridge/StateStack.h"
 
 #include <osg/Geometry>
@@ -29,7 +30,7 @@ constexpr std::size_t kDeepestPath = 5000;
 /// One path to a drawable.
 struct GeometryUse
 {
-    osg::Matrixd engineFromLocal; ///< affine, finite, invertible
+    osg::Matrixd engineFromLocal; ///< affine, finite, invertible; see applyUnit
     uint32_t state = 0;           ///< index into CollectedGraph::states
 };
 
@@ -38,6 +39,7 @@ struct CollectedGeometry
     const osg::Geometry* geometry = nullptr;
     std::string path; ///< of the first use: "root/child/geometry"
     std::vector<GeometryUse> uses;
+    const VertexBounds* bounds = nullptr; ///< not the collector's: see SceneConverter
 };
 
 struct CollectedLight
@@ -63,6 +65,10 @@ struct CollectedGraph
     std::vector<CollectedAreaLight> areaLights;
     std::vector<GraphState> states;
 };
+
+/// The collector knows the origin of engine space, but not its unit yet: it leaves lengths as they are
+/// in the world. This puts all matrices into units of Scene::unit.
+void applyUnit(double unit, CollectedGraph& graph);
 
 /// Visits active children only (masks, switches, levels of detail for the eye point), multiplies
 /// transforms in double and accumulates state. Counts what is not a part of the traced scene.

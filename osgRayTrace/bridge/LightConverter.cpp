@@ -55,7 +55,7 @@ float cosCutoff(float degrees)
 } // namespace
 
 std::optional<Light> convertLight(const osg::Light& source, const osg::Matrixd& engineFromLocal,
-                                  bool eyeSpace)
+                                  bool eyeSpace, double unit)
 {
     Light light;
     light.name = source.getName();
@@ -81,8 +81,10 @@ std::optional<Light> convertLight(const osg::Light& source, const osg::Matrixd& 
         osg::Matrixd::transform3x3(osg::Vec3d(source.getDirection()), engineFromLocal);
     if (axis.normalize() > 0.0) light.direction = toVec3(axis);
     light.attenuationConstant = source.getConstantAttenuation();
-    light.attenuationLinear = source.getLinearAttenuation();
-    light.attenuationQuadratic = source.getQuadraticAttenuation();
+    // Given for world lengths, evaluated with engine lengths.
+    light.attenuationLinear = static_cast<float>(source.getLinearAttenuation() * unit);
+    light.attenuationQuadratic =
+        static_cast<float>(source.getQuadraticAttenuation() * unit * unit);
     light.spotExponent = source.getSpotExponent();
     light.spotCosCutoff = cosCutoff(source.getSpotCutoff());
     return isFiniteLight(light) ? std::optional<Light>(light) : std::nullopt;
@@ -110,8 +112,12 @@ std::optional<ConvertedAreaLight> convertAreaLight(const AreaLight& source,
     light.radiance = {source.getRadiance().x(), source.getRadiance().y(), source.getRadiance().z()};
     light.twoSided = source.getTwoSided();
 
-    const float area = glm::length(glm::cross(light.edgeU, light.edgeV));
-    if (!(area > 0.0f) || !std::isfinite(area) || !isFinite(light.radiance)) return std::nullopt;
+    // In double: the square of a small light's area is no normal float.
+    const auto area =
+        static_cast<float>(glm::length(glm::cross(Vec3d(light.edgeU), Vec3d(light.edgeV))));
+    if (!(area > 0.0f) || !std::isfinite(area) || !isFinite(light.corner) ||
+        !isFinite(light.radiance))
+        return std::nullopt;
 
     std::vector<Vec3> positions;
     positions.reserve(5); // Embree reads past the last one

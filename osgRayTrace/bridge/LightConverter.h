@@ -20,9 +20,10 @@ namespace osgRayTrace::engine
 {
 
 /// A directional or point light with OpenGL's meaning of each value. The matrix places it in engine
-/// space, or is the identity for one in eye space. Nothing if a value is not finite.
+/// space, or is the identity for one in eye space; unit is Scene::unit. Nothing if a value is not
+/// finite.
 std::optional<Light> convertLight(const osg::Light& light, const osg::Matrixd& engineFromLocal,
-                                  bool eyeSpace);
+                                  bool eyeSpace, double unit);
 
 /// The light and the two triangles that rays hit, in engine space. A mirrored transform leaves the
 /// front side where it is on the node. Nothing if it has no area or is not finite.

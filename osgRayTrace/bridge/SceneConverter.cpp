@@ -5,11 +5,14 @@
 #include "osgRayTrace/bridge/GeometryCache.h"
 #include "osgRayTrace/bridge/GraphCollector.h"
 #include "osgRayTrace/bridge/LightConverter.h"
-#include "osgRayTrace/bridge/LocalCentres.h"
 #include "osgRayTrace/bridge/MaterialConverter.h"
+#include "osgRayTrace/bridge/SceneExtent.h"
 #include "osgRayTrace/bridge/SnapshotStamps.h"
 #include "osgRayTrace/bridge/TextureConverter.h"
+#include "osgRayTrace/bridge/VertexArrays.h"
 #include "osgRayTrace/film/ToneMap.h"
+
+#include <osgRayTrace/AreaLight>
 
 #include <osg/LightModel>
 
@@ -53,6 +56,66 @@ bool isPlaceable(const Affine& affine)
     return std::fabs(glm::determinant(glm::dmat3(affine.linear))) > 1e-28;
 }
 
+/// Local coordinates are moved to their centre if that is so many radii away: else an instance
+/// would lose in float what its large coordinates lose.
+constexpr double kFarFromOrigin = 64.0;
+
+/// Of a shared geometry: its mesh has its own origin and unit where those of the geometry would lose
+/// in float.
+struct MeshFrame
+{
+    osg::Matrixd meshFromLocal, localFromMesh;
+};
+
+MeshFrame meshFrame(const VertexBounds& bounds)
+{
+    MeshFrame frame;
+    if (bounds.count == 0) return frame;
+    const osg::Vec3d centre(bounds.centre().x, bounds.centre().y, bounds.centre().z);
+    if (centre.length() > kFarFromOrigin * bounds.radius())
+    {
+        frame.meshFromLocal.makeTranslate(-centre);
+        frame.localFromMesh.makeTranslate(centre);
+    }
+    LengthCounts lengths;
+    lengths.add(largestCoordinate(bounds, frame.meshFromLocal));
+    const double unit = lengths.unit(), inverse = 1.0 / unit;
+    if (unit == 1.0) return frame;
+    frame.meshFromLocal.postMultScale(osg::Vec3d(inverse, inverse, inverse));
+    frame.localFromMesh.preMultScale(osg::Vec3d(unit, unit, unit));
+    return frame;
+}
+
+void setBounds(CollectedGraph& graph, GeometryCache& geometries)
+{
+    for (CollectedGeometry& geometry : graph.geometries)
+        geometry.bounds = &geometries.bounds(*geometry.geometry);
+}
+
+/// Of all that is traced, where the lengths of the graph are those of the world.
+double unitOf(const CollectedGraph& graph)
+{
+    LengthCounts lengths;
+    for (const CollectedGeometry& geometry : graph.geometries)
+    {
+        const VertexBounds& bounds = *geometry.bounds;
+        if (bounds.count == 0) continue;
+        for (const GeometryUse& use : geometry.uses)
+            lengths.add(largestCoordinate(bounds, use.engineFromLocal), bounds.count);
+    }
+    for (const CollectedAreaLight& source : graph.areaLights)
+    {
+        const AreaLight& light = *source.light;
+        for (const osg::Vec3d& p :
+             {osg::Vec3d(), osg::Vec3d(light.getEdgeU()), osg::Vec3d(light.getEdgeV())})
+        {
+            const osg::Vec3d q = (osg::Vec3d(light.getCorner()) + p) * source.engineFromLocal;
+            lengths.add(std::max({std::fabs(q.x()), std::fabs(q.y()), std::fabs(q.z())}));
+        }
+    }
+    return lengths.unit();
+}
+
 bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
 {
     if (rule != RayTraceSettings::AUTOMATIC_COLOR) return rule == RayTraceSettings::LINEAR;
@@ -88,7 +151,6 @@ struct ConversionCaches
 {
     GeometryCache geometries;
     TextureConverter textures;
-    LocalCentres centres;
     std::vector<std::shared_ptr<const Mesh>>
         areaLights; ///< their quads, in the order of the traversal
 };
@@ -97,10 +159,11 @@ struct ConversionCaches
 class SceneBuilder
 {
 public:
-    SceneBuilder(const ConversionInput& input, const CollectedGraph& graph, bool linear, Stamp now,
-                 ConversionCaches& caches, ConversionReport& report)
+    SceneBuilder(const ConversionInput& input, const CollectedGraph& graph, double unit,
+                 bool linear, Stamp now, ConversionCaches& caches, ConversionReport& report)
         : _input(input),
           _graph(graph),
+          _unit(unit),
           _linear(linear),
           _now(now),
           _caches(caches),
@@ -113,6 +176,7 @@ public:
     std::shared_ptr<Scene> build()
     {
         _scene->origin = {_input.origin.x(), _input.origin.y(), _input.origin.z()};
+        _scene->unit = _unit;
         _scene->displayReferred = !_linear;
         _scene->background = backgroundOf(_input.clearColor, _linear);
         _scene->ambient = Vec3(_input.lighting ? kViewerAmbient : kOpenGLAmbient);
@@ -132,6 +196,7 @@ public:
 
 private:
     void addGeometry(const CollectedGeometry& geometry);
+    void warnIfCoarse(const CollectedGeometry& geometry);
     void addPlacedUses(const CollectedGeometry& geometry);
     void addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
                   const std::shared_ptr<const Mesh>& mesh);
@@ -144,6 +209,7 @@ private:
 
     const ConversionInput& _input;
     const CollectedGraph& _graph;
+    double _unit;
     bool _linear;
     Stamp _now;
     ConversionCaches& _caches;
@@ -167,10 +233,21 @@ uint32_t SceneBuilder::addMesh(const std::shared_ptr<const Mesh>& mesh)
     return static_cast<uint32_t>(_scene->meshes.size() - 1);
 }
 
+/// The error was made before the graph came here: it can only be named.
+void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
+{
+    if (!areCoarseInFloat(*geometry.bounds)) return;
+    if (positionArray(*geometry.geometry)->getDataType() != GL_FLOAT) return;
+    _report.warn("warned.far-vertices", "geometry '" + geometry.path + "'",
+                 "vertices far from the geometry's own origin are coarse in float: use local "
+                 "coordinates below a transform");
+}
+
 /// Used once: positions in engine space, made in double. Used more often: one mesh, several
 /// instances.
 void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 {
+    warnIfCoarse(geometry);
     if (geometry.uses.size() > 1)
     {
         addPlacedUses(geometry);
@@ -195,8 +272,8 @@ void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse
 
 void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
 {
-    const osg::Vec3d centre = _caches.centres.of(*geometry.geometry);
-    const MeshRequest request = requestFor(osg::Matrixd::translate(-centre));
+    const MeshFrame frame = meshFrame(*geometry.bounds);
+    const MeshRequest request = requestFor(frame.meshFromLocal);
     const auto mesh =
         _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report);
     if (!mesh) return;
@@ -209,7 +286,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
         Instance instance;
         instance.mesh = meshIndex;
         instance.placed = true;
-        instance.engineFromLocal = toAffine(osg::Matrixd::translate(centre) * use.engineFromLocal);
+        instance.engineFromLocal = toAffine(frame.localFromMesh * use.engineFromLocal);
         if (!isPlaceable(instance.engineFromLocal))
         {
             addBaked(geometry, use,
@@ -296,7 +373,7 @@ void SceneBuilder::addLights()
                          const std::string& path)
     {
         const int number = source.getLightNum();
-        const auto light = convertLight(source, matrix, eyeSpace);
+        const auto light = convertLight(source, matrix, eyeSpace, _unit);
         if (!light || number < 0 || number >= 32)
         {
             _report.warn("skipped.light", "light '" + path + "'",
@@ -307,7 +384,9 @@ void SceneBuilder::addLights()
         lights[number] = *light;
         if (lights[number].name.empty()) lights[number].name = path;
     };
-    const osg::Matrixd engineFromWorld = osg::Matrixd::translate(-_input.origin);
+    const osg::Matrixd engineFromWorld =
+        osg::Matrixd::translate(-_input.origin) *
+        osg::Matrixd::scale(1.0 / _unit, 1.0 / _unit, 1.0 / _unit);
     if (_input.viewLight)
         add(*_input.viewLight, _input.viewLightInEyeSpace ? osg::Matrixd() : engineFromWorld,
             _input.viewLightInEyeSpace, "viewer");
@@ -348,13 +427,15 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     ConversionReport report;
     GraphCollector collector(input, report);
     if (input.root) input.root->accept(collector);
-    const CollectedGraph graph = collector.take();
+    CollectedGraph graph = collector.take();
 
     const bool linear = isLinear(graph, input.colorRule);
     state.caches.geometries.begin(now);
+    setBounds(graph, state.caches.geometries);
+    const double unit = unitOf(graph);
+    applyUnit(unit, graph);
     state.caches.textures.begin(linear, now);
-    state.caches.centres.begin();
-    SceneBuilder builder(input, graph, linear, now, state.caches, report);
+    SceneBuilder builder(input, graph, unit, linear, now, state.caches, report);
     state.last = stampChanges(builder.build(), state.last, now);
     state.caches.geometries.end();
 

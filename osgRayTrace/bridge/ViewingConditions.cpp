@@ -7,6 +7,7 @@
 #include <osgUtil/StateGraph>
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgRayTrace::engine
 {
@@ -64,19 +65,28 @@ std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState(const osgUtil::Sta
     return stateSets;
 }
 
-bool close(const osg::Vec4d& a, const osg::Vec4d& b)
+/// Equal but for the rounding of numbers of this size.
+bool close(const osg::Vec3d& a, const osg::Vec3d& b, double size)
 {
-    return (a - b).length() <= 1e-5 * (1.0 + a.length());
+    return (a - b).length() <= 1e-5 * size;
 }
 
-bool sameLight(const osg::Light* a, const osg::Light* b)
+osg::Vec3d xyz(const osg::Vec4& v)
+{
+    return {v.x(), v.y(), v.z()};
+}
+
+/// Positions went through the eye space of their pass, and so were rounded as the eye's distance is.
+bool sameLight(const osg::Light* a, const osg::Light* b, const osg::Vec3d& eye)
 {
     if (!a || !b) return a == b;
 
     const osg::ref_ptr<osg::Light> moved = new osg::Light(*b);
-    if (!close(a->getPosition(), b->getPosition())) return false;
-    if (!close(osg::Vec4d(a->getDirection(), 0.0), osg::Vec4d(b->getDirection(), 0.0)))
-        return false;
+    const osg::Vec3d position = xyz(a->getPosition()), direction(a->getDirection());
+    const double w = a->getPosition().w(), eyeDistance = w != 0.0 ? eye.length() : 0.0;
+    if (std::abs(w - b->getPosition().w()) > 1e-5 * std::abs(w)) return false;
+    if (!close(position, xyz(b->getPosition()), position.length() + eyeDistance)) return false;
+    if (!close(direction, osg::Vec3d(b->getDirection()), direction.length())) return false;
     moved->setPosition(a->getPosition());
     moved->setDirection(a->getDirection());
     return a->compare(*moved) == 0;
@@ -115,7 +125,7 @@ ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor)
 bool convertAlike(const ViewingConditions& a, const ViewingConditions& b)
 {
     return a.traversalMask == b.traversalMask && a.lightInEyeSpace == b.lightInEyeSpace &&
-           a.clearColor == b.clearColor && sameLight(a.light.get(), b.light.get());
+           a.clearColor == b.clearColor && sameLight(a.light.get(), b.light.get(), a.eye);
 }
 
 } // namespace osgRayTrace::engine

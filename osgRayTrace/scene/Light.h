@@ -25,8 +25,8 @@ struct Light
     LightKind kind = LightKind::Point;
     uint32_t number = 0; ///< osg::Light number, tested against Material::lightMask
 
-    /// position and direction are in view space (x right, y up, looking along -z): a headlight.
-    /// RenderSession places it for each view.
+    /// position and direction are in view space (x right, y up, looking along -z), in world lengths: a
+    /// headlight. RenderSession places it for each view.
     bool eyeSpace = false;
 
     // Directional, Point: fixed-function light colours. Diffuse 1 without attenuation gives a Lambert
@@ -37,8 +37,8 @@ struct Light
     Vec3 position{0.0f};               ///< Point, engine space
     Vec3 direction{0.0f, 0.0f, -1.0f}; ///< unit, the way the light travels: Directional; spot axis of Point
     float attenuationConstant = 1.0f;
-    float attenuationLinear = 0.0f;    ///< [1/length]
-    float attenuationQuadratic = 0.0f; ///< [1/length^2]
+    float attenuationLinear = 0.0f;    ///< [1/length], engine units; in eye space, too
+    float attenuationQuadratic = 0.0f; ///< [1/length^2], engine units
     float spotExponent = 0.0f;
     float spotCosCutoff = -1.0f;       ///< cosine of the cut-off angle; -1: no spot
 

@@ -40,7 +40,7 @@ template <class PlanePoint> double nearPlaneZ(const PlanePoint& planePoint, cons
 
 } // namespace
 
-std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin)
+std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double sceneUnit)
 {
     if (view.width <= 0 || view.height <= 0) return std::nullopt;
     if (!isFinite(view.viewFromWorld) || !isFinite(view.clipFromView)) return std::nullopt;
@@ -48,7 +48,13 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin)
     // The translation to the engine's origin is folded into the view matrix, where large numbers cancel.
     Mat4d viewFromEngine = view.viewFromWorld;
     viewFromEngine[3] = view.viewFromWorld * Vec4d(sceneOrigin, 1.0);
-    const Mat4d viewFromClip = glm::inverse(view.clipFromView);
+    // View space is measured in engine units, too: p = unit * q turns clip coordinates into
+    // unit * (columns 0 to 2, column 3 / unit) * (q, 1), and their common factor means nothing.
+    Mat4d clipFromView = view.clipFromView;
+    for (int row = 0; row < 3; ++row)
+        viewFromEngine[3][row] /= sceneUnit;
+    clipFromView[3] /= sceneUnit;
+    const Mat4d viewFromClip = glm::inverse(clipFromView);
     const Mat4d engineFromView = glm::inverse(viewFromEngine);
     if (!isFinite(viewFromClip) || !isFinite(engineFromView)) return std::nullopt;
 
@@ -89,7 +95,7 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin)
         rays.nearS = 1.0f;
     }
 
-    const Mat4d clipFromEngine = glm::transpose(view.clipFromView * viewFromEngine);
+    const Mat4d clipFromEngine = glm::transpose(clipFromView * viewFromEngine);
     rays.depthRow = Vec4(clipFromEngine[2]);
     rays.wRow = Vec4(clipFromEngine[3]);
     if (!isFinite(rays)) return std::nullopt;

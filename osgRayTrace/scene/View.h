@@ -37,12 +37,14 @@ struct CameraRays
     float nearS = 1.0f; ///< rays start at s = nearS: 1 for perspective, 0 for orthographic views
 
     // Window depth of the point origin(x,y) + s*direction(x,y): rows 3 and 4 of clipFromEngine.
+    // Both are clip coordinates in engine units of length: only their quotient means something.
     Vec4 depthRow{0.0f}; ///< clip z = dot(depthRow, (p, 1))
     Vec4 wRow{0.0f};     ///< clip w = dot(wRow, (p, 1))
 };
 
 /// All in double, by the homogeneous form: an infinite far plane, reversed depth, off-axis and sheared
-/// projections are the same case. Nothing for a zero size or matrices that cannot be inverted.
-std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin);
+/// projections are the same case. Engine space has its origin and its unit of length in the world as Scene
+/// says. Nothing for a zero size or matrices that cannot be inverted.
+std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double sceneUnit = 1.0);
 
 } // namespace osgRayTrace::engine

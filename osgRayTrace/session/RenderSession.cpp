@@ -33,10 +33,12 @@ std::vector<Light> placedLights(const Scene& scene, const View& view)
 {
     std::vector<Light> lights = scene.lights;
     const Mat4d worldFromView = glm::inverse(view.viewFromWorld);
+    const auto placed = [&](const Vec3& position)
+    { return Vec3((Vec3d(worldFromView * Vec4d(Vec3d(position), 1.0)) - scene.origin) / scene.unit); };
     for (Light& light : lights)
     {
         if (!light.eyeSpace) continue;
-        light.position = Vec3(Vec3d(worldFromView * Vec4d(Vec3d(light.position), 1.0)) - scene.origin);
+        light.position = placed(light.position);
         light.direction = glm::normalize(Vec3(glm::dmat3(worldFromView) * Vec3d(light.direction)));
         light.eyeSpace = false;
     }
@@ -116,7 +118,7 @@ bool RenderSession::Implementation::begin()
     }
     if (!restart) return true;
 
-    const std::optional<CameraRays> rays = cameraRays(view, scene->scene().origin);
+    const std::optional<CameraRays> rays = cameraRays(view, scene->scene().origin, scene->scene().unit);
     if (!rays)
     {
         progress.status = {StatusCode::InvalidView,
@@ -334,17 +336,17 @@ int channelSize(Channel channel)
 namespace
 {
 
-void writeChannel(Channel channel, const FirstHit& hit, const Vec3d& origin, float* out)
+void writeChannel(Channel channel, const FirstHit& hit, const Scene& scene, float* out)
 {
     switch (channel)
     {
-    case Channel::Distance: out[0] = hit.distance; return;
+    case Channel::Distance: out[0] = static_cast<float>(hit.distance * scene.unit); return;
     case Channel::Id: out[0] = hit.hit ? static_cast<float>(hit.instance + 1u) : 0.0f; return;
     case Channel::Normal: std::copy_n(&hit.normal.x, 3, out); return;
     case Channel::Albedo: std::copy_n(&hit.albedo.x, 3, out); return;
     case Channel::Position:
     {
-        const Vec3 world = hit.hit ? Vec3(origin + Vec3d(hit.position)) : Vec3(0.0f);
+        const Vec3 world = hit.hit ? Vec3(scene.origin + scene.unit * Vec3d(hit.position)) : Vec3(0.0f);
         std::copy_n(&world.x, 3, out);
         return;
     }
@@ -390,7 +392,7 @@ std::vector<float> RenderSession::resolveChannel(Channel channel) const
                     const int x = left + laneX(b, i), y = bottom + laneY(b, i);
                     if (x >= film.width() || y >= film.height()) continue;
                     const std::size_t pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-                    writeChannel(channel, hits[b * kLanes + i], scene.origin, &image[size * pixel]);
+                    writeChannel(channel, hits[b * kLanes + i], scene, &image[size * pixel]);
                 }
         });
     return image;

@@ -19,6 +19,9 @@ bool isArea(const Light& light)
 /// As for surface points: see surfacesOf.
 constexpr float kOffsetScale = 32.0f * 0x1p-24f;
 
+/// So that its inverse is a float.
+constexpr double kLeastFalloff = 1e-37;
+
 float sumAbs(Vec3 v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
 /// Index of the entry of a cumulative distribution that u in [0,1) falls into, and u rescaled to it.
@@ -178,14 +181,16 @@ DeltaLightSample sampleDelta(const Light& light, Vec3 p)
         sample.attenuation = 1.0f;
         return sample;
     }
-    const Vec3 d = light.position - p;
-    const float distance2 = glm::dot(d, d);
-    if (!(distance2 > 0.0f)) return sample;
-    sample.distance = std::sqrt(distance2);
-    sample.wi = d / sample.distance;
-    const float falloff = light.attenuationConstant + light.attenuationLinear * sample.distance +
-                          light.attenuationQuadratic * distance2;
-    sample.attenuation = falloff > 0.0f ? 1.0f / falloff : 0.0f;
+    // In double: a light far from a small scene may be 1e21 engine units away, whose square is no float.
+    const Vec3d d = Vec3d(light.position) - Vec3d(p);
+    const double distance2 = glm::dot(d, d);
+    if (!(distance2 > 0.0)) return sample;
+    const double distance = std::sqrt(distance2);
+    sample.distance = static_cast<float>(distance);
+    sample.wi = Vec3(d / distance);
+    const double falloff = light.attenuationConstant + light.attenuationLinear * distance +
+                           light.attenuationQuadratic * distance2;
+    sample.attenuation = falloff > kLeastFalloff ? static_cast<float>(1.0 / falloff) : 0.0f;
     if (light.spotCosCutoff > -1.0f)
     {
         const float cosine = -glm::dot(sample.wi, light.direction);

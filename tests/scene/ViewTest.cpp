@@ -223,3 +223,44 @@ TEST_CASE("camera rays: no size or no inverse gives none", "[scene][stability 20
     }
     CHECK_FALSE(cameraRays(viewOf(projection, kLookAt), Vec3d(nan)));
 }
+
+TEST_CASE("stability 3: camera rays of a scaled world in a scaled unit are the same", "[scene]")
+{
+    const Vec3d origin(0.5, -0.25, 2.0);
+    const auto scaled = [](double s)
+    {
+        return std::vector<Mat4d>{
+            glm::perspective(0.8, 16.0 / 9.0, 0.125 * s, 64.0 * s),
+            glm::frustum(-0.1 * s, 0.35 * s, -0.02 * s, 0.3 * s, 0.1 * s, 100.0 * s),
+            glm::ortho(-2.0 * s, 3.0 * s, -1.0 * s, 2.0 * s, 0.125 * s, 50.0 * s),
+            // An eye beside the view's origin, as of stereo: a pole with a length of its own.
+            glm::translate(glm::perspective(0.8, 1.0, 0.125 * s, 64.0 * s), Vec3d(0.03 * s, 0, 0))};
+    };
+    const std::vector<Mat4d> ordinary = scaled(1.0);
+    for (const double unit : {0x1p-100, 0x1p-40, 0x1p40, 0x1p100})
+    {
+        Mat4d viewFromWorld = kLookAt;
+        for (int row = 0; row < 3; ++row)
+            viewFromWorld[3][row] *= unit;
+        const std::vector<Mat4d> projections = scaled(unit);
+        for (std::size_t i = 0; i < projections.size(); ++i)
+        {
+            CAPTURE(unit, i);
+            const auto rays = cameraRays(viewOf(projections[i], viewFromWorld), origin * unit, unit);
+            const auto expected = cameraRays(viewOf(ordinary[i], kLookAt), origin);
+            REQUIRE((rays && expected));
+            CHECK(rays->orthographic == expected->orthographic);
+            CHECK(rays->origin == expected->origin);
+            CHECK(rays->originDx == expected->originDx);
+            CHECK(rays->direction == expected->direction);
+            CHECK(rays->directionDx == expected->directionDx);
+            CHECK(rays->directionDy == expected->directionDy);
+            // Clip coordinates may have a common factor.
+            const float factor = rays->wRow == Vec4(0, 0, 0, rays->wRow.w)
+                                     ? rays->wRow.w / expected->wRow.w
+                                     : 1.0f;
+            CHECK(rays->wRow == expected->wRow * factor);
+            CHECK(rays->depthRow == expected->depthRow * factor);
+        }
+    }
+}
