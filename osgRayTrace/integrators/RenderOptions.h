@@ -13,7 +13,17 @@ enum class IntegratorKind : uint8_t
     Automatic, ///< the cheapest that is right for the scene: see chooseIntegrator
     Whitted,
     Path,
+    Ppm,            ///< photons for all indirect light, fixed hit points
+    Sppm,           ///< the same, new hit points in each pass
+    PhotonCaustics, ///< path tracing, photons for light that came by mirrors and glass
     Debug,
+};
+
+/// How the radius of photon lookups shrinks.
+enum class RadiusSchedule : uint8_t
+{
+    Global, ///< by the number of the pass alone
+    Local,  ///< by the photons that each pixel has seen; Ppm and Sppm only
 };
 
 enum class LightSampling : uint8_t
@@ -44,6 +54,10 @@ struct RenderOptions
     int maxBounces = 8;      ///< edges of a path after the camera ray
     bool shadows = true;
     uint32_t seed = 0;
+    int photons = 1 << 18;      ///< emitted a pass
+    float photonRadius = 0.0f;  ///< of the first pass [length]; 0: from the density of the photons
+    float photonAlpha = 2.0f / 3.0f; ///< share of the photons of a pass that are kept
+    RadiusSchedule radiusSchedule = RadiusSchedule::Global;
 
     /// True if an accumulated image made with previous cannot be continued with *this.
     bool needsRestart(const RenderOptions& previous) const
@@ -51,7 +65,9 @@ struct RenderOptions
         return integrator != previous.integrator || lightSampling != previous.lightSampling ||
                debugChannel != previous.debugChannel || lightSamples != previous.lightSamples ||
                maxBounces != previous.maxBounces || shadows != previous.shadows ||
-               seed != previous.seed;
+               seed != previous.seed || photons != previous.photons ||
+               photonRadius != previous.photonRadius || photonAlpha != previous.photonAlpha ||
+               radiusSchedule != previous.radiusSchedule;
     }
 };
 
