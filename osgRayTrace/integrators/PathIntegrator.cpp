@@ -404,7 +404,7 @@ template <PhotonUse use> void chooseGathering(Bounce& bounce)
 }
 
 /// Adds what the photons around the lanes' points send back along their rays. The radius belongs to the
-/// pixel where light that the photons carry is seen directly; after a bounce it is the largest.
+/// pixel where light that the photons carry is seen directly; after a bounce it is the same for all.
 template <PhotonUse use> void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
 {
     const PhotonMap& map = *tile.context.photons;
@@ -417,7 +417,7 @@ template <PhotonUse use> void addPhotons(Tile& tile, const PathBlock& block, con
         point.query.position = laneOf(bounce.surface.position, i);
         point.query.normal = laneOf(bounce.surface.geometricNormal, i);
         point.query.shadingNormal = laneOf(bounce.normal, i);
-        point.query.radius = tile.context.largestPhotonRadius;
+        point.query.radius = tile.context.bouncedPhotonRadius;
         if (use == PhotonUse::Indirect || !(block.pixel[i] & kScattered))
         {
             float& radius = gathered.radius[pixel];

@@ -57,10 +57,16 @@ Sphere tightSphere(const Scene& scene, const Instance& instance, const Box& box)
     return {centre, std::sqrt(radius2) * 1.00001f};
 }
 
-/// True if a photon can pass or be mirrored by a material so that it makes a caustic.
+/// True if a photon can be mirrored or let through by a mirror-like lobe.
 bool bendsLight(const MaterialRecord& record)
 {
-    return record.front.reflects() || record.front.transmits() || record.back.transmits();
+    const auto bends = [&](const Bsdf& bsdf)
+    {
+        if (!bsdf.reflects() && !bsdf.transmits()) return false;
+        // Textures may make smooth what is rough on the average; without an interface nothing is bent.
+        return !record.constant || bsdf.isSmooth() || (bsdf.transmits() && bsdf.eta == 1.0f);
+    };
+    return bends(record.front) || bends(record.back);
 }
 
 /// Joins the two halves of a list, split at the median of its longest axis, until few enough are left.

@@ -44,7 +44,8 @@ constexpr float kPlaneShare = 0.25f;
 constexpr float kLeastNormalCosine = 0.5f;
 
 /// A grid over hashed cells, its photons in cell order: those of neighbouring cells along x lie one after
-/// the other [Teschner03, sect. 4.1, with x added after hashing]. Immutable once built; thread safe.
+/// the other [Teschner03, spatial hashing; but only y and z
+/// are hashed, and x is added]. Immutable once built; thread safe.
 class PhotonMap
 {
 public:
@@ -58,7 +59,7 @@ public:
     std::size_t bytes() const;
 
     /// Power through the disc of the query, as a surface with its shading normal would receive it
-    /// [Veach97, eq. 5.17].
+    /// [Veach97, sect. 5.3].
     PhotonSum gather(const PhotonQuery& query) const;
 
     /// The photons of the disc, by index for photon(): appended to found.

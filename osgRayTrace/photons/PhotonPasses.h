@@ -27,6 +27,7 @@ struct PhotonDensity
     float radius = 0.0f;      ///< holds kDensityPhotons photons of a pass around a photon, in the median
     float sceneRadius = 0.0f; ///< of a sphere that holds the scene
     float largestCoordinate = 0.0f; ///< in it, absolute
+    bool caustics = false;    ///< something can make them
 };
 
 /// Thread safe: views that ask for the same pass at once wait for one of them to trace it. The last few

@@ -137,7 +137,7 @@ void ChunkTracer::meet(const RayHitBlock& rays, const SurfaceLanes& surface, int
     const float side = glm::dot(wi, geometric);
     if ((side < 0.0f) != sample->transmitted) return;
 
-    // Light carries the other cosine than radiance where normals are interpolated [Veach97, eq. 5.19].
+    // Light carries the other cosine than radiance where normals are interpolated [Veach97, sect. 5.3].
     const float correction = (std::fabs(wo.z) * std::fabs(side)) /
                              (std::fabs(glm::dot(flight.direction, geometric)) * std::fabs(sample->wi.z));
     Vec3 weight = sample->weight;

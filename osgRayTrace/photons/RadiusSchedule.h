@@ -11,15 +11,16 @@ namespace osgRayTrace::engine
 {
 
 /// Square of the radius of pass number pass (from 0) over that of the first: the product of
-/// (i + alpha) / (i + 1) for i = 1 to pass [Knaus11, eq. 15]. Passes are independent of each other.
+/// (i + alpha) / (i + 1) for i = 1 to pass [Knaus11, the recurrence of the squared radii]; the product as
+/// gamma functions. Passes are independent of each other.
 inline double globalRadiusSquared(int pass, double alpha)
 {
     const double n = pass + 1.0;
     return std::exp(std::lgamma(n + alpha) - std::lgamma(1.0 + alpha) - std::lgamma(n + 1.0));
 }
 
-/// Statistics of a pixel that shrinks its radius by the photons that it has seen
-/// [Hachisuka08, eq. 9 to 11].
+/// Statistics of a pixel that shrinks its radius by the photons that it has seen: radius reduction and flux
+/// correction [Hachisuka08, sect. 4], shared by all hit points of the pixel [Hachisuka09, sect. 4].
 struct LocalStatistics
 {
     float photons = 0.0f;  ///< N

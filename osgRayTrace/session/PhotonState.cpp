@@ -40,6 +40,8 @@ float pixelWidth(const PassContext& context, int width, int height)
     return widths[widths.size() / 2];
 }
 
+constexpr float kLargestShare = 4.0f; ///< of the largest first radius over those that it is chosen by
+
 PhotonPassOptions passOptions(const RenderOptions& options)
 {
     PhotonPassOptions result;
@@ -65,21 +67,23 @@ void PhotonState::reset(int tileCount)
 void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
                               const PhotonPassOptions& options, const Workers& workers)
 {
-    constexpr float kLargestOverLeast = 8.0f;
     const PhotonDensity density = _passes->density(traced, *context.lights, options, workers);
+    _idle = options.use == PhotonUse::Caustics && (!density.caustics || options.photons == 0);
     _floor = 8.0f * 0x1p-23f * density.largestCoordinate;
     const float ceiling = std::max(density.sceneRadius, _floor);
     const float wanted = context.options.photonRadius;
     if (wanted > 0.0f)
-        _least = _largest = wanted;
+        _least = _largest = _bounced = wanted;
     else
     {
+        // A bounce blurs by itself: what counts there is a number of photons that costs no more than a ray.
+        _bounced = density.radius;
         _least = pixelWidth(context, context.width, context.height);
-        _largest = std::max(kLargestOverLeast * _least, density.radius);
-        if (!(_least > 0.0f)) _least = _largest / kLargestOverLeast;
+        if (!(_least > 0.0f)) _least = density.radius;
+        _largest = kLargestShare * std::max(_least, density.radius);
     }
-    _least = std::clamp(_least, _floor, ceiling);
-    _largest = std::clamp(_largest, _floor, ceiling);
+    for (float* radius : {&_least, &_largest, &_bounced})
+        *radius = std::clamp(*radius, _floor, ceiling);
 }
 
 void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context, int pass,
@@ -98,12 +102,18 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
         else
             _firstRadii.assign(_pixels, 0.0f);
     }
+    if (_idle)
+    {
+        context.photonUse = PhotonUse::None;
+        return;
+    }
     _shrink = static_cast<float>(
         std::sqrt(globalRadiusSquared(pass, static_cast<double>(context.options.photonAlpha))));
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
     context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
-    // Cells for the least radii, which are those of the places with most photons.
-    const float cell = std::max(2.0f * context.leastPhotonRadius, 0.5f * context.largestPhotonRadius);
+    context.bouncedPhotonRadius = std::max(_floor, _bounced * _shrink);
+    // Where photons lie densely radii are small. The largest one spans nine or ten cells.
+    const float cell = std::max(2.0f * context.bouncedPhotonRadius, context.largestPhotonRadius / kLargestShare);
     _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
     context.photons = &_pass->map;
 }

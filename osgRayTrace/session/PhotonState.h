@@ -16,9 +16,10 @@ class Workers;
 
 /// Chooses radii, holds the photons of the pass at work and, for the local schedule, the statistics of each
 /// pixel. Each pixel's first radius is the given one, or the smallest of r, 2r, 4r, ... with kRadiusPhotons
-/// photons (radiusOf), where r is the width of a pixel, and 8 r the largest, or the radius of
-/// kDensityPhotons photons in the median if that is more. Later radii follow the schedule. All are kept
-/// between the spacing of floats and the radius of the scene.
+/// photons (radiusOf), where r is the width of a pixel; the largest is four times that, or four times the radius
+/// d that holds kDensityPhotons photons around a photon in the median, if that is more. Lookups for caustics
+/// after a bounce have the radius d. Later radii follow the schedule. All are kept between the spacing of
+/// floats and the radius of the scene.
 class PhotonState
 {
 public:
@@ -51,8 +52,10 @@ private:
     float _floor = 0.0f;    ///< none is smaller
     float _least = 0.0f;    ///< of first radii; 0: not chosen yet
     float _largest = 0.0f;
+    float _bounced = 0.0f;  ///< of lookups after a bounce, PhotonUse::Caustics
     float _shrink = 1.0f;   ///< of the pass at work against the first, global schedule
     bool _local = false;
+    bool _idle = false;     ///< photons for caustics, but there are none: all paths are traced from the eye
     std::size_t _pixels = 0;                  ///< of all tiles
     std::vector<float> _firstRadii;           ///< tile, pixel; 0: not known; empty if local
     std::vector<LocalStatistics> _statistics; ///< half, tile, pixel; empty unless local

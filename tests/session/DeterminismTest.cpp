@@ -39,7 +39,9 @@ SceneBuilder mixedBox(Vec3 offset = Vec3(0.0f))
 TEST_CASE("determinism: equal images for 1, 2 and 3 threads, bit by bit", "[session]")
 {
     const auto traced = mixedBox().build();
-    for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
+    for (const IntegratorKind kind :
+         {IntegratorKind::Path, IntegratorKind::Whitted, IntegratorKind::Ppm, IntegratorKind::Sppm,
+          IntegratorKind::PhotonCaustics})
     {
         const Picture one = render(traced, cornellView(70, 50), optionsOf(kind), 6, 1);
         CHECK(one.progress.droppedSamples == 0);
@@ -75,7 +77,7 @@ TEST_CASE("determinism: equal images for any order of tiles", "[session]")
         for (int pass = 0; pass < 2; ++pass)
         {
             std::shuffle(order.begin(), order.end(), std::mt19937(static_cast<unsigned>(pass)));
-            context.key = passKey(0, pass);
+            context.key = context.pathKey = passKey(0, pass);
             film.beginPass();
             for (const int tile : order)
             {
