@@ -237,7 +237,13 @@ int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
 {
     if (_count == 0 || !(query.radius >= 0.0f)) return 0;
     const Vec3d centre(query.position);
-    const Vec3d reach(static_cast<double>(query.radius) * (1.0 + 0x1p-20)); // distances are rounded
+    // The disc of the plane test is thin: its box is smaller than the sphere's. Distances are rounded, hence
+    // the millionth part more.
+    const Vec3d n(query.normal);
+    const Vec3d across(std::sqrt(n.y * n.y + n.z * n.z), std::sqrt(n.z * n.z + n.x * n.x),
+                       std::sqrt(n.x * n.x + n.y * n.y));
+    const Vec3d share = glm::min(across + glm::abs(n) * static_cast<double>(kPlaneShare), Vec3d(1.0));
+    const Vec3d reach = (share + 0x1p-20) * static_cast<double>(query.radius);
     const Vec3d low = centre - reach, high = centre + reach;
     if (!(glm::all(glm::lessThanEqual(low, _high)) && glm::all(glm::greaterThanEqual(high, _low))))
         return 0;
