@@ -1,5 +1,5 @@
 # Checks that each include points to its own layer or one left of it, and the few rules beside that:
-#   base < sampling < film < scene < shading < accel < integrators < session < bridge < API
+#   base < sampling < film < scene < shading < accel < photons < integrators < session < bridge < API
 #        < offscreen < osgPlugins < apps
 #   - the bridge converts the classes of the API: it includes their public headers, nothing else of it
 #   - accel alone includes Embree (and apps/osgraytracebench, which measures against it)
@@ -10,8 +10,8 @@
 # Usage: cmake -D ROOT=<source folder> -P CheckLayering.cmake; fails with one line for each offence.
 cmake_minimum_required(VERSION 3.24)
 
-set(LAYERS base sampling film scene shading accel integrators session bridge API offscreen osgPlugins apps)
-set(ENGINE base sampling film scene shading accel integrators session)
+set(LAYERS base sampling film scene shading accel photons integrators session bridge API offscreen osgPlugins apps)
+set(ENGINE base sampling film scene shading accel photons integrators session)
 set(PUBLIC_HEADER "^osgRayTrace/(offscreen/)?[A-Za-z]+$")
 set(offences 0)
 

@@ -34,6 +34,9 @@ constexpr Range<int> kPassesPerFrameRange{1, 1024};
 constexpr Range<int> kThreadsRange{0, 1024};
 constexpr Range<unsigned int> kSeedRange{0, std::numeric_limits<unsigned int>::max()};
 constexpr Range<float> kExposureRange{-32.0f, 32.0f};
+constexpr Range<int> kPhotonsRange{0, 1 << 24};
+constexpr Range<float> kPhotonRadiusRange{0.0f, 1e30f};
+constexpr Range<float> kPhotonAlphaRange{0.1f, 0.99f};
 
 /// One row of the table. The words of a choice stand in the order of its enumerators.
 struct OptionRow
@@ -45,7 +48,8 @@ struct OptionRow
 
 using Words = std::vector<std::string>;
 
-const Words kIntegratorWords{"auto", "whitted", "path", "debug"};
+const Words kIntegratorWords{"auto", "whitted", "path", "ppm", "sppm", "photon-caustics", "debug"};
+const Words kRadiusScheduleWords{"global", "local"};
 const Words kLightSamplingWords{"random", "uniform-jitter", "stratified", "sobol"};
 const Words kDebugChannelWords{"normal", "uv", "id", "albedo", "depth", "dropped", "cost"};
 const Words kColorRuleWords{"auto", "display-referred", "linear"};
@@ -163,7 +167,7 @@ const std::vector<OptionRow>& optionTable()
     static const std::vector<OptionRow> table{
         choiceRow("integrator", kIntegratorWords, &S::getIntegrator, &S::setIntegrator,
                   "How light is computed; auto: whitted for fixed-function scenes, path for "
-                  "physical ones"),
+                  "physical ones, photon-caustics for those with mirrors or glass"),
         choiceRow("light-sampling", kLightSamplingWords, &S::getLightSampling, &S::setLightSampling,
                   "How points on area lights are chosen"),
         numberRow("light-samples", kLightSamplesRange, &S::getLightSamples, &S::setLightSamples,
@@ -185,6 +189,15 @@ const std::vector<OptionRow>& optionTable()
         choiceRow(
             "color-rule", kColorRuleWords, &S::getColorRule, &S::setColorRule,
             "Whether colours are used as they are or decoded from sRGB; auto: by the materials"),
+        numberRow("photons", kPhotonsRange, &S::getPhotons, &S::setPhotons,
+                  "Photons emitted a pass by ppm, sppm and photon-caustics"),
+        numberRow("photon-radius", kPhotonRadiusRange, &S::getPhotonRadius, &S::setPhotonRadius,
+                  "Radius of photon lookups in the first pass [length]; 0: by their density"),
+        numberRow("photon-alpha", kPhotonAlphaRange, &S::getPhotonAlpha, &S::setPhotonAlpha,
+                  "Share of new photons that a pass keeps: how fast the radius shrinks"),
+        choiceRow("radius-schedule", kRadiusScheduleWords, &S::getRadiusSchedule,
+                  &S::setRadiusSchedule,
+                  "Radii shrink by the number of the pass, or by the photons of each pixel"),
         choiceRow("debug-channel", kDebugChannelWords, &S::getDebugChannel, &S::setDebugChannel,
                   "What the debug integrator shows"),
     };
@@ -268,7 +281,11 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _passesPerFrame(other._passesPerFrame),
       _threads(other._threads),
       _seed(other._seed),
-      _exposure(other._exposure)
+      _exposure(other._exposure),
+      _photons(other._photons),
+      _photonRadius(other._photonRadius),
+      _photonAlpha(other._photonAlpha),
+      _radiusSchedule(other._radiusSchedule)
 {
 }
 
@@ -337,6 +354,26 @@ void RayTraceSettings::setSeed(unsigned int value)
 void RayTraceSettings::setExposure(float value)
 {
     changeNumber("exposure", kExposureRange, _exposure, value, _modifiedCount);
+}
+
+void RayTraceSettings::setPhotons(int value)
+{
+    changeNumber("photons", kPhotonsRange, _photons, value, _modifiedCount);
+}
+
+void RayTraceSettings::setPhotonRadius(float value)
+{
+    changeNumber("photon-radius", kPhotonRadiusRange, _photonRadius, value, _modifiedCount);
+}
+
+void RayTraceSettings::setPhotonAlpha(float value)
+{
+    changeNumber("photon-alpha", kPhotonAlphaRange, _photonAlpha, value, _modifiedCount);
+}
+
+void RayTraceSettings::setRadiusSchedule(RadiusSchedule value)
+{
+    changeChoice("radius-schedule", kRadiusScheduleWords, _radiusSchedule, value, _modifiedCount);
 }
 
 std::vector<RayTraceSettings::Option> RayTraceSettings::options()

@@ -42,7 +42,8 @@ void Progress::show(const Statistics& statistics)
 
     const double done = fraction(statistics);
     const int filled = static_cast<int>(done * kBarWidth);
-    const uint64_t rays = statistics.cameraRays + statistics.shadowRays + statistics.secondaryRays;
+    const uint64_t rays = statistics.cameraRays + statistics.shadowRays + statistics.secondaryRays +
+                          statistics.photonRays;
     const double rate =
         statistics.renderSeconds > 0.0 ? 1e-6 * rays / statistics.renderSeconds : 0.0;
     std::fputs("\r[", stderr);

@@ -15,7 +15,8 @@ namespace
 
 uint64_t allRays(const Statistics& statistics)
 {
-    return statistics.cameraRays + statistics.shadowRays + statistics.secondaryRays;
+    return statistics.cameraRays + statistics.shadowRays + statistics.secondaryRays +
+           statistics.photonRays;
 }
 
 } // namespace
@@ -40,7 +41,12 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
     json["rays"] = {{"camera", statistics.cameraRays},
                     {"shadow", statistics.shadowRays},
                     {"secondary", statistics.secondaryRays},
+                    {"photon", statistics.photonRays},
                     {"total", allRays(statistics)}};
+    if (statistics.photonRays)
+        json["photons"] = {{"stored", statistics.storedPhotons},
+                           {"bytes", statistics.photonBytes},
+                           {"radius", statistics.photonRadius}};
     json["relativeError"] = statistics.relativeError;
     json["droppedSamples"] = statistics.droppedSamples;
     json["conversion"] = statistics.conversion;

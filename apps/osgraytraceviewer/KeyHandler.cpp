@@ -16,7 +16,7 @@ namespace
 
 constexpr float kExposureStep = 0.5f; ///< [EV]
 
-/// Sets an option of the settings to the next of its words: "auto|whitted|path|debug".
+/// Sets an option of the settings to the next of its words: "auto|whitted|path".
 void cycle(RayTraceSettings& settings, const std::string& name)
 {
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())

@@ -18,6 +18,12 @@ IntegratorKind integratorKind(RayTraceSettings::Integrator integrator)
         return IntegratorKind::Whitted;
     case RayTraceSettings::PATH:
         return IntegratorKind::Path;
+    case RayTraceSettings::PPM:
+        return IntegratorKind::Ppm;
+    case RayTraceSettings::SPPM:
+        return IntegratorKind::Sppm;
+    case RayTraceSettings::PHOTON_CAUSTICS:
+        return IntegratorKind::PhotonCaustics;
     case RayTraceSettings::DEBUG:
         return IntegratorKind::Debug;
     }
@@ -75,6 +81,12 @@ RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings)
     options.shadows = settings.getShadows();
     options.terminatorCorrection = settings.getTerminatorCorrection();
     options.seed = settings.getSeed();
+    options.photons = settings.getPhotons();
+    options.photonRadius = settings.getPhotonRadius();
+    options.photonAlpha = settings.getPhotonAlpha();
+    options.radiusSchedule = settings.getRadiusSchedule() == RayTraceSettings::LOCAL
+                                 ? RadiusSchedule::Local
+                                 : RadiusSchedule::Global;
     return options;
 }
 

@@ -126,6 +126,7 @@ void SceneUpdater::takeSettings(const RayTraceSettings& settings)
     std::lock_guard<std::mutex> lock(_versionMutex);
     _version.settings = _settings;
     _version.workers = _workers;
+    if (!_version.photons) _version.photons = std::make_shared<PhotonPasses>();
 }
 
 void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,

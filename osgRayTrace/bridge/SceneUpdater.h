@@ -6,6 +6,7 @@
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/ViewingConditions.h"
+#include "osgRayTrace/photons/PhotonPasses.h"
 
 #include <osgRayTrace/RayTraceSettings>
 #include <osgRayTrace/Statistics>
@@ -25,6 +26,7 @@ struct SceneVersion
     std::shared_ptr<const TracedScene>
         scene; ///< null: there is none yet, or none that can be traced
     std::shared_ptr<Workers> workers;
+    std::shared_ptr<PhotonPasses> photons; ///< of all views
     osg::ref_ptr<const RayTraceSettings> settings;
 };
 

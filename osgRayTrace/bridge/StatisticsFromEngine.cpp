@@ -18,6 +18,12 @@ const char* integratorName(IntegratorKind kind)
         return "whitted";
     case IntegratorKind::Path:
         return "path";
+    case IntegratorKind::Ppm:
+        return "ppm";
+    case IntegratorKind::Sppm:
+        return "sppm";
+    case IntegratorKind::PhotonCaustics:
+        return "photon-caustics";
     case IntegratorKind::Debug:
         return "debug";
     }
@@ -56,6 +62,10 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     statistics.cameraRays = progress.rays.camera;
     statistics.shadowRays = progress.rays.shadow;
     statistics.secondaryRays = progress.rays.secondary;
+    statistics.photonRays = progress.rays.photon;
+    statistics.storedPhotons = progress.storedPhotons;
+    statistics.photonBytes = progress.photonBytes;
+    statistics.photonRadius = static_cast<double>(progress.photonRadius);
     statistics.droppedSamples = progress.droppedSamples;
 }
 

@@ -39,7 +39,7 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, uint8_t* r
 {
     if (_workers != version.workers)
     {
-        _session = std::make_unique<RenderSession>(version.workers);
+        _session = std::make_unique<RenderSession>(version.workers, version.photons);
         _workers = version.workers;
     }
     if (!sameButForRounding(pass, _view)) _view = pass;

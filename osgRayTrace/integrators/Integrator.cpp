@@ -15,7 +15,10 @@ std::unique_ptr<Integrator> newIntegrator(IntegratorKind kind)
     {
     case IntegratorKind::Automatic:
     case IntegratorKind::Whitted: return std::make_unique<WhittedIntegrator>();
-    case IntegratorKind::Path: return std::make_unique<PathIntegrator>();
+    case IntegratorKind::Path:
+    case IntegratorKind::Ppm:
+    case IntegratorKind::Sppm:
+    case IntegratorKind::PhotonCaustics: return std::make_unique<PathIntegrator>();
     case IntegratorKind::Debug: return std::make_unique<DebugIntegrator>();
     }
     return nullptr;
@@ -24,7 +27,21 @@ std::unique_ptr<Integrator> newIntegrator(IntegratorKind kind)
 IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits)
 {
     if (wanted != IntegratorKind::Automatic) return wanted;
-    return traits.physical ? IntegratorKind::Path : IntegratorKind::Whitted;
+    if (!traits.physical) return IntegratorKind::Whitted;
+    const bool lights = traits.areaLights || traits.deltaLights;
+    const bool caustics = lights && (traits.specular || traits.transmission);
+    return caustics ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
+}
+
+PhotonUse photonUse(IntegratorKind kind)
+{
+    switch (kind)
+    {
+    case IntegratorKind::Ppm:
+    case IntegratorKind::Sppm: return PhotonUse::Indirect;
+    case IntegratorKind::PhotonCaustics: return PhotonUse::Caustics;
+    default: return PhotonUse::None;
+    }
 }
 
 } // namespace osgRayTrace::engine

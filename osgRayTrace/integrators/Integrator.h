@@ -5,6 +5,7 @@
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/integrators/RenderOptions.h"
+#include "osgRayTrace/photons/PhotonTracer.h"
 #include "osgRayTrace/sampling/Sampler.h"
 #include "osgRayTrace/scene/View.h"
 
@@ -20,10 +21,18 @@ struct PassContext
     const TracedScene* traced = nullptr;
     const std::vector<Light>* lights = nullptr; ///< the scene's, eye-space ones placed for the view
     CameraRays camera;
+    int width = 0, height = 0;                  ///< of the image [pixels]
     Vec3 towardsViewer{0.0f, 0.0f, 1.0f};       ///< the view's +z axis, unit, engine space
     RenderOptions options;                      ///< integrator is the chosen one, never Automatic
     PassKey key;
+    PassKey pathKey;                            ///< of camera paths; key, but of the first pass for PPM
     bool wantsDepth = true;                     ///< of the first pass
+
+    PhotonUse photonUse = PhotonUse::None;
+    const PhotonMap* photons = nullptr;         ///< of the pass; if photonUse
+    float leastPhotonRadius = 0.0f;             ///< range of the radii of lookups in this pass [length]
+    float largestPhotonRadius = 0.0f;
+    float bouncedPhotonRadius = 0.0f;           ///< after a bounce, PhotonUse::Caustics [length]
 };
 
 /// For one tile and pass.
@@ -42,12 +51,25 @@ struct TileDiagnostics
     float dropped[kTilePixels] = {};
 };
 
+/// Photon lookups of each pixel's camera path.
+struct GatheredPhotons
+{
+    /// [length] In: radius for this pass, 0 if it is not known yet; then out: the one that was chosen.
+    float radius[kTilePixels] = {};
+
+    // For the local radius schedule, out: what was found, which is then not part of the image.
+    bool separate = false;
+    uint32_t count[kTilePixels] = {};
+    Vec3 flux[kTilePixels] = {};     ///< times the path's throughput [W/sr]
+};
+
 struct TileResult
 {
     RgbaLanes* rgba = nullptr;              ///< kTileBlocks of radiance and coverage, one sample a pixel; finite
     float depth[kTilePixels];               ///< window depth at pixel centres; if wanted
     TileCounts counts;
     TileDiagnostics* diagnostics = nullptr; ///< null: nobody wants them
+    GatheredPhotons* gathered = nullptr;    ///< needed if photonUse
 };
 
 /// One pass for one tile of one view. Stateless: any thread may call it for any tile.
@@ -65,8 +87,12 @@ public:
 /// kind is not Automatic.
 std::unique_ptr<Integrator> newIntegrator(IntegratorKind kind);
 
+/// Photons that the integrator looks up.
+PhotonUse photonUse(IntegratorKind kind);
+
 /// Replaces Automatic by the cheapest integrator that is right for the scene: Whitted for scenes of
-/// fixed-function materials, path tracing as soon as a material is physical.
+/// fixed-function materials, path tracing as soon as a material is physical, with photons for the caustics if
+/// something is mirror-like or transmits.
 IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits);
 
 } // namespace osgRayTrace::engine

@@ -18,6 +18,7 @@
 #include "osgRayTrace/integrators/CameraLanes.h"
 #include "osgRayTrace/integrators/HitShading.h"
 #include "osgRayTrace/integrators/PathQueue.h"
+#include "osgRayTrace/integrators/PhotonGather.h"
 #include "osgRayTrace/integrators/ShadowLanes.h"
 
 #include <algorithm>
@@ -31,6 +32,7 @@ namespace
 {
 
 constexpr int kRouletteBounce = 3;      ///< paths are not ended by chance before this bounce
+constexpr float kGatherAlpha = 0.25f;   ///< GGX width from which photons replace further bounces
 
 OSGRAYTRACE_INLINE float powerHeuristic(float a, float b)
 {
@@ -80,6 +82,7 @@ void countRays(Tile& tile, const PathBlock& block, LaneMask lanes)
 }
 
 /// Emission that the path met by chance, weighted against light samples.
+template <PhotonUse use>
 void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface)
 {
     const TracedScene& traced = *tile.context.traced;
@@ -93,6 +96,7 @@ void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface
         const uint32_t light = traced.surfaces()[surface.instance[i]].light;
         if (light != kInvalid && traced.lights().areaLightPmf(light) > 0.0f)
         {
+            if (use == PhotonUse::Caustics && (block.pixel[i] & kCausticChain)) continue; // of photons
             const Vec3 direction(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
                                  block.rays.ray.directionZ[i]);
             const float cosThetaL = std::fabs(glm::dot(direction, laneOf(surface.geometricNormal, i)));
@@ -107,7 +111,7 @@ void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface
 /// A light sample for each lane of a diffuse block: vector code.
 OSGRAYTRACE_KERNEL
 void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLanes& light,
-                  LaneMask visible, const Vec3Lanes& throughput, bool delta, Vec3Lanes& radiance)
+                  LaneMask visible, const Vec3Lanes& throughput, bool alone, Vec3Lanes& radiance)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
@@ -117,7 +121,7 @@ void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightL
         const float positive = cosine > 0.0f ? cosine : 0.0f;
         const float pdfBsdf = positive * kInvPi;
         const float ratio = pdfBsdf * light.weight[i];
-        const float mis = select(delta, 1.0f, 1.0f / (1.0f + ratio * ratio));
+        const float mis = select(alone, 1.0f, 1.0f / (1.0f + ratio * ratio));
         const float unmasked = pdfBsdf * light.weight[i] * mis;
         const float weight = select(laneBit(visible, i), unmasked, 0.0f);
         radiance.x[i] = throughput.x[i] * albedo.x[i] * light.radiance[0][i] * weight;
@@ -150,18 +154,21 @@ struct Bounce
     LaneMask diffuse = 0;   ///< plain Lambert lanes
     LaneMask general = 0;   ///< all other hits that scatter
     LaneMask through = 0;   ///< general lanes that transmit
+    LaneMask gathering = 0; ///< lanes that look up photons
+    LaneMask ending = 0;    ///< of these, those that go on by mirror-like lobes only
     Bsdf* bsdfs = nullptr;  ///< of general lanes
 };
 
-/// Adds what the visible lanes get from one light sample.
+/// Adds what the visible lanes get from one light sample. Lanes of alone have no other chance to meet this
+/// light: it has its full weight.
 void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
-              LaneMask visible, bool delta)
+              LaneMask visible, LaneMask alone)
 {
     if (visible & bounce.diffuse)
     {
         Vec3Lanes radiance;
         diffuseLight(bounce.normal, bounce.albedo, light, visible & bounce.diffuse,
-                     block.throughput, delta, radiance);
+                     block.throughput, (visible & bounce.diffuse & alone) != 0, radiance);
         for (LaneMask lanes = visible & bounce.diffuse; lanes; lanes &= lanes - 1)
         {
             const int i = __builtin_ctz(lanes);
@@ -180,7 +187,8 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
         if ((wi.z > 0.0f) != isAbove(bounce.surface, i, wiWorld)) continue;
         const BsdfValue value = evalBsdf(bounce.bsdfs[i], wo, wi);
         if (!(value.pdfW > 0.0f)) continue;
-        const float mis = delta ? 1.0f : powerHeuristic(1.0f, value.pdfW * light.weight[i]);
+        const float mis =
+            (alone >> i) & 1u ? 1.0f : powerHeuristic(1.0f, value.pdfW * light.weight[i]);
         const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
         tile.sums.add(block.pixel[i],
                       laneOf(block.throughput, i) * value.fCos * radiance * (light.weight[i] * mis));
@@ -194,7 +202,16 @@ void sampleOneLight(Tile& tile, PathBlock& block, const Bounce& bounce, uint32_t
     areaLightLanes(tile.context, light, pmf, bounce.surface, lanes, bounce.through, u, v, samples);
     countRays(tile, block, samples.lit);
     const LaneMask visible = visibleLanes(tile.context, samples, tile.counts);
-    addLight(tile, block, bounce, samples, visible, false);
+    addLight(tile, block, bounce, samples, visible, bounce.ending);
+}
+
+/// Light samples change from pass to pass also where the camera path does not.
+UintLanes lightSeeds(const PassContext& context, const PathBlock& block)
+{
+    UintLanes seeds;
+    for (int i = 0; i < kLanes; ++i)
+        seeds[i] = block.seed[i] ^ context.key.seed ^ context.pathKey.seed;
+    return seeds;
 }
 
 void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
@@ -206,13 +223,13 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
         LightLanes samples;
         deltaLightLanes(tile.context, light, bounce.surface, lanes, bounce.through, samples);
         countRays(tile, block, samples.lit);
-        addLight(tile, block, bounce, samples, visibleLanes(tile.context, samples, tile.counts), true);
+        addLight(tile, block, bounce, samples, visibleLanes(tile.context, samples, tile.counts), kAllLanes);
     }
     if (table.areaLights().empty()) return;
 
     FloatLanes u, v;
-    dimensionPoints(block.seed, tile.context.key.index,
-                    bounceDimension(bounce.number, DimensionLightPoint), u, v);
+    const UintLanes seeds = lightSeeds(tile.context, block);
+    dimensionPoints(seeds, tile.context.key.index, bounceDimension(bounce.number, DimensionLightPoint), u, v);
     if (table.areaLights().size() == 1)
     {
         sampleOneLight(tile, block, bounce, table.areaLights()[0], 1.0f, lanes, u, v);
@@ -220,8 +237,8 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
     }
     // Lanes that chose the same light are sampled together.
     FloatLanes choice, unused;
-    dimensionPoints(block.seed, tile.context.key.index,
-                    bounceDimension(bounce.number, DimensionLightChoice), choice, unused);
+    dimensionPoints(seeds, tile.context.key.index, bounceDimension(bounce.number, DimensionLightChoice),
+                    choice, unused);
     LaneMask open = lanes;
     LightTable::Choice chosen[kLanes];
     for (LaneMask m = lanes; m; m &= m - 1)
@@ -280,7 +297,7 @@ LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface,
 void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
 {
     FloatLanes u, v, lobe, roulette;
-    const uint32_t pass = tile.context.key.index;
+    const uint32_t pass = tile.context.pathKey.index;
     dimensionPoints(block.seed, pass, bounceDimension(bounce.number, DimensionBsdfDirection), u, v);
     dimensionPoints(block.seed, pass, bounceDimension(bounce.number, DimensionBsdfLobe), lobe, roulette);
 
@@ -288,8 +305,8 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
     FloatLanes pdfW;
     Vec3Lanes weight = bounce.albedo;
     LaneMask alive = 0;
-    if (bounce.diffuse)
-        alive = diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, pdfW) & bounce.diffuse;
+    if (const LaneMask diffuse = bounce.diffuse & ~bounce.ending)
+        alive = diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, pdfW) & diffuse;
     for (LaneMask lanes = bounce.general; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
@@ -297,7 +314,7 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         const Vec3 wo = frame.toLocal(-Vec3(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
                                             block.rays.ray.directionZ[i]));
         const std::optional<BsdfSample> sample = sampleBsdf(bounce.bsdfs[i], wo, lobe[i], u[i], v[i]);
-        if (!sample) continue;
+        if (!sample || (!sample->delta && ((bounce.ending >> i) & 1u))) continue;
         const Vec3 direction = frame.toWorld(sample->wi);
         if (isAbove(bounce.surface, i, direction) == sample->transmitted) continue;
         setLane(wi, i, direction);
@@ -332,7 +349,10 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         ray.tNear[i] = 0.0f;
         ray.tFar[i] = kInfinity;
         block.pdfW[i] = pdfW[i];
-        if (pdfW[i] < kInfinity) block.pixel[i] |= kScattered;
+        if (pdfW[i] < kInfinity)
+            block.pixel[i] = (block.pixel[i] | kScattered) & ~kCausticChain;
+        else if (block.pixel[i] & kScattered)
+            block.pixel[i] |= kCausticChain;
         survivors |= 1u << i;
     }
     block.active = survivors;
@@ -366,8 +386,70 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
     dropLift(bounce.surface, bounce.through); // refraction depends on where the facet is
 }
 
+/// Which lanes look up photons, and which of them end here but for their mirror-like lobes.
+template <PhotonUse use> void chooseGathering(Bounce& bounce)
+{
+    bounce.gathering = bounce.diffuse;
+    bounce.ending = use == PhotonUse::Indirect ? bounce.diffuse : 0u;
+    for (LaneMask lanes = bounce.general; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const Bsdf& bsdf = bounce.bsdfs[i];
+        const bool lambert = bsdf.diffuse != Vec3(0.0f);
+        const bool rough = lambert || bsdf.alpha >= kGatherAlpha;
+        const bool scatters = lambert || !bsdf.isSmooth();
+        if (use == PhotonUse::Indirect ? rough : scatters) bounce.gathering |= 1u << i;
+        if (use == PhotonUse::Indirect && rough) bounce.ending |= 1u << i;
+    }
+}
+
+/// Adds what the photons around the lanes' points send back along their rays. The radius belongs to the
+/// pixel where light that the photons carry is seen directly; after a bounce it is the same for all.
+template <PhotonUse use> void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
+{
+    const PhotonMap& map = *tile.context.photons;
+    GatheredPhotons& gathered = *tile.result.gathered;
+    for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const uint32_t pixel = block.pixel[i] & kPixelBits;
+        GatherPoint point;
+        point.query.position = laneOf(trianglePoints(bounce.surface), i);
+        point.query.normal = laneOf(bounce.surface.geometricNormal, i);
+        point.query.shadingNormal = laneOf(bounce.normal, i);
+        point.query.radius = tile.context.bouncedPhotonRadius;
+        if (use == PhotonUse::Indirect || !(block.pixel[i] & kScattered))
+        {
+            float& radius = gathered.radius[pixel];
+            if (radius == 0.0f)
+                radius = radiusOf(map, point.query, tile.context.leastPhotonRadius,
+                                  tile.context.largestPhotonRadius);
+            point.query.radius = radius;
+        }
+        PhotonSum sum;
+        if ((bounce.diffuse >> i) & 1u)
+            sum = gatherDiffuse(map, point.query, laneOf(bounce.albedo, i));
+        else
+        {
+            point.bsdf = &bounce.bsdfs[i];
+            point.wo = -Vec3(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
+                             block.rays.ray.directionZ[i]);
+            sum = gatherBsdf(map, point);
+        }
+        if (sum.count == 0) continue;
+        const Vec3 flux = laneOf(block.throughput, i) * sum.power;
+        if (gathered.separate)
+        {
+            gathered.count[pixel] += sum.count;
+            gathered.flux[pixel] += flux;
+        }
+        else
+            tile.sums.add(pixel, flux / (kPi * point.query.radius * point.query.radius));
+    }
+}
+
 /// Follows the paths of a block over one bounce.
-void bounceBlock(Tile& tile, int b, int number, bool last)
+template <PhotonUse use> void bounceBlock(Tile& tile, int b, int number, bool last)
 {
     PathBlock& block = tile.paths.blocks[b];
     const TracedScene& traced = *tile.context.traced;
@@ -389,7 +471,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last)
         if (number > 0 && !(block.pixel[i] & kScattered))
             tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * background);
     }
-    addEmission(tile, block, bounce.surface);
+    addEmission<use>(tile, block, bounce.surface);
     if (number == 0)
     {
         if (tile.context.wantsDepth)
@@ -409,6 +491,11 @@ void bounceBlock(Tile& tile, int b, int number, bool last)
         block.active = 0;
         return;
     }
+    if constexpr (use != PhotonUse::None)
+    {
+        chooseGathering<use>(bounce);
+        addPhotons<use>(tile, block, bounce);
+    }
     sampleLights(tile, block, bounce);
     scatter(tile, block, bounce);
 }
@@ -426,16 +513,14 @@ void finish(const Tile& tile)
     dropNotFinite(tile.result);
 }
 
-} // namespace
-
-void PathIntegrator::renderTile(const PassContext& context, int left, int bottom,
-                                TileResult& result) const
+template <PhotonUse use> void tracePaths(Tile& tile)
 {
-    Tile tile(context, left, bottom, result);
+    const PassContext& context = tile.context;
     for (int b = 0; b < kTileBlocks; ++b)
     {
         PathBlock& block = tile.paths.blocks[b];
-        cameraRayLanes(context.camera, context.key, left, bottom, b, false, block.rays, block.seed);
+        cameraRayLanes(context.camera, context.pathKey, tile.left, tile.bottom, b, false, block.rays,
+                       block.seed);
         for (int i = 0; i < kLanes; ++i)
         {
             setLane(block.throughput, i, Vec3(1.0f));
@@ -449,10 +534,24 @@ void PathIntegrator::renderTile(const PassContext& context, int left, int bottom
     {
         const bool last = number >= context.options.maxBounces;
         for (int b = 0; b < tile.paths.count; ++b)
-            bounceBlock(tile, b, number, last);
+            bounceBlock<use>(tile, b, number, last);
         closeRanks(tile.paths);
     }
     finish(tile);
+}
+
+} // namespace
+
+void PathIntegrator::renderTile(const PassContext& context, int left, int bottom,
+                                TileResult& result) const
+{
+    Tile tile(context, left, bottom, result);
+    switch (context.photons ? context.photonUse : PhotonUse::None)
+    {
+    case PhotonUse::None: return tracePaths<PhotonUse::None>(tile);
+    case PhotonUse::Caustics: return tracePaths<PhotonUse::Caustics>(tile);
+    case PhotonUse::Indirect: return tracePaths<PhotonUse::Indirect>(tile);
+    }
 }
 
 } // namespace osgRayTrace::engine

@@ -13,7 +13,17 @@ enum class IntegratorKind : uint8_t
     Automatic, ///< the cheapest that is right for the scene: see chooseIntegrator
     Whitted,
     Path,
+    Ppm,            ///< photons for all indirect light, fixed hit points
+    Sppm,           ///< the same, new hit points in each pass
+    PhotonCaustics, ///< path tracing, photons for light that came by mirrors and glass
     Debug,
+};
+
+/// How the radius of photon lookups shrinks.
+enum class RadiusSchedule : uint8_t
+{
+    Global, ///< by the number of the pass alone
+    Local,  ///< by the photons that each pixel has seen; Ppm and Sppm only
 };
 
 enum class LightSampling : uint8_t
@@ -45,6 +55,10 @@ struct RenderOptions
     bool shadows = true;
     bool terminatorCorrection = true; ///< rays of smooth-shaded facets start as RayStart::Smooth says
     uint32_t seed = 0;
+    int photons = 1 << 18;      ///< emitted a pass
+    float photonRadius = 0.0f;  ///< of the first pass [length]; 0: from the density of the photons
+    float photonAlpha = 2.0f / 3.0f; ///< share of the photons of a pass that are kept
+    RadiusSchedule radiusSchedule = RadiusSchedule::Global;
 
     /// True if an accumulated image made with previous cannot be continued with *this.
     bool needsRestart(const RenderOptions& previous) const
@@ -52,7 +66,9 @@ struct RenderOptions
         return integrator != previous.integrator || lightSampling != previous.lightSampling ||
                debugChannel != previous.debugChannel || lightSamples != previous.lightSamples ||
                maxBounces != previous.maxBounces || shadows != previous.shadows ||
-               terminatorCorrection != previous.terminatorCorrection || seed != previous.seed;
+               terminatorCorrection != previous.terminatorCorrection || seed != previous.seed ||
+               photons != previous.photons || photonRadius != previous.photonRadius ||
+               photonAlpha != previous.photonAlpha || radiusSchedule != previous.radiusSchedule;
     }
 };
 

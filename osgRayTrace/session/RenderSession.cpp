@@ -8,6 +8,7 @@
 #include "osgRayTrace/film/Resolve.h"
 #include "osgRayTrace/integrators/FirstHit.h"
 #include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/session/PhotonState.h"
 
 #include <algorithm>
 #include <atomic>
@@ -71,7 +72,10 @@ Vec3 viewerAxis(const View& view)
 
 struct RenderSession::Implementation
 {
-    explicit Implementation(std::shared_ptr<Workers> w) : workers(std::move(w)) {}
+    Implementation(std::shared_ptr<Workers> w, std::shared_ptr<PhotonPasses> p)
+        : workers(std::move(w)), photons(p ? std::move(p) : std::make_shared<PhotonPasses>())
+    {
+    }
 
     bool begin();
     TileCounts renderTile(const PassContext& context, const Integrator& integrator, int tile);
@@ -96,6 +100,7 @@ struct RenderSession::Implementation
     CameraRays camera;
     std::vector<Light> lights;
     Film film;
+    PhotonState photons;
     RenderProgress progress;
     std::vector<TileCounts> tileCounts; // of the pass that is rendered
 
@@ -127,6 +132,7 @@ bool RenderSession::Implementation::begin()
     }
     std::vector<Light> placed = placedLights(scene->scene(), view); // before the film changes: it may throw
     film.reset(view.width, view.height);
+    photons.reset(film.tileCount());
     camera = *rays;
     filmScene = scene;
     filmView = view;
@@ -144,10 +150,13 @@ PassContext RenderSession::Implementation::contextOfPass(int pass) const
     context.traced = filmScene.get();
     context.lights = &lights;
     context.camera = camera;
+    context.width = filmView.width;
+    context.height = filmView.height;
     context.towardsViewer = viewerAxis(filmView);
     context.options = filmOptions;
     context.options.integrator = progress.integrator;
     context.key = passKey(filmOptions.seed, pass);
+    context.pathKey = progress.integrator == IntegratorKind::Ppm ? passKey(filmOptions.seed, 0) : context.key;
     context.wantsDepth = pass == 0;
     return context;
 }
@@ -160,7 +169,15 @@ TileCounts RenderSession::Implementation::renderTile(const PassContext& context,
     TileResult result;
     RgbaLanes* inFilm = film.firstPassStorage(tile);
     result.rgba = inFilm ? inFilm : local;
+    GatheredPhotons gathered;
+    if (photons.active())
+    {
+        photons.begin(tile, film.tilePasses(tile), gathered);
+        result.gathered = &gathered;
+    }
     integrator.renderTile(context, film.tileX(tile), film.tileY(tile), result);
+    if (photons.active())
+        photons.end(tile, film.tilePasses(tile), gathered, context.options.photonAlpha, result.rgba);
     if (context.wantsDepth) std::copy(result.depth, result.depth + kTilePixels, film.depth(tile));
     if (inFilm)
         film.finishPass(tile);
@@ -228,7 +245,17 @@ RenderProgress RenderSession::Implementation::run(
         if (made > 0 && secondsSince(start) >= rule.seconds) break;
         const Clock::time_point passStart = Clock::now();
         shown = made + 1 == rule.newPasses || film.passes() + 1 == rule.passes;
-        renderPass(contextOfPass(film.passes()), *integrator, shown ? display : nullptr);
+        PassContext context = contextOfPass(film.passes());
+        photons.prepare(filmScene, context, film.passes(), *workers);
+        if (const PhotonPass* traced = photons.photons())
+        {
+            progress.rays.photon += traced->rays;
+            progress.droppedSamples += traced->dropped;
+            progress.photonRadius = static_cast<float>(photons.radius() * filmScene->scene().unit);
+            progress.storedPhotons = traced->map.size();
+            progress.photonBytes = traced->map.bytes();
+        }
+        renderPass(context, *integrator, shown ? display : nullptr);
         progress.seconds += secondsSince(passStart);
         progress.passes = film.passes();
         if (cancelled)
@@ -254,8 +281,8 @@ void RenderSession::Implementation::resolve(const DisplayTarget& display) const
                      });
 }
 
-RenderSession::RenderSession(std::shared_ptr<Workers> workers)
-    : _implementation(std::make_unique<Implementation>(std::move(workers)))
+RenderSession::RenderSession(std::shared_ptr<Workers> workers, std::shared_ptr<PhotonPasses> photons)
+    : _implementation(std::make_unique<Implementation>(std::move(workers), std::move(photons)))
 {
 }
 

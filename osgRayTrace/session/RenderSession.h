@@ -42,7 +42,8 @@ struct RayCounts
     uint64_t camera = 0;
     uint64_t shadow = 0;
     uint64_t secondary = 0; ///< mirror, glass and bounce rays
-    uint64_t total() const { return camera + shadow + secondary; }
+    uint64_t photon = 0;    ///< from the lights, of passes that this view looked up photons of
+    uint64_t total() const { return camera + shadow + secondary + photon; }
 };
 
 /// Of the accumulated image.
@@ -59,6 +60,9 @@ struct RenderProgress
     RayCounts rays;
     uint64_t droppedSamples = 0;  ///< not finite, or above 1e30: left out of the image and counted
     bool restarted = false;       ///< this call began a new image
+    float photonRadius = 0.0f;    ///< of the last pass [length]; 0 without photons
+    uint64_t storedPhotons = 0;   ///< in the map of the last pass
+    uint64_t photonBytes = 0;     ///< of that map
 };
 
 /// Channels of the first hit, or of the image's statistics, for resolveChannel.
@@ -73,11 +77,14 @@ enum class Channel : uint8_t
     Error,    ///< 3 floats: estimated standard error of the pixel's linear RGB
 };
 
+class PhotonPasses;
+
 /// One for each view. Not thread safe but for cancel(); different sessions may render at once.
 class RenderSession
 {
 public:
-    explicit RenderSession(std::shared_ptr<Workers> workers);
+    /// photons: shared by the views of a scene, so that each pass of photons is traced once; null: its own.
+    explicit RenderSession(std::shared_ptr<Workers> workers, std::shared_ptr<PhotonPasses> photons = {});
     ~RenderSession();
     RenderSession(const RenderSession&) = delete;
     RenderSession& operator=(const RenderSession&) = delete;

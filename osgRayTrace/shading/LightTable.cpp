@@ -128,17 +128,13 @@ LightTable::Choice LightTable::chooseAreaLight(float u) const
     return {light, _pmfs[light]};
 }
 
-std::optional<AreaLightSample> LightTable::sampleArea(uint32_t index, Vec3 p, float u, float v) const
+std::optional<LightPoint> LightTable::samplePoint(uint32_t index, float u, float v) const
 {
     const Light& light = _scene->lights[index];
-    if (light.kind == LightKind::Mesh) return sampleMesh(index, p, u, v);
+    if (light.kind != LightKind::Mesh)
+        return LightPoint{light.corner + u * light.edgeU + v * light.edgeV, _normals[index], Vec2(u, v),
+                          _offsets[index]};
 
-    const Vec3 q = light.corner + u * light.edgeU + v * light.edgeV;
-    return sampleAt(index, p, q, _normals[index], Vec2(u, v), light.twoSided);
-}
-
-std::optional<AreaLightSample> LightTable::sampleMesh(uint32_t index, Vec3 p, float u, float v) const
-{
     const EmissiveMesh& mesh = _meshes[index];
     if (mesh.cumulative.empty()) return std::nullopt;
     const EmissiveMesh::Triangle& t = mesh.triangles[pick(mesh.cumulative, u)];
@@ -149,7 +145,16 @@ std::optional<AreaLightSample> LightTable::sampleMesh(uint32_t index, Vec3 p, fl
         v = 1.0f - v;
     }
     const Vec3 normal(glm::normalize(glm::cross(Vec3d(t.ab), Vec3d(t.ac))));
-    return sampleAt(index, p, t.a + u * t.ab + v * t.ac, normal, t.ua + u * t.uab + v * t.uac, true);
+    return LightPoint{t.a + u * t.ab + v * t.ac, normal, t.ua + u * t.uab + v * t.uac, _offsets[index]};
+}
+
+std::optional<AreaLightSample> LightTable::sampleArea(uint32_t index, Vec3 p, float u, float v) const
+{
+    const std::optional<LightPoint> point = samplePoint(index, u, v);
+    if (!point) return std::nullopt;
+    const Light& light = _scene->lights[index];
+    return sampleAt(index, p, point->position, point->normal, point->uv,
+                    light.twoSided || light.kind == LightKind::Mesh);
 }
 
 std::optional<AreaLightSample> LightTable::sampleAt(uint32_t index, Vec3 p, Vec3 q, Vec3 normal, Vec2 uv,

@@ -23,6 +23,15 @@ struct AreaLightSample
     float offset = 0.0f;  ///< distance off the light's plane that is clear of its own surface
 };
 
+/// A point on an area light.
+struct LightPoint
+{
+    Vec3 position{0.0f};
+    Vec3 normal{0.0f}; ///< unit, of the front
+    Vec2 uv{0.0f};     ///< texture coordinates there
+    float offset = 0.0f; ///< along the normal: clears the light's own surface
+};
+
 /// What a directional, point or spot light sends to a point.
 struct DeltaLightSample
 {
@@ -73,6 +82,9 @@ public:
     /// A point on an area light, uniform by area. u, v in [0,1). Nothing if it is seen from its dark side.
     std::optional<AreaLightSample> sampleArea(uint32_t light, Vec3 p, float u, float v) const;
 
+    /// The point that sampleArea would look at, seen from nowhere in particular: density 1 / area.
+    std::optional<LightPoint> samplePoint(uint32_t light, float u, float v) const;
+
     /// [1/sr] of sampleArea for a ray that hit the light at a distance under a cosine.
     float pdfArea(uint32_t light, float distance, float cosThetaL) const
     {
@@ -80,7 +92,6 @@ public:
     }
 
 private:
-    std::optional<AreaLightSample> sampleMesh(uint32_t index, Vec3 p, float u, float v) const;
     std::optional<AreaLightSample> sampleAt(uint32_t index, Vec3 p, Vec3 q, Vec3 normal, Vec2 uv,
                                             bool twoSided) const;
     void addMesh(const Scene& scene, uint32_t index);

@@ -67,9 +67,12 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getThreads() == 0);
     CHECK(settings->getSeed() == 0u);
     CHECK(settings->getExposure() == 0.0f);
+    CHECK(settings->getPhotonRadius() == 0.0f);
+    CHECK(settings->getPhotonAlpha() == Approx(2.0f / 3.0f));
+    CHECK(settings->getRadiusSchedule() == RayTraceSettings::GLOBAL);
 }
 
-TEST_CASE("settings: the table names all thirteen options once", "[api][settings]")
+TEST_CASE("settings: the table names all seventeen options once", "[api][settings]")
 {
     std::set<std::string> names;
     std::set<std::string> variables;
@@ -78,11 +81,11 @@ TEST_CASE("settings: the table names all thirteen options once", "[api][settings
         names.insert(option.name);
         variables.insert(option.environment);
     }
-    CHECK(names.size() == 13);
-    CHECK(variables.size() == 13);
+    CHECK(names.size() == 17);
+    CHECK(variables.size() == 17);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 13);
+    CHECK(RayTraceSettings::options().size() == 17);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")
@@ -212,7 +215,7 @@ TEST_CASE("settings: setters clamp to the documented range", "[api][settings]")
     CHECK(settings->getExposure() == 32.0f);
     settings->setExposure(std::numeric_limits<float>::quiet_NaN());
     CHECK(settings->getExposure() == 32.0f);
-    settings->setIntegrator(static_cast<RayTraceSettings::Integrator>(3));
+    settings->setIntegrator(static_cast<RayTraceSettings::Integrator>(6));
     CHECK(settings->getIntegrator() == RayTraceSettings::DEBUG);
 }
 

@@ -91,6 +91,15 @@ TEST_CASE("integrator: automatic takes the cheapest that is right for the scene"
     physical.physical = true;
     CHECK(chooseIntegrator(IntegratorKind::Automatic, fixed) == IntegratorKind::Whitted);
     CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::Path);
+    physical.specular = true; // nothing shines through or into it
+    CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::Path);
+    physical.areaLights = true;
+    CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::PhotonCaustics);
+    physical.specular = false;
+    CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::Path);
+    physical.transmission = true;
+    CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::PhotonCaustics);
+    CHECK(chooseIntegrator(IntegratorKind::Path, physical) == IntegratorKind::Path);
     CHECK(chooseIntegrator(IntegratorKind::Whitted, physical) == IntegratorKind::Whitted);
     CHECK(chooseIntegrator(IntegratorKind::Debug, fixed) == IntegratorKind::Debug);
 }

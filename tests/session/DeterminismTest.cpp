@@ -40,7 +40,9 @@ TEST_CASE("determinism: equal images for 1, 2, 3 and 16 threads and in every run
           "[session][stability 50]")
 {
     const auto traced = mixedBox().build();
-    for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
+    for (const IntegratorKind kind :
+         {IntegratorKind::Path, IntegratorKind::Whitted, IntegratorKind::Ppm, IntegratorKind::Sppm,
+          IntegratorKind::PhotonCaustics})
     {
         const Picture one = render(traced, cornellView(70, 50), optionsOf(kind), 6, 1);
         CHECK(one.progress.droppedSamples == 0);
@@ -77,7 +79,7 @@ TEST_CASE("determinism: equal images for any order of tiles", "[session]")
         for (int pass = 0; pass < 2; ++pass)
         {
             std::shuffle(order.begin(), order.end(), std::mt19937(static_cast<unsigned>(pass)));
-            context.key = passKey(0, pass);
+            context.key = context.pathKey = passKey(0, pass);
             film.beginPass();
             for (const int tile : order)
             {

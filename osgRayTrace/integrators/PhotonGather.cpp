@@ -1,0 +1,63 @@
+// PhotonGather.cpp - radiance that a surface sends to the eye from the photons around a point.
+// Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/PhotonGather.h"
+
+#include "osgRayTrace/integrators/HitShading.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+void addPhotons(const PhotonMap& map, const GatherPoint& point, const PhotonQuery& query,
+                const ShadingFrame& frame, Vec3 wo, PhotonSum& sum)
+{
+    static thread_local std::vector<uint32_t> found;
+    found.clear();
+    map.find(query, found);
+    for (const uint32_t k : found)
+    {
+        const Photon photon = map.photon(k);
+        const float cosGeometric = glm::dot(photon.wi, query.normal);
+        const BsdfValue value = evalBsdf(*point.bsdf, wo, frame.toLocal(photon.wi));
+        sum.power += value.fCos * photon.power / cosGeometric;
+    }
+    sum.count += static_cast<uint32_t>(found.size());
+}
+
+} // namespace
+
+float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float largest)
+{
+    for (query.radius = least; query.radius < largest; query.radius *= 2.0f)
+        if (map.gather(query).count >= kRadiusPhotons) return query.radius;
+    return largest;
+}
+
+PhotonSum gatherDiffuse(const PhotonMap& map, const PhotonQuery& query, Vec3 albedo)
+{
+    PhotonSum sum = map.gather(query);
+    sum.power *= albedo * kInvPi;
+    return sum;
+}
+
+PhotonSum gatherBsdf(const PhotonMap& map, const GatherPoint& point)
+{
+    const ShadingFrame frame(point.query.shadingNormal);
+    const Vec3 wo = frame.toLocal(point.wo);
+    PhotonSum sum;
+    addPhotons(map, point, point.query, frame, wo, sum);
+    if (point.bsdf->transmits() && !point.bsdf->isSmooth())
+    {
+        PhotonQuery behind = point.query;
+        behind.normal = -behind.normal;
+        addPhotons(map, point, behind, frame, wo, sum);
+    }
+    return sum;
+}
+
+} // namespace osgRayTrace::engine

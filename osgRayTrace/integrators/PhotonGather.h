@@ -1,0 +1,32 @@
+// PhotonGather.h - radiance that a surface sends to the eye from the photons around a point.
+// Layer: integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/photons/PhotonMap.h"
+#include "osgRayTrace/shading/Bsdf.h"
+
+namespace osgRayTrace::engine
+{
+
+/// Where photons are looked for and what the surface does with them.
+struct GatherPoint
+{
+    PhotonQuery query;
+    Vec3 wo{0.0f};          ///< unit, world, towards the eye; not used by gatherDiffuse
+    const Bsdf* bsdf = nullptr;
+};
+
+/// The smallest of least, twice that, four times, ... largest within which there are kRadiusPhotons photons;
+/// largest if there are never as many.
+float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float largest);
+constexpr uint32_t kRadiusPhotons = 16;
+
+/// Sum over the photons of the disc of f times power [W/sr]: radiance is that over pi radius^2. A Lambert
+/// surface.
+PhotonSum gatherDiffuse(const PhotonMap& map, const PhotonQuery& query, Vec3 albedo);
+
+/// Any surface, its mirror-like lobes left out; from both sides if it transmits.
+PhotonSum gatherBsdf(const PhotonMap& map, const GatherPoint& point);
+
+} // namespace osgRayTrace::engine

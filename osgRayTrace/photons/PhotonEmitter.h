@@ -1,0 +1,84 @@
+// PhotonEmitter.h - photons as they leave the lights, aimed at what makes caustics. Layer: photons.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/TracedScene.h"
+
+#include <optional>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// A photon on its way from a light.
+struct PhotonStart
+{
+    Vec3 origin{0.0f};    ///< clear of the light's own surface
+    Vec3 direction{0.0f}; ///< unit
+    Vec3 power{0.0f};     ///< [W] times the number of photons emitted
+    uint32_t light = kInvalid;
+};
+
+/// The numbers of [0,1) that an emission takes.
+struct EmissionPoint
+{
+    float light = 0.0f;
+    float aim = 0.0f;
+    Vec2 position{0.0f};
+    Vec2 direction{0.0f};
+};
+
+/// Chooses lights in proportion to power, and directions by a mixture: a share of them uniformly within the
+/// cones (for directional lights: discs) that hold the mirror-like and transmissive instances, the rest as
+/// the light shines. The density is that of the mixture, so every share gives the same mean
+/// [Veach97, sect. 9.2]. Thread safe.
+class PhotonEmitter
+{
+public:
+    /// lights: the scene's, those of eye space placed. aimedShare in [0,1): of photons aimed; 0 if nothing
+    /// in the scene is specular.
+    PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights, float aimedShare);
+
+    /// False if no light has any power.
+    bool emits() const { return !_cumulative.empty(); }
+
+    /// Something in the scene reflects like a mirror or transmits.
+    bool hasTargets() const { return !_targets.empty(); }
+
+    std::optional<PhotonStart> emit(const EmissionPoint& point) const;
+
+    /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives after a
+    /// free flight from the light is the power times this.
+    float falloff(uint32_t light, float distance) const;
+
+    /// At most this many: more are grouped.
+    static constexpr std::size_t kMaxTargets = 32;
+
+    struct Sphere
+    {
+        Vec3 centre{0.0f};
+        float radius = 0.0f;
+    };
+
+    /// Holds all geometry.
+    const Sphere& scene() const { return _scene; }
+
+private:
+    struct Aim;
+
+    std::optional<PhotonStart> emitArea(uint32_t light, const EmissionPoint& point) const;
+    std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point) const;
+    std::optional<PhotonStart> emitDirectional(uint32_t light, const EmissionPoint& point) const;
+    int conesFrom(Vec3 origin, Aim* aims, float& total) const;
+    float aimedPdf(const Aim* aims, int count, float total, Vec3 direction) const;
+
+    const TracedScene& _traced;
+    const std::vector<Light>& _lights;
+    float _aimedShare;
+    Sphere _scene;
+    std::vector<Sphere> _targets;
+    std::vector<uint32_t> _emitters;  ///< index of a light
+    std::vector<float> _cumulative;   ///< an emitter; the last is 1
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,349 @@
+// PhotonMap.cpp - a counting-sorted grid of photons. Layer: photons.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/photons/PhotonMap.h"
+
+#include "osgRayTrace/base/Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// The sort splits the buckets into parts by their upper bits; a part fits the cache.
+constexpr int kParts = 256;
+
+uint32_t packNormal(Vec3 n)
+{
+    const auto byte = [](float v)
+    { return static_cast<uint32_t>(static_cast<int32_t>(std::lround(v * 127.0f))) & 0xffu; };
+    return byte(n.x) | byte(n.y) << 8 | byte(n.z) << 16;
+}
+
+OSGRAYTRACE_INLINE float byteOf(uint32_t packed, int shift)
+{
+    return static_cast<float>(static_cast<int32_t>(packed << (24 - shift)) >> 24) * (1.0f / 127.0f);
+}
+
+/// What a loop over photons reads.
+struct Columns
+{
+    const float *x, *y, *z, *wiX, *wiY, *wiZ, *r, *g, *b;
+    const uint32_t* normal;
+};
+
+/// Bit mask of a photon in the disc, all bits or none.
+OSGRAYTRACE_INLINE uint32_t insideDisc(const Columns& p, uint32_t k, const PhotonQuery& q, float radius2,
+                                       float planeDistance)
+{
+    const float dx = p.x[k] - q.position.x, dy = p.y[k] - q.position.y, dz = p.z[k] - q.position.z;
+    const float distance2 = dx * dx + dy * dy + dz * dz;
+    const float off = dx * q.normal.x + dy * q.normal.y + dz * q.normal.z;
+    const float side = p.wiX[k] * q.normal.x + p.wiY[k] * q.normal.y + p.wiZ[k] * q.normal.z;
+    const uint32_t packed = p.normal[k];
+    const float turned =
+        byteOf(packed, 0) * q.normal.x + byteOf(packed, 8) * q.normal.y + byteOf(packed, 16) * q.normal.z;
+    return maskOf(distance2 <= radius2) & maskOf(std::fabs(off) <= planeDistance) & maskOf(side > 0.0f) &
+           maskOf(turned >= kLeastNormalCosine);
+}
+
+/// Sums by lane, so that the result does not depend on the vector width of the machine.
+struct LaneSums
+{
+    FloatLanes r, g, b;
+    UintLanes count;
+};
+
+OSGRAYTRACE_KERNEL
+void addRange(const Columns& columns, uint32_t begin, uint32_t end, const PhotonQuery& query, float radius2,
+              float planeDistance, LaneSums& sums)
+{
+    const Columns p = columns;
+    const PhotonQuery q = query;
+    for (uint32_t block = begin; block < end; block += kLanes)
+    {
+        OSGRAYTRACE_SIMD
+        for (int i = 0; i < kLanes; ++i)
+        {
+            const uint32_t k = block + static_cast<uint32_t>(i);
+            const uint32_t in = insideDisc(p, k, q, radius2, planeDistance) & maskOf(k < end);
+            const float geometric =
+                p.wiX[k] * q.normal.x + p.wiY[k] * q.normal.y + p.wiZ[k] * q.normal.z;
+            const float shading = p.wiX[k] * q.shadingNormal.x + p.wiY[k] * q.shadingNormal.y +
+                                  p.wiZ[k] * q.shadingNormal.z;
+            const float weight = select(in & maskOf(shading > 0.0f), shading / geometric, 0.0f);
+            sums.r[i] += weight * p.r[k];
+            sums.g[i] += weight * p.g[k];
+            sums.b[i] += weight * p.b[k];
+            sums.count[i] += in & 1u;
+        }
+    }
+}
+
+OSGRAYTRACE_KERNEL
+LaneMask insideLanes(const Columns& columns, uint32_t block, uint32_t end, const PhotonQuery& query,
+                     float radius2, float planeDistance)
+{
+    const Columns p = columns;
+    const PhotonQuery q = query;
+    LaneMask inside = 0;
+    OSGRAYTRACE_SIMD_OR(inside)
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const uint32_t k = block + static_cast<uint32_t>(i);
+        inside |= bitOfLane(insideDisc(p, k, q, radius2, planeDistance) & maskOf(k < end), i);
+    }
+    return inside;
+}
+
+float sumOf(const FloatLanes& lanes)
+{
+    // Always the same tree of additions.
+    float sums[kLanes];
+    std::copy(lanes.v, lanes.v + kLanes, sums);
+    for (int width = kLanes / 2; width > 0; width /= 2)
+        for (int i = 0; i < width; ++i)
+            sums[i] += sums[i + width];
+    return sums[0];
+}
+
+} // namespace
+
+uint32_t PhotonMap::bucketOf(int64_t x, int64_t y, int64_t z) const
+{
+    const uint64_t line = static_cast<uint64_t>(y) * 0x9e3779b97f4a7c15ull ^
+                          static_cast<uint64_t>(z) * 0xc2b2ae3d27d4eb4full;
+    return static_cast<uint32_t>((line >> 24) + static_cast<uint64_t>(x)) & _mask;
+}
+
+PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers)
+    : _count(photons.size())
+{
+    if (photons.empty()) return;
+    _low = _high = Vec3d(photons[0].position);
+    for (const Photon& p : photons)
+    {
+        _low = glm::min(_low, Vec3d(p.position));
+        _high = glm::max(_high, Vec3d(p.position));
+    }
+    // Coordinates of cells stay exact integers in double, whatever the caller asks for.
+    const double extent = std::max({_high.x - _low.x, _high.y - _low.y, _high.z - _low.z});
+    const double cell = std::max(static_cast<double>(cellSize), extent * 0x1p-40);
+    _cellsPerUnit = cell > 0.0 && std::isfinite(cell) ? 1.0 / cell : 0.0;
+
+    uint32_t buckets = kParts;
+    while (buckets < _count && buckets < (1u << 30))
+        buckets *= 2;
+    _mask = buckets - 1;
+    const int partShift = __builtin_ctz(buckets) - __builtin_ctz(kParts);
+
+    // 1. The bucket of each photon, and how many of each chunk fall into each part.
+    const std::size_t chunks = std::min<std::size_t>(64, (_count + 4095) / 4096);
+    const auto chunkBegin = [&](std::size_t c) { return _count * c / chunks; };
+    std::vector<uint32_t> bucket(_count);
+    std::vector<uint32_t> offsets(chunks * kParts);
+    workers.forEach(chunks,
+                    [&](std::size_t c)
+                    {
+                        uint32_t* counts = &offsets[c * kParts];
+                        for (std::size_t k = chunkBegin(c); k < chunkBegin(c + 1); ++k)
+                        {
+                            const Vec3d at = (Vec3d(photons[k].position) - _low) * _cellsPerUnit;
+                            bucket[k] = bucketOf(static_cast<int64_t>(at.x), static_cast<int64_t>(at.y),
+                                                 static_cast<int64_t>(at.z));
+                            ++counts[bucket[k] >> partShift];
+                        }
+                    });
+
+    // 2. Where each chunk writes its share of each part; photons keep their order.
+    std::vector<uint32_t> partBegin(kParts + 1);
+    uint32_t running = 0;
+    for (std::size_t part = 0; part < kParts; ++part)
+    {
+        partBegin[part] = running;
+        for (std::size_t c = 0; c < chunks; ++c)
+        {
+            const uint32_t count = offsets[c * kParts + part];
+            offsets[c * kParts + part] = running;
+            running += count;
+        }
+    }
+    partBegin[kParts] = running;
+
+    struct Entry
+    {
+        uint32_t bucket, photon;
+    };
+    std::vector<Entry> entries(_count);
+    workers.forEach(chunks,
+                    [&](std::size_t c)
+                    {
+                        uint32_t* next = &offsets[c * kParts];
+                        for (std::size_t k = chunkBegin(c); k < chunkBegin(c + 1); ++k)
+                            entries[next[bucket[k] >> partShift]++] = {bucket[k], static_cast<uint32_t>(k)};
+                    });
+
+    // 3. Each part by counting; its photons move once, to where they stay.
+    const std::size_t padded = _count + kLanes;
+    for (std::vector<float>* column : {&_x, &_y, &_z, &_wiX, &_wiY, &_wiZ, &_r, &_g, &_b})
+        column->resize(padded);
+    _normal.resize(padded);
+    _first.resize(static_cast<std::size_t>(buckets) + 1);
+    _first[buckets] = static_cast<uint32_t>(_count);
+    workers.forEach(kParts,
+                    [&](std::size_t part)
+                    {
+                        const std::size_t bucketBegin = part << partShift;
+                        const std::size_t bucketEnd = (part + 1) << partShift;
+                        std::vector<uint32_t> next(bucketEnd - bucketBegin);
+                        for (uint32_t e = partBegin[part]; e < partBegin[part + 1]; ++e)
+                            ++next[entries[e].bucket - bucketBegin];
+                        uint32_t at = partBegin[part];
+                        for (std::size_t b = bucketBegin; b < bucketEnd; ++b)
+                        {
+                            _first[b] = at;
+                            at += next[b - bucketBegin];
+                            next[b - bucketBegin] = _first[b];
+                        }
+                        for (uint32_t e = partBegin[part]; e < partBegin[part + 1]; ++e)
+                        {
+                            const uint32_t to = next[entries[e].bucket - bucketBegin]++;
+                            const Photon& p = photons[entries[e].photon];
+                            _x[to] = p.position.x;
+                            _y[to] = p.position.y;
+                            _z[to] = p.position.z;
+                            _wiX[to] = p.wi.x;
+                            _wiY[to] = p.wi.y;
+                            _wiZ[to] = p.wi.z;
+                            _r[to] = p.power.x;
+                            _g[to] = p.power.y;
+                            _b[to] = p.power.z;
+                            _normal[to] = packNormal(p.normal);
+                        }
+                    });
+}
+
+std::size_t PhotonMap::bytes() const
+{
+    return _x.size() * (9 * sizeof(float) + sizeof(uint32_t)) + _first.size() * sizeof(uint32_t);
+}
+
+/// The stretches of photons that can be in the disc, none of them twice. One line of cells along x is one
+/// stretch, or two where the table ends within it.
+int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
+{
+    if (_count == 0 || !(query.radius >= 0.0f)) return 0;
+    const Vec3d centre(query.position);
+    // The disc of the plane test is thin: its box is smaller than the sphere's. Distances are rounded, hence
+    // the millionth part more.
+    const Vec3d n(query.normal);
+    const Vec3d across(std::sqrt(n.y * n.y + n.z * n.z), std::sqrt(n.z * n.z + n.x * n.x),
+                       std::sqrt(n.x * n.x + n.y * n.y));
+    const Vec3d share = glm::min(across + glm::abs(n) * static_cast<double>(kPlaneShare), Vec3d(1.0));
+    const Vec3d reach = (share + 0x1p-20) * static_cast<double>(query.radius);
+    const Vec3d low = centre - reach, high = centre + reach;
+    if (!(glm::all(glm::lessThanEqual(low, _high)) && glm::all(glm::greaterThanEqual(high, _low))))
+        return 0;
+    const Vec3d from = (glm::max(low, _low) - _low) * _cellsPerUnit;
+    const Vec3d to = (glm::min(high, _high) - _low) * _cellsPerUnit;
+    const auto x0 = static_cast<int64_t>(from.x), x1 = static_cast<int64_t>(to.x);
+    const auto y0 = static_cast<int64_t>(from.y), y1 = static_cast<int64_t>(to.y);
+    const auto z0 = static_cast<int64_t>(from.z), z1 = static_cast<int64_t>(to.z);
+    const uint64_t lines = (static_cast<uint64_t>(y1 - y0) + 1) * (static_cast<uint64_t>(z1 - z0) + 1);
+    const uint64_t length = static_cast<uint64_t>(x1 - x0) + 1;
+    const auto everything = [&]
+    {
+        ranges[0] = {0, static_cast<uint32_t>(_count)};
+        return 1;
+    };
+    if (static_cast<uint64_t>(y1 - y0) >= kMaxRanges || lines > kMaxRanges / 2 || length > _mask)
+        return everything();
+
+    struct Line
+    {
+        uint32_t first, last; ///< buckets, first <= last
+    };
+    Line found[kMaxRanges];
+    int count = 0;
+    for (int64_t z = z0; z <= z1; ++z)
+        for (int64_t y = y0; y <= y1; ++y)
+        {
+            const uint32_t first = bucketOf(x0, y, z);
+            const uint32_t last = static_cast<uint32_t>(first + length - 1) & _mask;
+            // Most lines in space meet no surface.
+            if (first <= last)
+            {
+                if (_first[first] < _first[last + 1]) found[count++] = {first, last};
+                continue;
+            }
+            if (_first[first] < _count) found[count++] = {first, _mask};
+            if (0 < _first[last + 1]) found[count++] = {0, last};
+        }
+    // Lines that share a bucket by chance become one: no photon is seen twice.
+    for (int i = 1; i < count; ++i)
+        for (int k = i; k > 0 && found[k].first < found[k - 1].first; --k)
+            std::swap(found[k], found[k - 1]);
+    if (count == 0) return 0;
+    int merged = 0;
+    for (int i = 1; i < count; ++i)
+    {
+        if (found[i].first <= found[merged].last)
+            found[merged].last = std::max(found[merged].last, found[i].last);
+        else
+            found[++merged] = found[i];
+    }
+    int used = 0;
+    for (int i = 0; i <= merged; ++i)
+    {
+        const Range range{_first[found[i].first], _first[found[i].last + 1]};
+        if (range.begin < range.end) ranges[used++] = range;
+    }
+    return used;
+}
+
+PhotonSum PhotonMap::gather(const PhotonQuery& query) const
+{
+    Range ranges[kMaxRanges];
+    const int count = rangesOf(query, ranges);
+    PhotonSum sum;
+    if (count == 0) return sum;
+    const Columns columns{_x.data(), _y.data(), _z.data(), _wiX.data(), _wiY.data(), _wiZ.data(),
+                          _r.data(), _g.data(), _b.data(), _normal.data()};
+    LaneSums sums = {};
+    for (int i = 0; i < count; ++i)
+        addRange(columns, ranges[i].begin, ranges[i].end, query, query.radius * query.radius,
+                 query.radius * kPlaneShare, sums);
+    for (int i = 0; i < kLanes; ++i)
+        sum.count += sums.count[i];
+    if (sum.count) sum.power = Vec3(sumOf(sums.r), sumOf(sums.g), sumOf(sums.b));
+    return sum;
+}
+
+void PhotonMap::find(const PhotonQuery& query, std::vector<uint32_t>& found) const
+{
+    Range ranges[kMaxRanges];
+    const int count = rangesOf(query, ranges);
+    const Columns columns{_x.data(), _y.data(), _z.data(), _wiX.data(), _wiY.data(), _wiZ.data(),
+                          _r.data(), _g.data(), _b.data(), _normal.data()};
+    for (int i = 0; i < count; ++i)
+        for (uint32_t block = ranges[i].begin; block < ranges[i].end; block += kLanes)
+            for (LaneMask lanes = insideLanes(columns, block, ranges[i].end, query,
+                                              query.radius * query.radius, query.radius * kPlaneShare);
+                 lanes; lanes &= lanes - 1)
+                found.push_back(block + static_cast<uint32_t>(__builtin_ctz(lanes)));
+}
+
+Photon PhotonMap::photon(uint32_t k) const
+{
+    Photon p;
+    p.position = Vec3(_x[k], _y[k], _z[k]);
+    p.wi = Vec3(_wiX[k], _wiY[k], _wiZ[k]);
+    p.power = Vec3(_r[k], _g[k], _b[k]);
+    p.normal = Vec3(byteOf(_normal[k], 0), byteOf(_normal[k], 8), byteOf(_normal[k], 16));
+    return p;
+}
+
+} // namespace osgRayTrace::engine

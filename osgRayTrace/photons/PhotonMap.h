@@ -1,0 +1,93 @@
+// PhotonMap.h - photons of one pass, sorted by cell, and what lies around a point. Layer: photons.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Lanes.h"
+#include "osgRayTrace/base/Math.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+class Workers;
+
+/// A flux that arrived at a surface.
+struct Photon
+{
+    Vec3 position{0.0f};
+    Vec3 wi{0.0f};     ///< unit, towards where it came from
+    Vec3 power{0.0f};  ///< [W], already divided by the number of emitted photons
+    Vec3 normal{0.0f}; ///< geometric, unit, on the side of wi
+};
+
+/// A disc on a surface that photons are looked for in.
+struct PhotonQuery
+{
+    Vec3 position{0.0f};
+    Vec3 normal{0.0f}; ///< geometric, unit, on the side that light is gathered from
+    Vec3 shadingNormal{0.0f}; ///< unit; power is weighted by the ratio of its cosine to that of normal
+    float radius = 0.0f;
+};
+
+struct PhotonSum
+{
+    Vec3 power{0.0f};   ///< [W] that arrives through the disc, each photon counted once
+    uint32_t count = 0;
+};
+
+/// Photons near a corner or behind a thin wall do not belong to a surface although they are within the
+/// radius: those farther off its plane than this share of the radius are left out, as are those whose own
+/// surface is turned away by more than 60 degrees.
+constexpr float kPlaneShare = 0.25f;
+constexpr float kLeastNormalCosine = 0.5f;
+
+/// A grid over hashed cells, its photons in cell order: those of neighbouring cells along x lie one after
+/// the other [Teschner03, spatial hashing; but only y and z
+/// are hashed, and x is added]. Immutable once built; thread safe.
+class PhotonMap
+{
+public:
+    PhotonMap() = default;
+
+    /// cellSize: twice the radius of most queries is best; any other is right, too. Stable: the order of
+    /// equal cells is that of photons, so results do not depend on threads.
+    PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers);
+
+    std::size_t size() const { return _count; }
+    std::size_t bytes() const;
+
+    /// Power through the disc of the query, as a surface with its shading normal would receive it
+    /// [Veach97, sect. 5.3].
+    PhotonSum gather(const PhotonQuery& query) const;
+
+    /// The photons of the disc, by index for photon(): appended to found.
+    void find(const PhotonQuery& query, std::vector<uint32_t>& found) const;
+
+    Photon photon(uint32_t index) const;
+
+private:
+    struct Range
+    {
+        uint32_t begin, end;
+    };
+    static constexpr int kMaxRanges = 512;
+
+    int rangesOf(const PhotonQuery& query, Range* ranges) const;
+    uint32_t bucketOf(int64_t x, int64_t y, int64_t z) const;
+
+    std::size_t _count = 0;
+    Vec3d _low{0.0};
+    Vec3d _high{0.0};
+    double _cellsPerUnit = 0.0;
+    uint32_t _mask = 0;                 ///< number of buckets - 1
+    std::vector<uint32_t> _first;       ///< a bucket, and one more; the end of the last
+    // In cell order, with kLanes of padding: loops read whole blocks.
+    std::vector<float> _x, _y, _z;
+    std::vector<float> _wiX, _wiY, _wiZ;
+    std::vector<float> _r, _g, _b;
+    std::vector<uint32_t> _normal;      ///< three signed bytes
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,72 @@
+// PhotonPasses.h - photon maps by pass, traced once for all views. Layer: photons.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/photons/PhotonTracer.h"
+
+#include <memory>
+#include <mutex>
+
+namespace osgRayTrace::engine
+{
+
+/// The photons of one pass. Immutable.
+struct PhotonPass
+{
+    PhotonMap map;
+    uint64_t rays = 0;
+    uint64_t dropped = 0;
+    double seconds = 0.0;        ///< to trace and to sort
+};
+
+constexpr int kDensityPhotons = 16;
+
+/// What the radii of lookups are chosen by [length].
+struct PhotonDensity
+{
+    float radius = 0.0f;      ///< holds kDensityPhotons photons of a pass around a photon, in the median
+    float sceneRadius = 0.0f; ///< of a sphere that holds the scene
+    float largestCoordinate = 0.0f; ///< in it, absolute
+    bool caustics = false;    ///< something can make them
+};
+
+/// Thread safe: views that ask for the same pass at once wait for one of them to trace it. The last few
+/// passes are kept.
+class PhotonPasses
+{
+public:
+    /// Of the first pass.
+    PhotonDensity density(const std::shared_ptr<const TracedScene>& traced, const std::vector<Light>& lights,
+                          const PhotonPassOptions& options, const Workers& workers);
+
+    /// Photons of pass number index, in cells of about this size.
+    std::shared_ptr<const PhotonPass> pass(const std::shared_ptr<const TracedScene>& traced,
+                                           const std::vector<Light>& lights,
+                                           const PhotonPassOptions& options, int index, float cellSize,
+                                           const Workers& workers);
+
+private:
+    struct Entry
+    {
+        int index = -1;
+        float cellSize = 0.0f;
+        std::shared_ptr<const PhotonPass> pass;
+    };
+    static constexpr std::size_t kKept = 4;
+
+    void begin(const std::shared_ptr<const TracedScene>& traced, const std::vector<Light>& lights,
+               const PhotonPassOptions& options);
+    bool isCurrent(const std::shared_ptr<const TracedScene>& traced, const std::vector<Light>& lights,
+                   const PhotonPassOptions& options) const;
+
+    std::mutex _mutex; // everything below
+    std::shared_ptr<const TracedScene> _traced;
+    std::vector<Light> _lights;
+    PhotonPassOptions _options;
+    std::unique_ptr<PhotonEmitter> _emitter;
+    std::unique_ptr<TracedPhotons> _first; ///< of density(), for the first pass
+    std::unique_ptr<PhotonDensity> _density;
+    std::vector<Entry> _kept; ///< oldest first
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,44 @@
+// PhotonTracer.h - follows photons from the lights to the surfaces they are stored on. Layer: photons.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/photons/PhotonEmitter.h"
+#include "osgRayTrace/photons/PhotonMap.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+class Workers;
+
+/// Which photons a pass stores. Direct light is never among them: it is sampled from the eye's side.
+enum class PhotonUse : uint8_t
+{
+    None,
+    Caustics, ///< that met mirror-like surfaces only, at least one, before: light, specular+, surface
+    Indirect, ///< that met any surface before
+};
+
+struct PhotonPassOptions
+{
+    PhotonUse use = PhotonUse::None;
+    uint32_t photons = 0;  ///< emitted a pass
+    int maxBounces = 8;    ///< edges of a photon's path after the first
+    uint32_t seed = 0;
+};
+
+struct TracedPhotons
+{
+    std::vector<Photon> photons;
+    uint64_t rays = 0;
+    uint64_t dropped = 0;  ///< not finite: left out
+};
+
+/// Photons of pass number pass; the same for any number of threads.
+TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& lights,
+                           const PhotonEmitter& emitter, const PhotonPassOptions& options, int pass,
+                           const Workers& workers);
+
+} // namespace osgRayTrace::engine

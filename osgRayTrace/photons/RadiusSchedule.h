@@ -1,0 +1,51 @@
+// RadiusSchedule.h - how the radius of photon lookups shrinks, so that noise and bias both vanish.
+// Layer: photons.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Math.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+/// Square of the radius of pass number pass (from 0) over that of the first: the product of
+/// (i + alpha) / (i + 1) for i = 1 to pass [Knaus11, the recurrence of the squared radii]; the product as
+/// gamma functions. Passes are independent of each other.
+inline double globalRadiusSquared(int pass, double alpha)
+{
+    const double n = pass + 1.0;
+    return std::exp(std::lgamma(n + alpha) - std::lgamma(1.0 + alpha) - std::lgamma(n + 1.0));
+}
+
+/// Statistics of a pixel that shrinks its radius by the photons that it has seen: radius reduction and flux
+/// correction [Hachisuka08, sect. 4], shared by all hit points of the pixel [Hachisuka09, sect. 4].
+struct LocalStatistics
+{
+    float photons = 0.0f;  ///< N
+    float radius2 = 0.0f;  ///< R^2
+    Vec3 flux{0.0f};       ///< tau, weighted by the BSDF [W/sr]
+    int passes = 0;
+};
+
+/// Adds a pass that found count photons with flux within the radius.
+inline void addPhotons(LocalStatistics& s, uint32_t count, Vec3 flux, float alpha)
+{
+    ++s.passes;
+    if (count == 0) return;
+    const float found = static_cast<float>(count);
+    const float shrink = (s.photons + alpha * found) / (s.photons + found);
+    s.photons += alpha * found;
+    s.radius2 *= shrink;
+    s.flux = (s.flux + flux) * shrink;
+}
+
+/// Radiance after these passes; each pass emits the same number of photons, of whose power flux is made.
+inline Vec3 localRadiance(const LocalStatistics& s)
+{
+    if (s.passes == 0 || !(s.radius2 > 0.0f)) return Vec3(0.0f);
+    return s.flux / (kPi * s.radius2 * static_cast<float>(s.passes));
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,159 @@
+// PhotonState.cpp - what a view keeps for photon mapping from pass to pass. Layer: session.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/session/PhotonState.h"
+
+#include "osgRayTrace/accel/Intersector.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Width of a pixel on the surfaces that the view shows, in the median over a grid of its pixels [length];
+/// 0 if it shows none.
+float pixelWidth(const PassContext& context, int width, int height)
+{
+    constexpr int kSide = 9;
+    std::vector<float> widths;
+    const CameraRays& c = context.camera;
+    for (int k = 0; k < kSide * kSide; ++k)
+    {
+        const float x = (static_cast<float>(k % kSide) + 0.5f) / kSide * static_cast<float>(width);
+        const float y = (static_cast<float>(k / kSide) + 0.5f) / kSide * static_cast<float>(height);
+        const Vec3 direction = c.direction + x * c.directionDx + y * c.directionDy;
+        const Vec3 origin = c.origin + x * c.originDx + y * c.originDy;
+        const float length = glm::length(direction);
+        const auto hit = context.traced->intersector().closestHit(origin, direction / length,
+                                                                  c.nearS * length, kInfinity);
+        if (!hit) continue;
+        const float across = std::max(glm::length(c.directionDx), glm::length(c.directionDy));
+        const float shift = std::max(glm::length(c.originDx), glm::length(c.originDy));
+        widths.push_back(c.orthographic ? shift : across * hit->t / length);
+    }
+    if (widths.empty()) return 0.0f;
+    std::nth_element(widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2),
+                     widths.end());
+    return widths[widths.size() / 2];
+}
+
+constexpr float kLargestShare = 4.0f; ///< of the largest first radius over those that it is chosen by
+
+PhotonPassOptions passOptions(const RenderOptions& options)
+{
+    PhotonPassOptions result;
+    result.use = photonUse(options.integrator);
+    result.photons = static_cast<uint32_t>(std::max(0, options.photons));
+    result.maxBounces = options.maxBounces;
+    result.seed = options.seed;
+    return result;
+}
+
+} // namespace
+
+void PhotonState::reset(int tileCount)
+{
+    _pass.reset();
+    _least = _largest = 0.0f;
+    _shrink = 1.0f;
+    _pixels = static_cast<std::size_t>(tileCount) * kTilePixels;
+    std::vector<float>().swap(_firstRadii);
+    std::vector<LocalStatistics>().swap(_statistics);
+}
+
+void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
+                              const PhotonPassOptions& options, const Workers& workers)
+{
+    const PhotonDensity density = _passes->density(traced, *context.lights, options, workers);
+    _idle = options.use == PhotonUse::Caustics && (!density.caustics || options.photons == 0);
+    _floor = 8.0f * 0x1p-23f * density.largestCoordinate;
+    const float ceiling = std::max(density.sceneRadius, _floor);
+    const auto wanted = static_cast<float>(context.options.photonRadius / context.traced->scene().unit);
+    if (wanted > 0.0f)
+        _least = _largest = _bounced = wanted;
+    else
+    {
+        // A bounce blurs by itself: what counts there is a number of photons that costs no more than a ray.
+        _bounced = density.radius;
+        _least = pixelWidth(context, context.width, context.height);
+        if (!(_least > 0.0f)) _least = density.radius;
+        _largest = kLargestShare * std::max(_least, density.radius);
+    }
+    for (float* radius : {&_least, &_largest, &_bounced})
+        *radius = std::clamp(*radius, _floor, ceiling);
+}
+
+void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context, int pass,
+                          const Workers& workers)
+{
+    const PhotonPassOptions options = passOptions(context.options);
+    context.photonUse = options.use;
+    if (options.use == PhotonUse::None) return;
+    if (!(_largest > 0.0f))
+    {
+        chooseRadii(traced, context, options, workers);
+        _local = context.options.radiusSchedule == RadiusSchedule::Local &&
+                 options.use == PhotonUse::Indirect;
+        if (_local)
+            _statistics.assign(2 * _pixels, LocalStatistics());
+        else
+            _firstRadii.assign(_pixels, 0.0f);
+    }
+    if (_idle)
+    {
+        context.photonUse = PhotonUse::None;
+        return;
+    }
+    _shrink = static_cast<float>(
+        std::sqrt(globalRadiusSquared(pass, static_cast<double>(context.options.photonAlpha))));
+    context.leastPhotonRadius = std::max(_floor, _least * _shrink);
+    context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
+    context.bouncedPhotonRadius = std::max(_floor, _bounced * _shrink);
+    // Where photons lie densely radii are small. The largest one spans nine or ten cells.
+    const float cell = std::max(2.0f * context.bouncedPhotonRadius, context.largestPhotonRadius / kLargestShare);
+    _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
+    context.photons = &_pass->map;
+}
+
+void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered) const
+{
+    const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
+    gathered.separate = _local;
+    for (std::size_t p = 0; p < kTilePixels; ++p)
+    {
+        const std::size_t half = (pass & 1) ? _pixels : 0;
+        const float radius = _local ? std::sqrt(_statistics[half + first + p].radius2)
+                                    : _firstRadii[first + p] * _shrink;
+        gathered.radius[p] = radius > 0.0f ? std::max(radius, _floor) : 0.0f;
+    }
+}
+
+void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float alpha, RgbaLanes* rgba)
+{
+    const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
+    if (!_local)
+    {
+        for (std::size_t p = 0; p < kTilePixels; ++p)
+            if (_firstRadii[first + p] == 0.0f) _firstRadii[first + p] = gathered.radius[p] / _shrink;
+        return;
+    }
+    for (std::size_t p = 0; p < kTilePixels; ++p)
+    {
+        LocalStatistics& s = _statistics[((pass & 1) ? _pixels : 0) + first + p];
+        if (s.radius2 == 0.0f) s.radius2 = gathered.radius[p] * gathered.radius[p];
+        // The film averages passes: what must be added for the average to become the new estimate.
+        const Vec3d before = Vec3d(localRadiance(s)) * static_cast<double>(s.passes);
+        const bool finite = isFinite(gathered.flux[p]);
+        addPhotons(s, finite ? gathered.count[p] : 0, gathered.flux[p], alpha);
+        const Vec3 added(Vec3d(localRadiance(s)) * static_cast<double>(s.passes) - before);
+        RgbaLanes& block = rgba[p / kLanes];
+        block.r[p % kLanes] += added.x;
+        block.g[p % kLanes] += added.y;
+        block.b[p % kLanes] += added.z;
+    }
+}
+
+} // namespace osgRayTrace::engine

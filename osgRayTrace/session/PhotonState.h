@@ -1,0 +1,64 @@
+// PhotonState.h - what a view keeps for photon mapping from pass to pass. Layer: session.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/photons/PhotonPasses.h"
+#include "osgRayTrace/photons/RadiusSchedule.h"
+
+#include <memory>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+class Workers;
+
+/// Chooses radii, holds the photons of the pass at work and, for the local schedule, the statistics of each
+/// pixel. Each pixel's first radius is the given one, or the smallest of r, 2r, 4r, ... with kRadiusPhotons
+/// photons (radiusOf), where r is the width of a pixel; the largest is four times that, or four times the radius
+/// d that holds kDensityPhotons photons around a photon in the median, if that is more. Lookups for caustics
+/// after a bounce have the radius d. Later radii follow the schedule. All are kept between the spacing of
+/// floats and the radius of the scene.
+class PhotonState
+{
+public:
+    explicit PhotonState(std::shared_ptr<PhotonPasses> passes) : _passes(std::move(passes)) {}
+
+    /// A new image. tileCount: of the film.
+    void reset(int tileCount);
+
+    /// Traces or finds the photons of a pass and sets them in context, whose integrator is chosen. Nothing to
+    /// do for integrators without photons.
+    void prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context, int pass,
+                 const Workers& workers);
+
+    bool active() const { return _pass != nullptr; }
+
+    /// Radii for the tile before its pass; and what it found. For the local schedule that is added to rgba.
+    void begin(int tile, int pass, GatheredPhotons& gathered) const;
+    void end(int tile, int pass, const GatheredPhotons& gathered, float alpha, RgbaLanes* rgba);
+
+    float radius() const { return _largest * _shrink; } ///< largest of the last pass [length]
+    const PhotonPass* photons() const { return _pass.get(); }
+
+private:
+    void chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
+                      const PhotonPassOptions& options, const Workers& workers);
+
+    std::shared_ptr<PhotonPasses> _passes;
+    std::shared_ptr<const PhotonPass> _pass;
+    // Radii [length]
+    float _floor = 0.0f;    ///< none is smaller
+    float _least = 0.0f;    ///< of first radii; 0: not chosen yet
+    float _largest = 0.0f;
+    float _bounced = 0.0f;  ///< of lookups after a bounce, PhotonUse::Caustics
+    float _shrink = 1.0f;   ///< of the pass at work against the first, global schedule
+    bool _local = false;
+    bool _idle = false;     ///< photons for caustics, but there are none: all paths are traced from the eye
+    std::size_t _pixels = 0;                  ///< of all tiles
+    std::vector<float> _firstRadii;           ///< tile, pixel; 0: not known; empty if local
+    std::vector<LocalStatistics> _statistics; ///< half, tile, pixel; empty unless local
+};
+
+} // namespace osgRayTrace::engine
