@@ -14,6 +14,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
+/// From here on no lift changes the direction to a light, and squares of distances are no floats.
+constexpr float kFarLight = 1e18f;
+
 /// A parallelogram with what all lanes share.
 struct Quad
 {
@@ -194,7 +197,7 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
         const Vec3 origin = leave(surface, i, sample.wi);
         Vec3 towards = sample.wi;
         float distance = sample.distance;
-        if (((surface.lifted >> i) & 1u) && distance < kInfinity)
+        if (((surface.lifted >> i) & 1u) && distance < kFarLight)
         {
             // The lift is no small thing: to the light itself, not past it.
             towards = point + sample.wi * distance - origin;

@@ -20,7 +20,14 @@ bool isArea(const Light& light)
 constexpr float kOffsetScale = 32.0f * 0x1p-24f;
 
 /// So that its inverse is a float.
-constexpr double kLeastFalloff = 1e-37;
+constexpr float kLeastFalloff = 1e-37f;
+
+/// Of any vector of floats: a light far from a small scene may be 1e21 engine units away.
+float lengthOf(Vec3 v)
+{
+    const float length2 = glm::dot(v, v);
+    return length2 < 1e38f ? std::sqrt(length2) : static_cast<float>(glm::length(Vec3d(v)));
+}
 
 float sumAbs(Vec3 v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
@@ -186,16 +193,14 @@ DeltaLightSample sampleDelta(const Light& light, Vec3 p)
         sample.attenuation = 1.0f;
         return sample;
     }
-    // In double: a light far from a small scene may be 1e21 engine units away, whose square is no float.
-    const Vec3d d = Vec3d(light.position) - Vec3d(p);
-    const double distance2 = glm::dot(d, d);
-    if (!(distance2 > 0.0)) return sample;
-    const double distance = std::sqrt(distance2);
-    sample.distance = static_cast<float>(distance);
-    sample.wi = Vec3(d / distance);
-    const double falloff = light.attenuationConstant + light.attenuationLinear * distance +
-                           light.attenuationQuadratic * distance2;
-    sample.attenuation = falloff > kLeastFalloff ? static_cast<float>(1.0 / falloff) : 0.0f;
+    const Vec3 d = light.position - p;
+    const float distance = lengthOf(d);
+    if (!(distance > 0.0f)) return sample;
+    sample.distance = distance;
+    sample.wi = d / distance;
+    const float falloff = light.attenuationConstant + light.attenuationLinear * distance +
+                          light.attenuationQuadratic * distance * distance;
+    sample.attenuation = falloff > kLeastFalloff ? 1.0f / falloff : 0.0f;
     if (light.spotCosCutoff > -1.0f)
     {
         const float cosine = -glm::dot(sample.wi, light.direction);

@@ -3,6 +3,8 @@
 #include "tests/Catch.h"
 #include "tests/stability/scale/ScaledScene.h"
 
+#include <osg/LightSource>
+
 #include <cmath>
 
 using namespace osgRayTrace;
@@ -128,4 +130,29 @@ TEST_CASE("stability 4: at the end of the floats a picture is right or refused",
             CHECK((same || refused || (!storable && skippedThings(picture) > 0)));
         }
     }
+}
+
+TEST_CASE("stability 4: a light that is far from a small scene lights it evenly", "[stability]")
+{
+    // The sun as a point light at 1.5e11 from a scene of 1e-12: as the same direction without a
+    // place.
+    Placement small;
+    small.scale = 1e-12;
+    const auto litBy = [&](const osg::Vec4& position)
+    {
+        const osg::ref_ptr<osg::Group> scene = classicScene(small);
+        const osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+        source->getLight()->setLightNum(4);
+        source->getLight()->setPosition(position);
+        source->getLight()->setDiffuse(osg::Vec4(0.5f, 0.5f, 0.5f, 1.0f));
+        scene->addChild(source);
+        scene->getOrCreateStateSet()->setMode(GL_LIGHT4, osg::StateAttribute::ON);
+        return pictureOf(*scene, small, kWhitted);
+    };
+    const Picture directional = litBy(osg::Vec4(-0.5f, -0.25f, 1.0f, 0.0f));
+    const Picture point = litBy(osg::Vec4(-0.75e11f, -0.375e11f, 1.5e11f, 1.0f));
+    const Picture without = pictureOf(*classicScene(small), small, kWhitted);
+    CHECK(point.statistics.droppedSamples == 0);
+    CHECK(relativeMse(point, directional) <= 1e-8);
+    CHECK(relativeMse(without, directional) > 1e-2);
 }
