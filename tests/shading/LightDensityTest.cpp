@@ -66,14 +66,14 @@ LightResult sampleQuad(const LightTable& table, const Quad& quad, Vec3 p, uint32
         result.solidAngle.add(sample ? 1.0 / sample->pdfW : 0.0);
         if (!sample) continue;
         result.bad += !(sample->pdfW > 0.0f) || !std::isfinite(sample->pdfW) ||
-                      !isFinite(sample->wi) || !isFinite(sample->target);
+                      !isFinite(sample->wi) || !isFinite(sample->point);
         // The density follows from where the direction meets the light, worked out from wi alone.
         const Vec3d n = glm::normalize(glm::cross(Vec3d(quad.u), Vec3d(quad.v)));
         const Vec3d wi(sample->wi), d = Vec3d(quad.corner) - Vec3d(p);
         const double distance = glm::dot(d, n) / glm::dot(wi, n);
         const double area = glm::length(glm::cross(Vec3d(quad.u), Vec3d(quad.v)));
         const double pdfW = distance * distance / (area * std::abs(glm::dot(wi, n)));
-        const Vec2 at = edgeCoordinates(quad, Vec3d(sample->target));
+        const Vec2 at = edgeCoordinates(quad, Vec3d(sample->point));
         result.bad += std::abs(pdfW / sample->pdfW - 1.0) > 2e-3;
         result.outside += at.x < -1e-3f || at.y < -1e-3f || at.x > 1.001f || at.y > 1.001f;
         const auto cell = [](float x)
@@ -158,9 +158,9 @@ TEST_CASE("light density: triangles of very unequal area, cell by cell", "[shadi
         const auto sample = table.sampleArea(0, Vec3(40, 0, 30), u, v);
         REQUIRE(sample);
         bad += !(sample->pdfW > 0.0f) || !std::isfinite(sample->pdfW);
-        const auto k = static_cast<std::size_t>(std::clamp(sample->target.x / 2.0f, 0.0f, 39.0f));
-        const double b = sample->target.x - 2.0 * double(k);
-        const double c = sample->target.y / (2.0 * areas[k]);
+        const auto k = static_cast<std::size_t>(std::clamp(sample->point.x / 2.0f, 0.0f, 39.0f));
+        const double b = sample->point.x - 2.0 * double(k);
+        const double c = sample->point.y / (2.0 * areas[k]);
         outside += b < -1e-4 || c < -0.1 || b + c > 1.1;
         const std::size_t part = b > 0.5 ? 1 : c > 0.5 ? 2 : b + c < 0.5 ? 0 : 3;
         ++observed[4 * k + part];
