@@ -1,5 +1,5 @@
-// CoincidentTest.cpp - surfaces in the same place: one of them is seen, always the same. Layer:
-// tests. SPDX-License-Identifier: MIT
+// CoincidentTest.cpp - of surfaces in one place the same one is always seen. Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/stability/geometry/Compare.h"
 

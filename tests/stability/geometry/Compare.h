@@ -1,5 +1,5 @@
-// Compare.h - how many values of two pictures differ, so that a failed check is one line. Layer:
-// tests. SPDX-License-Identifier: MIT
+// Compare.h - how many values of two pictures differ. Layer: tests.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "tests/EngineScenes.h"

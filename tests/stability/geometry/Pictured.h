@@ -1,5 +1,5 @@
-// Pictured.h - a scene graph, converted, lit and rendered, and what was said about it. Layer:
-// tests. SPDX-License-Identifier: MIT
+// Pictured.h - a scene graph as a picture, and what was said about it. Layer: tests.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "tests/bridge/Graphs.h"
