@@ -216,7 +216,8 @@ TEST_CASE("values per primitive set split the vertices that two sets use", "[bri
     CHECK(mesh.positions[mesh.triangles[2].x] == Vec3(2.0f, 4.0f, 0.0f));
 }
 
-TEST_CASE("normals that are zero, NaN or missing become face normals and are counted", "[bridge]")
+TEST_CASE("normals that are zero, NaN or missing become face normals and are counted",
+          "[bridge][stability 54]")
 {
     const auto geometry = curveGeometry(5, new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, 5));
     osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array(3);

@@ -7,6 +7,8 @@
 #include "osgRayTrace/film/Resolve.h"
 #include "osgRayTrace/integrators/Integrator.h"
 
+#include <tbb/global_control.h>
+
 #include <algorithm>
 #include <numeric>
 #include <random>
@@ -39,6 +41,8 @@ SceneBuilder mixedBox(Vec3 offset = Vec3(0.0f))
 TEST_CASE("determinism: equal images for 1, 2, 3 and 16 threads and in every run, bit by bit",
           "[session][stability 50]")
 {
+    // Else TBB has no more threads than the machine has cores.
+    const tbb::global_control sixteen(tbb::global_control::max_allowed_parallelism, 16);
     const auto traced = mixedBox().build();
     for (const IntegratorKind kind :
          {IntegratorKind::Path, IntegratorKind::Whitted, IntegratorKind::Ppm, IntegratorKind::Sppm,

@@ -1,5 +1,5 @@
-// BadGeometryTest.cpp - bad vertices and indices are left out, counted and named; the rest stands.
-// Layer: tests. SPDX-License-Identifier: MIT
+// BadGeometryTest.cpp - bad vertices and indices are left out, the rest stands. Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/stability/geometry/Pictured.h"
 

@@ -1,5 +1,5 @@
-// CapsTest.cpp - what is too large is refused with a message, before memory or stack is taken.
-// Layer: tests. SPDX-License-Identifier: MIT
+// CapsTest.cpp - what is too large is refused with a message, untouched. Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/stability/geometry/Pictured.h"
 

@@ -1,9 +1,9 @@
-// CoincidentTest.cpp - surfaces in the same place: one of them is seen, always the same. Layer:
-// tests. SPDX-License-Identifier: MIT
+// CoincidentTest.cpp - of surfaces in one place the same one is always seen. Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/stability/geometry/Compare.h"
 
-#include <array>
+#include <tbb/global_control.h>
 
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
@@ -96,6 +96,7 @@ SceneBuilder repeated(int times)
 TEST_CASE("stability 10: of two faces in one place the same is seen everywhere and always",
           "[stability]")
 {
+    const tbb::global_control sixteen(tbb::global_control::max_allowed_parallelism, 16);
     for (const Placing placing : {Placing::OneMesh, Placing::Instances})
     {
         for (const int cells : {1, 3, 64})

@@ -1,4 +1,4 @@
-// Compare.h - how many values of two pictures differ, so that a failed check is one line. Layer: tests.
+// Compare.h - how many values of two pictures differ. Layer: tests.
 // SPDX-License-Identifier: MIT
 #pragma once
 

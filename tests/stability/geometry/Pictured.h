@@ -1,4 +1,4 @@
-// Pictured.h - a scene graph, converted, lit and rendered, and what was said about it. Layer: tests.
+// Pictured.h - a scene graph as a picture, and what was said about it. Layer: tests.
 // SPDX-License-Identifier: MIT
 #pragma once
 
