@@ -1,0 +1,178 @@
+// PhotonEmitterTest.cpp - lights send what their formulas say, however photons are aimed.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+#include "tests/Statistics.h"
+
+#include "osgRayTrace/photons/PhotonEmitter.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+/// A large floor and, well inside of what surrounds it, a small glass ball and a mirror to aim at.
+SceneBuilder stage()
+{
+    SceneBuilder builder;
+    builder.add(quadMesh({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}), lambert(Vec3(0.5f)));
+    builder.add(sphereMesh({0.5f, 0.2f, 0.6f}, 0.4f, 16), glass(1.5f));
+    builder.add(quadMesh({-1, -1, 0.3f}, {0, 0.7f, 0}, {0, 0, 0.6f}), mirror(Vec3(1.0f)));
+    return builder;
+}
+
+struct Flux
+{
+    Estimate total; ///< all that leaves
+    Estimate ball;  ///< that meets the ball's sphere
+};
+
+Flux emitted(const SceneBuilder& builder, float aimedShare)
+{
+    const auto traced = builder.build(1);
+    const PhotonEmitter emitter(*traced, traced->scene().lights, aimedShare);
+    REQUIRE(emitter.emits());
+    REQUIRE(emitter.hasTargets());
+    Uniform uniform(23);
+    Flux flux;
+    for (int k = 0; k < 300000; ++k)
+    {
+        EmissionPoint point;
+        point.light = uniform();
+        point.aim = uniform();
+        point.position = Vec2(uniform(), uniform());
+        point.direction = Vec2(uniform(), uniform());
+        const auto start = emitter.emit(point);
+        bool meets = false;
+        if (start)
+        {
+            REQUIRE(std::fabs(glm::length(start->direction) - 1.0f) < 1e-5f);
+            const Vec3 d = Vec3(0.5f, 0.2f, 0.6f) - start->origin;
+            const float along = glm::dot(d, start->direction);
+            meets = along > 0.0f && glm::dot(d, d) - along * along < 0.16f;
+        }
+        flux.total.add(start ? double(start->power.y) : 0.0);
+        flux.ball.add(meets ? double(start->power.y) : 0.0);
+    }
+    return flux;
+}
+
+/// Demands the analytic flux without aiming and with two shares of it, and that the ball gets the
+/// same.
+void checkFlux(const SceneBuilder& builder, double expected)
+{
+    const Flux plain = emitted(builder, 0.0f);
+    CAPTURE(plain.total.mean(), plain.total.standardError(), expected);
+    CHECK(plain.total.agrees(expected, 1e-5 * expected));
+    for (const float share : {0.25f, 0.9f})
+    {
+        const Flux aimed = emitted(builder, share);
+        CAPTURE(share, aimed.total.mean(), aimed.total.standardError());
+        CHECK(aimed.total.agrees(expected, 1e-5 * expected));
+        const double spread = std::hypot(plain.ball.standardError(), aimed.ball.standardError());
+        CAPTURE(plain.ball.mean(), aimed.ball.mean(), spread);
+        CHECK(plain.ball.mean() > 0.0);
+        CHECK(std::abs(plain.ball.mean() - aimed.ball.mean()) <= 4.0 * spread);
+        if (share > 0.5f) CHECK(aimed.ball.standardError() < plain.ball.standardError());
+    }
+}
+
+constexpr double kPiD = 3.14159265358979323846;
+
+} // namespace
+
+// Each case: four means within 4 standard errors and two differences; a false alarm of all has a
+// probability of 4e-4.
+TEST_CASE("photon emission: a parallelogram, one side and two", "[photons][statistics]")
+{
+    for (const bool twoSided : {false, true})
+    {
+        SceneBuilder builder = stage();
+        builder.addQuadLight({-0.5f, -0.5f, 3.0f}, {0, 0.6f, 0}, {0.5f, 0, 0}, Vec3(3.0f),
+                             twoSided);
+        checkFlux(builder, kPiD * 3.0 * 0.3 * (twoSided ? 2.0 : 1.0));
+    }
+}
+
+TEST_CASE("photon emission: a mesh shines to both sides", "[photons][statistics]")
+{
+    SceneBuilder builder = stage();
+    builder.addEmissive(quadMesh({-0.5f, -0.5f, 3.0f}, {0, 0.6f, 0}, {0.5f, 0, 0}),
+                        lamp(Vec3(3.0f)));
+    checkFlux(builder, kPiD * 3.0 * 0.3 * 2.0);
+}
+
+TEST_CASE("photon emission: a point light and spots", "[photons][statistics]")
+{
+    SceneBuilder point = stage();
+    point.addLight(pointLight({0, 0, 2.5f}, Vec3(2.0f)));
+    checkFlux(point, 2.0 * kPiD * 4.0 * kPiD);
+
+    for (const float exponent : {0.0f, 5.0f})
+    {
+        Light light = pointLight({0.2f, 0, 3}, Vec3(2.0f));
+        light.direction = glm::normalize(Vec3(0.1f, 0.05f, -1.0f));
+        light.spotCosCutoff = 0.7f;
+        light.spotExponent = exponent;
+        SceneBuilder spot = stage();
+        spot.addLight(light);
+        const double e = double(exponent) + 1.0;
+        checkFlux(spot,
+                  2.0 * kPiD * 2.0 * kPiD / e * (1.0 - std::pow(double(light.spotCosCutoff), e)));
+    }
+}
+
+TEST_CASE("photon emission: a directional light fills the scene's disc", "[photons][statistics]")
+{
+    Light light;
+    light.kind = LightKind::Directional;
+    light.diffuse = Vec3(2.0f);
+    light.direction = glm::normalize(Vec3(0.3f, 0.2f, -1.0f));
+    SceneBuilder builder = stage();
+    builder.addLight(light);
+    const auto traced = builder.build(1);
+    const double radius =
+        double(PhotonEmitter(*traced, traced->scene().lights, 0.0f).scene().radius);
+    checkFlux(builder, 2.0 * kPiD * kPiD * radius * radius);
+}
+
+TEST_CASE("photon emission: lights of different power together", "[photons][statistics]")
+{
+    SceneBuilder builder = stage();
+    builder.addQuadLight({-0.5f, -0.5f, 3.0f}, {0, 0.6f, 0}, {0.5f, 0, 0}, Vec3(3.0f));
+    builder.addLight(pointLight({0, 0, 2.5f}, Vec3(0.05f)));
+    builder.addLight(pointLight({0, 1, 2.5f}, Vec3(0.0f))); // dark: never chosen
+    checkFlux(builder, kPiD * 3.0 * 0.3 + 0.05 * kPiD * 4.0 * kPiD);
+}
+
+TEST_CASE("photon emission: attenuation other than the square of the distance", "[photons]")
+{
+    SceneBuilder builder = stage();
+    Light light = pointLight({0, 0, 2.5f});
+    light.attenuationConstant = 0.5f;
+    light.attenuationLinear = 0.25f;
+    light.attenuationQuadratic = 0.125f;
+    builder.addLight(light);
+    builder.addLight(pointLight({0, 0, 2.5f}));
+    builder.addQuadLight({-0.5f, -0.5f, 3.0f}, {0, 0.6f, 0}, {0.5f, 0, 0}, Vec3(3.0f));
+    const auto traced = builder.build(1);
+    const PhotonEmitter emitter(*traced, traced->scene().lights, 0.0f);
+    for (const float d : {0.01f, 1.0f, 7.0f})
+    {
+        CHECK(emitter.falloff(0, d) == Approx(d * d / (0.5f + 0.25f * d + 0.125f * d * d)));
+        CHECK(emitter.falloff(1, d) == Approx(1.0f));
+        CHECK(emitter.falloff(2, d) == 1.0f);
+    }
+}
+
+TEST_CASE("photon emission: dark lights emit nothing", "[photons]")
+{
+    SceneBuilder builder = stage();
+    for (int k = 0; k < 1000; ++k)
+        builder.addLight(pointLight({0, 0, 2.5f}, Vec3(0.0f)));
+    const auto traced = builder.build(1);
+    const PhotonEmitter emitter(*traced, traced->scene().lights, 0.5f);
+    CHECK_FALSE(emitter.emits());
+    CHECK_FALSE(emitter.emit({}).has_value());
+}
