@@ -64,8 +64,9 @@ void checkAgreement(const char* name, const SceneBuilder& builder, int times = 1
         const Estimate photons = meanOf(traced, roomView(), photonOptions(kind), 24 * times);
         const double spread = std::hypot(path.standardError(), photons.standardError());
         CAPTURE(name, int(kind), path.mean(), photons.mean(), spread);
-        CHECK(photons.standardError() < 0.01 * path.mean());
-        // A hit point fixed for all passes leaves the noise of pixel sampling, which seeds vary.
+        // PPM keeps its camera paths: through rough glass their noise does not fall with passes.
+        const bool fixedNoise = times > 1 && kind == IntegratorKind::Ppm;
+        CHECK(photons.standardError() < (fixedNoise ? 0.02 : 0.01) * path.mean());
         CHECK(std::abs(path.mean() - photons.mean()) <= 4.0 * spread);
     }
 }
