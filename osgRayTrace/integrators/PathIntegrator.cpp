@@ -396,7 +396,7 @@ template <PhotonUse use> void chooseGathering(Bounce& bounce)
         const int i = __builtin_ctz(lanes);
         const Bsdf& bsdf = bounce.bsdfs[i];
         const bool lambert = bsdf.diffuse != Vec3(0.0f);
-        const bool rough = lambert || bsdf.alpha >= kGatherAlpha;
+        const bool rough = !bsdf.transmits() && (lambert || bsdf.alpha >= kGatherAlpha);
         const bool scatters = lambert || !bsdf.isSmooth();
         if (use == PhotonUse::Indirect ? rough : scatters) bounce.gathering |= 1u << i;
         if (use == PhotonUse::Indirect && rough) bounce.ending |= 1u << i;

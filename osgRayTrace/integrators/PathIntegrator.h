@@ -17,8 +17,8 @@ namespace osgRayTrace::engine
 ///   PhotonUse::Indirect  photons: all that reach the first rough D seen from the eye after one bounce or
 ///                        more; path tracing: light sampling there, and all up to there (light (S|glossy)* eye)
 ///
-/// A surface is rough from roughness kGatherAlpha on, or if it has a Lambert base; its mirror-like part is
-/// followed further.
+/// A surface is rough if it does not transmit and has a GGX width from kGatherAlpha on or a Lambert base; its
+/// mirror-like part is followed further.
 class PathIntegrator : public Integrator
 {
 public:

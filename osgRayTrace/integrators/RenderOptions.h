@@ -55,7 +55,7 @@ struct RenderOptions
     bool shadows = true;
     bool terminatorCorrection = true; ///< rays of smooth-shaded facets start as RayStart::Smooth says
     uint32_t seed = 0;
-    int photons = 1 << 18;      ///< emitted a pass
+    int photons = 1 << 16;      ///< emitted a pass
     float photonRadius = 0.0f;  ///< of the first pass [length]; 0: from the density of the photons
     float photonAlpha = 2.0f / 3.0f; ///< share of the photons of a pass that are kept
     RadiusSchedule radiusSchedule = RadiusSchedule::Global;

@@ -40,8 +40,6 @@ float pixelWidth(const PassContext& context, int width, int height)
     return widths[widths.size() / 2];
 }
 
-constexpr float kLargestShare = 4.0f; ///< of the largest first radius over those that it is chosen by
-
 PhotonPassOptions passOptions(const RenderOptions& options)
 {
     PhotonPassOptions result;
@@ -80,7 +78,7 @@ void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, 
         _bounced = density.radius;
         _least = pixelWidth(context, context.width, context.height);
         if (!(_least > 0.0f)) _least = density.radius;
-        _largest = kLargestShare * std::max(_least, density.radius);
+        _largest = std::max(_least, density.radius);
     }
     for (float* radius : {&_least, &_largest, &_bounced})
         *radius = std::clamp(*radius, _floor, ceiling);
@@ -112,8 +110,8 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
     context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
     context.bouncedPhotonRadius = std::max(_floor, _bounced * _shrink);
-    // Where photons lie densely radii are small. The largest one spans nine or ten cells.
-    const float cell = std::max(2.0f * context.bouncedPhotonRadius, context.largestPhotonRadius / kLargestShare);
+    // No lookup spans more than three cells along an axis.
+    const float cell = std::max(2.0f * context.bouncedPhotonRadius, context.largestPhotonRadius);
     _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
     context.photons = &_pass->map;
 }

@@ -16,9 +16,9 @@ class Workers;
 
 /// Chooses radii, holds the photons of the pass at work and, for the local schedule, the statistics of each
 /// pixel. Each pixel's first radius is the given one, or the smallest of r, 2r, 4r, ... with kRadiusPhotons
-/// photons (radiusOf), where r is the width of a pixel; the largest is four times that, or four times the radius
-/// d that holds kDensityPhotons photons around a photon in the median, if that is more. Lookups for caustics
-/// after a bounce have the radius d. Later radii follow the schedule. All are kept between the spacing of
+/// photons (radiusOf), where r is the width of a pixel; the largest is that, or the radius d that holds
+/// kDensityPhotons photons around a photon in the median, if that is more. Lookups for caustics after a
+/// bounce have the radius d. Later radii follow the schedule. All are kept between the spacing of
 /// floats and the radius of the scene.
 class PhotonState
 {

@@ -51,20 +51,22 @@ Estimate meanOf(const std::shared_ptr<const TracedScene>& traced, const View& vi
     return estimate;
 }
 
-void checkAgreement(const char* name, const SceneBuilder& builder)
+void checkAgreement(const char* name, const SceneBuilder& builder, int times = 1)
 {
     const auto traced = builder.build();
-    const Estimate path = meanOf(traced, roomView(), photonOptions(IntegratorKind::Path), 64);
+    const Estimate path =
+        meanOf(traced, roomView(), photonOptions(IntegratorKind::Path), 64 * times);
     REQUIRE(path.mean() > 0.05);
     CHECK(path.standardError() < 0.008 * path.mean()); // it converges: a difference of 5 % is seen
     for (const IntegratorKind kind :
          {IntegratorKind::Sppm, IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
     {
-        const Estimate photons = meanOf(traced, roomView(), photonOptions(kind), 24);
+        const Estimate photons = meanOf(traced, roomView(), photonOptions(kind), 24 * times);
         const double spread = std::hypot(path.standardError(), photons.standardError());
         CAPTURE(name, int(kind), path.mean(), photons.mean(), spread);
-        CHECK(photons.standardError() < 0.01 * path.mean());
-        // A hit point fixed for all passes leaves the noise of pixel sampling, which seeds vary.
+        // PPM keeps its camera paths: through rough glass their noise does not fall with passes.
+        const bool fixedNoise = times > 1 && kind == IntegratorKind::Ppm;
+        CHECK(photons.standardError() < (fixedNoise ? 0.02 : 0.01) * path.mean());
         CHECK(std::abs(path.mean() - photons.mean()) <= 4.0 * spread);
     }
 }
@@ -102,7 +104,8 @@ TEST_CASE("photon pictures: rough glass", "[photons][statistics]")
 {
     SceneBuilder builder = room(kGrey);
     builder.add(sphereMesh(kBallCentre, 0.4f, 24), glass(1.5f, 0.55f));
-    checkAgreement("rough glass", builder);
+    // Photons looked up on the glass itself made this picture 2 % too bright.
+    checkAgreement("rough glass", builder, 5);
 }
 
 TEST_CASE("photon pictures: diffuse surfaces under a mirror-like coat", "[photons][statistics]")
