@@ -350,8 +350,11 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         ray.tFar[i] = kInfinity;
         block.pdfW[i] = pdfW[i];
         if (pdfW[i] < kInfinity)
-            block.pixel[i] = (block.pixel[i] | kScattered) & ~kCausticChain;
-        else if (block.pixel[i] & kScattered)
+        {
+            block.pixel[i] = (block.pixel[i] | kScattered) & ~(kCausticChain | kGathered);
+            if ((bounce.gathering >> i) & 1u) block.pixel[i] |= kGathered;
+        }
+        else if (block.pixel[i] & kGathered)
             block.pixel[i] |= kCausticChain;
         survivors |= 1u << i;
     }
@@ -396,7 +399,8 @@ template <PhotonUse use> void chooseGathering(Bounce& bounce)
         const int i = __builtin_ctz(lanes);
         const Bsdf& bsdf = bounce.bsdfs[i];
         const bool lambert = bsdf.diffuse != Vec3(0.0f);
-        const bool rough = !bsdf.transmits() && (lambert || bsdf.alpha >= kGatherAlpha);
+        if (bsdf.transmits()) continue;
+        const bool rough = lambert || bsdf.alpha >= kGatherAlpha;
         const bool scatters = lambert || !bsdf.isSmooth();
         if (use == PhotonUse::Indirect ? rough : scatters) bounce.gathering |= 1u << i;
         if (use == PhotonUse::Indirect && rough) bounce.ending |= 1u << i;

@@ -12,8 +12,8 @@ namespace osgRayTrace::engine
 /// surface that is not mirror-like (or the part of one), S a mirror-like reflection or refraction:
 ///
 ///   PhotonUse::None      all paths
-///   PhotonUse::Caustics  photons: light S+ D ... eye, looked up at each D of the camera path;
-///                        path tracing: all others (light D ..., light S* eye)
+///   PhotonUse::Caustics  photons: light S+ D ... eye, looked up at each D of the camera path that does not
+///                        transmit; path tracing: all others (light D ..., light S* eye)
 ///   PhotonUse::Indirect  photons: all that reach the first rough D seen from the eye after one bounce or
 ///                        more; path tracing: light sampling there, and all up to there (light (S|glossy)* eye)
 ///

@@ -23,8 +23,9 @@ struct PathBlock
 /// Set once a path has left a surface that is not a mirror: from then on it does not see the background,
 /// which is a backdrop and not a light.
 constexpr uint32_t kScattered = 0x10000u;
-/// Set while a path that has scattered has met mirror-like surfaces only since: light that it meets then is
-/// a caustic.
+/// Set while the last surface that scattered a path is one that photons were looked up on, and
+/// kCausticChain too while it has met mirror-like surfaces since: light that it meets then is theirs.
+constexpr uint32_t kGathered = 0x40000u;
 constexpr uint32_t kCausticChain = 0x20000u;
 constexpr uint32_t kPixelBits = 0xffffu;
 
