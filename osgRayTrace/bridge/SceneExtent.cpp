@@ -17,6 +17,7 @@ namespace
 // 2^42: so extents have to leave room below for small triangles and above for long rays.
 constexpr int kSmallestExtent = -16;
 constexpr int kLargestExtent = 31;
+constexpr uint64_t kOrdinaryShare = 8; ///< one in so many: then the scene is no tiny one
 constexpr int kOutlier = 50; ///< above the median; scaled with it, the median would be 2^-18
 
 /// Of floats: with less than 2^10 of them from end to end a body shows its rounding.
@@ -92,9 +93,24 @@ double LengthCounts::limit() const
     return std::ldexp(1.0, std::prev(beyond)->first + 1);
 }
 
+/// The tiny parts of a scene of ordinary size do not make it a tiny scene: they are too small to be seen.
+LengthCounts LengthCounts::ordinary() const
+{
+    uint64_t all = 0, ordinary = 0;
+    for (const auto& entry : _counts)
+    {
+        all += entry.second;
+        if (entry.first >= kSmallestExtent) ordinary += entry.second;
+    }
+    LengthCounts counts = *this;
+    if (ordinary * kOrdinaryShare >= all)
+        counts._counts.erase(counts._counts.begin(), counts._counts.lower_bound(kSmallestExtent));
+    return counts;
+}
+
 double LengthCounts::unit() const
 {
-    const double largest = limit();
+    const double largest = ordinary().limit();
     if (largest == 0.0) return 1.0;
     const int exponent = std::ilogb(largest) - 1;
     if (exponent < kSmallestExtent) return std::ldexp(1.0, exponent);

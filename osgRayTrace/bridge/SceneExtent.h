@@ -30,7 +30,9 @@ public:
     double unit() const;
 
 private:
-    std::map<int, uint64_t> _counts;
+    LengthCounts ordinary() const;
+
+    std::map<int, uint64_t> _counts; ///< by binary exponent
 };
 
 /// A box around the vertices of a geometry, in its own coordinates; without outliers.
