@@ -12,19 +12,20 @@ namespace osgRayTrace::engine
 struct PathBlock
 {
     RayHitBlock rays;
-    Vec3Lanes throughput;  ///< beta
-    FloatLanes pdfW;       ///< of the direction of the ray; infinite: no light sample could find it
-    FloatLanes etaScale;   ///< throughput outside of glass over throughput
-    UintLanes seed;        ///< of the pixel
-    UintLanes pixel;       ///< block * kLanes + lane, and kScattered
+    Vec3Lanes throughput; ///< beta
+    FloatLanes pdfW;      ///< of the direction of the ray; infinite: no light sample could find it
+    FloatLanes etaScale;  ///< throughput outside of glass over throughput
+    UintLanes seed;       ///< of the pixel
+    UintLanes pixel;      ///< block * kLanes + lane, and kScattered
     LaneMask active = 0;
 };
 
-/// Set once a path has left a surface that is not a mirror: from then on it does not see the background,
-/// which is a backdrop and not a light.
+/// Set once a path has left a surface that is not a mirror: from then on it does not see the
+/// background, which is a backdrop and not a light.
 constexpr uint32_t kScattered = 0x10000u;
 /// Set while the last surface that scattered a path is one that photons were looked up on, and
-/// kCausticChain too while it has met mirror-like surfaces since: light that it meets then is theirs.
+/// kCausticChain too while it has met mirror-like surfaces since: light that it meets then is
+/// theirs.
 constexpr uint32_t kGathered = 0x40000u;
 constexpr uint32_t kCausticChain = 0x20000u;
 constexpr uint32_t kPixelBits = 0xffffu;

@@ -1,0 +1,94 @@
+// PathBounce.h - what the parts of the path tracer share: a tile at work, one bounce of a block.
+// Layer: integrators. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/Surface.h"
+#include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/integrators/PathQueue.h"
+#include "osgRayTrace/photons/PhotonTracer.h"
+#include "osgRayTrace/sampling/Sobol.h"
+#include "osgRayTrace/shading/Bsdf.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+OSGRAYTRACE_INLINE float powerHeuristic(float a, float b)
+{
+    const float ratio = b / a; // no overflow of a^2, and 1 for a = infinity
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+/// Sums of the tile, pixel by pixel.
+struct PixelSums
+{
+    float r[kTilePixels] = {};
+    float g[kTilePixels] = {};
+    float b[kTilePixels] = {};
+    float a[kTilePixels] = {};
+
+    void add(uint32_t pixelBits, Vec3 radiance)
+    {
+        const uint32_t pixel = pixelBits & kPixelBits;
+        r[pixel] += radiance.x;
+        g[pixel] += radiance.y;
+        b[pixel] += radiance.z;
+    }
+};
+
+struct Tile
+{
+    Tile(const PassContext& c, int l, int b, TileResult& r)
+        : context(c), result(r), counts(r.counts), diagnostics(r.diagnostics), left(l), bottom(b)
+    {
+    }
+
+    const PassContext& context;
+    TileResult& result;
+    TileCounts& counts;
+    TileDiagnostics* diagnostics;
+    int left, bottom;
+    PixelSums sums;
+    PathQueue paths;
+    Bsdf bsdfs[kLanes]; ///< of the block at work
+};
+
+/// What one bounce of a block knows.
+struct Bounce
+{
+    int number = 0;
+    SurfaceLanes surface;
+    Vec3Lanes normal;       ///< shading, on the side of the ray
+    Vec3Lanes albedo;       ///< of diffuse lanes
+    LaneMask diffuse = 0;   ///< plain Lambert lanes
+    LaneMask general = 0;   ///< all other hits that scatter
+    LaneMask through = 0;   ///< general lanes that transmit
+    LaneMask gathering = 0; ///< lanes that look up photons
+    LaneMask ending = 0;    ///< of these, those that go on by mirror-like lobes only
+    Bsdf* bsdfs = nullptr;  ///< of general lanes
+};
+
+void countRays(Tile& tile, const PathBlock& block, LaneMask lanes);
+
+/// Two Sobol numbers of a dimension for each lane.
+void dimensionPoints(const UintLanes& seeds, uint32_t passIndex, uint32_t dimension, FloatLanes& u,
+                     FloatLanes& v);
+
+/// Emission that the path met by chance, weighted against light samples; without that which photons
+/// carry.
+void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface, PhotonUse use);
+
+/// One sample of the area lights and one of each light without area.
+void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce);
+
+/// Sets the ray of each lane that goes on; the others leave block.active.
+void scatter(Tile& tile, PathBlock& block, const Bounce& bounce);
+
+/// Which lanes look up photons, and which of them end here but for their mirror-like lobes.
+void chooseGathering(Bounce& bounce, PhotonUse use);
+
+/// Adds what the photons around the lanes' points send back along their rays.
+void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce, PhotonUse use);
+
+} // namespace osgRayTrace::engine
