@@ -32,7 +32,6 @@ struct PassContext
     const PhotonMap* photons = nullptr;         ///< of the pass; if photonUse
     float leastPhotonRadius = 0.0f;             ///< range of the radii of lookups in this pass [length]
     float largestPhotonRadius = 0.0f;
-    float bouncedPhotonRadius = 0.0f;           ///< after a bounce, PhotonUse::Caustics [length]
 };
 
 /// For one tile and pass.

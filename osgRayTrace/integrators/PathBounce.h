@@ -65,6 +65,7 @@ struct Bounce
     LaneMask general = 0;   ///< all other hits that scatter
     LaneMask through = 0;   ///< general lanes that transmit
     LaneMask gathering = 0; ///< lanes that look up photons
+    LaneMask rough = 0;     ///< of these, those that look up all photons
     LaneMask ending = 0;    ///< of these, those that go on by mirror-like lobes only
     Bsdf* bsdfs = nullptr;  ///< of general lanes
 };
@@ -86,9 +87,9 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce);
 void scatter(Tile& tile, PathBlock& block, const Bounce& bounce);
 
 /// Which lanes look up photons, and which of them end here but for their mirror-like lobes.
-void chooseGathering(Bounce& bounce, PhotonUse use);
+void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use);
 
 /// Adds what the photons around the lanes' points send back along their rays.
-void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce, PhotonUse use);
+void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce);
 
 } // namespace osgRayTrace::engine

@@ -102,8 +102,8 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     }
     if (use != PhotonUse::None)
     {
-        chooseGathering(bounce, use);
-        addPhotons(tile, block, bounce, use);
+        chooseGathering(block, bounce, use);
+        addPhotons(tile, block, bounce);
     }
     sampleLights(tile, block, bounce);
     scatter(tile, block, bounce);

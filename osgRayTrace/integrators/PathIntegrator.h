@@ -10,19 +10,20 @@ namespace osgRayTrace::engine
 /// Path tracing with light sampling, multiple importance sampling and Russian roulette: unbiased up
 /// to maxBounces. With photons it leaves them a part of the paths, so that each is counted once.
 /// With D a surface that is not mirror-like (or the part of one), S a mirror-like reflection or
-/// refraction:
+/// refraction, G the first rough surface that the path meets from the eye:
 ///
-///   PhotonUse::None      all paths
-///   PhotonUse::Caustics  photons: light S+ D ... eye, looked up at each D of the camera path that
-///   does not
-///                        transmit; path tracing: all others (light D ..., light S* eye)
-///   PhotonUse::Indirect  photons: all that reach the first rough D seen from the eye after one
-///   bounce or
-///                        more; path tracing: light sampling there, and all up to there (light
-///                        (S|glossy)* eye)
+/// PhotonUse::None: all paths.
+///
+/// PhotonUse::Caustics: photons are those that began light S+. All of them are looked up at G; at
+/// glossy surfaces before it only those that met nothing but S. Theirs are so all paths light S+ D
+/// ... eye; traced are the others, light D ... and light S* eye. Light that left glass or a mirror
+/// also lights the room from there on: a path would have to find the bright spot by chance.
+///
+/// PhotonUse::Indirect: photons are all that met a surface before, looked up at G. Traced are
+/// light sampling there, and all up to there: light (S|glossy)* eye.
 ///
 /// A surface is rough if it does not transmit and has a GGX width from kGatherAlpha on or a Lambert
-/// base; its mirror-like part is followed further.
+/// base; its mirror-like part is followed further. Photons are not looked up on rough glass.
 class PathIntegrator : public Integrator
 {
 public:

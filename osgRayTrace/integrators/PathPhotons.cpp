@@ -14,27 +14,30 @@ constexpr float kGatherAlpha = 0.25f; ///< GGX width from which photons replace 
 
 } // namespace
 
-void chooseGathering(Bounce& bounce, PhotonUse use)
+void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
 {
-    bounce.gathering = bounce.diffuse;
-    bounce.ending = use == PhotonUse::Indirect ? bounce.diffuse : 0u;
+    bounce.gathering = bounce.rough = bounce.diffuse;
     for (LaneMask lanes = bounce.general; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         const Bsdf& bsdf = bounce.bsdfs[i];
-        const bool lambert = bsdf.diffuse != Vec3(0.0f);
         if (bsdf.transmits()) continue;
-        const bool rough = lambert || bsdf.alpha >= kGatherAlpha;
-        const bool scatters = lambert || !bsdf.isSmooth();
-        if (use == PhotonUse::Indirect ? rough : scatters) bounce.gathering |= 1u << i;
-        if (use == PhotonUse::Indirect && rough) bounce.ending |= 1u << i;
+        const bool rough = bsdf.diffuse != Vec3(0.0f) || bsdf.alpha >= kGatherAlpha;
+        if (rough) bounce.rough |= 1u << i;
+        // In narrow lobes there are few photons: of those that paths can find further on, none is needed.
+        if (rough || (use == PhotonUse::Caustics && !bsdf.isSmooth())) bounce.gathering |= 1u << i;
     }
+    bounce.ending = use == PhotonUse::Indirect ? bounce.rough : 0u;
+    if (use == PhotonUse::Indirect) return;
+    for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        if (block.pixel[i] & kTaken) bounce.gathering &= ~(1u << i);
+    }
+    bounce.rough &= bounce.gathering;
 }
 
-/// Adds what the photons around the lanes' points send back along their rays. The radius belongs to
-/// the pixel where light that the photons carry is seen directly; after a bounce it is the same for
-/// all.
-void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce, PhotonUse use)
+void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
 {
     const PhotonMap& map = *tile.context.photons;
     GatheredPhotons& gathered = *tile.result.gathered;
@@ -46,15 +49,11 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce, Photon
         point.query.position = laneOf(trianglePoints(bounce.surface), i);
         point.query.normal = laneOf(bounce.surface.geometricNormal, i);
         point.query.shadingNormal = laneOf(bounce.normal, i);
-        point.query.radius = tile.context.bouncedPhotonRadius;
-        if (use == PhotonUse::Indirect || !(block.pixel[i] & kScattered))
-        {
-            float& radius = gathered.radius[pixel];
-            if (radius == 0.0f)
-                radius = radiusOf(map, point.query, tile.context.leastPhotonRadius,
-                                  tile.context.largestPhotonRadius);
-            point.query.radius = radius;
-        }
+        float& radius = gathered.radius[pixel];
+        if (radius == 0.0f)
+            radius = radiusOf(map, point.query, tile.context.leastPhotonRadius,
+                              tile.context.largestPhotonRadius);
+        point.query.radius = radius;
         PhotonSum sum;
         if ((bounce.diffuse >> i) & 1u)
             sum = gatherDiffuse(map, point.query, laneOf(bounce.albedo, i));
@@ -63,6 +62,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce, Photon
             point.bsdf = &bounce.bsdfs[i];
             point.wo = -Vec3(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
                              block.rays.ray.directionZ[i]);
+            point.directOnly = !((bounce.rough >> i) & 1u);
             sum = gatherBsdf(map, point);
         }
         if (sum.count == 0) continue;

@@ -114,8 +114,10 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         block.pdfW[i] = pdfW[i];
         if (pdfW[i] < kInfinity)
         {
+            if ((bounce.rough >> i) & 1u) block.pixel[i] |= kTaken;
+            const bool known = ((bounce.gathering >> i) & 1u) || (block.pixel[i] & kTaken);
             block.pixel[i] = (block.pixel[i] | kScattered) & ~(kCausticChain | kGathered);
-            if ((bounce.gathering >> i) & 1u) block.pixel[i] |= kGathered;
+            if (known) block.pixel[i] |= kGathered;
         }
         else if (block.pixel[i] & kGathered)
             block.pixel[i] |= kCausticChain;

@@ -22,6 +22,7 @@ void addPhotons(const PhotonMap& map, const GatherPoint& point, const PhotonQuer
     for (const uint32_t k : found)
     {
         const Photon photon = map.photon(k);
+        if (point.directOnly && !photon.direct) continue;
         const float cosGeometric = glm::dot(photon.wi, query.normal);
         const BsdfValue value = evalBsdf(*point.bsdf, wo, frame.toLocal(photon.wi));
         sum.power += value.fCos * photon.power / cosGeometric;

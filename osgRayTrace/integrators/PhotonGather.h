@@ -15,6 +15,7 @@ struct GatherPoint
     PhotonQuery query;
     Vec3 wo{0.0f};          ///< unit, world, towards the eye; not used by gatherDiffuse
     const Bsdf* bsdf = nullptr;
+    bool directOnly = false; ///< photons that met another than a mirror-like surface are left out
 };
 
 /// The smallest of least, twice that, four times, ... largest within which there are kRadiusPhotons photons;

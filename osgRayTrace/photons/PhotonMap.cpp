@@ -15,6 +15,7 @@ namespace
 
 /// The sort splits the buckets into parts by their upper bits; a part fits the cache.
 constexpr int kParts = 256;
+constexpr uint32_t kDirectBit = 1u << 24; ///< in a packed normal
 
 uint32_t packNormal(Vec3 n)
 {
@@ -221,7 +222,7 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const W
                             _r[to] = p.power.x;
                             _g[to] = p.power.y;
                             _b[to] = p.power.z;
-                            _normal[to] = packNormal(p.normal);
+                            _normal[to] = packNormal(p.normal) | (p.direct ? kDirectBit : 0u);
                         }
                     });
 }
@@ -342,6 +343,7 @@ Photon PhotonMap::photon(uint32_t k) const
     p.position = Vec3(_x[k], _y[k], _z[k]);
     p.wi = Vec3(_wiX[k], _wiY[k], _wiZ[k]);
     p.power = Vec3(_r[k], _g[k], _b[k]);
+    p.direct = (_normal[k] & kDirectBit) != 0;
     p.normal = Vec3(byteOf(_normal[k], 0), byteOf(_normal[k], 8), byteOf(_normal[k], 16));
     return p;
 }

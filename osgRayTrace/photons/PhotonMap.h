@@ -20,6 +20,7 @@ struct Photon
     Vec3 wi{0.0f};     ///< unit, towards where it came from
     Vec3 power{0.0f};  ///< [W], already divided by the number of emitted photons
     Vec3 normal{0.0f}; ///< geometric, unit, on the side of wi
+    bool direct = false; ///< met mirror-like surfaces only
 };
 
 /// A disc on a surface that photons are looked for in.
@@ -87,7 +88,7 @@ private:
     std::vector<float> _x, _y, _z;
     std::vector<float> _wiX, _wiY, _wiZ;
     std::vector<float> _r, _g, _b;
-    std::vector<uint32_t> _normal;      ///< three signed bytes
+    std::vector<uint32_t> _normal;      ///< three signed bytes, and direct
 };
 
 } // namespace osgRayTrace::engine

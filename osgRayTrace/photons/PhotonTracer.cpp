@@ -33,6 +33,7 @@ struct Flight
     Vec3 origin, direction, power;
     uint32_t index;  ///< of the photon within the pass
     uint32_t light;
+    bool direct = true; ///< nothing but mirror-like surfaces yet
 };
 
 struct Chunk
@@ -106,7 +107,7 @@ void ChunkTracer::meet(const RayHitBlock& rays, const SurfaceLanes& surface, int
         if (delta && light.number < 32 && !((material.lightMask >> light.number) & 1u)) return;
         flight.power *= _emitter.falloff(flight.light, rays.ray.tFar[i]);
     }
-    const bool causticsOnly = _options.use == PhotonUse::Caustics;
+    const bool mustReflect = _options.use == PhotonUse::Caustics && bounce == 0;
     const Bsdf bsdf = bsdfAt(rays, surface, i);
     const Vec3 position(surface.position.x[i], surface.position.y[i], surface.position.z[i]);
     const Vec3 geometric(surface.geometricNormal.x[i], surface.geometricNormal.y[i],
@@ -114,12 +115,12 @@ void ChunkTracer::meet(const RayHitBlock& rays, const SurfaceLanes& surface, int
     if (bounce > 0 && storesPhotons(bsdf))
     {
         if (isFinite(flight.power))
-            _chunk.photons.push_back({position, -flight.direction, flight.power, geometric});
+            _chunk.photons.push_back({position, -flight.direction, flight.power, geometric, flight.direct});
         else
             ++_chunk.dropped;
     }
     if (bounce >= _options.maxBounces) return;
-    if (causticsOnly && !(bsdf.isSmooth() && bsdf.reflects()) && !bsdf.transmits()) return;
+    if (mustReflect && !(bsdf.isSmooth() && bsdf.reflects()) && !bsdf.transmits()) return;
 
     Vec3 shading(surface.shadingNormal.x[i], surface.shadingNormal.y[i], surface.shadingNormal.z[i]);
     if (glm::dot(shading, geometric) < 0.0f) shading = -shading;
@@ -132,7 +133,7 @@ void ChunkTracer::meet(const RayHitBlock& rays, const SurfaceLanes& surface, int
     const Vec2 u = point(flight.index, dimension), lobe = point(flight.index, dimension + 1);
     const std::optional<BsdfSample> sample =
         sampleBsdf(bsdf, wo, lobe.x, u.x, u.y, Transport::Importance);
-    if (!sample || (causticsOnly && !sample->delta)) return;
+    if (!sample || (mustReflect && !sample->delta)) return;
     const Vec3 wi = tangent * sample->wi.x + bitangent * sample->wi.y + shading * sample->wi.z;
     const float side = glm::dot(wi, geometric);
     if ((side < 0.0f) != sample->transmitted) return;
@@ -148,6 +149,7 @@ void ChunkTracer::meet(const RayHitBlock& rays, const SurfaceLanes& surface, int
     flight.power *= weight / survival;
     flight.origin = position + geometric * (side < 0.0f ? -surface.offset[i] : surface.offset[i]);
     flight.direction = wi;
+    flight.direct = flight.direct && sample->delta;
     next.push_back(flight);
 }
 

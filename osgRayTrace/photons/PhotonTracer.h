@@ -17,7 +17,7 @@ class Workers;
 enum class PhotonUse : uint8_t
 {
     None,
-    Caustics, ///< that met mirror-like surfaces only, at least one, before: light, specular+, surface
+    Caustics, ///< whose first surface was mirror-like: light, specular+, surface, and on from there
     Indirect, ///< that met any surface before
 };
 

@@ -71,16 +71,14 @@ void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, 
     const float ceiling = std::max(density.sceneRadius, _floor);
     const auto wanted = static_cast<float>(context.options.photonRadius / context.traced->scene().unit);
     if (wanted > 0.0f)
-        _least = _largest = _bounced = wanted;
+        _least = _largest = wanted;
     else
     {
-        // A bounce blurs by itself: what counts there is a number of photons that costs no more than a ray.
-        _bounced = density.radius;
         _least = pixelWidth(context, context.width, context.height);
         if (!(_least > 0.0f)) _least = density.radius;
         _largest = std::max(_least, density.radius);
     }
-    for (float* radius : {&_least, &_largest, &_bounced})
+    for (float* radius : {&_least, &_largest})
         *radius = std::clamp(*radius, _floor, ceiling);
 }
 
@@ -109,9 +107,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
         std::sqrt(globalRadiusSquared(pass, static_cast<double>(context.options.photonAlpha))));
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
     context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
-    context.bouncedPhotonRadius = std::max(_floor, _bounced * _shrink);
-    // No lookup spans more than three cells along an axis.
-    const float cell = std::max(2.0f * context.bouncedPhotonRadius, context.largestPhotonRadius);
+    const float cell = 2.0f * context.largestPhotonRadius;
     _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
     context.photons = &_pass->map;
 }

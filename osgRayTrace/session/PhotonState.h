@@ -17,8 +17,7 @@ class Workers;
 /// Chooses radii, holds the photons of the pass at work and, for the local schedule, the statistics of each
 /// pixel. Each pixel's first radius is the given one, or the smallest of r, 2r, 4r, ... with kRadiusPhotons
 /// photons (radiusOf), where r is the width of a pixel; the largest is that, or the radius d that holds
-/// kDensityPhotons photons around a photon in the median, if that is more. Lookups for caustics after a
-/// bounce have the radius d. Later radii follow the schedule. All are kept between the spacing of
+/// kDensityPhotons photons around a photon in the median, if that is more. Later radii follow the schedule. All are kept between the spacing of
 /// floats and the radius of the scene.
 class PhotonState
 {
@@ -52,7 +51,6 @@ private:
     float _floor = 0.0f;    ///< none is smaller
     float _least = 0.0f;    ///< of first radii; 0: not chosen yet
     float _largest = 0.0f;
-    float _bounced = 0.0f;  ///< of lookups after a bounce, PhotonUse::Caustics
     float _shrink = 1.0f;   ///< of the pass at work against the first, global schedule
     bool _local = false;
     bool _idle = false;     ///< photons for caustics, but there are none: all paths are traced from the eye

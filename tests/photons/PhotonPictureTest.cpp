@@ -118,6 +118,17 @@ TEST_CASE("photon pictures: diffuse surfaces under a mirror-like coat", "[photon
     checkAgreement("coat", builder);
 }
 
+// Photons are looked up on the floor twice: by eye the direct ones alone, by its reflections all.
+TEST_CASE("photon pictures: a glossy floor", "[photons][statistics]")
+{
+    Material glossy = mirror(Vec3(0.8f, 0.7f, 0.6f));
+    glossy.roughness = 0.35f;
+    SceneBuilder builder = room(glossy);
+    builder.add(sphereMesh(kBallCentre, 0.4f, 24), glass(1.5f));
+    builder.add(boxMesh({0.4f, -0.2f, 0.05f}, {0.7f, 0.3f, 0.5f}), kGrey);
+    checkAgreement("glossy", builder, 4);
+}
+
 // Light of a point light by a flat mirror: on the floor it is that of the light's mirror image.
 // Path tracing cannot meet it.
 TEST_CASE("photon pictures: a point light and its mirror image", "[photons][statistics]")
