@@ -364,6 +364,12 @@ bool RayTraceDrawable::canTrace() const
     return version.scene && _implementation->untraceable.lock() != version.scene;
 }
 
+void RayTraceDrawable::cullRasterized(const osg::Node& above, osgUtil::CullVisitor& visitor) const
+{
+    const engine::SceneVersion version = _implementation->scene.version();
+    if (version.rasterized) engine::cullParts(*version.rasterized, above, visitor);
+}
+
 void RayTraceDrawable::forgetFailure()
 {
     std::lock_guard<std::mutex> lock(_implementation->mutex);

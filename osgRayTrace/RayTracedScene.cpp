@@ -129,8 +129,11 @@ void RayTracedScene::traverse(osg::NodeVisitor& visitor)
     }
     if (cull && _drawable->canTrace())
     {
-        const BoundingVolumeNearFar nearFar(*cull);
-        _drawable->accept(*cull);
+        {
+            const BoundingVolumeNearFar nearFar(*cull);
+            _drawable->accept(*cull);
+        }
+        _drawable->cullRasterized(*this, *cull);
         return;
     }
 

@@ -10,14 +10,15 @@ namespace osgRayTrace::engine
 {
 
 /// Counts by "<class>.<reason>" as Statistics::conversion shows them:
-/// converted    what became part of the Scene: geometry (drawables), instance, material, texture,
-/// light repaired     values that were replaced: normal, texture-coordinate, color (each a vertex)
+/// converted    what became part of the Scene: geometry (drawables), instance, material, texture, light
+/// repaired     values that were replaced: normal, texture-coordinate, color (each a vertex)
 /// skipped      bad data left out: index-out-of-range, not-finite, degenerate (each a triangle);
 ///              everything else an object
 /// warned       things that are traced as they are, but look wrong: far-vertices (a drawable)
-/// approximated things that are traced, but not with all that OpenGL would do (a drawable or an
-/// object) not-traced   things that have no triangles, or that are not part of the scene as seen by
-/// a ray
+/// approximated things that are traced, but not with all that OpenGL would do (a drawable or an object)
+/// not-traced   things that have no triangles, or that are not part of the scene as seen by a ray; OSG draws
+///              them where there is a viewer
+/// rasterized   things that have triangles and that OSG draws all the same, in a viewer
 using ConversionCounts = std::map<std::string, uint64_t>;
 
 inline void addCounts(ConversionCounts& sum, const ConversionCounts& more)

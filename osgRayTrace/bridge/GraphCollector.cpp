@@ -5,8 +5,13 @@
 #include <osgRayTrace/AreaLight>
 
 #include <osg/Billboard>
+#include <osg/BlendFunc>
 #include <osg/Camera>
+#include <osg/ClipNode>
+#include <osg/PolygonMode>
+#include <osg/Program>
 #include <osg/Projection>
+#include <osg/TexGenNode>
 #include <osg/Transform>
 #include <osgText/TextBase>
 
@@ -78,6 +83,60 @@ const char* untracedCamera(const osg::Camera& camera)
     return nullptr;
 }
 
+bool hasTriangles(const osg::PrimitiveSet& set)
+{
+    switch (set.getMode())
+    {
+    case GL_TRIANGLES:
+    case GL_TRIANGLE_STRIP:
+    case GL_TRIANGLE_FAN:
+    case GL_QUADS:
+    case GL_QUAD_STRIP:
+    case GL_POLYGON:
+        return set.getNumInstances() == 0;
+    default:
+        return false;
+    }
+}
+
+/// The rest of a geometry whose triangles are traced: a shallow copy, so arrays are shared. Null: nothing.
+osg::ref_ptr<osg::Geometry> withoutTriangles(const osg::Geometry& geometry)
+{
+    osg::Geometry::PrimitiveSetList rest;
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
+        if (!hasTriangles(*set)) rest.push_back(set);
+    if (rest.empty()) return nullptr;
+    osg::ref_ptr<osg::Geometry> copy = new osg::Geometry(geometry);
+    copy->setPrimitiveSetList(rest);
+    copy->getBound(); // now: several cull threads may ask for it at once
+    return copy;
+}
+
+/// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced.
+const char* rasterizedState(const GraphState& state)
+{
+    const auto* program = state.attribute<osg::Program>(kProgramSlot);
+    if (program && program->getNumShaders() > 0) return "rasterized.shader-program";
+    const auto* polygons = state.attribute<osg::PolygonMode>(kPolygonModeSlot);
+    if (polygons && polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
+        return "rasterized.polygon-mode";
+    const auto* blend = state.attribute<osg::BlendFunc>(kBlendFuncSlot);
+    if (blend && state.isOn(kBlendBit) && blend->getDestinationRGB() == GL_ONE)
+        return "rasterized.additive-blending";
+    return nullptr;
+}
+
+/// Something in it is placed by the view and not traced.
+bool hasUntracedDrawable(const osg::Billboard& billboard)
+{
+    for (unsigned int i = 0; i < billboard.getNumDrawables(); ++i)
+    {
+        const osg::Drawable* drawable = billboard.getDrawable(i);
+        if (drawable && !drawable->asGeometry()) return true;
+    }
+    return false;
+}
+
 } // namespace
 
 GraphCollector::GraphCollector(const ConversionInput& input, ConversionReport& report)
@@ -141,6 +200,7 @@ void GraphCollector::apply(osg::Camera& node)
     if (const char* reason = untracedCamera(node))
     {
         _report.count(reason);
+        rasterize();
         return;
     }
     apply(static_cast<osg::Transform&>(node));
@@ -149,6 +209,7 @@ void GraphCollector::apply(osg::Camera& node)
 void GraphCollector::apply(osg::Projection&)
 {
     _report.count("not-traced.projection");
+    rasterize();
 }
 
 void GraphCollector::apply(osg::LightSource& node)
@@ -158,12 +219,31 @@ void GraphCollector::apply(osg::LightSource& node)
         const bool eyeSpace = node.getReferenceFrame() == osg::LightSource::ABSOLUTE_RF;
         _graph.lights.push_back(
             {light, eyeSpace ? osg::Matrixd() : engineFromLocal(), eyeSpace, path()});
+        rasterize(RasterizedPart::PlaceState);
     }
+    apply(static_cast<osg::Node&>(node));
+}
+
+void GraphCollector::apply(osg::ClipNode& node)
+{
+    rasterize(RasterizedPart::PlaceState);
+    apply(static_cast<osg::Node&>(node));
+}
+
+void GraphCollector::apply(osg::TexGenNode& node)
+{
+    rasterize(RasterizedPart::PlaceState);
     apply(static_cast<osg::Node&>(node));
 }
 
 void GraphCollector::apply(osg::Billboard& node)
 {
+    if (_input.rasterizesRest && hasUntracedDrawable(node))
+    {
+        _report.count("rasterized.billboard");
+        rasterize();
+        return;
+    }
     const bool pushed = pushState(node);
     if (node.getMode() == osg::Billboard::POINT_ROT_EYE)
         _report.count("approximated.billboard"); // upright in the world, not in the view
@@ -189,11 +269,15 @@ void GraphCollector::apply(osg::Billboard& node)
 
 void GraphCollector::apply(osg::Drawable& drawable)
 {
-    if (const char* reason = untracedDrawable(drawable)) _report.count(reason);
+    const char* reason = untracedDrawable(drawable);
+    if (!reason) return;
+    _report.count(reason);
+    rasterize();
 }
 
 void GraphCollector::apply(osg::Geometry& geometry)
 {
+    if (_input.rasterizesRest && rasterizes(geometry)) return;
     if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
     const auto [found, isNew] = _indexOf.try_emplace(&geometry, _graph.geometries.size());
     if (isNew) _graph.geometries.push_back({&geometry, path(), {}, nullptr});
@@ -273,9 +357,39 @@ bool GraphCollector::collectLeaf(osg::Node& node)
         _graph.areaLights.push_back({light, engineFromLocal(), path()});
         return true;
     }
-    if (std::strcmp(node.className(), "LightPointNode") != 0) return false;
-    _report.count("not-traced.light-points");
+    if (isFrom(node, "osg")) return false;
+    _report.count(std::strcmp(node.className(), "LightPointNode") == 0 ? "not-traced.light-points"
+                                                                       : "not-traced.custom-node");
+    rasterize();
     return true;
+}
+
+/// Leaves the node that is visited to OSG.
+void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
+{
+    if (!_input.rasterizesRest) return;
+    _graph.rasterized.push_back(rasterizedPart(kind, getNodePath()));
+    _graph.rasterized.back().inPlace = inPlace;
+}
+
+/// Leaves to OSG what it draws better. True if nothing is left to trace.
+bool GraphCollector::rasterizes(const osg::Geometry& geometry)
+{
+    const osg::StateSet* stateSet = geometry.getStateSet();
+    if (stateSet) _states.push(*stateSet);
+    const char* reason = rasterizedState(_states.states()[_states.top()]);
+    if (stateSet) _states.pop();
+    if (reason)
+    {
+        _report.count(reason);
+        rasterize();
+        return true;
+    }
+    const osg::ref_ptr<osg::Geometry> rest = withoutTriangles(geometry);
+    if (!rest) return false;
+    const bool all = rest->getNumPrimitiveSets() == geometry.getNumPrimitiveSets();
+    rasterize(RasterizedPart::Draw, all ? nullptr : rest.get());
+    return false; // those without triangles are counted where triangles are made
 }
 
 osg::Matrixd GraphCollector::engineFromLocal() const

@@ -64,6 +64,7 @@ struct CollectedGraph
     std::vector<CollectedLight> lights;        ///< in the order of the traversal
     std::vector<CollectedAreaLight> areaLights;
     std::vector<GraphState> states;
+    RasterizedParts rasterized; ///< if ConversionInput::rasterizesRest
 };
 
 /// The collector knows the origin of engine space, but not its unit yet: it leaves lengths as they are
@@ -86,6 +87,8 @@ public:
     void apply(osg::Camera& node) override;
     void apply(osg::Projection& node) override;
     void apply(osg::LightSource& node) override;
+    void apply(osg::ClipNode& node) override;
+    void apply(osg::TexGenNode& node) override;
     void apply(osg::Billboard& node) override;
     void apply(osg::Drawable& drawable) override;
     void apply(osg::Geometry& geometry) override;
@@ -102,6 +105,8 @@ private:
     bool pushMatrix(const osg::Matrixd& worldFromLocal);
     void traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node& node);
     bool collectLeaf(osg::Node& node);
+    void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);
+    bool rasterizes(const osg::Geometry& geometry);
     osg::Matrixd engineFromLocal() const;
     std::string path() const;
 

@@ -17,6 +17,8 @@
 #include <osg/LightSource>
 #include <osg/Material>
 #include <osg/NodeVisitor>
+#include <osg/PolygonMode>
+#include <osg/Program>
 #include <osg/TexEnv>
 #include <osg/TexMat>
 #include <osg/Texture>
@@ -149,6 +151,10 @@ void addAttribute(Digest& digest, const osg::StateAttribute& attribute)
         digest.add(blend->getSource(), blend->getDestination());
     else if (const auto* cull = dynamic_cast<const osg::CullFace*>(&attribute))
         digest.add(cull->getMode());
+    else if (const auto* polygons = dynamic_cast<const osg::PolygonMode*>(&attribute))
+        digest.add(polygons->getMode(osg::PolygonMode::FRONT));
+    else if (const auto* program = dynamic_cast<const osg::Program*>(&attribute))
+        digest.add(program->getNumShaders());
     else if (const auto* front = dynamic_cast<const osg::FrontFace*>(&attribute))
         digest.add(front->getMode());
 }

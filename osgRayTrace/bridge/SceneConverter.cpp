@@ -442,6 +442,9 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     ConversionResult result;
     result.scene = state.last;
     result.counts = report.counts();
+    const auto draws = [](const RasterizedPart& part) { return part.kind == RasterizedPart::Draw; };
+    if (std::any_of(graph.rasterized.begin(), graph.rasterized.end(), draws))
+        result.rasterized = std::make_shared<RasterizedParts>(std::move(graph.rasterized));
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/ConversionReport.h"
+#include "osgRayTrace/bridge/RasterizedParts.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <osgRayTrace/RayTraceSettings>
@@ -32,6 +33,9 @@ struct ConversionInput
     bool lighting = true; ///< GL_LIGHTING above the root: off in osg::View's NO_LIGHT mode
     /// State above the root, the outermost first: of a cull traversal. Empty: osgViewer's defaults.
     std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState;
+    /// What OpenGL draws better goes on being drawn by it, see ConversionResult::rasterized. Else there is
+    /// no OpenGL, and everything with triangles is traced.
+    bool rasterizesRest = false;
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as shown
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
 };
@@ -40,6 +44,8 @@ struct ConversionResult
 {
     std::shared_ptr<const Scene> scene; ///< never null
     ConversionCounts counts;
+    /// For OSG to draw; null if nothing is, or ConversionInput::rasterizesRest is not set.
+    std::shared_ptr<const RasterizedParts> rasterized;
     double seconds = 0.0;
 };
 

@@ -151,7 +151,7 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
     if (root)
         convert(*root, conditions);
     else
-        publish(nullptr, Statistics());
+        publish(nullptr, nullptr, Statistics());
 }
 
 void SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
@@ -167,6 +167,7 @@ void SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
     input.inheritedState = conditions.inheritedState;
     input.clearColor = conditions.clearColor;
     input.colorRule = _colorRule;
+    input.rasterizesRest = true;
 
     const ConversionResult conversion = _converter.convert(input);
     std::shared_ptr<const TracedScene> traced = version().scene;
@@ -174,13 +175,17 @@ void SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
         traced = TracedScene::build(conversion.scene, _workers, traced);
     Statistics statistics;
     setSceneStatistics(statistics, conversion, *traced);
-    publish(std::move(traced), statistics);
+    publish(std::move(traced), conversion.rasterized, statistics);
 }
 
-void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene, const Statistics& statistics)
+void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene,
+                           std::shared_ptr<const RasterizedParts> rasterized,
+                           const Statistics& statistics)
 {
     std::lock_guard<std::mutex> lock(_versionMutex);
-    _version.scene.swap(scene); // the old one is freed after the lock, unless a view still draws it
+    // The old ones are freed after the lock, unless a view still draws them.
+    _version.scene.swap(scene);
+    _version.rasterized.swap(rasterized);
     _statistics = statistics;
 }
 

@@ -82,6 +82,8 @@ std::optional<AttributeSlot> attributeSlot(osg::StateAttribute::Type type)
         return kProgramSlot;
     case osg::StateAttribute::POLYGONMODE:
         return kPolygonModeSlot;
+    case osg::StateAttribute::BLENDFUNC:
+        return kBlendFuncSlot;
     default:
         return std::nullopt;
     }

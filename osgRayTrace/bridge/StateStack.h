@@ -37,6 +37,7 @@ enum AttributeSlot : unsigned int
     kLightModelSlot,
     kProgramSlot,
     kPolygonModeSlot,
+    kBlendFuncSlot,
     kTextureSlot,
     kTextureEnvironmentSlot,
     kTextureMatrixSlot,

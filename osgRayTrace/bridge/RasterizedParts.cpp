@@ -1,0 +1,129 @@
+// RasterizedParts.cpp - replays the way from the decorator to what OSG draws. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/RasterizedParts.h"
+
+#include <osg/ClipNode>
+#include <osg/LightSource>
+#include <osg/TexGenNode>
+#include <osg/Transform>
+#include <osgUtil/CullVisitor>
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+using Path = std::vector<osg::ref_ptr<osg::Node>>;
+
+/// The visitor on its way down: parts come in the order of the traversal, so what the next one has
+/// in common with the last stays pushed.
+class Descent
+{
+public:
+    explicit Descent(osgUtil::CullVisitor& visitor) : _visitor(visitor) {}
+    ~Descent() { ascend(0); }
+
+    /// Below the nodes [begin, end) of a path. False if one of them is masked out.
+    bool moveTo(Path::const_iterator begin, Path::const_iterator end)
+    {
+        const auto length = static_cast<std::size_t>(end - begin);
+        std::size_t common = 0;
+        while (common < std::min(length, _nodes.size()) && _nodes[common] == begin[common])
+            ++common;
+        ascend(common);
+        for (auto node = begin + static_cast<std::ptrdiff_t>(common); node != end; ++node)
+        {
+            if (!_visitor.validNodeMask(**node)) return false;
+            descend(**node);
+        }
+        return true;
+    }
+
+private:
+    void descend(osg::Node& node)
+    {
+        _visitor.pushOntoNodePath(&node);
+        if (const osg::StateSet* stateSet = node.getStateSet()) _visitor.pushStateSet(stateSet);
+        if (osg::Transform* transform = node.asTransform())
+        {
+            osg::ref_ptr<osg::RefMatrix> matrix =
+                new osg::RefMatrix(*_visitor.getModelViewMatrix());
+            transform->computeLocalToWorldMatrix(*matrix, &_visitor);
+            _visitor.pushModelViewMatrix(matrix.get(), transform->getReferenceFrame());
+        }
+        _nodes.push_back(&node);
+    }
+
+    void ascend(std::size_t length)
+    {
+        for (; _nodes.size() > length; _nodes.pop_back())
+        {
+            osg::Node& node = *_nodes.back();
+            if (node.asTransform()) _visitor.popModelViewMatrix();
+            if (node.getStateSet()) _visitor.popStateSet();
+            _visitor.popFromNodePath();
+        }
+    }
+
+    osgUtil::CullVisitor& _visitor;
+    std::vector<osg::Node*> _nodes;
+};
+
+/// As CullVisitor does on its way to their children, which are not wanted.
+void placeState(const osg::Node& node, osgUtil::CullVisitor& visitor)
+{
+    osg::RefMatrix* matrix = visitor.getModelViewMatrix();
+    if (const auto* source = dynamic_cast<const osg::LightSource*>(&node))
+    {
+        const bool inEyeSpace = source->getReferenceFrame() == osg::LightSource::ABSOLUTE_RF;
+        if (source->getLight())
+            visitor.addPositionedAttribute(inEyeSpace ? nullptr : matrix, source->getLight());
+    }
+    else if (const auto* clip = dynamic_cast<const osg::ClipNode*>(&node))
+    {
+        const bool inEyeSpace = clip->getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF;
+        for (const osg::ref_ptr<osg::ClipPlane>& plane : clip->getClipPlaneList())
+            visitor.addPositionedAttribute(inEyeSpace ? nullptr : matrix, plane.get());
+    }
+    else if (const auto* texGen = dynamic_cast<const osg::TexGenNode*>(&node))
+    {
+        const bool inEyeSpace = texGen->getReferenceFrame() == osg::TexGenNode::ABSOLUTE_RF;
+        if (texGen->getTexGen())
+            visitor.addPositionedTextureAttribute(
+                texGen->getTextureUnit(), inEyeSpace ? nullptr : matrix, texGen->getTexGen());
+    }
+}
+
+} // namespace
+
+RasterizedPart rasterizedPart(RasterizedPart::Kind kind, const osg::NodePath& path)
+{
+    RasterizedPart part;
+    part.kind = kind;
+    part.path.assign(path.begin(), path.end());
+    return part;
+}
+
+void cullParts(const RasterizedParts& parts, const osg::Node& above, osgUtil::CullVisitor& visitor)
+{
+    Descent descent(visitor);
+    for (const RasterizedPart& part : parts)
+    {
+        const auto isAbove = [&](const osg::ref_ptr<osg::Node>& node) { return node == &above; };
+        const auto found = std::find_if(part.path.begin(), part.path.end(), isAbove);
+        if (found == part.path.end() || found + 1 == part.path.end()) continue;
+        osg::Node& node = *part.path.back();
+        if (!descent.moveTo(found + 1, part.path.end() - 1)) continue;
+        if (part.kind == RasterizedPart::PlaceState)
+        {
+            if (visitor.validNodeMask(node)) placeState(node, visitor);
+        }
+        else
+            (part.inPlace ? *part.inPlace : node).accept(visitor);
+    }
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,45 @@
+// RasterizedParts.h - what a traced scene leaves to OSG to draw. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Node>
+
+#include <memory>
+#include <vector>
+
+namespace osgUtil
+{
+class CullVisitor;
+}
+
+namespace osgRayTrace::engine
+{
+
+/// A drawable, camera or other node of the graph that is drawn as without ray tracing, or
+/// positional state (a light, clip planes, generated texture coordinates) that it may need.
+struct RasterizedPart
+{
+    enum Kind
+    {
+        Draw,
+        PlaceState
+    };
+
+    Kind kind = Draw;
+    std::vector<osg::ref_ptr<osg::Node>>
+        path;                        ///< from the root of the conversion to the node itself
+    osg::ref_ptr<osg::Node> inPlace; ///< drawn in place of the last of path; may be null
+};
+
+/// In the order of the traversal. Immutable once it is published.
+using RasterizedParts = std::vector<RasterizedPart>;
+
+/// A node of this path, whose children the caller can have hidden.
+RasterizedPart rasterizedPart(RasterizedPart::Kind kind, const osg::NodePath& path);
+
+/// Culls the parts as their parents would: with the state, the transforms and the masks on their
+/// paths from below `above` on, which the visitor is at. Cull callbacks of groups on the way are
+/// not called. The graph is not changed. Cull threads.
+void cullParts(const RasterizedParts& parts, const osg::Node& above, osgUtil::CullVisitor& visitor);
+
+} // namespace osgRayTrace::engine
