@@ -1,0 +1,100 @@
+// SceneDataHook.cpp - osgViewer::View::setSceneData, with the scene below a RayTracedScene. Layer:
+// apps. SPDX-License-Identifier: MIT
+//
+// Preloaded, this definition is found before that of libosgViewer, which it calls.
+#include "ToggleKey.h"
+
+#include <osg/NodeVisitor>
+#include <osg/Notify>
+#include <osgViewer/View>
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <exception>
+#include <map>
+#include <mutex>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+using SetSceneData = void (*)(osgViewer::View*, osg::Node*);
+
+SetSceneData original()
+{
+    static const auto function = reinterpret_cast<SetSceneData>(
+        dlsym(RTLD_NEXT, "_ZN9osgViewer4View12setSceneDataEPN3osg4NodeE"));
+    return function;
+}
+
+/// The program does it itself.
+bool holdsTracedScene(osg::Node& node)
+{
+    struct Find : osg::NodeVisitor
+    {
+        Find() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+        void apply(osg::Group& group) override
+        {
+            found = found || dynamic_cast<RayTracedScene*>(&group);
+            if (!found) traverse(group);
+        }
+        bool found = false;
+    } find;
+    node.accept(find);
+    return find.found;
+}
+
+/// One for each scene: views that show the same one share it.
+osg::ref_ptr<RayTracedScene> tracedScene(osg::Node& node)
+{
+    static std::mutex mutex;
+    static std::map<osg::Node*, osg::observer_ptr<RayTracedScene>> scenes;
+    std::lock_guard<std::mutex> lock(mutex);
+    osg::observer_ptr<RayTracedScene>& known = scenes[&node];
+    osg::ref_ptr<RayTracedScene> scene;
+    if (known.lock(scene) && scene->containsNode(&node)) return scene;
+    scene = new RayTracedScene;
+    scene->setName("osgraytrace-run");
+    scene->addChild(&node);
+    known = scene;
+    return scene;
+}
+
+int toggleKey()
+{
+    const char* name = std::getenv("OSGRAYTRACE_TOGGLE_KEY");
+    if (!name || !*name) return osgGA::GUIEventAdapter::KEY_F9;
+    if (const auto key = keyFromName(name)) return *key;
+    OSG_WARN << "osgRayTrace: OSGRAYTRACE_TOGGLE_KEY is F1 to F12 or a character, not '" << name
+             << "'" << std::endl;
+    return osgGA::GUIEventAdapter::KEY_F9;
+}
+
+/// What the view is to show; the node itself if it cannot be ray traced.
+osg::ref_ptr<osg::Node> shownFor(osgViewer::View& view, osg::Node* node)
+{
+    if (!node || holdsTracedScene(*node)) return node;
+    try
+    {
+        const osg::ref_ptr<RayTracedScene> scene = tracedScene(*node);
+        view.addEventHandler(new ToggleKey(scene.get(), toggleKey()));
+        return scene;
+    }
+    catch (const std::exception& error)
+    {
+        OSG_WARN << "osgRayTrace: a scene is not ray traced: " << error.what() << std::endl;
+        return node;
+    }
+}
+
+} // namespace
+
+} // namespace osgRayTrace::app
+
+__attribute__((visibility("default"))) void osgViewer::View::setSceneData(osg::Node* node)
+{
+    osgRayTrace::app::original()(this, osgRayTrace::app::shownFor(*this, node).get());
+}

@@ -1,0 +1,31 @@
+// ToggleKey.h - a key that switches ray tracing off and on in a program of others. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgRayTrace/RayTracedScene>
+
+#include <osgGA/GUIEventHandler>
+
+#include <optional>
+#include <string>
+
+namespace osgRayTrace::app
+{
+
+/// Of osgGA: "F1" to "F12" or one character; nothing for other names.
+std::optional<int> keyFromName(const std::string& name);
+
+/// The program's own handlers see every other key.
+class ToggleKey : public osgGA::GUIEventHandler
+{
+public:
+    ToggleKey(RayTracedScene* scene, int key) : _scene(scene), _key(key) {}
+
+    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+
+private:
+    osg::observer_ptr<RayTracedScene> _scene;
+    int _key;
+};
+
+} // namespace osgRayTrace::app

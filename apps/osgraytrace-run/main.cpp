@@ -1,0 +1,76 @@
+// main.cpp - osgraytrace-run: starts a program of others with its scenes ray traced. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <system_error>
+
+namespace
+{
+
+constexpr int kUsage = 1, kNoLibrary = 2, kCannotStart = 127; // the last as shells have it
+
+constexpr const char* kHelp =
+    "Usage: osgraytrace-run PROGRAM [ARGUMENTS...]\n"
+    "Starts an OpenSceneGraph program that knows nothing of osgRayTrace with its scenes ray "
+    "traced.\n"
+    "\n"
+    "Environment:\n"
+    "  OSGRAYTRACE_...         settings: osgraytrace --list-options names each one's variable\n"
+    "  OSGRAYTRACE_TOGGLE_KEY  key that switches ray tracing off and on: F1 to F12, or a character "
+    "(F9)\n"
+    "\n"
+    "Exit code: that of PROGRAM; 1 usage, 2 our library is missing, 127 PROGRAM cannot be "
+    "started.\n";
+
+std::optional<std::filesystem::path> ourLibrary()
+{
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    for (const char* folder : {OSGRAYTRACE_LIBRARIES_FROM_PROGRAMS, "../lib"})
+    {
+        const auto library =
+            (program.parent_path() / folder / OSGRAYTRACE_RUN_LIBRARY).lexically_normal();
+        if (std::filesystem::exists(library, error)) return library;
+    }
+    return std::nullopt;
+}
+
+void prepend(const char* variable, const std::string& value, char separator)
+{
+    const char* before = std::getenv(variable);
+    const std::string list = before && *before ? value + separator + before : value;
+    setenv(variable, list.c_str(), 1);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    const bool help = argc > 1 && (!std::strcmp(argv[1], "--help") || !std::strcmp(argv[1], "-h"));
+    if (argc < 2 || help)
+    {
+        (help ? std::cout : std::cerr) << kHelp;
+        return help ? 0 : kUsage;
+    }
+    const auto library = ourLibrary();
+    if (!library)
+    {
+        std::cerr << "osgraytrace-run: " << OSGRAYTRACE_RUN_LIBRARY
+                  << " is not where this program is installed\n";
+        return kNoLibrary;
+    }
+    prepend("LD_PRELOAD", library->string(), ':');
+    prepend("OSG_LIBRARY_PATH", library->parent_path().string(),
+            ':'); // models may hold our materials
+    execvp(argv[1], argv + 1);
+    std::cerr << "osgraytrace-run: cannot start " << argv[1] << ": " << std::strerror(errno)
+              << '\n';
+    return kCannotStart;
+}

@@ -1,0 +1,51 @@
+// RunTest.cpp - osgraytrace-run puts ray tracing above the scenes of a program of others. Layer:
+// tests. SPDX-License-Identifier: MIT
+#include "Program.h" // runs osgraytrace-run here
+#include "tests/Catch.h"
+
+namespace
+{
+
+Outcome run(const std::string& arguments, const std::string& prefix = "")
+{
+    return osgraytrace(TemporaryFolder(), arguments, prefix);
+}
+
+const std::string kForeign = "'" OSGRAYTRACE_TEST_FOREIGN "'";
+
+} // namespace
+
+TEST_CASE("osgraytrace-run: the scenes of another program are ray traced", "[apps]")
+{
+    const Outcome outcome = run(kForeign);
+    CHECK(outcome.exitCode == 7); // its own
+    CHECK(outcome.output == "viewer RayTracedScene\ncleared nothing\nview RayTracedScene\n"
+                            "view RayTracedScene\nshared 1\n");
+    CHECK(outcome.errors.empty());
+}
+
+TEST_CASE("osgraytrace-run: the program by itself knows nothing of it", "[apps]")
+{
+    const Outcome outcome = run("env -u LD_PRELOAD " + kForeign);
+    CHECK(outcome.output.find("RayTracedScene") == std::string::npos);
+    CHECK(outcome.output.find("viewer Group") == 0);
+}
+
+TEST_CASE("osgraytrace-run: keys are names or characters", "[apps]")
+{
+    CHECK(run(kForeign, "OSGRAYTRACE_TOGGLE_KEY=F3").errors.empty());
+    CHECK(run(kForeign, "OSGRAYTRACE_TOGGLE_KEY=t").errors.empty());
+    const Outcome wrong = run(kForeign, "OSGRAYTRACE_TOGGLE_KEY=escape");
+    CHECK(wrong.exitCode == 7);
+    CHECK(wrong.errors.find("'escape'") != std::string::npos);
+}
+
+TEST_CASE("osgraytrace-run: wrong usage", "[apps]")
+{
+    CHECK(run("").exitCode == 1);
+    CHECK(run("--help").exitCode == 0);
+    CHECK(run("--help").output.find("OSGRAYTRACE_TOGGLE_KEY") != std::string::npos);
+    const Outcome missing = run("no-such-program");
+    CHECK(missing.exitCode == 127);
+    CHECK(missing.errors.find("no-such-program") != std::string::npos);
+}
