@@ -13,16 +13,16 @@ namespace osgRayTrace::engine
 /// refraction:
 ///
 ///   PhotonUse::None      all paths
-///   PhotonUse::Caustics  photons: light S+ D ... eye, looked up at each D of the camera path that
-///   does not
-///                        transmit; path tracing: all others (light D ..., light S* eye)
+///   PhotonUse::Caustics  photons: light S+ D ... eye, looked up at each D of the camera path; path
+///                        tracing: all others (light D ..., light S* eye)
 ///   PhotonUse::Indirect  photons: all that reach the first rough D seen from the eye after one
-///   bounce or
-///                        more; path tracing: light sampling there, and all up to there (light
-///                        (S|glossy)* eye)
+///                        bounce or more; path tracing: light sampling there, and all up to there
+///                        (light (S|glossy)* eye)
 ///
-/// A surface is rough if it does not transmit and has a GGX width from kGatherAlpha on or a Lambert
-/// base; its mirror-like part is followed further.
+/// A surface is rough if it has a GGX width from kGatherAlpha on or a Lambert base; its mirror-like
+/// part is followed further. Rough glass gathers on both sides: photons carry flux, which an
+/// interface does not squeeze into smaller angles, so they are followed with Transport::Importance
+/// and looked up with the radiance's f [Veach97, ch. 5].
 class PathIntegrator : public Integrator
 {
 public:

@@ -23,7 +23,6 @@ void chooseGathering(Bounce& bounce, PhotonUse use)
         const int i = __builtin_ctz(lanes);
         const Bsdf& bsdf = bounce.bsdfs[i];
         const bool lambert = bsdf.diffuse != Vec3(0.0f);
-        if (bsdf.transmits()) continue;
         const bool rough = lambert || bsdf.alpha >= kGatherAlpha;
         const bool scatters = lambert || !bsdf.isSmooth();
         if (use == PhotonUse::Indirect ? rough : scatters) bounce.gathering |= 1u << i;
