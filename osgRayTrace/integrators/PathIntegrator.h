@@ -19,6 +19,9 @@ namespace osgRayTrace::engine
 ///                        bounce or more; path tracing: light sampling there, and all up to there
 ///                        (light (S|glossy)* eye)
 ///
+/// A path from light to eye has at most maxBounces edges beside the camera ray, whoever makes it: photons
+/// are stored with the number of theirs, and a lookup admits those that the camera path leaves room for.
+///
 /// A surface is rough if it has a GGX width from kGatherAlpha on or a Lambert base; its mirror-like
 /// part is followed further. Rough glass gathers on both sides: photons carry flux, which an
 /// interface does not squeeze into smaller angles, so they are followed with Transport::Importance

@@ -4,6 +4,8 @@
 #include "osgRayTrace/integrators/PathBounce.h"
 #include "osgRayTrace/integrators/PhotonGather.h"
 
+#include <algorithm>
+
 namespace osgRayTrace::engine
 {
 
@@ -37,6 +39,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce, Photon
 {
     const PhotonMap& map = *tile.context.photons;
     GatheredPhotons& gathered = *tile.result.gathered;
+    const int edgesLeft = tile.context.options.maxBounces - bounce.number;
     for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
@@ -46,6 +49,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce, Photon
         point.query.normal = laneOf(bounce.surface.geometricNormal, i);
         point.query.shadingNormal = laneOf(bounce.normal, i);
         point.query.radius = tile.context.bouncedPhotonRadius;
+        point.query.mostEdges = std::min(kMostEdges, static_cast<uint32_t>(edgesLeft));
         if (use == PhotonUse::Indirect || !(block.pixel[i] & kScattered))
         {
             float& radius = gathered.radius[pixel];

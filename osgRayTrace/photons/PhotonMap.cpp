@@ -46,8 +46,10 @@ OSGRAYTRACE_INLINE uint32_t insideDisc(const Columns& p, uint32_t k, const Photo
     const uint32_t packed = p.normal[k];
     const float turned =
         byteOf(packed, 0) * q.normal.x + byteOf(packed, 8) * q.normal.y + byteOf(packed, 16) * q.normal.z;
+    const uint32_t shortEnough =
+        maskOf(static_cast<int32_t>(packed >> 24) <= static_cast<int32_t>(q.mostEdges));
     return maskOf(distance2 <= radius2) & maskOf(std::fabs(off) <= planeDistance) & maskOf(side > 0.0f) &
-           maskOf(turned >= kLeastNormalCosine);
+           maskOf(turned >= kLeastNormalCosine) & shortEnough;
 }
 
 /// Sums by lane, so that the result does not depend on the vector width of the machine.
@@ -221,7 +223,7 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const W
                             _r[to] = p.power.x;
                             _g[to] = p.power.y;
                             _b[to] = p.power.z;
-                            _normal[to] = packNormal(p.normal);
+                            _normal[to] = packNormal(p.normal) | std::min(p.edges, kMostEdges) << 24;
                         }
                     });
 }
@@ -343,6 +345,7 @@ Photon PhotonMap::photon(uint32_t k) const
     p.wi = Vec3(_wiX[k], _wiY[k], _wiZ[k]);
     p.power = Vec3(_r[k], _g[k], _b[k]);
     p.normal = Vec3(byteOf(_normal[k], 0), byteOf(_normal[k], 8), byteOf(_normal[k], 16));
+    p.edges = _normal[k] >> 24;
     return p;
 }
 

@@ -116,6 +116,39 @@ TEST_CASE("photon pictures: diffuse surfaces under a mirror-like coat", "[photon
     checkAgreement("coat", builder);
 }
 
+// 12 comparisons at 4 standard errors of 12 values each: a false alarm of all has a probability of
+// 0.02.
+TEST_CASE("photon pictures: as many edges a path as path tracing has, from 1 on",
+          "[photons][statistics]")
+{
+    // Four surfaces that all matter: with one edge too many or too few the means differ by 10 % and
+    // more.
+    SceneBuilder builder = room(kGrey);
+    builder.add(quadMesh({-1, 1, 0}, {0, -2, 0}, {0, 0, 2}), mirror(Vec3(0.9f)));
+    builder.add(boxMesh({-0.1f, -0.3f, 0.05f}, {0.4f, 0.3f, 0.5f}), glass(1.5f));
+    const auto traced = builder.build();
+    double previous = 0.0;
+    for (const int bounces : {1, 2, 3, 4})
+    {
+        RenderOptions options = photonOptions(IntegratorKind::Path);
+        options.maxBounces = bounces;
+        const Estimate path = meanOf(traced, roomView(), options, 64);
+        CHECK(path.standardError() < 0.008 * path.mean());
+        CHECK(path.mean() > 1.03 * previous); // each edge brings light
+        previous = path.mean();
+        for (const IntegratorKind kind :
+             {IntegratorKind::Sppm, IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
+        {
+            options.integrator = kind;
+            const Estimate photons = meanOf(traced, roomView(), options, 24);
+            const double spread = std::hypot(path.standardError(), photons.standardError());
+            CAPTURE(bounces, int(kind), path.mean(), photons.mean(), spread);
+            CHECK(photons.standardError() < 0.01 * path.mean());
+            CHECK(std::abs(path.mean() - photons.mean()) <= 4.0 * spread);
+        }
+    }
+}
+
 // Light of a point light by a flat mirror: on the floor it is that of the light's mirror image.
 // Path tracing cannot meet it.
 TEST_CASE("photon pictures: a point light and its mirror image", "[photons][statistics]")
@@ -143,8 +176,8 @@ TEST_CASE("photon pictures: a point light and its mirror image", "[photons][stat
     const double mirrored = 0.5 / glm::pi<double>() * irradiance({2, 0, 1});
     const View view = patchView(centre, {0, 0, 1}, kSide, 16);
 
-    // One edge after the camera ray: no light from floor to mirror to floor.
-    RenderOptions options = optionsOf(IntegratorKind::Path, 1);
+    // Two edges after the camera ray: no light from floor to mirror to floor.
+    RenderOptions options = optionsOf(IntegratorKind::Path, 2);
     options.photons = 10000;
     options.photonRadius = 0.1f;
     CHECK(meanOf(traced, view, options, 8).mean() == Approx(direct).epsilon(1e-3));
