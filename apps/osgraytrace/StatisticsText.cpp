@@ -46,6 +46,7 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
     if (statistics.photonRays)
         json["photons"] = {{"stored", statistics.storedPhotons},
                            {"bytes", statistics.photonBytes},
+                           {"hitPointBytes", statistics.hitPointBytes},
                            {"radius", statistics.photonRadius}};
     json["relativeError"] = statistics.relativeError;
     json["droppedSamples"] = statistics.droppedSamples;

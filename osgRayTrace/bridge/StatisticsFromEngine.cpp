@@ -65,6 +65,7 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     statistics.photonRays = progress.rays.photon;
     statistics.storedPhotons = progress.storedPhotons;
     statistics.photonBytes = progress.photonBytes;
+    statistics.hitPointBytes = progress.hitPointBytes;
     statistics.photonRadius = static_cast<double>(progress.photonRadius);
     statistics.droppedSamples = progress.droppedSamples;
 }

@@ -60,6 +60,7 @@ void PhotonState::reset(int tileCount)
     _pixels = static_cast<std::size_t>(tileCount) * kTilePixels;
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
+    std::vector<HitPoints>().swap(_hitPoints);
 }
 
 void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
@@ -99,6 +100,8 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
             _statistics.assign(2 * _pixels, LocalStatistics());
         else
             _firstRadii.assign(_pixels, 0.0f);
+        if (context.options.integrator == IntegratorKind::Ppm)
+            _hitPoints.resize(_pixels / kTilePixels);
     }
     if (_idle)
     {
@@ -114,6 +117,19 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     const float cell = std::max(2.0f * context.bouncedPhotonRadius, context.largestPhotonRadius);
     _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
     context.photons = &_pass->map;
+}
+
+HitPoints* PhotonState::hitPoints(int tile)
+{
+    return _hitPoints.empty() ? nullptr : &_hitPoints[static_cast<std::size_t>(tile)];
+}
+
+std::size_t PhotonState::viewBytes() const
+{
+    std::size_t bytes = _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics);
+    for (const HitPoints& hits : _hitPoints)
+        bytes += sizeof(HitPoints) + hits.bytes();
+    return bytes;
 }
 
 void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered) const
@@ -132,6 +148,9 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered) const
 void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float alpha, RgbaLanes* rgba)
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
+    // By tile, so that no thread's luck decides which are kept.
+    if (HitPoints* hits = hitPoints(tile); hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())
+        *hits = HitPoints();
     if (!_local)
     {
         for (std::size_t p = 0; p < kTilePixels; ++p)

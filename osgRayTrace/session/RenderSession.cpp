@@ -174,6 +174,7 @@ TileCounts RenderSession::Implementation::renderTile(const PassContext& context,
     {
         photons.begin(tile, film.tilePasses(tile), gathered);
         result.gathered = &gathered;
+        result.hitPoints = photons.hitPoints(tile);
     }
     integrator.renderTile(context, film.tileX(tile), film.tileY(tile), result);
     if (photons.active())
@@ -253,9 +254,10 @@ RenderProgress RenderSession::Implementation::run(
             progress.droppedSamples += traced->dropped;
             progress.photonRadius = static_cast<float>(photons.radius() * filmScene->scene().unit);
             progress.storedPhotons = traced->map.size();
-            progress.photonBytes = traced->map.bytes();
+            progress.photonBytes = photons.keptBytes();
         }
         renderPass(context, *integrator, shown ? display : nullptr);
+        progress.hitPointBytes = photons.viewBytes();
         progress.seconds += secondsSince(passStart);
         progress.passes = film.passes();
         if (cancelled)

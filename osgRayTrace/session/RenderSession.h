@@ -62,7 +62,8 @@ struct RenderProgress
     bool restarted = false;       ///< this call began a new image
     float photonRadius = 0.0f;    ///< of the last pass [length]; 0 without photons
     uint64_t storedPhotons = 0;   ///< in the map of the last pass
-    uint64_t photonBytes = 0;     ///< of that map
+    uint64_t photonBytes = 0;     ///< of the maps that are kept, for all views
+    uint64_t hitPointBytes = 0;   ///< that this view keeps for photons: hit points, radii, statistics of pixels
 };
 
 /// Channels of the first hit, or of the image's statistics, for resolveChannel.
