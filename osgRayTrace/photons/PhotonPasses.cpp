@@ -92,6 +92,7 @@ PhotonDensity PhotonPasses::density(const std::shared_ptr<const TracedScene>& tr
     _density->radius = densityRadius(_first->photons, workers);
     const PhotonEmitter::Sphere& scene = _emitter->scene();
     _density->sceneRadius = scene.radius;
+    _density->emits = _emitter->emits();
     _density->caustics = _emitter->emits() && _emitter->hasTargets();
     _density->largestCoordinate =
         std::max({std::fabs(scene.centre.x), std::fabs(scene.centre.y), std::fabs(scene.centre.z)}) +

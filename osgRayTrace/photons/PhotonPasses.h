@@ -27,6 +27,7 @@ struct PhotonDensity
     float radius = 0.0f;      ///< holds kDensityPhotons photons of a pass around a photon, in the median
     float sceneRadius = 0.0f; ///< of a sphere that holds the scene
     float largestCoordinate = 0.0f; ///< in it, absolute
+    bool emits = false;       ///< some light has power
     bool caustics = false;    ///< something can make them
 };
 

@@ -57,6 +57,7 @@ void PhotonState::reset(int tileCount)
     _pass.reset();
     _least = _largest = 0.0f;
     _shrink = 1.0f;
+    _dark = _limited = _stored = false;
     _pixels = static_cast<std::size_t>(tileCount) * kTilePixels;
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
@@ -83,6 +84,8 @@ void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, 
     }
     for (float* radius : {&_least, &_largest, &_bounced})
         *radius = std::clamp(*radius, _floor, ceiling);
+    _dark = options.photons > 0 && !density.emits;
+    _limited = wanted > 0.0f && _largest != wanted;
 }
 
 void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context, int pass,
@@ -117,6 +120,15 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     const float cell = std::max(2.0f * context.bouncedPhotonRadius, context.largestPhotonRadius);
     _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
     context.photons = &_pass->map;
+    _stored |= _pass->map.size() > 0;
+}
+
+PhotonNote PhotonState::note() const
+{
+    if (_dark) return PhotonNote::NoPower;
+    if (!_pass) return PhotonNote::None;
+    if (_pass->rays > 0 && !_stored) return PhotonNote::NoneStored;
+    return _limited ? PhotonNote::RadiusLimited : PhotonNote::None;
 }
 
 HitPoints* PhotonState::hitPoints(int tile)

@@ -6,6 +6,7 @@
 #include "osgRayTrace/integrators/Integrator.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
 #include "osgRayTrace/photons/RadiusSchedule.h"
+#include "osgRayTrace/session/RenderSession.h"
 
 #include <memory>
 #include <vector>
@@ -46,6 +47,7 @@ public:
     void end(int tile, int pass, const GatheredPhotons& gathered, float alpha, RgbaLanes* rgba);
 
     float radius() const { return _largest * _shrink; } ///< largest of the last pass [length]
+    PhotonNote note() const;
     const PhotonPass* photons() const { return _pass.get(); }
     std::size_t keptBytes() const { return _passes->bytes(); } ///< of photon maps, for all views
     std::size_t viewBytes() const; ///< of hit points, radii and statistics of the pixels
@@ -64,6 +66,9 @@ private:
     float _shrink = 1.0f;   ///< of the pass at work against the first, global schedule
     bool _local = false;
     bool _idle = false;     ///< photons for caustics, but there are none: all paths are traced from the eye
+    bool _dark = false;     ///< there are photons to emit, but no light has power
+    bool _limited = false;  ///< the radius that was set is not the one in use
+    bool _stored = false;   ///< some pass has
     std::size_t _pixels = 0;                  ///< of all tiles
     std::vector<float> _firstRadii;           ///< tile, pixel; 0: not known; empty if local
     std::vector<LocalStatistics> _statistics; ///< half, tile, pixel; empty unless local

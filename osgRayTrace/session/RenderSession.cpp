@@ -248,6 +248,7 @@ RenderProgress RenderSession::Implementation::run(
         shown = made + 1 == rule.newPasses || film.passes() + 1 == rule.passes;
         PassContext context = contextOfPass(film.passes());
         photons.prepare(filmScene, context, film.passes(), *workers);
+        progress.photonNote = photons.note();
         if (const PhotonPass* traced = photons.photons())
         {
             progress.rays.photon += traced->rays;
