@@ -43,10 +43,12 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
                     {"secondary", statistics.secondaryRays},
                     {"photon", statistics.photonRays},
                     {"total", allRays(statistics)}};
-    if (statistics.photonRays)
+    if (statistics.photonRays || !statistics.photonNote.empty())
         json["photons"] = {{"stored", statistics.storedPhotons},
                            {"bytes", statistics.photonBytes},
-                           {"radius", statistics.photonRadius}};
+                           {"hitPointBytes", statistics.hitPointBytes},
+                           {"radius", statistics.photonRadius},
+                           {"note", statistics.photonNote}};
     json["relativeError"] = statistics.relativeError;
     json["droppedSamples"] = statistics.droppedSamples;
     json["conversion"] = statistics.conversion;

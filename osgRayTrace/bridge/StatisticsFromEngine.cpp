@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/StatisticsFromEngine.h"
 
+#include "osgRayTrace/bridge/WarnOnce.h"
+
 namespace osgRayTrace::engine
 {
 
@@ -26,6 +28,23 @@ const char* integratorName(IntegratorKind kind)
         return "photon-caustics";
     case IntegratorKind::Debug:
         return "debug";
+    }
+    return "";
+}
+
+const char* noteText(PhotonNote note)
+{
+    switch (note)
+    {
+    case PhotonNote::None:
+        return "";
+    case PhotonNote::NoPower:
+        return "no light has any power: no photons were emitted";
+    case PhotonNote::NoneStored:
+        return "photons were followed, but none met a surface that they could be stored on";
+    case PhotonNote::RadiusLimited:
+        return "photon-radius is limited: not below the spacing of floats in this scene, and not "
+               "above the scene's own radius";
     }
     return "";
 }
@@ -65,6 +84,9 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     statistics.photonRays = progress.rays.photon;
     statistics.storedPhotons = progress.storedPhotons;
     statistics.photonBytes = progress.photonBytes;
+    statistics.hitPointBytes = progress.hitPointBytes;
+    statistics.photonNote = noteText(progress.photonNote);
+    if (!statistics.photonNote.empty()) warnOnce(statistics.photonNote);
     statistics.photonRadius = static_cast<double>(progress.photonRadius);
     statistics.droppedSamples = progress.droppedSamples;
 }

@@ -62,6 +62,8 @@ struct GatheredPhotons
     Vec3 flux[kTilePixels] = {};     ///< times the path's throughput [W/sr]
 };
 
+struct HitPoints;
+
 struct TileResult
 {
     RgbaLanes* rgba = nullptr;              ///< kTileBlocks of radiance and coverage, one sample a pixel; finite
@@ -69,6 +71,7 @@ struct TileResult
     TileCounts counts;
     TileDiagnostics* diagnostics = nullptr; ///< null: nobody wants them
     GatheredPhotons* gathered = nullptr;    ///< needed if photonUse
+    HitPoints* hitPoints = nullptr; ///< camera paths stay the same: theirs, followed if not traced yet
 };
 
 /// One pass for one tile of one view. Stateless: any thread may call it for any tile.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/accel/Surface.h"
+#include "osgRayTrace/integrators/HitPoints.h"
 #include "osgRayTrace/integrators/Integrator.h"
 #include "osgRayTrace/integrators/PathQueue.h"
 #include "osgRayTrace/photons/PhotonTracer.h"
@@ -91,5 +92,11 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use);
 
 /// Adds what the photons around the lanes' points send back along their rays.
 void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce);
+
+/// Appends the lanes of a bounce to the tile's hit points: what addPhotons and sampleLights read of them.
+void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits);
+
+/// Photons and light samples at hit points that were kept: what bounces add where nothing is kept.
+void gatherAtHitPoints(Tile& tile, const HitPoints& hits);
 
 } // namespace osgRayTrace::engine

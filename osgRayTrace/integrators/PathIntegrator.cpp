@@ -100,26 +100,15 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
         block.active = 0;
         return;
     }
-    if (use != PhotonUse::None)
+    if (use != PhotonUse::None) chooseGathering(block, bounce, use);
+    if (HitPoints* hits = tile.result.hitPoints)
+        keepHitPoints(block, bounce, *hits);
+    else
     {
-        chooseGathering(block, bounce, use);
-        addPhotons(tile, block, bounce);
+        if (use != PhotonUse::None) addPhotons(tile, block, bounce);
+        sampleLights(tile, block, bounce);
     }
-    sampleLights(tile, block, bounce);
     scatter(tile, block, bounce);
-}
-
-void finish(const Tile& tile)
-{
-    for (int b = 0; b < kTileBlocks; ++b)
-    {
-        const std::size_t bytes = sizeof(FloatLanes);
-        std::memcpy(&tile.result.rgba[b].r, tile.sums.r + b * kLanes, bytes);
-        std::memcpy(&tile.result.rgba[b].g, tile.sums.g + b * kLanes, bytes);
-        std::memcpy(&tile.result.rgba[b].b, tile.sums.b + b * kLanes, bytes);
-        std::memcpy(&tile.result.rgba[b].a, tile.sums.a + b * kLanes, bytes);
-    }
-    dropNotFinite(tile.result);
 }
 
 void tracePaths(Tile& tile, PhotonUse use)
@@ -146,7 +135,48 @@ void tracePaths(Tile& tile, PhotonUse use)
             bounceBlock(tile, b, number, last, use);
         closeRanks(tile.paths);
     }
-    finish(tile);
+}
+
+void writeSums(const Tile& tile, RgbaLanes* rgba)
+{
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        const std::size_t bytes = sizeof(FloatLanes);
+        std::memcpy(&rgba[b].r, tile.sums.r + b * kLanes, bytes);
+        std::memcpy(&rgba[b].g, tile.sums.g + b * kLanes, bytes);
+        std::memcpy(&rgba[b].b, tile.sums.b + b * kLanes, bytes);
+        std::memcpy(&rgba[b].a, tile.sums.a + b * kLanes, bytes);
+    }
+}
+
+void readSums(const RgbaLanes* rgba, Tile& tile)
+{
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        const std::size_t bytes = sizeof(FloatLanes);
+        std::memcpy(tile.sums.r + b * kLanes, &rgba[b].r, bytes);
+        std::memcpy(tile.sums.g + b * kLanes, &rgba[b].g, bytes);
+        std::memcpy(tile.sums.b + b * kLanes, &rgba[b].b, bytes);
+        std::memcpy(tile.sums.a + b * kLanes, &rgba[b].a, bytes);
+    }
+}
+
+/// The passes of [Hachisuka08, sect. 4]: camera paths once, then photons and light at what they found.
+void gatherOnly(Tile& tile, PhotonUse use)
+{
+    HitPoints& hits = *tile.result.hitPoints;
+    if (hits.traced)
+        readSums(hits.seen.data(), tile);
+    else
+    {
+        tracePaths(tile, use);
+        hits.seen.resize(kTileBlocks);
+        writeSums(tile, hits.seen.data());
+        hits.points.shrink_to_fit();
+        hits.bsdfs.shrink_to_fit();
+        hits.traced = true;
+    }
+    gatherAtHitPoints(tile, hits);
 }
 
 } // namespace
@@ -155,7 +185,13 @@ void PathIntegrator::renderTile(const PassContext& context, int left, int bottom
                                 TileResult& result) const
 {
     Tile tile(context, left, bottom, result);
-    tracePaths(tile, context.photons ? context.photonUse : PhotonUse::None);
+    const PhotonUse use = context.photons ? context.photonUse : PhotonUse::None;
+    if (result.hitPoints)
+        gatherOnly(tile, use);
+    else
+        tracePaths(tile, use);
+    writeSums(tile, result.rgba);
+    dropNotFinite(result);
 }
 
 } // namespace osgRayTrace::engine

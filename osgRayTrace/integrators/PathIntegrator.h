@@ -22,8 +22,14 @@ namespace osgRayTrace::engine
 /// PhotonUse::Indirect: photons are all that met a surface before, looked up at G. Traced are
 /// light sampling there, and all up to there: light (S|glossy)* eye.
 ///
-/// A surface is rough if it does not transmit and has a GGX width from kGatherAlpha on or a Lambert
-/// base; its mirror-like part is followed further. Photons are not looked up on rough glass.
+/// A path from light to eye has at most maxBounces edges beside the camera ray, whoever makes it:
+/// photons are stored with the number of theirs, and a lookup admits those that the camera path
+/// leaves room for.
+///
+/// A surface is rough if it has a GGX width from kGatherAlpha on or a Lambert base; its mirror-like
+/// part is followed further. Rough glass gathers on both sides: photons carry flux, which an
+/// interface does not squeeze into smaller angles, so they are followed with Transport::Importance
+/// and looked up with the radiance's f [Veach97, ch. 5].
 class PathIntegrator : public Integrator
 {
 public:

@@ -4,6 +4,8 @@
 #include "osgRayTrace/integrators/PathBounce.h"
 #include "osgRayTrace/integrators/PhotonGather.h"
 
+#include <algorithm>
+
 namespace osgRayTrace::engine
 {
 
@@ -21,7 +23,6 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
     {
         const int i = __builtin_ctz(lanes);
         const Bsdf& bsdf = bounce.bsdfs[i];
-        if (bsdf.transmits()) continue;
         const bool rough = bsdf.diffuse != Vec3(0.0f) || bsdf.alpha >= kGatherAlpha;
         if (rough) bounce.rough |= 1u << i;
         // In narrow lobes there are few photons: of those that paths can find further on, none is needed.
@@ -41,6 +42,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
 {
     const PhotonMap& map = *tile.context.photons;
     GatheredPhotons& gathered = *tile.result.gathered;
+    const int edgesLeft = tile.context.options.maxBounces - bounce.number;
     for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
@@ -49,6 +51,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
         point.query.position = laneOf(trianglePoints(bounce.surface), i);
         point.query.normal = laneOf(bounce.surface.geometricNormal, i);
         point.query.shadingNormal = laneOf(bounce.normal, i);
+        point.query.mostEdges = std::min(kMostEdges, static_cast<uint32_t>(edgesLeft));
         float& radius = gathered.radius[pixel];
         if (radius == 0.0f)
             radius = radiusOf(map, point.query, tile.context.leastPhotonRadius,

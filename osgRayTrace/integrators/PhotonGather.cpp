@@ -14,7 +14,7 @@ namespace
 {
 
 void addPhotons(const PhotonMap& map, const GatherPoint& point, const PhotonQuery& query,
-                const ShadingFrame& frame, Vec3 wo, PhotonSum& sum)
+                const ShadingFrame& frame, Vec3 wo, bool behind, PhotonSum& sum)
 {
     static thread_local std::vector<uint32_t> found;
     found.clear();
@@ -24,7 +24,10 @@ void addPhotons(const PhotonMap& map, const GatherPoint& point, const PhotonQuer
         const Photon photon = map.photon(k);
         if (point.directOnly && !photon.direct) continue;
         const float cosGeometric = glm::dot(photon.wi, query.normal);
-        const BsdfValue value = evalBsdf(*point.bsdf, wo, frame.toLocal(photon.wi));
+        const Vec3 wi = frame.toLocal(photon.wi);
+        // Light and shading normal must agree on the side, as for light samples.
+        if ((wi.z > 0.0f) == behind) continue;
+        const BsdfValue value = evalBsdf(*point.bsdf, wo, wi);
         sum.power += value.fCos * photon.power / cosGeometric;
     }
     sum.count += static_cast<uint32_t>(found.size());
@@ -51,12 +54,12 @@ PhotonSum gatherBsdf(const PhotonMap& map, const GatherPoint& point)
     const ShadingFrame frame(point.query.shadingNormal);
     const Vec3 wo = frame.toLocal(point.wo);
     PhotonSum sum;
-    addPhotons(map, point, point.query, frame, wo, sum);
+    addPhotons(map, point, point.query, frame, wo, false, sum);
     if (point.bsdf->transmits() && !point.bsdf->isSmooth())
     {
         PhotonQuery behind = point.query;
         behind.normal = -behind.normal;
-        addPhotons(map, point, behind, frame, wo, sum);
+        addPhotons(map, point, behind, frame, wo, true, sum);
     }
     return sum;
 }

@@ -15,7 +15,7 @@ namespace
 
 /// The sort splits the buckets into parts by their upper bits; a part fits the cache.
 constexpr int kParts = 256;
-constexpr uint32_t kDirectBit = 1u << 24; ///< in a packed normal
+constexpr uint32_t kDirectBit = 1u << 31; ///< in a packed normal
 
 uint32_t packNormal(Vec3 n)
 {
@@ -27,6 +27,11 @@ uint32_t packNormal(Vec3 n)
 OSGRAYTRACE_INLINE float byteOf(uint32_t packed, int shift)
 {
     return static_cast<float>(static_cast<int32_t>(packed << (24 - shift)) >> 24) * (1.0f / 127.0f);
+}
+
+OSGRAYTRACE_INLINE int32_t edgesOf(uint32_t packed)
+{
+    return static_cast<int32_t>((packed >> 24) & kMostEdges);
 }
 
 /// What a loop over photons reads.
@@ -47,8 +52,10 @@ OSGRAYTRACE_INLINE uint32_t insideDisc(const Columns& p, uint32_t k, const Photo
     const uint32_t packed = p.normal[k];
     const float turned =
         byteOf(packed, 0) * q.normal.x + byteOf(packed, 8) * q.normal.y + byteOf(packed, 16) * q.normal.z;
+    const uint32_t shortEnough =
+        maskOf(edgesOf(packed) <= static_cast<int32_t>(q.mostEdges));
     return maskOf(distance2 <= radius2) & maskOf(std::fabs(off) <= planeDistance) & maskOf(side > 0.0f) &
-           maskOf(turned >= kLeastNormalCosine);
+           maskOf(turned >= kLeastNormalCosine) & shortEnough;
 }
 
 /// Sums by lane, so that the result does not depend on the vector width of the machine.
@@ -222,7 +229,8 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const W
                             _r[to] = p.power.x;
                             _g[to] = p.power.y;
                             _b[to] = p.power.z;
-                            _normal[to] = packNormal(p.normal) | (p.direct ? kDirectBit : 0u);
+                            _normal[to] = packNormal(p.normal) | std::min(p.edges, kMostEdges) << 24 |
+                                          (p.direct ? kDirectBit : 0u);
                         }
                     });
 }
@@ -345,6 +353,7 @@ Photon PhotonMap::photon(uint32_t k) const
     p.power = Vec3(_r[k], _g[k], _b[k]);
     p.direct = (_normal[k] & kDirectBit) != 0;
     p.normal = Vec3(byteOf(_normal[k], 0), byteOf(_normal[k], 8), byteOf(_normal[k], 16));
+    p.edges = static_cast<uint32_t>(edgesOf(_normal[k]));
     return p;
 }
 

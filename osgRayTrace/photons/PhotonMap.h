@@ -20,8 +20,12 @@ struct Photon
     Vec3 wi{0.0f};     ///< unit, towards where it came from
     Vec3 power{0.0f};  ///< [W], already divided by the number of emitted photons
     Vec3 normal{0.0f}; ///< geometric, unit, on the side of wi
+    uint32_t edges = 0; ///< of its path, from the light to here
     bool direct = false; ///< met mirror-like surfaces only
 };
+
+/// Photon paths are told apart by their number of edges up to here; longer ones count as this.
+constexpr uint32_t kMostEdges = 127;
 
 /// A disc on a surface that photons are looked for in.
 struct PhotonQuery
@@ -30,6 +34,7 @@ struct PhotonQuery
     Vec3 normal{0.0f}; ///< geometric, unit, on the side that light is gathered from
     Vec3 shadingNormal{0.0f}; ///< unit; power is weighted by the ratio of its cosine to that of normal
     float radius = 0.0f;
+    uint32_t mostEdges = kMostEdges; ///< photons of more are left out
 };
 
 struct PhotonSum
@@ -88,7 +93,7 @@ private:
     std::vector<float> _x, _y, _z;
     std::vector<float> _wiX, _wiY, _wiZ;
     std::vector<float> _r, _g, _b;
-    std::vector<uint32_t> _normal;      ///< three signed bytes, and direct
+    std::vector<uint32_t> _normal;      ///< three signed bytes; edges in seven bits, and direct
 };
 
 } // namespace osgRayTrace::engine

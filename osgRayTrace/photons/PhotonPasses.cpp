@@ -87,10 +87,12 @@ PhotonDensity PhotonPasses::density(const std::shared_ptr<const TracedScene>& tr
     begin(traced, lights, options);
     if (_density) return *_density;
     _first = std::make_unique<TracedPhotons>(tracePhotons(*traced, _lights, *_emitter, options, 0, workers));
+    _tracedRays += _first->rays;
     _density = std::make_unique<PhotonDensity>();
     _density->radius = densityRadius(_first->photons, workers);
     const PhotonEmitter::Sphere& scene = _emitter->scene();
     _density->sceneRadius = scene.radius;
+    _density->emits = _emitter->emits();
     _density->caustics = _emitter->emits() && _emitter->hasTargets();
     _density->largestCoordinate =
         std::max({std::fabs(scene.centre.x), std::fabs(scene.centre.y), std::fabs(scene.centre.z)}) +
@@ -114,16 +116,52 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const std::shared_ptr<const
     if (index == 0 && _first)
         photons = std::move(*_first);
     else
+    {
         photons = tracePhotons(*traced, _lights, *_emitter, options, index, workers);
+        _tracedRays += photons.rays;
+    }
     _first.reset();
     auto pass = std::make_shared<PhotonPass>();
     pass->map = PhotonMap(photons.photons, cellSize, workers);
     pass->rays = photons.rays;
     pass->dropped = photons.dropped;
     pass->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (_kept.size() == kKept) _kept.erase(_kept.begin());
-    _kept.push_back({index, cellSize, pass});
+    keep({index, cellSize, pass});
     return pass;
+}
+
+/// Makes room: at first among the last passes, then for the sake of memory among all of them.
+void PhotonPasses::keep(Entry entry)
+{
+    const auto replaced = std::find_if(_kept.begin(), _kept.end(),
+                                       [&](const Entry& e) { return e.index == entry.index; });
+    if (replaced != _kept.end()) _kept.erase(replaced);
+    const auto isLast = [](const Entry& e) { return e.index >= kFirst; };
+    if (std::count_if(_kept.begin(), _kept.end(), isLast) >= kLast)
+        _kept.erase(std::find_if(_kept.begin(), _kept.end(), isLast));
+    _kept.push_back(std::move(entry));
+    while (_kept.size() > 1 && keptBytes() > kMostBytes)
+        _kept.erase(_kept.begin());
+}
+
+std::size_t PhotonPasses::keptBytes() const
+{
+    std::size_t sum = 0;
+    for (const Entry& entry : _kept)
+        sum += entry.pass->map.bytes();
+    return sum;
+}
+
+std::size_t PhotonPasses::bytes() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return keptBytes();
+}
+
+uint64_t PhotonPasses::tracedRays() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _tracedRays;
 }
 
 } // namespace osgRayTrace::engine

@@ -27,11 +27,13 @@ struct PhotonDensity
     float radius = 0.0f;      ///< holds kDensityPhotons photons of a pass around a photon, in the median
     float sceneRadius = 0.0f; ///< of a sphere that holds the scene
     float largestCoordinate = 0.0f; ///< in it, absolute
+    bool emits = false;       ///< some light has power
     bool caustics = false;    ///< something can make them
 };
 
-/// Thread safe: views that ask for the same pass at once wait for one of them to trace it. The last few
-/// passes are kept.
+/// Thread safe: views that ask for the same pass at once wait for one of them to trace it. Kept are the last
+/// few passes, which views that are rendered in turns share, and the first few, which each new image begins
+/// with: a camera that moves needs no new photons. Of these as many as kMostBytes have room for.
 class PhotonPasses
 {
 public:
@@ -45,6 +47,10 @@ public:
                                            const PhotonPassOptions& options, int index, float cellSize,
                                            const Workers& workers);
 
+    uint64_t tracedRays() const; ///< of all passes that were traced
+    std::size_t bytes() const;   ///< of the maps that are kept
+    static constexpr std::size_t kMostBytes = std::size_t(1) << 29;
+
 private:
     struct Entry
     {
@@ -52,14 +58,18 @@ private:
         float cellSize = 0.0f;
         std::shared_ptr<const PhotonPass> pass;
     };
-    static constexpr std::size_t kKept = 4;
+    static constexpr int kFirst = 4;
+    static constexpr int kLast = 4;
+
+    void keep(Entry entry);
+    std::size_t keptBytes() const;
 
     void begin(const std::shared_ptr<const TracedScene>& traced, const std::vector<Light>& lights,
                const PhotonPassOptions& options);
     bool isCurrent(const std::shared_ptr<const TracedScene>& traced, const std::vector<Light>& lights,
                    const PhotonPassOptions& options) const;
 
-    std::mutex _mutex; // everything below
+    mutable std::mutex _mutex; // everything below
     std::shared_ptr<const TracedScene> _traced;
     std::vector<Light> _lights;
     PhotonPassOptions _options;
@@ -67,6 +77,7 @@ private:
     std::unique_ptr<TracedPhotons> _first; ///< of density(), for the first pass
     std::unique_ptr<PhotonDensity> _density;
     std::vector<Entry> _kept; ///< oldest first
+    uint64_t _tracedRays = 0;
 };
 
 } // namespace osgRayTrace::engine

@@ -115,11 +115,12 @@ void ChunkTracer::meet(const RayHitBlock& rays, const SurfaceLanes& surface, int
     if (bounce > 0 && storesPhotons(bsdf))
     {
         if (isFinite(flight.power))
-            _chunk.photons.push_back({position, -flight.direction, flight.power, geometric, flight.direct});
+            _chunk.photons.push_back({position, -flight.direction, flight.power, geometric,
+                                      static_cast<uint32_t>(bounce) + 1, flight.direct});
         else
             ++_chunk.dropped;
     }
-    if (bounce >= _options.maxBounces) return;
+    if (bounce + 2 > _options.maxBounces) return; // the next surface would be too far for any eye
     if (mustReflect && !(bsdf.isSmooth() && bsdf.reflects()) && !bsdf.transmits()) return;
 
     Vec3 shading(surface.shadingNormal.x[i], surface.shadingNormal.y[i], surface.shadingNormal.z[i]);
@@ -216,6 +217,7 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
     TracedPhotons result;
     if (options.use == PhotonUse::None || options.photons == 0 || !emitter.emits()) return result;
     if (options.use == PhotonUse::Caustics && !emitter.hasTargets()) return result;
+    if (options.maxBounces < 2) return result; // one edge is direct light
 
     // Apart from the sequences of pixels, whose seeds are hashed otherwise.
     const uint32_t seed = hash(hash(options.seed, 0x70686f74u), static_cast<uint32_t>(pass));

@@ -25,7 +25,7 @@ struct PhotonPassOptions
 {
     PhotonUse use = PhotonUse::None;
     uint32_t photons = 0;  ///< emitted a pass
-    int maxBounces = 8;    ///< edges of a photon's path after the first
+    int maxBounces = 8;    ///< edges of a path from light to eye but for the camera ray
     uint32_t seed = 0;
 };
 

@@ -57,9 +57,11 @@ void PhotonState::reset(int tileCount)
     _pass.reset();
     _least = _largest = 0.0f;
     _shrink = 1.0f;
+    _dark = _limited = _stored = false;
     _pixels = static_cast<std::size_t>(tileCount) * kTilePixels;
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
+    std::vector<HitPoints>().swap(_hitPoints);
 }
 
 void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
@@ -80,6 +82,8 @@ void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, 
     }
     for (float* radius : {&_least, &_largest})
         *radius = std::clamp(*radius, _floor, ceiling);
+    _dark = options.photons > 0 && !density.emits;
+    _limited = wanted > 0.0f && _largest != wanted;
 }
 
 void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context, int pass,
@@ -97,6 +101,8 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
             _statistics.assign(2 * _pixels, LocalStatistics());
         else
             _firstRadii.assign(_pixels, 0.0f);
+        if (context.options.integrator == IntegratorKind::Ppm)
+            _hitPoints.resize(_pixels / kTilePixels);
     }
     if (_idle)
     {
@@ -110,6 +116,28 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     const float cell = 2.0f * context.largestPhotonRadius;
     _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
     context.photons = &_pass->map;
+    _stored |= _pass->map.size() > 0;
+}
+
+PhotonNote PhotonState::note() const
+{
+    if (_dark) return PhotonNote::NoPower;
+    if (!_pass) return PhotonNote::None;
+    if (_pass->rays > 0 && !_stored) return PhotonNote::NoneStored;
+    return _limited ? PhotonNote::RadiusLimited : PhotonNote::None;
+}
+
+HitPoints* PhotonState::hitPoints(int tile)
+{
+    return _hitPoints.empty() ? nullptr : &_hitPoints[static_cast<std::size_t>(tile)];
+}
+
+std::size_t PhotonState::viewBytes() const
+{
+    std::size_t bytes = _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics);
+    for (const HitPoints& hits : _hitPoints)
+        bytes += sizeof(HitPoints) + hits.bytes();
+    return bytes;
 }
 
 void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered) const
@@ -128,6 +156,9 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered) const
 void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float alpha, RgbaLanes* rgba)
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
+    // By tile, so that no thread's luck decides which are kept.
+    if (HitPoints* hits = hitPoints(tile); hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())
+        *hits = HitPoints();
     if (!_local)
     {
         for (std::size_t p = 0; p < kTilePixels; ++p)

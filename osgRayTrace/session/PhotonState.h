@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/integrators/HitPoints.h"
 #include "osgRayTrace/integrators/Integrator.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
 #include "osgRayTrace/photons/RadiusSchedule.h"
+#include "osgRayTrace/session/RenderSession.h"
 
 #include <memory>
 #include <vector>
@@ -34,12 +36,20 @@ public:
 
     bool active() const { return _pass != nullptr; }
 
+    /// The tile's hit points if camera paths are the same in each pass, as those of Ppm; else null. What a tile
+    /// has of them goes if it is more than its share of kMostHitPointBytes: its paths are followed again then.
+    HitPoints* hitPoints(int tile);
+    static constexpr std::size_t kMostHitPointBytes = std::size_t(1) << 29;
+
     /// Radii for the tile before its pass; and what it found. For the local schedule that is added to rgba.
     void begin(int tile, int pass, GatheredPhotons& gathered) const;
     void end(int tile, int pass, const GatheredPhotons& gathered, float alpha, RgbaLanes* rgba);
 
     float radius() const { return _largest * _shrink; } ///< largest of the last pass [length]
+    PhotonNote note() const;
     const PhotonPass* photons() const { return _pass.get(); }
+    std::size_t keptBytes() const { return _passes->bytes(); } ///< of photon maps, for all views
+    std::size_t viewBytes() const; ///< of hit points, radii and statistics of the pixels
 
 private:
     void chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
@@ -54,9 +64,13 @@ private:
     float _shrink = 1.0f;   ///< of the pass at work against the first, global schedule
     bool _local = false;
     bool _idle = false;     ///< photons for caustics, but there are none: all paths are traced from the eye
+    bool _dark = false;     ///< there are photons to emit, but no light has power
+    bool _limited = false;  ///< the radius that was set is not the one in use
+    bool _stored = false;   ///< some pass has
     std::size_t _pixels = 0;                  ///< of all tiles
     std::vector<float> _firstRadii;           ///< tile, pixel; 0: not known; empty if local
     std::vector<LocalStatistics> _statistics; ///< half, tile, pixel; empty unless local
+    std::vector<HitPoints> _hitPoints;        ///< tile; empty unless paths are the same in each pass
 };
 
 } // namespace osgRayTrace::engine

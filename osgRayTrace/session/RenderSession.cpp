@@ -174,6 +174,7 @@ TileCounts RenderSession::Implementation::renderTile(const PassContext& context,
     {
         photons.begin(tile, film.tilePasses(tile), gathered);
         result.gathered = &gathered;
+        result.hitPoints = photons.hitPoints(tile);
     }
     integrator.renderTile(context, film.tileX(tile), film.tileY(tile), result);
     if (photons.active())
@@ -247,15 +248,17 @@ RenderProgress RenderSession::Implementation::run(
         shown = made + 1 == rule.newPasses || film.passes() + 1 == rule.passes;
         PassContext context = contextOfPass(film.passes());
         photons.prepare(filmScene, context, film.passes(), *workers);
+        progress.photonNote = photons.note();
         if (const PhotonPass* traced = photons.photons())
         {
             progress.rays.photon += traced->rays;
             progress.droppedSamples += traced->dropped;
             progress.photonRadius = static_cast<float>(photons.radius() * filmScene->scene().unit);
             progress.storedPhotons = traced->map.size();
-            progress.photonBytes = traced->map.bytes();
+            progress.photonBytes = photons.keptBytes();
         }
         renderPass(context, *integrator, shown ? display : nullptr);
+        progress.hitPointBytes = photons.viewBytes();
         progress.seconds += secondsSince(passStart);
         progress.passes = film.passes();
         if (cancelled)

@@ -37,6 +37,15 @@ struct DisplayTarget
     float* depth = nullptr; ///< may be null
 };
 
+/// Why photons do not do what one may expect of them.
+enum class PhotonNote : uint8_t
+{
+    None,
+    NoPower,       ///< no light has any: none were emitted
+    NoneStored,    ///< they were followed, but met no surface that scatters light
+    RadiusLimited, ///< the radius that was set is below the spacing of floats, or larger than the scene
+};
+
 struct RayCounts
 {
     uint64_t camera = 0;
@@ -61,8 +70,10 @@ struct RenderProgress
     uint64_t droppedSamples = 0;  ///< not finite, or above 1e30: left out of the image and counted
     bool restarted = false;       ///< this call began a new image
     float photonRadius = 0.0f;    ///< of the last pass [length]; 0 without photons
+    PhotonNote photonNote = PhotonNote::None; ///< of all passes together
     uint64_t storedPhotons = 0;   ///< in the map of the last pass
-    uint64_t photonBytes = 0;     ///< of that map
+    uint64_t photonBytes = 0;     ///< of the maps that are kept, for all views
+    uint64_t hitPointBytes = 0;   ///< that this view keeps for photons: hit points, radii, statistics of pixels
 };
 
 /// Channels of the first hit, or of the image's statistics, for resolveChannel.

@@ -13,13 +13,12 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Microfacets turned by alpha bend refracted rays by (eta - 1) alpha / cos^2. Where directions in float do
-/// not resolve that to 1 %, refraction is a delta function at any roughness.
+/// Microfacets turned by alpha bend refracted rays by (eta - 1) alpha / cos^2. Where directions in
+/// float do not resolve that to 1 %, refraction is a delta function at any roughness.
 bool refractsSmoothly(const Bsdf& bsdf, Vec3 wo)
 {
     constexpr float kSmoothBend = 3e-5f;
-    return bsdf.isSmooth() ||
-           std::fabs(bsdf.eta - 1.0f) * bsdf.alpha < kSmoothBend * wo.z * wo.z;
+    return bsdf.isSmooth() || std::fabs(bsdf.eta - 1.0f) * bsdf.alpha < kSmoothBend * wo.z * wo.z;
 }
 
 /// Reflectance of the interface that the base and the transmission lie under.
@@ -39,16 +38,16 @@ Vec3 evalBase(const Bsdf& bsdf, Vec3 wo, Vec3 wi)
 {
     const Vec3 lambert = bsdf.diffuse * (kInvPi * wi.z);
     if (bsdf.coat == 0.0f) return lambert;
-    return lambert * ((1.0f - interfaceFresnel(bsdf, wi.z)) * (1.0f - interfaceFresnel(bsdf, wo.z)) /
-                      (1.0f - bsdf.coatAverage));
+    return lambert * ((1.0f - interfaceFresnel(bsdf, wi.z)) *
+                      (1.0f - interfaceFresnel(bsdf, wo.z)) / (1.0f - bsdf.coatAverage));
 }
 
-/// Probabilities of the three lobes for wo; they sum to 1, or are all 0 for a black surface.
+/// Probabilities of the base and of the interface for wo; they sum to 1, or are all 0 for a black
+/// surface.
 struct LobePmf
 {
     float base = 0.0f;
-    float reflection = 0.0f;
-    float refraction = 0.0f;
+    float interface = 0.0f; ///< reflection and refraction
 };
 
 LobePmf lobePmf(const Bsdf& bsdf, Vec3 wo)
@@ -56,14 +55,23 @@ LobePmf lobePmf(const Bsdf& bsdf, Vec3 wo)
     const float below = 1.0f - interfaceFresnel(bsdf, wo.z);
     LobePmf pmf;
     pmf.base = luminance(bsdf.diffuse) * below;
-    if (bsdf.reflects()) pmf.reflection = luminance(reflectionFresnel(bsdf, wo.z));
-    if (bsdf.transmits()) pmf.refraction = luminance(bsdf.transmission) * below;
-    const float sum = pmf.base + pmf.reflection + pmf.refraction;
+    pmf.interface = luminance(reflectionFresnel(bsdf, wo.z)) + luminance(bsdf.transmission) * below;
+    const float sum = pmf.base + pmf.interface;
     if (!(sum > 0.0f)) return {};
     pmf.base /= sum;
-    pmf.reflection /= sum;
-    pmf.refraction = std::max(0.0f, pmf.refraction / sum);
+    pmf.interface /= sum;
     return pmf;
+}
+
+/// Share of the interface that is reflected, at a microfacet that wo meets under this cosine. It
+/// must be that of the facet and not of the surface: beyond the critical angle a rough surface
+/// still has facets that light passes, and what is never sampled is lost.
+float reflectedShare(const Bsdf& bsdf, float cosH)
+{
+    if (!bsdf.transmits()) return 1.0f;
+    const float reflected = luminance(reflectionFresnel(bsdf, cosH));
+    const float refracted = luminance(bsdf.transmission) * (1.0f - interfaceFresnel(bsdf, cosH));
+    return refracted > 0.0f ? reflected / (reflected + refracted) : 1.0f;
 }
 
 /// Radiance is compressed into the smaller solid angle of the denser side [Veach97, sect. 5.2].
@@ -81,6 +89,7 @@ void addReflection(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, BsdfValue& val
     const Vec3 h = sum / length;
     const float cosH = 0.5f * length; // the same for wo and wi, to the last bit
     const float d = evalGgx(h, bsdf.alpha);
+    pmf *= reflectedShare(bsdf, refractsSmoothly(bsdf, wo) ? wo.z : cosH);
     value.fCos += reflectionFresnel(bsdf, cosH) * (d * ggxG2(wo, wi, bsdf.alpha) / (4.0f * wo.z));
     value.pdfW += pmf * ggxG1(wo, bsdf.alpha) * d / (4.0f * wo.z);
 }
@@ -104,12 +113,13 @@ void addRefraction(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, Transport tran
     const float transmittance = 1.0f - fresnelDielectric(cosO, bsdf.eta);
     // Masking and shadowing on opposite sides multiply [Walter07, eq. 23].
     const float g = ggxG1(wo, bsdf.alpha) * ggxG1(-wi, bsdf.alpha);
-    value.fCos += bsdf.transmission *
-                  (transmittance * d * g * cosO * jacobian * refractionScale(bsdf, transport) / wo.z);
-    value.pdfW += pmf * ggxG1(wo, bsdf.alpha) * cosO * d / wo.z * jacobian;
+    value.fCos += bsdf.transmission * (transmittance * d * g * cosO * jacobian *
+                                       refractionScale(bsdf, transport) / wo.z);
+    value.pdfW += pmf * (1.0f - reflectedShare(bsdf, cosO)) * ggxG1(wo, bsdf.alpha) * cosO * d /
+                  wo.z * jacobian;
 }
 
-std::optional<BsdfSample> sampleSmooth(const Bsdf& bsdf, Vec3 wo, const LobePmf& pmf, bool reflect,
+std::optional<BsdfSample> sampleSmooth(const Bsdf& bsdf, Vec3 wo, float pmf, bool reflect,
                                        Transport transport)
 {
     BsdfSample sample;
@@ -117,16 +127,16 @@ std::optional<BsdfSample> sampleSmooth(const Bsdf& bsdf, Vec3 wo, const LobePmf&
     if (reflect)
     {
         sample.wi = Vec3(-wo.x, -wo.y, wo.z);
-        sample.pdfW = pmf.reflection;
-        sample.weight = reflectionFresnel(bsdf, wo.z) / pmf.reflection;
+        sample.pdfW = pmf;
+        sample.weight = reflectionFresnel(bsdf, wo.z) / pmf;
         return sample;
     }
     const std::optional<Vec3> wi = refract(wo, Vec3(0.0f, 0.0f, 1.0f), bsdf.eta);
     if (!wi) return std::nullopt;
     sample.wi = *wi;
-    sample.pdfW = pmf.refraction;
+    sample.pdfW = pmf;
     sample.weight = bsdf.transmission * ((1.0f - fresnelDielectric(wo.z, bsdf.eta)) *
-                                         refractionScale(bsdf, transport) / pmf.refraction);
+                                         refractionScale(bsdf, transport) / pmf);
     sample.transmitted = true;
     return sample;
 }
@@ -148,23 +158,24 @@ std::optional<BsdfSample> sampleBsdf(const Bsdf& bsdf, Vec3 wo, float uLobe, flo
 {
     if (!(wo.z > 0.0f)) return std::nullopt;
     const LobePmf pmf = lobePmf(bsdf, wo);
-    if (pmf.base + pmf.reflection + pmf.refraction <= 0.0f) return std::nullopt;
+    if (pmf.base + pmf.interface <= 0.0f) return std::nullopt;
 
-    const bool base = uLobe < pmf.base;
-    const bool reflect = !base && (uLobe < pmf.base + pmf.reflection || pmf.refraction <= 0.0f);
     BsdfSample sample;
-    if (base)
+    if (uLobe < pmf.base)
     {
         sample.wi = squareToCosineHemisphere(u, v);
         if (!(sample.wi.z > 0.0f)) return std::nullopt;
     }
-    else if (reflect ? bsdf.isSmooth() : refractsSmoothly(bsdf, wo))
-    {
-        return sampleSmooth(bsdf, wo, pmf, reflect, transport);
-    }
     else
     {
-        const Vec3 h = sampleGgxVisible(wo, bsdf.alpha, u, v);
+        const bool smooth = refractsSmoothly(bsdf, wo);
+        const Vec3 h =
+            bsdf.isSmooth() ? Vec3(0.0f, 0.0f, 1.0f) : sampleGgxVisible(wo, bsdf.alpha, u, v);
+        const float share = reflectedShare(bsdf, smooth ? wo.z : glm::dot(wo, h));
+        const bool reflect = share >= 1.0f || uLobe < pmf.base + pmf.interface * share;
+        if (reflect ? bsdf.isSmooth() : smooth)
+            return sampleSmooth(bsdf, wo, pmf.interface * (reflect ? share : 1.0f - share), reflect,
+                                transport);
         if (reflect)
         {
             sample.wi = h * (2.0f * glm::dot(wo, h)) - wo;
@@ -194,11 +205,11 @@ BsdfValue evalBsdf(const Bsdf& bsdf, Vec3 wo, Vec3 wi, Transport transport)
     {
         value.fCos = evalBase(bsdf, wo, wi);
         value.pdfW = pmf.base * squareToCosineHemispherePdf(wi.z);
-        if (bsdf.reflects() && !bsdf.isSmooth()) addReflection(bsdf, wo, wi, pmf.reflection, value);
+        if (bsdf.reflects() && !bsdf.isSmooth()) addReflection(bsdf, wo, wi, pmf.interface, value);
     }
     else if (bsdf.transmits() && !refractsSmoothly(bsdf, wo))
     {
-        addRefraction(bsdf, wo, wi, pmf.refraction, transport, value);
+        addRefraction(bsdf, wo, wi, pmf.interface, transport, value);
     }
     return value;
 }

@@ -70,7 +70,9 @@ LightTable::LightTable(const Scene& scene)
         const Light& light = scene.lights[i];
         if (!isArea(light))
         {
-            _deltaLights.push_back(i);
+            // Black ones would each cost every surface point a look.
+            const Vec3 sum = light.ambient + light.diffuse + light.specular;
+            if (sum != Vec3(0.0f)) _deltaLights.push_back(i);
             continue;
         }
         if (light.kind == LightKind::Parallelogram)

@@ -33,6 +33,7 @@ std::vector<Photon> latticePhotons(std::size_t count, Vec3 centre, uint32_t seed
         p.normal = axis(uniform);
         p.wi = axis(uniform);
         p.power = Vec3(1.0f + std::floor(uniform() * 8.0f), 1.0f, 2.0f);
+        p.edges = 2 + static_cast<uint32_t>(&p - photons.data()) % 7;
     }
     return photons;
 }
@@ -47,6 +48,7 @@ PhotonSum bruteForce(const std::vector<Photon>& photons, const PhotonQuery& q)
                             std::fabs(glm::dot(d, q.normal)) <= kPlaneShare * q.radius;
         if (!inside || !(glm::dot(p.wi, q.normal) > 0.0f)) continue;
         if (glm::dot(p.normal, q.normal) < kLeastNormalCosine) continue;
+        if (p.edges > q.mostEdges) continue;
         ++sum.count;
         sum.power += p.power;
     }
@@ -113,6 +115,7 @@ TEST_CASE("photon map: counts and powers are those of a search through all photo
                     queries.back().position =
                         k % 4 ? queries.back().position
                               : photons[static_cast<std::size_t>(k) % count].position;
+                    queries.back().mostEdges = k % 2 ? kMostEdges : 4;
                 }
                 CAPTURE(count, cell);
                 const uint64_t found = checkAgainstBruteForce(map, photons, queries);

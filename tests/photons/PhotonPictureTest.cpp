@@ -51,11 +51,11 @@ Estimate meanOf(const std::shared_ptr<const TracedScene>& traced, const View& vi
     return estimate;
 }
 
+/// passes: times 24 with photons, times 64 without.
 void checkAgreement(const char* name, const SceneBuilder& builder, int times = 1)
 {
     const auto traced = builder.build();
-    const Estimate path =
-        meanOf(traced, roomView(), photonOptions(IntegratorKind::Path), 64 * times);
+    const Estimate path = meanOf(traced, roomView(), photonOptions(IntegratorKind::Path), 64 * times);
     REQUIRE(path.mean() > 0.05);
     CHECK(path.standardError() < 0.008 * path.mean()); // it converges: a difference of 5 % is seen
     for (const IntegratorKind kind :
@@ -64,7 +64,7 @@ void checkAgreement(const char* name, const SceneBuilder& builder, int times = 1
         const Estimate photons = meanOf(traced, roomView(), photonOptions(kind), 24 * times);
         const double spread = std::hypot(path.standardError(), photons.standardError());
         CAPTURE(name, int(kind), path.mean(), photons.mean(), spread);
-        // PPM keeps its camera paths: through rough glass their noise does not fall with passes.
+        // PPM keeps its camera paths: by glossy surfaces their noise does not fall with passes.
         const bool fixedNoise = times > 1 && kind == IntegratorKind::Ppm;
         CHECK(photons.standardError() < (fixedNoise ? 0.02 : 0.01) * path.mean());
         CHECK(std::abs(path.mean() - photons.mean()) <= 4.0 * spread);
@@ -76,7 +76,7 @@ const Material kGrey = lambert(Vec3(0.7f));
 
 } // namespace
 
-// 15 comparisons at 4 standard errors of 12 values each: a false alarm of all has a probability of
+// 18 comparisons at 4 standard errors of 12 values each: a false alarm of all has a probability of
 // 0.02; the seeds are fixed.
 TEST_CASE("photon pictures: a glass ball", "[photons][statistics]")
 {
@@ -104,8 +104,9 @@ TEST_CASE("photon pictures: rough glass", "[photons][statistics]")
 {
     SceneBuilder builder = room(kGrey);
     builder.add(sphereMesh(kBallCentre, 0.4f, 24), glass(1.5f, 0.55f));
-    // Photons looked up on the glass itself made this picture 2 % too bright.
-    checkAgreement("rough glass", builder, 5);
+    // Photons are looked up on the glass itself, from both sides. Where the camera paths could not
+    // leave it at angles beyond the critical one, as its facets let light do, they found 2 % more.
+    checkAgreement("rough glass", builder);
 }
 
 TEST_CASE("photon pictures: diffuse surfaces under a mirror-like coat", "[photons][statistics]")
@@ -126,6 +127,39 @@ TEST_CASE("photon pictures: a glossy wall", "[photons][statistics]")
     SceneBuilder builder = room(lambert(Vec3(0.9f)), glossy);
     builder.add(sphereMesh({-0.1f, 0.4f, 0.55f}, 0.5f, 24), glass(1.5f));
     checkAgreement("glossy", builder, 4);
+}
+
+// 12 comparisons at 4 standard errors of 12 values each: a false alarm of all has a probability of
+// 0.02.
+TEST_CASE("photon pictures: as many edges a path as path tracing has, from 1 on",
+          "[photons][statistics]")
+{
+    // Four surfaces that all matter: with one edge too many or too few the means differ by 10 % and
+    // more.
+    SceneBuilder builder = room(kGrey);
+    builder.add(quadMesh({-1, 1, 0}, {0, -2, 0}, {0, 0, 2}), mirror(Vec3(0.9f)));
+    builder.add(boxMesh({-0.1f, -0.3f, 0.05f}, {0.4f, 0.3f, 0.5f}), glass(1.5f));
+    const auto traced = builder.build();
+    double previous = 0.0;
+    for (const int bounces : {1, 2, 3, 4})
+    {
+        RenderOptions options = photonOptions(IntegratorKind::Path);
+        options.maxBounces = bounces;
+        const Estimate path = meanOf(traced, roomView(), options, 64);
+        CHECK(path.standardError() < 0.008 * path.mean());
+        CHECK(path.mean() > 1.03 * previous); // each edge brings light
+        previous = path.mean();
+        for (const IntegratorKind kind :
+             {IntegratorKind::Sppm, IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
+        {
+            options.integrator = kind;
+            const Estimate photons = meanOf(traced, roomView(), options, 24);
+            const double spread = std::hypot(path.standardError(), photons.standardError());
+            CAPTURE(bounces, int(kind), path.mean(), photons.mean(), spread);
+            CHECK(photons.standardError() < 0.01 * path.mean());
+            CHECK(std::abs(path.mean() - photons.mean()) <= 4.0 * spread);
+        }
+    }
 }
 
 // Light of a point light by a flat mirror: on the floor it is that of the light's mirror image.
@@ -155,8 +189,8 @@ TEST_CASE("photon pictures: a point light and its mirror image", "[photons][stat
     const double mirrored = 0.5 / glm::pi<double>() * irradiance({2, 0, 1});
     const View view = patchView(centre, {0, 0, 1}, kSide, 16);
 
-    // One edge after the camera ray: no light from floor to mirror to floor.
-    RenderOptions options = optionsOf(IntegratorKind::Path, 1);
+    // Two edges after the camera ray: no light from floor to mirror to floor.
+    RenderOptions options = optionsOf(IntegratorKind::Path, 2);
     options.photons = 10000;
     options.photonRadius = 0.1f;
     CHECK(meanOf(traced, view, options, 8).mean() == Approx(direct).epsilon(1e-3));
@@ -242,49 +276,4 @@ TEST_CASE("photon pictures: nothing to emit, nothing to meet, nothing to see", "
         render(diffuse, roomView(), optionsOf(IntegratorKind::PhotonCaustics), 2);
     CHECK(picture.progress.rays.photon == 0);
     CHECK(picture.rgba == render(diffuse, roomView(), optionsOf(IntegratorKind::Path), 2).rgba);
-}
-
-TEST_CASE("photon pictures: any radius gives a finite picture", "[photons]")
-{
-    SceneBuilder builder = room(kGrey);
-    builder.add(sphereMesh(kBallCentre, 0.4f, 16), glass(1.5f));
-    const auto traced = builder.build();
-    for (const IntegratorKind kind :
-         {IntegratorKind::Ppm, IntegratorKind::Sppm, IntegratorKind::PhotonCaustics})
-        for (const RadiusSchedule schedule : {RadiusSchedule::Global, RadiusSchedule::Local})
-            for (const float radius : {1e-38f, 1e-12f, 1e-7f, 10.0f, 1e30f})
-            {
-                RenderOptions options = optionsOf(kind);
-                options.photons = 2000;
-                options.photonRadius = radius;
-                options.radiusSchedule = schedule;
-                const Picture picture = render(traced, roomView(), options, 3);
-                CAPTURE(int(kind), int(schedule), radius);
-                CHECK(isFinite(picture.mean()));
-                CHECK(picture.progress.droppedSamples == 0);
-                CHECK(picture.progress.photonRadius > 0.0f);
-                CHECK(picture.progress.photonRadius < 10.0f); // clamped to the scene
-            }
-}
-
-TEST_CASE("photon pictures: a closed box of mirrors comes to an end", "[photons]")
-{
-    SceneBuilder builder;
-    builder.add(boxMesh(Vec3(-4.0f), Vec3(4.0f)), mirror(Vec3(1.0f)));
-    builder.addLight(pointLight({1, 1, 1}));
-    builder.addQuadLight({-0.5f, -0.5f, 3}, {0, 0.5f, 0}, {0.5f, 0, 0}, Vec3(1.0f));
-    const auto traced = builder.build();
-    for (const IntegratorKind kind :
-         {IntegratorKind::Ppm, IntegratorKind::Sppm, IntegratorKind::PhotonCaustics})
-    {
-        RenderOptions options = optionsOf(kind, 200);
-        options.photons = 2000;
-        const Picture picture = render(traced, roomView(), options, 2);
-        CAPTURE(int(kind));
-        CHECK(picture.progress.droppedSamples == 0);
-        CHECK(isFinite(picture.mean()));
-        // The lamp alone is no mirror: some photons end there, the others after all their edges.
-        CHECK(picture.progress.rays.photon > 100u * 2000u);
-        CHECK(picture.progress.rays.photon <= 2u * 201u * 2000u);
-    }
 }

@@ -116,6 +116,37 @@ TEST_CASE("bsdf: smooth surfaces and Lambert's keep all energy", "[shading][stat
     }
 }
 
+// A density may be right where samples fall and yet leave out a part of f: then light is lost.
+TEST_CASE("bsdf: samples carry the whole integral of f, also beyond the critical angle",
+          "[shading][statistics]")
+{
+    int checked = 0;
+    for (const BsdfKind& kind : roughKinds())
+    {
+        if (kind.bsdf.alpha < 0.15f || std::abs(kind.bsdf.eta - 1.0f) < 0.1f) continue;
+        for (const double cosine : {0.9, 0.6, 0.45, 0.2})
+        {
+            CAPTURE(kind.name, cosine);
+            const Vec3 wo = directionOf(cosine, 0.4);
+            const Estimate samples = albedo(kind.bsdf, wo, 40000, 11);
+            Estimate integral; // over uniform directions
+            Uniform random(12);
+            for (int i = 0; i < 200000; ++i)
+            {
+                const Vec3 wi =
+                    directionOf(random.between(-1.0, 1.0), random.between(0.0, 2 * M_PI));
+                integral.add(4.0 * M_PI *
+                             evalBsdf(kind.bsdf, wo, wi, Transport::Importance).fCos.y);
+            }
+            const double spread = std::hypot(samples.standardError(), integral.standardError());
+            CHECK(integral.standardError() < 0.03);
+            CHECK(std::abs(samples.mean() - integral.mean()) <= 4.0 * spread);
+            ++checked;
+        }
+    }
+    CHECK(checked >= 40); // at 4 standard errors: a false alarm of all has a probability of 0.004
+}
+
 TEST_CASE("bsdf: reflection is the same both ways", "[shading]")
 {
     Uniform random(4);

@@ -1,0 +1,176 @@
+// PhotonPassTest.cpp - what is done again in each pass and after each change, and what is kept.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+
+#include "osgRayTrace/photons/PhotonPasses.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr int kSize = 40; // tiles at the border are cut
+
+/// A smooth-shaded ball of few facets: rays that leave it are lifted.
+std::shared_ptr<Mesh> smoothBall(Vec3 centre, float radius)
+{
+    auto mesh = sphereMesh(centre, radius, 8);
+    std::vector<Vec3> normals;
+    for (const Vec3& position : mesh->positions)
+        normals.push_back(glm::normalize(position - centre));
+    mesh->normals = std::move(normals);
+    return mesh;
+}
+
+/// Every kind of hit point: diffuse, coated, glossy, mirror, clear and rough glass, and light of
+/// all kinds.
+SceneBuilder room(float ballX)
+{
+    SceneBuilder builder;
+    Material coated = lambert(Vec3(0.6f, 0.5f, 0.4f));
+    coated.ior = 1.5f;
+    coated.roughness = 0.1f;
+    Material glossy = mirror(Vec3(0.9f, 0.8f, 0.7f));
+    glossy.roughness = 0.3f;
+    builder.add(quadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), coated);
+    builder.add(quadMesh({-1, 1, 0}, {2, 0, 0}, {0, 0, 2}), lambert(Vec3(0.6f, 0.3f, 0.3f)));
+    builder.add(quadMesh({-1, 1, 0}, {0, -2, 0}, {0, 0, 2}), glossy);
+    builder.add(sphereMesh({ballX, 0.1f, 0.4f}, 0.3f, 16), glass(1.5f));
+    builder.add(sphereMesh({0.6f, -0.2f, 0.3f}, 0.25f, 16), glass(1.5f, 0.6f));
+    builder.add(boxMesh({-0.8f, -0.5f, 0.0f}, {-0.5f, -0.2f, 0.3f}), mirror(Vec3(0.9f)));
+    builder.add(smoothBall({-0.1f, -0.6f, 0.3f}, 0.25f), lambert(Vec3(0.5f)));
+    builder.add(smoothBall({0.5f, -0.7f, 0.2f}, 0.15f), coated);
+    builder.addQuadLight({-0.8f, -0.8f, 2.0f}, {0, 1.6f, 0}, {1.6f, 0, 0}, Vec3(2.0f));
+    builder.addQuadLight({0.5f, -0.8f, 1.5f}, {0, 0.2f, 0}, {0.2f, 0, 0}, Vec3(9.0f));
+    builder.addLight(pointLight({0.5f, -0.5f, 1.5f}, Vec3(0.2f)));
+    return builder;
+}
+
+View viewFrom(double x)
+{
+    return perspectiveView({x, -3, 1.6}, {0, 0.1, 0.45}, {0, 0, 1}, 38.0, kSize, kSize);
+}
+
+RenderOptions photonOptions(IntegratorKind kind)
+{
+    RenderOptions options = optionsOf(kind, 6);
+    options.photons = 5000;
+    options.photonRadius = 0.1f;
+    return options;
+}
+
+struct Session
+{
+    std::shared_ptr<PhotonPasses> photons = std::make_shared<PhotonPasses>();
+    RenderSession session{std::make_shared<Workers>(2), photons};
+
+    RenderProgress passes(int count)
+    {
+        StopRule rule;
+        rule.newPasses = count;
+        return session.render(rule);
+    }
+};
+
+} // namespace
+
+TEST_CASE("photon passes: PPM follows camera paths in the first pass only", "[photons]")
+{
+    Session s;
+    s.session.setScene(room(-0.1f).build());
+    s.session.setView(viewFrom(0.5));
+    s.session.setOptions(photonOptions(IntegratorKind::Ppm));
+    const RenderProgress first = s.passes(1);
+    CHECK(first.rays.camera >= uint64_t(kSize) * kSize);
+    CHECK(first.rays.secondary > 0);
+    CHECK(first.hitPointBytes > uint64_t(kSize) * kSize * 100);
+    CHECK(first.hitPointBytes < uint64_t(kSize) * kSize * 1000);
+    const RenderProgress last = s.passes(7);
+    CHECK(last.passes == 8);
+    CHECK(last.rays.camera == first.rays.camera);
+    CHECK(last.rays.secondary == first.rays.secondary);
+    CHECK(last.rays.shadow > 7 * first.rays.shadow);
+    CHECK(last.rays.photon > 7 * first.rays.photon);
+    CHECK(last.hitPointBytes == first.hitPointBytes);
+}
+
+TEST_CASE("photon passes: kept hit points gather what paths do", "[photons]")
+{
+    // In their first pass both follow the same paths: SPPM keeps nothing.
+    const auto traced = room(-0.1f).build();
+    for (const RadiusSchedule schedule : {RadiusSchedule::Global, RadiusSchedule::Local})
+    {
+        RenderOptions options = photonOptions(IntegratorKind::Ppm);
+        options.radiusSchedule = schedule;
+        const Picture kept = render(traced, viewFrom(0.5), options, 1);
+        options.integrator = IntegratorKind::Sppm;
+        const Picture followed = render(traced, viewFrom(0.5), options, 1);
+        REQUIRE(kept.rgba.size() == followed.rgba.size());
+        CHECK(followed.progress.hitPointBytes < kept.progress.hitPointBytes);
+        // Mirrors and smooth glass have no hit points, so none of their useless shadow rays.
+        CHECK(kept.progress.rays.shadow < followed.progress.rays.shadow);
+        int lit = 0;
+        for (std::size_t k = 0; k < kept.rgba.size(); ++k)
+        {
+            REQUIRE(kept.rgba[k] == Approx(followed.rgba[k]).epsilon(1e-5).margin(1e-6));
+            lit += kept.rgba[k] > 0.01f;
+        }
+        CHECK(lit > kSize * kSize);
+    }
+}
+
+TEST_CASE("photon passes: a moved camera keeps them, a moved object does not", "[photons]")
+{
+    for (const IntegratorKind kind :
+         {IntegratorKind::Ppm, IntegratorKind::Sppm, IntegratorKind::PhotonCaustics})
+    {
+        CAPTURE(int(kind));
+        Session s;
+        s.session.setScene(room(-0.1f).build());
+        s.session.setView(viewFrom(0.5));
+        s.session.setOptions(photonOptions(kind));
+        s.passes(20);
+        const uint64_t traced = s.photons->tracedRays();
+        CHECK(traced > 20u * 5000u);
+
+        // As a head that moves sees it: a few passes for each place.
+        for (const double x : {0.6, 0.7, 0.8})
+        {
+            s.session.setView(viewFrom(x));
+            const RenderProgress moved = s.passes(3);
+            CHECK(moved.restarted);
+            CHECK(moved.passes == 3);
+            CHECK(moved.rays.camera >= uint64_t(kSize) * kSize);
+            CHECK(moved.rays.photon > 0);
+        }
+        CHECK(s.photons->tracedRays() == traced);
+
+        // And back: the same picture as at first sight.
+        s.session.setView(viewFrom(0.5));
+        s.passes(3);
+        CHECK(s.photons->tracedRays() == traced);
+        CHECK(s.session.resolveRadiance() ==
+              render(room(-0.1f).build(), viewFrom(0.5), photonOptions(kind), 3).rgba);
+
+        s.session.setScene(room(0.0f).build());
+        CHECK(s.passes(1).restarted);
+        CHECK(s.photons->tracedRays() > traced);
+    }
+}
+
+TEST_CASE("photon passes: memory of kept passes is bounded", "[photons]")
+{
+    Session s;
+    s.session.setScene(room(-0.1f).build());
+    s.session.setView(viewFrom(0.5));
+    s.session.setOptions(photonOptions(IntegratorKind::Sppm));
+    const RenderProgress first = s.passes(1);
+    const RenderProgress some = s.passes(7);
+    const RenderProgress many = s.passes(12);
+    CHECK(first.photonBytes > 40 * first.storedPhotons);
+    CHECK(some.photonBytes > 6 * first.photonBytes);
+    // 4 of the first passes and 4 of the last; each pass stores about as many photons.
+    CHECK(many.photonBytes == Approx(double(some.photonBytes)).epsilon(0.05));
+}
