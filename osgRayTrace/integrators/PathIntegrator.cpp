@@ -22,6 +22,7 @@
 #include "osgRayTrace/integrators/PathBounce.h"
 
 #include <cstring>
+#include <cstdlib>
 
 namespace osgRayTrace::engine
 {
@@ -101,12 +102,14 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
         block.active = 0;
         return;
     }
+    if (number == 1 && tile.loans.active) lendPaths(tile, block, bounce);
     if (use != PhotonUse::None)
     {
         chooseGathering(bounce, use);
         addPhotons(tile, block, bounce, use);
     }
     sampleLights(tile, block, bounce);
+    if (number == 0 && tile.loans.active) noteFirstSurfaces(tile, b, bounce);
     scatter(tile, block, bounce);
 }
 
@@ -140,6 +143,7 @@ void tracePaths(Tile& tile, PhotonUse use)
         }
         block.active = kAllLanes;
     }
+    tile.loans.active = use != PhotonUse::Indirect && !(tile.result.gathered && tile.result.gathered->separate) && !getenv("NOREUSE");
     for (int number = 0; tile.paths.count > 0; ++number)
     {
         const bool last = number >= context.options.maxBounces;
@@ -147,6 +151,7 @@ void tracePaths(Tile& tile, PhotonUse use)
             bounceBlock(tile, b, number, last, use);
         closeRanks(tile.paths);
     }
+    returnPaths(tile);
     finish(tile);
 }
 

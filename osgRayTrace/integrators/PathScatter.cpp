@@ -12,8 +12,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr int kRouletteBounce = 3; ///< paths are not ended by chance before this bounce
-/// Throughput from which on they are. Light that comes after many bounces adds most of the noise
+/// Throughput from which on paths are ended by chance. Light that comes after many bounces adds most of the noise
 /// where this is 1, and costs more than it is worth below 0.3: measured on the Cornell box, where
 /// 0.33 to 0.5 are equally good.
 constexpr float kRouletteThroughput = 0.4f;
