@@ -89,11 +89,15 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce);
 /// Sets the ray of each lane that goes on; the others leave block.active.
 void scatter(Tile& tile, PathBlock& block, const Bounce& bounce);
 
+/// Makes groups of the tile's pixels. No loans with photons of the local schedule, which are
+/// counted pixel by pixel.
+void openLoans(Tile& tile, PhotonUse use);
+
 /// Remembers where the camera rays of block b met diffuse surfaces.
 void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce);
 
 /// Makes loans of the paths whose second surface is diffuse: what they find from here on is for all
-/// pixels of the block that see it.
+/// pixels of the group that see it.
 void lendPaths(Tile& tile, PathBlock& block, const Bounce& bounce);
 
 /// Gives the pixels what lent paths have found.

@@ -22,7 +22,6 @@
 #include "osgRayTrace/integrators/PathBounce.h"
 
 #include <cstring>
-#include <cstdlib>
 
 namespace osgRayTrace::engine
 {
@@ -143,7 +142,7 @@ void tracePaths(Tile& tile, PhotonUse use)
         }
         block.active = kAllLanes;
     }
-    tile.loans.active = use != PhotonUse::Indirect && !(tile.result.gathered && tile.result.gathered->separate) && !getenv("NOREUSE");
+    openLoans(tile, use);
     for (int number = 0; tile.paths.count > 0; ++number)
     {
         const bool last = number >= context.options.maxBounces;

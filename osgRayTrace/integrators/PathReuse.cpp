@@ -2,16 +2,17 @@
 // SPDX-License-Identifier: MIT
 //
 // A path that left a diffuse surface x_j and met a diffuse surface at y_j finds there the radiance
-// L(y_j), which is the same towards all sides. It is a sample for each pixel of the block whose own
-// diffuse surface x_i sees y_j [Bekaert02, sect. 3]. With the densities p_k(y) per area at y with which
-// each of the pixels would have found it, and weights of the balance heuristic [Veach97, eq. 9.8]:
+// L(y_j), which is the same towards all sides. It is a sample for each pixel of the group whose own
+// diffuse surface x_i sees y_j [Bekaert02, sect. 3]. With the densities p_k(y) per area at y with
+// which each of the pixels would have found it, and weights of the balance heuristic [Veach97,
+// eq. 9.8]:
 //
 //   L_i += sum over paths j of albedo_i L(y_j) p_i(y_j) / sum_k p_k(y_j)
 //   p_k(y) = cosTheta_k cosTheta_y V(x_k, y) / (pi r^2)
 //
-// since f_i cosTheta_i cosTheta_y V / r^2 = albedo_i p_i for a diffuse surface. One shadow ray a pair of
-// pixels is what it costs, a path is some ten times that. Which y are lent depends on y alone, so that
-// all p_k speak of the same samples; others are for their own pixel.
+// since f_i cosTheta_i cosTheta_y V / r^2 = albedo_i p_i for a diffuse surface. One shadow ray a
+// pair of pixels is what it costs, a path is some ten times that. Which y are lent depends on y
+// alone, so that all p_k speak of the same samples; others are for their own pixel.
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/HitShading.h"
 #include "osgRayTrace/integrators/PathBounce.h"
@@ -31,8 +32,8 @@ constexpr float kLargestDensity = 1e30f;
 // A path is lent with throughput 1 from its second surface on: nothing may have been divided out.
 static_assert(kRouletteBounce > 1, "paths reach their second surface without roulette");
 
-/// Densities, times pi, with which the lanes would have found y if they see it, and rays that find out.
-/// Returns the lanes where it is not 0.
+/// Densities, times pi, with which the lanes would have found y if they see it, and rays that find
+/// out. Returns the lanes where it is not 0.
 OSGRAYTRACE_KERNEL
 LaneMask densitiesOf(const FirstSurfaces& x, const SecondSurface& second, FloatLanes& density,
                      RayBlock& shadow)
@@ -98,70 +99,106 @@ float sumOf(const FloatLanes& values)
 }
 
 OSGRAYTRACE_KERNEL
-void shareOut(const FirstSurfaces& x, const FloatLanes& density, Vec3 radiance, float* __restrict r,
-              float* __restrict g, float* __restrict b)
+void shareOut(const FirstSurfaces& x, const FloatLanes& density, Vec3 radiance, Vec3Lanes& shares)
 {
     const Vec3 l = radiance;
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        // Albedos of lanes that are not diffuse are not set.
+        // Albedos of members that are not diffuse are not set.
         const uint32_t use = maskOf(density[i] > 0.0f);
-        r[i] += select(use, x.albedo.x[i] * (l.x * density[i]), 0.0f);
-        g[i] += select(use, x.albedo.y[i] * (l.y * density[i]), 0.0f);
-        b[i] += select(use, x.albedo.z[i] * (l.z * density[i]), 0.0f);
+        shares.x[i] += select(use, x.albedo.x[i] * (l.x * density[i]), 0.0f);
+        shares.y[i] += select(use, x.albedo.y[i] * (l.y * density[i]), 0.0f);
+        shares.z[i] += select(use, x.albedo.z[i] * (l.z * density[i]), 0.0f);
     }
 }
 
-/// The lanes of x that see y, without asking for lane own, which does.
-LaneMask seeingLanes(Tile& tile, int b, LaneMask lanes, int own, RayBlock& shadow)
+/// The members that see y, without asking for the one that found it.
+LaneMask seeingMembers(Tile& tile, int group, LaneMask facing, int own, RayBlock& shadow)
 {
-    const LaneMask asked = lanes & ~(1u << own);
-    if (!asked) return lanes;
+    const LaneMask asked = facing & ~(1u << own);
+    if (!asked) return facing;
     tile.context.traced->intersector().occlusion(shadow, asked);
     tile.counts.shadowRays += static_cast<uint64_t>(__builtin_popcount(asked));
-    LaneMask seeing = lanes;
-    for (LaneMask m = asked; m; m &= m - 1)
+    LaneMask seeing = facing;
+    for (LaneMask members = asked; members; members &= members - 1)
     {
-        const int i = __builtin_ctz(m);
+        const int i = __builtin_ctz(members);
         if (!(shadow.tFar[i] >= 0.0f)) seeing &= ~(1u << i);
-        if (tile.diagnostics) tile.diagnostics->rays[b * kLanes + i] += 1.0f;
+        if (tile.diagnostics) tile.diagnostics->rays[tile.loans.pixelOf(group, i)] += 1.0f;
     }
     return seeing;
 }
 
-void returnPath(Tile& tile, int b, int own, Vec3 radiance)
+/// Gives the members their shares of what the path of one of them has found.
+void returnPath(Tile& tile, int group, int own, Vec3 radiance, Vec3Lanes& shares)
 {
-    const FirstSurfaces& x = tile.loans.first[b];
-    const int pixel = b * kLanes + own;
+    const FirstSurfaces& x = tile.loans.first[group];
+    const int pixel = tile.loans.pixelOf(group, own);
     FloatLanes density;
     RayBlock shadow;
     const LaneMask facing = densitiesOf(x, tile.loans.second[pixel], density, shadow);
-    hide(seeingLanes(tile, b, facing, own, shadow), density);
+    hide(seeingMembers(tile, group, facing, own, shadow), density);
     const float sum = sumOf(density);
-    const bool finite = std::max(radiance.x, std::max(radiance.y, radiance.z)) < kInfinity;
-    if (!(sum > 0.0f) || !finite) // NaN included: it spoils its own pixel alone
-    {
+    if (sum > 0.0f)
+        shareOut(x, density, radiance / sum, shares);
+    else // rounding: the path exists
         tile.sums.add(static_cast<uint32_t>(pixel), laneOf(x.albedo, own) * radiance);
-        return;
+}
+
+bool isFinite(Vec3 radiance)
+{
+    return std::fabs(radiance.x) < kInfinity && std::fabs(radiance.y) < kInfinity &&
+           std::fabs(radiance.z) < kInfinity;
+}
+
+void returnGroup(Tile& tile, int group)
+{
+    Vec3Lanes shares = {};
+    for (LaneMask members = tile.loans.lent[group]; members; members &= members - 1)
+    {
+        const int own = __builtin_ctz(members);
+        const int pixel = tile.loans.pixelOf(group, own);
+        const Vec3 radiance = Vec3(tile.sums.r[kLent + pixel], tile.sums.g[kLent + pixel],
+                                   tile.sums.b[kLent + pixel]);
+        if (radiance == Vec3(0.0f)) continue;
+        if (isFinite(radiance))
+            returnPath(tile, group, own, radiance, shares);
+        else // dropped and counted, alone
+            tile.sums.add(static_cast<uint32_t>(pixel), radiance);
     }
-    const int first = b * kLanes;
-    shareOut(x, density, radiance / sum, tile.sums.r + first, tile.sums.g + first,
-             tile.sums.b + first);
+    for (int i = 0; i < kTileBlocks; ++i)
+        tile.sums.add(static_cast<uint32_t>(tile.loans.pixelOf(group, i)), laneOf(shares, i));
 }
 
 } // namespace
 
+void openLoans(Tile& tile, PhotonUse use)
+{
+    const GatheredPhotons* gathered = tile.result.gathered;
+    tile.loans.active = use != PhotonUse::Indirect && !(gathered && gathered->separate);
+    const PassKey& key = tile.context.key;
+    const uint32_t seed =
+        pixelSeed(key, static_cast<uint32_t>(tile.left), static_cast<uint32_t>(tile.bottom));
+    for (uint32_t b = 0; b < kTileBlocks; ++b)
+        tile.loans.turn[b] = hash(seed + b) % kLanes;
+}
+
 void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
 {
-    FirstSurfaces& first = tile.loans.first[b];
-    first.lanes = bounce.diffuse & ~bounce.ending & ~bounce.surface.lifted;
-    if (!first.lanes) return;
-    first.position = bounce.surface.position;
-    first.geometricNormal = bounce.surface.geometricNormal;
-    first.normal = bounce.normal;
-    first.albedo = bounce.albedo;
-    first.offset = bounce.surface.offset;
+    for (LaneMask lanes = bounce.diffuse & ~bounce.ending & ~bounce.surface.lifted; lanes;
+         lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        FirstSurfaces& first =
+            tile.loans.first[tile.loans.groupOf(static_cast<uint32_t>(b * kLanes + i))];
+        first.lanes |= 1u << b;
+        setLane(first.position, b, laneOf(bounce.surface.position, i));
+        setLane(first.geometricNormal, b, laneOf(bounce.surface.geometricNormal, i));
+        setLane(first.normal, b, laneOf(bounce.normal, i));
+        setLane(first.albedo, b, laneOf(bounce.albedo, i));
+        first.offset[b] = bounce.surface.offset[i];
+    }
 }
 
 void lendPaths(Tile& tile, PathBlock& block, const Bounce& bounce)
@@ -169,15 +206,15 @@ void lendPaths(Tile& tile, PathBlock& block, const Bounce& bounce)
     for (LaneMask lanes = bounce.diffuse & ~bounce.surface.lifted; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        const uint32_t pixel = block.pixel[i] & (kTilePixels - 1);
-        const FirstSurfaces& first = tile.loans.first[pixel / kLanes];
-        const uint32_t own = pixel % kLanes;
-        if (!((first.lanes >> own) & 1u)) continue;
+        const uint32_t pixel = block.pixel[i] & kPixelBits;
+        const int group = tile.loans.groupOf(pixel);
+        const uint32_t own = pixel / kLanes;
+        if (!((tile.loans.first[group].lanes >> own) & 1u)) continue;
         const Vec3 normal = laneOf(bounce.surface.geometricNormal, i);
         if (!(glm::dot(normal, laneOf(bounce.normal, i)) > kFlat)) continue;
         tile.loans.second[pixel] = {laneOf(bounce.surface.position, i), normal,
                                     bounce.surface.offset[i]};
-        tile.loans.lent[pixel / kLanes] |= 1u << own;
+        tile.loans.lent[group] |= 1u << own;
         block.pixel[i] |= kLent;
         // Roulette goes on as if the path were still its own pixel's alone.
         const Vec3 throughput = laneOf(block.throughput, i);
@@ -188,16 +225,8 @@ void lendPaths(Tile& tile, PathBlock& block, const Bounce& bounce)
 
 void returnPaths(Tile& tile)
 {
-    for (int b = 0; b < kTileBlocks; ++b)
-    {
-        for (LaneMask lanes = tile.loans.lent[b]; lanes; lanes &= lanes - 1)
-        {
-            const int own = __builtin_ctz(lanes);
-            const int at = static_cast<int>(kLent) + b * kLanes + own;
-            const Vec3 radiance(tile.sums.r[at], tile.sums.g[at], tile.sums.b[at]);
-            if (radiance != Vec3(0.0f)) returnPath(tile, b, own, radiance);
-        }
-    }
+    for (int group = 0; group < kLoanGroups; ++group)
+        if (tile.loans.lent[group]) returnGroup(tile, group);
 }
 
 } // namespace osgRayTrace::engine

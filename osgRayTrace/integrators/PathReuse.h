@@ -8,11 +8,18 @@
 namespace osgRayTrace::engine
 {
 
-/// Set in the pixel of a path from its second surface on if others get the light that it finds there,
-/// too: the sums of such paths are apart.
+/// Set in the pixel of a path from its second surface on if others get the light that it finds
+/// there, too: the sums of such paths are apart.
 constexpr uint32_t kLent = 0x100u;
 
-/// The first surfaces of a block's camera paths, where they are diffuse.
+/// Pixels lend each other paths in groups, one pixel of each of the tile's blocks: pixels that share
+/// samples share their error, and next to each other they would look like a coarser picture. Which
+/// pixel of a block is in which group is random, but the same in all passes of a half: the Sobol
+/// points of a group are then as well spread as those of a pixel.
+constexpr int kLoanGroups = kLanes;
+static_assert(kTileBlocks == kLanes, "a lane for each block");
+
+/// Where the camera rays of a group met diffuse surfaces.
 struct FirstSurfaces
 {
     Vec3Lanes position, geometricNormal, normal, albedo;
@@ -29,10 +36,20 @@ struct SecondSurface
 
 struct PathLoans
 {
-    bool active = false; ///< photons of the local schedule are counted pixel by pixel: then not
-    FirstSurfaces first[kTileBlocks];
-    SecondSurface second[kTilePixels]; ///< of lent paths
-    LaneMask lent[kTileBlocks] = {};
+    int groupOf(uint32_t pixel) const
+    {
+        return static_cast<int>((pixel ^ turn[pixel / kLanes]) % kLanes);
+    }
+    int pixelOf(int group, int block) const
+    {
+        return block * kLanes + (group ^ static_cast<int>(turn[block]));
+    }
+
+    bool active = false;
+    uint32_t turn[kTileBlocks];        ///< below kLanes
+    FirstSurfaces first[kLoanGroups];  ///< lane: block of the pixel
+    SecondSurface second[kTilePixels]; ///< of lent paths, pixel by pixel
+    LaneMask lent[kLoanGroups] = {};   ///< blocks of their pixels
 };
 
 } // namespace osgRayTrace::engine
