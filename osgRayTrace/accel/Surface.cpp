@@ -99,15 +99,12 @@ OSGRAYTRACE_INLINE float inversePowerOfTwo(float x)
     return result;
 }
 
-/// The plane of a triangle and the error bound of points on it.
-struct Plane
-{
-    float nx, ny, nz; ///< unit, of the counter-clockwise side; 0 for a triangle without area
-    float offset;
-};
-
-OSGRAYTRACE_INLINE Plane planeOf(float ax, float ay, float az, float bx, float by, float bz, float cx,
-                                 float cy, float cz, float transformBound)
+/// The plane of a triangle: its unit normal on the counter-clockwise side, 0 for a triangle without area; and
+/// the error bound of points on it. Numbers and no struct: one that is made in a loop over lanes and
+/// passed on is kept in memory, lane after lane, and the loop then becomes no vector code.
+OSGRAYTRACE_INLINE void planeOf(float ax, float ay, float az, float bx, float by, float bz, float cx,
+                                float cy, float cz, float transformBound, float& normalX,
+                                float& normalY, float& normalZ, float& offset)
 {
     const float e1x = bx - ax, e1y = by - ay, e1z = bz - az;
     const float e2x = cx - ax, e2y = cy - ay, e2z = cz - az;
@@ -123,37 +120,36 @@ OSGRAYTRACE_INLINE Plane planeOf(float ax, float ay, float az, float bx, float b
     const float nz = ux * vy - uy * vx;
     const float length2 = nx * nx + ny * ny + nz * nz;
     const float inverse = select(length2 > 0.0f, 1.0f / std::sqrt(length2), 0.0f);
-    Plane plane;
-    plane.nx = nx * inverse;
-    plane.ny = ny * inverse;
-    plane.nz = nz * inverse;
-    const float bound = largestOf(ax, bx, cx) * std::fabs(plane.nx) +
-                        largestOf(ay, by, cy) * std::fabs(plane.ny) +
-                        largestOf(az, bz, cz) * std::fabs(plane.nz);
-    plane.offset = kOffsetScale * (bound + 2.0f * transformBound) + kEdgeScale * edge;
-    return plane;
+    normalX = nx * inverse;
+    normalY = ny * inverse;
+    normalZ = nz * inverse;
+    const float bound = largestOf(ax, bx, cx) * std::fabs(normalX) +
+                        largestOf(ay, by, cy) * std::fabs(normalY) +
+                        largestOf(az, bz, cz) * std::fabs(normalZ);
+    offset = kOffsetScale * (bound + 2.0f * transformBound) + kEdgeScale * edge;
 }
 
 /// Everything about lane i of a surface but its interpolated normal. Returns all bits if the ray comes
 /// from the front.
-OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, const Plane& plane, float ax,
-                                       float ay, float az, float bx, float by, float bz, float cx,
-                                       float cy, float cz, SurfaceLanes& s)
+OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, float nx, float ny, float nz,
+                                       float offset, float ax, float ay, float az, float bx,
+                                       float by, float bz, float cx, float cy, float cz,
+                                       SurfaceLanes& s)
 {
     const float u = block.u[i], v = block.v[i], w = 1.0f - u - v;
     s.position.x[i] = w * ax + u * bx + v * cx;
     s.position.y[i] = w * ay + u * by + v * cy;
     s.position.z[i] = w * az + u * bz + v * cz;
-    const float cosine = plane.nx * block.ray.directionX[i] + plane.ny * block.ray.directionY[i] +
-                         plane.nz * block.ray.directionZ[i];
+    const float cosine = nx * block.ray.directionX[i] + ny * block.ray.directionY[i] +
+                         nz * block.ray.directionZ[i];
     const float side = select(cosine > 0.0f, -1.0f, 1.0f);
-    s.geometricNormal.x[i] = plane.nx * side;
-    s.geometricNormal.y[i] = plane.ny * side;
-    s.geometricNormal.z[i] = plane.nz * side;
-    s.shadingNormal.x[i] = plane.nx;
-    s.shadingNormal.y[i] = plane.ny;
-    s.shadingNormal.z[i] = plane.nz;
-    s.offset[i] = plane.offset;
+    s.geometricNormal.x[i] = nx * side;
+    s.geometricNormal.y[i] = ny * side;
+    s.geometricNormal.z[i] = nz * side;
+    s.shadingNormal.x[i] = nx;
+    s.shadingNormal.y[i] = ny;
+    s.shadingNormal.z[i] = nz;
+    s.offset[i] = offset;
     return maskOf(cosine <= 0.0f);
 }
 
@@ -167,8 +163,10 @@ void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
         const float ax = t.a.x[i], ay = t.a.y[i], az = t.a.z[i];
         const float bx = t.b.x[i], by = t.b.y[i], bz = t.b.z[i];
         const float cx = t.c.x[i], cy = t.c.y[i], cz = t.c.z[i];
-        const Plane plane = planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[i]);
-        front |= bitOfLane(setSurface(block, i, plane, ax, ay, az, bx, by, bz, cx, cy, cz, s), i);
+        float nx, ny, nz, offset;
+        planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[i], nx, ny, nz, offset);
+        front |= bitOfLane(setSurface(block, i, nx, ny, nz, offset, ax, ay, az, bx, by, bz, cx, cy, cz, s),
+                           i);
     }
     s.front = front;
 }
@@ -180,11 +178,13 @@ void geometryOfOne(const RayHitBlock& block, const TriangleLanes& t, int from, S
     const float ax = t.a.x[from], ay = t.a.y[from], az = t.a.z[from];
     const float bx = t.b.x[from], by = t.b.y[from], bz = t.b.z[from];
     const float cx = t.c.x[from], cy = t.c.y[from], cz = t.c.z[from];
-    const Plane plane = planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[from]);
+    float nx, ny, nz, offset;
+    planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[from], nx, ny, nz, offset);
     LaneMask front = 0;
     OSGRAYTRACE_SIMD_OR(front)
     for (int i = 0; i < kLanes; ++i)
-        front |= bitOfLane(setSurface(block, i, plane, ax, ay, az, bx, by, bz, cx, cy, cz, s), i);
+        front |= bitOfLane(setSurface(block, i, nx, ny, nz, offset, ax, ay, az, bx, by, bz, cx, cy, cz, s),
+                           i);
     s.front = front;
 }
 

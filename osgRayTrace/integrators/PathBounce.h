@@ -6,6 +6,7 @@
 #include "osgRayTrace/integrators/HitPoints.h"
 #include "osgRayTrace/integrators/Integrator.h"
 #include "osgRayTrace/integrators/PathQueue.h"
+#include "osgRayTrace/integrators/PathReuse.h"
 #include "osgRayTrace/photons/PhotonTracer.h"
 #include "osgRayTrace/sampling/Sobol.h"
 #include "osgRayTrace/shading/Bsdf.h"
@@ -21,12 +22,14 @@ OSGRAYTRACE_INLINE float powerHeuristic(float a, float b)
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-/// Sums of the tile, pixel by pixel.
+constexpr int kRouletteBounce = 3; ///< paths are not ended by chance before this bounce
+
+/// Sums of the tile, pixel by pixel; from kLent on those of lent paths.
 struct PixelSums
 {
-    float r[kTilePixels] = {};
-    float g[kTilePixels] = {};
-    float b[kTilePixels] = {};
+    float r[kLent + kTilePixels] = {};
+    float g[kLent + kTilePixels] = {};
+    float b[kLent + kTilePixels] = {};
     float a[kTilePixels] = {};
 
     void add(uint32_t pixelBits, Vec3 radiance)
@@ -52,6 +55,7 @@ struct Tile
     int left, bottom;
     PixelSums sums;
     PathQueue paths;
+    PathLoans loans;
     Bsdf bsdfs[kLanes]; ///< of the block at work
 };
 
@@ -86,6 +90,20 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce);
 
 /// Sets the ray of each lane that goes on; the others leave block.active.
 void scatter(Tile& tile, PathBlock& block, const Bounce& bounce);
+
+/// Makes groups of the tile's pixels. No loans with photons of the local schedule, which are
+/// counted pixel by pixel.
+void openLoans(Tile& tile, PhotonUse use);
+
+/// Remembers where the camera rays of block b met diffuse surfaces.
+void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce);
+
+/// Makes loans of the paths whose second surface is diffuse: what they find from here on is for all
+/// pixels of the group that see it.
+void lendPaths(Tile& tile, PathBlock& block, const Bounce& bounce);
+
+/// Gives the pixels what lent paths have found.
+void returnPaths(Tile& tile);
 
 /// Which lanes look up photons, and which of them end here but for their mirror-like lobes.
 void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use);

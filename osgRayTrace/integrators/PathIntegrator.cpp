@@ -8,10 +8,11 @@
 //   beta_{k+1} = beta_k f cos / pdfW / q
 //
 // with the power heuristic w = p_a^2 / (p_a^2 + p_b^2), y sampled on one area light chosen by
-// power, and q the survival probability of Russian roulette: beta as it would be outside of all
-// glass, at most 1. A smaller cap would let beta grow past 1 along paths that lose less than it
-// does, and their variance with it; beta in glass is 1/eta^2 of what comes out again. Sixteen paths
-// are followed together; those that end are replaced by closing the ranks of the tile after each
+// power, and q the survival probability of Russian roulette: 1 while beta, as it would be outside of
+// all glass, is above a bound, and beta over this bound from there on, so that beta stays where it
+// is. A q that is capped below 1 would let beta grow along paths that lose less than it does, and
+// their variance with it; beta in glass is 1/eta^2 of what comes out again. Sixteen paths are
+// followed together; those that end are replaced by closing the ranks of the tile after each
 // bounce.
 #include "osgRayTrace/integrators/PathIntegrator.h"
 
@@ -100,6 +101,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
         block.active = 0;
         return;
     }
+    if (number == 1 && tile.loans.active) lendPaths(tile, block, bounce);
     if (use != PhotonUse::None) chooseGathering(block, bounce, use);
     if (HitPoints* hits = tile.result.hitPoints)
         keepHitPoints(block, bounce, *hits);
@@ -108,6 +110,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
         if (use != PhotonUse::None) addPhotons(tile, block, bounce);
         sampleLights(tile, block, bounce);
     }
+    if (number == 0 && tile.loans.active) noteFirstSurfaces(tile, b, bounce);
     scatter(tile, block, bounce);
 }
 
@@ -128,6 +131,7 @@ void tracePaths(Tile& tile, PhotonUse use)
         }
         block.active = kAllLanes;
     }
+    openLoans(tile, use);
     for (int number = 0; tile.paths.count > 0; ++number)
     {
         const bool last = number >= context.options.maxBounces;
@@ -135,6 +139,7 @@ void tracePaths(Tile& tile, PhotonUse use)
             bounceBlock(tile, b, number, last, use);
         closeRanks(tile.paths);
     }
+    returnPaths(tile);
 }
 
 void writeSums(const Tile& tile, RgbaLanes* rgba)

@@ -12,7 +12,7 @@ void countRays(Tile& tile, const PathBlock& block, LaneMask lanes)
 {
     if (!tile.diagnostics) return;
     for (; lanes; lanes &= lanes - 1)
-        tile.diagnostics->rays[block.pixel[__builtin_ctz(lanes)] & kPixelBits] += 1.0f;
+        tile.diagnostics->rays[block.pixel[__builtin_ctz(lanes)] & (kTilePixels - 1)] += 1.0f;
 }
 
 OSGRAYTRACE_KERNEL

@@ -1,0 +1,55 @@
+// PathReuse.h - what the paths of neighbouring pixels lend each other. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/film/Film.h"
+
+namespace osgRayTrace::engine
+{
+
+/// Set in the pixel of a path from its second surface on if others get the light that it finds
+/// there, too: the sums of such paths are apart.
+constexpr uint32_t kLent = 0x100u;
+
+/// Pixels lend each other paths in groups, one pixel of each of the tile's blocks: pixels that share
+/// samples share their error, and next to each other they would look like a coarser picture. Which
+/// pixel of a block is in which group is random, but the same in all passes of a half: the Sobol
+/// points of a group are then as well spread as those of a pixel.
+constexpr int kLoanGroups = kLanes;
+static_assert(kTileBlocks == kLanes, "a lane for each block");
+
+/// Where the camera rays of a group met diffuse surfaces.
+struct FirstSurfaces
+{
+    Vec3Lanes position, geometricNormal, normal, albedo;
+    FloatLanes offset;
+    LaneMask lanes = 0;
+};
+
+/// A second surface, seen from the side that the path came from.
+struct SecondSurface
+{
+    Vec3 position, normal;
+    float offset;
+};
+
+struct PathLoans
+{
+    int groupOf(uint32_t pixel) const
+    {
+        return static_cast<int>((pixel ^ turn[pixel / kLanes]) % kLanes);
+    }
+    int pixelOf(int group, int block) const
+    {
+        return block * kLanes + (group ^ static_cast<int>(turn[block]));
+    }
+
+    bool active = false;
+    uint32_t turn[kTileBlocks];        ///< below kLanes
+    FirstSurfaces first[kLoanGroups];  ///< lane: block of the pixel
+    SecondSurface second[kTilePixels]; ///< of lent paths, pixel by pixel
+    LaneMask lent[kLoanGroups] = {};   ///< blocks of their pixels
+};
+
+} // namespace osgRayTrace::engine
