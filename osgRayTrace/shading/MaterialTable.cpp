@@ -24,9 +24,6 @@ float maxComponent(Vec3 v) { return std::max(v.x, std::max(v.y, v.z)); }
 
 Vec3 clampUnit(Vec3 v) { return glm::clamp(v, 0.0f, 1.0f); }
 
-/// An index this close to 1 cannot be seen, and its microfacet normals drown in rounding: taken for 1.
-float usableIor(float ior) { return std::fabs(ior - 1.0f) < 1e-4f ? 1.0f : ior; }
-
 } // namespace
 
 MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
@@ -47,10 +44,13 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
         record.fixedFunction = material.model == MaterialModel::FixedFunction;
         record.constant = !isTextured(material) &&
                           (!record.fixedFunction || material.vertexColorUse == VertexColorUse::None);
-        MaterialPoint point;
-        record.front = bsdf(i, point);
-        point.front = false;
-        record.back = bsdf(i, point);
+        if (!isInvisible(material)) // else it is not traced: no photons are aimed at it
+        {
+            MaterialPoint point;
+            record.front = bsdf(i, point);
+            point.front = false;
+            record.back = bsdf(i, point);
+        }
         record.plainDiffuse = record.constant && record.front.isDiffuse() &&
                               !(record.fixedFunction && !material.lit);
         record.emits = material.emission != Vec3(0.0f) || (record.fixedFunction && !material.lit) ||
