@@ -193,6 +193,7 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
                 const Instance& instance = built.scene->instances[i];
                 const std::shared_ptr<const Mesh>& mesh = built.scene->meshes[instance.mesh];
                 if (mesh->triangles.empty()) continue;
+                if (isInvisible(built.scene->materials[instance.material])) continue;
                 if (instance.placed)
                 {
                     const double instanceReach = reachOf(instance.engineFromLocal);

@@ -23,6 +23,7 @@ constexpr Wording kGeometryWordings[] = {
      "per-primitive bindings or array indices: call fixDeprecatedData, skipped"},
     {"skipped.vertex-type", "vertex array of an unknown type, skipped"},
     {"repaired.normal", "normals that are zero, missing or not finite, replaced by face normals"},
+    {"warned.opposite-normals", "triangles whose normals look to their back, lit by the side seen"},
     {"repaired.color", "colours that are missing or not finite, replaced by white"},
     {"repaired.texture-coordinate",
      "texture coordinates that are missing or not finite, replaced by 0"},

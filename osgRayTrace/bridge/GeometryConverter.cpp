@@ -222,6 +222,24 @@ SharedArray<Vec3> completed(Normals& normals, const Mesh& mesh, ConversionCounts
     return values;
 }
 
+/// Triangles all of whose normals look to their back: they are shaded on the side that is seen.
+uint64_t oppositeNormals(const Mesh& mesh)
+{
+    if (mesh.normals.empty()) return 0;
+    const Vec3* positions = mesh.positions.data();
+    const Vec3* normals = mesh.normals.data();
+    uint64_t count = 0;
+    for (const UVec3& t : mesh.triangles)
+    {
+        const Vec3d a(positions[t.x]);
+        const Vec3d face = glm::cross(Vec3d(positions[t.y]) - a, Vec3d(positions[t.z]) - a);
+        count += (glm::dot(face, Vec3d(normals[t.x])) < 0.0) &
+                 (glm::dot(face, Vec3d(normals[t.y])) < 0.0) &
+                 (glm::dot(face, Vec3d(normals[t.z])) < 0.0);
+    }
+    return count;
+}
+
 } // namespace
 
 ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request)
@@ -253,6 +271,8 @@ ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& 
     mesh->positions = std::move(positions.values);
     Normals normals = reader.normals(geometry.getNormalArray());
     mesh->normals = completed(normals, *mesh, result.counts);
+    if (const uint64_t opposite = oppositeNormals(*mesh))
+        result.counts["warned.opposite-normals"] += opposite;
     mesh->uvs = reader.textureCoordinates(geometry.getTexCoordArray(0), result.counts);
     mesh->colors = reader.colors(geometry.getColorArray(), result.counts);
     result.mesh = std::move(mesh);

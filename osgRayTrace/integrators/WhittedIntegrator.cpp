@@ -25,12 +25,14 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// A mirror or refracted ray weighing less than this cannot be seen in 8 bits.
+/// A mirror or refracted ray weighing less than this cannot be seen in 8 bits. What counts is its weight
+/// outside of all glass: in it weights are 1/eta^2 of what comes out again.
 constexpr float kSmallestWeight = 1.0f / 1024.0f;
 
 struct SecondaryRay
 {
     Vec3 origin, direction, weight;
+    float etaScale;
     uint32_t pixel;
     uint32_t seed;
     int depth;
@@ -62,6 +64,7 @@ struct ShadingBlock
     UintLanes seed;
     UintLanes pixel;
     Vec3Lanes weight;
+    FloatLanes etaScale;       ///< weight outside of glass over weight
     FloatLanes firstU, firstV; ///< first sample on the first area light: drawn early, see drawFirst
     int depth[kLanes];
 
@@ -311,11 +314,11 @@ void addDeltaLights(Tile& tile, ShadingBlock& block)
     }
 }
 
-void push(Tile& tile, const ShadingBlock& block, int i, Vec3 direction, Vec3 weight)
+void push(Tile& tile, const ShadingBlock& block, int i, Vec3 direction, Vec3 weight, float etaScale)
 {
     const float largest = std::max(weight.x, std::max(weight.y, weight.z));
-    if (!(largest >= kSmallestWeight)) return;
-    tile.stack.push_back({leave(block.surface, i, direction), direction, weight, block.pixel[i],
+    if (!(largest * etaScale >= kSmallestWeight)) return;
+    tile.stack.push_back({leave(block.surface, i, direction), direction, weight, etaScale, block.pixel[i],
                           hash(block.seed[i] + 0x9e3779b9u), block.depth[i] + 1});
 }
 
@@ -330,13 +333,16 @@ void spawn(Tile& tile, const ShadingBlock& block)
         const Vec3 wo = frame.toLocal(-rayDirection(block.rays.ray, i));
         const SpecularLobes lobes = specularLobes(m.bsdfs[i], wo);
         const Vec3 weight = laneOf(block.weight, i);
+        const float etaScale = block.etaScale[i];
         const Vec3 geometric = laneOf(block.surface.geometricNormal, i);
         const Vec3 mirrored = frame.toWorld(Vec3(-wo.x, -wo.y, wo.z));
         if (lobes.reflection != Vec3(0.0f) && isAbove(block.surface, i, mirrored))
-            push(tile, block, i, mirrored, weight * lobes.reflection);
+            push(tile, block, i, mirrored, weight * lobes.reflection, etaScale);
         if (lobes.refraction == Vec3(0.0f)) continue;
         const Vec3 refracted = frame.toWorld(lobes.refracted);
-        if (glm::dot(refracted, geometric) < 0.0f) push(tile, block, i, refracted, weight * lobes.refraction);
+        const float eta = m.bsdfs[i].eta;
+        if (glm::dot(refracted, geometric) < 0.0f)
+            push(tile, block, i, refracted, weight * lobes.refraction, etaScale * eta * eta);
     }
 }
 
@@ -395,6 +401,7 @@ void traceSecondary(Tile& tile)
         ray.mask[i] = 0xffffffffu;
         ray.id[i] = ray.flags[i] = 0;
         setLane(block.weight, i, from.weight);
+        block.etaScale[i] = from.etaScale;
         block.pixel[i] = from.pixel;
         block.seed[i] = from.seed;
         block.depth[i] = from.depth;
@@ -449,6 +456,7 @@ void traceCamera(Tile& tile, int left, int bottom, int first)
         for (int i = 0; i < kLanes; ++i)
         {
             block.pixel[i] = static_cast<uint32_t>((first + k) * kLanes + i);
+            block.etaScale[i] = 1.0f;
             block.depth[i] = 0;
         }
         if (lit) drawFirst(tile.grid, block);

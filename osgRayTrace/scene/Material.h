@@ -73,6 +73,18 @@ struct Material
     Stamp changed = 0;
 };
 
+/// An index this close to 1 cannot be seen, and its microfacet normals drown in rounding: taken for 1.
+inline float usableIor(float ior) { return ior > 1.0f - 1e-4f && ior < 1.0f + 1e-4f ? 1.0f : ior; }
+
+/// True if light passes the surface as if nothing were there, for all that is known without its
+/// textures. Not traced: rays towards lights without area would have to be bent by nothing.
+inline bool isInvisible(const Material& m)
+{
+    return m.model == MaterialModel::Physical && m.transmission >= 1.0f && m.metallic <= 0.0f &&
+           usableIor(m.ior) == 1.0f && m.baseColor == Vec3(1.0f) && m.emission == Vec3(0.0f) &&
+           m.baseColorTexture == kInvalid && m.transmissionTexture == kInvalid;
+}
+
 enum class TextureWrap : uint8_t
 {
     Repeat,

@@ -13,6 +13,7 @@ constexpr float kMirrorRoughness = 0.0316f;
 
 void addMaterial(const Material& material, SceneTraits& traits)
 {
+    if (isInvisible(material)) return;
     traits.textures |= material.baseColorTexture != kInvalid ||
                        material.metallicRoughnessTexture != kInvalid ||
                        material.transmissionTexture != kInvalid ||

@@ -33,13 +33,28 @@ Vec3 reflectionFresnel(const Bsdf& bsdf, float cosTheta)
            Vec3(bsdf.coat * interfaceFresnel(bsdf, cosTheta));
 }
 
+/// What the base does not get of light from or to a direction.
+float coatAlbedo(const Bsdf& bsdf, float cosTheta)
+{
+    if (!bsdf.coatRows) return interfaceFresnel(bsdf, cosTheta);
+    const float first = bsdf.coatRows[0](cosTheta), second = bsdf.coatRows[1](cosTheta);
+    return first + (second - first) * bsdf.coatFraction;
+}
+
+float coatAverage(const Bsdf& bsdf)
+{
+    if (!bsdf.coatRows) return bsdf.coatAverage;
+    const float first = bsdf.coatRows[0].average, second = bsdf.coatRows[1].average;
+    return first + (second - first) * bsdf.coatFraction;
+}
+
 /// f cos of the base.
 Vec3 evalBase(const Bsdf& bsdf, Vec3 wo, Vec3 wi)
 {
     const Vec3 lambert = bsdf.diffuse * (kInvPi * wi.z);
     if (bsdf.coat == 0.0f) return lambert;
-    return lambert * ((1.0f - interfaceFresnel(bsdf, wi.z)) *
-                      (1.0f - interfaceFresnel(bsdf, wo.z)) / (1.0f - bsdf.coatAverage));
+    return lambert * ((1.0f - coatAlbedo(bsdf, wi.z)) * (1.0f - coatAlbedo(bsdf, wo.z)) /
+                      (1.0f - coatAverage(bsdf)));
 }
 
 /// Probabilities of the base and of the interface for wo; they sum to 1, or are all 0 for a black
@@ -52,7 +67,7 @@ struct LobePmf
 
 LobePmf lobePmf(const Bsdf& bsdf, Vec3 wo)
 {
-    const float below = 1.0f - interfaceFresnel(bsdf, wo.z);
+    const float below = 1.0f - coatAlbedo(bsdf, wo.z);
     LobePmf pmf;
     pmf.base = luminance(bsdf.diffuse) * below;
     pmf.interface = luminance(reflectionFresnel(bsdf, wo.z)) + luminance(bsdf.transmission) * below;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/shading/CoatAlbedo.h"
 #include "osgRayTrace/shading/Ggx.h"
 
 #include <optional>
@@ -22,15 +23,15 @@ enum class Transport
 /// One model for all surfaces; what a surface does not have has weight 0. Directions are local, the
 /// shading normal at +z on the side of wo, and point away from the surface.
 ///
-///   f = diffuse/pi (1-F(wi))(1-F(wo))/(1-F_avg)          base, under the coat   [Shirley97, eq. 6]
+///   f = diffuse/pi (1-E(wi))(1-E(wo))/(1-E_avg)          base, under the coat   [Shirley97, eq. 6]
 ///     + D G2 / (4 |wi.z wo.z|) (S(h) + coat F(h))        reflection             [Walter07, eq. 20]
 ///     + transmission D G2 (1-F(h)) ...                   refraction             [Walter07, eq. 21]
 ///
-/// F = Fresnel of a dielectric of index eta (0 without a coat), S = Schlick with reflectance and grazing.
+/// F = Fresnel of a dielectric of index eta (0 without a coat), E = what the coat reflects in all directions:
+/// F of a smooth one, S = Schlick with reflectance and grazing.
 /// With alpha below kSmoothAlpha D is a delta function; refraction is one, too, where microfacets turn it by
 /// too little, which takes an index close to 1. Neither side makes energy, as diffuse +
-/// transmission <= coat = 1 - grazing; but a rough coat over a base, which is taken for a smooth one there,
-/// up to 1 % from outside and 8 % from inside.
+/// transmission <= coat = 1 - grazing.
 struct Bsdf
 {
     Vec3 diffuse{0.0f};      ///< albedo of the base
@@ -41,6 +42,10 @@ struct Bsdf
     float eta = 1.0f;        ///< index on the far side over that on wo's side
     float coatAverage = 0.0f; ///< fresnelDielectricAverage(eta)
     float alpha = 1.0f;      ///< GGX width
+    /// E of a rough coat over a base: two rows of CoatAlbedo, which the MaterialTable owns, and the
+    /// share of the second. Null: F.
+    const CoatAlbedoRow* coatRows = nullptr;
+    float coatFraction = 0.0f;
 
     bool reflects() const { return coat > 0.0f || grazing > 0.0f || reflectance != Vec3(0.0f); }
     bool transmits() const { return transmission != Vec3(0.0f); }

@@ -24,9 +24,6 @@ float maxComponent(Vec3 v) { return std::max(v.x, std::max(v.y, v.z)); }
 
 Vec3 clampUnit(Vec3 v) { return glm::clamp(v, 0.0f, 1.0f); }
 
-/// An index this close to 1 cannot be seen, and its microfacet normals drown in rounding: taken for 1.
-float usableIor(float ior) { return std::fabs(ior - 1.0f) < 1e-4f ? 1.0f : ior; }
-
 } // namespace
 
 MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
@@ -35,9 +32,8 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
     {
         const bool glass = material.model == MaterialModel::Physical && material.transmission > 0.0f;
         const float ior = usableIor(material.ior);
-        const float outside = fresnelDielectricAverage(ior);
-        _coatAverages.emplace_back(outside,
-                                   glass ? fresnelDielectricAverage(1.0f / ior) : outside);
+        const Coat outside = coatOf(material, ior);
+        _coats.push_back({outside, glass ? coatOf(material, 1.0f / ior) : outside});
     }
     for (uint32_t i = 0; i < scene.materials.size(); ++i)
     {
@@ -47,10 +43,13 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
         record.fixedFunction = material.model == MaterialModel::FixedFunction;
         record.constant = !isTextured(material) &&
                           (!record.fixedFunction || material.vertexColorUse == VertexColorUse::None);
-        MaterialPoint point;
-        record.front = bsdf(i, point);
-        point.front = false;
-        record.back = bsdf(i, point);
+        if (!isInvisible(material)) // else it is not traced: no photons are aimed at it
+        {
+            MaterialPoint point;
+            record.front = bsdf(i, point);
+            point.front = false;
+            record.back = bsdf(i, point);
+        }
         record.plainDiffuse = record.constant && record.front.isDiffuse() &&
                               !(record.fixedFunction && !material.lit);
         record.emits = material.emission != Vec3(0.0f) || (record.fixedFunction && !material.lit) ||
@@ -64,9 +63,33 @@ Bsdf MaterialTable::bsdf(uint32_t material, const MaterialPoint& point) const
     const Material& m = _scene->materials[material];
     Bsdf bsdf = m.model == MaterialModel::Physical ? physical(m, point) : fixedFunction(m, point);
     if (bsdf.coat > 0.0f)
-        bsdf.coatAverage = point.front || !bsdf.transmits() ? _coatAverages[material].x
-                                                            : _coatAverages[material].y;
+    {
+        const Coat& coat = _coats[material][point.front || !bsdf.transmits() ? 0 : 1];
+        bsdf.coatAverage = coat.average;
+        if (coat.rough && !bsdf.isSmooth() && bsdf.diffuse != Vec3(0.0f))
+        {
+            const CoatAlbedo::Place place = coat.rough->at(std::sqrt(bsdf.alpha));
+            bsdf.coatRows = place.rows;
+            bsdf.coatFraction = place.fraction;
+        }
+    }
     return bsdf;
+}
+
+MaterialTable::Coat MaterialTable::coatOf(const Material& m, float eta) const
+{
+    Coat coat{fresnelDielectricAverage(eta), {}};
+    const bool base = m.model == MaterialModel::Physical && eta != 1.0f && m.metallic < 1.0f &&
+                      m.baseColor != Vec3(0.0f) &&
+                      (m.transmission < 1.0f || m.transmissionTexture != kInvalid);
+    const float roughness = std::clamp(m.roughness, 0.0f, 1.0f);
+    if (!base || roughness * roughness < kSmoothAlpha) return coat;
+    coat.rough = CoatAlbedo::ofIndex(eta);
+    if (m.metallicRoughnessTexture == kInvalid)
+        coat.rough->prepare(roughness);
+    else
+        coat.rough->prepareAll();
+    return coat;
 }
 
 /// [glTF20, appendix B.2]: a mix of a dielectric and a metal by metallic.

@@ -56,7 +56,13 @@ private:
 
     const Scene* _scene;
     std::vector<MaterialRecord> _records;
-    std::vector<Vec2> _coatAverages; ///< a material: from outside, from inside
+    struct Coat
+    {
+        float average; ///< of a smooth one
+        std::shared_ptr<CoatAlbedo> rough; ///< if it may be, over a base
+    };
+    Coat coatOf(const Material& material, float eta) const;
+    std::vector<std::array<Coat, 2>> _coats; ///< a material: from outside, from inside
 };
 
 /// Ambient, diffuse, specular and emission after the vertex colour has replaced what it replaces.

@@ -57,6 +57,8 @@ TEST_CASE("scene traits: materials", "[scene]")
     CHECK(traitsOf(glass(1.5f)).transmission);
     CHECK(traitsOf(glass(1.5f)).specular);
     CHECK_FALSE(traitsOf(glass(1.5f, 0.5f)).specular);
+    CHECK_FALSE(traitsOf(glass(1.0f)).physical); // nothing to be seen
+    CHECK_FALSE(traitsOf(glass(1.0f)).transmission);
 
     Material textured = lambert(Vec3(1.0f));
     CHECK_FALSE(traitsOf(textured).textures);

@@ -92,6 +92,38 @@ Mat4d reversed(Mat4d m)
     return m;
 }
 
+struct PixelErrors
+{
+    double ours = 0.0, best = 0.0; ///< largest [pixels]
+};
+
+/// All over a perspective picture: of our rays, and of the best that floats have, which are exact
+/// directions of length 1, rounded.
+PixelErrors errorsEverywhere(const View& view)
+{
+    const std::optional<CameraRays> rays = cameraRays(view, Vec3d(0.0));
+    REQUIRE(rays);
+    const Mat4d viewFromClip = glm::inverse(view.clipFromView);
+    const glm::dmat3 viewFromEngine(view.viewFromWorld);
+    PixelErrors errors;
+    for (double x = 0.5; x < view.width; x += 31.0)
+    {
+        for (double y = 0.5; y < view.height; y += 31.0)
+        {
+            errors.ours = std::max(errors.ours, pixelError(view, Vec3d(0.0), *rays, x, y));
+            const Vec4d near = viewFromClip * Vec4d(2.0 * x / view.width - 1.0,
+                                                    2.0 * y / view.height - 1.0, -1.0, 1.0);
+            const Vec3d exact = glm::inverse(viewFromEngine) * (Vec3d(near) / near.w);
+            const Vec3d rounded = viewFromEngine * Vec3d(Vec3(glm::normalize(exact)));
+            const Vec4d clip = view.clipFromView * Vec4d(rounded, 1.0);
+            const double px = (clip.x / clip.w + 1.0) * 0.5 * view.width;
+            const double py = (clip.y / clip.w + 1.0) * 0.5 * view.height;
+            errors.best = std::max(errors.best, std::hypot(px - x, py - y));
+        }
+    }
+    return errors;
+}
+
 } // namespace
 
 TEST_CASE("camera rays: within a thousandth of a pixel for every kind of projection",
@@ -130,6 +162,31 @@ TEST_CASE("camera rays: within a thousandth of a pixel for every kind of project
         CAPTURE(c.name);
         CHECK(worstPixelError(viewOf(c.projection, kLookAt), Vec3d(0.0)) < c.tolerance);
     }
+}
+
+TEST_CASE("camera rays: what floats cannot hold, and no more than that",
+          "[scene][stability 18]")
+{
+    // A component of a direction of length 1 is rounded by up to 2^-25: h pixels of a view of angle
+    // a see that as 2^-25 h / a, 1.6e-3 at 0.02 radians; a wall beside the eye, seen at 6 degrees,
+    // multiplies it. No origin makes up for an angle but at one distance. Our linear form rounds
+    // its terms as well.
+    const double aspect = double(kWidth) / kHeight;
+    const Mat4d narrow = glm::perspective(0.02, aspect, 1.0, 1e4);
+    const Mat4d beside = glm::frustum(0.5, 0.9, 0.2, 0.6, 0.1, 100.0);
+    for (const Mat4d& projection : {narrow, beside})
+    {
+        const PixelErrors errors = errorsEverywhere(viewOf(projection, kLookAt));
+        CAPTURE(errors.ours, errors.best);
+        CHECK(errors.best > 1e-3);
+        CHECK(errors.ours < 2.0 * errors.best);
+    }
+    // Very wide views have room: their terms are the larger ones.
+    const PixelErrors wide =
+        errorsEverywhere(viewOf(glm::perspective(2.8, aspect, 0.1, 100.0), kLookAt));
+    CAPTURE(wide.ours, wide.best);
+    CHECK(wide.best < 5e-4);
+    CHECK(wide.ours < 1e-3);
 }
 
 TEST_CASE("camera rays: the same at the radius of the earth, with the origin there", "[scene]")

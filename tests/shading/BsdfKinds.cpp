@@ -5,6 +5,8 @@
 #include "osgRayTrace/shading/MaterialTable.h"
 
 #include <cmath>
+#include <list>
+#include <memory>
 
 namespace osgRayTrace::engine::test
 {
@@ -14,11 +16,15 @@ namespace
 
 Bsdf bsdfOf(const Material& material, bool front)
 {
-    Scene scene;
+    static std::list<std::pair<Scene, std::unique_ptr<MaterialTable>>>
+        tables; // own what coats reflect
+    tables.emplace_back();
+    auto& [scene, table] = tables.back();
     scene.materials = {material};
+    table = std::make_unique<MaterialTable>(scene);
     MaterialPoint point;
     point.front = front;
-    return MaterialTable(scene).bsdf(0, point);
+    return table->bsdf(0, point);
 }
 
 Material physical(float roughness, float metallic, float transmission, float ior)
@@ -66,6 +72,14 @@ std::vector<BsdfKind> kindsOfRoughness(const std::vector<float>& roughnesses)
 }
 
 } // namespace
+
+std::vector<BsdfKind> kindsOf(float roughness, float transmission, float ior)
+{
+    std::vector<BsdfKind> kinds;
+    add(kinds, "roughness " + std::to_string(roughness),
+        physical(roughness, 0.0f, transmission, ior));
+    return kinds;
+}
 
 std::vector<BsdfKind> extremeKinds()
 {

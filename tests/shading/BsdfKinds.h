@@ -23,6 +23,8 @@ std::vector<BsdfKind> roughKinds();
 /// Metal, plastic and glass from the least roughness that is not smooth to 1, of
 /// indices 1.0001, 1.5 and 3, from outside and inside.
 std::vector<BsdfKind> extremeKinds();
+/// White, no metal; from outside, and if it transmits from inside.
+std::vector<BsdfKind> kindsOf(float roughness, float transmission, float ior);
 
 /// The same below that roughness, down to 0.
 std::vector<BsdfKind> extremeSmoothKinds();

@@ -3,6 +3,7 @@
 #include "tests/Catch.h"
 #include "tests/stability/geometry/Pictured.h"
 
+#include <osg/MatrixTransform>
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <cmath>
@@ -81,6 +82,34 @@ TEST_CASE("stability 54: normals of no length or no number are those of the face
                 CHECK(differing(pictureOf(converted, kind), expected) == 0);
             }
         }
+    }
+}
+
+TEST_CASE("stability 54: normals opposite to their faces are counted", "[stability]")
+{
+    for (const bool physical : {false, true})
+    {
+        const auto geometry = box(nullptr, physical);
+        CHECK(countOf(convertGraph(lit({geometry})), "warned.opposite-normals") == 0);
+        setFaceNormals(*geometry, 1.0f);
+        CHECK(countOf(convertGraph(lit({geometry})), "warned.opposite-normals") == 0);
+        setFaceNormals(*geometry, -1.0f);
+        CHECK(countOf(convertGraph(lit({geometry})), "warned.opposite-normals") == 12);
+
+        // One side of the box; a single corner that leans back is what smooth edges have.
+        setFaceNormals(*geometry, 1.0f);
+        auto& normals = *static_cast<osg::Vec3Array*>(geometry->getNormalArray());
+        normals[6] = -normals[6];
+        CHECK(countOf(convertGraph(lit({geometry})), "warned.opposite-normals") == 0);
+        normals[7] = -normals[7];
+        normals[8] = -normals[8];
+        CHECK(countOf(convertGraph(lit({geometry})), "warned.opposite-normals") == 1);
+
+        // A transform that mirrors changes neither.
+        osg::ref_ptr<osg::MatrixTransform> mirrored = new osg::MatrixTransform(
+            osg::Matrixd::scale(-1.0, 1.0, 1.0));
+        mirrored->addChild(geometry);
+        CHECK(countOf(convertGraph(lit({mirrored})), "warned.opposite-normals") == 1);
     }
 }
 

@@ -1,0 +1,127 @@
+// CoatAlbedo.cpp - albedos of rough interfaces by quadrature, in double. Layer: shading.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/shading/CoatAlbedo.h"
+
+#include "osgRayTrace/shading/Fresnel.h"
+#include "osgRayTrace/shading/Ggx.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// The mean of F(wo h) G2 / G1(wo) over visible normals: all that single scattering reflects.
+double albedoOf(double cosine, double alpha, float eta)
+{
+    // Total reflection has an edge, which takes more.
+    const int turns = eta < 1.0f ? 32 : 12, heights = eta < 1.0f ? 96 : 48;
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    const auto lambda = [alpha](double z)
+    { return 0.5 * (std::sqrt(1.0 + alpha * alpha * (1.0 - z * z) / (z * z)) - 1.0); };
+    const double lambdaO = lambda(cosine);
+    const Vec3d stretched = glm::normalize(Vec3d(alpha * sine, 0.0, cosine));
+    double sum = 0.0;
+    for (int j = 0; j < heights; ++j)
+    {
+        // As sampleGgxVisible: a cap of the sphere, by height and angle; one half of it for both.
+        const double z = (1.0 - (j + 0.5) / heights) * (1.0 + stretched.z) - stretched.z;
+        const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
+        for (int i = 0; i < turns; ++i)
+        {
+            const double phi = M_PI * (i + 0.5) / turns;
+            const Vec3d cap = Vec3d(radius * std::cos(phi), radius * std::sin(phi), z) + stretched;
+            const Vec3d h = glm::normalize(Vec3d(alpha * cap.x, alpha * cap.y, cap.z));
+            const double cosH = sine * h.x + cosine * h.z;
+            const double wiZ = 2.0 * cosH * h.z - cosine;
+            if (!(wiZ > 0.0)) continue;
+            sum += fresnelDielectric(static_cast<float>(cosH), eta) * (1.0 + lambdaO) /
+                   (1.0 + lambdaO + lambda(std::min(wiZ, 1.0)));
+        }
+    }
+    return sum / (turns * heights);
+}
+
+} // namespace
+
+std::shared_ptr<CoatAlbedo> CoatAlbedo::ofIndex(float eta)
+{
+    static std::mutex mutex;
+    static std::map<float, std::weak_ptr<CoatAlbedo>> tables;
+    const std::lock_guard<std::mutex> lock(mutex);
+    for (auto entry = tables.begin(); entry != tables.end();)
+        entry = entry->second.expired() ? tables.erase(entry) : std::next(entry);
+    std::shared_ptr<CoatAlbedo> table = tables[eta].lock();
+    if (!table) tables[eta] = table = std::make_shared<CoatAlbedo>(eta);
+    return table;
+}
+
+void CoatAlbedo::makeRow(int row)
+{
+    if (_made[static_cast<std::size_t>(row)]) return;
+    constexpr int kSteps = CoatAlbedoRow::kSteps, kFine = 4; // places between two nodes
+    const double roughness = double(row) / kRoughnessSteps;
+    const double alpha = std::max(roughness * roughness, double(kSmoothAlpha));
+    double fine[kSteps * kFine + 1];
+    for (int i = 0; i <= kSteps * kFine; ++i)
+    {
+        const double x = double(i) / (kSteps * kFine);
+        fine[i] = albedoOf(std::max(x * x, 1e-6), alpha, _eta);
+    }
+    CoatAlbedoRow& made = _rows[static_cast<std::size_t>(row)];
+    for (int i = 0; i <= kSteps; ++i)
+        made.albedo[static_cast<std::size_t>(i)] = static_cast<float>(fine[i * kFine]);
+    // Never less than the albedo, also at the bend that total reflection makes: the base may get
+    // too little there, but not more than there is.
+    for (int i = 0; i < kSteps; ++i)
+    {
+        float &low = made.albedo[static_cast<std::size_t>(i)],
+              &high = made.albedo[static_cast<std::size_t>(i) + 1];
+        for (int k = 1; k < kFine; ++k)
+        {
+            const float t = static_cast<float>(k) / kFine;
+            const float lack = static_cast<float>(fine[i * kFine + k]) - (low + (high - low) * t);
+            if (lack <= 0.0f) continue;
+            low = std::fmin(low + lack, 1.0f);
+            high = std::fmin(high + lack, 1.0f);
+        }
+    }
+    made.albedo[kSteps + 1] = made.albedo[kSteps];
+    // int 2 E c dc with c = x^2, of what is interpolated: midpoints of fine steps.
+    double sum = 0.0;
+    for (int i = 0; i < kSteps * 16; ++i)
+    {
+        const double x = (i + 0.5) / (kSteps * 16);
+        sum += made(static_cast<float>(x * x)) * 4.0 * x * x * x;
+    }
+    made.average = static_cast<float>(sum / (kSteps * 16));
+    _made[static_cast<std::size_t>(row)] = true;
+}
+
+void CoatAlbedo::prepare(float roughness)
+{
+    const int row = static_cast<int>(roughness * kRoughnessSteps);
+    const std::lock_guard<std::mutex> lock(_mutex);
+    makeRow(std::min(row, kRoughnessSteps - 1));
+    makeRow(std::min(row, kRoughnessSteps - 1) + 1);
+}
+
+void CoatAlbedo::prepareAll()
+{
+    const std::lock_guard<std::mutex> lock(_mutex);
+    for (int row = 0; row <= kRoughnessSteps; ++row)
+        makeRow(row);
+}
+
+CoatAlbedo::Place CoatAlbedo::at(float roughness) const
+{
+    const float x = std::fmin(std::fmax(roughness, 0.0f), 1.0f) * kRoughnessSteps;
+    const int row = std::min(static_cast<int>(x), kRoughnessSteps - 1);
+    return {&_rows[static_cast<std::size_t>(row)], x - static_cast<float>(row)};
+}
+
+} // namespace osgRayTrace::engine
