@@ -84,7 +84,10 @@ PhotonSum PlainPhotonGrid::gather(const PhotonQuery& query) const
                 const uint32_t end = _first[bucket + 1];
                 if (k == end) continue;
                 // Cells may share a bucket.
-                if (std::find(visited, visited + cells, bucket) != visited + cells) continue;
+                bool again = false;
+                for (int i = 0; i < cells; ++i)
+                    again |= visited[i] == bucket;
+                if (again) continue;
                 visited[cells++] = bucket;
                 for (; k < end; ++k)
                 {

@@ -28,22 +28,27 @@ OSGRAYTRACE_INLINE float byteOf(uint32_t packed, int shift)
     return static_cast<float>(static_cast<int32_t>(packed << (24 - shift)) >> 24) * (1.0f / 127.0f);
 }
 
-/// What a loop over photons reads.
+/// What a loop over a block of photons reads; its own index is a signed one, as vector loads need.
 struct Columns
 {
     const float *x, *y, *z, *wiX, *wiY, *wiZ, *r, *g, *b;
     const uint32_t* normal;
+
+    OSGRAYTRACE_INLINE Columns from(uint32_t k) const
+    {
+        return {x + k, y + k, z + k, wiX + k, wiY + k, wiZ + k, r + k, g + k, b + k, normal + k};
+    }
 };
 
-/// Bit mask of a photon in the disc, all bits or none.
-OSGRAYTRACE_INLINE uint32_t insideDisc(const Columns& p, uint32_t k, const PhotonQuery& q, float radius2,
+/// Bit mask of photon i in the disc, all bits or none.
+OSGRAYTRACE_INLINE uint32_t insideDisc(const Columns& p, int i, const PhotonQuery& q, float radius2,
                                        float planeDistance)
 {
-    const float dx = p.x[k] - q.position.x, dy = p.y[k] - q.position.y, dz = p.z[k] - q.position.z;
+    const float dx = p.x[i] - q.position.x, dy = p.y[i] - q.position.y, dz = p.z[i] - q.position.z;
     const float distance2 = dx * dx + dy * dy + dz * dz;
     const float off = dx * q.normal.x + dy * q.normal.y + dz * q.normal.z;
-    const float side = p.wiX[k] * q.normal.x + p.wiY[k] * q.normal.y + p.wiZ[k] * q.normal.z;
-    const uint32_t packed = p.normal[k];
+    const float side = p.wiX[i] * q.normal.x + p.wiY[i] * q.normal.y + p.wiZ[i] * q.normal.z;
+    const uint32_t packed = p.normal[i];
     const float turned =
         byteOf(packed, 0) * q.normal.x + byteOf(packed, 8) * q.normal.y + byteOf(packed, 16) * q.normal.z;
     return maskOf(distance2 <= radius2) & maskOf(std::fabs(off) <= planeDistance) & maskOf(side > 0.0f) &
@@ -57,45 +62,60 @@ struct LaneSums
     UintLanes count;
 };
 
+/// Where the shading normal is the geometric one every weight is 1.
+template <bool kFlat>
+OSGRAYTRACE_INLINE void addBlocks(const Columns& columns, uint32_t begin, uint32_t end, const PhotonQuery& query,
+                                  float radius2, float planeDistance, LaneSums& sums)
+{
+    const PhotonQuery q = query;
+    LaneSums s = sums;
+    for (uint32_t block = begin; block < end; block += kLanes)
+    {
+        const Columns p = columns.from(block);
+        const int left = static_cast<int>(end - block);
+        OSGRAYTRACE_SIMD
+        for (int i = 0; i < kLanes; ++i)
+        {
+            const uint32_t in = insideDisc(p, i, q, radius2, planeDistance) & maskOf(i < left);
+            float weight = select(in, 1.0f, 0.0f);
+            if (!kFlat)
+            {
+                const float geometric =
+                    p.wiX[i] * q.normal.x + p.wiY[i] * q.normal.y + p.wiZ[i] * q.normal.z;
+                const float shading = p.wiX[i] * q.shadingNormal.x + p.wiY[i] * q.shadingNormal.y +
+                                      p.wiZ[i] * q.shadingNormal.z;
+                weight = select(in & maskOf(shading > 0.0f), shading / geometric, 0.0f);
+            }
+            s.r[i] += weight * p.r[i];
+            s.g[i] += weight * p.g[i];
+            s.b[i] += weight * p.b[i];
+            s.count[i] += in & 1u;
+        }
+    }
+    sums = s;
+}
+
 OSGRAYTRACE_KERNEL
 void addRange(const Columns& columns, uint32_t begin, uint32_t end, const PhotonQuery& query, float radius2,
               float planeDistance, LaneSums& sums)
 {
-    const Columns p = columns;
-    const PhotonQuery q = query;
-    for (uint32_t block = begin; block < end; block += kLanes)
-    {
-        OSGRAYTRACE_SIMD
-        for (int i = 0; i < kLanes; ++i)
-        {
-            const uint32_t k = block + static_cast<uint32_t>(i);
-            const uint32_t in = insideDisc(p, k, q, radius2, planeDistance) & maskOf(k < end);
-            const float geometric =
-                p.wiX[k] * q.normal.x + p.wiY[k] * q.normal.y + p.wiZ[k] * q.normal.z;
-            const float shading = p.wiX[k] * q.shadingNormal.x + p.wiY[k] * q.shadingNormal.y +
-                                  p.wiZ[k] * q.shadingNormal.z;
-            const float weight = select(in & maskOf(shading > 0.0f), shading / geometric, 0.0f);
-            sums.r[i] += weight * p.r[k];
-            sums.g[i] += weight * p.g[k];
-            sums.b[i] += weight * p.b[k];
-            sums.count[i] += in & 1u;
-        }
-    }
+    if (query.shadingNormal == query.normal)
+        addBlocks<true>(columns, begin, end, query, radius2, planeDistance, sums);
+    else
+        addBlocks<false>(columns, begin, end, query, radius2, planeDistance, sums);
 }
 
 OSGRAYTRACE_KERNEL
 LaneMask insideLanes(const Columns& columns, uint32_t block, uint32_t end, const PhotonQuery& query,
                      float radius2, float planeDistance)
 {
-    const Columns p = columns;
+    const Columns p = columns.from(block);
     const PhotonQuery q = query;
+    const int left = static_cast<int>(end - block);
     LaneMask inside = 0;
     OSGRAYTRACE_SIMD_OR(inside)
     for (int i = 0; i < kLanes; ++i)
-    {
-        const uint32_t k = block + static_cast<uint32_t>(i);
-        inside |= bitOfLane(insideDisc(p, k, q, radius2, planeDistance) & maskOf(k < end), i);
-    }
+        inside |= bitOfLane(insideDisc(p, i, q, radius2, planeDistance) & maskOf(i < left), i);
     return inside;
 }
 
