@@ -1,10 +1,10 @@
-// PhotonTracer.cpp - follows photons from the lights to the surfaces they are stored on. Layer: photons.
-// SPDX-License-Identifier: MIT
+// PhotonTracer.cpp - follows photons from the lights to the surfaces they are stored on. Layer:
+// photons. SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/PhotonTracer.h"
 
 #include "osgRayTrace/accel/Intersector.h"
-#include "osgRayTrace/accel/Surface.h"
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/photons/PhotonFlights.h"
 #include "osgRayTrace/sampling/Sampler.h"
 #include "osgRayTrace/sampling/Warp.h"
 
@@ -28,13 +28,6 @@ enum PhotonDimension : uint32_t
     BounceFirst = 3, ///< then for each bounce: direction; lobe and roulette
 };
 
-struct Flight
-{
-    Vec3 origin, direction, power;
-    uint32_t index;  ///< of the photon within the pass
-    uint32_t light;
-};
-
 struct Chunk
 {
     std::vector<Photon> photons;
@@ -45,9 +38,14 @@ struct Chunk
 class ChunkTracer
 {
 public:
-    ChunkTracer(const TracedScene& traced, const std::vector<Light>& lights, const PhotonEmitter& emitter,
-                const PhotonPassOptions& options, uint32_t passSeed, Chunk& chunk)
-        : _traced(traced), _lights(lights), _emitter(emitter), _options(options), _seed(passSeed),
+    ChunkTracer(const TracedScene& traced, const std::vector<Light>& lights,
+                const PhotonEmitter& emitter, const PhotonPassOptions& options, uint32_t passSeed,
+                Chunk& chunk)
+        : _traced(traced),
+          _lights(lights),
+          _emitter(emitter),
+          _options(options),
+          _seed(passSeed),
           _chunk(chunk)
     {
     }
@@ -55,16 +53,20 @@ public:
     void trace(uint32_t first, uint32_t count);
 
 private:
-    Vec2 point(uint32_t photon, uint32_t dimension) const
+    uint32_t dimension(uint32_t number) const { return dimensionSeed(_seed, number); }
+    static uint32_t bounceNumber(int bounce)
     {
-        Vec2 u;
-        sobol2(photon, dimensionSeed(_seed, dimension), u.x, u.y);
-        return u;
+        return BounceFirst + 2 * static_cast<uint32_t>(bounce);
     }
 
-    void followGroup(const Flight* flights, int count, int bounce, std::vector<Flight>& next);
-    void meet(const RayHitBlock& rays, const SurfaceLanes& surface, int i, Flight flight, int bounce,
-              std::vector<Flight>& next);
+    void emitBlock(uint32_t first, uint32_t count);
+    void follow(FlightBlock& block, int bounce);
+    void leaveLight(FlightBlock& block, SurfaceLanes& surface) const;
+    void store(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes);
+    void scatterDiffuseLanes(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+                             int bounce);
+    void scatter(const Bsdf& bsdf, const FlightBlock& block, const SurfaceLanes& surface, int i,
+                 int bounce);
     Bsdf bsdfAt(const RayHitBlock& rays, const SurfaceLanes& surface, int i) const;
 
     const TracedScene& _traced;
@@ -73,7 +75,26 @@ private:
     const PhotonPassOptions& _options;
     uint32_t _seed;
     Chunk& _chunk;
+    FlightQueue _flights{kChunk};
+    Vec3Lanes _albedo; ///< of the diffuse lanes of the block at work
 };
+
+Vec3 laneOf(const Vec3Lanes& lanes, int i)
+{
+    return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]);
+}
+
+Flight flightOf(const FlightBlock& block, int i)
+{
+    const RayBlock& ray = block.rays.ray;
+    Flight flight;
+    flight.origin = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]);
+    flight.direction = Vec3(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
+    flight.power = laneOf(block.power, i);
+    flight.photon = block.photon[i];
+    flight.light = block.light[i];
+    return flight;
+}
 
 bool storesPhotons(const Bsdf& bsdf)
 {
@@ -94,42 +115,76 @@ Bsdf ChunkTracer::bsdfAt(const RayHitBlock& rays, const SurfaceLanes& surface, i
     return _traced.materials().bsdf(surface.material[i], at);
 }
 
-/// Stores the photon of lane i at what it met, and sends it on.
-void ChunkTracer::meet(const RayHitBlock& rays, const SurfaceLanes& surface, int i, Flight flight,
-                       int bounce, std::vector<Flight>& next)
+/// What the lights do not light is passed by, and fixed-function ones fade in their own ways.
+void ChunkTracer::leaveLight(FlightBlock& block, SurfaceLanes& surface) const
 {
-    if (bounce == 0)
+    for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
     {
-        const Light& light = _lights[flight.light];
+        const int i = __builtin_ctz(lanes);
+        const Light& light = _lights[block.light[i]];
+        if (light.kind != LightKind::Point && light.kind != LightKind::Directional) continue;
         const Material& material = _traced.scene().materials[surface.material[i]];
-        const bool delta = light.kind == LightKind::Point || light.kind == LightKind::Directional;
-        if (delta && light.number < 32 && !((material.lightMask >> light.number) & 1u)) return;
-        flight.power *= _emitter.falloff(flight.light, rays.ray.tFar[i]);
+        if (light.number < 32 && !((material.lightMask >> light.number) & 1u))
+            surface.hits &= ~(1u << i);
+        const float falloff = _emitter.falloff(block.light[i], block.rays.ray.tFar[i]);
+        block.power.x[i] *= falloff;
+        block.power.y[i] *= falloff;
+        block.power.z[i] *= falloff;
     }
-    const bool causticsOnly = _options.use == PhotonUse::Caustics;
-    const Bsdf bsdf = bsdfAt(rays, surface, i);
-    const Vec3 position(surface.position.x[i], surface.position.y[i], surface.position.z[i]);
-    const Vec3 geometric(surface.geometricNormal.x[i], surface.geometricNormal.y[i],
-                         surface.geometricNormal.z[i]);
-    if (bounce > 0 && storesPhotons(bsdf))
+}
+
+void ChunkTracer::store(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes)
+{
+    const RayBlock& ray = block.rays.ray;
+    for (; lanes; lanes &= lanes - 1)
     {
-        if (isFinite(flight.power))
-            _chunk.photons.push_back({position, -flight.direction, flight.power, geometric});
+        const int i = __builtin_ctz(lanes);
+        const Vec3 power = laneOf(block.power, i);
+        if (isFinite(power))
+            _chunk.photons.push_back(
+                {laneOf(surface.position, i),
+                 Vec3(-ray.directionX[i], -ray.directionY[i], -ray.directionZ[i]), power,
+                 laneOf(surface.geometricNormal, i)});
         else
             ++_chunk.dropped;
     }
-    if (bounce >= _options.maxBounces) return;
-    if (causticsOnly && !(bsdf.isSmooth() && bsdf.reflects()) && !bsdf.transmits()) return;
+}
 
-    Vec3 shading(surface.shadingNormal.x[i], surface.shadingNormal.y[i], surface.shadingNormal.z[i]);
+void ChunkTracer::scatterDiffuseLanes(const FlightBlock& block, const SurfaceLanes& surface,
+                                      LaneMask lanes, int bounce)
+{
+    FloatLanes u, v, unused, roulette;
+    photonPoints(block.photon, dimension(bounceNumber(bounce)), u, v);
+    photonPoints(block.photon, dimension(bounceNumber(bounce) + 1), unused, roulette);
+    DiffuseFlights scattered;
+    scatterDiffuse(block, surface, _albedo, u, v, roulette, scattered);
+    for (lanes &= scattered.alive; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        _flights.append({laneOf(scattered.origin, i), laneOf(scattered.direction, i),
+                         laneOf(scattered.power, i), block.photon[i], block.light[i]});
+    }
+}
+
+/// Sends the photon of lane i on from any surface.
+void ChunkTracer::scatter(const Bsdf& bsdf, const FlightBlock& block, const SurfaceLanes& surface,
+                          int i, int bounce)
+{
+    const bool causticsOnly = _options.use == PhotonUse::Caustics;
+    if (causticsOnly && !(bsdf.isSmooth() && bsdf.reflects()) && !bsdf.transmits()) return;
+    Flight flight = flightOf(block, i);
+    const Vec3 position = laneOf(surface.position, i),
+               geometric = laneOf(surface.geometricNormal, i);
+    Vec3 shading = laneOf(surface.shadingNormal, i);
     if (glm::dot(shading, geometric) < 0.0f) shading = -shading;
     if (!(glm::dot(shading, flight.direction) < -1e-4f)) shading = geometric;
     Vec3 tangent, bitangent;
     frameOf(shading.x, shading.y, shading.z, tangent, bitangent);
     const Vec3 wo(-glm::dot(flight.direction, tangent), -glm::dot(flight.direction, bitangent),
                   -glm::dot(flight.direction, shading));
-    const uint32_t dimension = BounceFirst + 2 * static_cast<uint32_t>(bounce);
-    const Vec2 u = point(flight.index, dimension), lobe = point(flight.index, dimension + 1);
+    Vec2 u, lobe;
+    sobol2(flight.photon, dimension(bounceNumber(bounce)), u.x, u.y);
+    sobol2(flight.photon, dimension(bounceNumber(bounce) + 1), lobe.x, lobe.y);
     const std::optional<BsdfSample> sample =
         sampleBsdf(bsdf, wo, lobe.x, u.x, u.y, Transport::Importance);
     if (!sample || (causticsOnly && !sample->delta)) return;
@@ -137,71 +192,94 @@ void ChunkTracer::meet(const RayHitBlock& rays, const SurfaceLanes& surface, int
     const float side = glm::dot(wi, geometric);
     if ((side < 0.0f) != sample->transmitted) return;
 
-    // Light carries the other cosine than radiance where normals are interpolated [Veach97, sect. 5.3].
-    const float correction = (std::fabs(wo.z) * std::fabs(side)) /
-                             (std::fabs(glm::dot(flight.direction, geometric)) * std::fabs(sample->wi.z));
+    // As in scatterDiffuse.
+    const float correction =
+        (std::fabs(wo.z) * std::fabs(side)) /
+        (std::fabs(glm::dot(flight.direction, geometric)) * std::fabs(sample->wi.z));
     Vec3 weight = sample->weight;
     if (correction < kInfinity) weight *= correction;
-    // Survivors keep their power as far as they can.
     const float survival = std::min(1.0f, std::max(weight.x, std::max(weight.y, weight.z)));
     if (!(lobe.y < survival)) return;
     flight.power *= weight / survival;
     flight.origin = position + geometric * (side < 0.0f ? -surface.offset[i] : surface.offset[i]);
     flight.direction = wi;
-    next.push_back(flight);
+    _flights.append(flight);
 }
 
-void ChunkTracer::followGroup(const Flight* flights, int count, int bounce, std::vector<Flight>& next)
+/// Stores the photons of a block at what they meet, and sends them on.
+void ChunkTracer::follow(FlightBlock& block, int bounce)
 {
-    RayHitBlock rays;
-    for (int i = 0; i < kLanes; ++i)
-    {
-        const Flight& f = flights[std::min(i, count - 1)];
-        rays.ray.originX[i] = f.origin.x;
-        rays.ray.originY[i] = f.origin.y;
-        rays.ray.originZ[i] = f.origin.z;
-        rays.ray.directionX[i] = f.direction.x;
-        rays.ray.directionY[i] = f.direction.y;
-        rays.ray.directionZ[i] = f.direction.z;
-        rays.ray.tNear[i] = 0.0f;
-        rays.ray.tFar[i] = kInfinity;
-        rays.ray.time[i] = 0.0f;
-        rays.ray.mask[i] = 0xffffffffu;
-        rays.ray.id[i] = 0;
-        rays.ray.flags[i] = 0;
-    }
-    const LaneMask active = count >= kLanes ? kAllLanes : (1u << count) - 1u;
-    _traced.intersector().closestHits(rays, active, Coherence::Incoherent);
-    _chunk.rays += static_cast<uint64_t>(count);
+    _traced.intersector().closestHits(block.rays, block.active, Coherence::Incoherent);
+    _chunk.rays += static_cast<uint64_t>(__builtin_popcount(block.active));
     SurfaceLanes surface;
-    surfacesOf(_traced.surfaces(), rays, active, surface);
+    surfacesOf(_traced.surfaces(), block.rays, block.active, surface);
+    if (bounce == 0) leaveLight(block, surface);
+
+    Bsdf bsdfs[kLanes];
+    LaneMask diffuse = 0, general = 0, stores = 0;
     for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        meet(rays, surface, i, flights[i], bounce, next);
+        const MaterialRecord& record = _traced.materials()[surface.material[i]];
+        if (record.plainDiffuse)
+        {
+            const Vec3 albedo = record.front.diffuse;
+            _albedo.x[i] = albedo.x;
+            _albedo.y[i] = albedo.y;
+            _albedo.z[i] = albedo.z;
+            if (albedo != Vec3(0.0f)) diffuse |= 1u << i;
+            continue;
+        }
+        bsdfs[i] = bsdfAt(block.rays, surface, i);
+        general |= 1u << i;
+        if (storesPhotons(bsdfs[i])) stores |= 1u << i;
+    }
+    if (bounce > 0) store(block, surface, stores | diffuse);
+    if (bounce >= _options.maxBounces) return;
+    if (_options.use == PhotonUse::Caustics) diffuse = 0;
+    if (!(diffuse | general)) return;
+    // The queue may reuse this block from here on.
+    const FlightBlock met = block;
+    if (diffuse) scatterDiffuseLanes(met, surface, diffuse, bounce);
+    for (; general; general &= general - 1)
+    {
+        const int i = __builtin_ctz(general);
+        scatter(bsdfs[i], met, surface, i, bounce);
+    }
+}
+
+void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
+{
+    UintLanes photon;
+    for (int i = 0; i < kLanes; ++i)
+        photon[i] = first + static_cast<uint32_t>(i);
+    FloatLanes light, aim, positionU, positionV, directionU, directionV;
+    photonPoints(photon, dimension(EmissionChoice), light, aim);
+    photonPoints(photon, dimension(EmissionPosition), positionU, positionV);
+    photonPoints(photon, dimension(EmissionDirection), directionU, directionV);
+    const float share = 1.0f / static_cast<float>(_options.photons);
+    for (int i = 0; i < static_cast<int>(count); ++i)
+    {
+        const std::optional<PhotonStart> start =
+            _emitter.emit({light[i], aim[i], Vec2(positionU[i], positionV[i]),
+                           Vec2(directionU[i], directionV[i])});
+        if (start)
+            _flights.append(
+                {start->origin, start->direction, start->power * share, photon[i], start->light});
     }
 }
 
 void ChunkTracer::trace(uint32_t first, uint32_t count)
 {
-    std::vector<Flight> flights, next;
-    flights.reserve(count);
-    next.reserve(count);
-    const float share = 1.0f / static_cast<float>(_options.photons);
-    for (uint32_t k = first; k < first + count; ++k)
+    for (uint32_t k = 0; k < count; k += kLanes)
+        emitBlock(first + k, std::min<uint32_t>(kLanes, count - k));
+    for (int bounce = 0; _flights.blocks() > 0; ++bounce)
     {
-        const Vec2 choice = point(k, EmissionChoice);
-        const std::optional<PhotonStart> start = _emitter.emit(
-            {choice.x, choice.y, point(k, EmissionPosition), point(k, EmissionDirection)});
-        if (start) flights.push_back({start->origin, start->direction, start->power * share, k, start->light});
-    }
-    for (int bounce = 0; !flights.empty(); ++bounce)
-    {
-        next.clear();
-        for (std::size_t at = 0; at < flights.size(); at += kLanes)
-            followGroup(&flights[at], static_cast<int>(std::min<std::size_t>(kLanes, flights.size() - at)),
-                        bounce, next);
-        flights.swap(next);
+        _flights.ready();
+        const int blocks = _flights.blocks();
+        _flights.clear();
+        for (int b = 0; b < blocks; ++b)
+            follow(_flights[b], bounce);
     }
 }
 

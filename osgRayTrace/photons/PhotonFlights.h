@@ -1,0 +1,64 @@
+// PhotonFlights.h - photons on their way, sixteen to a block. Layer: photons.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/Surface.h"
+
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// Sixteen photons.
+struct FlightBlock
+{
+    RayHitBlock rays;
+    Vec3Lanes power;
+    UintLanes photon; ///< its number within the pass
+    UintLanes light;  ///< that it came from
+    LaneMask active = 0;
+};
+
+/// One photon, for those that are handled one by one.
+struct Flight
+{
+    Vec3 origin{0.0f}, direction{0.0f}, power{0.0f};
+    uint32_t photon = 0;
+    uint32_t light = 0;
+};
+
+/// Photons in as few blocks as possible, in order. Those that fly on may be appended to the
+/// beginning of the blocks that they are taken from: a block that has been looked at is free.
+class FlightQueue
+{
+public:
+    explicit FlightQueue(uint32_t capacity) : _blocks((capacity + kLanes - 1) / kLanes) {}
+
+    int blocks() const { return static_cast<int>((_count + kLanes - 1) / kLanes); }
+    FlightBlock& operator[](int block) { return _blocks[static_cast<std::size_t>(block)]; }
+
+    void clear() { _count = 0; }
+    void append(const Flight& flight);
+
+    /// Sets which lanes are in use, and the parts of rays that are alike.
+    void ready();
+
+private:
+    std::vector<FlightBlock> _blocks;
+    uint32_t _count = 0;
+};
+
+/// The two numbers of a dimension of each lane's photon; seed is the dimension's.
+void photonPoints(const UintLanes& photons, uint32_t seed, FloatLanes& u, FloatLanes& v);
+
+/// Where photons go from plain Lambert surfaces, and what is left of them: vector code.
+struct DiffuseFlights
+{
+    Vec3Lanes origin, direction, power;
+    LaneMask alive = 0; ///< the others were absorbed
+};
+void scatterDiffuse(const FlightBlock& block, const SurfaceLanes& surface, const Vec3Lanes& albedo,
+                    const FloatLanes& u, const FloatLanes& v, const FloatLanes& roulette,
+                    DiffuseFlights& scattered);
+
+} // namespace osgRayTrace::engine
