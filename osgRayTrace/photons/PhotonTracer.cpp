@@ -17,7 +17,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr uint32_t kChunk = 1024; ///< photons that are followed together
+constexpr uint32_t kChunk = 2048; ///< photons that are followed together
 
 /// Dimensions of a photon's sequence.
 enum PhotonDimension : uint32_t
@@ -65,8 +65,7 @@ private:
     void store(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes);
     void scatterDiffuseLanes(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                              int bounce);
-    void scatter(const Bsdf& bsdf, const FlightBlock& block, const SurfaceLanes& surface, int i,
-                 int bounce);
+    void scatter(const Bsdf& bsdf, Flight flight, const SurfaceLanes& surface, int i, int bounce);
     Bsdf bsdfAt(const RayHitBlock& rays, const SurfaceLanes& surface, int i) const;
 
     const TracedScene& _traced;
@@ -76,7 +75,10 @@ private:
     uint32_t _seed;
     Chunk& _chunk;
     FlightQueue _flights{kChunk};
-    Vec3Lanes _albedo; ///< of the diffuse lanes of the block at work
+    // Of the block at work.
+    Vec3Lanes _albedo;   ///< of lanes that are plain Lambert surfaces
+    Bsdf _bsdfs[kLanes]; ///< of the others
+    Flight _general[kLanes];
 };
 
 Vec3 laneOf(const Vec3Lanes& lanes, int i)
@@ -158,21 +160,21 @@ void ChunkTracer::scatterDiffuseLanes(const FlightBlock& block, const SurfaceLan
     photonPoints(block.photon, dimension(bounceNumber(bounce) + 1), unused, roulette);
     DiffuseFlights scattered;
     scatterDiffuse(block, surface, _albedo, u, v, roulette, scattered);
+    const UintLanes photon = block.photon, light = block.light;
     for (lanes &= scattered.alive; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         _flights.append({laneOf(scattered.origin, i), laneOf(scattered.direction, i),
-                         laneOf(scattered.power, i), block.photon[i], block.light[i]});
+                         laneOf(scattered.power, i), photon[i], light[i]});
     }
 }
 
 /// Sends the photon of lane i on from any surface.
-void ChunkTracer::scatter(const Bsdf& bsdf, const FlightBlock& block, const SurfaceLanes& surface,
-                          int i, int bounce)
+void ChunkTracer::scatter(const Bsdf& bsdf, Flight flight, const SurfaceLanes& surface, int i,
+                          int bounce)
 {
     const bool causticsOnly = _options.use == PhotonUse::Caustics;
     if (causticsOnly && !(bsdf.isSmooth() && bsdf.reflects()) && !bsdf.transmits()) return;
-    Flight flight = flightOf(block, i);
     const Vec3 position = laneOf(surface.position, i),
                geometric = laneOf(surface.geometricNormal, i);
     Vec3 shading = laneOf(surface.shadingNormal, i);
@@ -215,7 +217,6 @@ void ChunkTracer::follow(FlightBlock& block, int bounce)
     surfacesOf(_traced.surfaces(), block.rays, block.active, surface);
     if (bounce == 0) leaveLight(block, surface);
 
-    Bsdf bsdfs[kLanes];
     LaneMask diffuse = 0, general = 0, stores = 0;
     for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
     {
@@ -230,21 +231,25 @@ void ChunkTracer::follow(FlightBlock& block, int bounce)
             if (albedo != Vec3(0.0f)) diffuse |= 1u << i;
             continue;
         }
-        bsdfs[i] = bsdfAt(block.rays, surface, i);
+        _bsdfs[i] = bsdfAt(block.rays, surface, i);
         general |= 1u << i;
-        if (storesPhotons(bsdfs[i])) stores |= 1u << i;
+        if (storesPhotons(_bsdfs[i])) stores |= 1u << i;
     }
     if (bounce > 0) store(block, surface, stores | diffuse);
     if (bounce >= _options.maxBounces) return;
     if (_options.use == PhotonUse::Caustics) diffuse = 0;
     if (!(diffuse | general)) return;
-    // The queue may reuse this block from here on.
-    const FlightBlock met = block;
-    if (diffuse) scatterDiffuseLanes(met, surface, diffuse, bounce);
+    // What is appended to the queue may overwrite this block.
+    for (LaneMask lanes = general; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        _general[i] = flightOf(block, i);
+    }
+    if (diffuse) scatterDiffuseLanes(block, surface, diffuse, bounce);
     for (; general; general &= general - 1)
     {
         const int i = __builtin_ctz(general);
-        scatter(bsdfs[i], met, surface, i, bounce);
+        scatter(_bsdfs[i], _general[i], surface, i, bounce);
     }
 }
 
@@ -253,24 +258,24 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
     UintLanes photon;
     for (int i = 0; i < kLanes; ++i)
         photon[i] = first + static_cast<uint32_t>(i);
-    FloatLanes light, aim, positionU, positionV, directionU, directionV;
-    photonPoints(photon, dimension(EmissionChoice), light, aim);
-    photonPoints(photon, dimension(EmissionPosition), positionU, positionV);
-    photonPoints(photon, dimension(EmissionDirection), directionU, directionV);
+    EmissionLanes points;
+    photonPoints(photon, dimension(EmissionChoice), points.light, points.aim);
+    photonPoints(photon, dimension(EmissionPosition), points.positionU, points.positionV);
+    photonPoints(photon, dimension(EmissionDirection), points.directionU, points.directionV);
+    StartLanes starts;
     const float share = 1.0f / static_cast<float>(_options.photons);
-    for (int i = 0; i < static_cast<int>(count); ++i)
+    for (LaneMask lanes = _emitter.emitLanes(points, starts) & (kAllLanes >> (kLanes - count));
+         lanes; lanes &= lanes - 1)
     {
-        const std::optional<PhotonStart> start =
-            _emitter.emit({light[i], aim[i], Vec2(positionU[i], positionV[i]),
-                           Vec2(directionU[i], directionV[i])});
-        if (start)
-            _flights.append(
-                {start->origin, start->direction, start->power * share, photon[i], start->light});
+        const int i = __builtin_ctz(lanes);
+        _flights.append({laneOf(starts.origin, i), laneOf(starts.direction, i),
+                         laneOf(starts.power, i) * share, photon[i], starts.light[i]});
     }
 }
 
 void ChunkTracer::trace(uint32_t first, uint32_t count)
 {
+    _chunk.photons.reserve(count);
     for (uint32_t k = 0; k < count; k += kLanes)
         emitBlock(first + k, std::min<uint32_t>(kLanes, count - k));
     for (int bounce = 0; _flights.blocks() > 0; ++bounce)
