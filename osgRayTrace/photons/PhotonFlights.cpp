@@ -27,12 +27,12 @@ void FlightQueue::append(const Flight& flight)
     FlightBlock& block = _blocks[_count / kLanes];
     const int i = static_cast<int>(_count % kLanes);
     ++_count;
-    block.rays.ray.originX[i] = flight.origin.x;
-    block.rays.ray.originY[i] = flight.origin.y;
-    block.rays.ray.originZ[i] = flight.origin.z;
-    block.rays.ray.directionX[i] = flight.direction.x;
-    block.rays.ray.directionY[i] = flight.direction.y;
-    block.rays.ray.directionZ[i] = flight.direction.z;
+    block.origin.x[i] = flight.origin.x;
+    block.origin.y[i] = flight.origin.y;
+    block.origin.z[i] = flight.origin.z;
+    block.direction.x[i] = flight.direction.x;
+    block.direction.y[i] = flight.direction.y;
+    block.direction.z[i] = flight.direction.z;
     block.power.x[i] = flight.power.x;
     block.power.y[i] = flight.power.y;
     block.power.z[i] = flight.power.z;
@@ -40,21 +40,29 @@ void FlightQueue::append(const Flight& flight)
     block.light[i] = flight.light;
 }
 
-void FlightQueue::ready()
+void readyRays(RayHitBlock& rays)
 {
-    for (int b = 0; b < blocks(); ++b)
+    RayBlock& ray = rays.ray;
+    std::fill_n(ray.tNear.v, kLanes, 0.0f);
+    std::fill_n(ray.time.v, kLanes, 0.0f);
+    std::fill_n(ray.mask.v, kLanes, 0xffffffffu);
+    std::fill_n(ray.id.v, kLanes, 0u);
+    std::fill_n(ray.flags.v, kLanes, 0u);
+}
+
+OSGRAYTRACE_KERNEL
+void loadRays(const FlightBlock& block, RayHitBlock& rays)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
     {
-        FlightBlock& block = (*this)[b];
-        const uint32_t used =
-            std::min<uint32_t>(kLanes, _count - static_cast<uint32_t>(b) * kLanes);
-        block.active = (1u << used) - 1u;
-        RayBlock& ray = block.rays.ray;
-        std::fill_n(ray.tNear.v, kLanes, 0.0f);
-        std::fill_n(ray.tFar.v, kLanes, kInfinity);
-        std::fill_n(ray.time.v, kLanes, 0.0f);
-        std::fill_n(ray.mask.v, kLanes, 0xffffffffu);
-        std::fill_n(ray.id.v, kLanes, 0u);
-        std::fill_n(ray.flags.v, kLanes, 0u);
+        rays.ray.originX[i] = block.origin.x[i];
+        rays.ray.originY[i] = block.origin.y[i];
+        rays.ray.originZ[i] = block.origin.z[i];
+        rays.ray.directionX[i] = block.direction.x[i];
+        rays.ray.directionY[i] = block.direction.y[i];
+        rays.ray.directionZ[i] = block.direction.z[i];
+        rays.ray.tFar[i] = kInfinity;
     }
 }
 
@@ -87,8 +95,7 @@ void scatterDiffuse(const FlightBlock& block, const SurfaceLanes& surface, const
     OSGRAYTRACE_SIMD_OR(alive)
     for (int i = 0; i < kLanes; ++i)
     {
-        const float dx = block.rays.ray.directionX[i], dy = block.rays.ray.directionY[i],
-                    dz = block.rays.ray.directionZ[i];
+        const float dx = block.direction.x[i], dy = block.direction.y[i], dz = block.direction.z[i];
         const float gx = surface.geometricNormal.x[i], gy = surface.geometricNormal.y[i],
                     gz = surface.geometricNormal.z[i];
         float nx = surface.shadingNormal.x[i], ny = surface.shadingNormal.y[i],

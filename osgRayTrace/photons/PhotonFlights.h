@@ -12,11 +12,9 @@ namespace osgRayTrace::engine
 /// Sixteen photons.
 struct FlightBlock
 {
-    RayHitBlock rays;
-    Vec3Lanes power;
+    Vec3Lanes origin, direction, power;
     UintLanes photon; ///< its number within the pass
     UintLanes light;  ///< that it came from
-    LaneMask active = 0;
 };
 
 /// One photon, for those that are handled one by one.
@@ -28,20 +26,17 @@ struct Flight
 };
 
 /// Photons in as few blocks as possible, in order. Those that fly on may be appended to the
-/// beginning of the blocks that they are taken from: a block that has been looked at is free.
+/// beginning of the blocks that they are taken from: a block that has been copied is free.
 class FlightQueue
 {
 public:
     explicit FlightQueue(uint32_t capacity) : _blocks((capacity + kLanes - 1) / kLanes) {}
 
-    int blocks() const { return static_cast<int>((_count + kLanes - 1) / kLanes); }
-    FlightBlock& operator[](int block) { return _blocks[static_cast<std::size_t>(block)]; }
+    uint32_t size() const { return _count; }
+    const FlightBlock& operator[](uint32_t block) const { return _blocks[block]; }
 
     void clear() { _count = 0; }
     void append(const Flight& flight);
-
-    /// Sets which lanes are in use, and the parts of rays that are alike.
-    void ready();
 
 private:
     std::vector<FlightBlock> _blocks;
@@ -50,6 +45,11 @@ private:
 
 /// The two numbers of a dimension of each lane's photon; seed is the dimension's.
 void photonPoints(const UintLanes& photons, uint32_t seed, FloatLanes& u, FloatLanes& v);
+
+/// The rays of a block. What is alike for all of them has to be set once, by readyRays, and after a
+/// query the rest by loadRays.
+void readyRays(RayHitBlock& rays);
+void loadRays(const FlightBlock& block, RayHitBlock& rays);
 
 /// Where photons go from plain Lambert surfaces, and what is left of them: vector code.
 struct DiffuseFlights

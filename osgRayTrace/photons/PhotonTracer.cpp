@@ -60,7 +60,7 @@ private:
     }
 
     void emitBlock(uint32_t first, uint32_t count);
-    void follow(FlightBlock& block, int bounce);
+    void follow(FlightBlock block, LaneMask active, int bounce);
     void leaveLight(FlightBlock& block, SurfaceLanes& surface) const;
     void store(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes);
     void scatterDiffuseLanes(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes,
@@ -78,7 +78,7 @@ private:
     // Of the block at work.
     Vec3Lanes _albedo;   ///< of lanes that are plain Lambert surfaces
     Bsdf _bsdfs[kLanes]; ///< of the others
-    Flight _general[kLanes];
+    RayHitBlock _rays;
 };
 
 Vec3 laneOf(const Vec3Lanes& lanes, int i)
@@ -88,10 +88,9 @@ Vec3 laneOf(const Vec3Lanes& lanes, int i)
 
 Flight flightOf(const FlightBlock& block, int i)
 {
-    const RayBlock& ray = block.rays.ray;
     Flight flight;
-    flight.origin = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]);
-    flight.direction = Vec3(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
+    flight.origin = laneOf(block.origin, i);
+    flight.direction = laneOf(block.direction, i);
     flight.power = laneOf(block.power, i);
     flight.photon = block.photon[i];
     flight.light = block.light[i];
@@ -128,7 +127,7 @@ void ChunkTracer::leaveLight(FlightBlock& block, SurfaceLanes& surface) const
         const Material& material = _traced.scene().materials[surface.material[i]];
         if (light.number < 32 && !((material.lightMask >> light.number) & 1u))
             surface.hits &= ~(1u << i);
-        const float falloff = _emitter.falloff(block.light[i], block.rays.ray.tFar[i]);
+        const float falloff = _emitter.falloff(block.light[i], _rays.ray.tFar[i]);
         block.power.x[i] *= falloff;
         block.power.y[i] *= falloff;
         block.power.z[i] *= falloff;
@@ -137,16 +136,13 @@ void ChunkTracer::leaveLight(FlightBlock& block, SurfaceLanes& surface) const
 
 void ChunkTracer::store(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes)
 {
-    const RayBlock& ray = block.rays.ray;
     for (; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         const Vec3 power = laneOf(block.power, i);
         if (isFinite(power))
-            _chunk.photons.push_back(
-                {laneOf(surface.position, i),
-                 Vec3(-ray.directionX[i], -ray.directionY[i], -ray.directionZ[i]), power,
-                 laneOf(surface.geometricNormal, i)});
+            _chunk.photons.push_back({laneOf(surface.position, i), -laneOf(block.direction, i),
+                                      power, laneOf(surface.geometricNormal, i)});
         else
             ++_chunk.dropped;
     }
@@ -160,12 +156,11 @@ void ChunkTracer::scatterDiffuseLanes(const FlightBlock& block, const SurfaceLan
     photonPoints(block.photon, dimension(bounceNumber(bounce) + 1), unused, roulette);
     DiffuseFlights scattered;
     scatterDiffuse(block, surface, _albedo, u, v, roulette, scattered);
-    const UintLanes photon = block.photon, light = block.light;
     for (lanes &= scattered.alive; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         _flights.append({laneOf(scattered.origin, i), laneOf(scattered.direction, i),
-                         laneOf(scattered.power, i), photon[i], light[i]});
+                         laneOf(scattered.power, i), block.photon[i], block.light[i]});
     }
 }
 
@@ -208,13 +203,15 @@ void ChunkTracer::scatter(const Bsdf& bsdf, Flight flight, const SurfaceLanes& s
     _flights.append(flight);
 }
 
-/// Stores the photons of a block at what they meet, and sends them on.
-void ChunkTracer::follow(FlightBlock& block, int bounce)
+/// Stores the photons of a block at what they meet, and sends them on. The block is a copy: what is
+/// appended to the queue may take its place.
+void ChunkTracer::follow(FlightBlock block, LaneMask active, int bounce)
 {
-    _traced.intersector().closestHits(block.rays, block.active, Coherence::Incoherent);
-    _chunk.rays += static_cast<uint64_t>(__builtin_popcount(block.active));
+    loadRays(block, _rays);
+    _traced.intersector().closestHits(_rays, active, Coherence::Incoherent);
+    _chunk.rays += static_cast<uint64_t>(__builtin_popcount(active));
     SurfaceLanes surface;
-    surfacesOf(_traced.surfaces(), block.rays, block.active, surface);
+    surfacesOf(_traced.surfaces(), _rays, active, surface);
     if (bounce == 0) leaveLight(block, surface);
 
     LaneMask diffuse = 0, general = 0, stores = 0;
@@ -231,7 +228,7 @@ void ChunkTracer::follow(FlightBlock& block, int bounce)
             if (albedo != Vec3(0.0f)) diffuse |= 1u << i;
             continue;
         }
-        _bsdfs[i] = bsdfAt(block.rays, surface, i);
+        _bsdfs[i] = bsdfAt(_rays, surface, i);
         general |= 1u << i;
         if (storesPhotons(_bsdfs[i])) stores |= 1u << i;
     }
@@ -239,17 +236,11 @@ void ChunkTracer::follow(FlightBlock& block, int bounce)
     if (bounce >= _options.maxBounces) return;
     if (_options.use == PhotonUse::Caustics) diffuse = 0;
     if (!(diffuse | general)) return;
-    // What is appended to the queue may overwrite this block.
-    for (LaneMask lanes = general; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
-        _general[i] = flightOf(block, i);
-    }
     if (diffuse) scatterDiffuseLanes(block, surface, diffuse, bounce);
     for (; general; general &= general - 1)
     {
         const int i = __builtin_ctz(general);
-        scatter(_bsdfs[i], _general[i], surface, i, bounce);
+        scatter(_bsdfs[i], flightOf(block, i), surface, i, bounce);
     }
 }
 
@@ -278,13 +269,16 @@ void ChunkTracer::trace(uint32_t first, uint32_t count)
     _chunk.photons.reserve(count);
     for (uint32_t k = 0; k < count; k += kLanes)
         emitBlock(first + k, std::min<uint32_t>(kLanes, count - k));
-    for (int bounce = 0; _flights.blocks() > 0; ++bounce)
+    readyRays(_rays);
+    for (int bounce = 0; _flights.size() > 0; ++bounce)
     {
-        _flights.ready();
-        const int blocks = _flights.blocks();
+        const uint32_t flying = _flights.size();
         _flights.clear();
-        for (int b = 0; b < blocks; ++b)
-            follow(_flights[b], bounce);
+        for (uint32_t k = 0; k < flying; k += kLanes)
+        {
+            const uint32_t used = std::min<uint32_t>(kLanes, flying - k);
+            follow(_flights[k / kLanes], kAllLanes >> (kLanes - used), bounce);
+        }
     }
 }
 
