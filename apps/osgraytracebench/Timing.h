@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -17,6 +19,20 @@ inline double secondsOf(const std::function<void()>& body)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// Of the calling thread: what other programs take of a busy machine is not in it.
+inline double threadSecondsOf(const std::function<void()>& body)
+{
+    const auto now = []
+    {
+        timespec time;
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    };
+    const double begin = now();
+    body();
+    return now() - begin;
+}
+
 inline double median(std::vector<double> values)
 {
     std::sort(values.begin(), values.end());
@@ -30,16 +46,22 @@ struct PairedTimes
     double ratio = 0.0;  ///< median of first / second, run by run
 };
 
+using Stopwatch = double (*)(const std::function<void()>&);
+
+/// For work on so many threads: of one alone its own time, of more that on the wall.
+inline Stopwatch stopwatchFor(int threads) { return threads == 1 ? threadSecondsOf : secondsOf; }
+
 /// Runs the two in turn, after one turn that is not counted.
-inline PairedTimes timePair(int runs, const std::function<void()>& first, const std::function<void()>& second)
+inline PairedTimes timePair(int runs, const std::function<void()>& first,
+                            const std::function<void()>& second, Stopwatch stopwatch = secondsOf)
 {
     first();
     second();
     std::vector<double> firsts, seconds, ratios;
     for (int i = 0; i < runs; ++i)
     {
-        firsts.push_back(secondsOf(first));
-        seconds.push_back(secondsOf(second));
+        firsts.push_back(stopwatch(first));
+        seconds.push_back(stopwatch(second));
         ratios.push_back(firsts.back() / seconds.back());
     }
     return {median(firsts), median(seconds), median(ratios)};

@@ -4,6 +4,7 @@
 #include "apps/common/PluginPath.h"
 #include "apps/osgraytracebench/FeaturesMode.h"
 #include "apps/osgraytracebench/LimitMode.h"
+#include "apps/osgraytracebench/PhotonsMode.h"
 #include "apps/osgraytracebench/report/CompareMode.h"
 #include "apps/osgraytracebench/report/ReportMode.h"
 
@@ -22,9 +23,8 @@ namespace
 constexpr int kCompareUsage = 2;
 
 /// A mode that makes rows.
-int runRows(Rows (*measure)(), const std::string& json)
+int runRows(const Rows& rows, const std::string& json)
 {
-    const Rows rows = measure();
     printRows(rows);
     if (!json.empty() && !writeRows(rows, json))
         throw app::Failure(app::kCannotWrite, "cannot write " + json);
@@ -36,8 +36,33 @@ struct CommandLine
 {
     CommandLine()
     {
-        for (CLI::App* rows : {&limit, &features})
+        for (CLI::App* rows : {&limit, &features, &photons})
             rows->add_option("--json", json, "write the rows to this file as well");
+
+        photons
+            .add_option("--width", photonsOptions.width,
+                        "width and height of the pictures [pixels]; 0: none are made")
+            ->check(CLI::Range(0, 4096))
+            ->capture_default_str();
+        photons.add_option("--longest", photonsOptions.longest, "longest budget of a picture [s]")
+            ->check(CLI::Range(0.125, 86400.0))
+            ->capture_default_str();
+        photons.add_option("--seeds", photonsOptions.seeds, "pictures of each method")
+            ->check(CLI::Range(1, 64))
+            ->capture_default_str();
+        photons
+            .add_option("--reference-seconds", photonsOptions.referenceSeconds,
+                        "time for each reference that is rendered [s]")
+            ->check(CLI::Range(1.0, 86400.0))
+            ->capture_default_str();
+        photons.add_option("--reference-a", photonsOptions.referenceA,
+                           "linear picture of the diffuse box; rendered if not given");
+        photons.add_option("--reference-b", photonsOptions.referenceB,
+                           "of the box with a mirror");
+        photons.add_option("--reference-c", photonsOptions.referenceC,
+                           "of the box with a glass sphere");
+        photons.add_option("--only", photonsOptions.only,
+                           "parts whose name holds this: lookup, tracing, error");
 
         report.add_option("-o,--output", options.folder, "folder of report.html, .csv and .json")
             ->capture_default_str();
@@ -73,8 +98,9 @@ struct CommandLine
 
     int run()
     {
-        if (limit) return runRows(measureLimit, json);
-        if (features) return runRows(measureFeatures, json);
+        if (limit) return runRows(measureLimit(), json);
+        if (features) return runRows(measureFeatures(), json);
+        if (photons) return runRows(measurePhotons(photonsOptions), json);
         if (compare) return runCompare(before, after, falseAlarmRate);
         app::addPluginPath();
         return runReport(options);
@@ -85,6 +111,8 @@ struct CommandLine
         "limit", "a whole frame, a path traced one and a build against Embree alone");
     CLI::App& features =
         *application.add_subcommand("features", "what features cost a scene that does not use them");
+    CLI::App& photons = *application.add_subcommand(
+        "photons", "photon maps against a plain grid and Embree alone; error against time");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(
@@ -92,6 +120,7 @@ struct CommandLine
     std::string json, before, after;
     double falseAlarmRate = 0.01;
     ReportOptions options;
+    PhotonsOptions photonsOptions;
 };
 
 } // namespace

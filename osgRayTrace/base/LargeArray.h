@@ -4,6 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #if defined(__linux__)
@@ -28,5 +32,68 @@ template <class T> void allocateLarge(std::vector<T>& values, std::size_t size)
 #endif
     values.resize(size);
 }
+
+/// A big array of plain values that begins as whatever was there: what writes all of it on several
+/// threads would wait for one that clears it, and the first touch of its pages is work that they
+/// share. On huge pages where the system has some to spare. Throws std::bad_alloc.
+template <class T> class UnclearedArray
+{
+    static_assert(std::is_trivial_v<T>, "nothing is constructed");
+
+public:
+    UnclearedArray() = default;
+    explicit UnclearedArray(std::size_t size) : _size(size)
+    {
+        if (size == 0) return;
+        const std::size_t page = size * sizeof(T) >= kHugePage ? kHugePage : 64;
+        const std::size_t bytes = (size * sizeof(T) + page - 1) / page * page;
+        _values = static_cast<T*>(std::aligned_alloc(page, bytes));
+        if (!_values) throw std::bad_alloc();
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+        if (page == kHugePage) madvise(_values, bytes, MADV_HUGEPAGE); // only a hint, as above
+#endif
+    }
+    ~UnclearedArray()
+    {
+        std::free(_values);
+    }
+    UnclearedArray(UnclearedArray&& other) noexcept
+        : _values(std::exchange(other._values, nullptr)), _size(std::exchange(other._size, 0))
+    {
+    }
+    UnclearedArray& operator=(UnclearedArray&& other) noexcept
+    {
+        std::swap(_values, other._values);
+        std::swap(_size, other._size);
+        return *this;
+    }
+
+    std::size_t size() const
+    {
+        return _size;
+    }
+    T* data()
+    {
+        return _values;
+    }
+    const T* data() const
+    {
+        return _values;
+    }
+    T& operator[](std::size_t i)
+    {
+        return _values[i];
+    }
+    const T& operator[](std::size_t i) const
+    {
+        return _values[i];
+    }
+
+private:
+    static constexpr std::size_t kHugePage = std::size_t(1) << 21;
+
+    T* _values = nullptr;
+    std::size_t _size = 0;
+};
 
 } // namespace osgRayTrace::engine

@@ -28,6 +28,18 @@ struct EmissionPoint
     Vec2 direction{0.0f};
 };
 
+/// The same for sixteen photons.
+struct EmissionLanes
+{
+    FloatLanes light, aim, positionU, positionV, directionU, directionV;
+};
+
+struct StartLanes
+{
+    Vec3Lanes origin, direction, power;
+    UintLanes light;
+};
+
 /// Chooses lights in proportion to power, and directions by a mixture: a share of them uniformly within the
 /// cones (for directional lights: discs) that hold the mirror-like and transmissive instances, the rest as
 /// the light shines. The density is that of the mixture, so every share gives the same mean
@@ -46,6 +58,10 @@ public:
     bool hasTargets() const { return !_targets.empty(); }
 
     std::optional<PhotonStart> emit(const EmissionPoint& point) const;
+
+    /// What emit returns for each lane, up to rounding; vector code where a parallelogram is the only light.
+    /// Returns the lanes that have a start.
+    LaneMask emitLanes(const EmissionLanes& points, StartLanes& starts) const;
 
     /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives after a
     /// free flight from the light is the power times this.
@@ -69,6 +85,7 @@ private:
     std::optional<PhotonStart> emitArea(uint32_t light, const EmissionPoint& point) const;
     std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point) const;
     std::optional<PhotonStart> emitDirectional(uint32_t light, const EmissionPoint& point) const;
+    LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts) const;
     int conesFrom(Vec3 origin, Aim* aims, float& total) const;
     float aimedPdf(const Aim* aims, int count, float total, Vec3 direction) const;
 

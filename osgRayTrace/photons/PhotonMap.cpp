@@ -17,10 +17,68 @@ namespace
 constexpr int kParts = 256;
 constexpr uint32_t kDirectBit = 1u << 31; ///< in a packed normal
 
+constexpr uint32_t kAhead =
+    16; ///< photons between the one that moves and the one that is asked for
+
+/// Shares of the photons that one thread works on at a time.
+struct Chunks
+{
+    explicit Chunks(std::size_t photons)
+        : total(photons), count(std::min<std::size_t>(64, (photons + 4095) / 4096))
+    {
+    }
+    std::size_t begin(std::size_t chunk) const { return total * chunk / count; }
+
+    std::size_t total, count;
+};
+
+struct Bounds
+{
+    Vec3 low{kInfinity};
+    Vec3 high{-kInfinity};
+};
+
+Bounds boundsOf(const std::vector<Photon>& photons, const Workers& workers)
+{
+    const Chunks chunks(photons.size());
+    std::vector<Bounds> bounds(chunks.count);
+    workers.forEach(chunks.count,
+                    [&](std::size_t c)
+                    {
+                        Bounds b;
+                        for (std::size_t k = chunks.begin(c); k < chunks.begin(c + 1); ++k)
+                        {
+                            b.low = glm::min(b.low, photons[k].position);
+                            b.high = glm::max(b.high, photons[k].position);
+                        }
+                        bounds[c] = b;
+                    });
+    Bounds all;
+    for (const Bounds& b : bounds)
+    {
+        all.low = glm::min(all.low, b.low);
+        all.high = glm::max(all.high, b.high);
+    }
+    return all;
+}
+
+OSGRAYTRACE_INLINE void prefetch(const void* address, std::size_t bytes)
+{
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+    __builtin_prefetch(static_cast<const char*>(address) + bytes - 1);
+#endif
+}
+
 uint32_t packNormal(Vec3 n)
 {
+    // To the nearest, halves away from zero.
     const auto byte = [](float v)
-    { return static_cast<uint32_t>(static_cast<int32_t>(std::lround(v * 127.0f))) & 0xffu; };
+    {
+        const float scaled = v * 127.0f;
+        return static_cast<uint32_t>(static_cast<int32_t>(scaled + std::copysign(0.5f, scaled))) &
+               0xffu;
+    };
     return byte(n.x) | byte(n.y) << 8 | byte(n.z) << 16;
 }
 
@@ -34,28 +92,32 @@ OSGRAYTRACE_INLINE int32_t edgesOf(uint32_t packed)
     return static_cast<int32_t>((packed >> 24) & kMostEdges);
 }
 
-/// What a loop over photons reads.
+/// What a loop over a block of photons reads; its own index is a signed one, as vector loads need.
 struct Columns
 {
     const float *x, *y, *z, *wiX, *wiY, *wiZ, *r, *g, *b;
     const uint32_t* normal;
+
+    OSGRAYTRACE_INLINE Columns from(uint32_t k) const
+    {
+        return {x + k, y + k, z + k, wiX + k, wiY + k, wiZ + k, r + k, g + k, b + k, normal + k};
+    }
 };
 
-/// Bit mask of a photon in the disc, all bits or none.
-OSGRAYTRACE_INLINE uint32_t insideDisc(const Columns& p, uint32_t k, const PhotonQuery& q, float radius2,
+/// Bit mask of photon i in the disc, all bits or none.
+OSGRAYTRACE_INLINE uint32_t insideDisc(const Columns& p, int i, const PhotonQuery& q, float radius2,
                                        float planeDistance)
 {
-    const float dx = p.x[k] - q.position.x, dy = p.y[k] - q.position.y, dz = p.z[k] - q.position.z;
+    const float dx = p.x[i] - q.position.x, dy = p.y[i] - q.position.y, dz = p.z[i] - q.position.z;
     const float distance2 = dx * dx + dy * dy + dz * dz;
     const float off = dx * q.normal.x + dy * q.normal.y + dz * q.normal.z;
-    const float side = p.wiX[k] * q.normal.x + p.wiY[k] * q.normal.y + p.wiZ[k] * q.normal.z;
-    const uint32_t packed = p.normal[k];
-    const float turned =
-        byteOf(packed, 0) * q.normal.x + byteOf(packed, 8) * q.normal.y + byteOf(packed, 16) * q.normal.z;
-    const uint32_t shortEnough =
-        maskOf(edgesOf(packed) <= static_cast<int32_t>(q.mostEdges));
-    return maskOf(distance2 <= radius2) & maskOf(std::fabs(off) <= planeDistance) & maskOf(side > 0.0f) &
-           maskOf(turned >= kLeastNormalCosine) & shortEnough;
+    const float side = p.wiX[i] * q.normal.x + p.wiY[i] * q.normal.y + p.wiZ[i] * q.normal.z;
+    const uint32_t packed = p.normal[i];
+    const float turned = byteOf(packed, 0) * q.normal.x + byteOf(packed, 8) * q.normal.y +
+                         byteOf(packed, 16) * q.normal.z;
+    const uint32_t shortEnough = maskOf(edgesOf(packed) <= static_cast<int32_t>(q.mostEdges));
+    return maskOf(distance2 <= radius2) & maskOf(std::fabs(off) <= planeDistance) &
+           maskOf(side > 0.0f) & maskOf(turned >= kLeastNormalCosine) & shortEnough;
 }
 
 /// Sums by lane, so that the result does not depend on the vector width of the machine.
@@ -65,45 +127,61 @@ struct LaneSums
     UintLanes count;
 };
 
-OSGRAYTRACE_KERNEL
-void addRange(const Columns& columns, uint32_t begin, uint32_t end, const PhotonQuery& query, float radius2,
-              float planeDistance, LaneSums& sums)
+/// Where the shading normal is the geometric one every weight is 1.
+template <bool kFlat>
+OSGRAYTRACE_INLINE void addBlocks(const Columns& columns, uint32_t begin, uint32_t end,
+                                  const PhotonQuery& query, float radius2, float planeDistance,
+                                  LaneSums& sums)
 {
-    const Columns p = columns;
     const PhotonQuery q = query;
+    LaneSums s = sums;
     for (uint32_t block = begin; block < end; block += kLanes)
     {
+        const Columns p = columns.from(block);
+        const int left = static_cast<int>(end - block);
         OSGRAYTRACE_SIMD
         for (int i = 0; i < kLanes; ++i)
         {
-            const uint32_t k = block + static_cast<uint32_t>(i);
-            const uint32_t in = insideDisc(p, k, q, radius2, planeDistance) & maskOf(k < end);
-            const float geometric =
-                p.wiX[k] * q.normal.x + p.wiY[k] * q.normal.y + p.wiZ[k] * q.normal.z;
-            const float shading = p.wiX[k] * q.shadingNormal.x + p.wiY[k] * q.shadingNormal.y +
-                                  p.wiZ[k] * q.shadingNormal.z;
-            const float weight = select(in & maskOf(shading > 0.0f), shading / geometric, 0.0f);
-            sums.r[i] += weight * p.r[k];
-            sums.g[i] += weight * p.g[k];
-            sums.b[i] += weight * p.b[k];
-            sums.count[i] += in & 1u;
+            const uint32_t in = insideDisc(p, i, q, radius2, planeDistance) & maskOf(i < left);
+            float weight = select(in, 1.0f, 0.0f);
+            if (!kFlat)
+            {
+                const float geometric =
+                    p.wiX[i] * q.normal.x + p.wiY[i] * q.normal.y + p.wiZ[i] * q.normal.z;
+                const float shading = p.wiX[i] * q.shadingNormal.x + p.wiY[i] * q.shadingNormal.y +
+                                      p.wiZ[i] * q.shadingNormal.z;
+                weight = select(in & maskOf(shading > 0.0f), shading / geometric, 0.0f);
+            }
+            s.r[i] += weight * p.r[i];
+            s.g[i] += weight * p.g[i];
+            s.b[i] += weight * p.b[i];
+            s.count[i] += in & 1u;
         }
     }
+    sums = s;
+}
+
+OSGRAYTRACE_KERNEL
+void addRange(const Columns& columns, uint32_t begin, uint32_t end, const PhotonQuery& query,
+              float radius2, float planeDistance, LaneSums& sums)
+{
+    if (query.shadingNormal == query.normal)
+        addBlocks<true>(columns, begin, end, query, radius2, planeDistance, sums);
+    else
+        addBlocks<false>(columns, begin, end, query, radius2, planeDistance, sums);
 }
 
 OSGRAYTRACE_KERNEL
 LaneMask insideLanes(const Columns& columns, uint32_t block, uint32_t end, const PhotonQuery& query,
                      float radius2, float planeDistance)
 {
-    const Columns p = columns;
+    const Columns p = columns.from(block);
     const PhotonQuery q = query;
+    const int left = static_cast<int>(end - block);
     LaneMask inside = 0;
     OSGRAYTRACE_SIMD_OR(inside)
     for (int i = 0; i < kLanes; ++i)
-    {
-        const uint32_t k = block + static_cast<uint32_t>(i);
-        inside |= bitOfLane(insideDisc(p, k, q, radius2, planeDistance) & maskOf(k < end), i);
-    }
+        inside |= bitOfLane(insideDisc(p, i, q, radius2, planeDistance) & maskOf(i < left), i);
     return inside;
 }
 
@@ -131,12 +209,9 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const W
     : _count(photons.size())
 {
     if (photons.empty()) return;
-    _low = _high = Vec3d(photons[0].position);
-    for (const Photon& p : photons)
-    {
-        _low = glm::min(_low, Vec3d(p.position));
-        _high = glm::max(_high, Vec3d(p.position));
-    }
+    const Bounds bounds = boundsOf(photons, workers);
+    _low = Vec3d(bounds.low);
+    _high = Vec3d(bounds.high);
     // Coordinates of cells stay exact integers in double, whatever the caller asks for.
     const double extent = std::max({_high.x - _low.x, _high.y - _low.y, _high.z - _low.z});
     const double cell = std::max(static_cast<double>(cellSize), extent * 0x1p-40);
@@ -146,24 +221,31 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const W
     while (buckets < _count && buckets < (1u << 30))
         buckets *= 2;
     _mask = buckets - 1;
-    const int partShift = __builtin_ctz(buckets) - __builtin_ctz(kParts);
+    sort(photons, workers);
+}
+
+void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers)
+{
+    const std::size_t buckets = static_cast<std::size_t>(_mask) + 1;
+    const int partShift = __builtin_ctzll(buckets) - __builtin_ctz(kParts);
 
     // 1. The bucket of each photon, and how many of each chunk fall into each part.
-    const std::size_t chunks = std::min<std::size_t>(64, (_count + 4095) / 4096);
-    const auto chunkBegin = [&](std::size_t c) { return _count * c / chunks; };
-    std::vector<uint32_t> bucket(_count);
-    std::vector<uint32_t> offsets(chunks * kParts);
-    workers.forEach(chunks,
+    const Chunks chunks(_count);
+    UnclearedArray<uint32_t> bucket(_count);
+    std::vector<uint32_t> offsets(chunks.count * kParts);
+    workers.forEach(chunks.count,
                     [&](std::size_t c)
                     {
-                        uint32_t* counts = &offsets[c * kParts];
-                        for (std::size_t k = chunkBegin(c); k < chunkBegin(c + 1); ++k)
+                        uint32_t counts[kParts] = {};
+                        for (std::size_t k = chunks.begin(c); k < chunks.begin(c + 1); ++k)
                         {
                             const Vec3d at = (Vec3d(photons[k].position) - _low) * _cellsPerUnit;
-                            bucket[k] = bucketOf(static_cast<int64_t>(at.x), static_cast<int64_t>(at.y),
-                                                 static_cast<int64_t>(at.z));
+                            bucket[k] =
+                                bucketOf(static_cast<int64_t>(at.x), static_cast<int64_t>(at.y),
+                                         static_cast<int64_t>(at.z));
                             ++counts[bucket[k] >> partShift];
                         }
+                        std::copy(counts, counts + kParts, &offsets[c * kParts]);
                     });
 
     // 2. Where each chunk writes its share of each part; photons keep their order.
@@ -172,7 +254,7 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const W
     for (std::size_t part = 0; part < kParts; ++part)
     {
         partBegin[part] = running;
-        for (std::size_t c = 0; c < chunks; ++c)
+        for (std::size_t c = 0; c < chunks.count; ++c)
         {
             const uint32_t count = offsets[c * kParts + part];
             offsets[c * kParts + part] = running;
@@ -185,73 +267,80 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const W
     {
         uint32_t bucket, photon;
     };
-    std::vector<Entry> entries(_count);
-    workers.forEach(chunks,
-                    [&](std::size_t c)
-                    {
-                        uint32_t* next = &offsets[c * kParts];
-                        for (std::size_t k = chunkBegin(c); k < chunkBegin(c + 1); ++k)
-                            entries[next[bucket[k] >> partShift]++] = {bucket[k], static_cast<uint32_t>(k)};
-                    });
+    UnclearedArray<Entry> entries(_count);
+    workers.forEach(
+        chunks.count,
+        [&](std::size_t c)
+        {
+            uint32_t next[kParts];
+            std::copy_n(&offsets[c * kParts], kParts, next);
+            for (std::size_t k = chunks.begin(c); k < chunks.begin(c + 1); ++k)
+                entries[next[bucket[k] >> partShift]++] = {bucket[k], static_cast<uint32_t>(k)};
+        });
 
     // 3. Each part by counting; its photons move once, to where they stay.
-    const std::size_t padded = _count + kLanes;
-    for (std::vector<float>* column : {&_x, &_y, &_z, &_wiX, &_wiY, &_wiZ, &_r, &_g, &_b})
-        column->resize(padded);
-    _normal.resize(padded);
-    _first.resize(static_cast<std::size_t>(buckets) + 1);
+    _columns = UnclearedArray<float>(kColumns * stride());
+    _normal = UnclearedArray<uint32_t>(stride());
+    for (int c = 0; c < kColumns; ++c)
+        std::fill_n(column(static_cast<Column>(c)) + _count, kLanes, 0.0f);
+    std::fill_n(&_normal[_count], kLanes, 0u);
+    _first = UnclearedArray<uint32_t>(buckets + 1);
     _first[buckets] = static_cast<uint32_t>(_count);
-    workers.forEach(kParts,
-                    [&](std::size_t part)
-                    {
-                        const std::size_t bucketBegin = part << partShift;
-                        const std::size_t bucketEnd = (part + 1) << partShift;
-                        std::vector<uint32_t> next(bucketEnd - bucketBegin);
-                        for (uint32_t e = partBegin[part]; e < partBegin[part + 1]; ++e)
-                            ++next[entries[e].bucket - bucketBegin];
-                        uint32_t at = partBegin[part];
-                        for (std::size_t b = bucketBegin; b < bucketEnd; ++b)
-                        {
-                            _first[b] = at;
-                            at += next[b - bucketBegin];
-                            next[b - bucketBegin] = _first[b];
-                        }
-                        for (uint32_t e = partBegin[part]; e < partBegin[part + 1]; ++e)
-                        {
-                            const uint32_t to = next[entries[e].bucket - bucketBegin]++;
-                            const Photon& p = photons[entries[e].photon];
-                            _x[to] = p.position.x;
-                            _y[to] = p.position.y;
-                            _z[to] = p.position.z;
-                            _wiX[to] = p.wi.x;
-                            _wiY[to] = p.wi.y;
-                            _wiZ[to] = p.wi.z;
-                            _r[to] = p.power.x;
-                            _g[to] = p.power.y;
-                            _b[to] = p.power.z;
-                            _normal[to] = packNormal(p.normal) | std::min(p.edges, kMostEdges) << 24 |
-                                          (p.direct ? kDirectBit : 0u);
-                        }
-                    });
+    workers.forEach(
+        kParts,
+        [&](std::size_t part)
+        {
+            const std::size_t bucketBegin = part << partShift;
+            const std::size_t bucketEnd = (part + 1) << partShift;
+            std::vector<uint32_t> next(bucketEnd - bucketBegin);
+            for (uint32_t e = partBegin[part]; e < partBegin[part + 1]; ++e)
+                ++next[entries[e].bucket - bucketBegin];
+            uint32_t at = partBegin[part];
+            for (std::size_t b = bucketBegin; b < bucketEnd; ++b)
+            {
+                _first[b] = at;
+                at += next[b - bucketBegin];
+                next[b - bucketBegin] = _first[b];
+            }
+            float* const columns = _columns.data();
+            const std::size_t step = stride();
+            for (uint32_t e = partBegin[part]; e < partBegin[part + 1]; ++e)
+            {
+                // Photons of a part come from all over.
+                const Photon* soon =
+                    &photons[entries[std::min(e + kAhead, partBegin[part + 1] - 1)].photon];
+                prefetch(soon, sizeof(Photon));
+                const uint32_t to = next[entries[e].bucket - bucketBegin]++;
+                const Photon& p = photons[entries[e].photon];
+                const float values[kColumns] = {p.position.x, p.position.y, p.position.z,
+                                                p.wi.x,       p.wi.y,       p.wi.z,
+                                                p.power.x,    p.power.y,    p.power.z};
+                for (int c = 0; c < kColumns; ++c)
+                    columns[static_cast<std::size_t>(c) * step + to] = values[c];
+                _normal[to] = packNormal(p.normal) | std::min(p.edges, kMostEdges) << 24 |
+                              (p.direct ? kDirectBit : 0u);
+            }
+        });
 }
 
 std::size_t PhotonMap::bytes() const
 {
-    return _x.size() * (9 * sizeof(float) + sizeof(uint32_t)) + _first.size() * sizeof(uint32_t);
+    return _columns.size() * sizeof(float) + (_normal.size() + _first.size()) * sizeof(uint32_t);
 }
 
-/// The stretches of photons that can be in the disc, none of them twice. One line of cells along x is one
-/// stretch, or two where the table ends within it.
+/// The stretches of photons that can be in the disc, none of them twice. One line of cells along x
+/// is one stretch, or two where the table ends within it.
 int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
 {
     if (_count == 0 || !(query.radius >= 0.0f)) return 0;
     const Vec3d centre(query.position);
-    // The disc of the plane test is thin: its box is smaller than the sphere's. Distances are rounded, hence
-    // the millionth part more.
+    // The disc of the plane test is thin: its box is smaller than the sphere's. Distances are
+    // rounded, hence the millionth part more.
     const Vec3d n(query.normal);
     const Vec3d across(std::sqrt(n.y * n.y + n.z * n.z), std::sqrt(n.z * n.z + n.x * n.x),
                        std::sqrt(n.x * n.x + n.y * n.y));
-    const Vec3d share = glm::min(across + glm::abs(n) * static_cast<double>(kPlaneShare), Vec3d(1.0));
+    const Vec3d share =
+        glm::min(across + glm::abs(n) * static_cast<double>(kPlaneShare), Vec3d(1.0));
     const Vec3d reach = (share + 0x1p-20) * static_cast<double>(query.radius);
     const Vec3d low = centre - reach, high = centre + reach;
     if (!(glm::all(glm::lessThanEqual(low, _high)) && glm::all(glm::greaterThanEqual(high, _low))))
@@ -261,7 +350,8 @@ int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
     const auto x0 = static_cast<int64_t>(from.x), x1 = static_cast<int64_t>(to.x);
     const auto y0 = static_cast<int64_t>(from.y), y1 = static_cast<int64_t>(to.y);
     const auto z0 = static_cast<int64_t>(from.z), z1 = static_cast<int64_t>(to.z);
-    const uint64_t lines = (static_cast<uint64_t>(y1 - y0) + 1) * (static_cast<uint64_t>(z1 - z0) + 1);
+    const uint64_t lines =
+        (static_cast<uint64_t>(y1 - y0) + 1) * (static_cast<uint64_t>(z1 - z0) + 1);
     const uint64_t length = static_cast<uint64_t>(x1 - x0) + 1;
     const auto everything = [&]
     {
@@ -319,8 +409,8 @@ PhotonSum PhotonMap::gather(const PhotonQuery& query) const
     const int count = rangesOf(query, ranges);
     PhotonSum sum;
     if (count == 0) return sum;
-    const Columns columns{_x.data(), _y.data(), _z.data(), _wiX.data(), _wiY.data(), _wiZ.data(),
-                          _r.data(), _g.data(), _b.data(), _normal.data()};
+    const Columns columns{column(X),   column(Y),   column(Z),     column(WiX),  column(WiY),
+                          column(WiZ), column(Red), column(Green), column(Blue), _normal.data()};
     LaneSums sums = {};
     for (int i = 0; i < count; ++i)
         addRange(columns, ranges[i].begin, ranges[i].end, query, query.radius * query.radius,
@@ -335,12 +425,13 @@ void PhotonMap::find(const PhotonQuery& query, std::vector<uint32_t>& found) con
 {
     Range ranges[kMaxRanges];
     const int count = rangesOf(query, ranges);
-    const Columns columns{_x.data(), _y.data(), _z.data(), _wiX.data(), _wiY.data(), _wiZ.data(),
-                          _r.data(), _g.data(), _b.data(), _normal.data()};
+    const Columns columns{column(X),   column(Y),   column(Z),     column(WiX),  column(WiY),
+                          column(WiZ), column(Red), column(Green), column(Blue), _normal.data()};
     for (int i = 0; i < count; ++i)
         for (uint32_t block = ranges[i].begin; block < ranges[i].end; block += kLanes)
-            for (LaneMask lanes = insideLanes(columns, block, ranges[i].end, query,
-                                              query.radius * query.radius, query.radius * kPlaneShare);
+            for (LaneMask lanes =
+                     insideLanes(columns, block, ranges[i].end, query, query.radius * query.radius,
+                                 query.radius * kPlaneShare);
                  lanes; lanes &= lanes - 1)
                 found.push_back(block + static_cast<uint32_t>(__builtin_ctz(lanes)));
 }
@@ -348,9 +439,9 @@ void PhotonMap::find(const PhotonQuery& query, std::vector<uint32_t>& found) con
 Photon PhotonMap::photon(uint32_t k) const
 {
     Photon p;
-    p.position = Vec3(_x[k], _y[k], _z[k]);
-    p.wi = Vec3(_wiX[k], _wiY[k], _wiZ[k]);
-    p.power = Vec3(_r[k], _g[k], _b[k]);
+    p.position = Vec3(column(X)[k], column(Y)[k], column(Z)[k]);
+    p.wi = Vec3(column(WiX)[k], column(WiY)[k], column(WiZ)[k]);
+    p.power = Vec3(column(Red)[k], column(Green)[k], column(Blue)[k]);
     p.direct = (_normal[k] & kDirectBit) != 0;
     p.normal = Vec3(byteOf(_normal[k], 0), byteOf(_normal[k], 8), byteOf(_normal[k], 16));
     p.edges = static_cast<uint32_t>(edgesOf(_normal[k]));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/base/Lanes.h"
+#include "osgRayTrace/base/LargeArray.h"
 #include "osgRayTrace/base/Math.h"
 
 #include <cstdint>
@@ -32,33 +33,34 @@ struct PhotonQuery
 {
     Vec3 position{0.0f};
     Vec3 normal{0.0f}; ///< geometric, unit, on the side that light is gathered from
-    Vec3 shadingNormal{0.0f}; ///< unit; power is weighted by the ratio of its cosine to that of normal
+    Vec3 shadingNormal{
+        0.0f}; ///< unit; power is weighted by the ratio of its cosine to that of normal
     float radius = 0.0f;
     uint32_t mostEdges = kMostEdges; ///< photons of more are left out
 };
 
 struct PhotonSum
 {
-    Vec3 power{0.0f};   ///< [W] that arrives through the disc, each photon counted once
+    Vec3 power{0.0f}; ///< [W] that arrives through the disc, each photon counted once
     uint32_t count = 0;
 };
 
-/// Photons near a corner or behind a thin wall do not belong to a surface although they are within the
-/// radius: those farther off its plane than this share of the radius are left out, as are those whose own
-/// surface is turned away by more than 60 degrees.
+/// Photons near a corner or behind a thin wall do not belong to a surface although they are within
+/// the radius: those farther off its plane than this share of the radius are left out, as are those
+/// whose own surface is turned away by more than 60 degrees.
 constexpr float kPlaneShare = 0.25f;
 constexpr float kLeastNormalCosine = 0.5f;
 
-/// A grid over hashed cells, its photons in cell order: those of neighbouring cells along x lie one after
-/// the other [Teschner03, spatial hashing; but only y and z
-/// are hashed, and x is added]. Immutable once built; thread safe.
+/// A grid over hashed cells, its photons in cell order: those of neighbouring cells along x lie one
+/// after the other [Teschner03, spatial hashing; but only y and z are hashed, and x is added].
+/// Immutable once built; thread safe.
 class PhotonMap
 {
 public:
     PhotonMap() = default;
 
-    /// cellSize: twice the radius of most queries is best; any other is right, too. Stable: the order of
-    /// equal cells is that of photons, so results do not depend on threads.
+    /// cellSize: twice the radius of most queries is best; any other is right, too. Stable: the
+    /// order of equal cells is that of photons, so results do not depend on threads.
     PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers);
 
     std::size_t size() const { return _count; }
@@ -80,6 +82,25 @@ private:
     };
     static constexpr int kMaxRanges = 512;
 
+    /// What is stored of a photon beside its normal.
+    enum Column
+    {
+        X,
+        Y,
+        Z,
+        WiX,
+        WiY,
+        WiZ,
+        Red,
+        Green,
+        Blue,
+        kColumns
+    };
+    std::size_t stride() const { return _count + kLanes; }
+    float* column(Column c) { return _columns.data() + c * stride(); }
+    const float* column(Column c) const { return _columns.data() + c * stride(); }
+
+    void sort(const std::vector<Photon>& photons, const Workers& workers);
     int rangesOf(const PhotonQuery& query, Range* ranges) const;
     uint32_t bucketOf(int64_t x, int64_t y, int64_t z) const;
 
@@ -87,13 +108,12 @@ private:
     Vec3d _low{0.0};
     Vec3d _high{0.0};
     double _cellsPerUnit = 0.0;
-    uint32_t _mask = 0;                 ///< number of buckets - 1
-    std::vector<uint32_t> _first;       ///< a bucket, and one more; the end of the last
-    // In cell order, with kLanes of padding: loops read whole blocks.
-    std::vector<float> _x, _y, _z;
-    std::vector<float> _wiX, _wiY, _wiZ;
-    std::vector<float> _r, _g, _b;
-    std::vector<uint32_t> _normal;      ///< three signed bytes; edges in seven bits, and direct
+    uint32_t _mask = 0;              ///< number of buckets - 1
+    UnclearedArray<uint32_t> _first; ///< a bucket, and one more; the end of the last
+    // In cell order. One column after the other, each with kLanes of padding: loops read whole
+    // blocks.
+    UnclearedArray<float> _columns;
+    UnclearedArray<uint32_t> _normal; ///< three signed bytes; edges in seven bits, and direct
 };
 
 } // namespace osgRayTrace::engine

@@ -1,10 +1,10 @@
-// PhotonTracer.cpp - follows photons from the lights to the surfaces they are stored on. Layer: photons.
-// SPDX-License-Identifier: MIT
+// PhotonTracer.cpp - follows photons from the lights to the surfaces they are stored on. Layer:
+// photons. SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/PhotonTracer.h"
 
 #include "osgRayTrace/accel/Intersector.h"
-#include "osgRayTrace/accel/Surface.h"
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/photons/PhotonFlights.h"
 #include "osgRayTrace/sampling/Sampler.h"
 #include "osgRayTrace/sampling/Warp.h"
 
@@ -17,7 +17,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr uint32_t kChunk = 1024; ///< photons that are followed together
+constexpr uint32_t kChunk = 2048; ///< photons that are followed together
 
 /// Dimensions of a photon's sequence.
 enum PhotonDimension : uint32_t
@@ -26,14 +26,6 @@ enum PhotonDimension : uint32_t
     EmissionPosition = 1,
     EmissionDirection = 2,
     BounceFirst = 3, ///< then for each bounce: direction; lobe and roulette
-};
-
-struct Flight
-{
-    Vec3 origin, direction, power;
-    uint32_t index;  ///< of the photon within the pass
-    uint32_t light;
-    bool direct = true; ///< nothing but mirror-like surfaces yet
 };
 
 struct Chunk
@@ -46,9 +38,14 @@ struct Chunk
 class ChunkTracer
 {
 public:
-    ChunkTracer(const TracedScene& traced, const std::vector<Light>& lights, const PhotonEmitter& emitter,
-                const PhotonPassOptions& options, uint32_t passSeed, Chunk& chunk)
-        : _traced(traced), _lights(lights), _emitter(emitter), _options(options), _seed(passSeed),
+    ChunkTracer(const TracedScene& traced, const std::vector<Light>& lights,
+                const PhotonEmitter& emitter, const PhotonPassOptions& options, uint32_t passSeed,
+                Chunk& chunk)
+        : _traced(traced),
+          _lights(lights),
+          _emitter(emitter),
+          _options(options),
+          _seed(passSeed),
           _chunk(chunk)
     {
     }
@@ -56,16 +53,25 @@ public:
     void trace(uint32_t first, uint32_t count);
 
 private:
-    Vec2 point(uint32_t photon, uint32_t dimension) const
+    uint32_t dimension(uint32_t number) const { return dimensionSeed(_seed, number); }
+    static uint32_t bounceNumber(int bounce)
     {
-        Vec2 u;
-        sobol2(photon, dimensionSeed(_seed, dimension), u.x, u.y);
-        return u;
+        return BounceFirst + 2 * static_cast<uint32_t>(bounce);
     }
 
-    void followGroup(const Flight* flights, int count, int bounce, std::vector<Flight>& next);
-    void meet(const RayHitBlock& rays, const SurfaceLanes& surface, int i, Flight flight, int bounce,
-              std::vector<Flight>& next);
+    /// Other photons are not wanted.
+    bool mustReflect(int bounce) const
+    {
+        return bounce == 0 && _options.use == PhotonUse::Caustics;
+    }
+
+    void emitBlock(uint32_t first, uint32_t count);
+    void follow(FlightBlock block, LaneMask active, int bounce);
+    void leaveLight(FlightBlock& block, SurfaceLanes& surface) const;
+    void store(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes, int bounce);
+    void scatterDiffuseLanes(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+                             int bounce);
+    void scatter(const Bsdf& bsdf, Flight flight, const SurfaceLanes& surface, int i, int bounce);
     Bsdf bsdfAt(const RayHitBlock& rays, const SurfaceLanes& surface, int i) const;
 
     const TracedScene& _traced;
@@ -74,7 +80,29 @@ private:
     const PhotonPassOptions& _options;
     uint32_t _seed;
     Chunk& _chunk;
+    FlightQueue _flights{kChunk};
+    // Of the block at work.
+    Vec3Lanes _albedo;   ///< of lanes that are plain Lambert surfaces
+    Bsdf _bsdfs[kLanes]; ///< of the others
+    RayHitBlock _rays;
 };
+
+Vec3 laneOf(const Vec3Lanes& lanes, int i)
+{
+    return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]);
+}
+
+Flight flightOf(const FlightBlock& block, int i)
+{
+    Flight flight;
+    flight.origin = laneOf(block.origin, i);
+    flight.direction = laneOf(block.direction, i);
+    flight.power = laneOf(block.power, i);
+    flight.photon = block.photon[i];
+    flight.light = block.light[i];
+    flight.direct = block.direct[i] != 0;
+    return flight;
+}
 
 bool storesPhotons(const Bsdf& bsdf)
 {
@@ -95,116 +123,171 @@ Bsdf ChunkTracer::bsdfAt(const RayHitBlock& rays, const SurfaceLanes& surface, i
     return _traced.materials().bsdf(surface.material[i], at);
 }
 
-/// Stores the photon of lane i at what it met, and sends it on.
-void ChunkTracer::meet(const RayHitBlock& rays, const SurfaceLanes& surface, int i, Flight flight,
-                       int bounce, std::vector<Flight>& next)
+/// What the lights do not light is passed by, and fixed-function ones fade in their own ways.
+void ChunkTracer::leaveLight(FlightBlock& block, SurfaceLanes& surface) const
 {
-    if (bounce == 0)
+    for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
     {
-        const Light& light = _lights[flight.light];
+        const int i = __builtin_ctz(lanes);
+        const Light& light = _lights[block.light[i]];
+        if (light.kind != LightKind::Point && light.kind != LightKind::Directional) continue;
         const Material& material = _traced.scene().materials[surface.material[i]];
-        const bool delta = light.kind == LightKind::Point || light.kind == LightKind::Directional;
-        if (delta && light.number < 32 && !((material.lightMask >> light.number) & 1u)) return;
-        flight.power *= _emitter.falloff(flight.light, rays.ray.tFar[i]);
+        if (light.number < 32 && !((material.lightMask >> light.number) & 1u))
+            surface.hits &= ~(1u << i);
+        const float falloff = _emitter.falloff(block.light[i], _rays.ray.tFar[i]);
+        block.power.x[i] *= falloff;
+        block.power.y[i] *= falloff;
+        block.power.z[i] *= falloff;
     }
-    const bool mustReflect = _options.use == PhotonUse::Caustics && bounce == 0;
-    const Bsdf bsdf = bsdfAt(rays, surface, i);
-    const Vec3 position(surface.position.x[i], surface.position.y[i], surface.position.z[i]);
-    const Vec3 geometric(surface.geometricNormal.x[i], surface.geometricNormal.y[i],
-                         surface.geometricNormal.z[i]);
-    if (bounce > 0 && storesPhotons(bsdf))
+}
+
+void ChunkTracer::store(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+                        int bounce)
+{
+    for (; lanes; lanes &= lanes - 1)
     {
-        if (isFinite(flight.power))
-            _chunk.photons.push_back({position, -flight.direction, flight.power, geometric,
-                                      static_cast<uint32_t>(bounce) + 1, flight.direct});
+        const int i = __builtin_ctz(lanes);
+        const Vec3 power = laneOf(block.power, i);
+        if (isFinite(power))
+            _chunk.photons.push_back({laneOf(surface.position, i), -laneOf(block.direction, i),
+                                      power, laneOf(surface.geometricNormal, i),
+                                      static_cast<uint32_t>(bounce) + 1, block.direct[i] != 0});
         else
             ++_chunk.dropped;
     }
-    if (bounce + 2 > _options.maxBounces) return; // the next surface would be too far for any eye
-    if (mustReflect && !(bsdf.isSmooth() && bsdf.reflects()) && !bsdf.transmits()) return;
+}
 
-    Vec3 shading(surface.shadingNormal.x[i], surface.shadingNormal.y[i], surface.shadingNormal.z[i]);
+void ChunkTracer::scatterDiffuseLanes(const FlightBlock& block, const SurfaceLanes& surface,
+                                      LaneMask lanes, int bounce)
+{
+    FloatLanes u, v, unused, roulette;
+    photonPoints(block.photon, dimension(bounceNumber(bounce)), u, v);
+    photonPoints(block.photon, dimension(bounceNumber(bounce) + 1), unused, roulette);
+    DiffuseFlights scattered;
+    scatterDiffuse(block, surface, _albedo, u, v, roulette, scattered);
+    for (lanes &= scattered.alive; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        _flights.append({laneOf(scattered.origin, i), laneOf(scattered.direction, i),
+                         laneOf(scattered.power, i), block.photon[i], block.light[i], false});
+    }
+}
+
+/// Sends the photon of lane i on from any surface.
+void ChunkTracer::scatter(const Bsdf& bsdf, Flight flight, const SurfaceLanes& surface, int i,
+                          int bounce)
+{
+    if (mustReflect(bounce) && !(bsdf.isSmooth() && bsdf.reflects()) && !bsdf.transmits()) return;
+    const Vec3 position = laneOf(surface.position, i),
+               geometric = laneOf(surface.geometricNormal, i);
+    Vec3 shading = laneOf(surface.shadingNormal, i);
     if (glm::dot(shading, geometric) < 0.0f) shading = -shading;
     if (!(glm::dot(shading, flight.direction) < -1e-4f)) shading = geometric;
     Vec3 tangent, bitangent;
     frameOf(shading.x, shading.y, shading.z, tangent, bitangent);
     const Vec3 wo(-glm::dot(flight.direction, tangent), -glm::dot(flight.direction, bitangent),
                   -glm::dot(flight.direction, shading));
-    const uint32_t dimension = BounceFirst + 2 * static_cast<uint32_t>(bounce);
-    const Vec2 u = point(flight.index, dimension), lobe = point(flight.index, dimension + 1);
+    Vec2 u, lobe;
+    sobol2(flight.photon, dimension(bounceNumber(bounce)), u.x, u.y);
+    sobol2(flight.photon, dimension(bounceNumber(bounce) + 1), lobe.x, lobe.y);
     const std::optional<BsdfSample> sample =
         sampleBsdf(bsdf, wo, lobe.x, u.x, u.y, Transport::Importance);
-    if (!sample || (mustReflect && !sample->delta)) return;
+    if (!sample || (mustReflect(bounce) && !sample->delta)) return;
     const Vec3 wi = tangent * sample->wi.x + bitangent * sample->wi.y + shading * sample->wi.z;
     const float side = glm::dot(wi, geometric);
     if ((side < 0.0f) != sample->transmitted) return;
 
-    // Light carries the other cosine than radiance where normals are interpolated [Veach97, sect. 5.3].
-    const float correction = (std::fabs(wo.z) * std::fabs(side)) /
-                             (std::fabs(glm::dot(flight.direction, geometric)) * std::fabs(sample->wi.z));
+    // As in scatterDiffuse.
+    const float correction =
+        (std::fabs(wo.z) * std::fabs(side)) /
+        (std::fabs(glm::dot(flight.direction, geometric)) * std::fabs(sample->wi.z));
     Vec3 weight = sample->weight;
     if (correction < kInfinity) weight *= correction;
-    // Survivors keep their power as far as they can.
     const float survival = std::min(1.0f, std::max(weight.x, std::max(weight.y, weight.z)));
     if (!(lobe.y < survival)) return;
     flight.power *= weight / survival;
     flight.origin = position + geometric * (side < 0.0f ? -surface.offset[i] : surface.offset[i]);
     flight.direction = wi;
     flight.direct = flight.direct && sample->delta;
-    next.push_back(flight);
+    _flights.append(flight);
 }
 
-void ChunkTracer::followGroup(const Flight* flights, int count, int bounce, std::vector<Flight>& next)
+/// Stores the photons of a block at what they meet, and sends them on. The block is a copy: what is
+/// appended to the queue may take its place.
+void ChunkTracer::follow(FlightBlock block, LaneMask active, int bounce)
 {
-    RayHitBlock rays;
-    for (int i = 0; i < kLanes; ++i)
-    {
-        const Flight& f = flights[std::min(i, count - 1)];
-        rays.ray.originX[i] = f.origin.x;
-        rays.ray.originY[i] = f.origin.y;
-        rays.ray.originZ[i] = f.origin.z;
-        rays.ray.directionX[i] = f.direction.x;
-        rays.ray.directionY[i] = f.direction.y;
-        rays.ray.directionZ[i] = f.direction.z;
-        rays.ray.tNear[i] = 0.0f;
-        rays.ray.tFar[i] = kInfinity;
-        rays.ray.time[i] = 0.0f;
-        rays.ray.mask[i] = 0xffffffffu;
-        rays.ray.id[i] = 0;
-        rays.ray.flags[i] = 0;
-    }
-    const LaneMask active = count >= kLanes ? kAllLanes : (1u << count) - 1u;
-    _traced.intersector().closestHits(rays, active, Coherence::Incoherent);
-    _chunk.rays += static_cast<uint64_t>(count);
+    loadRays(block, _rays);
+    _traced.intersector().closestHits(_rays, active, Coherence::Incoherent);
+    _chunk.rays += static_cast<uint64_t>(__builtin_popcount(active));
     SurfaceLanes surface;
-    surfacesOf(_traced.surfaces(), rays, active, surface);
+    surfacesOf(_traced.surfaces(), _rays, active, surface);
+    if (bounce == 0) leaveLight(block, surface);
+
+    LaneMask diffuse = 0, general = 0, stores = 0;
     for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        meet(rays, surface, i, flights[i], bounce, next);
+        const MaterialRecord& record = _traced.materials()[surface.material[i]];
+        if (record.plainDiffuse)
+        {
+            const Vec3 albedo = record.front.diffuse;
+            _albedo.x[i] = albedo.x;
+            _albedo.y[i] = albedo.y;
+            _albedo.z[i] = albedo.z;
+            if (albedo != Vec3(0.0f)) diffuse |= 1u << i;
+            continue;
+        }
+        _bsdfs[i] = bsdfAt(_rays, surface, i);
+        general |= 1u << i;
+        if (storesPhotons(_bsdfs[i])) stores |= 1u << i;
+    }
+    if (bounce > 0) store(block, surface, stores | diffuse, bounce);
+    if (bounce + 2 > _options.maxBounces) return; // the next surface would be too far for any eye
+    if (mustReflect(bounce)) diffuse = 0;
+    if (!(diffuse | general)) return;
+    if (diffuse) scatterDiffuseLanes(block, surface, diffuse, bounce);
+    for (; general; general &= general - 1)
+    {
+        const int i = __builtin_ctz(general);
+        scatter(_bsdfs[i], flightOf(block, i), surface, i, bounce);
+    }
+}
+
+void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
+{
+    UintLanes photon;
+    for (int i = 0; i < kLanes; ++i)
+        photon[i] = first + static_cast<uint32_t>(i);
+    EmissionLanes points;
+    photonPoints(photon, dimension(EmissionChoice), points.light, points.aim);
+    photonPoints(photon, dimension(EmissionPosition), points.positionU, points.positionV);
+    photonPoints(photon, dimension(EmissionDirection), points.directionU, points.directionV);
+    StartLanes starts;
+    const float share = 1.0f / static_cast<float>(_options.photons);
+    for (LaneMask lanes = _emitter.emitLanes(points, starts) & (kAllLanes >> (kLanes - count));
+         lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        _flights.append({laneOf(starts.origin, i), laneOf(starts.direction, i),
+                         laneOf(starts.power, i) * share, photon[i], starts.light[i]});
     }
 }
 
 void ChunkTracer::trace(uint32_t first, uint32_t count)
 {
-    std::vector<Flight> flights, next;
-    flights.reserve(count);
-    next.reserve(count);
-    const float share = 1.0f / static_cast<float>(_options.photons);
-    for (uint32_t k = first; k < first + count; ++k)
+    _chunk.photons.reserve(count);
+    for (uint32_t k = 0; k < count; k += kLanes)
+        emitBlock(first + k, std::min<uint32_t>(kLanes, count - k));
+    readyRays(_rays);
+    for (int bounce = 0; _flights.size() > 0; ++bounce)
     {
-        const Vec2 choice = point(k, EmissionChoice);
-        const std::optional<PhotonStart> start = _emitter.emit(
-            {choice.x, choice.y, point(k, EmissionPosition), point(k, EmissionDirection)});
-        if (start) flights.push_back({start->origin, start->direction, start->power * share, k, start->light});
-    }
-    for (int bounce = 0; !flights.empty(); ++bounce)
-    {
-        next.clear();
-        for (std::size_t at = 0; at < flights.size(); at += kLanes)
-            followGroup(&flights[at], static_cast<int>(std::min<std::size_t>(kLanes, flights.size() - at)),
-                        bounce, next);
-        flights.swap(next);
+        const uint32_t flying = _flights.size();
+        _flights.clear();
+        for (uint32_t k = 0; k < flying; k += kLanes)
+        {
+            const uint32_t used = std::min<uint32_t>(kLanes, flying - k);
+            follow(_flights[k / kLanes], kAllLanes >> (kLanes - used), bounce);
+        }
     }
 }
 

@@ -176,3 +176,69 @@ TEST_CASE("photon emission: dark lights emit nothing", "[photons]")
     CHECK_FALSE(emitter.emits());
     CHECK_FALSE(emitter.emit({}).has_value());
 }
+
+TEST_CASE("photon emission: sixteen at once are what they are one by one", "[photons]")
+{
+    enum Kind
+    {
+        OneSided,
+        TwoSided,
+        Mesh,
+        Two
+    };
+    for (const Kind kind : {OneSided, TwoSided, Mesh, Two})
+    {
+        SceneBuilder builder = stage();
+        const Vec3 corner(-0.5f, -0.5f, 3.0f), edgeU(0, 0.6f, 0), edgeV(0.5f, 0, 0);
+        if (kind == Mesh)
+            builder.addEmissive(quadMesh(corner, edgeU, edgeV), lamp(Vec3(3.0f)));
+        else
+            builder.addQuadLight(corner, edgeU, edgeV, Vec3(3, 2, 1), kind == TwoSided);
+        if (kind == Two) builder.addQuadLight({1, 1, 0.5f}, edgeU, edgeV, Vec3(1.0f), true);
+        const auto traced = builder.build(1);
+        for (const float share : {0.0f, 0.25f, 0.9f})
+        {
+            const PhotonEmitter emitter(*traced, traced->scene().lights, share);
+            Uniform uniform(31);
+            int different = 0, started = 0;
+            for (int block = 0; block < 2000; ++block)
+            {
+                EmissionLanes points;
+                for (int i = 0; i < kLanes; ++i)
+                    for (FloatLanes* lanes :
+                         {&points.light, &points.aim, &points.positionU, &points.positionV,
+                          &points.directionU, &points.directionV})
+                        (*lanes)[i] = uniform();
+                StartLanes starts;
+                const LaneMask alive = emitter.emitLanes(points, starts);
+                for (int i = 0; i < kLanes; ++i)
+                {
+                    const auto start = emitter.emit({points.light[i],
+                                                     points.aim[i],
+                                                     {points.positionU[i], points.positionV[i]},
+                                                     {points.directionU[i], points.directionV[i]}});
+                    started += start.has_value();
+                    const bool has = (alive >> i) & 1u;
+                    if (!start || !has)
+                    {
+                        different += start.has_value() != has;
+                        continue;
+                    }
+                    const Vec3 origin(starts.origin.x[i], starts.origin.y[i], starts.origin.z[i]);
+                    const Vec3 direction(starts.direction.x[i], starts.direction.y[i],
+                                         starts.direction.z[i]);
+                    const Vec3 power(starts.power.x[i], starts.power.y[i], starts.power.z[i]);
+                    REQUIRE(starts.light[i] == start->light);
+                    REQUIRE(glm::length(origin - start->origin) < 1e-5f);
+                    REQUIRE(glm::length(direction - start->direction) < 2e-6f);
+                    different +=
+                        glm::length(power - start->power) > 1e-4f * glm::length(start->power);
+                }
+            }
+            CAPTURE(int(kind), share, different);
+            CHECK(started > 12000);
+            // Directions within roundings of a cone's rim are in it or not.
+            CHECK(different <= 3);
+        }
+    }
+}

@@ -1,0 +1,19 @@
+// PhotonsMode.cpp - the parts of the mode. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "apps/osgraytracebench/PhotonsMode.h"
+
+namespace osgRayTrace::bench
+{
+
+Rows measurePhotons(const PhotonsOptions& options)
+{
+    const auto wanted = [&](const std::string& part)
+    { return part.find(options.only) != std::string::npos; };
+    Rows rows;
+    if (wanted("lookup")) measurePhotonLookups(rows);
+    if (wanted("tracing")) measurePhotonRays(rows);
+    if (wanted("error") && options.width > 0) measurePhotonErrors(options, rows);
+    return rows;
+}
+
+} // namespace osgRayTrace::bench

@@ -1,0 +1,31 @@
+// PhotonsMode.h - speed of photon maps, and the error that photons leave. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "apps/osgraytracebench/Rows.h"
+
+#include <string>
+
+namespace osgRayTrace::bench
+{
+
+struct PhotonsOptions
+{
+    int width = 256;                ///< of the pictures, which are square [pixels]; 0: no pictures
+    double longest = 4.0;           ///< longest budget of a picture [s]
+    int seeds = 2;                  ///< pictures of each method
+    double referenceSeconds = 60.0; ///< spent on a reference that is rendered
+    std::string referenceA, referenceB, referenceC; ///< files; empty: rendered
+    std::string only;                               ///< rows of parts whose name holds this
+};
+
+/// Look-ups and building against a plain grid, tracing against Embree alone on the same rays, and
+/// error against time of all that use photons, and of path tracing. Throws app::Failure.
+Rows measurePhotons(const PhotonsOptions& options);
+
+/// Parts of it.
+void measurePhotonLookups(Rows& rows);
+void measurePhotonRays(Rows& rows);
+void measurePhotonErrors(const PhotonsOptions& options, Rows& rows);
+
+} // namespace osgRayTrace::bench

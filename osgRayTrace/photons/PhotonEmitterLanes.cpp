@@ -1,0 +1,258 @@
+// PhotonEmitterLanes.cpp - sixteen photons leave the lights at once. Layer: photons.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/photons/PhotonEmitter.h"
+
+#include "osgRayTrace/sampling/Warp.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// A light that is a parallelogram, and what photons are aimed at.
+struct Source
+{
+    Vec3 corner, edgeU, edgeV, normal;
+    float offset, area;
+    Vec3 radiance;
+    uint32_t twoSided; ///< all bits or none
+    const PhotonEmitter::Sphere* targets;
+    int targetCount;
+    float aimedShare;
+};
+
+/// The cones of a target from the lanes' points on the light.
+struct AimLanes
+{
+    Vec3Lanes axis;
+    FloatLanes oneMinusCosine; ///< 0: the point is in or beside the target
+};
+
+/// What is known of the lanes' points on the light before their directions.
+struct PointLanes
+{
+    Vec3Lanes position;
+    FloatLanes total; ///< of 1 - cosine over the aims
+    AimLanes aims[PhotonEmitter::kMaxTargets];
+    Vec3Lanes chosenAxis;
+    FloatLanes chosenCone;
+};
+
+OSGRAYTRACE_KERNEL
+void pointsOn(const Source& source, const EmissionLanes& e, PointLanes& p)
+{
+    const Source s = source;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float u = e.positionU[i], v = e.positionV[i];
+        p.position.x[i] = s.corner.x + u * s.edgeU.x + v * s.edgeV.x;
+        p.position.y[i] = s.corner.y + u * s.edgeU.y + v * s.edgeV.y;
+        p.position.z[i] = s.corner.z + u * s.edgeU.z + v * s.edgeV.z;
+        p.total[i] = 0.0f;
+        p.chosenAxis.x[i] = p.chosenAxis.y[i] = p.chosenAxis.z[i] = 0.0f;
+        p.chosenCone[i] = 0.0f;
+    }
+}
+
+/// As PhotonEmitter::conesFrom.
+OSGRAYTRACE_KERNEL
+void addCone(const PhotonEmitter::Sphere& sphere, PointLanes& p, AimLanes& aim)
+{
+    const Vec3 centre = sphere.centre;
+    const float radius = sphere.radius;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float dx = centre.x - p.position.x[i], dy = centre.y - p.position.y[i],
+                    dz = centre.z - p.position.z[i];
+        const float distance2 = dx * dx + dy * dy + dz * dz;
+        const float sin2 = radius * radius / distance2;
+        const float inverse = 1.0f / std::sqrt(distance2);
+        const uint32_t outside = maskOf(sin2 < 0.999f);
+        const float cosine2 = select(outside, 1.0f - sin2, 1.0f);
+        const float cone = select(outside, sin2 / (1.0f + std::sqrt(cosine2)), 0.0f);
+        aim.axis.x[i] = dx * inverse;
+        aim.axis.y[i] = dy * inverse;
+        aim.axis.z[i] = dz * inverse;
+        aim.oneMinusCosine[i] = cone;
+        p.total[i] += cone;
+    }
+}
+
+/// One of the aims, by solid angle: at counts down to it. The last one catches what rounding
+/// leaves.
+OSGRAYTRACE_KERNEL
+void chooseCone(const AimLanes& aim, FloatLanes& at, PointLanes& p)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float cone = aim.oneMinusCosine[i];
+        const uint32_t take = maskOf(cone > 0.0f) & maskOf(at[i] >= 0.0f);
+        p.chosenAxis.x[i] = select(take, aim.axis.x[i], p.chosenAxis.x[i]);
+        p.chosenAxis.y[i] = select(take, aim.axis.y[i], p.chosenAxis.y[i]);
+        p.chosenAxis.z[i] = select(take, aim.axis.z[i], p.chosenAxis.z[i]);
+        p.chosenCone[i] = select(take, cone, p.chosenCone[i]);
+        at[i] = select(take, at[i] - cone, at[i]);
+    }
+}
+
+/// Directions, by aim or as the light shines.
+OSGRAYTRACE_KERNEL
+void directions(const Source& source, const EmissionLanes& e, const PointLanes& p,
+                StartLanes& starts)
+{
+    const Source s = source;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float share = select(p.total[i] > 0.0f, s.aimedShare, 0.0f);
+        const uint32_t aimed = maskOf(e.aim[i] < share);
+        const float rest = (e.aim[i] - share) / (1.0f - share);
+        const float side = select(s.twoSided & maskOf(rest >= 0.5f), -1.0f, 1.0f);
+        const float nx = select(aimed, p.chosenAxis.x[i], s.normal.x * side);
+        const float ny = select(aimed, p.chosenAxis.y[i], s.normal.y * side);
+        const float nz = select(aimed, p.chosenAxis.z[i], s.normal.z * side);
+
+        float sine, cosine;
+        sinCosTurn(e.directionU[i], sine, cosine);
+        const float v = e.directionV[i];
+        // Uniform in a cone, or by the cosine: see squareToCone.
+        const float height = v * p.chosenCone[i];
+        const float lz = select(aimed, 1.0f - height, std::sqrt(1.0f - v));
+        const float radius = std::sqrt(select(aimed, height * (2.0f - height), v));
+        const float lx = radius * cosine, ly = radius * sine;
+        const float sign = nz >= 0.0f ? 1.0f : -1.0f;
+        const float a = -1.0f / (sign + nz);
+        const float b = nx * ny * a;
+        starts.direction.x[i] = (1.0f + sign * nx * nx * a) * lx + b * ly + nx * lz;
+        starts.direction.y[i] = sign * b * lx + (sign + ny * ny * a) * ly + ny * lz;
+        starts.direction.z[i] = -sign * nx * lx - ny * ly + nz * lz;
+    }
+}
+
+OSGRAYTRACE_KERNEL
+void countInside(const AimLanes& aim, const StartLanes& starts, FloatLanes& inside)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float x = starts.direction.x[i] - aim.axis.x[i],
+                    y = starts.direction.y[i] - aim.axis.y[i],
+                    z = starts.direction.z[i] - aim.axis.z[i];
+        const float cone = aim.oneMinusCosine[i];
+        const uint32_t in = maskOf(0.5f * (x * x + y * y + z * z) <= cone) & maskOf(cone > 0.0f);
+        inside[i] += select(in, 1.0f, 0.0f);
+    }
+}
+
+/// Power over the density of the mixture; origins. Returns the lanes that leave a side that shines.
+OSGRAYTRACE_KERNEL
+LaneMask powers(const Source& source, const PointLanes& p, const FloatLanes& inside,
+                StartLanes& starts)
+{
+    const Source s = source;
+    LaneMask alive = 0;
+    OSGRAYTRACE_SIMD_OR(alive)
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float share = select(p.total[i] > 0.0f, s.aimedShare, 0.0f);
+        const float signedCosine = starts.direction.x[i] * s.normal.x +
+                                   starts.direction.y[i] * s.normal.y +
+                                   starts.direction.z[i] * s.normal.z;
+        const float cosine = std::fabs(signedCosine);
+        const float sides = select(s.twoSided, 0.5f, 1.0f);
+        const float aimed =
+            select(share > 0.0f, share * inside[i] / (2.0f * kPi * p.total[i]), 0.0f);
+        const float pdf = (1.0f - share) * cosine * kInvPi * sides + aimed;
+        const float power = cosine * s.area / pdf;
+        starts.power.x[i] = s.radiance.x * power;
+        starts.power.y[i] = s.radiance.y * power;
+        starts.power.z[i] = s.radiance.z * power;
+        const float offset = select(signedCosine >= 0.0f, s.offset, -s.offset);
+        starts.origin.x[i] = p.position.x[i] + s.normal.x * offset;
+        starts.origin.y[i] = p.position.y[i] + s.normal.y * offset;
+        starts.origin.z[i] = p.position.z[i] + s.normal.z * offset;
+        const float all = starts.power.x[i] + starts.power.y[i] + starts.power.z[i] +
+                          starts.origin.x[i] + starts.origin.y[i] + starts.origin.z[i];
+        const uint32_t shines = maskOf(signedCosine >= 0.0f) | s.twoSided;
+        alive |= bitOfLane(maskOf(cosine > 0.0f) & maskOf(pdf > 0.0f) &
+                               maskOf(std::fabs(all) < kInfinity) & shines,
+                           i);
+    }
+    return alive;
+}
+
+LaneMask emitFrom(const Source& source, const EmissionLanes& points, StartLanes& starts)
+{
+    PointLanes p;
+    pointsOn(source, points, p);
+    for (int t = 0; t < source.targetCount; ++t)
+        addCone(source.targets[t], p, p.aims[t]);
+    FloatLanes at, inside = {};
+    for (int i = 0; i < kLanes; ++i)
+        at[i] = source.aimedShare > 0.0f ? points.aim[i] / source.aimedShare * p.total[i] : 0.0f;
+    for (int t = 0; t < source.targetCount; ++t)
+        chooseCone(p.aims[t], at, p);
+    directions(source, points, p, starts);
+    for (int t = 0; t < source.targetCount; ++t)
+        countInside(p.aims[t], starts, inside);
+    return powers(source, p, inside, starts);
+}
+
+} // namespace
+
+LaneMask PhotonEmitter::emitLanes(const EmissionLanes& points, StartLanes& starts) const
+{
+    // One plain light of area is the rule. All others go one by one.
+    if (_emitters.size() != 1 || _lights[_emitters[0]].kind != LightKind::Parallelogram)
+        return emitSingly(points, starts);
+    const uint32_t index = _emitters[0];
+    const Light& light = _lights[index];
+    const LightTable& table = _traced.lights();
+    const int targets = _aimedShare > 0.0f ? static_cast<int>(_targets.size()) : 0;
+    const Source source{light.corner,
+                        light.edgeU,
+                        light.edgeV,
+                        table.normal(index),
+                        table.pointOffset(index),
+                        table.area(index),
+                        light.radiance,
+                        maskOf(light.twoSided),
+                        _targets.data(),
+                        targets,
+                        _aimedShare};
+    for (int i = 0; i < kLanes; ++i)
+        starts.light[i] = index;
+    return emitFrom(source, points, starts);
+}
+
+LaneMask PhotonEmitter::emitSingly(const EmissionLanes& points, StartLanes& starts) const
+{
+    LaneMask alive = 0;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const std::optional<PhotonStart> start =
+            emit({points.light[i], points.aim[i], Vec2(points.positionU[i], points.positionV[i]),
+                  Vec2(points.directionU[i], points.directionV[i])});
+        if (!start) continue;
+        starts.origin.x[i] = start->origin.x;
+        starts.origin.y[i] = start->origin.y;
+        starts.origin.z[i] = start->origin.z;
+        starts.direction.x[i] = start->direction.x;
+        starts.direction.y[i] = start->direction.y;
+        starts.direction.z[i] = start->direction.z;
+        starts.power.x[i] = start->power.x;
+        starts.power.y[i] = start->power.y;
+        starts.power.z[i] = start->power.z;
+        starts.light[i] = start->light;
+        alive |= 1u << i;
+    }
+    return alive;
+}
+
+} // namespace osgRayTrace::engine
