@@ -69,8 +69,7 @@ private:
     void follow(FlightBlock block, LaneMask active, int bounce);
     void leaveLight(FlightBlock& block, SurfaceLanes& surface) const;
     void store(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes, int bounce);
-    void scatterDiffuseLanes(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes,
-                             int bounce);
+    void scatterDiffuseLanes(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes);
     void scatter(const Bsdf& bsdf, Flight flight, const SurfaceLanes& surface, int i, int bounce);
     Bsdf bsdfAt(const RayHitBlock& rays, const SurfaceLanes& surface, int i) const;
 
@@ -82,8 +81,9 @@ private:
     Chunk& _chunk;
     FlightQueue _flights{kChunk};
     // Of the block at work.
-    Vec3Lanes _albedo;   ///< of lanes that are plain Lambert surfaces
-    Bsdf _bsdfs[kLanes]; ///< of the others
+    FloatLanes _u, _v, _lobe, _roulette; ///< of its bounce
+    Vec3Lanes _albedo;                   ///< of lanes that are plain Lambert surfaces
+    Bsdf _bsdfs[kLanes];                 ///< of the others
     RayHitBlock _rays;
 };
 
@@ -158,13 +158,10 @@ void ChunkTracer::store(const FlightBlock& block, const SurfaceLanes& surface, L
 }
 
 void ChunkTracer::scatterDiffuseLanes(const FlightBlock& block, const SurfaceLanes& surface,
-                                      LaneMask lanes, int bounce)
+                                      LaneMask lanes)
 {
-    FloatLanes u, v, unused, roulette;
-    photonPoints(block.photon, dimension(bounceNumber(bounce)), u, v);
-    photonPoints(block.photon, dimension(bounceNumber(bounce) + 1), unused, roulette);
     DiffuseFlights scattered;
-    scatterDiffuse(block, surface, _albedo, u, v, roulette, scattered);
+    scatterDiffuse(block, surface, _albedo, _u, _v, _roulette, scattered);
     for (lanes &= scattered.alive; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
@@ -187,11 +184,8 @@ void ChunkTracer::scatter(const Bsdf& bsdf, Flight flight, const SurfaceLanes& s
     frameOf(shading.x, shading.y, shading.z, tangent, bitangent);
     const Vec3 wo(-glm::dot(flight.direction, tangent), -glm::dot(flight.direction, bitangent),
                   -glm::dot(flight.direction, shading));
-    Vec2 u, lobe;
-    sobol2(flight.photon, dimension(bounceNumber(bounce)), u.x, u.y);
-    sobol2(flight.photon, dimension(bounceNumber(bounce) + 1), lobe.x, lobe.y);
     const std::optional<BsdfSample> sample =
-        sampleBsdf(bsdf, wo, lobe.x, u.x, u.y, Transport::Importance);
+        sampleBsdf(bsdf, wo, _lobe[i], _u[i], _v[i], Transport::Importance);
     if (!sample || (mustReflect(bounce) && !sample->delta)) return;
     const Vec3 wi = tangent * sample->wi.x + bitangent * sample->wi.y + shading * sample->wi.z;
     const float side = glm::dot(wi, geometric);
@@ -204,7 +198,7 @@ void ChunkTracer::scatter(const Bsdf& bsdf, Flight flight, const SurfaceLanes& s
     Vec3 weight = sample->weight;
     if (correction < kInfinity) weight *= correction;
     const float survival = std::min(1.0f, std::max(weight.x, std::max(weight.y, weight.z)));
-    if (!(lobe.y < survival)) return;
+    if (!(_roulette[i] < survival)) return;
     flight.power *= weight / survival;
     flight.origin = position + geometric * (side < 0.0f ? -surface.offset[i] : surface.offset[i]);
     flight.direction = wi;
@@ -223,11 +217,12 @@ void ChunkTracer::follow(FlightBlock block, LaneMask active, int bounce)
     surfacesOf(_traced.surfaces(), _rays, active, surface);
     if (bounce == 0) leaveLight(block, surface);
 
+    const MaterialTable& materials = _traced.materials();
     LaneMask diffuse = 0, general = 0, stores = 0;
     for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        const MaterialRecord& record = _traced.materials()[surface.material[i]];
+        const MaterialRecord& record = materials[surface.material[i]];
         if (record.plainDiffuse)
         {
             const Vec3 albedo = record.front.diffuse;
@@ -245,11 +240,13 @@ void ChunkTracer::follow(FlightBlock block, LaneMask active, int bounce)
     if (bounce + 2 > _options.maxBounces) return; // the next surface would be too far for any eye
     if (mustReflect(bounce)) diffuse = 0;
     if (!(diffuse | general)) return;
-    if (diffuse) scatterDiffuseLanes(block, surface, diffuse, bounce);
+    photonPoints(block.photon, dimension(bounceNumber(bounce)), _u, _v);
+    photonPoints(block.photon, dimension(bounceNumber(bounce) + 1), _lobe, _roulette);
+    if (diffuse) scatterDiffuseLanes(block, surface, diffuse);
     for (; general; general &= general - 1)
     {
         const int i = __builtin_ctz(general);
-        scatter(_bsdfs[i], flightOf(block, i), surface, i, bounce);
+        scatter(_bsdfs[i], flightOf(block, i), surface, i);
     }
 }
 
