@@ -203,6 +203,17 @@ TEST_CASE("osgraytrace: --stats counts what was done", "[apps]")
     CHECK(json["relativeError"].get<double>() > 0.0);
     CHECK(json["conversion"]["converted.area-light"] == 2);
 
+    // What photons take, for all passes that are kept and for this view.
+    REQUIRE(osgraytrace(folder, kBox + " --size 32 32 --passes 3 --integrator ppm --photons 3000 "
+                                       "--photon-radius 1e9 -o x.png --stats s.json")
+                .exitCode == 0);
+    const nlohmann::json photons = statistics(folder)["photons"];
+    CHECK(photons["stored"].get<uint64_t>() > 1000);
+    CHECK(photons["bytes"].get<uint64_t>() > 3 * 40 * 1000);
+    CHECK(photons["hitPointBytes"].get<uint64_t>() > 32 * 32 * 50);
+    CHECK(photons["note"].get<std::string>().find("photon-radius is limited") == 0);
+    CHECK(statistics(folder)["rays"]["camera"] == 32 * 32); // of the first pass alone
+
     // One pass has no error estimate: null, which every JSON reader takes.
     REQUIRE(osgraytrace(folder, kBox + " --size 8 8 --passes 1 -o x.png --stats s.json").exitCode ==
             0);

@@ -55,7 +55,7 @@ TEST_CASE("stability 39: any radius gives a finite picture, those out of bounds 
     {
         float radius;
         bool limited;
-    } rows[] = {{0.0f, false},   {1e-38f, true}, {1e-12f, true}, {2.4e-7f, true},
+    } rows[] = {{0.0f, false},  {1e-38f, true}, {1e-12f, true}, {2.4e-7f, true},
                 {1e-5f, false}, {0.1f, false},  {10.0f, true},  {1e30f, true}};
     const auto traced = litRoom().build();
     for (const IntegratorKind kind : kPhotonKinds)
@@ -123,7 +123,8 @@ TEST_CASE("photon extremes: a closed box of mirrors comes to an end, with a note
     }
 }
 
-// 3 comparisons at 4 standard errors of 12 values each: a false alarm of all has a probability of 0.005.
+// 3 comparisons at 4 standard errors of 12 values each: a false alarm of all has a probability of
+// 0.005.
 TEST_CASE("photon extremes: a light inside of glass", "[photons][statistics]")
 {
     SceneBuilder builder = darkRoom();
