@@ -14,6 +14,8 @@ namespace
 const std::string kExpectations = R"({
   "non_finite": 0,
   "bias": { "largest_percent": 0.1, "largest_errors": 4 },
+  "kernels": [ { "scene": "s6-flat-mirror", "method": "SPPM", "largest_percent": 0.25,
+                 "bias_square_left": 0.3, "slope": [-1.0, -0.6] } ],
   "placements": { "largest_errors": 4 },
   "sampler_slopes": [ { "scene": "open", "strategy": "Sobol", "at_most": -2.5 },
                       { "scene": "open", "strategy": "random", "at_most": -0.9, "at_least": -1.1 } ],
@@ -49,6 +51,31 @@ TEST_CASE("expectations: each can be missed", "[report]")
     {
         report.lines[0].rows[1].biasError = report.lines[2].rows[1].biasError = 0.002;
         CHECK(failures(report) == 2);
+    }
+    SECTION("the mean under a kernel")
+    {
+        report.lines[4].rows[1].biasPercent = -0.3;
+        CHECK(failures(report) == 1);
+    }
+    SECTION("a kernel's bias that stays")
+    {
+        report.lines[4].rows[1].mse = 1.5e-4;
+        CHECK(failures(report) == 1);
+    }
+    SECTION("a kernel's bias that was never there cannot have fallen")
+    {
+        report.lines[4].rows[0].mse = report.lines[4].rows[0].variance;
+        CHECK(failures(report) == 1);
+    }
+    SECTION("the slope of a method with a kernel, either way")
+    {
+        report.lines[4].slope = GENERATE(-0.5, -1.1);
+        CHECK(failures(report) == 1);
+    }
+    SECTION("a method with a kernel that nothing is expected of")
+    {
+        report.lines[4].method = "PPM";
+        CHECK(failures(report) == 2); // and SPPM was not measured
     }
     SECTION("the displaced mean")
     {
@@ -95,7 +122,7 @@ TEST_CASE("expectations: what was not measured is not met", "[report]")
     report.samplers.clear();
     CHECK(failures(report) == 3);
     report.lines.clear();
-    CHECK(failures(report) == 5);
+    CHECK(failures(report) == 6);
     CHECK_THROWS_AS(checkExpectations(report, "{}"), osgRayTrace::app::Failure);
     CHECK_NOTHROW(checkExpectations(report, builtInExpectations()));
 }

@@ -52,6 +52,8 @@ ReportScene cornellScene(CornellKind kind)
     }
     useStoredView(scene);
     scene.methods = {pathMethod(100)};
+    for (const Method& method : photonMethods(100, kind != CornellKind::Diffuse))
+        scene.methods.push_back(method);
     scene.placements = {atOrigin(), displaced()};
     scene.reference = pathMethod(100);
     return scene;

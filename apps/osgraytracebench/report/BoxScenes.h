@@ -14,7 +14,7 @@ enum class CornellKind
     Glass,  ///< a sphere of it in place of the blocks
 };
 
-/// The published box, by path tracing.
+/// The published box, by path tracing and photons.
 ReportScene cornellScene(CornellKind kind);
 
 /// Lattices below an area light: direct light by all strategies.

@@ -121,7 +121,8 @@ std::string plot(const std::vector<Curve>& curves, const std::vector<Guide>& gui
                << (guide.slope < -2.5    ? 4
                    : guide.slope < -1.75 ? 3
                    : guide.slope < -1.25 ? 2
-                                         : 5)
+                   : guide.slope < -0.8  ? 5
+                                         : 6)
                << " lc rgb '#888888' title 'slope " << guide.name << "', ";
     for (std::size_t c = 0; c < curves.size(); ++c)
     {
@@ -153,7 +154,8 @@ std::string errorPlot(const std::vector<const ReportLine*>& lines)
             curve.points.push_back({row.seconds, row.relMse, row.relMseError});
         curves.push_back(curve);
     }
-    return plot(curves, {{-1.0, "-1"}, {-1.5, "-3/2"}, {-2.0, "-2"}}, "seconds", "relMSE");
+    return plot(curves, {{-2.0 / 3.0, "-2/3"}, {-1.0, "-1"}, {-1.5, "-3/2"}, {-2.0, "-2"}},
+                "seconds", "relMSE");
 }
 
 std::string samplerPlot(const std::vector<const SamplerLine*>& lines)

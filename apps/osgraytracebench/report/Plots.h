@@ -14,7 +14,7 @@ namespace osgRayTrace::bench
 bool haveGnuplot();
 
 /// relMSE against seconds of lines of one scene, log-log, one standard error up and down, with
-/// guides of slope -1, -3/2 and -2: an <svg> element.
+/// guides of slope -2/3, -1, -3/2 and -2: an <svg> element.
 std::string errorPlot(const std::vector<const ReportLine*>& lines);
 
 /// Mean squared error against the number of samples of the strategies of one case, with guides of

@@ -32,6 +32,8 @@ struct ReportRow
     double percentile999 = 0.0; ///< of |x - r|
     double flip = 0.0;          ///< mean, of display values at an exposure fitted to the reference
     int64_t nonFinite = 0;      ///< samples dropped and values in pictures, of all seeds
+    double variance = 0.0;      ///< of one picture's pixels and colours, unbiased, over the seeds;
+                                ///< mse less this is the square of the bias
     double efficiency = 0.0;    ///< 1 / (variance * seconds)
 };
 
@@ -42,6 +44,7 @@ struct ReportLine
 {
     std::string scene, placement, method;
     std::string reference;     ///< what it was compared with
+    bool kernel = false;       ///< biased by the width of its kernel: see hasKernel
     double buildSeconds = 0.0; ///< conversion and BVH
     std::vector<ReportRow> rows;
     double slope = 0.0;      ///< of log relMSE over log seconds, or over log passes

@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 namespace
 {
 
-constexpr const char* kFormat = "osgraytracebench report 1";
+constexpr const char* kFormat = "osgraytracebench report 2";
 
 /// The columns of a row: one table for both formats.
 struct Column
@@ -44,6 +44,7 @@ constexpr Column kColumns[] = {
     {"bias_error_percent", &ReportRow::biasError},
     {"percentile_99_9", &ReportRow::percentile999},
     {"flip", &ReportRow::flip},
+    {"variance", &ReportRow::variance},
     {"efficiency", &ReportRow::efficiency},
 };
 
@@ -88,6 +89,7 @@ ordered_json lineJson(const ReportLine& line)
                       {"placement", line.placement},
                       {"method", line.method},
                       {"reference", line.reference},
+                      {"kernel", line.kernel},
                       {"build_seconds", line.buildSeconds},
                       {"slope", number(line.slope)},
                       {"slope_error", number(line.slopeError)}};
@@ -107,6 +109,7 @@ ReportLine lineFrom(const ordered_json& json)
     line.placement = json.at("placement");
     line.method = json.at("method");
     line.reference = json.at("reference");
+    line.kernel = json.at("kernel");
     line.buildSeconds = json.at("build_seconds");
     line.slope = numberFrom(json.at("slope"));
     line.slopeError = numberFrom(json.at("slope_error"));
