@@ -21,6 +21,21 @@ using osg::Vec3d;
 constexpr double kSide = 8.0, kHeight = 7.0; ///< of the prism: equilateral, upright [cm]
 constexpr double kStands = 0.02;             ///< above the table
 
+constexpr float kRoom = 60.0f, kPlank = 3.0f; ///< half the room's side, width of a plank [cm]
+
+/// Every other plank of the table: what is seen through glass shows best on stripes.
+std::vector<Quad> planks(int first)
+{
+    std::vector<Quad> quads;
+    for (int i = first; i < 40; i += 2)
+    {
+        const float x0 = -kRoom + kPlank * float(i), x1 = x0 + kPlank;
+        quads.push_back(
+            {Vec3(x0, -kRoom, 0), Vec3(x1, -kRoom, 0), Vec3(x1, kRoom, 0), Vec3(x0, kRoom, 0)});
+    }
+    return quads;
+}
+
 /// Three upright sides, bottom and top, normals outwards.
 std::vector<Quad> prismSides()
 {
@@ -78,9 +93,10 @@ osg::ref_ptr<osg::Group> prism()
 {
     osg::ref_ptr<osg::Group> scene = newScene("prism");
     scene->addChild(storedView(Vec3d(5, -32, 19), Vec3d(3.0, 0.5, 2.0), Vec3d(0, 0, 1), 33.0));
-    const Quad table{Vec3(-60, -60, 0), Vec3(60, -60, 0), Vec3(60, 60, 0), Vec3(-60, 60, 0)};
-    scene->addChild(surface("table", {table}, lambert(Vec3(0.5f, 0.5f, 0.52f)).get()));
-    std::vector<Quad> walls = boxQuads(Vec3(-60, -60, 0), Vec3(60, 60, 60));
+    const Vec3 light(0.6f, 0.56f, 0.5f), dark(0.3f, 0.27f, 0.24f);
+    scene->addChild(surface("light planks", planks(0), lambert(light).get()));
+    scene->addChild(surface("dark planks", planks(1), lambert(dark).get()));
+    std::vector<Quad> walls = boxQuads(Vec3(-kRoom, -kRoom, 0), Vec3(kRoom, kRoom, kRoom));
     walls.erase(walls.begin()); // the floor is the table
     scene->addChild(surface("walls", walls, lambert(Vec3(0.75f, 0.73f, 0.7f)).get()));
     scene->addChild(surface("prism", prismSides(), glass(1.5f).get()));
@@ -88,7 +104,7 @@ osg::ref_ptr<osg::Group> prism()
     scene->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
 
     osg::ref_ptr<AreaLight> sky =
-        new AreaLight(Vec3(-25, -10, 59), Vec3(0, 40, 0), Vec3(50, 0, 0), Vec3(1.0f, 1.1f, 1.3f));
+        new AreaLight(Vec3(-35, 0, 59), Vec3(0, 20, 0), Vec3(30, 0, 0), Vec3(1.6f, 1.75f, 2.1f));
     sky->setName("sky");
     scene->addChild(sky.get());
     return scene;
