@@ -52,8 +52,9 @@ struct CommandLine
             .add_option("--width", options.width,
                         "width of the pictures [pixels]; 0: 128, quick 32")
             ->check(CLI::Range(0, 4096));
-        report.add_option("--only", options.only,
-                          "scenes whose name holds this; \"samplers\" for these alone");
+        report.add_option(
+            "--only", options.only,
+            "scenes whose name holds this; \"samplers\", \"schedules\" for these alone");
         report.add_option("--expectations", options.expectations,
                           "check a quick report against this file, not the built-in one");
         report.add_option("MODEL", options.models, "measure these files, together one scene");
@@ -83,8 +84,8 @@ struct CommandLine
     CLI::App application{"Speed and error of osgRayTrace."};
     CLI::App& limit = *application.add_subcommand(
         "limit", "a whole frame, a path traced one and a build against Embree alone");
-    CLI::App& features =
-        *application.add_subcommand("features", "what features cost a scene that does not use them");
+    CLI::App& features = *application.add_subcommand(
+        "features", "what features cost a scene that does not use them");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(

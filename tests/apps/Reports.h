@@ -59,5 +59,8 @@ inline osgRayTrace::bench::Report smallReport()
         line.points = {{16, 1e-3, 2e-5}, {64, sobol ? 2e-5 : 2.5e-4, 1e-6}};
         report.samplers.push_back(line);
     }
+    ScheduleLine schedule{"GLOBAL, alpha 2/3", {}};
+    schedule.points = {{1, 5e-7, 2e-6, 1e-8, 4e-7, 5e-6}, {8, 1e-7, 2e-7, 1e-9, 1e-7, 1e-6}};
+    report.schedules.push_back(schedule);
     return report;
 }

@@ -188,6 +188,37 @@ void checkSlopes(const Report& report, const json& wanted, std::vector<Verdict>&
     }
 }
 
+/// The squared bias is what the formula says, the variance no more than that of independent
+/// photons.
+void checkSchedules(const Report& report, const json& wanted, std::vector<Verdict>& verdicts)
+{
+    for (const json& entry : wanted)
+    {
+        const std::string schedule = entry.at("schedule");
+        const auto line =
+            std::find_if(report.schedules.begin(), report.schedules.end(),
+                         [&](const ScheduleLine& l) { return l.schedule == schedule; });
+        if (line == report.schedules.end() || line->points.empty())
+        {
+            verdicts.push_back(notMeasured("schedule " + schedule));
+            continue;
+        }
+        const SchedulePoint& last = line->points.back();
+        const double bias = last.biasSquare / last.exactBiasSquare,
+                     variance = last.variance / last.exactVariance;
+        const double least = entry.at("bias_square").at(0), most = entry.at("bias_square").at(1),
+                     mostVariance = entry.at("variance_at_most");
+        verdicts.push_back(
+            {text("%s, %d passes: squared bias %.3f of the formula's, wanted from %g "
+                  "to %g",
+                  schedule.c_str(), last.passes, bias, least, most),
+             bias >= least && bias <= most});
+        verdicts.push_back({text("%s, %d passes: variance %.3f of the formula's, wanted at most %g",
+                                 schedule.c_str(), last.passes, variance, mostVariance),
+                            variance > 0.0 && variance <= mostVariance});
+    }
+}
+
 double mseAt(const SamplerLine* line, int samples)
 {
     if (!line) return std::nan("");
@@ -252,6 +283,7 @@ std::vector<Verdict> checkExpectations(const Report& report, const std::string& 
         checkKernels(report, wanted.at("kernels"), verdicts);
         checkPlacements(report, wanted.at("placements"), verdicts);
         checkSlopes(report, wanted.at("sampler_slopes"), verdicts);
+        checkSchedules(report, wanted.at("schedules"), verdicts);
         checkOrders(report, wanted.at("sampler_orders"), verdicts);
         checkRatios(report, wanted.at("method_ratios"), verdicts);
         return verdicts;

@@ -21,4 +21,8 @@ std::string errorPlot(const std::vector<const ReportLine*>& lines);
 /// slope -1, -3/2, -2 and -3: an <svg> element.
 std::string samplerPlot(const std::vector<const SamplerLine*>& lines);
 
+/// Squared bias and variance against the number of passes, points over the lines of the formulas:
+/// an <svg> element.
+std::string schedulePlot(const std::vector<ScheduleLine>& lines);
+
 } // namespace osgRayTrace::bench

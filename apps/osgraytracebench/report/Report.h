@@ -69,6 +69,24 @@ struct SamplerLine
     double secondsPerSample = 0.0; ///< wall clock of all points by all their samples
 };
 
+/// What is left of bias and scatter after so many passes, means over the pixels of a picture.
+struct SchedulePoint
+{
+    int passes = 0;
+    double biasSquare = 0.0;      ///< mse less variance; noise may make it negative
+    double variance = 0.0;        ///< of one picture
+    double error = 0.0;           ///< standard error of their sum
+    double exactBiasSquare = 0.0; ///< of the global schedule
+    double exactVariance = 0.0;   ///< of the global schedule and independent photons
+};
+
+/// One way of shrinking the radius of photon lookups.
+struct ScheduleLine
+{
+    std::string schedule;
+    std::vector<SchedulePoint> points;
+};
+
 struct Report
 {
     std::map<std::string, std::string> machine; ///< cpu, threads, isa, versions
@@ -76,6 +94,7 @@ struct Report
     int width = 0;
     std::vector<ReportLine> lines;
     std::vector<SamplerLine> samplers;
+    std::vector<ScheduleLine> schedules;
 };
 
 } // namespace osgRayTrace::bench

@@ -11,6 +11,7 @@
 #include "apps/osgraytracebench/report/ReportFiles.h"
 #include "apps/osgraytracebench/report/ReportPage.h"
 #include "apps/osgraytracebench/report/SamplerStudy.h"
+#include "apps/osgraytracebench/report/ScheduleStudy.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/integrators/Integrator.h"
 
@@ -141,6 +142,28 @@ void measureSamplers(Run& run)
     }
 }
 
+void measureSchedules(Run& run)
+{
+    const int seeds = run.options.quick ? 4 : 8, mostPasses = run.options.quick ? 32 : 256;
+    run.report.schedules = studySchedules(seeds, mostPasses, !run.options.quick, run.workers);
+    for (const ScheduleLine& line : run.report.schedules)
+    {
+        const SchedulePoint& last = line.points.back();
+        std::printf("%-18s %5d passes: squared bias %9.3g, %.3f of the formula; variance %9.3g, "
+                    "%.3f of it\n",
+                    line.schedule.c_str(), last.passes, last.biasSquare,
+                    last.biasSquare / last.exactBiasSquare, last.variance,
+                    last.variance / last.exactVariance);
+    }
+}
+
+/// A whole report measures all; --only the studies whose name begins with it.
+bool wanted(const ReportOptions& options, const char* study)
+{
+    if (!options.models.empty()) return false;
+    return options.only.empty() || std::string(study).find(options.only) == 0;
+}
+
 std::string expectationsOf(const ReportOptions& options)
 {
     if (options.expectations.empty()) return builtInExpectations();
@@ -180,9 +203,8 @@ int runReport(const ReportOptions& options)
         if (scene.name.find(options.only) != std::string::npos) measureScene(run, scene);
     }
     const bool whole = options.models.empty() && options.only.empty();
-    const bool samplersAlone =
-        !options.only.empty() && std::string("samplers").find(options.only) == 0;
-    if (whole || samplersAlone) measureSamplers(run);
+    if (wanted(options, "samplers")) measureSamplers(run);
+    if (wanted(options, "schedules")) measureSchedules(run);
 
     writeJson(run.report, options.folder + "/report.json");
     writeCsv(run.report, options.folder + "/report.csv");
