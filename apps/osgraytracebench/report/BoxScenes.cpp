@@ -59,6 +59,35 @@ ReportScene cornellScene(CornellKind kind)
     return scene;
 }
 
+ReportScene causticScene(CausticKind kind)
+{
+    constexpr int kBounces = 24, kMorePhotons = 16;
+    ReportScene scene;
+    switch (kind)
+    {
+    case CausticKind::Glasses:
+        scene.name = "s8-glasses";
+        scene.title = "S8: a glass sphere and a glass of water under a small lamp";
+        scene.graph = data::glasses();
+        break;
+    case CausticKind::Rings:
+        scene.name = "s9-rings";
+        scene.title = "S9: rings and their caustics in a looking-glass";
+        scene.graph = data::rings();
+        break;
+    }
+    scene.aspect = kAspect;
+    useStoredView(scene);
+    scene.methods = {pathMethod(kBounces)};
+    for (const Method& method : photonMethods(kBounces, true))
+        scene.methods.push_back(method);
+    scene.placements = {atOrigin()};
+    scene.reference = photonMethods(kBounces, true).back();
+    scene.referencePhotons = kMorePhotons;
+    scene.quick = false;
+    return scene;
+}
+
 ReportScene gridsScene()
 {
     ReportScene scene;

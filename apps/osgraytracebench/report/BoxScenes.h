@@ -17,6 +17,17 @@ enum class CornellKind
 /// The published box, by path tracing and photons.
 ReportScene cornellScene(CornellKind kind);
 
+enum class CausticKind
+{
+    Glasses, ///< a glass sphere and a glass of water under a small lamp
+    Rings,   ///< metal rings and their caustics in a looking-glass
+};
+
+/// The scenes of data/ that path tracing alone hardly renders: by path tracing and photons, against
+/// PHOTON_CAUSTICS with 16 times as many photons. Its bias is of the same kind, though smaller by
+/// more than 16; PATH, which has none, says by its mean what is left of it.
+ReportScene causticScene(CausticKind kind);
+
 /// Lattices below an area light: direct light by all strategies.
 ReportScene gridsScene();
 

@@ -65,6 +65,12 @@ std::vector<ReportScene> scenesOf(const Run& run)
     return {scene};
 }
 
+/// As many for a pixel whatever the width, so that a quick report looks at the same estimate.
+int photonsFor(const Run& run, const ReportScene& scene)
+{
+    return kPhotonsPerPixel * run.width * heightOf(scene, run.width);
+}
+
 Reference referenceOf(Run& run, const ReportScene& scene)
 {
     if (scene.formula || scene.pictureFormula)
@@ -75,7 +81,9 @@ Reference referenceOf(Run& run, const ReportScene& scene)
     else
         plan.seconds = kReferenceTimes * run.options.longest;
     const PreparedScene prepared = prepare(scene, scene.placements.front(), run.width, run.workers);
-    return renderedReference(scene, prepared, plan, run.options.folder);
+    ReportScene traced = scene;
+    traced.reference.options.photons = scene.referencePhotons * photonsFor(run, scene);
+    return renderedReference(traced, prepared, plan, run.options.folder);
 }
 
 BudgetPlan planFor(const Run& run, const Method& method, std::size_t placement)
@@ -83,12 +91,6 @@ BudgetPlan planFor(const Run& run, const Method& method, std::size_t placement)
     if (run.options.quick) return quickPlan(method);
     return timedPlan(placement == 0 ? run.options.longest
                                     : std::min(run.options.longest, kLongestDisplaced));
-}
-
-/// As many for a pixel whatever the width, so that a quick report looks at the same estimate.
-int photonsFor(const Run& run, const ReportScene& scene)
-{
-    return kPhotonsPerPixel * run.width * heightOf(scene, run.width);
 }
 
 void printLine(const ReportLine& line)
@@ -200,6 +202,7 @@ int runReport(const ReportOptions& options)
     run.report.width = width;
     for (const ReportScene& scene : scenesOf(run))
     {
+        if (options.quick && !scene.quick) continue;
         if (scene.name.find(options.only) != std::string::npos) measureScene(run, scene);
     }
     const bool whole = options.models.empty() && options.only.empty();

@@ -54,6 +54,8 @@ struct ReportScene
     int formulaNodes = 4;              ///< of Gauss's quadrature, along each side of a pixel
     PictureFormula pictureFormula;     ///< empty as well: the reference is rendered
     Method reference;                  ///< of a rendered one
+    int referencePhotons = 1; ///< times those of the methods: its radii are smaller by more
+    bool quick = true;        ///< part of a quick report
 };
 
 Placement atOrigin();

@@ -110,6 +110,8 @@ std::vector<ReportScene> reportScenes()
             cornellScene(CornellKind::Diffuse),
             cornellScene(CornellKind::Mirror),
             cornellScene(CornellKind::Glass),
+            causticScene(CausticKind::Glasses),
+            causticScene(CausticKind::Rings),
             gridsScene()};
 }
 
