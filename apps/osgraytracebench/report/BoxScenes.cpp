@@ -61,7 +61,7 @@ ReportScene cornellScene(CornellKind kind)
 
 ReportScene causticScene(CausticKind kind)
 {
-    constexpr int kBounces = 24, kMorePhotons = 16;
+    constexpr int kBounces = 24, kMorePhotons = 4;
     ReportScene scene;
     switch (kind)
     {

@@ -146,7 +146,7 @@ void measureSamplers(Run& run)
 
 void measureSchedules(Run& run)
 {
-    const int seeds = run.options.quick ? 4 : 8, mostPasses = run.options.quick ? 32 : 256;
+    const int seeds = run.options.quick ? 4 : 8, mostPasses = run.options.quick ? 32 : 128;
     run.report.schedules = studySchedules(seeds, mostPasses, !run.options.quick, run.workers);
     for (const ScheduleLine& line : run.report.schedules)
     {
