@@ -77,8 +77,9 @@ struct CommandLine
             .add_option("--width", options.width,
                         "width of the pictures [pixels]; 0: 128, quick 32")
             ->check(CLI::Range(0, 4096));
-        report.add_option("--only", options.only,
-                          "scenes whose name holds this; \"samplers\" for these alone");
+        report.add_option(
+            "--only", options.only,
+            "scenes whose name holds this; \"samplers\", \"schedules\" for these alone");
         report.add_option("--expectations", options.expectations,
                           "check a quick report against this file, not the built-in one");
         report.add_option("MODEL", options.models, "measure these files, together one scene");

@@ -20,6 +20,16 @@ osg::ref_ptr<osg::Group> cornellBox(CornellVariant variant);
 /// Lattices between an area light and a floor [McCarthy17, fig. 1-3].
 osg::ref_ptr<osg::Group> grids();
 
+/// Three metal rings on a table, their caustics seen directly and in a looking-glass
+/// [McCarthy17, fig. 6]. Centimetres, z up.
+osg::ref_ptr<osg::Group> rings();
+
+/// A glass sphere and a glass of water in a box, under a small lamp. Centimetres, z up.
+osg::ref_ptr<osg::Group> glasses();
+
+/// An upright prism of glass in the beam of a spot light. Centimetres, z up.
+osg::ref_ptr<osg::Group> prism();
+
 /// A closed room whose walls all emit 1/2 and reflect 1/2: seen from within, radiance is 1
 /// everywhere.
 osg::ref_ptr<osg::Group> furnace();

@@ -25,22 +25,6 @@ float srgbFromLinear(float value)
     return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1.0f / 2.4f) - 0.055f;
 }
 
-/// What the rasterizer shows: the base colour, brighter on faces that look up or to the viewer's
-/// left.
-osg::ref_ptr<osg::Material> rasterMaterial(const PhysicalMaterial& physical,
-                                           const osg::Vec3& normal)
-{
-    const osg::Vec3 up(0.35f, 0.8f, 0.5f);
-    const float shade = 0.55f + 0.45f * std::abs(normal * up);
-    const osg::Vec3& base = physical.getBaseColor();
-    const osg::Vec4 color(srgbFromLinear(base.x() * shade), srgbFromLinear(base.y() * shade),
-                          srgbFromLinear(base.z() * shade), 1.0f);
-    osg::ref_ptr<osg::Material> material = new osg::Material;
-    material->setAmbient(osg::Material::FRONT_AND_BACK, color);
-    material->setDiffuse(osg::Material::FRONT_AND_BACK, color);
-    return material;
-}
-
 osg::ref_ptr<osg::Geometry> geometryOf(const Quad& quad, const PhysicalMaterial& material)
 {
     osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array(quad.begin(), quad.end());
@@ -56,6 +40,20 @@ osg::ref_ptr<osg::Geometry> geometryOf(const Quad& quad, const PhysicalMaterial&
 
 } // namespace
 
+osg::ref_ptr<osg::Material> rasterMaterial(const PhysicalMaterial& physical,
+                                           const osg::Vec3& normal)
+{
+    const osg::Vec3 up(0.35f, 0.8f, 0.5f);
+    const float shade = 0.55f + 0.45f * std::abs(normal * up);
+    const osg::Vec3& base = physical.getBaseColor();
+    const osg::Vec4 color(srgbFromLinear(base.x() * shade), srgbFromLinear(base.y() * shade),
+                          srgbFromLinear(base.z() * shade), 1.0f);
+    osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setAmbient(osg::Material::FRONT_AND_BACK, color);
+    material->setDiffuse(osg::Material::FRONT_AND_BACK, color);
+    return material;
+}
+
 osg::ref_ptr<PhysicalMaterial> lambert(const osg::Vec3& albedo)
 {
     osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
@@ -69,6 +67,13 @@ osg::ref_ptr<PhysicalMaterial> mirror()
     osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
     material->setMetallic(1.0f);
     material->setRoughness(0.0f);
+    return material;
+}
+
+osg::ref_ptr<PhysicalMaterial> metal(const osg::Vec3& color)
+{
+    osg::ref_ptr<PhysicalMaterial> material = mirror();
+    material->setBaseColor(color);
     return material;
 }
 

@@ -7,6 +7,7 @@
 #include <osg/CameraView>
 #include <osg/Geode>
 #include <osg/Group>
+#include <osg/Material>
 #include <osg/Vec3>
 
 #include <array>
@@ -22,6 +23,14 @@ osg::ref_ptr<PhysicalMaterial> lambert(const osg::Vec3& albedo);
 osg::ref_ptr<PhysicalMaterial> mirror();
 osg::ref_ptr<PhysicalMaterial> glass(float ior);
 
+/// Mirror-like, of this colour.
+osg::ref_ptr<PhysicalMaterial> metal(const osg::Vec3& color);
+
+/// What the rasterizer shows: the base colour, brighter on faces that look up or to the viewer's
+/// left.
+osg::ref_ptr<osg::Material> rasterMaterial(const PhysicalMaterial& physical,
+                                           const osg::Vec3& normal);
+
 /// The quads with the material. Each has an osg::Material as well, so that it can be told from its
 /// neighbours when rasterized without any light.
 osg::ref_ptr<osg::Geode> surface(const std::string& name, const std::vector<Quad>& quads,
@@ -30,6 +39,23 @@ osg::ref_ptr<osg::Geode> surface(const std::string& name, const std::vector<Quad
 /// Finely tessellated, with smooth normals.
 osg::ref_ptr<osg::Geode> sphere(const std::string& name, const osg::Vec3& center, float radius,
                                 PhysicalMaterial* material);
+
+/// A point of a profile that is turned around the z axis, and the normal there.
+struct ProfilePoint
+{
+    double radius, z;
+    double outwards, up; ///< unit normal
+};
+
+/// The profile around an upright axis through base: columns facets with smooth normals. Going along
+/// it, what the normals point to lies on the right.
+osg::ref_ptr<osg::Geode> turned(const std::string& name, const std::vector<ProfilePoint>& profile,
+                                const osg::Vec3d& base, int columns, PhysicalMaterial* material);
+
+/// Adds an arc of a circle around (radius, z): from angle to angle above the outward direction
+/// [degrees]. Its normals point away from the centre, or to it if the size is negative.
+void addArc(std::vector<ProfilePoint>& profile, double radius, double z, double size,
+            double fromDegrees, double toDegrees, int steps);
 
 /// The six sides of a box along the axes.
 std::vector<Quad> boxQuads(const osg::Vec3& low, const osg::Vec3& high);

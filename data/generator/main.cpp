@@ -31,6 +31,9 @@ int main(int argc, char** argv)
         {"cornell_box_glass.osgt", cornellBox(CornellVariant::GlassSphere)},
         {"grids.osgt", grids()},
         {"furnace.osgt", furnace()},
+        {"rings.osgt", rings()},
+        {"glasses.osgt", glasses()},
+        {"prism.osgt", prism()},
     };
     for (const File& file : files)
     {

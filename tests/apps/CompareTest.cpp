@@ -25,7 +25,10 @@ TEST_CASE("compare: a report equals itself, also through its file", "[report]")
     const Report read = readJson(folder / "a.json");
     CHECK(read.machine == report.machine);
     CHECK(read.timed == report.timed);
-    REQUIRE(read.lines.size() == 4);
+    REQUIRE(read.lines.size() == 5);
+    CHECK(read.lines[4].kernel);
+    CHECK(read.lines[4].rows[1].variance == report.lines[4].rows[1].variance);
+    CHECK_FALSE(read.lines[0].kernel);
     CHECK(read.lines[0].rows[0].relMse == report.lines[0].rows[0].relMse);
     CHECK(std::isinf(read.lines[0].rows[0].relMseError));
     CHECK(read.lines[0].secondsTo == report.lines[0].secondsTo);
@@ -34,7 +37,7 @@ TEST_CASE("compare: a report equals itself, also through its file", "[report]")
     const Comparison comparison = compareReports(report, read, 0.01);
     CHECK(comparison.changes.empty());
     CHECK(comparison.onlyInOne == 0);
-    CHECK(comparison.tests == 8 * 2 + 4);
+    CHECK(comparison.tests == 10 * 2 + 4);
     CHECK(runCompare(folder / "a.json", folder / "a.json", 0.01) == 0);
 }
 

@@ -14,10 +14,13 @@ namespace
 const std::string kExpectations = R"({
   "non_finite": 0,
   "bias": { "largest_percent": 0.1, "largest_errors": 4 },
+  "kernels": [ { "scene": "s6-flat-mirror", "method": "SPPM", "largest_percent": 0.25,
+                 "bias_square_left": 0.3, "slope": [-1.0, -0.6] } ],
   "placements": { "largest_errors": 4 },
   "sampler_slopes": [ { "scene": "open", "strategy": "Sobol", "at_most": -2.5 },
                       { "scene": "open", "strategy": "random", "at_most": -0.9, "at_least": -1.1 } ],
   "sampler_orders": [ { "scene": "open", "samples": 64, "best_first": ["Sobol", "random"] } ],
+  "schedules": [ { "schedule": "GLOBAL, alpha 2/3", "bias_square": [0.7, 1.4], "variance_at_most": 0.5 } ],
   "method_ratios": [ { "scene": "s1-square", "method": "WHITTED Sobol", "over": "WHITTED random", "at_most": 0.02 } ]
 })";
 
@@ -50,6 +53,31 @@ TEST_CASE("expectations: each can be missed", "[report]")
         report.lines[0].rows[1].biasError = report.lines[2].rows[1].biasError = 0.002;
         CHECK(failures(report) == 2);
     }
+    SECTION("the mean under a kernel")
+    {
+        report.lines[4].rows[1].biasPercent = -0.3;
+        CHECK(failures(report) == 1);
+    }
+    SECTION("a kernel's bias that stays")
+    {
+        report.lines[4].rows[1].mse = 1.5e-4;
+        CHECK(failures(report) == 1);
+    }
+    SECTION("a kernel's bias that was never there cannot have fallen")
+    {
+        report.lines[4].rows[0].mse = report.lines[4].rows[0].variance;
+        CHECK(failures(report) == 1);
+    }
+    SECTION("the slope of a method with a kernel, either way")
+    {
+        report.lines[4].slope = GENERATE(-0.5, -1.1);
+        CHECK(failures(report) == 1);
+    }
+    SECTION("a method with a kernel that nothing is expected of")
+    {
+        report.lines[4].method = "PPM";
+        CHECK(failures(report) == 2); // and SPPM was not measured
+    }
     SECTION("the displaced mean")
     {
         report.lines[2].rows[1].biasPercent = -0.035;
@@ -76,6 +104,16 @@ TEST_CASE("expectations: each can be missed", "[report]")
         report.samplers[1].slope = -1.5;
         CHECK(failures(report) == 1);
     }
+    SECTION("the squared bias of a schedule, either way")
+    {
+        report.schedules[0].points[1].biasSquare = GENERATE(5e-8, 2e-7, -1e-8);
+        CHECK(failures(report) == 1);
+    }
+    SECTION("the variance of a schedule, too much and none at all")
+    {
+        report.schedules[0].points[1].variance = GENERATE(6e-7, 0.0);
+        CHECK(failures(report) == 1);
+    }
     SECTION("an order")
     {
         report.samplers[0].points[1].mse = 1e-3;
@@ -92,10 +130,12 @@ TEST_CASE("expectations: each can be missed", "[report]")
 TEST_CASE("expectations: what was not measured is not met", "[report]")
 {
     Report report = smallReport();
+    report.schedules.clear();
+    CHECK(failures(report) == 1);
     report.samplers.clear();
-    CHECK(failures(report) == 3);
+    CHECK(failures(report) == 4);
     report.lines.clear();
-    CHECK(failures(report) == 5);
+    CHECK(failures(report) == 7);
     CHECK_THROWS_AS(checkExpectations(report, "{}"), osgRayTrace::app::Failure);
     CHECK_NOTHROW(checkExpectations(report, builtInExpectations()));
 }

@@ -4,6 +4,7 @@
 #include "tests/Statistics.h"
 
 #include "apps/osgraytracebench/report/BudgetSums.h"
+#include "apps/osgraytracebench/report/ScheduleStudy.h"
 #include "apps/osgraytracebench/report/Slopes.h"
 
 #include <cmath>
@@ -154,4 +155,22 @@ TEST_CASE("budget sums: what is not finite is counted, not averaged", "[report]"
     sums.add(pixels, {1.0, 1.0, 1.0, 3, false});
     CHECK(sums.row().nonFinite == 5);
     CHECK(std::isfinite(sums.row().relMse));
+}
+
+TEST_CASE("schedules: the sums over passes are those of the recurrence", "[report]")
+{
+    for (const double alpha : {0.5, 2.0 / 3.0, 0.8})
+    {
+        double radius2 = 1.0, sum = 0.0, inverse = 0.0;
+        for (int n = 1; n <= 4096; ++n)
+        {
+            sum += radius2;
+            inverse += 1.0 / radius2;
+            radius2 *= (n + alpha) / (n + 1.0); // [Knaus11]
+            if ((n & (n - 1)) != 0) continue;
+            CHECK(meanSquaredRadius(n, alpha) == Approx(sum / n).epsilon(1e-9));
+            CHECK(meanInverseSquaredRadius(n, alpha) ==
+                  Approx(inverse / (double(n) * n)).epsilon(1e-9));
+        }
+    }
 }

@@ -52,8 +52,39 @@ ReportScene cornellScene(CornellKind kind)
     }
     useStoredView(scene);
     scene.methods = {pathMethod(100)};
+    for (const Method& method : photonMethods(100, kind != CornellKind::Diffuse))
+        scene.methods.push_back(method);
     scene.placements = {atOrigin(), displaced()};
     scene.reference = pathMethod(100);
+    return scene;
+}
+
+ReportScene causticScene(CausticKind kind)
+{
+    constexpr int kBounces = 24, kMorePhotons = 4;
+    ReportScene scene;
+    switch (kind)
+    {
+    case CausticKind::Glasses:
+        scene.name = "s8-glasses";
+        scene.title = "S8: a glass sphere and a glass of water under a small lamp";
+        scene.graph = data::glasses();
+        break;
+    case CausticKind::Rings:
+        scene.name = "s9-rings";
+        scene.title = "S9: rings and their caustics in a looking-glass";
+        scene.graph = data::rings();
+        break;
+    }
+    scene.aspect = kAspect;
+    useStoredView(scene);
+    scene.methods = {pathMethod(kBounces)};
+    for (const Method& method : photonMethods(kBounces, true))
+        scene.methods.push_back(method);
+    scene.placements = {atOrigin()};
+    scene.reference = photonMethods(kBounces, true).back();
+    scene.referencePhotons = kMorePhotons;
+    scene.quick = false;
     return scene;
 }
 

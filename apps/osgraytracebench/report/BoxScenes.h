@@ -14,8 +14,20 @@ enum class CornellKind
     Glass,  ///< a sphere of it in place of the blocks
 };
 
-/// The published box, by path tracing.
+/// The published box, by path tracing and photons.
 ReportScene cornellScene(CornellKind kind);
+
+enum class CausticKind
+{
+    Glasses, ///< a glass sphere and a glass of water under a small lamp
+    Rings,   ///< metal rings and their caustics in a looking-glass
+};
+
+/// The scenes of data/ that path tracing alone hardly renders: by path tracing and photons, against
+/// PHOTON_CAUSTICS with four times as many photons. Its bias is of the same kind, only smaller; PATH,
+/// which has none, says by its mean what is left of it. What the rings' rims mirror of the lamp is
+/// smaller than a pixel: it scatters with all methods alike, and may hide what the photons do.
+ReportScene causticScene(CausticKind kind);
 
 /// Lattices below an area light: direct light by all strategies.
 ReportScene gridsScene();

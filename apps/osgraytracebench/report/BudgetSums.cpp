@@ -118,6 +118,7 @@ ReportRow BudgetSums::row() const
             variance += (_squares[i] - _difference[i] * _difference[i] / count) / (count - 1.0);
         variance /= static_cast<double>(_squares.size());
     }
+    row.variance = variance;
     row.efficiency = variance > 0.0 ? 1.0 / (variance * row.seconds) : 0.0;
     addBias(row);
     return row;

@@ -133,6 +133,8 @@ ReportScene integratingSphereScene()
     scene.view = osg::Matrixd::lookAt(Vec3d(-0.5, -0.6, -0.2), kSpot, Vec3d(0, 0, 1));
     scene.projection = osg::Matrixd::perspective(80.0, 1.0, 0.01, 100.0);
     scene.methods = {pathMethod(kBounces)};
+    for (const Method& method : photonMethods(kBounces, false))
+        scene.methods.push_back(method);
     scene.placements = {atOrigin(), displaced()};
     scene.formula = sphereRadiance;
     return scene;

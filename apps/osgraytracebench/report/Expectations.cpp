@@ -68,7 +68,7 @@ void checkBias(const Report& report, const json& wanted, std::vector<Verdict>& v
     bool any = false;
     for (const ReportLine& line : report.lines)
     {
-        if (line.reference != "formula") continue;
+        if (line.reference != "formula" || line.kernel) continue;
         any = true;
         const ReportRow& row = line.rows.back();
         const double errors = row.biasPercent / row.biasError;
@@ -78,6 +78,60 @@ void checkBias(const Report& report, const json& wanted, std::vector<Verdict>& v
                             met});
     }
     if (!any) verdicts.push_back(notMeasured("bias of any scene with a formula"));
+}
+
+/// Square of the bias of the pixels: what scatters is taken off.
+double biasSquare(const ReportRow& row)
+{
+    return row.mse - row.variance;
+}
+
+/// Methods with a kernel are biased, less from pass to pass: the mean by no more than so much, the
+/// square of the pixels' bias down to a share of that of the first row, the error along a slope.
+void checkKernels(const Report& report, const json& wanted, std::vector<Verdict>& verdicts)
+{
+    std::vector<const ReportLine*> checked;
+    for (const json& entry : wanted)
+    {
+        const std::string scene = entry.at("scene"), method = entry.at("method");
+        const ReportLine* line = findLine(report, scene, "origin", method);
+        if (!line)
+        {
+            verdicts.push_back(notMeasured("bias of " + method + " on " + scene));
+            continue;
+        }
+        checked.push_back(line);
+        const ReportRow &first = line->rows.front(), &last = line->rows.back();
+        const double mostPercent = entry.at("largest_percent");
+        verdicts.push_back({text("mean of %s: %+.2g %%, wanted within %g", nameOf(*line).c_str(),
+                                 last.biasPercent, mostPercent),
+                            std::abs(last.biasPercent) <= mostPercent});
+        if (entry.contains("bias_square_left"))
+        {
+            const double left = biasSquare(last) / biasSquare(first),
+                         most = entry.at("bias_square_left");
+            verdicts.push_back(
+                {text("squared bias of %s: %.3g, %.3g of that of %g passes, wanted "
+                      "at most %g",
+                      nameOf(*line).c_str(), biasSquare(last), left, first.budget, most),
+                 biasSquare(first) > 0.0 && left <= most});
+        }
+        if (entry.contains("slope"))
+        {
+            const double least = entry.at("slope").at(0), most = entry.at("slope").at(1);
+            verdicts.push_back(
+                {text("slope of %s: %.3f +- %.3f, wanted from %g to %g", nameOf(*line).c_str(),
+                      line->slope, line->slopeError, least, most),
+                 line->slope >= least && line->slope <= most});
+        }
+    }
+    for (const ReportLine& line : report.lines)
+    {
+        const bool formula = line.reference == "formula" && line.placement == "origin";
+        if (!line.kernel || !formula) continue;
+        if (std::find(checked.begin(), checked.end(), &line) == checked.end())
+            verdicts.push_back({nameOf(line) + ": nothing is expected of it", false});
+    }
 }
 
 void checkNonFinite(const Report& report, const json& wanted, std::vector<Verdict>& verdicts)
@@ -131,6 +185,37 @@ void checkSlopes(const Report& report, const json& wanted, std::vector<Verdict>&
                   strategy.c_str(), line->slope, line->slopeError, most,
                   least > -100.0 ? text(" and at least %g", least).c_str() : ""),
              line->slope <= most && line->slope >= least});
+    }
+}
+
+/// The squared bias is what the formula says, the variance no more than that of independent
+/// photons.
+void checkSchedules(const Report& report, const json& wanted, std::vector<Verdict>& verdicts)
+{
+    for (const json& entry : wanted)
+    {
+        const std::string schedule = entry.at("schedule");
+        const auto line =
+            std::find_if(report.schedules.begin(), report.schedules.end(),
+                         [&](const ScheduleLine& l) { return l.schedule == schedule; });
+        if (line == report.schedules.end() || line->points.empty())
+        {
+            verdicts.push_back(notMeasured("schedule " + schedule));
+            continue;
+        }
+        const SchedulePoint& last = line->points.back();
+        const double bias = last.biasSquare / last.exactBiasSquare,
+                     variance = last.variance / last.exactVariance;
+        const double least = entry.at("bias_square").at(0), most = entry.at("bias_square").at(1),
+                     mostVariance = entry.at("variance_at_most");
+        verdicts.push_back(
+            {text("%s, %d passes: squared bias %.3f of the formula's, wanted from %g "
+                  "to %g",
+                  schedule.c_str(), last.passes, bias, least, most),
+             bias >= least && bias <= most});
+        verdicts.push_back({text("%s, %d passes: variance %.3f of the formula's, wanted at most %g",
+                                 schedule.c_str(), last.passes, variance, mostVariance),
+                            variance > 0.0 && variance <= mostVariance});
     }
 }
 
@@ -195,8 +280,10 @@ std::vector<Verdict> checkExpectations(const Report& report, const std::string& 
         std::vector<Verdict> verdicts;
         checkNonFinite(report, wanted.at("non_finite"), verdicts);
         checkBias(report, wanted.at("bias"), verdicts);
+        checkKernels(report, wanted.at("kernels"), verdicts);
         checkPlacements(report, wanted.at("placements"), verdicts);
         checkSlopes(report, wanted.at("sampler_slopes"), verdicts);
+        checkSchedules(report, wanted.at("schedules"), verdicts);
         checkOrders(report, wanted.at("sampler_orders"), verdicts);
         checkRatios(report, wanted.at("method_ratios"), verdicts);
         return verdicts;

@@ -52,6 +52,12 @@ Reference formulaReference(const ReportScene& scene, int width, const engine::Wo
     const std::size_t pixels = static_cast<std::size_t>(width) * reference.height;
     reference.mean.resize(3 * pixels);
     reference.variance.resize(3 * pixels);
+    if (scene.pictureFormula)
+    {
+        reference.mean = scene.pictureFormula(width, reference.height, workers);
+        finish(reference);
+        return reference;
+    }
     const std::vector<Node> nodes = gaussNodes(scene.formulaNodes);
     const osg::Matrixd sceneFromClip = osg::Matrixd::inverse(scene.view * scene.projection);
     const auto row = [&](std::size_t y)

@@ -13,7 +13,8 @@ namespace osgRayTrace::bench
 namespace
 {
 
-constexpr int kManySeeds = 16, kSomeSeeds = 4, kFewSeeds = 2;
+constexpr int kManySeeds = 8, kSomeSeeds = 4, kFewSeeds = 2;
+constexpr int kQuickSeeds = 16, kQuickKernelSeeds = 8; ///< a pass of photons takes longer
 constexpr int kFlipSeeds = 4;
 constexpr double kShownLuminance = 0.4;
 
@@ -70,19 +71,19 @@ BudgetPlan timedPlan(double longest)
     for (double seconds = 0.125; seconds <= 1.001 * longest; seconds *= 2.0)
     {
         plan.budgets.push_back(seconds);
-        plan.seeds.push_back(seconds <= 2.0 ? kManySeeds : seconds <= 8.0 ? kSomeSeeds : kFewSeeds);
+        plan.seeds.push_back(seconds <= 1.0 ? kManySeeds : seconds <= 4.0 ? kSomeSeeds : kFewSeeds);
     }
     return plan;
 }
 
-BudgetPlan quickPlan()
+BudgetPlan quickPlan(const Method& method)
 {
     BudgetPlan plan;
     plan.timed = false;
     for (double passes = 2.0; passes <= 64.0; passes *= 2.0)
     {
         plan.budgets.push_back(passes);
-        plan.seeds.push_back(kManySeeds);
+        plan.seeds.push_back(hasKernel(method) ? kQuickKernelSeeds : kQuickSeeds);
     }
     return plan;
 }
@@ -97,6 +98,7 @@ MeasuredLine measure(const ReportScene& scene, const Placement& placement, const
     line.placement = placement.name;
     line.method = method.name;
     line.reference = reference.origin;
+    line.kernel = hasKernel(method);
     line.buildSeconds = prepared.buildSeconds;
 
     engine::StopRule onePass;

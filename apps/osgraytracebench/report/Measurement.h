@@ -16,11 +16,11 @@ struct BudgetPlan
     std::vector<int> seeds; ///< of each budget, falling
 };
 
-/// 1/8 s to the longest, 64 s if not told otherwise: 16 seeds up to 2 s, 4 up to 8 s, 2 beyond.
+/// 1/8 s to the longest, 8 s if not told otherwise: 8 seeds up to 1 s, 4 up to 4 s, 2 beyond.
 BudgetPlan timedPlan(double longest);
 
-/// 2 to 64 passes, 16 seeds.
-BudgetPlan quickPlan();
+/// 2 to 64 passes, 16 seeds; 8 of methods that look up photons.
+BudgetPlan quickPlan(const Method& method);
 
 /// One picture of each line for people, by the first seed, at a budget in the middle.
 struct MeasuredLine

@@ -31,6 +31,7 @@ struct Curve
 {
     std::string name;
     std::vector<Point> points;
+    bool exact = false; ///< a formula: a thin line of the next curve's colour
 };
 
 struct Guide
@@ -121,15 +122,25 @@ std::string plot(const std::vector<Curve>& curves, const std::vector<Guide>& gui
                << (guide.slope < -2.5    ? 4
                    : guide.slope < -1.75 ? 3
                    : guide.slope < -1.25 ? 2
-                                         : 5)
+                   : guide.slope < -0.8  ? 5
+                                         : 6)
                << " lc rgb '#888888' title 'slope " << guide.name << "', ";
+    std::size_t coloured = 0;
     for (std::size_t c = 0; c < curves.size(); ++c)
     {
-        const char* colour = kColours[c % std::size(kColours)];
+        const char* colour = kColours[coloured % std::size(kColours)];
+        if (curves[c].exact)
+        {
+            script << "$curve" << c << " using 1:2 with lines lw 1 lc rgb '" << colour
+                   << "' notitle, ";
+            continue;
+        }
+        ++coloured;
         script << "$curve" << c << " using 1:3:4 with filledcurves lc rgb '" << colour
-               << "' notitle, $curve" << c
-               << " using 1:2 with linespoints lw 2 pt 7 ps 0.5 lc rgb '" << colour << "' title '"
-               << curves[c].name << "'" << (c + 1 < curves.size() ? ", " : "\n");
+               << "' notitle, $curve" << c << " using 1:2 with "
+               << (c > 0 && curves[c - 1].exact ? "points" : "linespoints lw 2")
+               << " pt 7 ps 0.5 lc rgb '" << colour << "' title '" << curves[c].name << "'"
+               << (c + 1 < curves.size() ? ", " : "\n");
     }
     return svgPart(gnuplot(script.str()));
 }
@@ -153,7 +164,8 @@ std::string errorPlot(const std::vector<const ReportLine*>& lines)
             curve.points.push_back({row.seconds, row.relMse, row.relMseError});
         curves.push_back(curve);
     }
-    return plot(curves, {{-1.0, "-1"}, {-1.5, "-3/2"}, {-2.0, "-2"}}, "seconds", "relMSE");
+    return plot(curves, {{-2.0 / 3.0, "-2/3"}, {-1.0, "-1"}, {-1.5, "-3/2"}, {-2.0, "-2"}},
+                "seconds", "relMSE");
 }
 
 std::string samplerPlot(const std::vector<const SamplerLine*>& lines)
@@ -169,6 +181,31 @@ std::string samplerPlot(const std::vector<const SamplerLine*>& lines)
     }
     return plot(curves, {{-1.0, "-1"}, {-1.5, "-3/2"}, {-2.0, "-2"}, {-3.0, "-3"}},
                 "light samples N", "mean squared error of E/L");
+}
+
+std::string schedulePlot(const std::vector<ScheduleLine>& lines)
+{
+    if (!haveGnuplot()) return {};
+    std::vector<Curve> curves;
+    for (const bool bias : {true, false})
+    {
+        for (const ScheduleLine& line : lines)
+        {
+            Curve exact{"", {}, true};
+            Curve measured{(bias ? "bias^2, " : "variance, ") + line.schedule, {}};
+            for (const SchedulePoint& point : line.points)
+            {
+                const double x = point.passes;
+                exact.points.push_back(
+                    {x, bias ? point.exactBiasSquare : point.exactVariance, 0.0});
+                measured.points.push_back({x, bias ? point.biasSquare : point.variance, 0.0});
+            }
+            curves.push_back(exact);
+            curves.push_back(measured);
+        }
+    }
+    return plot(curves, {{-2.0 / 3.0, "-2/3"}, {-1.0, "-1"}}, "passes N",
+                "squared bias and variance of the radiance");
 }
 
 } // namespace osgRayTrace::bench

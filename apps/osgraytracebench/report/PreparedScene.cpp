@@ -175,6 +175,10 @@ uint64_t hashOf(const PreparedScene& prepared, const Method& method)
     hasher.add(method.options.lightSampling);
     hasher.add(method.options.lightSamples);
     hasher.add(method.options.maxBounces);
+    hasher.add(method.options.photons);
+    hasher.add(method.options.photonRadius);
+    hasher.add(method.options.photonAlpha);
+    hasher.add(method.options.radiusSchedule);
     return hasher.value();
 }
 

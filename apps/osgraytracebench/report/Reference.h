@@ -31,7 +31,8 @@ struct ReferencePlan
 /// Fills in the means over the picture.
 void finish(Reference& reference);
 
-/// The formula's mean over each pixel, by Gauss's quadrature.
+/// The formula's mean over each pixel: by Gauss's quadrature unless the scene has one for whole
+/// pictures.
 Reference formulaReference(const ReportScene& scene, int width, const engine::Workers& workers);
 
 /// From the folder's cache if it holds one of the same scene, method, size and plan; rendered and

@@ -32,6 +32,8 @@ struct ReportRow
     double percentile999 = 0.0; ///< of |x - r|
     double flip = 0.0;          ///< mean, of display values at an exposure fitted to the reference
     int64_t nonFinite = 0;      ///< samples dropped and values in pictures, of all seeds
+    double variance = 0.0;      ///< of one picture's pixels and colours, unbiased, over the seeds;
+                                ///< mse less this is the square of the bias
     double efficiency = 0.0;    ///< 1 / (variance * seconds)
 };
 
@@ -42,6 +44,7 @@ struct ReportLine
 {
     std::string scene, placement, method;
     std::string reference;     ///< what it was compared with
+    bool kernel = false;       ///< biased by the width of its kernel: see hasKernel
     double buildSeconds = 0.0; ///< conversion and BVH
     std::vector<ReportRow> rows;
     double slope = 0.0;      ///< of log relMSE over log seconds, or over log passes
@@ -66,6 +69,24 @@ struct SamplerLine
     double secondsPerSample = 0.0; ///< wall clock of all points by all their samples
 };
 
+/// What is left of bias and scatter after so many passes, means over the pixels of a picture.
+struct SchedulePoint
+{
+    int passes = 0;
+    double biasSquare = 0.0;      ///< mse less variance; noise may make it negative
+    double variance = 0.0;        ///< of one picture
+    double error = 0.0;           ///< standard error of their sum
+    double exactBiasSquare = 0.0; ///< of the global schedule
+    double exactVariance = 0.0;   ///< of the global schedule and independent photons
+};
+
+/// One way of shrinking the radius of photon lookups.
+struct ScheduleLine
+{
+    std::string schedule;
+    std::vector<SchedulePoint> points;
+};
+
 struct Report
 {
     std::map<std::string, std::string> machine; ///< cpu, threads, isa, versions
@@ -73,6 +94,7 @@ struct Report
     int width = 0;
     std::vector<ReportLine> lines;
     std::vector<SamplerLine> samplers;
+    std::vector<ScheduleLine> schedules;
 };
 
 } // namespace osgRayTrace::bench

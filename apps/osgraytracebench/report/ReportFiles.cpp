@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 namespace
 {
 
-constexpr const char* kFormat = "osgraytracebench report 1";
+constexpr const char* kFormat = "osgraytracebench report 2";
 
 /// The columns of a row: one table for both formats.
 struct Column
@@ -44,6 +44,7 @@ constexpr Column kColumns[] = {
     {"bias_error_percent", &ReportRow::biasError},
     {"percentile_99_9", &ReportRow::percentile999},
     {"flip", &ReportRow::flip},
+    {"variance", &ReportRow::variance},
     {"efficiency", &ReportRow::efficiency},
 };
 
@@ -84,13 +85,10 @@ std::string targetName(double target)
 
 ordered_json lineJson(const ReportLine& line)
 {
-    ordered_json json{{"scene", line.scene},
-                      {"placement", line.placement},
-                      {"method", line.method},
-                      {"reference", line.reference},
-                      {"build_seconds", line.buildSeconds},
-                      {"slope", number(line.slope)},
-                      {"slope_error", number(line.slopeError)}};
+    ordered_json json{{"scene", line.scene},         {"placement", line.placement},
+                      {"method", line.method},       {"reference", line.reference},
+                      {"kernel", line.kernel},       {"build_seconds", line.buildSeconds},
+                      {"slope", number(line.slope)}, {"slope_error", number(line.slopeError)}};
     for (std::size_t t = 0; t < kTargets.size(); ++t)
         json["seconds_to"][targetName(kTargets[t])] =
             line.secondsTo[t] ? ordered_json(*line.secondsTo[t]) : ordered_json(nullptr);
@@ -107,6 +105,7 @@ ReportLine lineFrom(const ordered_json& json)
     line.placement = json.at("placement");
     line.method = json.at("method");
     line.reference = json.at("reference");
+    line.kernel = json.at("kernel");
     line.buildSeconds = json.at("build_seconds");
     line.slope = numberFrom(json.at("slope"));
     line.slopeError = numberFrom(json.at("slope_error"));
@@ -147,6 +146,30 @@ SamplerLine samplerFrom(const ordered_json& json)
     return line;
 }
 
+ordered_json scheduleJson(const ScheduleLine& line)
+{
+    ordered_json json{{"schedule", line.schedule}, {"points", ordered_json::array()}};
+    for (const SchedulePoint& point : line.points)
+        json["points"].push_back({{"passes", point.passes},
+                                  {"bias_square", point.biasSquare},
+                                  {"variance", point.variance},
+                                  {"error", number(point.error)},
+                                  {"exact_bias_square", point.exactBiasSquare},
+                                  {"exact_variance", point.exactVariance}});
+    return json;
+}
+
+ScheduleLine scheduleFrom(const ordered_json& json)
+{
+    ScheduleLine line;
+    line.schedule = json.at("schedule");
+    for (const ordered_json& point : json.at("points"))
+        line.points.push_back({point.at("passes"), point.at("bias_square"), point.at("variance"),
+                               numberFrom(point.at("error")), point.at("exact_bias_square"),
+                               point.at("exact_variance")});
+    return line;
+}
+
 } // namespace
 
 void writeWhole(const std::string& file, const std::string& text)
@@ -170,11 +193,14 @@ void writeJson(const Report& report, const std::string& file)
                       {"budgets", report.timed ? "seconds" : "passes"},
                       {"width", report.width},
                       {"lines", ordered_json::array()},
-                      {"samplers", ordered_json::array()}};
+                      {"samplers", ordered_json::array()},
+                      {"schedules", ordered_json::array()}};
     for (const ReportLine& line : report.lines)
         json["lines"].push_back(lineJson(line));
     for (const SamplerLine& line : report.samplers)
         json["samplers"].push_back(samplerJson(line));
+    for (const ScheduleLine& line : report.schedules)
+        json["schedules"].push_back(scheduleJson(line));
     writeWhole(file, json.dump(1) + "\n");
 }
 
@@ -205,6 +231,14 @@ void writeCsv(const Report& report, const std::string& file)
                 << point.mse << ',' << point.mseError << ',' << line.slope << ',' << line.slopeError
                 << '\n';
     }
+    csv << "\nschedule,passes,squared bias,variance,error,exact squared bias,exact variance\n";
+    for (const ScheduleLine& line : report.schedules)
+    {
+        for (const SchedulePoint& point : line.points)
+            csv << '"' << line.schedule << "\"," << point.passes << ',' << point.biasSquare << ','
+                << point.variance << ',' << point.error << ',' << point.exactBiasSquare << ','
+                << point.exactVariance << '\n';
+    }
     writeWhole(file, csv.str());
 }
 
@@ -226,6 +260,8 @@ Report readJson(const std::string& file)
             report.lines.push_back(lineFrom(line));
         for (const ordered_json& line : json.at("samplers"))
             report.samplers.push_back(samplerFrom(line));
+        for (const ordered_json& line : json.at("schedules"))
+            report.schedules.push_back(scheduleFrom(line));
         return report;
     }
     catch (const nlohmann::json::exception& error)

@@ -11,6 +11,7 @@
 #include "apps/osgraytracebench/report/ReportFiles.h"
 #include "apps/osgraytracebench/report/ReportPage.h"
 #include "apps/osgraytracebench/report/SamplerStudy.h"
+#include "apps/osgraytracebench/report/ScheduleStudy.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/integrators/Integrator.h"
 
@@ -29,7 +30,8 @@ constexpr int kQuickWidth = 32, kFullWidth = 128;
 constexpr int kQuickReferencePasses = 1024;
 constexpr double kReferenceTimes =
     0.5; ///< seconds of each of the 8 reference seeds, by the longest budget
-constexpr double kLongestDisplaced = 8.0; ///< [s]: enough to compare with the origin
+constexpr double kLongestDisplaced = 1.0; ///< [s]: enough to compare with the origin
+constexpr int kPhotonsPerPixel = 4; ///< and pass: 65536 for the square pictures of a full report
 constexpr int kCheckFailed = 5;
 
 /// What all parts of a run need.
@@ -51,8 +53,8 @@ std::vector<ReportScene> scenesOf(const Run& run)
     const ReportScene asPhysical = modelScene(name, *graph, true);
     const PreparedScene prepared = prepare(asPhysical, atOrigin(), run.width, run.workers);
     const bool physical =
-        engine::chooseIntegrator(engine::IntegratorKind::Automatic, prepared.traced->traits()) ==
-        engine::IntegratorKind::Path;
+        engine::chooseIntegrator(engine::IntegratorKind::Automatic, prepared.traced->traits()) !=
+        engine::IntegratorKind::Whitted;
     bool areaLights = false;
     for (const engine::Light& light : prepared.traced->scene().lights)
         areaLights |=
@@ -63,21 +65,30 @@ std::vector<ReportScene> scenesOf(const Run& run)
     return {scene};
 }
 
+/// As many for a pixel whatever the width, so that a quick report looks at the same estimate.
+int photonsFor(const Run& run, const ReportScene& scene)
+{
+    return kPhotonsPerPixel * run.width * heightOf(scene, run.width);
+}
+
 Reference referenceOf(Run& run, const ReportScene& scene)
 {
-    if (scene.formula) return formulaReference(scene, run.width, *run.workers);
+    if (scene.formula || scene.pictureFormula)
+        return formulaReference(scene, run.width, *run.workers);
     ReferencePlan plan;
     if (run.options.quick)
         plan.passes = kQuickReferencePasses;
     else
         plan.seconds = kReferenceTimes * run.options.longest;
     const PreparedScene prepared = prepare(scene, scene.placements.front(), run.width, run.workers);
-    return renderedReference(scene, prepared, plan, run.options.folder);
+    ReportScene traced = scene;
+    traced.reference.options.photons = scene.referencePhotons * photonsFor(run, scene);
+    return renderedReference(traced, prepared, plan, run.options.folder);
 }
 
-BudgetPlan planFor(const Run& run, std::size_t placement)
+BudgetPlan planFor(const Run& run, const Method& method, std::size_t placement)
 {
-    if (run.options.quick) return quickPlan();
+    if (run.options.quick) return quickPlan(method);
     return timedPlan(placement == 0 ? run.options.longest
                                     : std::min(run.options.longest, kLongestDisplaced));
 }
@@ -100,10 +111,13 @@ void measureScene(Run& run, const ReportScene& scene)
     for (std::size_t p = 0; p < scene.placements.size(); ++p)
     {
         const PreparedScene prepared = prepare(scene, scene.placements[p], run.width, run.workers);
-        for (const Method& method : scene.methods)
+        for (Method method : scene.methods)
         {
-            const MeasuredLine measured =
-                measure(scene, scene.placements[p], method, prepared, reference, planFor(run, p));
+            // Elsewhere one of the methods with photons speaks for all: they have the same photons.
+            if (p > 0 && hasKernel(method) && method.name != scene.methods.back().name) continue;
+            method.options.photons = photonsFor(run, scene);
+            const MeasuredLine measured = measure(scene, scene.placements[p], method, prepared,
+                                                  reference, planFor(run, method, p));
             printLine(measured.line);
             run.report.lines.push_back(measured.line);
             if (p > 0) continue; // it looks the same elsewhere
@@ -128,6 +142,28 @@ void measureSamplers(Run& run)
             std::printf(" %9.2e", point.mse);
         std::printf("  slope %.3f +- %.3f\n", line.slope, line.slopeError);
     }
+}
+
+void measureSchedules(Run& run)
+{
+    const int seeds = run.options.quick ? 4 : 8, mostPasses = run.options.quick ? 32 : 128;
+    run.report.schedules = studySchedules(seeds, mostPasses, !run.options.quick, run.workers);
+    for (const ScheduleLine& line : run.report.schedules)
+    {
+        const SchedulePoint& last = line.points.back();
+        std::printf("%-18s %5d passes: squared bias %9.3g, %.3f of the formula; variance %9.3g, "
+                    "%.3f of it\n",
+                    line.schedule.c_str(), last.passes, last.biasSquare,
+                    last.biasSquare / last.exactBiasSquare, last.variance,
+                    last.variance / last.exactVariance);
+    }
+}
+
+/// A whole report measures all; --only the studies whose name begins with it.
+bool wanted(const ReportOptions& options, const char* study)
+{
+    if (!options.models.empty()) return false;
+    return options.only.empty() || std::string(study).find(options.only) == 0;
 }
 
 std::string expectationsOf(const ReportOptions& options)
@@ -166,12 +202,12 @@ int runReport(const ReportOptions& options)
     run.report.width = width;
     for (const ReportScene& scene : scenesOf(run))
     {
+        if (options.quick && !scene.quick) continue;
         if (scene.name.find(options.only) != std::string::npos) measureScene(run, scene);
     }
     const bool whole = options.models.empty() && options.only.empty();
-    const bool samplersAlone =
-        !options.only.empty() && std::string("samplers").find(options.only) == 0;
-    if (whole || samplersAlone) measureSamplers(run);
+    if (wanted(options, "samplers")) measureSamplers(run);
+    if (wanted(options, "schedules")) measureSchedules(run);
 
     writeJson(run.report, options.folder + "/report.json");
     writeCsv(run.report, options.folder + "/report.csv");

@@ -207,6 +207,29 @@ std::string samplerSection(const Report& report)
     return text;
 }
 
+std::string scheduleSection(const Report& report)
+{
+    if (report.schedules.empty()) return {};
+    std::string text =
+        "<h2>Schedules of photon lookups</h2>\n<p>SPPM on the floor of S6 with a first radius that "
+        "is known: squared bias and variance against the number of passes. Thin lines: what the "
+        "recurrence of the global schedule [Knaus11] makes of the density's Laplacian and of "
+        "independent photons; photons from Sobol points scatter less. LOCAL [Hachisuka08] is "
+        "beside the lines of GLOBAL.</p>\n";
+    text += schedulePlot(report.schedules);
+    text += "<table>" + row("th", "schedule", "passes", "squared bias", "by the formula",
+                            "variance", "by the formula");
+    for (const ScheduleLine& line : report.schedules)
+    {
+        for (const SchedulePoint& point : line.points)
+            text += row(
+                "td", escaped(line.schedule), std::to_string(point.passes),
+                number(point.biasSquare), number(point.biasSquare / point.exactBiasSquare, "%.3f"),
+                number(point.variance), number(point.variance / point.exactVariance, "%.3f"));
+    }
+    return text + "</table>\n";
+}
+
 std::string verdictSection(const std::vector<Verdict>& verdicts)
 {
     if (verdicts.empty()) return {};
@@ -253,7 +276,7 @@ std::string reportPage(const Report& report, const std::vector<SceneThumbnails>&
     page << verdictSection(verdicts);
     for (const SceneThumbnails& scene : thumbnails)
         page << sceneSection(report, scene);
-    page << samplerSection(report) << "</body></html>\n";
+    page << samplerSection(report) << scheduleSection(report) << "</body></html>\n";
     return page.str();
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/integrators/RenderOptions.h"
 
 #include <osg/Group>
@@ -33,6 +34,10 @@ struct Placement
 /// Radiance along a ray from the origin, in scene coordinates. The direction is not unit.
 using Formula = std::function<osg::Vec3d(const osg::Vec3d& origin, const osg::Vec3d& direction)>;
 
+/// Means over the pixels of a picture of this size, linear RGB, row 0 at the bottom.
+using PictureFormula =
+    std::function<std::vector<double>(int width, int height, const engine::Workers& workers)>;
+
 struct ReportScene
 {
     std::string name;  ///< of files and rows
@@ -45,9 +50,12 @@ struct ReportScene
     bool headlight = false;            ///< of osgViewer
     std::vector<Method> methods;       ///< those that are right for it
     std::vector<Placement> placements; ///< the first is the scene itself
-    Formula formula;                   ///< empty: the reference is rendered
+    Formula formula;                   ///< empty: see pictureFormula
     int formulaNodes = 4;              ///< of Gauss's quadrature, along each side of a pixel
+    PictureFormula pictureFormula;     ///< empty as well: the reference is rendered
     Method reference;                  ///< of a rendered one
+    int referencePhotons = 1; ///< times those of the methods: its radii are smaller by more
+    bool quick = true;        ///< part of a quick report
 };
 
 Placement atOrigin();
@@ -62,6 +70,14 @@ Method pathMethod(int maxBounces);
 
 /// One strategy.
 Method whittedMethod(engine::LightSampling strategy, int lightSamples);
+
+/// PPM, SPPM and, if the scene holds what makes caustics, PHOTON_CAUSTICS with this many edges
+/// after the camera ray.
+std::vector<Method> photonMethods(int maxBounces, bool caustics);
+
+/// Whether its mean differs from what is right by the width of its kernel, less and less from pass
+/// to pass.
+bool hasKernel(const Method& method);
 
 /// All that there are, the ones with formulas first. A new scene is one function and one line.
 std::vector<ReportScene> reportScenes();

@@ -3,6 +3,7 @@
 #include "apps/osgraytracebench/report/ReportScene.h"
 
 #include "apps/osgraytracebench/report/BoxScenes.h"
+#include "apps/osgraytracebench/report/CausticScenes.h"
 #include "apps/osgraytracebench/report/ClosedScenes.h"
 #include "apps/osgraytracebench/report/PlaneScenes.h"
 
@@ -55,6 +56,36 @@ Method pathMethod(int maxBounces)
     return method;
 }
 
+bool hasKernel(const Method& method)
+{
+    switch (method.options.integrator)
+    {
+    case IntegratorKind::Ppm:
+    case IntegratorKind::Sppm:
+    case IntegratorKind::PhotonCaustics:
+        return true;
+    case IntegratorKind::Automatic:
+    case IntegratorKind::Whitted:
+    case IntegratorKind::Path:
+    case IntegratorKind::Debug:
+        return false;
+    }
+    return false;
+}
+
+std::vector<Method> photonMethods(int maxBounces, bool caustics)
+{
+    Method ppm = pathMethod(maxBounces), sppm = ppm, photonCaustics = ppm;
+    ppm.name = "PPM";
+    ppm.options.integrator = IntegratorKind::Ppm;
+    sppm.name = "SPPM";
+    sppm.options.integrator = IntegratorKind::Sppm;
+    photonCaustics.name = "PHOTON_CAUSTICS";
+    photonCaustics.options.integrator = IntegratorKind::PhotonCaustics;
+    if (!caustics) return {ppm, sppm};
+    return {ppm, sppm, photonCaustics};
+}
+
 std::vector<Method> directMethods()
 {
     constexpr int kSamples = 16;
@@ -74,9 +105,13 @@ std::vector<ReportScene> reportScenes()
             furnaceScene(0.5),
             furnaceScene(0.9),
             integratingSphereScene(),
+            flatMirrorScene(),
+            nephroidScene(),
             cornellScene(CornellKind::Diffuse),
             cornellScene(CornellKind::Mirror),
             cornellScene(CornellKind::Glass),
+            causticScene(CausticKind::Glasses),
+            causticScene(CausticKind::Rings),
             gridsScene()};
 }
 
