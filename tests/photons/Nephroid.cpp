@@ -14,7 +14,7 @@ constexpr double kHalfArc = glm::pi<double>() / 3.0;
 constexpr int kFacets = 4096;
 
 /// The wall from the floor to z = height, its normals those of the cylinder, its front towards the
-/// axis. A facet is 4e-4 wide: positions are 3e-8 off the cylinder, directions are exact.
+/// axis. A facet is 5e-4 wide: positions are 3e-8 off the cylinder, directions are exact.
 std::shared_ptr<Mesh> arc(float height)
 {
     std::vector<Vec3> positions, normals;
@@ -62,13 +62,12 @@ double gainOnAxis(double x)
 /// Mean of G over the disc: the share of light that lands there, ray by ray. Light that meets the
 /// wall at azimuth phi and height z runs s = z; its flux is cos(phi) dphi dz, and G = 1 is one of
 /// unit area.
-double meanGain(double x, double y, double radius)
+double meanGain(double x, double y, double radius, int steps)
 {
-    constexpr int kSteps = 60000;
     double sum = 0.0;
-    for (int k = 0; k < kSteps; ++k)
+    for (int k = 0; k < steps; ++k)
     {
-        const double phi = kHalfArc * (2.0 * (k + 0.5) / kSteps - 1.0);
+        const double phi = kHalfArc * (2.0 * (k + 0.5) / steps - 1.0);
         // The chord of the ray from (cos phi, sin phi) along (-cos 2 phi, -sin 2 phi).
         const double dx = std::cos(phi) - x, dy = std::sin(phi) - y;
         const double along = dx * std::cos(2.0 * phi) + dy * std::sin(2.0 * phi);
@@ -76,7 +75,7 @@ double meanGain(double x, double y, double radius)
         if (half2 <= 0.0) continue;
         const double half = std::sqrt(half2);
         const double length = std::min(along + half, 1.0) - std::max(along - half, 0.0);
-        if (length > 0.0) sum += std::cos(phi) * length * 2.0 * kHalfArc / kSteps;
+        if (length > 0.0) sum += std::cos(phi) * length * 2.0 * kHalfArc / steps;
     }
     return sum / (glm::pi<double>() * radius * radius);
 }

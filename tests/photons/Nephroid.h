@@ -22,6 +22,6 @@ SceneBuilder nephroid();
 double gainOnAxis(double x);
 
 /// Mean of G over a disc of the floor.
-double meanGain(double x, double y, double radius);
+double meanGain(double x, double y, double radius, int steps = 60000);
 
 } // namespace osgRayTrace::engine::test
