@@ -48,14 +48,17 @@ void checkAgreement(const std::vector<ComparedScene>& scenes)
         {
             options.integrator = kind;
             options.photons = 6000;
-            // Edges lose light to where there is no surface: 0.1 % of the picture at this radius.
-            options.photonRadius = static_cast<float>(0.004 * scene.size);
+            // Edges lose light to where there is no surface: 0.1 % of the picture at these radii.
+            // Those of PHOTON_CAUSTICS meet photons after a bounce, too: small ones seldom, and
+            // brightly.
+            const bool caustics = kind == IntegratorKind::PhotonCaustics;
+            options.photonRadius = static_cast<float>((caustics ? 0.01 : 0.004) * scene.size);
             const Estimate photons = meanOf(scene, options, 12);
             const double p = welchTest(path, kRuns, photons, kRuns);
             CAPTURE(scene.name, int(kind), path.mean(), path.standardError(), photons.mean(),
                     photons.standardError(), p, threshold);
             // PPM's hit points stay: the noise of where they are in the pixels does, too.
-            const double noise = kind == IntegratorKind::Ppm ? 0.04 : 0.012;
+            const double noise = kind == IntegratorKind::Ppm ? 0.04 : 0.015;
             CHECK(photons.standardError() < noise * path.mean());
             CHECK(p > threshold);
         }
