@@ -213,14 +213,14 @@ std::vector<ComparedScene> tenScenes(int width, int height)
 {
     const View inRoom = perspectiveView({0.4, -4, 2}, {0, 0, 0.7}, {0, 0, 1}, 42.0, width, height);
     const View overGrids = perspectiveView({0, -8, 6}, {0, 0, 0.5}, {0, 0, 1}, 40.0, width, height);
-    return {{"Cornell box", cornellBox().build(), cornellView(width, height)},
+    return {{"Cornell box", cornellBox().build(), cornellView(width, height), false, 550.0},
             {"emissive meshes", emissiveMeshes().build(), inRoom},
             {"textures", textures().build(), inRoom},
             {"rough metal", roughMetal().build(), inRoom},
             {"glass and frost", glassAndFrost().build(), inRoom, true},
             {"instances", instances().build(), inRoom},
             {"point and area lights", pointAndArea().build(), inRoom},
-            {"grids", grids().build(), overGrids},
+            {"grids", grids().build(), overGrids, false, 6.0},
             {"unequal lights", unequalLights().build(), inRoom},
             {"mirrors and polish", mirrorsAndPolish().build(), inRoom, true}};
 }

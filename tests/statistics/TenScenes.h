@@ -15,6 +15,7 @@ struct ComparedScene
     std::shared_ptr<const TracedScene> traced;
     View view;
     bool mirrors = false; ///< has smooth surfaces, which reflect things in WHITTED's direct light
+    double size = 4.0;    ///< of the room [length]
 };
 
 std::vector<ComparedScene> tenScenes(int width, int height);

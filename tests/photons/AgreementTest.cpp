@@ -1,0 +1,78 @@
+// AgreementTest.cpp - photon mapping and path tracing show the same light on every kind of scene.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/PValues.h"
+#include "tests/photons/PhotonScenes.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr int kSize = 24;
+constexpr int kRuns = 16;
+constexpr int kBounces = 24; ///< what is cut off there is nothing
+
+/// Mean over the image, one value for each run.
+Estimate meanOf(const ComparedScene& scene, RenderOptions options, int passes)
+{
+    Estimate estimate;
+    for (uint32_t run = 0; run < kRuns; ++run)
+    {
+        options.seed = 1000 * (1 + static_cast<uint32_t>(options.integrator)) + run;
+        const Picture picture = render(scene.traced, scene.view, options, passes);
+        REQUIRE(picture.progress.droppedSamples == 0);
+        REQUIRE(picture.progress.integrator == options.integrator);
+        estimate.add(double(luminance(picture.mean())));
+    }
+    return estimate;
+}
+
+/// All comparisons of a list of scenes together raise a false alarm with a probability of 1 %.
+void checkAgreement(const std::vector<ComparedScene>& scenes)
+{
+    const double threshold = sidak(0.01, 3 * static_cast<int>(scenes.size()));
+    for (const ComparedScene& scene : scenes)
+    {
+        RenderOptions options = optionsOf(IntegratorKind::Path, kBounces);
+        // Facets that are lifted against terminators take light from below their planes, where no
+        // photon lands: 0.3 % of the picture of a coarse mirror ball. This is about the light
+        // without that.
+        options.terminatorCorrection = false;
+        const Estimate path = meanOf(scene, options, 32);
+        REQUIRE(path.mean() > 0.02);
+        CHECK(path.standardError() < 6e-3 * path.mean());
+        for (const IntegratorKind kind :
+             {IntegratorKind::Sppm, IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
+        {
+            options.integrator = kind;
+            options.photons = 6000;
+            // Edges lose light to where there is no surface: 0.1 % of the picture at these radii.
+            // Those of PHOTON_CAUSTICS meet photons after a bounce, too: small ones seldom, and
+            // brightly.
+            const bool caustics = kind == IntegratorKind::PhotonCaustics;
+            options.photonRadius = static_cast<float>((caustics ? 0.01 : 0.004) * scene.size);
+            const Estimate photons = meanOf(scene, options, 12);
+            const double p = welchTest(path, kRuns, photons, kRuns);
+            CAPTURE(scene.name, int(kind), path.mean(), path.standardError(), photons.mean(),
+                    photons.standardError(), p, threshold);
+            // PPM's hit points stay: the noise of where they are in the pixels does, too.
+            const double noise = kind == IntegratorKind::Ppm ? 0.04 : 0.015;
+            CHECK(photons.standardError() < noise * path.mean());
+            CHECK(p > threshold);
+        }
+    }
+}
+
+} // namespace
+
+TEST_CASE("photons and paths agree: ten scenes of all kinds", "[photons][statistics]")
+{
+    checkAgreement(tenScenes(kSize, kSize));
+}
+
+TEST_CASE("photons and paths agree: what photons find hard", "[photons][statistics]")
+{
+    checkAgreement(photonScenes(kSize, kSize));
+}

@@ -1,0 +1,14 @@
+// PhotonScenes.h - scenes of what photons find hard, in each of which path tracing converges.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/statistics/TenScenes.h"
+
+namespace osgRayTrace::engine::test
+{
+
+/// Smooth-shaded coarse meshes, mirrored and uneven instances of glass, materials that let a part
+/// of the light through, many lights of all kinds, lights inside glass.
+std::vector<ComparedScene> photonScenes(int width, int height);
+
+} // namespace osgRayTrace::engine::test

@@ -1,0 +1,287 @@
+// RatesTest.cpp - how fast the error of rendered photon maps falls: slopes, bias and variance by
+// the formulas. SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/Statistics.h"
+#include "tests/photons/Nephroid.h"
+
+#include "osgRayTrace/photons/PhotonPasses.h"
+#include "osgRayTrace/photons/RadiusSchedule.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr int kPixels = 16; ///< an edge of the patch that is looked at
+constexpr double kPiD = glm::pi<double>();
+constexpr int kCounts[] = {64, 128, 256, 512, 1024, 2048, 4096};
+constexpr std::size_t kLast = 6;
+
+/// A patch of floor whose radiance is known, pixel by pixel, also as a mean over discs.
+struct Known
+{
+    SceneBuilder builder;
+    Vec3d centre;
+    double side;
+    double (*mean)(double x, double y, double radius); ///< of what photons carry
+    double (*direct)(double x, double y);
+};
+
+/// A point light at (0, 0, 1) beside a mirror at x = 1: its image is at (2, 0, 1). What falls onto
+/// the patch from there has gone through the mirror wherever the patch's discs reach.
+SceneBuilder flatMirror()
+{
+    SceneBuilder builder;
+    builder.add(quadMesh({-2, -2, 0}, {2.9f, 0, 0}, {0, 4, 0}), lambert(Vec3(1.0f)));
+    builder.add(quadMesh({1, 0.45f, 0.1f}, {0, -0.9f, 0}, {0, 0, 0.53f}), mirror(Vec3(1.0f)));
+    builder.addLight(pointLight({0, 0, 1}));
+    return builder;
+}
+
+/// Radiance of a white floor under a point light of intensity pi, one length above the foot.
+double underLight(double x, double y)
+{
+    return std::pow(1.0 + x * x + y * y, -1.5);
+}
+
+/// To the fourth order of the radius: 1e-6 at the discs of this test. E = (1 + q)^-1.5, q the
+/// square of the distance from the foot: its Laplacian is (9 q - 6) (1 + q)^-3.5.
+double mirroredMean(double x, double y, double radius)
+{
+    const double q = (x - 2.0) * (x - 2.0) + y * y;
+    return underLight(x - 2.0, y) +
+           radius * radius / 8.0 * (9.0 * q - 6.0) * std::pow(1.0 + q, -3.5);
+}
+
+Known flatMirrorPatch()
+{
+    return {flatMirror(), {0.1, 0, 0}, 0.8, mirroredMean, underLight};
+}
+
+/// Between the centre and the nephroid's cusp, where G rises from 1.4 to 5.
+Known nephroidPatch()
+{
+    return {nephroid(),
+            {0.28, 0, 0},
+            0.24,
+            [](double x, double y, double radius) { return meanGain(x, y, radius); },
+            [](double, double) { return 1.0; }};
+}
+
+/// Means over the pixels of the error over the true value and of its square at each of kCounts, a
+/// value a run.
+struct Errors
+{
+    std::vector<Estimate> relative, squared;
+    std::vector<double> slopes; ///< of the squared error, a run
+};
+
+/// Of pixel k, row by row from below; patchView looks down with +x up.
+Vec3d pixelCentre(const Known& known, int k)
+{
+    const double up = (k / kPixels + 0.5) / kPixels - 0.5,
+                 right = (k % kPixels + 0.5) / kPixels - 0.5;
+    return known.centre + Vec3d(up, -right, 0.0) * known.side;
+}
+
+/// Radiance of the pixels without noise and bias. The mean over a disc with the square's second
+/// moments is that over the pixel, to the fourth order of its size.
+std::vector<double> truth(const Known& known)
+{
+    std::vector<double> values;
+    const double pixelRadius = known.side / kPixels / std::sqrt(3.0);
+    for (int k = 0; k < kPixels * kPixels; ++k)
+    {
+        const Vec3d p = pixelCentre(known, k);
+        values.push_back(known.mean(p.x, p.y, pixelRadius) + known.direct(p.x, p.y));
+    }
+    return values;
+}
+
+Errors measured(const Known& known, RenderOptions options, int runs)
+{
+    const auto traced = known.builder.build();
+    const std::vector<double> expected = truth(known);
+    Errors errors;
+    errors.relative.resize(kLast + 1);
+    errors.squared.resize(kLast + 1);
+    for (int run = 0; run < runs; ++run)
+    {
+        RenderSession session(std::make_shared<Workers>(1));
+        session.setScene(traced);
+        session.setView(patchView(known.centre, {0, 0, 1}, known.side, kPixels));
+        options.seed = 77 + static_cast<uint32_t>(run);
+        session.setOptions(options);
+        std::vector<double> counts, squares;
+        for (std::size_t at = 0; at <= kLast; ++at)
+        {
+            StopRule rule;
+            rule.passes = kCounts[at];
+            const RenderProgress progress = session.render(rule);
+            REQUIRE(progress.passes == kCounts[at]);
+            REQUIRE(progress.droppedSamples == 0);
+            const std::vector<float> rgba = session.resolveRadiance();
+            double relative = 0.0, squared = 0.0;
+            for (std::size_t k = 0; k < expected.size(); ++k)
+            {
+                const double error = double(rgba[4 * k + 1]) / expected[k] - 1.0;
+                relative += error / double(expected.size());
+                squared += error * error / double(expected.size());
+            }
+            errors.relative[at].add(relative);
+            errors.squared[at].add(squared);
+            counts.push_back(kCounts[at]);
+            squares.push_back(squared);
+        }
+        errors.slopes.push_back(logLogSlope(counts, squares));
+    }
+    return errors;
+}
+
+void checkSlope(const char* name, const Errors& errors, const RenderOptions& options)
+{
+    Estimate slope;
+    for (const double s : errors.slopes)
+        slope.add(s);
+    std::vector<double> counts, squares;
+    for (std::size_t at = 0; at <= kLast; ++at)
+    {
+        counts.push_back(kCounts[at]);
+        squares.push_back(errors.squared[at].mean());
+    }
+    const double fitted = logLogSlope(counts, squares);
+    CAPTURE(name, int(options.integrator), int(options.radiusSchedule), options.photonAlpha, fitted,
+            slope.standardError(), squares[0], squares[kLast]);
+    CHECK(slope.standardError() < 0.02);
+    CHECK(fitted == Approx(-double(options.photonAlpha)).margin(0.07));
+}
+
+/// Power of a photon that comes by the mirror: all are alike [W].
+double photonPower(const Known& known, const RenderOptions& options)
+{
+    const auto traced = known.builder.build();
+    PhotonPassOptions pass;
+    pass.use = PhotonUse::Caustics;
+    pass.photons = static_cast<uint32_t>(options.photons);
+    pass.maxBounces = 1;
+    PhotonPasses passes;
+    const auto first = passes.pass(traced, traced->scene().lights, pass, 0, 0.1f, Workers(1));
+    REQUIRE(first->map.size() > 10);
+    return double(first->map.photon(0).power.y);
+}
+
+/// Mean over the pixels of variance and squared bias over the squared value after count passes:
+/// pass i has a disc of r_i^2 = r_1^2 globalRadiusSquared(i), whose photons are Poisson
+/// distributed.
+double expectedSquare(const Known& known, const RenderOptions& options, double power, int count)
+{
+    const std::vector<double> expected = truth(known);
+    double sum = 0.0;
+    for (int k = 0; k < kPixels * kPixels; ++k)
+    {
+        const Vec3d p = pixelCentre(known, k);
+        double mean = 0.0, variance = 0.0;
+        for (int i = 0; i < count; ++i)
+        {
+            const double radius2 = double(options.photonRadius) * double(options.photonRadius) *
+                                   globalRadiusSquared(i, double(options.photonAlpha));
+            const double inDisc = known.mean(p.x, p.y, std::sqrt(radius2));
+            mean += inDisc / count;
+            // A flux F = pi L of photons of power w through the disc A: var(L) = w F A / (pi A)^2.
+            variance += power * inDisc / (kPiD * kPiD * radius2) / (double(count) * count);
+        }
+        const double bias = mean - known.mean(p.x, p.y, 0.0);
+        const double value = expected[static_cast<std::size_t>(k)];
+        sum += (variance + bias * bias) / (value * value) / (kPixels * kPixels);
+    }
+    return sum;
+}
+
+RenderOptions optionsFor(IntegratorKind kind, RadiusSchedule schedule, int photons, float radius)
+{
+    RenderOptions options = optionsOf(kind, 1);
+    options.radiusSchedule = schedule;
+    options.photons = photons;
+    options.photonRadius = radius;
+    return options;
+}
+
+} // namespace
+
+// The slopes have a standard error of 0.02 at most: 0.07 is 3.5 of them, a false alarm of all five
+// has a probability of 2e-3. Mean squares are those of the formulas to 12 %: four standard errors
+// and what the photons are spread more evenly than by chance.
+TEST_CASE("rates: a flat mirror's light by global radii", "[photons][statistics][stability 41]")
+{
+    const Known known = flatMirrorPatch();
+    for (const float alpha : {0.5f, 2.0f / 3.0f, 0.8f})
+    {
+        RenderOptions options =
+            optionsFor(IntegratorKind::PhotonCaustics, RadiusSchedule::Global, 256, 0.03f);
+        options.photonAlpha = alpha;
+        const Errors errors = measured(known, options, 6);
+        checkSlope("flat mirror", errors, options);
+        const double power = photonPower(known, options);
+        for (const std::size_t at : {std::size_t(2), std::size_t(4), kLast})
+        {
+            const double expected = expectedSquare(known, options, power, kCounts[at]);
+            CAPTURE(alpha, kCounts[at], errors.squared[at].mean(), expected,
+                    errors.squared[at].standardError());
+            CHECK(errors.squared[at].mean() == Approx(expected).epsilon(0.12));
+        }
+    }
+}
+
+TEST_CASE("rates: a flat mirror's light by local radii", "[photons][statistics][stability 41]")
+{
+    const RenderOptions options =
+        optionsFor(IntegratorKind::Sppm, RadiusSchedule::Local, 1024, 0.06f);
+    checkSlope("flat mirror", measured(flatMirrorPatch(), options, 8), options);
+}
+
+TEST_CASE("rates: the nephroid's light", "[photons][statistics][stability 41]")
+{
+    RenderOptions options =
+        optionsFor(IntegratorKind::PhotonCaustics, RadiusSchedule::Global, 1024, 0.015f);
+    checkSlope("nephroid", measured(nephroidPatch(), options, 6), options);
+    options = optionsFor(IntegratorKind::Sppm, RadiusSchedule::Local, 1024, 0.02f);
+    checkSlope("nephroid", measured(nephroidPatch(), options, 6), options);
+}
+
+// Beside the nephroid, where the first disc holds 30 % too much: the mean of the discs' means over
+// the passes, within four standard errors of 32 values (a false alarm of the three: 1e-3).
+TEST_CASE("rates: bias beside the nephroid falls as the discs do", "[photons][statistics]")
+{
+    const auto traced = nephroid().build();
+    RenderOptions options =
+        optionsFor(IntegratorKind::PhotonCaustics, RadiusSchedule::Global, 1024, 0.05f);
+    constexpr int counts[] = {64, 256, 1024};
+    Estimate gains[3];
+    for (uint32_t run = 0; run < 32; ++run)
+    {
+        RenderSession session(std::make_shared<Workers>(1));
+        session.setScene(traced);
+        session.setView(patchView({0.6, 0, 0}, {0, 0, 1}, 1e-3, 1));
+        options.seed = run;
+        session.setOptions(options);
+        for (int at = 0; at < 3; ++at)
+        {
+            StopRule rule;
+            rule.passes = counts[at];
+            session.render(rule);
+            gains[at].add(double(session.resolveRadiance()[1]) - 1.0);
+        }
+    }
+    double sum = 0.0;
+    for (int i = 0, at = 0; i < counts[2]; ++i)
+    {
+        sum += meanGain(0.6, 0.0, 0.05 * std::sqrt(globalRadiusSquared(i, 2.0 / 3.0)), 4000);
+        if (i + 1 != counts[at]) continue;
+        const double expected = sum / (i + 1), bias = expected - gainOnAxis(0.6);
+        CAPTURE(i + 1, gains[at].mean(), expected, bias, gains[at].standardError());
+        CHECK(gains[at].standardError() < 0.2 * bias);
+        CHECK(gains[at].agrees(expected, 2e-3 * expected));
+        ++at;
+    }
+}
