@@ -74,7 +74,7 @@ public:
     void halfMeans(int tile, TileRgba& first, TileRgba& second) const;
 
     /// Factor of |a - b| that makes it the standard error of the mean of all passes, a and b the halves'
-    /// means: 1/2, and less for an odd number of passes, as the halves then differ in size. 0 below two.
+    /// means: 1/2, and about that for an odd number of passes, as the halves then differ in size. 0 below two.
     float errorScale(int tile) const;
 
     /// Estimate of the sum over the tile's pixels and RGB of (x - r)^2 / (R^2 + 0.01), and the number of terms;

@@ -132,7 +132,7 @@ View withoutLight()
 
 TEST_CASE("coverage: path tracing with Sobol points", "[statistics]")
 {
-    for (const int passes : {4, 16})
+    for (const int passes : {4, 5, 16})
         checkCoverage(cornellBox().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),
                       passes);
 }
