@@ -21,6 +21,10 @@ namespace osgRayTrace::engine
 ///                        more; path tracing: light sampling there, and all up to there (light
 ///                        (S|glossy)* eye)
 ///
+/// Pixels of a tile lend each other paths (PathReuse.h), so their errors depend on each other: the error
+/// of a pixel is estimated rightly by the film, that of a mean over a tile is greater than if they were
+/// independent. Tiles are independent.
+///
 /// A surface is rough if it does not transmit and has a GGX width from kGatherAlpha on or a Lambert
 /// base; its mirror-like part is followed further.
 class PathIntegrator : public Integrator
