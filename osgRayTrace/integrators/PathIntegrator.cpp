@@ -13,7 +13,7 @@
 // is. A q that is capped below 1 would let beta grow along paths that lose less than it does, and
 // their variance with it; beta in glass is 1/eta^2 of what comes out again. Sixteen paths are
 // followed together; those that end are replaced by closing the ranks of the tile after each
-// bounce.
+// bounce. What a path finds from its second surface on is shared with other pixels: PathReuse.cpp.
 #include "osgRayTrace/integrators/PathIntegrator.h"
 
 #include "osgRayTrace/accel/Intersector.h"

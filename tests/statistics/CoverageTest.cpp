@@ -123,6 +123,55 @@ void checkCoverage(const std::shared_ptr<const TracedScene>& traced, const View&
     checkShare(whole.share95(), 0.95, whole.trials);
 }
 
+/// Green of a pixel of each tile: pixels of different tiles are independent, whatever the integrator.
+/// The two halves of one pixel are one degree of freedom.
+void checkPixelCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
+                        RenderOptions options, int passes)
+{
+    RenderSession session(std::make_shared<Workers>());
+    session.setScene(traced);
+    session.setView(view);
+    struct Pixel
+    {
+        double mean, error;
+    };
+    const auto rendered = [&](uint32_t seed, int count)
+    {
+        options.seed = seed;
+        session.setOptions(options);
+        StopRule rule;
+        rule.passes = count;
+        REQUIRE(session.render(rule).passes == count);
+        const std::vector<float> image = session.resolveRadiance(),
+                                 errors = session.resolveChannel(Channel::Error);
+        std::vector<Pixel> pixels;
+        for (int tile = 0; tile < kTiles * kTiles; ++tile)
+        {
+            const int x = tile % kTiles * kTile + 5, y = tile / kTiles * kTile + 9;
+            const auto pixel = static_cast<std::size_t>(y * kSize + x);
+            pixels.push_back({double(image[4 * pixel + 1]), double(errors[3 * pixel + 1])});
+        }
+        return pixels;
+    };
+    const std::vector<Pixel> truth = rendered(99999, 256 * passes);
+
+    int trials = 0, in68 = 0, in95 = 0;
+    for (uint32_t seed = 0; seed < kSeeds; ++seed)
+    {
+        const std::vector<Pixel> pixels = rendered(seed, passes);
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+        {
+            const double p = studentTail((pixels[i].mean - truth[i].mean) / pixels[i].error, 1.0);
+            ++trials;
+            in68 += p > 1.0 - 0.6827;
+            in95 += p > 0.05;
+        }
+    }
+    CAPTURE(passes, int(options.integrator), trials);
+    checkShare(double(in68) / trials, 0.6827, trials);
+    checkShare(double(in95) / trials, 0.95, trials);
+}
+
 View withoutLight()
 {
     return perspectiveView({278, 400, 20}, {278, 100, 559}, {0, 1, 0}, 45.0, kSize, kSize);
@@ -132,9 +181,26 @@ View withoutLight()
 
 TEST_CASE("coverage: path tracing with Sobol points", "[statistics]")
 {
+    // Pixels of a tile lend each other paths: the error of each is known, but not that of their sum.
     for (const int passes : {4, 5, 16})
-        checkCoverage(cornellBox().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),
-                      passes);
+        checkPixelCoverage(cornellBox().build(), withoutLight(),
+                           optionsOf(IntegratorKind::Path, 4), passes);
+}
+
+TEST_CASE("coverage: path tracing whose pixels share nothing", "[statistics]")
+{
+    const SceneBuilder box = cornellBox();
+    for (Material& material : box.scene->materials)
+    {
+        // Its colour could change from point to point: no paths are lent.
+        if (material.emission != Vec3(0.0f)) continue;
+        const Vec3 albedo = material.baseColor;
+        material = Material();
+        material.diffuse = albedo;
+        material.vertexColorUse = VertexColorUse::Ambient;
+    }
+    for (const int passes : {4, 5, 16})
+        checkCoverage(box.build(), withoutLight(), optionsOf(IntegratorKind::Path, 4), passes);
 }
 
 TEST_CASE("coverage: Whitted's ray tracer with Sobol points", "[statistics]")
