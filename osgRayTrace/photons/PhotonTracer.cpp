@@ -246,7 +246,7 @@ void ChunkTracer::follow(FlightBlock block, LaneMask active, int bounce)
     for (; general; general &= general - 1)
     {
         const int i = __builtin_ctz(general);
-        scatter(_bsdfs[i], flightOf(block, i), surface, i);
+        scatter(_bsdfs[i], flightOf(block, i), surface, i, bounce);
     }
 }
 

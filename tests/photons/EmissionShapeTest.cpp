@@ -178,8 +178,8 @@ TEST_CASE("photon emission: the power of a spot falls with its exponent", "[phot
 namespace
 {
 
-/// Power that lands after one straight pass through glass that is not there: a closed skin of no
-/// interface around the light, within a box. Direct photons are not stored, these are.
+/// Power that lands after one straight pass through glass that is hardly there: a closed skin of
+/// index 1 around the light, within a box. Direct light is not stored, this is.
 struct Landed
 {
     Estimate all;  ///< [W] a pass
@@ -189,8 +189,10 @@ struct Landed
 Landed landed(const Light& light, float aimedShare)
 {
     SceneBuilder builder = box(lambert(Vec3(0.5f)));
-    builder.add(sphereMesh(Vec3(0.0f), 1.9f, 16), glass(1.0f));
-    builder.add(sphereMesh({0, 0, -1.0f}, 0.4f, 8), glass(1.0f)); // to aim at
+    Material skin = glass(1.0f);
+    skin.baseColor = Vec3(1.0f - 0x1p-20f); // without any tint it would not be traced
+    builder.add(sphereMesh(Vec3(0.0f), 1.9f, 16), skin);
+    builder.add(sphereMesh({0, 0, -1.0f}, 0.4f, 8), skin); // to aim at
     if (light.kind == LightKind::Parallelogram)
         builder.addQuadLight(light.corner, light.edgeU, light.edgeV, light.radiance);
     else
@@ -212,7 +214,7 @@ Landed landed(const Light& light, float aimedShare)
         {
             const Vec3 far = glm::abs(p.position);
             const bool wall = std::max(far.x, std::max(far.y, far.z)) > 1.99f;
-            if (!wall) continue;
+            if (!wall || !p.direct) continue;
             all += double(p.power.y);
             const bool inDisc = p.position.z < -1.99f &&
                                 p.position.x * p.position.x + p.position.y * p.position.y < 0.25f;

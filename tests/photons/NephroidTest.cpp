@@ -36,7 +36,7 @@ std::vector<Estimate> measuredGains(IntegratorKind kind, int passes)
         for (const Row& row : kTable)
         {
             RenderOptions options =
-                optionsOf(kind, 1, seed); // nothing from the floor by the wall again
+                optionsOf(kind, 2, seed); // nothing from the floor by the wall again
             options.photons = 1 << 16;
             options.photonRadius = static_cast<float>(row.radius);
             options.photonAlpha = 1.0f; // all passes with the same disc

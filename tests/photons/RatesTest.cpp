@@ -164,7 +164,7 @@ double photonPower(const Known& known, const RenderOptions& options)
     PhotonPassOptions pass;
     pass.use = PhotonUse::Caustics;
     pass.photons = static_cast<uint32_t>(options.photons);
-    pass.maxBounces = 1;
+    pass.maxBounces = 2;
     PhotonPasses passes;
     const auto first = passes.pass(traced, traced->scene().lights, pass, 0, 0.1f, Workers(1));
     REQUIRE(first->map.size() > 10);
@@ -200,7 +200,7 @@ double expectedSquare(const Known& known, const RenderOptions& options, double p
 
 RenderOptions optionsFor(IntegratorKind kind, RadiusSchedule schedule, int photons, float radius)
 {
-    RenderOptions options = optionsOf(kind, 1);
+    RenderOptions options = optionsOf(kind, 2);
     options.radiusSchedule = schedule;
     options.photons = photons;
     options.photonRadius = radius;
