@@ -177,6 +177,21 @@ View withoutLight()
     return perspectiveView({278, 400, 20}, {278, 100, 559}, {0, 1, 0}, 45.0, kSize, kSize);
 }
 
+/// Colours could change from point to point: no paths are lent.
+SceneBuilder boxWithoutLoans()
+{
+    SceneBuilder box = cornellBox();
+    for (Material& material : box.scene->materials)
+    {
+        if (material.emission != Vec3(0.0f)) continue;
+        const Vec3 albedo = material.baseColor;
+        material = Material();
+        material.diffuse = albedo;
+        material.vertexColorUse = VertexColorUse::Ambient;
+    }
+    return box;
+}
+
 } // namespace
 
 TEST_CASE("coverage: path tracing with Sobol points", "[statistics]")
@@ -189,18 +204,8 @@ TEST_CASE("coverage: path tracing with Sobol points", "[statistics]")
 
 TEST_CASE("coverage: path tracing whose pixels share nothing", "[statistics]")
 {
-    const SceneBuilder box = cornellBox();
-    for (Material& material : box.scene->materials)
-    {
-        // Its colour could change from point to point: no paths are lent.
-        if (material.emission != Vec3(0.0f)) continue;
-        const Vec3 albedo = material.baseColor;
-        material = Material();
-        material.diffuse = albedo;
-        material.vertexColorUse = VertexColorUse::Ambient;
-    }
     for (const int passes : {4, 5, 16})
-        checkCoverage(box.build(), withoutLight(), optionsOf(IntegratorKind::Path, 4), passes);
+        checkCoverage(boxWithoutLoans().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4), passes);
 }
 
 TEST_CASE("coverage: Whitted's ray tracer with Sobol points", "[statistics]")
@@ -226,7 +231,7 @@ TEST_CASE("coverage: with the light's edges in view", "[statistics]")
 {
     // The few pixels along the edges make the error of their tile: it takes Whitted's ray tracer,
     // which has no other noise there, more passes until theirs is normally distributed.
-    checkCoverage(cornellBox().build(), cornellView(kSize, kSize),
+    checkCoverage(boxWithoutLoans().build(), cornellView(kSize, kSize),
                   optionsOf(IntegratorKind::Path, 4), 16);
     checkCoverage(cornellBox().build(), cornellView(kSize, kSize),
                   optionsOf(IntegratorKind::Whitted), 64);
