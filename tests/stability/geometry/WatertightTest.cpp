@@ -91,8 +91,8 @@ TEST_CASE("stability 5: closed sphere, rays at edges and vertices", "[stability]
         CAPTURE(eye.x);
         CHECK(escapes(*sphere, *traced, eye, Aim::Random) == 0);
         CHECK(escapes(*sphere, *traced, eye, Aim::Edge) == 0);
-        // Embree's robust test leaves vertices open: 0.78 to 1.8 % by the place of the eye, by
-        // the place of the eye alone: the same rays are lost in packets, coherent packets and one
+        // Embree's robust test leaves vertices open: 0.78 to 1.8 % by the place of the
+        // eye alone: the same rays are lost in packets, coherent packets and one
         // by one, flat and in an instance. 98 % of them hit if turned by one ulp, but a second try
         // would be paid by all rays that see the background, and rays so aimed are found in tests
         // only.
