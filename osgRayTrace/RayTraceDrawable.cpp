@@ -364,10 +364,10 @@ bool RayTraceDrawable::canTrace() const
     return version.scene && _implementation->untraceable.lock() != version.scene;
 }
 
-void RayTraceDrawable::cullRasterized(const osg::Node& above, osgUtil::CullVisitor& visitor) const
+void RayTraceDrawable::cullRasterized(osgUtil::CullVisitor& visitor) const
 {
     const engine::SceneVersion version = _implementation->scene.version();
-    if (version.rasterized) engine::cullParts(*version.rasterized, above, visitor);
+    if (version.rasterized) engine::cullParts(*version.rasterized, visitor);
 }
 
 void RayTraceDrawable::forgetFailure()

@@ -133,7 +133,7 @@ void RayTracedScene::traverse(osg::NodeVisitor& visitor)
             const BoundingVolumeNearFar nearFar(*cull);
             _drawable->accept(*cull);
         }
-        _drawable->cullRasterized(*this, *cull);
+        _drawable->cullRasterized(*cull);
         return;
     }
 

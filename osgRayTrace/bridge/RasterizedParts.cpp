@@ -103,20 +103,19 @@ RasterizedPart rasterizedPart(RasterizedPart::Kind kind, const osg::NodePath& pa
 {
     RasterizedPart part;
     part.kind = kind;
-    part.path.assign(path.begin(), path.end());
+    constexpr std::ptrdiff_t kAbove = 2;
+    if (path.size() > kAbove) part.path.assign(path.begin() + kAbove, path.end());
     return part;
 }
 
-void cullParts(const RasterizedParts& parts, const osg::Node& above, osgUtil::CullVisitor& visitor)
+void cullParts(const RasterizedParts& parts, osgUtil::CullVisitor& visitor)
 {
     Descent descent(visitor);
     for (const RasterizedPart& part : parts)
     {
-        const auto isAbove = [&](const osg::ref_ptr<osg::Node>& node) { return node == &above; };
-        const auto found = std::find_if(part.path.begin(), part.path.end(), isAbove);
-        if (found == part.path.end() || found + 1 == part.path.end()) continue;
+        if (part.path.empty()) continue; // there is no decorator
         osg::Node& node = *part.path.back();
-        if (!descent.moveTo(found + 1, part.path.end() - 1)) continue;
+        if (!descent.moveTo(part.path.begin(), part.path.end() - 1)) continue;
         if (part.kind == RasterizedPart::PlaceState)
         {
             if (visitor.validNodeMask(node)) placeState(node, visitor);

@@ -26,20 +26,20 @@ struct RasterizedPart
     };
 
     Kind kind = Draw;
-    std::vector<osg::ref_ptr<osg::Node>>
-        path;                        ///< from the root of the conversion to the node itself
+    /// From below the decorator to the node itself: what holds its owner would never be freed.
+    std::vector<osg::ref_ptr<osg::Node>> path;
     osg::ref_ptr<osg::Node> inPlace; ///< drawn in place of the last of path; may be null
 };
 
 /// In the order of the traversal. Immutable once it is published.
 using RasterizedParts = std::vector<RasterizedPart>;
 
-/// A node of this path, whose children the caller can have hidden.
+/// The last node of this path, which begins with what stands for the decorator and the decorator.
 RasterizedPart rasterizedPart(RasterizedPart::Kind kind, const osg::NodePath& path);
 
 /// Culls the parts as their parents would: with the state, the transforms and the masks on their
-/// paths from below `above` on, which the visitor is at. Cull callbacks of groups on the way are
+/// paths, from the decorator on, which the visitor is at. Cull callbacks of groups on the way are
 /// not called. The graph is not changed. Cull threads.
-void cullParts(const RasterizedParts& parts, const osg::Node& above, osgUtil::CullVisitor& visitor);
+void cullParts(const RasterizedParts& parts, osgUtil::CullVisitor& visitor);
 
 } // namespace osgRayTrace::engine

@@ -254,6 +254,20 @@ TEST_CASE("rasterized parts: states that OpenGL draws", "[gl]")
     }
 }
 
+// Conversion keeps what it leaves to OSG; that must not keep the decorator.
+TEST_CASE("rasterized parts: the scene is freed with its owner", "[gl]")
+{
+    osg::observer_ptr<RayTracedScene> observed;
+    {
+        osg::ref_ptr<osg::Group> content = scene({headUpDisplay()});
+        osg::ref_ptr<RayTracedScene> traced = tracedScene(content.get());
+        observed = traced;
+        TestViewer viewer(kSize, kSize, traced.get());
+        viewer.frames(2);
+    }
+    CHECK_FALSE(observed.valid());
+}
+
 // An edited scene draws the parts that it has now, and lets go of the others.
 TEST_CASE("rasterized parts: added and removed while drawn", "[gl]")
 {

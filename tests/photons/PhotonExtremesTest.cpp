@@ -96,10 +96,15 @@ TEST_CASE("stability 42: no photon and one photon a pass", "[photons][stability 
 
 TEST_CASE("photon extremes: a closed box of mirrors comes to an end, with a note", "[photons]")
 {
-    SceneBuilder builder;
-    builder.add(boxMesh(Vec3(-4.0f), Vec3(4.0f)), mirror(Vec3(1.0f)));
-    builder.addLight(pointLight({1, 1, 1}));
-    const auto empty = builder.build();
+    const auto box = []
+    {
+        SceneBuilder builder;
+        builder.add(boxMesh(Vec3(-4.0f), Vec3(4.0f)), mirror(Vec3(1.0f)));
+        builder.addLight(pointLight({1, 1, 1}));
+        return builder;
+    };
+    const auto empty = box().build();
+    SceneBuilder builder = box();
     builder.add(sphereMesh({-2, 0, 0}, 0.5f, 8), kGrey);
     const auto withBall = builder.build();
     for (const IntegratorKind kind : kPhotonKinds)
