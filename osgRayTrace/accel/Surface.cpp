@@ -45,7 +45,7 @@ float transformMagnitude(const Affine& m, Vec3 a, Vec3 b, Vec3 c)
     return vertex * row + largestOf(m.translation);
 }
 
-bool loadTriangle(const SurfaceRecord& record, uint32_t primitive, int i, TriangleLanes& lanes)
+OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primitive, int i, TriangleLanes& lanes)
 {
     const UVec3 t = record.triangles[primitive];
     Vec3 a = record.positions[t.x];
@@ -380,6 +380,26 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
     if (!smooth) return;
     interpolateNormals(block, triangles, smooth, surface);
     if (start == RayStart::Smooth) lift(block, triangles, smooth, surface);
+}
+
+OSGRAYTRACE_KERNEL
+void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lanes& normal)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float gx = surface.geometricNormal.x[i], gy = surface.geometricNormal.y[i],
+                    gz = surface.geometricNormal.z[i];
+        const float sx = surface.shadingNormal.x[i], sy = surface.shadingNormal.y[i],
+                    sz = surface.shadingNormal.z[i];
+        const float sign = sx * gx + sy * gy + sz * gz < 0.0f ? -1.0f : 1.0f;
+        const float towards = sign * (sx * ray.directionX[i] + sy * ray.directionY[i] +
+                                      sz * ray.directionZ[i]);
+        const bool use = towards < -1e-4f;
+        normal.x[i] = select(use, sx * sign, gx);
+        normal.y[i] = select(use, sy * sign, gy);
+        normal.z[i] = select(use, sz * sign, gz);
+    }
 }
 
 Vec2 interpolateUv(const SurfaceRecord& record, uint32_t primitive, float u, float v)

@@ -62,6 +62,10 @@ inline void dropLift(SurfaceLanes& surface, LaneMask lanes)
 void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active,
                 SurfaceLanes& surface, RayStart start = RayStart::Triangle);
 
+/// The shading normal turned to the side that the ray comes from; the geometric normal where the two
+/// disagree so much that the ray would come from behind. Of all lanes, those without a hit included.
+void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lanes& normal);
+
 /// Texture coordinates of unit 0 at a hit; zero if the mesh has none.
 Vec2 interpolateUv(const SurfaceRecord& record, uint32_t primitive, float u, float v);
 

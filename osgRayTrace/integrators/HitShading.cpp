@@ -44,26 +44,6 @@ Vec3 emissionTowardsRay(const PassContext& context, const RayHitBlock& rays,
     return materials.emission(material, materialPoint(context, rays, surface, i));
 }
 
-OSGRAYTRACE_KERNEL
-void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lanes& normal)
-{
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < kLanes; ++i)
-    {
-        const float gx = surface.geometricNormal.x[i], gy = surface.geometricNormal.y[i],
-                    gz = surface.geometricNormal.z[i];
-        const float sx = surface.shadingNormal.x[i], sy = surface.shadingNormal.y[i],
-                    sz = surface.shadingNormal.z[i];
-        const float sign = sx * gx + sy * gy + sz * gz < 0.0f ? -1.0f : 1.0f;
-        const float towards = sign * (sx * ray.directionX[i] + sy * ray.directionY[i] +
-                                      sz * ray.directionZ[i]);
-        const bool use = towards < -1e-4f;
-        normal.x[i] = select(use, sx * sign, gx);
-        normal.y[i] = select(use, sy * sign, gy);
-        normal.z[i] = select(use, sz * sign, gz);
-    }
-}
-
 /// Sums of more than this could overflow: taken for infinite.
 constexpr float kLargestRadiance = 1e30f;
 

@@ -60,16 +60,12 @@ inline bool isAbove(const SurfaceLanes& surface, int i, Vec3 wi)
 MaterialPoint materialPoint(const PassContext& context, const RayHitBlock& rays,
                             const SurfaceLanes& surface, int i);
 
-/// The shading normal turned to the side that the ray comes from; the geometric normal where the two
-/// disagree so much that the ray would come from behind.
+/// As of facingNormalLanes.
 Vec3 facingNormal(const RayHitBlock& rays, const SurfaceLanes& surface, int i);
 
 /// Radiance that the surface sends back along the ray by itself: 0 from the dark side of a light.
 Vec3 emissionTowardsRay(const PassContext& context, const RayHitBlock& rays,
                         const SurfaceLanes& surface, int i);
-
-/// facingNormal of all lanes, those without a hit included.
-void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lanes& normal);
 
 /// Sets samples that are not finite to 0 and counts them.
 void dropNotFinite(TileResult& result);

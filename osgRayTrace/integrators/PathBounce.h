@@ -68,6 +68,7 @@ struct Bounce
     Vec3Lanes albedo;       ///< of diffuse lanes
     LaneMask diffuse = 0;   ///< plain Lambert lanes
     LaneMask general = 0;   ///< all other hits that scatter
+    LaneMask smooth = 0;    ///< of these, those with mirror-like lobes only
     LaneMask through = 0;   ///< general lanes that transmit
     LaneMask gathering = 0; ///< lanes that look up photons
     LaneMask rough = 0;     ///< of these, those that look up all photons

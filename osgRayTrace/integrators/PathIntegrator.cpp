@@ -20,6 +20,7 @@
 #include "osgRayTrace/integrators/CameraLanes.h"
 #include "osgRayTrace/integrators/HitShading.h"
 #include "osgRayTrace/integrators/PathBounce.h"
+#include "osgRayTrace/shading/SmoothLanes.h"
 
 #include <cstring>
 
@@ -33,7 +34,7 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
 {
     facingNormalLanes(block.rays.ray, bounce.surface, bounce.normal);
     const MaterialTable& materials = tile.context.traced->materials();
-    bounce.diffuse = bounce.general = bounce.through = 0;
+    bounce.diffuse = bounce.general = bounce.smooth = bounce.through = 0;
     for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
@@ -53,6 +54,7 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
                                  materialPoint(tile.context, block.rays, bounce.surface, i));
         if (bounce.bsdfs[i].isDiffuse() && bounce.bsdfs[i].diffuse == Vec3(0.0f)) continue;
         bounce.general |= 1u << i;
+        bounce.smooth |= static_cast<LaneMask>(isSmoothInterface(bounce.bsdfs[i])) << i;
         bounce.through |= static_cast<LaneMask>(bounce.bsdfs[i].transmits()) << i;
     }
     dropLift(bounce.surface, bounce.through); // refraction depends on where the facet is

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/HitShading.h"
 #include "osgRayTrace/integrators/PathBounce.h"
+#include "osgRayTrace/shading/SmoothLanes.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -52,6 +53,33 @@ LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface,
         origin.z[i] = surface.position.z[i] + gz * surface.offset[i];
         const uint32_t above = maskOf(wx * gx + wy * gy + wz * gz > 0.0f) | laneBit(lifted, i);
         alive |= bitOfLane(above & maskOf(lz > 0.0f), i);
+    }
+    return alive;
+}
+
+/// The lanes at smooth interfaces; returns those that go on.
+LaneMask mirror(PathBlock& block, const Bounce& bounce, const FloatLanes& lobe, Vec3Lanes& wi,
+                Vec3Lanes& origin, Vec3Lanes& weight, FloatLanes& pdfW)
+{
+    if (!bounce.smooth) return 0;
+    InterfaceLanes interfaces;
+    for (LaneMask lanes = bounce.smooth; lanes; lanes &= lanes - 1)
+        interfaces.set(__builtin_ctz(lanes), bounce.bsdfs[__builtin_ctz(lanes)]);
+    const RayBlock& ray = block.rays.ray;
+    const IncidentLanes incident{ray.directionX, ray.directionY, ray.directionZ, bounce.normal};
+    const SmoothLanes sampled = sampleSmoothLanes(interfaces, incident, lobe, bounce.smooth,
+                                                  Transport::Radiance, wi, weight);
+    LaneMask alive = 0;
+    for (LaneMask lanes = sampled.alive; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const bool transmitted = (sampled.transmitted >> i) & 1u;
+        const Vec3 direction = laneOf(wi, i);
+        if (isAbove(bounce.surface, i, direction) == transmitted) continue;
+        setLane(origin, i, leave(bounce.surface, i, direction));
+        pdfW[i] = kInfinity;
+        if (transmitted) block.etaScale[i] *= bounce.bsdfs[i].eta * bounce.bsdfs[i].eta;
+        alive |= 1u << i;
     }
     return alive;
 }
@@ -158,7 +186,8 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
     Vec3Lanes weight = bounce.albedo;
     LaneMask alive = diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, pdfW) &
                      bounce.diffuse & ~bounce.ending;
-    for (LaneMask lanes = bounce.general; lanes; lanes &= lanes - 1)
+    alive |= mirror(block, bounce, lobe, wi, origin, weight, pdfW);
+    for (LaneMask lanes = bounce.general & ~bounce.smooth; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         const ShadingFrame frame(laneOf(bounce.normal, i));

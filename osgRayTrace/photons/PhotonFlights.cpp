@@ -22,23 +22,27 @@ OSGRAYTRACE_INLINE float largestOf(float a, float b, float c)
 
 } // namespace
 
-void FlightQueue::append(const Flight& flight)
+void FlightQueue::append(const FlightBlock& flights, LaneMask lanes)
 {
-    FlightBlock& block = _blocks[_count / kLanes];
-    const int i = static_cast<int>(_count % kLanes);
-    ++_count;
-    block.origin.x[i] = flight.origin.x;
-    block.origin.y[i] = flight.origin.y;
-    block.origin.z[i] = flight.origin.z;
-    block.direction.x[i] = flight.direction.x;
-    block.direction.y[i] = flight.direction.y;
-    block.direction.z[i] = flight.direction.z;
-    block.power.x[i] = flight.power.x;
-    block.power.y[i] = flight.power.y;
-    block.power.z[i] = flight.power.z;
-    block.photon[i] = flight.photon;
-    block.light[i] = flight.light;
-    block.direct[i] = flight.direct ? 1u : 0u;
+    for (; lanes; lanes &= lanes - 1)
+    {
+        const int from = __builtin_ctz(lanes);
+        FlightBlock& block = _blocks[_count / kLanes];
+        const int to = static_cast<int>(_count % kLanes);
+        ++_count;
+        block.origin.x[to] = flights.origin.x[from];
+        block.origin.y[to] = flights.origin.y[from];
+        block.origin.z[to] = flights.origin.z[from];
+        block.direction.x[to] = flights.direction.x[from];
+        block.direction.y[to] = flights.direction.y[from];
+        block.direction.z[to] = flights.direction.z[from];
+        block.power.x[to] = flights.power.x[from];
+        block.power.y[to] = flights.power.y[from];
+        block.power.z[to] = flights.power.z[from];
+        block.photon[to] = flights.photon[from];
+        block.light[to] = flights.light[from];
+        block.direct[to] = flights.direct[from];
+    }
 }
 
 void readyRays(RayHitBlock& rays)
@@ -80,33 +84,26 @@ void photonPoints(const UintLanes& photons, uint32_t seed, FloatLanes& u, FloatL
     }
 }
 
-/// Directions are cosine-distributed around the shading normal n: the weight is the albedo times
-///
-///   |wo.n| |wi.g| / (|wo.g| |wi.n|)                              [Veach97, sect. 5.3]
-///
-/// g the geometric normal: light carries the other cosine than radiance where normals are
-/// interpolated. A photon survives with the largest of its weights, so survivors keep their power
-/// as far as they can.
 OSGRAYTRACE_KERNEL
-void scatterDiffuse(const FlightBlock& block, const SurfaceLanes& surface, const Vec3Lanes& albedo,
-                    const FloatLanes& u, const FloatLanes& v, const FloatLanes& roulette,
-                    DiffuseFlights& scattered)
+void secondPhotonPoints(const UintLanes& photons, uint32_t seed, FloatLanes& v)
 {
-    LaneMask alive = 0;
-    OSGRAYTRACE_SIMD_OR(alive)
+    OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        const float dx = block.direction.x[i], dy = block.direction.y[i], dz = block.direction.z[i];
-        const float gx = surface.geometricNormal.x[i], gy = surface.geometricNormal.y[i],
-                    gz = surface.geometricNormal.z[i];
-        float nx = surface.shadingNormal.x[i], ny = surface.shadingNormal.y[i],
-              nz = surface.shadingNormal.z[i];
-        const float turn = select(nx * gx + ny * gy + nz * gz < 0.0f, -1.0f, 1.0f);
-        const uint32_t faces = maskOf((nx * dx + ny * dy + nz * dz) * turn < -1e-4f);
-        nx = select(faces, nx * turn, gx);
-        ny = select(faces, ny * turn, gy);
-        nz = select(faces, nz * turn, gz);
+        float x, y;
+        sobol2(photons[i], seed, x, y);
+        v[i] = y;
+    }
+}
 
+OSGRAYTRACE_KERNEL
+void diffuseDirections(const Vec3Lanes& normal, const FloatLanes& u, const FloatLanes& v,
+                       Vec3Lanes& wi)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float nx = normal.x[i], ny = normal.y[i], nz = normal.z[i];
         float sine, cosine;
         sinCosTurn(u[i], sine, cosine);
         const float radius = std::sqrt(v[i]);
@@ -115,32 +112,60 @@ void scatterDiffuse(const FlightBlock& block, const SurfaceLanes& surface, const
         const float sign = nz >= 0.0f ? 1.0f : -1.0f;
         const float a = -1.0f / (sign + nz);
         const float b = nx * ny * a;
-        const float wx = (1.0f + sign * nx * nx * a) * lx + b * ly + nx * lz;
-        const float wy = sign * b * lx + (sign + ny * ny * a) * ly + ny * lz;
-        const float wz = -sign * nx * lx - ny * ly + nz * lz;
+        wi.x[i] = (1.0f + sign * nx * nx * a) * lx + b * ly + nx * lz;
+        wi.y[i] = sign * b * lx + (sign + ny * ny * a) * ly + ny * lz;
+        wi.z[i] = -sign * nx * lx - ny * ly + nz * lz;
+    }
+}
 
+/// Light carries the other cosine than radiance where normals are interpolated: weights are times
+///
+///   |wo.n| |wi.g| / (|wo.g| |wi.n|)                              [Veach97, sect. 5.3]
+///
+/// g the geometric normal. Directions on the other side of the surface than the sample meant are
+/// absorbed. A photon survives with the largest of its weights, so survivors keep their power as far
+/// as they can.
+OSGRAYTRACE_KERNEL
+LaneMask leaveSurfaces(const SurfaceLanes& surface, const Vec3Lanes& normal,
+                       const Scattered& scattered, const FloatLanes& roulette, FlightBlock& block)
+{
+    const LaneMask transmitted = scattered.transmitted, mirrored = scattered.mirrored;
+    LaneMask alive = 0;
+    OSGRAYTRACE_SIMD_OR(alive)
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float dx = block.direction.x[i], dy = block.direction.y[i], dz = block.direction.z[i];
+        const float gx = surface.geometricNormal.x[i], gy = surface.geometricNormal.y[i],
+                    gz = surface.geometricNormal.z[i];
+        const float nx = normal.x[i], ny = normal.y[i], nz = normal.z[i];
+        const float wx = scattered.wi.x[i], wy = scattered.wi.y[i], wz = scattered.wi.z[i];
         const float side = wx * gx + wy * gy + wz * gz;
-        const float incoming = std::fabs(dx * nx + dy * ny + dz * nz);
-        const float correction = (incoming * side) / (std::fabs(dx * gx + dy * gy + dz * gz) * lz);
-        const float factor = select(correction < kInfinity, correction, 1.0f);
-        const float red = albedo.x[i] * factor, green = albedo.y[i] * factor,
-                    blue = albedo.z[i] * factor;
+        const float leaving = wx * nx + wy * ny + wz * nz;
+        const float correction = ((dx * nx + dy * ny + dz * nz) * side) /
+                                 ((dx * gx + dy * gy + dz * gz) * leaving);
+        const float size = std::fabs(correction);
+        const float factor = select(size < kInfinity, size, 1.0f);
+        const float red = scattered.weight.x[i] * factor, green = scattered.weight.y[i] * factor,
+                    blue = scattered.weight.z[i] * factor;
         const float largest = largestOf(red, green, blue);
         const float survival = select(largest < 1.0f, largest, 1.0f);
         const float inverse = 1.0f / survival;
-        scattered.power.x[i] = block.power.x[i] * red * inverse;
-        scattered.power.y[i] = block.power.y[i] * green * inverse;
-        scattered.power.z[i] = block.power.z[i] * blue * inverse;
-        scattered.direction.x[i] = wx;
-        scattered.direction.y[i] = wy;
-        scattered.direction.z[i] = wz;
-        scattered.origin.x[i] = surface.position.x[i] + gx * surface.offset[i];
-        scattered.origin.y[i] = surface.position.y[i] + gy * surface.offset[i];
-        scattered.origin.z[i] = surface.position.z[i] + gz * surface.offset[i];
-        alive |=
-            bitOfLane(maskOf(side > 0.0f) & maskOf(lz > 0.0f) & maskOf(roulette[i] < survival), i);
+        block.power.x[i] *= red * inverse;
+        block.power.y[i] *= green * inverse;
+        block.power.z[i] *= blue * inverse;
+        block.direction.x[i] = wx;
+        block.direction.y[i] = wy;
+        block.direction.z[i] = wz;
+        const float offset = select(side < 0.0f, -surface.offset[i], surface.offset[i]);
+        block.origin.x[i] = surface.position.x[i] + gx * offset;
+        block.origin.y[i] = surface.position.y[i] + gy * offset;
+        block.origin.z[i] = surface.position.z[i] + gz * offset;
+        block.direct[i] &= laneBit(mirrored, i);
+        const uint32_t through = laneBit(transmitted, i);
+        const uint32_t meant = (maskOf(side > 0.0f) & ~through) | (maskOf(side < 0.0f) & through);
+        alive |= bitOfLane(meant & maskOf(roulette[i] < survival), i);
     }
-    scattered.alive = alive;
+    return alive & scattered.alive;
 }
 
 } // namespace osgRayTrace::engine

@@ -3,8 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/accel/Surface.h"
-
-#include <vector>
+#include "osgRayTrace/base/LargeArray.h"
 
 namespace osgRayTrace::engine
 {
@@ -18,15 +17,6 @@ struct FlightBlock
     UintLanes direct; ///< 1: met nothing but mirror-like surfaces yet
 };
 
-/// One photon, for those that are handled one by one.
-struct Flight
-{
-    Vec3 origin{0.0f}, direction{0.0f}, power{0.0f};
-    uint32_t photon = 0;
-    uint32_t light = 0;
-    bool direct = true; ///< met nothing but mirror-like surfaces yet
-};
-
 /// Photons in as few blocks as possible, in order. Those that fly on may be appended to the
 /// beginning of the blocks that they are taken from: a block that has been copied is free.
 class FlightQueue
@@ -38,29 +28,42 @@ public:
     const FlightBlock& operator[](uint32_t block) const { return _blocks[block]; }
 
     void clear() { _count = 0; }
-    void append(const Flight& flight);
+
+    /// The flights of lanes.
+    void append(const FlightBlock& flights, LaneMask lanes);
 
 private:
-    std::vector<FlightBlock> _blocks;
+    UnclearedArray<FlightBlock> _blocks;
     uint32_t _count = 0;
 };
 
 /// The two numbers of a dimension of each lane's photon; seed is the dimension's.
 void photonPoints(const UintLanes& photons, uint32_t seed, FloatLanes& u, FloatLanes& v);
 
+/// The second of them alone, which costs half.
+void secondPhotonPoints(const UintLanes& photons, uint32_t seed, FloatLanes& v);
+
 /// The rays of a block. What is alike for all of them has to be set once, by readyRays, and after a
 /// query the rest by loadRays.
 void readyRays(RayHitBlock& rays);
 void loadRays(const FlightBlock& block, RayHitBlock& rays);
 
-/// Where photons go from plain Lambert surfaces, and what is left of them: vector code.
-struct DiffuseFlights
+/// Where photons go from the surfaces that they met, as the surface models sampled it.
+struct Scattered
 {
-    Vec3Lanes origin, direction, power;
-    LaneMask alive = 0; ///< the others were absorbed
+    Vec3Lanes wi;     ///< unit
+    Vec3Lanes weight; ///< of the sample: f cosine / density
+    LaneMask alive = 0; ///< the others are absorbed
+    LaneMask transmitted = 0;
+    LaneMask mirrored = 0; ///< by mirror-like lobes
 };
-void scatterDiffuse(const FlightBlock& block, const SurfaceLanes& surface, const Vec3Lanes& albedo,
-                    const FloatLanes& u, const FloatLanes& v, const FloatLanes& roulette,
-                    DiffuseFlights& scattered);
+
+/// Cosine-distributed directions around the normals, in all lanes.
+void diffuseDirections(const Vec3Lanes& normal, const FloatLanes& u, const FloatLanes& v,
+                       Vec3Lanes& wi);
+
+/// Turns a block into the flights that go on from its surfaces; returns their lanes.
+LaneMask leaveSurfaces(const SurfaceLanes& surface, const Vec3Lanes& normal,
+                       const Scattered& scattered, const FloatLanes& roulette, FlightBlock& block);
 
 } // namespace osgRayTrace::engine

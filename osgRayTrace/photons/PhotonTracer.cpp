@@ -7,6 +7,7 @@
 #include "osgRayTrace/photons/PhotonFlights.h"
 #include "osgRayTrace/sampling/Sampler.h"
 #include "osgRayTrace/sampling/Warp.h"
+#include "osgRayTrace/shading/SmoothLanes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,10 +69,11 @@ private:
     void emitBlock(uint32_t first, uint32_t count);
     void follow(FlightBlock block, LaneMask active, int bounce);
     void leaveLight(FlightBlock& block, SurfaceLanes& surface) const;
+    LaneMask classify(const SurfaceLanes& surface);
     void store(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes, int bounce);
-    void scatterDiffuseLanes(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes);
-    void scatter(const Bsdf& bsdf, Flight flight, const SurfaceLanes& surface, int i, int bounce);
-    Bsdf bsdfAt(const RayHitBlock& rays, const SurfaceLanes& surface, int i) const;
+    void scatter(FlightBlock& block, const SurfaceLanes& surface, int bounce);
+    void scatterOne(const FlightBlock& block, int i, bool mustMirror);
+    const Bsdf* bsdfAt(const SurfaceLanes& surface, int i);
 
     const TracedScene& _traced;
     const std::vector<Light>& _lights;
@@ -81,10 +83,16 @@ private:
     Chunk& _chunk;
     FlightQueue _flights{kChunk};
     // Of the block at work.
-    FloatLanes _u, _v, _lobe, _roulette; ///< of its bounce
-    Vec3Lanes _albedo;                   ///< of lanes that are plain Lambert surfaces
-    Bsdf _bsdfs[kLanes];                 ///< of the others
     RayHitBlock _rays;
+    FloatLanes _u, _v, _lobe, _roulette; ///< of its bounce
+    Vec3Lanes _normal;                   ///< shading, on the side of the ray
+    LaneMask _diffuse = 0;               ///< lanes on plain Lambert surfaces; _scattered has their albedo
+    LaneMask _smooth = 0;                ///< on smooth interfaces
+    InterfaceLanes _interfaces;
+    LaneMask _general = 0;               ///< on all others that are not black
+    const Bsdf* _bsdfs[kLanes] = {};
+    Bsdf _textured[kLanes];              ///< where _bsdfs of surfaces that vary point to
+    Scattered _scattered;
 };
 
 Vec3 laneOf(const Vec3Lanes& lanes, int i)
@@ -92,16 +100,11 @@ Vec3 laneOf(const Vec3Lanes& lanes, int i)
     return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]);
 }
 
-Flight flightOf(const FlightBlock& block, int i)
+void setLane(Vec3Lanes& lanes, int i, Vec3 value)
 {
-    Flight flight;
-    flight.origin = laneOf(block.origin, i);
-    flight.direction = laneOf(block.direction, i);
-    flight.power = laneOf(block.power, i);
-    flight.photon = block.photon[i];
-    flight.light = block.light[i];
-    flight.direct = block.direct[i] != 0;
-    return flight;
+    lanes.x[i] = value.x;
+    lanes.y[i] = value.y;
+    lanes.z[i] = value.z;
 }
 
 bool storesPhotons(const Bsdf& bsdf)
@@ -110,17 +113,18 @@ bool storesPhotons(const Bsdf& bsdf)
     return !bsdf.isSmooth() && (bsdf.reflects() || (bsdf.transmits() && bsdf.eta != 1.0f));
 }
 
-Bsdf ChunkTracer::bsdfAt(const RayHitBlock& rays, const SurfaceLanes& surface, int i) const
+const Bsdf* ChunkTracer::bsdfAt(const SurfaceLanes& surface, int i)
 {
     const MaterialRecord& record = _traced.materials()[surface.material[i]];
     const bool front = (surface.front >> i) & 1u;
-    if (record.constant) return front ? record.front : record.back;
+    if (record.constant) return front ? &record.front : &record.back;
     const SurfaceRecord& where = _traced.surfaces()[surface.instance[i]];
     MaterialPoint at;
     at.front = front;
-    at.uv = interpolateUv(where, rays.primitive[i], rays.u[i], rays.v[i]);
-    at.vertexColor = interpolateColor(where, rays.primitive[i], rays.u[i], rays.v[i]);
-    return _traced.materials().bsdf(surface.material[i], at);
+    at.uv = interpolateUv(where, _rays.primitive[i], _rays.u[i], _rays.v[i]);
+    at.vertexColor = interpolateColor(where, _rays.primitive[i], _rays.u[i], _rays.v[i]);
+    _textured[i] = _traced.materials().bsdf(surface.material[i], at);
+    return &_textured[i];
 }
 
 /// What the lights do not light is passed by, and fixed-function ones fade in their own ways.
@@ -157,53 +161,86 @@ void ChunkTracer::store(const FlightBlock& block, const SurfaceLanes& surface, L
     }
 }
 
-void ChunkTracer::scatterDiffuseLanes(const FlightBlock& block, const SurfaceLanes& surface,
-                                      LaneMask lanes)
+/// Samples the surface model of any lane.
+void ChunkTracer::scatterOne(const FlightBlock& block, int i, bool mustMirror)
 {
-    DiffuseFlights scattered;
-    scatterDiffuse(block, surface, _albedo, _u, _v, _roulette, scattered);
-    for (lanes &= scattered.alive; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
-        _flights.append({laneOf(scattered.origin, i), laneOf(scattered.direction, i),
-                         laneOf(scattered.power, i), block.photon[i], block.light[i], false});
-    }
+    const Vec3 normal = laneOf(_normal, i), direction = laneOf(block.direction, i);
+    Vec3 tangent, bitangent;
+    frameOf(normal.x, normal.y, normal.z, tangent, bitangent);
+    const Vec3 wo(-glm::dot(direction, tangent), -glm::dot(direction, bitangent),
+                  -glm::dot(direction, normal));
+    const std::optional<BsdfSample> sample =
+        sampleBsdf(*_bsdfs[i], wo, _lobe[i], _u[i], _v[i], Transport::Importance);
+    if (!sample || (mustMirror && !sample->delta)) return;
+    const Vec3 wi = tangent * sample->wi.x + bitangent * sample->wi.y + normal * sample->wi.z;
+    setLane(_scattered.wi, i, wi);
+    setLane(_scattered.weight, i, sample->weight);
+    _scattered.alive |= 1u << i;
+    _scattered.transmitted |= static_cast<LaneMask>(sample->transmitted) << i;
+    _scattered.mirrored |= static_cast<LaneMask>(sample->delta) << i;
 }
 
-/// Sends the photon of lane i on from any surface.
-void ChunkTracer::scatter(const Bsdf& bsdf, Flight flight, const SurfaceLanes& surface, int i,
-                          int bounce)
+/// Sends the photons of a block on from their surfaces.
+void ChunkTracer::scatter(FlightBlock& block, const SurfaceLanes& surface, int bounce)
 {
-    if (mustReflect(bounce) && !(bsdf.isSmooth() && bsdf.reflects()) && !bsdf.transmits()) return;
-    const Vec3 position = laneOf(surface.position, i),
-               geometric = laneOf(surface.geometricNormal, i);
-    Vec3 shading = laneOf(surface.shadingNormal, i);
-    if (glm::dot(shading, geometric) < 0.0f) shading = -shading;
-    if (!(glm::dot(shading, flight.direction) < -1e-4f)) shading = geometric;
-    Vec3 tangent, bitangent;
-    frameOf(shading.x, shading.y, shading.z, tangent, bitangent);
-    const Vec3 wo(-glm::dot(flight.direction, tangent), -glm::dot(flight.direction, bitangent),
-                  -glm::dot(flight.direction, shading));
-    const std::optional<BsdfSample> sample =
-        sampleBsdf(bsdf, wo, _lobe[i], _u[i], _v[i], Transport::Importance);
-    if (!sample || (mustReflect(bounce) && !sample->delta)) return;
-    const Vec3 wi = tangent * sample->wi.x + bitangent * sample->wi.y + shading * sample->wi.z;
-    const float side = glm::dot(wi, geometric);
-    if ((side < 0.0f) != sample->transmitted) return;
+    const bool mustMirror = mustReflect(bounce);
+    if (mustMirror) _diffuse = 0;
+    if (!(_diffuse | _smooth | _general)) return;
+    facingNormalLanes(_rays.ray, surface, _normal);
+    const uint32_t lobeAndRoulette = dimension(bounceNumber(bounce) + 1);
+    if (_smooth | _general)
+        photonPoints(block.photon, lobeAndRoulette, _lobe, _roulette);
+    else
+        secondPhotonPoints(block.photon, lobeAndRoulette, _roulette);
+    if (_diffuse | _general) photonPoints(block.photon, dimension(bounceNumber(bounce)), _u, _v);
 
-    // As in scatterDiffuse.
-    const float correction =
-        (std::fabs(wo.z) * std::fabs(side)) /
-        (std::fabs(glm::dot(flight.direction, geometric)) * std::fabs(sample->wi.z));
-    Vec3 weight = sample->weight;
-    if (correction < kInfinity) weight *= correction;
-    const float survival = std::min(1.0f, std::max(weight.x, std::max(weight.y, weight.z)));
-    if (!(_roulette[i] < survival)) return;
-    flight.power *= weight / survival;
-    flight.origin = position + geometric * (side < 0.0f ? -surface.offset[i] : surface.offset[i]);
-    flight.direction = wi;
-    flight.direct = flight.direct && sample->delta;
-    _flights.append(flight);
+    if (_diffuse) diffuseDirections(_normal, _u, _v, _scattered.wi);
+    _scattered.alive = _diffuse;
+    _scattered.transmitted = _scattered.mirrored = 0;
+    if (_smooth)
+    {
+        const IncidentLanes incident{block.direction.x, block.direction.y, block.direction.z, _normal};
+        const SmoothLanes sampled = sampleSmoothLanes(_interfaces, incident, _lobe, _smooth,
+                          Transport::Importance, _scattered.wi, _scattered.weight);
+        _scattered.alive |= sampled.alive;
+        _scattered.transmitted = sampled.transmitted;
+        _scattered.mirrored = _smooth;
+    }
+    for (LaneMask lanes = _general; lanes; lanes &= lanes - 1)
+        scatterOne(block, __builtin_ctz(lanes), mustMirror);
+    const LaneMask alive = leaveSurfaces(surface, _normal, _scattered, _roulette, block);
+    _flights.append(block, alive);
+}
+
+/// Sorts the lanes by what their surfaces are; returns those that photons are stored at.
+LaneMask ChunkTracer::classify(const SurfaceLanes& surface)
+{
+    const MaterialTable& materials = _traced.materials();
+    LaneMask stores = 0;
+    _diffuse = _smooth = _general = 0;
+    for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const LaneMask lane = 1u << i;
+        const MaterialRecord& record = materials[surface.material[i]];
+        if (record.plainDiffuse)
+        {
+            setLane(_scattered.weight, i, record.front.diffuse);
+            if (record.front.diffuse != Vec3(0.0f)) _diffuse |= lane;
+            continue;
+        }
+        const Bsdf* const bsdf = bsdfAt(surface, i);
+        if (isSmoothInterface(*bsdf))
+        {
+            _interfaces.set(i, *bsdf);
+            _smooth |= lane;
+            continue;
+        }
+        _bsdfs[i] = bsdf;
+        _general |= lane;
+        if (storesPhotons(*bsdf)) stores |= lane;
+    }
+    return stores | _diffuse;
 }
 
 /// Stores the photons of a block at what they meet, and sends them on. The block is a copy: what is
@@ -216,63 +253,42 @@ void ChunkTracer::follow(FlightBlock block, LaneMask active, int bounce)
     SurfaceLanes surface;
     surfacesOf(_traced.surfaces(), _rays, active, surface);
     if (bounce == 0) leaveLight(block, surface);
-
-    const MaterialTable& materials = _traced.materials();
-    LaneMask diffuse = 0, general = 0, stores = 0;
-    for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
-        const MaterialRecord& record = materials[surface.material[i]];
-        if (record.plainDiffuse)
-        {
-            const Vec3 albedo = record.front.diffuse;
-            _albedo.x[i] = albedo.x;
-            _albedo.y[i] = albedo.y;
-            _albedo.z[i] = albedo.z;
-            if (albedo != Vec3(0.0f)) diffuse |= 1u << i;
-            continue;
-        }
-        _bsdfs[i] = bsdfAt(_rays, surface, i);
-        general |= 1u << i;
-        if (storesPhotons(_bsdfs[i])) stores |= 1u << i;
-    }
-    if (bounce > 0) store(block, surface, stores | diffuse, bounce);
+    const LaneMask stores = classify(surface);
+    if (bounce > 0) store(block, surface, stores, bounce);
     if (bounce + 2 > _options.maxBounces) return; // the next surface would be too far for any eye
-    if (mustReflect(bounce)) diffuse = 0;
-    if (!(diffuse | general)) return;
-    photonPoints(block.photon, dimension(bounceNumber(bounce)), _u, _v);
-    photonPoints(block.photon, dimension(bounceNumber(bounce) + 1), _lobe, _roulette);
-    if (diffuse) scatterDiffuseLanes(block, surface, diffuse);
-    for (; general; general &= general - 1)
-    {
-        const int i = __builtin_ctz(general);
-        scatter(_bsdfs[i], flightOf(block, i), surface, i, bounce);
-    }
+    scatter(block, surface, bounce);
 }
 
 void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
 {
-    UintLanes photon;
+    FlightBlock block;
     for (int i = 0; i < kLanes; ++i)
-        photon[i] = first + static_cast<uint32_t>(i);
-    EmissionLanes points;
-    photonPoints(photon, dimension(EmissionChoice), points.light, points.aim);
-    photonPoints(photon, dimension(EmissionPosition), points.positionU, points.positionV);
-    photonPoints(photon, dimension(EmissionDirection), points.directionU, points.directionV);
-    StartLanes starts;
-    const float share = 1.0f / static_cast<float>(_options.photons);
-    for (LaneMask lanes = _emitter.emitLanes(points, starts) & (kAllLanes >> (kLanes - count));
-         lanes; lanes &= lanes - 1)
     {
-        const int i = __builtin_ctz(lanes);
-        _flights.append({laneOf(starts.origin, i), laneOf(starts.direction, i),
-                         laneOf(starts.power, i) * share, photon[i], starts.light[i]});
+        block.photon[i] = first + static_cast<uint32_t>(i);
+        block.direct[i] = 1;
     }
+    EmissionLanes points;
+    photonPoints(block.photon, dimension(EmissionChoice), points.light, points.aim);
+    photonPoints(block.photon, dimension(EmissionPosition), points.positionU, points.positionV);
+    photonPoints(block.photon, dimension(EmissionDirection), points.directionU, points.directionV);
+    StartLanes starts;
+    const LaneMask lanes = _emitter.emitLanes(points, starts) & (kAllLanes >> (kLanes - count));
+    block.origin = starts.origin;
+    block.direction = starts.direction;
+    block.light = starts.light;
+    const float share = 1.0f / static_cast<float>(_options.photons);
+    for (int i = 0; i < kLanes; ++i)
+    {
+        block.power.x[i] = starts.power.x[i] * share;
+        block.power.y[i] = starts.power.y[i] * share;
+        block.power.z[i] = starts.power.z[i] * share;
+    }
+    _flights.append(block, lanes);
 }
 
 void ChunkTracer::trace(uint32_t first, uint32_t count)
 {
-    _chunk.photons.reserve(count);
+    _chunk.photons.reserve(2 * count); // more than most passes store of each
     for (uint32_t k = 0; k < count; k += kLanes)
         emitBlock(first + k, std::min<uint32_t>(kLanes, count - k));
     readyRays(_rays);
@@ -307,8 +323,10 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
                     [&](std::size_t c)
                     {
                         const uint32_t first = static_cast<uint32_t>(c) * kChunk;
-                        ChunkTracer(traced, lights, emitter, options, seed, chunks[c])
+                        Chunk chunk; // neighbours of the list share cache lines
+                        ChunkTracer(traced, lights, emitter, options, seed, chunk)
                             .trace(first, std::min(kChunk, options.photons - first));
+                        chunks[c] = std::move(chunk);
                     });
     std::vector<std::size_t> begin(count + 1);
     for (std::size_t c = 0; c < count; ++c)

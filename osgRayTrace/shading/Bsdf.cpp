@@ -21,22 +21,22 @@ bool refractsSmoothly(const Bsdf& bsdf, Vec3 wo)
     return bsdf.isSmooth() || std::fabs(bsdf.eta - 1.0f) * bsdf.alpha < kSmoothBend * wo.z * wo.z;
 }
 
-/// Reflectance of the interface that the base and the transmission lie under.
+/// Reflectance of the interface that the base and the transmission lie under. It is what costs most
+/// here: worked out once for each cosine, and handed on.
 float interfaceFresnel(const Bsdf& bsdf, float cosTheta)
 {
     return bsdf.coat > 0.0f ? fresnelDielectric(cosTheta, bsdf.eta) : 0.0f;
 }
 
-Vec3 reflectionFresnel(const Bsdf& bsdf, float cosTheta)
+Vec3 reflectionFresnel(const Bsdf& bsdf, float cosTheta, float fresnel)
 {
-    return fresnelSchlick(cosTheta, bsdf.reflectance, bsdf.grazing) +
-           Vec3(bsdf.coat * interfaceFresnel(bsdf, cosTheta));
+    return fresnelSchlick(cosTheta, bsdf.reflectance, bsdf.grazing) + Vec3(bsdf.coat * fresnel);
 }
 
 /// What the base does not get of light from or to a direction.
-float coatAlbedo(const Bsdf& bsdf, float cosTheta)
+float coatAlbedo(const Bsdf& bsdf, float cosTheta, float fresnel)
 {
-    if (!bsdf.coatRows) return interfaceFresnel(bsdf, cosTheta);
+    if (!bsdf.coatRows) return fresnel;
     const float first = bsdf.coatRows[0](cosTheta), second = bsdf.coatRows[1](cosTheta);
     return first + (second - first) * bsdf.coatFraction;
 }
@@ -49,12 +49,13 @@ float coatAverage(const Bsdf& bsdf)
 }
 
 /// f cos of the base.
-Vec3 evalBase(const Bsdf& bsdf, Vec3 wo, Vec3 wi)
+Vec3 evalBase(const Bsdf& bsdf, Vec3 wo, float fresnelO, Vec3 wi)
 {
     const Vec3 lambert = bsdf.diffuse * (kInvPi * wi.z);
-    if (bsdf.coat == 0.0f) return lambert;
-    return lambert * ((1.0f - coatAlbedo(bsdf, wi.z)) * (1.0f - coatAlbedo(bsdf, wo.z)) /
-                      (1.0f - coatAverage(bsdf)));
+    if (bsdf.coat == 0.0f || bsdf.diffuse == Vec3(0.0f)) return lambert;
+    const float fresnelI = bsdf.coatRows ? 0.0f : interfaceFresnel(bsdf, wi.z);
+    return lambert * ((1.0f - coatAlbedo(bsdf, wi.z, fresnelI)) *
+                      (1.0f - coatAlbedo(bsdf, wo.z, fresnelO)) / (1.0f - coatAverage(bsdf)));
 }
 
 /// Probabilities of the base and of the interface for wo; they sum to 1, or are all 0 for a black
@@ -65,12 +66,13 @@ struct LobePmf
     float interface = 0.0f; ///< reflection and refraction
 };
 
-LobePmf lobePmf(const Bsdf& bsdf, Vec3 wo)
+LobePmf lobePmf(const Bsdf& bsdf, Vec3 wo, float fresnelO)
 {
-    const float below = 1.0f - coatAlbedo(bsdf, wo.z);
+    const float below = 1.0f - coatAlbedo(bsdf, wo.z, fresnelO);
     LobePmf pmf;
     pmf.base = luminance(bsdf.diffuse) * below;
-    pmf.interface = luminance(reflectionFresnel(bsdf, wo.z)) + luminance(bsdf.transmission) * below;
+    pmf.interface = luminance(reflectionFresnel(bsdf, wo.z, fresnelO)) +
+                    luminance(bsdf.transmission) * below;
     const float sum = pmf.base + pmf.interface;
     if (!(sum > 0.0f)) return {};
     pmf.base /= sum;
@@ -81,11 +83,11 @@ LobePmf lobePmf(const Bsdf& bsdf, Vec3 wo)
 /// Share of the interface that is reflected, at a microfacet that wo meets under this cosine. It
 /// must be that of the facet and not of the surface: beyond the critical angle a rough surface
 /// still has facets that light passes, and what is never sampled is lost.
-float reflectedShare(const Bsdf& bsdf, float cosH)
+float reflectedShare(const Bsdf& bsdf, float cosH, float fresnelH)
 {
     if (!bsdf.transmits()) return 1.0f;
-    const float reflected = luminance(reflectionFresnel(bsdf, cosH));
-    const float refracted = luminance(bsdf.transmission) * (1.0f - interfaceFresnel(bsdf, cosH));
+    const float reflected = luminance(reflectionFresnel(bsdf, cosH, fresnelH));
+    const float refracted = luminance(bsdf.transmission) * (1.0f - fresnelH);
     return refracted > 0.0f ? reflected / (reflected + refracted) : 1.0f;
 }
 
@@ -95,7 +97,7 @@ float refractionScale(const Bsdf& bsdf, Transport transport)
     return transport == Transport::Radiance ? 1.0f / (bsdf.eta * bsdf.eta) : 1.0f;
 }
 
-void addReflection(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, BsdfValue& value)
+void addReflection(const Bsdf& bsdf, Vec3 wo, float fresnelO, Vec3 wi, float pmf, BsdfValue& value)
 {
     const Vec3 sum = wo + wi;
     const float length2 = glm::dot(sum, sum);
@@ -104,8 +106,10 @@ void addReflection(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, BsdfValue& val
     const Vec3 h = sum / length;
     const float cosH = 0.5f * length; // the same for wo and wi, to the last bit
     const float d = evalGgx(h, bsdf.alpha);
-    pmf *= reflectedShare(bsdf, refractsSmoothly(bsdf, wo) ? wo.z : cosH);
-    value.fCos += reflectionFresnel(bsdf, cosH) * (d * ggxG2(wo, wi, bsdf.alpha) / (4.0f * wo.z));
+    const float fresnelH = interfaceFresnel(bsdf, cosH);
+    pmf *= refractsSmoothly(bsdf, wo) ? reflectedShare(bsdf, wo.z, fresnelO)
+                                      : reflectedShare(bsdf, cosH, fresnelH);
+    value.fCos += reflectionFresnel(bsdf, cosH, fresnelH) * (d * ggxG2(wo, wi, bsdf.alpha) / (4.0f * wo.z));
     value.pdfW += pmf * ggxG1(wo, bsdf.alpha) * d / (4.0f * wo.z);
 }
 
@@ -125,17 +129,18 @@ void addRefraction(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, Transport tran
     const float d = evalGgx(h, bsdf.alpha);
     // (cosO + eta cosI)^2 of the paper is the square of that sum's length, which loses no digits.
     const float jacobian = bsdf.eta * bsdf.eta * -cosI / length2;
-    const float transmittance = 1.0f - fresnelDielectric(cosO, bsdf.eta);
+    const float fresnelH = interfaceFresnel(bsdf, cosO);
+    const float transmittance = 1.0f - fresnelH;
     // Masking and shadowing on opposite sides multiply [Walter07, eq. 23].
     const float g = ggxG1(wo, bsdf.alpha) * ggxG1(-wi, bsdf.alpha);
     value.fCos += bsdf.transmission * (transmittance * d * g * cosO * jacobian *
                                        refractionScale(bsdf, transport) / wo.z);
-    value.pdfW += pmf * (1.0f - reflectedShare(bsdf, cosO)) * ggxG1(wo, bsdf.alpha) * cosO * d /
-                  wo.z * jacobian;
+    value.pdfW += pmf * (1.0f - reflectedShare(bsdf, cosO, fresnelH)) * ggxG1(wo, bsdf.alpha) *
+                  cosO * d / wo.z * jacobian;
 }
 
-std::optional<BsdfSample> sampleSmooth(const Bsdf& bsdf, Vec3 wo, float pmf, bool reflect,
-                                       Transport transport)
+std::optional<BsdfSample> sampleSmooth(const Bsdf& bsdf, Vec3 wo, float fresnelO, float pmf,
+                                       bool reflect, Transport transport)
 {
     BsdfSample sample;
     sample.delta = true;
@@ -143,15 +148,15 @@ std::optional<BsdfSample> sampleSmooth(const Bsdf& bsdf, Vec3 wo, float pmf, boo
     {
         sample.wi = Vec3(-wo.x, -wo.y, wo.z);
         sample.pdfW = pmf;
-        sample.weight = reflectionFresnel(bsdf, wo.z) / pmf;
+        sample.weight = reflectionFresnel(bsdf, wo.z, fresnelO) / pmf;
         return sample;
     }
     const std::optional<Vec3> wi = refract(wo, Vec3(0.0f, 0.0f, 1.0f), bsdf.eta);
     if (!wi) return std::nullopt;
     sample.wi = *wi;
     sample.pdfW = pmf;
-    sample.weight = bsdf.transmission * ((1.0f - fresnelDielectric(wo.z, bsdf.eta)) *
-                                         refractionScale(bsdf, transport) / pmf);
+    sample.weight =
+        bsdf.transmission * ((1.0f - fresnelO) * refractionScale(bsdf, transport) / pmf);
     sample.transmitted = true;
     return sample;
 }
@@ -172,7 +177,8 @@ std::optional<BsdfSample> sampleBsdf(const Bsdf& bsdf, Vec3 wo, float uLobe, flo
                                      Transport transport)
 {
     if (!(wo.z > 0.0f)) return std::nullopt;
-    const LobePmf pmf = lobePmf(bsdf, wo);
+    const float fresnelO = interfaceFresnel(bsdf, wo.z);
+    const LobePmf pmf = lobePmf(bsdf, wo, fresnelO);
     if (pmf.base + pmf.interface <= 0.0f) return std::nullopt;
 
     BsdfSample sample;
@@ -186,14 +192,18 @@ std::optional<BsdfSample> sampleBsdf(const Bsdf& bsdf, Vec3 wo, float uLobe, flo
         const bool smooth = refractsSmoothly(bsdf, wo);
         const Vec3 h =
             bsdf.isSmooth() ? Vec3(0.0f, 0.0f, 1.0f) : sampleGgxVisible(wo, bsdf.alpha, u, v);
-        const float share = reflectedShare(bsdf, smooth ? wo.z : glm::dot(wo, h));
+        const float cosH = glm::dot(wo, h);
+        const float share =
+            smooth ? reflectedShare(bsdf, wo.z, fresnelO)
+                   : reflectedShare(bsdf, cosH,
+                                    bsdf.transmits() ? interfaceFresnel(bsdf, cosH) : 0.0f);
         const bool reflect = share >= 1.0f || uLobe < pmf.base + pmf.interface * share;
         if (reflect ? bsdf.isSmooth() : smooth)
-            return sampleSmooth(bsdf, wo, pmf.interface * (reflect ? share : 1.0f - share), reflect,
-                                transport);
+            return sampleSmooth(bsdf, wo, fresnelO, pmf.interface * (reflect ? share : 1.0f - share),
+                                reflect, transport);
         if (reflect)
         {
-            sample.wi = h * (2.0f * glm::dot(wo, h)) - wo;
+            sample.wi = h * (2.0f * cosH) - wo;
             if (!(sample.wi.z > 0.0f)) return std::nullopt;
         }
         else
@@ -215,12 +225,14 @@ BsdfValue evalBsdf(const Bsdf& bsdf, Vec3 wo, Vec3 wi, Transport transport)
 {
     BsdfValue value;
     if (!(wo.z > 0.0f) || wi.z == 0.0f) return value;
-    const LobePmf pmf = lobePmf(bsdf, wo);
+    const float fresnelO = interfaceFresnel(bsdf, wo.z);
+    const LobePmf pmf = lobePmf(bsdf, wo, fresnelO);
     if (wi.z > 0.0f)
     {
-        value.fCos = evalBase(bsdf, wo, wi);
+        value.fCos = evalBase(bsdf, wo, fresnelO, wi);
         value.pdfW = pmf.base * squareToCosineHemispherePdf(wi.z);
-        if (bsdf.reflects() && !bsdf.isSmooth()) addReflection(bsdf, wo, wi, pmf.interface, value);
+        if (bsdf.reflects() && !bsdf.isSmooth())
+            addReflection(bsdf, wo, fresnelO, wi, pmf.interface, value);
     }
     else if (bsdf.transmits() && !refractsSmoothly(bsdf, wo))
     {
@@ -233,13 +245,15 @@ SpecularLobes specularLobes(const Bsdf& bsdf, Vec3 wo)
 {
     SpecularLobes lobes;
     if (!(wo.z > 0.0f)) return lobes;
-    if (bsdf.reflects() && bsdf.isSmooth()) lobes.reflection = reflectionFresnel(bsdf, wo.z);
+    const float fresnelO = interfaceFresnel(bsdf, wo.z);
+    if (bsdf.reflects() && bsdf.isSmooth())
+        lobes.reflection = reflectionFresnel(bsdf, wo.z, fresnelO);
     if (!bsdf.transmits() || !refractsSmoothly(bsdf, wo)) return lobes;
     const std::optional<Vec3> refracted = refract(wo, Vec3(0.0f, 0.0f, 1.0f), bsdf.eta);
     if (!refracted) return lobes;
     lobes.refracted = *refracted;
-    lobes.refraction = bsdf.transmission * ((1.0f - fresnelDielectric(wo.z, bsdf.eta)) *
-                                            refractionScale(bsdf, Transport::Radiance));
+    lobes.refraction =
+        bsdf.transmission * ((1.0f - fresnelO) * refractionScale(bsdf, Transport::Radiance));
     return lobes;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/Lanes.h"
 #include "osgRayTrace/base/Math.h"
 
 #include <cmath>
@@ -11,19 +12,19 @@ namespace osgRayTrace::engine
 
 /// Unpolarized reflectance of a dielectric for an angle of incidence with cosine cosThetaI >= 0, eta the
 /// index on the far side over that on the near side. 1 on total internal reflection. [Walter07, eq. 22]
-inline float fresnelDielectric(float cosThetaI, float eta)
+/// Without branches, for loops over lanes.
+OSGRAYTRACE_INLINE float fresnelDielectric(float cosThetaI, float eta)
 {
-    if (eta == 1.0f) return 0.0f;
     const float c = std::fabs(cosThetaI);
     // Near the critical angle next to nothing is left of c^2: in double, or the root of it has 3 digits.
-    const double g2 = (double(eta) - 1.0) * (double(eta) + 1.0) + double(c) * double(c);
-    if (g2 <= 0.0) return 1.0f;
-    const auto g = static_cast<float>(std::sqrt(g2));
+    const auto g2 = static_cast<float>((double(eta) - 1.0) * (double(eta) + 1.0) + double(c) * double(c));
+    const float g = std::sqrt(select(g2 > 0.0f, g2, 0.0f));
     // g - c would lose digits for indices near 1: (g^2 - c^2) / (g + c) keeps them.
     const float gMinusC = (eta - 1.0f) * (eta + 1.0f) / (g + c);
     const float a = gMinusC / (g + c);
     const float b = (c * (g + c) - 1.0f) / (c * gMinusC + 1.0f);
-    return 0.5f * a * a * (1.0f + b * b);
+    const float partial = select(g2 > 0.0f, 0.5f * a * a * (1.0f + b * b), 1.0f);
+    return select(eta == 1.0f, 0.0f, partial);
 }
 
 /// Reflectance averaged over cosine-weighted incidence: int 2 F(c) c dc, by quadrature to about 1e-4. Used to
