@@ -1,8 +1,6 @@
-// PhotonMap.cpp - a counting-sorted grid of photons. Layer: photons.
+// PhotonMap.cpp - the photons around a point: look-ups in a counting-sorted grid. Layer: photons.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/photons/PhotonMap.h"
-
-#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/photons/PhotonColumns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,113 +11,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// The sort splits the buckets into parts by their upper bits; a part fits the cache.
-constexpr int kParts = 256;
-constexpr uint32_t kDirectBit = 1u << 31; ///< in a packed normal
-
-constexpr uint32_t kAhead =
-    16; ///< photons between the one that moves and the one that is asked for
-
-/// Shares of the photons that one thread works on at a time.
-struct Chunks
-{
-    explicit Chunks(std::size_t photons)
-        : total(photons), count(std::min<std::size_t>(64, (photons + 4095) / 4096))
-    {
-    }
-    std::size_t begin(std::size_t chunk) const { return total * chunk / count; }
-
-    std::size_t total, count;
-};
-
-struct Bounds
-{
-    Vec3 low{kInfinity};
-    Vec3 high{-kInfinity};
-};
-
-Bounds boundsOf(const std::vector<Photon>& photons, const Workers& workers)
-{
-    const Chunks chunks(photons.size());
-    std::vector<Bounds> bounds(chunks.count);
-    workers.forEach(chunks.count,
-                    [&](std::size_t c)
-                    {
-                        Bounds b;
-                        for (std::size_t k = chunks.begin(c); k < chunks.begin(c + 1); ++k)
-                        {
-                            b.low = glm::min(b.low, photons[k].position);
-                            b.high = glm::max(b.high, photons[k].position);
-                        }
-                        bounds[c] = b;
-                    });
-    Bounds all;
-    for (const Bounds& b : bounds)
-    {
-        all.low = glm::min(all.low, b.low);
-        all.high = glm::max(all.high, b.high);
-    }
-    return all;
-}
-
-OSGRAYTRACE_INLINE void prefetch(const void* address, std::size_t bytes)
-{
-#if defined(__GNUC__)
-    __builtin_prefetch(address);
-    __builtin_prefetch(static_cast<const char*>(address) + bytes - 1);
-#endif
-}
-
-uint32_t packNormal(Vec3 n)
-{
-    // To the nearest, halves away from zero.
-    const auto byte = [](float v)
-    {
-        const float scaled = v * 127.0f;
-        return static_cast<uint32_t>(static_cast<int32_t>(scaled + std::copysign(0.5f, scaled))) &
-               0xffu;
-    };
-    return byte(n.x) | byte(n.y) << 8 | byte(n.z) << 16;
-}
-
-OSGRAYTRACE_INLINE float byteOf(uint32_t packed, int shift)
-{
-    return static_cast<float>(static_cast<int32_t>(packed << (24 - shift)) >> 24) * (1.0f / 127.0f);
-}
-
-OSGRAYTRACE_INLINE int32_t edgesOf(uint32_t packed)
-{
-    return static_cast<int32_t>((packed >> 24) & kMostEdges);
-}
-
-/// What a loop over a block of photons reads; its own index is a signed one, as vector loads need.
-struct Columns
-{
-    const float *x, *y, *z, *wiX, *wiY, *wiZ, *r, *g, *b;
-    const uint32_t* normal;
-
-    OSGRAYTRACE_INLINE Columns from(uint32_t k) const
-    {
-        return {x + k, y + k, z + k, wiX + k, wiY + k, wiZ + k, r + k, g + k, b + k, normal + k};
-    }
-};
-
-/// Bit mask of photon i in the disc, all bits or none.
-OSGRAYTRACE_INLINE uint32_t insideDisc(const Columns& p, int i, const PhotonQuery& q, float radius2,
-                                       float planeDistance)
-{
-    const float dx = p.x[i] - q.position.x, dy = p.y[i] - q.position.y, dz = p.z[i] - q.position.z;
-    const float distance2 = dx * dx + dy * dy + dz * dz;
-    const float off = dx * q.normal.x + dy * q.normal.y + dz * q.normal.z;
-    const float side = p.wiX[i] * q.normal.x + p.wiY[i] * q.normal.y + p.wiZ[i] * q.normal.z;
-    const uint32_t packed = p.normal[i];
-    const float turned = byteOf(packed, 0) * q.normal.x + byteOf(packed, 8) * q.normal.y +
-                         byteOf(packed, 16) * q.normal.z;
-    const uint32_t shortEnough = maskOf(edgesOf(packed) <= static_cast<int32_t>(q.mostEdges));
-    return maskOf(distance2 <= radius2) & maskOf(std::fabs(off) <= planeDistance) &
-           maskOf(side > 0.0f) & maskOf(turned >= kLeastNormalCosine) & shortEnough;
-}
-
 /// Sums by lane, so that the result does not depend on the vector width of the machine.
 struct LaneSums
 {
@@ -129,7 +20,7 @@ struct LaneSums
 
 /// Where the shading normal is the geometric one every weight is 1.
 template <bool kFlat>
-OSGRAYTRACE_INLINE void addBlocks(const Columns& columns, uint32_t begin, uint32_t end,
+OSGRAYTRACE_INLINE void addBlocks(const PhotonColumns& columns, uint32_t begin, uint32_t end,
                                   const PhotonQuery& query, float radius2, float planeDistance,
                                   LaneSums& sums)
 {
@@ -137,7 +28,7 @@ OSGRAYTRACE_INLINE void addBlocks(const Columns& columns, uint32_t begin, uint32
     LaneSums s = sums;
     for (uint32_t block = begin; block < end; block += kLanes)
     {
-        const Columns p = columns.from(block);
+        const PhotonColumns p = columns.from(block);
         const int left = static_cast<int>(end - block);
         OSGRAYTRACE_SIMD
         for (int i = 0; i < kLanes; ++i)
@@ -162,7 +53,7 @@ OSGRAYTRACE_INLINE void addBlocks(const Columns& columns, uint32_t begin, uint32
 }
 
 OSGRAYTRACE_KERNEL
-void addRange(const Columns& columns, uint32_t begin, uint32_t end, const PhotonQuery& query,
+void addRange(const PhotonColumns& columns, uint32_t begin, uint32_t end, const PhotonQuery& query,
               float radius2, float planeDistance, LaneSums& sums)
 {
     if (query.shadingNormal == query.normal)
@@ -172,10 +63,10 @@ void addRange(const Columns& columns, uint32_t begin, uint32_t end, const Photon
 }
 
 OSGRAYTRACE_KERNEL
-LaneMask insideLanes(const Columns& columns, uint32_t block, uint32_t end, const PhotonQuery& query,
-                     float radius2, float planeDistance)
+LaneMask insideLanes(const PhotonColumns& columns, uint32_t block, uint32_t end,
+                     const PhotonQuery& query, float radius2, float planeDistance)
 {
-    const Columns p = columns.from(block);
+    const PhotonColumns p = columns.from(block);
     const PhotonQuery q = query;
     const int left = static_cast<int>(end - block);
     LaneMask inside = 0;
@@ -198,134 +89,10 @@ float sumOf(const FloatLanes& lanes)
 
 } // namespace
 
-uint32_t PhotonMap::bucketOf(int64_t x, int64_t y, int64_t z) const
-{
-    const uint64_t line = static_cast<uint64_t>(y) * 0x9e3779b97f4a7c15ull ^
-                          static_cast<uint64_t>(z) * 0xc2b2ae3d27d4eb4full;
-    return static_cast<uint32_t>((line >> 24) + static_cast<uint64_t>(x)) & _mask;
-}
-
-PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers)
-    : _count(photons.size())
-{
-    if (photons.empty()) return;
-    const Bounds bounds = boundsOf(photons, workers);
-    _low = Vec3d(bounds.low);
-    _high = Vec3d(bounds.high);
-    // Coordinates of cells stay exact integers in double, whatever the caller asks for.
-    const double extent = std::max({_high.x - _low.x, _high.y - _low.y, _high.z - _low.z});
-    const double cell = std::max(static_cast<double>(cellSize), extent * 0x1p-40);
-    _cellsPerUnit = cell > 0.0 && std::isfinite(cell) ? 1.0 / cell : 0.0;
-
-    uint32_t buckets = kParts;
-    while (buckets < _count && buckets < (1u << 30))
-        buckets *= 2;
-    _mask = buckets - 1;
-    sort(photons, workers);
-}
-
-void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers)
-{
-    const std::size_t buckets = static_cast<std::size_t>(_mask) + 1;
-    const int partShift = __builtin_ctzll(buckets) - __builtin_ctz(kParts);
-
-    // 1. The bucket of each photon, and how many of each chunk fall into each part.
-    const Chunks chunks(_count);
-    UnclearedArray<uint32_t> bucket(_count);
-    std::vector<uint32_t> offsets(chunks.count * kParts);
-    workers.forEach(chunks.count,
-                    [&](std::size_t c)
-                    {
-                        uint32_t counts[kParts] = {};
-                        for (std::size_t k = chunks.begin(c); k < chunks.begin(c + 1); ++k)
-                        {
-                            const Vec3d at = (Vec3d(photons[k].position) - _low) * _cellsPerUnit;
-                            bucket[k] =
-                                bucketOf(static_cast<int64_t>(at.x), static_cast<int64_t>(at.y),
-                                         static_cast<int64_t>(at.z));
-                            ++counts[bucket[k] >> partShift];
-                        }
-                        std::copy(counts, counts + kParts, &offsets[c * kParts]);
-                    });
-
-    // 2. Where each chunk writes its share of each part; photons keep their order.
-    std::vector<uint32_t> partBegin(kParts + 1);
-    uint32_t running = 0;
-    for (std::size_t part = 0; part < kParts; ++part)
-    {
-        partBegin[part] = running;
-        for (std::size_t c = 0; c < chunks.count; ++c)
-        {
-            const uint32_t count = offsets[c * kParts + part];
-            offsets[c * kParts + part] = running;
-            running += count;
-        }
-    }
-    partBegin[kParts] = running;
-
-    struct Entry
-    {
-        uint32_t bucket, photon;
-    };
-    UnclearedArray<Entry> entries(_count);
-    workers.forEach(
-        chunks.count,
-        [&](std::size_t c)
-        {
-            uint32_t next[kParts];
-            std::copy_n(&offsets[c * kParts], kParts, next);
-            for (std::size_t k = chunks.begin(c); k < chunks.begin(c + 1); ++k)
-                entries[next[bucket[k] >> partShift]++] = {bucket[k], static_cast<uint32_t>(k)};
-        });
-
-    // 3. Each part by counting; its photons move once, to where they stay.
-    _columns = UnclearedArray<float>(kColumns * stride());
-    _normal = UnclearedArray<uint32_t>(stride());
-    for (int c = 0; c < kColumns; ++c)
-        std::fill_n(column(static_cast<Column>(c)) + _count, kLanes, 0.0f);
-    std::fill_n(&_normal[_count], kLanes, 0u);
-    _first = UnclearedArray<uint32_t>(buckets + 1);
-    _first[buckets] = static_cast<uint32_t>(_count);
-    workers.forEach(
-        kParts,
-        [&](std::size_t part)
-        {
-            const std::size_t bucketBegin = part << partShift;
-            const std::size_t bucketEnd = (part + 1) << partShift;
-            std::vector<uint32_t> next(bucketEnd - bucketBegin);
-            for (uint32_t e = partBegin[part]; e < partBegin[part + 1]; ++e)
-                ++next[entries[e].bucket - bucketBegin];
-            uint32_t at = partBegin[part];
-            for (std::size_t b = bucketBegin; b < bucketEnd; ++b)
-            {
-                _first[b] = at;
-                at += next[b - bucketBegin];
-                next[b - bucketBegin] = _first[b];
-            }
-            float* const columns = _columns.data();
-            const std::size_t step = stride();
-            for (uint32_t e = partBegin[part]; e < partBegin[part + 1]; ++e)
-            {
-                // Photons of a part come from all over.
-                const Photon* soon =
-                    &photons[entries[std::min(e + kAhead, partBegin[part + 1] - 1)].photon];
-                prefetch(soon, sizeof(Photon));
-                const uint32_t to = next[entries[e].bucket - bucketBegin]++;
-                const Photon& p = photons[entries[e].photon];
-                const float values[kColumns] = {p.position.x, p.position.y, p.position.z,
-                                                p.wi.x,       p.wi.y,       p.wi.z,
-                                                p.power.x,    p.power.y,    p.power.z};
-                for (int c = 0; c < kColumns; ++c)
-                    columns[static_cast<std::size_t>(c) * step + to] = values[c];
-                _normal[to] = packNormal(p.normal) | std::min(p.edges, kMostEdges) << 24 |
-                              (p.direct ? kDirectBit : 0u);
-            }
-        });
-}
-
 std::size_t PhotonMap::bytes() const
 {
-    return _columns.size() * sizeof(float) + (_normal.size() + _first.size()) * sizeof(uint32_t);
+    return _columns.size() * sizeof(float) + (_normal.size() + _first.size()) * sizeof(uint32_t) +
+           _crowds.bytes();
 }
 
 /// The stretches of photons that can be in the disc, none of them twice. One line of cells along x
@@ -403,21 +170,40 @@ int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
     return used;
 }
 
+PhotonColumns PhotonMap::columns() const
+{
+    return {column(X),   column(Y),   column(Z),     column(WiX),  column(WiY),
+            column(WiZ), column(Red), column(Green), column(Blue), _normal.data()};
+}
+
 PhotonSum PhotonMap::gather(const PhotonQuery& query) const
 {
     Range ranges[kMaxRanges];
     const int count = rangesOf(query, ranges);
     PhotonSum sum;
     if (count == 0) return sum;
-    const Columns columns{column(X),   column(Y),   column(Z),     column(WiX),  column(WiY),
-                          column(WiZ), column(Red), column(Green), column(Blue), _normal.data()};
+    const PhotonColumns all = columns();
+    const float radius2 = query.radius * query.radius, plane = query.radius * kPlaneShare;
     LaneSums sums = {};
+    PhotonCrowds::Visit crowded;
     for (int i = 0; i < count; ++i)
-        addRange(columns, ranges[i].begin, ranges[i].end, query, query.radius * query.radius,
-                 query.radius * kPlaneShare, sums);
+    {
+        const Range range = ranges[i];
+        if (isCrowded(range))
+            _crowds.visit(query, range, query.shadingNormal == query.normal, crowded);
+        else
+            addRange(all, range.begin, range.end, query, radius2, plane, sums);
+    }
+    for (const Range& range : crowded.read)
+        addRange(all, range.begin, range.end, query, radius2, plane, sums);
     for (int i = 0; i < kLanes; ++i)
         sum.count += sums.count[i];
     if (sum.count) sum.power = Vec3(sumOf(sums.r), sumOf(sums.g), sumOf(sums.b));
+    if (crowded.count)
+    {
+        sum.count += crowded.count;
+        sum.power = Vec3(Vec3d(sum.power) + crowded.power);
+    }
     return sum;
 }
 
@@ -425,15 +211,44 @@ void PhotonMap::find(const PhotonQuery& query, std::vector<uint32_t>& found) con
 {
     Range ranges[kMaxRanges];
     const int count = rangesOf(query, ranges);
-    const Columns columns{column(X),   column(Y),   column(Z),     column(WiX),  column(WiY),
-                          column(WiZ), column(Red), column(Green), column(Blue), _normal.data()};
-    for (int i = 0; i < count; ++i)
-        for (uint32_t block = ranges[i].begin; block < ranges[i].end; block += kLanes)
+    const PhotonColumns all = columns();
+    const auto read = [&](Range range)
+    {
+        for (uint32_t block = range.begin; block < range.end; block += kLanes)
             for (LaneMask lanes =
-                     insideLanes(columns, block, ranges[i].end, query, query.radius * query.radius,
+                     insideLanes(all, block, range.end, query, query.radius * query.radius,
                                  query.radius * kPlaneShare);
                  lanes; lanes &= lanes - 1)
                 found.push_back(block + static_cast<uint32_t>(__builtin_ctz(lanes)));
+    };
+    PhotonCrowds::Visit crowded;
+    for (int i = 0; i < count; ++i)
+    {
+        if (isCrowded(ranges[i]))
+            _crowds.visit(query, ranges[i], false, crowded);
+        else
+            read(ranges[i]);
+    }
+    for (const Range& range : crowded.read)
+        read(range);
+}
+
+std::size_t PhotonMap::work(const PhotonQuery& query) const
+{
+    Range ranges[kMaxRanges];
+    const int count = rangesOf(query, ranges);
+    PhotonCrowds::Visit crowded;
+    std::size_t sum = 0;
+    for (int i = 0; i < count; ++i)
+    {
+        if (isCrowded(ranges[i]))
+            _crowds.visit(query, ranges[i], query.shadingNormal == query.normal, crowded);
+        else
+            sum += ranges[i].end - ranges[i].begin;
+    }
+    for (const Range& range : crowded.read)
+        sum += range.end - range.begin;
+    return sum;
 }
 
 Photon PhotonMap::photon(uint32_t k) const
@@ -443,7 +258,7 @@ Photon PhotonMap::photon(uint32_t k) const
     p.wi = Vec3(column(WiX)[k], column(WiY)[k], column(WiZ)[k]);
     p.power = Vec3(column(Red)[k], column(Green)[k], column(Blue)[k]);
     p.direct = (_normal[k] & kDirectBit) != 0;
-    p.normal = Vec3(byteOf(_normal[k], 0), byteOf(_normal[k], 8), byteOf(_normal[k], 16));
+    p.normal = unpackNormal(_normal[k]);
     p.edges = static_cast<uint32_t>(edgesOf(_normal[k]));
     return p;
 }

@@ -86,12 +86,12 @@ private:
     RayHitBlock _rays;
     FloatLanes _u, _v, _lobe, _roulette; ///< of its bounce
     Vec3Lanes _normal;                   ///< shading, on the side of the ray
-    LaneMask _diffuse = 0;               ///< lanes on plain Lambert surfaces; _scattered has their albedo
-    LaneMask _smooth = 0;                ///< on smooth interfaces
+    LaneMask _diffuse = 0; ///< lanes on plain Lambert surfaces; _scattered has their albedo
+    LaneMask _smooth = 0;  ///< on smooth interfaces
     InterfaceLanes _interfaces;
-    LaneMask _general = 0;               ///< on all others that are not black
+    LaneMask _general = 0; ///< on all others that are not black
     const Bsdf* _bsdfs[kLanes] = {};
-    Bsdf _textured[kLanes];              ///< where _bsdfs of surfaces that vary point to
+    Bsdf _textured[kLanes]; ///< where _bsdfs of surfaces that vary point to
     Scattered _scattered;
 };
 
@@ -199,9 +199,11 @@ void ChunkTracer::scatter(FlightBlock& block, const SurfaceLanes& surface, int b
     _scattered.transmitted = _scattered.mirrored = 0;
     if (_smooth)
     {
-        const IncidentLanes incident{block.direction.x, block.direction.y, block.direction.z, _normal};
-        const SmoothLanes sampled = sampleSmoothLanes(_interfaces, incident, _lobe, _smooth,
-                          Transport::Importance, _scattered.wi, _scattered.weight);
+        const IncidentLanes incident{block.direction.x, block.direction.y, block.direction.z,
+                                     _normal};
+        const SmoothLanes sampled =
+            sampleSmoothLanes(_interfaces, incident, _lobe, _smooth, Transport::Importance,
+                              _scattered.wi, _scattered.weight);
         _scattered.alive |= sampled.alive;
         _scattered.transmitted = sampled.transmitted;
         _scattered.mirrored = _smooth;

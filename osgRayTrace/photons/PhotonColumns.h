@@ -1,0 +1,71 @@
+// PhotonColumns.h - photons as columns, and the test of whether they are in a disc. Layer: photons.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Lanes.h"
+#include "osgRayTrace/photons/PhotonMap.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+// What is packed with a photon's normal: three signed bytes; edges in seven bits, and direct.
+constexpr uint32_t kDirectBit = 1u << 31;
+
+inline uint32_t packNormal(Vec3 n)
+{
+    // To the nearest, halves away from zero.
+    const auto byte = [](float v)
+    {
+        const float scaled = v * 127.0f;
+        return static_cast<uint32_t>(static_cast<int32_t>(scaled + std::copysign(0.5f, scaled))) &
+               0xffu;
+    };
+    return byte(n.x) | byte(n.y) << 8 | byte(n.z) << 16;
+}
+
+OSGRAYTRACE_INLINE float byteOf(uint32_t packed, int shift)
+{
+    return static_cast<float>(static_cast<int32_t>(packed << (24 - shift)) >> 24) * (1.0f / 127.0f);
+}
+
+inline Vec3 unpackNormal(uint32_t packed)
+{
+    return Vec3(byteOf(packed, 0), byteOf(packed, 8), byteOf(packed, 16));
+}
+
+OSGRAYTRACE_INLINE int32_t edgesOf(uint32_t packed)
+{
+    return static_cast<int32_t>((packed >> 24) & kMostEdges);
+}
+
+/// What a loop over a block of photons reads; its own index is a signed one, as vector loads need.
+struct PhotonColumns
+{
+    const float *x, *y, *z, *wiX, *wiY, *wiZ, *r, *g, *b;
+    const uint32_t* normal;
+
+    OSGRAYTRACE_INLINE PhotonColumns from(uint32_t k) const
+    {
+        return {x + k, y + k, z + k, wiX + k, wiY + k, wiZ + k, r + k, g + k, b + k, normal + k};
+    }
+};
+
+/// Bit mask of photon i in the disc, all bits or none.
+OSGRAYTRACE_INLINE uint32_t insideDisc(const PhotonColumns& p, int i, const PhotonQuery& q,
+                                       float radius2, float planeDistance)
+{
+    const float dx = p.x[i] - q.position.x, dy = p.y[i] - q.position.y, dz = p.z[i] - q.position.z;
+    const float distance2 = dx * dx + dy * dy + dz * dz;
+    const float off = dx * q.normal.x + dy * q.normal.y + dz * q.normal.z;
+    const float side = p.wiX[i] * q.normal.x + p.wiY[i] * q.normal.y + p.wiZ[i] * q.normal.z;
+    const uint32_t packed = p.normal[i];
+    const float turned = byteOf(packed, 0) * q.normal.x + byteOf(packed, 8) * q.normal.y +
+                         byteOf(packed, 16) * q.normal.z;
+    const uint32_t shortEnough = maskOf(edgesOf(packed) <= static_cast<int32_t>(q.mostEdges));
+    return maskOf(distance2 <= radius2) & maskOf(std::fabs(off) <= planeDistance) &
+           maskOf(side > 0.0f) & maskOf(turned >= kLeastNormalCosine) & shortEnough;
+}
+
+} // namespace osgRayTrace::engine
