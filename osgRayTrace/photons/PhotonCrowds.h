@@ -51,8 +51,8 @@ public:
     };
 
     /// Goes through a stretch in ascending order. Boxes outside of the query's disc are left out.
-    /// With sums those whose photons are all in it, each of weight 1, are added up as they are: a
-    /// disc of n photons costs about the square root of n.
+    /// With sums those whose photons are all in it, each of weight 1, are added up as they are, so
+    /// that only the disc's rim is read.
     void visit(const PhotonQuery& query, Stretch stretch, bool sums, Visit& visit) const;
 
 private:
