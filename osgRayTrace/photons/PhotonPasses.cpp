@@ -22,6 +22,7 @@ constexpr float kAimedIndirect = 0.25f;
 /// Lights in eye space move with the view; the others belong to the scene.
 bool samePlaces(const std::vector<Light>& a, const std::vector<Light>& b)
 {
+    if (&a == &b) return true;
     if (a.size() != b.size()) return false;
     for (std::size_t i = 0; i < a.size(); ++i)
         if (a[i].position != b[i].position || a[i].direction != b[i].direction) return false;
@@ -61,7 +62,7 @@ bool PhotonPasses::isCurrent(const std::shared_ptr<const TracedScene>& traced,
 {
     return traced == _traced && options.use == _options.use && options.photons == _options.photons &&
            options.maxBounces == _options.maxBounces && options.seed == _options.seed &&
-           samePlaces(lights, _lights);
+           samePlaces(lights, *_lights);
 }
 
 void PhotonPasses::begin(const std::shared_ptr<const TracedScene>& traced, const std::vector<Light>& lights,
@@ -73,10 +74,13 @@ void PhotonPasses::begin(const std::shared_ptr<const TracedScene>& traced, const
     _density.reset();
     _kept.clear();
     _traced = traced;
-    _lights = lights;
+    // Those of the scene stay where they are while it is held; there may be millions.
+    const bool sceneOwns = &lights == &traced->scene().lights;
+    _placed = sceneOwns ? std::vector<Light>() : lights;
+    _lights = sceneOwns ? &traced->scene().lights : &_placed;
     _options = options;
     _emitter = std::make_unique<PhotonEmitter>(
-        *traced, _lights, options.use == PhotonUse::Caustics ? kAimedCaustics : kAimedIndirect);
+        *traced, *_lights, options.use == PhotonUse::Caustics ? kAimedCaustics : kAimedIndirect);
 }
 
 PhotonDensity PhotonPasses::density(const std::shared_ptr<const TracedScene>& traced,
@@ -86,7 +90,7 @@ PhotonDensity PhotonPasses::density(const std::shared_ptr<const TracedScene>& tr
     std::lock_guard<std::mutex> lock(_mutex);
     begin(traced, lights, options);
     if (_density) return *_density;
-    _first = std::make_unique<TracedPhotons>(tracePhotons(*traced, _lights, *_emitter, options, 0, workers));
+    _first = std::make_unique<TracedPhotons>(tracePhotons(*traced, *_lights, *_emitter, options, 0, workers));
     _tracedRays += _first->rays;
     _density = std::make_unique<PhotonDensity>();
     _density->radius = densityRadius(_first->photons, workers);
@@ -117,7 +121,7 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const std::shared_ptr<const
         photons = std::move(*_first);
     else
     {
-        photons = tracePhotons(*traced, _lights, *_emitter, options, index, workers);
+        photons = tracePhotons(*traced, *_lights, *_emitter, options, index, workers);
         _tracedRays += photons.rays;
     }
     _first.reset();

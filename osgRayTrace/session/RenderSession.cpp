@@ -29,9 +29,12 @@ double secondsSince(Clock::time_point begin)
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// The scene's lights with those of eye space placed for the view.
+/// The scene's lights with those of eye space placed for the view. Empty if there are none of these:
+/// there may be millions of the others, and they are good as they are.
 std::vector<Light> placedLights(const Scene& scene, const View& view)
 {
+    const auto isEyeSpace = [](const Light& light) { return light.eyeSpace; };
+    if (std::none_of(scene.lights.begin(), scene.lights.end(), isEyeSpace)) return {};
     std::vector<Light> lights = scene.lights;
     const Mat4d worldFromView = glm::inverse(view.viewFromWorld);
     const auto placed = [&](const Vec3& position)
@@ -98,7 +101,7 @@ struct RenderSession::Implementation
     View filmView;
     RenderOptions filmOptions;
     CameraRays camera;
-    std::vector<Light> lights;
+    std::vector<Light> placedLights; // empty: those of the scene
     Film film;
     PhotonState photons;
     RenderProgress progress;
@@ -130,14 +133,14 @@ bool RenderSession::Implementation::begin()
                            "the view has no size, or matrices that cannot be inverted"};
         return false;
     }
-    std::vector<Light> placed = placedLights(scene->scene(), view); // before the film changes: it may throw
+    std::vector<Light> placed = engine::placedLights(scene->scene(), view); // before the film changes: it may throw
     film.reset(view.width, view.height);
     photons.reset(film.tileCount());
     camera = *rays;
     filmScene = scene;
     filmView = view;
     filmOptions = options;
-    lights = std::move(placed);
+    placedLights = std::move(placed);
     progress = RenderProgress();
     progress.restarted = true;
     progress.integrator = chooseIntegrator(options.integrator, scene->traits());
@@ -148,7 +151,7 @@ PassContext RenderSession::Implementation::contextOfPass(int pass) const
 {
     PassContext context;
     context.traced = filmScene.get();
-    context.lights = &lights;
+    context.lights = placedLights.empty() ? &filmScene->scene().lights : &placedLights;
     context.camera = camera;
     context.width = filmView.width;
     context.height = filmView.height;

@@ -60,9 +60,19 @@ std::vector<float> cumulativeOf(const std::vector<double>& weights)
 
 } // namespace
 
-LightTable::LightTable(const Scene& scene)
-    : _scene(&scene), _areas(scene.lights.size(), 0.0f), _normals(scene.lights.size(), Vec3(0.0f)),
-      _offsets(scene.lights.size(), 0.0f), _pmfs(scene.lights.size(), 0.0f), _meshes(scene.lights.size())
+LightTable::Record LightTable::parallelogram(const Light& light)
+{
+    // In double: the square of a small light's area is no normal float.
+    const Vec3d perpendicular = glm::cross(Vec3d(light.edgeU), Vec3d(light.edgeV));
+    Record record;
+    record.area = static_cast<float>(glm::length(perpendicular));
+    record.normal = Vec3(perpendicular / glm::length(perpendicular));
+    record.offset = kOffsetScale * (sumAbs(light.corner) + sumAbs(light.edgeU) + sumAbs(light.edgeV));
+    return record;
+}
+
+/// Lights without power cost their slot and no more: a scene may hold millions.
+LightTable::LightTable(const Scene& scene) : _scene(&scene), _slots(scene.lights.size(), 0), _records(1)
 {
     std::vector<double> powers;
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
@@ -75,32 +85,36 @@ LightTable::LightTable(const Scene& scene)
             if (sum != Vec3(0.0f)) _deltaLights.push_back(i);
             continue;
         }
+        if (!(luminance(light.radiance) > 0.0f)) continue;
+        Record record;
+        EmissiveMesh mesh;
         if (light.kind == LightKind::Parallelogram)
-        {
-            // In double: the square of a small light's area is no normal float.
-            const Vec3d perpendicular = glm::cross(Vec3d(light.edgeU), Vec3d(light.edgeV));
-            _areas[i] = static_cast<float>(glm::length(perpendicular));
-            _normals[i] = Vec3(perpendicular / glm::length(perpendicular));
-            _offsets[i] = kOffsetScale * (sumAbs(light.corner) + sumAbs(light.edgeU) + sumAbs(light.edgeV));
-        }
+            record = parallelogram(light);
         else
-            addMesh(scene, i);
-        const double power = double(luminance(light.radiance)) * _areas[i] *
+            mesh = meshOf(scene, light, record);
+        const double power = double(luminance(light.radiance)) * record.area *
                              (light.twoSided || light.kind == LightKind::Mesh ? 2.0 : 1.0);
         if (!(power > 0.0) || !std::isfinite(power)) continue;
+        if (light.kind == LightKind::Mesh)
+        {
+            record.mesh = static_cast<uint32_t>(_meshes.size());
+            _meshes.push_back(std::move(mesh));
+        }
+        _slots[i] = static_cast<uint32_t>(_records.size());
+        _records.push_back(record);
         _areaLights.push_back(i);
         powers.push_back(power);
     }
     _cumulative = cumulativeOf(powers);
     for (std::size_t k = 0; k < _areaLights.size(); ++k)
-        _pmfs[_areaLights[k]] = _cumulative[k] - (k ? _cumulative[k - 1] : 0.0f);
+        _records[k + 1].pmf = _cumulative[k] - (k ? _cumulative[k - 1] : 0.0f);
 }
 
-void LightTable::addMesh(const Scene& scene, uint32_t index)
+EmissiveMesh LightTable::meshOf(const Scene& scene, const Light& light, Record& record)
 {
-    const Instance& instance = scene.instances[scene.lights[index].instance];
+    const Instance& instance = scene.instances[light.instance];
     const Mesh& mesh = *scene.meshes[instance.mesh];
-    EmissiveMesh& emissive = _meshes[index];
+    EmissiveMesh emissive;
     std::vector<double> areas;
     double total = 0.0;
     float largest = 0.0f;
@@ -125,8 +139,9 @@ void LightTable::addMesh(const Scene& scene, uint32_t index)
         total += area;
     }
     emissive.cumulative = cumulativeOf(areas);
-    _areas[index] = static_cast<float>(total);
-    _offsets[index] = kOffsetScale * largest;
+    record.area = static_cast<float>(total);
+    record.offset = kOffsetScale * largest;
+    return emissive;
 }
 
 LightTable::Choice LightTable::chooseAreaLight(float u) const
@@ -134,17 +149,19 @@ LightTable::Choice LightTable::chooseAreaLight(float u) const
     if (_areaLights.empty()) return {};
     if (_areaLights.size() == 1) return {_areaLights[0], 1.0f};
     const uint32_t light = _areaLights[pick(_cumulative, u)];
-    return {light, _pmfs[light]};
+    return {light, areaLightPmf(light)};
 }
 
 std::optional<LightPoint> LightTable::samplePoint(uint32_t index, float u, float v) const
 {
     const Light& light = _scene->lights[index];
+    const Record& from = record(index);
     if (light.kind != LightKind::Mesh)
-        return LightPoint{light.corner + u * light.edgeU + v * light.edgeV, _normals[index], Vec2(u, v),
-                          _offsets[index]};
+        return LightPoint{light.corner + u * light.edgeU + v * light.edgeV, from.normal, Vec2(u, v),
+                          from.offset};
 
-    const EmissiveMesh& mesh = _meshes[index];
+    if (from.mesh == kInvalid) return std::nullopt;
+    const EmissiveMesh& mesh = _meshes[from.mesh];
     if (mesh.cumulative.empty()) return std::nullopt;
     const EmissiveMesh::Triangle& t = mesh.triangles[pick(mesh.cumulative, u)];
     // Uniform on the triangle, folding the square along its diagonal: keeps strata together.
@@ -154,7 +171,7 @@ std::optional<LightPoint> LightTable::samplePoint(uint32_t index, float u, float
         v = 1.0f - v;
     }
     const Vec3 normal(glm::normalize(glm::cross(Vec3d(t.ab), Vec3d(t.ac))));
-    return LightPoint{t.a + u * t.ab + v * t.ac, normal, t.ua + u * t.uab + v * t.uac, _offsets[index]};
+    return LightPoint{t.a + u * t.ab + v * t.ac, normal, t.ua + u * t.uab + v * t.uac, from.offset};
 }
 
 std::optional<AreaLightSample> LightTable::sampleArea(uint32_t index, Vec3 p, float u, float v) const
@@ -182,7 +199,7 @@ std::optional<AreaLightSample> LightTable::sampleAt(uint32_t index, Vec3 p, Vec3
     sample.pdfW = pdfArea(index, sample.distance, sample.cosThetaL);
     sample.point = q;
     sample.normal = normal;
-    sample.offset = _offsets[index];
+    sample.offset = record(index).offset;
     return sample;
 }
 

@@ -62,13 +62,13 @@ public:
     const std::vector<uint32_t>& deltaLights() const { return _deltaLights; }
 
     /// Area of an area light [length^2], by index into Scene::lights. 0: never sampled.
-    float area(uint32_t light) const { return _areas[light]; }
+    float area(uint32_t light) const { return record(light).area; }
 
     /// Unit normal of the front of a parallelogram.
-    Vec3 normal(uint32_t light) const { return _normals[light]; }
+    Vec3 normal(uint32_t light) const { return record(light).normal; }
 
     /// How far a point on the light may be off it by rounding [length].
-    float pointOffset(uint32_t light) const { return _offsets[light]; }
+    float pointOffset(uint32_t light) const { return record(light).offset; }
 
     /// Chooses one of the area lights in proportion to power. u in [0,1). Nothing without lights.
     struct Choice
@@ -77,7 +77,7 @@ public:
         float pmf = 0.0f;
     };
     Choice chooseAreaLight(float u) const;
-    float areaLightPmf(uint32_t light) const { return _pmfs[light]; }
+    float areaLightPmf(uint32_t light) const { return record(light).pmf; }
 
     /// A point on an area light, uniform by area. u, v in [0,1). Nothing if it is seen from its dark side.
     std::optional<AreaLightSample> sampleArea(uint32_t light, Vec3 p, float u, float v) const;
@@ -88,23 +88,32 @@ public:
     /// [1/sr] of sampleArea for a ray that hit the light at a distance under a cosine.
     float pdfArea(uint32_t light, float distance, float cosThetaL) const
     {
-        return distance * distance / (_areas[light] * cosThetaL);
+        return distance * distance / (record(light).area * cosThetaL);
     }
 
 private:
+    /// An area light of some power.
+    struct Record
+    {
+        float area = 0.0f;
+        float pmf = 0.0f;
+        float offset = 0.0f;
+        Vec3 normal{0.0f};        ///< of parallelograms
+        uint32_t mesh = kInvalid; ///< in _meshes
+    };
+    const Record& record(uint32_t light) const { return _records[_slots[light]]; }
+    static Record parallelogram(const Light& light);
     std::optional<AreaLightSample> sampleAt(uint32_t index, Vec3 p, Vec3 q, Vec3 normal, Vec2 uv,
                                             bool twoSided) const;
-    void addMesh(const Scene& scene, uint32_t index);
+    static EmissiveMesh meshOf(const Scene& scene, const Light& light, Record& record);
 
     const Scene* _scene;
     std::vector<uint32_t> _areaLights;
     std::vector<uint32_t> _deltaLights;
-    std::vector<float> _areas;        ///< a light
-    std::vector<Vec3> _normals;       ///< a light; of parallelograms
-    std::vector<float> _offsets;      ///< a light
-    std::vector<float> _pmfs;         ///< a light
-    std::vector<float> _cumulative;   ///< an area light; the last is 1
-    std::vector<EmissiveMesh> _meshes; ///< a light; empty unless LightKind::Mesh
+    std::vector<uint32_t> _slots;      ///< a light: its record
+    std::vector<Record> _records;      ///< first that of all lights that are never sampled
+    std::vector<float> _cumulative;    ///< an area light; the last is 1
+    std::vector<EmissiveMesh> _meshes; ///< of records of LightKind::Mesh
 };
 
 /// Directional and Point lights; light.eyeSpace must have been resolved.
