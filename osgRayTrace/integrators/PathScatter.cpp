@@ -63,7 +63,7 @@ LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface,
 
 /// The lanes at smooth interfaces; returns those that go on.
 LaneMask mirror(PathBlock& block, const Bounce& bounce, const FloatLanes& lobe, Vec3Lanes& wi,
-                Vec3Lanes& origin, Vec3Lanes& weight, FloatLanes& pdfW)
+                Vec3Lanes& origin, FloatLanes& tNear, Vec3Lanes& weight, FloatLanes& pdfW)
 {
     if (!bounce.smooth) return 0;
     InterfaceLanes interfaces;
@@ -80,7 +80,9 @@ LaneMask mirror(PathBlock& block, const Bounce& bounce, const FloatLanes& lobe, 
         const bool transmitted = (sampled.transmitted >> i) & 1u;
         const Vec3 direction = laneOf(wi, i);
         if (isAbove(bounce.surface, i, direction) == transmitted) continue;
-        setLane(origin, i, leave(bounce.surface, i, direction));
+        const RayBegin begin = leave(bounce.surface, i, direction);
+        setLane(origin, i, begin.origin);
+        tNear[i] = begin.tNear;
         pdfW[i] = kInfinity;
         if (transmitted) block.etaScale[i] *= bounce.bsdfs[i].eta * bounce.bsdfs[i].eta;
         alive |= 1u << i;
@@ -191,7 +193,7 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
     Vec3Lanes weight = bounce.albedo;
     LaneMask alive = diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, tNear, pdfW) &
                      bounce.diffuse & ~bounce.ending;
-    alive |= mirror(block, bounce, lobe, wi, origin, weight, pdfW);
+    alive |= mirror(block, bounce, lobe, wi, origin, tNear, weight, pdfW);
     for (LaneMask lanes = bounce.general & ~bounce.smooth; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
