@@ -134,6 +134,7 @@ void RayTracedScene::traverse(osg::NodeVisitor& visitor)
             _drawable->accept(*cull);
         }
         _drawable->cullRasterized(*cull);
+        _drawable->requestPages(*this, *cull);
         return;
     }
 
