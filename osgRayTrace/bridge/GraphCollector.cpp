@@ -101,11 +101,19 @@ osg::ref_ptr<osg::Geometry> withoutTriangles(const osg::Geometry& geometry)
     return copy;
 }
 
+/// Whether its own program does no more than to pose it.
+bool isOfThePose(const osg::Program* program, const osg::Geometry& geometry)
+{
+    return geometry.getStateSet() && SoftwareVertices::isPosedByProgram(geometry) &&
+           geometry.getStateSet()->getAttribute(osg::StateAttribute::PROGRAM) == program;
+}
+
 /// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced.
-const char* rasterizedState(const GraphState& state)
+const char* rasterizedState(const GraphState& state, const osg::Geometry& geometry)
 {
     const auto* program = state.attribute<osg::Program>(kProgramSlot);
-    if (program && program->getNumShaders() > 0) return "rasterized.shader-program";
+    if (program && program->getNumShaders() > 0 && !isOfThePose(program, geometry))
+        return "rasterized.shader-program";
     const auto* polygons = state.attribute<osg::PolygonMode>(kPolygonModeSlot);
     if (polygons && polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
         return "rasterized.polygon-mode";
@@ -148,9 +156,11 @@ bool hasUntracedDrawable(const osg::Billboard& billboard)
 
 } // namespace
 
-GraphCollector::GraphCollector(const ConversionInput& input, ConversionReport& report)
+GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
+                               ConversionReport& report)
     : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN),
       _input(input),
+      _vertices(vertices),
       _report(report),
       _worldFromLocal(1),
       _cullStack(input.view),
@@ -313,10 +323,11 @@ void GraphCollector::apply(osg::Geometry& geometry)
     const bool pushed = pushState(geometry);
     const uint32_t state = _states.top();
     if (pushed) _states.pop();
+    const osg::Geometry& posed = _vertices.posed(geometry, getNodePath());
     const PrimitiveRestart restart = restartOf(_states.states()[state]);
     const auto [found, isNew] =
-        _indexOf.try_emplace({&geometry, keyOf(restart)}, _graph.geometries.size());
-    if (isNew) _graph.geometries.push_back({&geometry, path(), {}, restart, nullptr});
+        _indexOf.try_emplace({&posed, keyOf(restart)}, _graph.geometries.size());
+    if (isNew) _graph.geometries.push_back({&posed, path(), {}, restart, nullptr});
     _graph.geometries[found->second].uses.push_back({engineFromLocal(), state});
 }
 
@@ -437,7 +448,7 @@ bool GraphCollector::rasterizes(const osg::Geometry& geometry)
 {
     const osg::StateSet* stateSet = geometry.getStateSet();
     if (stateSet) _states.push(*stateSet);
-    const char* reason = rasterizedState(_states.states()[_states.top()]);
+    const char* reason = rasterizedState(_states.states()[_states.top()], geometry);
     if (stateSet) _states.pop();
     if (reason)
     {

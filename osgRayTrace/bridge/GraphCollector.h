@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/ClipPlanes.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/SceneExtent.h"
+#include "osgRayTrace/bridge/SoftwareVertices.h"
 #include "osgRayTrace/bridge/StateStack.h"
 #include "osgRayTrace/bridge/TriangleList.h"
 
@@ -82,7 +83,8 @@ void applyUnit(double unit, CollectedGraph& graph);
 class GraphCollector : public osg::NodeVisitor
 {
 public:
-    GraphCollector(const ConversionInput& input, ConversionReport& report);
+    GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
+                   ConversionReport& report);
 
     /// What was found; call once, after the traversal.
     CollectedGraph take();
@@ -127,6 +129,7 @@ private:
     std::string path() const;
 
     const ConversionInput& _input;
+    SoftwareVertices& _vertices;
     ConversionReport& _report;
     std::vector<osg::Matrixd> _worldFromLocal; // the stack of transforms, never empty
     ReferenceCullStack _cullStack;

@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/GraphFingerprint.h"
 
 #include "osgRayTrace/bridge/GraphCollector.h"
+#include "osgRayTrace/bridge/SoftwareVertices.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/PhysicalMaterial>
@@ -29,6 +30,7 @@
 #include <osg/Transform>
 
 #include <cstring>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -262,6 +264,8 @@ public:
     void apply(osg::Geometry& geometry) override
     {
         addDrawable(geometry);
+        for (const float weight : SoftwareVertices::weightsOf(geometry))
+            _digest.add(weight);
         _arrays.clear();
         geometry.getArrayList(_arrays);
         for (const auto& array : _arrays)

@@ -149,6 +149,7 @@ Material fallbackMaterial()
 /// What is kept between snapshots.
 struct ConversionCaches
 {
+    SoftwareVertices vertices;
     GeometryCache geometries;
     TextureConverter textures;
     std::vector<std::shared_ptr<const Mesh>>
@@ -447,7 +448,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     const Stamp now = ++state.stamp;
 
     ConversionReport report;
-    GraphCollector collector(input, report);
+    state.caches.vertices.begin();
+    GraphCollector collector(input, state.caches.vertices, report);
     if (input.root) input.root->accept(collector);
     CollectedGraph graph = collector.take();
 
@@ -460,6 +462,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     SceneBuilder builder(input, graph, unit, linear, now, state.caches, report);
     state.last = stampChanges(builder.build(), state.last, now);
     state.caches.geometries.end();
+    state.caches.vertices.end();
 
     ConversionResult result;
     result.scene = state.last;

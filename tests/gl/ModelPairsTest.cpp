@@ -1,0 +1,50 @@
+// ModelPairsTest.cpp - all of OSG's sample models, traced and rasterized. Layer: tests.
+// Set OSG_FILE_PATH to OpenSceneGraph's sample models.
+// SPDX-License-Identifier: MIT
+#include "PicturePair.h"
+#include "tests/Catch.h"
+
+#include <osgDB/FileUtils>
+#include <osgDB/ReadFile>
+#include <osgGA/TrackballManipulator>
+
+#include <iostream>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::test;
+
+namespace
+{
+
+/// At osgviewer's home view.
+void goHome(TestViewer& view)
+{
+    view.camera().setComputeNearFarMode(osg::Camera::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
+    view.viewer.setCameraManipulator(new osgGA::TrackballManipulator);
+    view.viewer.realize();
+    view.viewer.frame(0.0);
+}
+
+} // namespace
+
+TEST_CASE("sample models: traced and rasterized pictures", "[gl][osg-data]")
+{
+    for (const char* name :
+         {"SmokeBox.osgt", "axes.osgt", "cessna.osgt", "cessnafire.osgt", "clock.osgt", "cow.osgt",
+          "cube_mapped_torus.osgt", "dot3_bumpmapping.osgt", "dumptruck.osgt", "glider.osgt",
+          "glsl_simple.osgt", "lz.osgt", "morphing.osg", "nathan.osg", "simpleroom.osgt"})
+    {
+        if (osgDB::findDataFile(name).empty())
+        {
+            WARN("skipped: " << name << " is not in OSG_FILE_PATH");
+            continue;
+        }
+        const PicturePair pair = picturePair(name, [name] { return osgDB::readRefNodeFile(name); }, goHome);
+        std::cout << name << ": mean difference " << pair.difference << "/255, worst tile "
+                  << pair.worst << ", " << pair.covered << " pixels covered\n";
+        for (const auto& [what, count] : pair.statistics.conversion)
+            if (what.rfind("converted", 0) != 0)
+                std::cout << "    " << what << ' ' << count << '\n';
+        CHECK(pair.difference < 2.0);
+    }
+}
