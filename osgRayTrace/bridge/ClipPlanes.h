@@ -14,8 +14,8 @@
 namespace osgRayTrace::engine
 {
 
-/// As OpenGL keeps them: by number, the last one set stays, wherever in the graph it stands; a drawable
-/// is cut by those that its state has switched on. Planes that nobody has set cut nothing.
+/// As OpenGL keeps them: by number, the last one set stays, wherever in the graph it stands; a
+/// drawable is cut by those that its state has switched on. Planes that nobody has set cut nothing.
 class ClipPlanes
 {
 public:

@@ -101,18 +101,12 @@ osg::ref_ptr<osg::Geometry> withoutTriangles(const osg::Geometry& geometry)
     return copy;
 }
 
-/// Whether its own program does no more than to pose it.
-bool isOfThePose(const osg::Program* program, const osg::Geometry& geometry)
-{
-    return geometry.getStateSet() && SoftwareVertices::isPosedByProgram(geometry) &&
-           geometry.getStateSet()->getAttribute(osg::StateAttribute::PROGRAM) == program;
-}
-
-/// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced.
-const char* rasterizedState(const GraphState& state, const osg::Geometry& geometry)
+/// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced. poses: a program that only
+/// does what was done in software.
+const char* rasterizedState(const GraphState& state, const osg::StateAttribute* poses)
 {
     const auto* program = state.attribute<osg::Program>(kProgramSlot);
-    if (program && program->getNumShaders() > 0 && !isOfThePose(program, geometry))
+    if (program && program->getNumShaders() > 0 && program != poses)
         return "rasterized.shader-program";
     const auto* polygons = state.attribute<osg::PolygonMode>(kPolygonModeSlot);
     if (polygons && polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
@@ -318,12 +312,15 @@ void GraphCollector::apply(osg::Drawable& drawable)
 
 void GraphCollector::apply(osg::Geometry& geometry)
 {
-    if (_input.rasterizesRest && rasterizes(geometry)) return;
+    const osg::Geometry& posed = _vertices.posed(geometry, getNodePath());
+    const bool isPosed = &posed != &geometry;
+    if (_input.rasterizesRest && rasterizes(geometry, isPosed)) return;
+    if (!isPosed && SoftwareVertices::isPosedByProgram(geometry))
+        _report.count("approximated.hardware-pose"); // as it was bound
     if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
     const bool pushed = pushState(geometry);
     const uint32_t state = _states.top();
     if (pushed) _states.pop();
-    const osg::Geometry& posed = _vertices.posed(geometry, getNodePath());
     const PrimitiveRestart restart = restartOf(_states.states()[state]);
     const auto [found, isNew] =
         _indexOf.try_emplace({&posed, keyOf(restart)}, _graph.geometries.size());
@@ -444,11 +441,13 @@ void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
 }
 
 /// Leaves to OSG what it draws better. True if nothing is left to trace.
-bool GraphCollector::rasterizes(const osg::Geometry& geometry)
+bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
 {
     const osg::StateSet* stateSet = geometry.getStateSet();
+    const osg::StateAttribute* poses =
+        isPosed && stateSet ? stateSet->getAttribute(osg::StateAttribute::PROGRAM) : nullptr;
     if (stateSet) _states.push(*stateSet);
-    const char* reason = rasterizedState(_states.states()[_states.top()], geometry);
+    const char* reason = rasterizedState(_states.states()[_states.top()], poses);
     if (stateSet) _states.pop();
     if (reason)
     {

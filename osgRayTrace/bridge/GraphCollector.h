@@ -123,7 +123,7 @@ private:
     bool leavesGroup(osg::Node& node);
     void traverseGroup(osg::Group& group);
     void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);
-    bool rasterizes(const osg::Geometry& geometry);
+    bool rasterizes(const osg::Geometry& geometry, bool isPosed);
     osg::Matrixd worldFromEye() const;
     osg::Matrixd engineFromLocal() const;
     std::string path() const;

@@ -273,7 +273,7 @@ public:
                         array->getBinding());
         for (const auto& primitives : geometry.getPrimitiveSetList())
             _digest.add(primitives.get(), primitives->getModifiedCount(), primitives->getMode(),
-                        primitives->getNumIndices());
+                        hasTriangles(*primitives) ? primitives->getNumIndices() : 0u);
         traverse(geometry);
     }
 

@@ -101,8 +101,8 @@ private:
         if (hasArea(_vertices.positions, t)) kept.push_back(t);
     }
 
-    /// The vertex where the edge meets the plane: one for both triangles at the edge, and the same place
-    /// for a neighbour that has the edge's ends twice.
+    /// The vertex where the edge meets the plane: one for both triangles at the edge, and the same
+    /// place for a neighbour that has the edge's ends twice.
     uint32_t between(uint32_t a, uint32_t b)
     {
         if (comesBefore(_vertices.positions[b], _vertices.positions[a])) std::swap(a, b);

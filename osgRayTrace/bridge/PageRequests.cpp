@@ -17,8 +17,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Pages alone see a cull visitor: other nodes may take any such visitor for an osgUtil::CullVisitor, or do
-/// their work of the frame twice.
+/// Pages alone see a cull visitor: other nodes may take any such visitor for an
+/// osgUtil::CullVisitor, or do their work of the frame twice.
 class PageVisitor : public osg::NodeVisitor, public osg::CullStack
 {
 public:

@@ -12,9 +12,9 @@ class CullVisitor;
 namespace osgRayTrace::engine
 {
 
-/// Requests the pages (PagedLOD, ProxyNode) below the node that the visitor is at, and marks those in use,
-/// as its own traversal of what is in the frustum would. Where the scene is traced nothing else does.
-/// Cull threads.
+/// Requests the pages (PagedLOD, ProxyNode) below the node that the visitor is at, and marks those
+/// in use, as its own traversal of what is in the frustum would. Where the scene is traced nothing
+/// else does. Cull threads.
 void requestPages(osg::Group& scene, osgUtil::CullVisitor& visitor);
 
 } // namespace osgRayTrace::engine

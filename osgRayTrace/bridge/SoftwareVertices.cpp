@@ -33,7 +33,8 @@ bool isAnimated(const osg::Geometry& geometry)
 
 bool isHardware(const RigGeometry& rig)
 {
-    return dynamic_cast<const osgAnimation::RigTransformHardware*>(rig.getRigTransformImplementation());
+    return dynamic_cast<const osgAnimation::RigTransformHardware*>(
+        rig.getRigTransformImplementation());
 }
 
 bool isHardware(const MorphGeometry& morph)
@@ -47,14 +48,16 @@ bool isEmpty(const osg::Geometry& geometry)
     return !geometry.getVertexArray() || geometry.getVertexArray()->getNumElements() == 0;
 }
 
-/// Positions that osgAnimation can read; null if there are none. Normals must go with them: it does not check.
+/// Positions that osgAnimation can read; null if there are none. Normals must go with them: it does
+/// not check.
 const osg::Vec3Array* readablePositions(const osg::Geometry& geometry)
 {
     const auto* positions = dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray());
     if (!positions || positions->empty()) return nullptr;
     const osg::Array* normals = geometry.getNormalArray();
     if (!normals) return positions;
-    const bool fit = dynamic_cast<const osg::Vec3Array*>(normals) && normals->getNumElements() == positions->size();
+    const bool fit = dynamic_cast<const osg::Vec3Array*>(normals) &&
+                     normals->getNumElements() == positions->size();
     return fit ? positions : nullptr;
 }
 
@@ -149,7 +152,8 @@ bool poseRig(PosedRig& rig, const osg::NodePath& path)
     return false;
 }
 
-/// The arrays are its own, all else is shared. OSG's constructor would share the array that it writes to.
+/// The arrays are its own, all else is shared. OSG's constructor would share the array that it
+/// writes to.
 osg::ref_ptr<MorphGeometry> copyOf(MorphGeometry& original)
 {
     osg::ref_ptr<MorphGeometry> copy = new MorphGeometry(original, osg::CopyOp::SHALLOW_COPY);
@@ -165,7 +169,8 @@ osg::ref_ptr<MorphGeometry> copyOf(MorphGeometry& original)
                               ? original.getNormalSource()
                               : dynamic_cast<const osg::Vec3Array*>(original.getNormalArray());
     copy->setNormalSource(normals ? new osg::Vec3Array(*normals) : new osg::Vec3Array);
-    copy->setNormalArray(normals ? new osg::Vec3Array(*normals) : nullptr, osg::Array::BIND_PER_VERTEX);
+    copy->setNormalArray(normals ? new osg::Vec3Array(*normals) : nullptr,
+                         osg::Array::BIND_PER_VERTEX);
     copy->setMorphNormals(normals && original.getMorphNormals());
     return copy;
 }
@@ -219,7 +224,8 @@ bool SoftwareVertices::isPosedByProgram(const osg::Geometry& geometry)
 std::vector<float> SoftwareVertices::weightsOf(const osg::Geometry& geometry)
 {
     std::vector<float> weights;
-    const auto* morph = isAnimated(geometry) ? dynamic_cast<const MorphGeometry*>(&geometry) : nullptr;
+    const auto* morph =
+        isAnimated(geometry) ? dynamic_cast<const MorphGeometry*>(&geometry) : nullptr;
     if (!morph) return weights;
     for (const MorphGeometry::MorphTarget& target : morph->getMorphTargetList())
         weights.push_back(target.getWeight());

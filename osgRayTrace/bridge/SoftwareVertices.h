@@ -11,21 +11,23 @@
 namespace osgRayTrace::engine
 {
 
-/// Copies of osgAnimation's rigs and morphs of which the application has chosen the hardware transform, so that their own
-/// arrays keep the pose that they were bound in, and of those that no update traversal has prepared yet. The
-/// copies are computed by OSG's software transforms; they share all that does not move. The originals are not changed.
+/// Copies of osgAnimation's rigs and morphs of which the application has chosen the hardware
+/// transform, so that their own arrays keep the pose that they were bound in, and of those that no
+/// update traversal has prepared yet. The copies are computed by OSG's software transforms; they
+/// share all that does not move. The originals are not changed.
 class SoftwareVertices
 {
 public:
     void begin() { ++_round; }
 
-    /// What to read in place of the last node of the path: itself if its arrays are right. Valid until end().
+    /// What to read in place of the last node of the path: itself if its arrays are right. Valid
+    /// until end().
     const osg::Geometry& posed(osg::Geometry& geometry, const osg::NodePath& path);
 
     /// Forgets the copies that were not asked for.
     void end();
 
-    /// Whether the program on its own state set poses it, so that it is traced all the same.
+    /// Whether the application leaves its vertices to a shader program.
     static bool isPosedByProgram(const osg::Geometry& geometry);
 
     /// Of a morph's targets; empty: it is none. Bones are nodes and need no such look.

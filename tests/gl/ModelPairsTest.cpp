@@ -39,7 +39,8 @@ TEST_CASE("sample models: traced and rasterized pictures", "[gl][osg-data]")
             WARN("skipped: " << name << " is not in OSG_FILE_PATH");
             continue;
         }
-        const PicturePair pair = picturePair(name, [name] { return osgDB::readRefNodeFile(name); }, goHome);
+        const PicturePair pair = picturePair(
+            name, [name] { return osgDB::readRefNodeFile(name); }, goHome);
         std::cout << name << ": mean difference " << pair.difference << "/255, worst tile "
                   << pair.worst << ", " << pair.covered << " pixels covered\n";
         for (const auto& [what, count] : pair.statistics.conversion)

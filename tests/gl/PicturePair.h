@@ -14,7 +14,8 @@ namespace osgRayTrace::test
 {
 
 constexpr int kPairWidth = 320, kPairHeight = 240;
-constexpr int kPairSamples = 4; ///< a pixel and axis, of the rasterized picture: the traced one is antialiased
+constexpr int kPairSamples =
+    4; ///< a pixel and axis, of the rasterized picture: the traced one is antialiased
 
 /// Means of kPairSamples * kPairSamples pixels.
 inline osg::ref_ptr<osg::Image> reduced(const osg::Image& image)
@@ -29,8 +30,8 @@ inline osg::ref_ptr<osg::Image> reduced(const osg::Image& image)
                 sum += pixel(image, x * kPairSamples + i % kPairSamples,
                              y * kPairSamples + i / kPairSamples);
             for (int c = 0; c < 4; ++c)
-                small->data(x, y)[c] = static_cast<unsigned char>(
-                    sum[c] / (kPairSamples * kPairSamples) + 0.5f);
+                small->data(x, y)[c] =
+                    static_cast<unsigned char>(sum[c] / (kPairSamples * kPairSamples) + 0.5f);
         }
     return small;
 }
@@ -40,8 +41,8 @@ struct PicturePair
     osg::ref_ptr<osg::Image> rasterized, traced;
     Statistics statistics;
     double difference = 0.0; ///< mean over all pixels, 0 to 255
-    double worst = 0.0;      ///< mean of the worst 8 x 8 pixels: what a cluster that is wrong would show
-    long covered = 0;        ///< pixels of the rasterized picture that are not background
+    double worst = 0.0; ///< mean of the worst 8 x 8 pixels: what a cluster that is wrong would show
+    long covered = 0;   ///< pixels of the rasterized picture that are not background
 
     uint64_t count(const std::string& what) const
     {
@@ -65,9 +66,15 @@ inline double worstTile(const osg::Image& a, const osg::Image& b)
 
 using SceneMaker = std::function<osg::ref_ptr<osg::Node>()>;
 
-/// Both pictures of frame number `frames`, so that OSG may have prepared, loaded and animated; of two scenes made alike,
-/// as a viewer leaves its mark on one: images are let go, particles keep the time. Shadows are off. With
-/// OSGRAYTRACE_TEST_PICTURES both are written there, to be looked at.
+/// Light by normals of unit length, as traced: OpenGL's own depends on how a transform scales them.
+inline void normalize(TestViewer& view)
+{
+    view.camera().getOrCreateStateSet()->setMode(GL_NORMALIZE, osg::StateAttribute::ON);
+}
+
+/// Both pictures of frame number `frames`, so that OSG may have prepared, loaded and animated; of
+/// two scenes made alike, as a viewer leaves its mark on one: images are let go, particles keep the
+/// time. Shadows are off. With OSGRAYTRACE_TEST_PICTURES both are written there, to be looked at.
 inline PicturePair picturePair(const std::string& name, const SceneMaker& makeScene,
                                const std::function<void(TestViewer&)>& setUp, int frames = 3)
 {
@@ -76,19 +83,21 @@ inline PicturePair picturePair(const std::string& name, const SceneMaker& makeSc
         TestViewer view(kPairWidth * kPairSamples, kPairHeight * kPairSamples, makeScene().get());
         view.camera().setClearColor(osg::Vec4(0.2f, 0.2f, 0.4f, 1.0f));
         setUp(view);
-        for (int i = 1; i < frames; ++i)
+        for (int i = 0; i < frames; ++i)
             view.viewer.frame(0.1 * i);
-        pair.rasterized = reduced(*view.frames());
+        pair.rasterized = reduced(*view.frames(0));
     }
     osg::ref_ptr<RayTracedScene> traced = tracedScene(makeScene().get());
     traced->getSettings()->setPassesPerFrame(1);
     TestViewer view(kPairWidth, kPairHeight, traced.get());
     view.camera().setClearColor(osg::Vec4(0.2f, 0.2f, 0.4f, 1.0f));
     setUp(view);
-    for (int i = 1; i < frames; ++i)
+    for (int i = 0; i < frames; ++i)
+    {
+        if (i == frames - 1) traced->getSettings()->setPassesPerFrame(64);
         view.viewer.frame(0.1 * i);
-    traced->getSettings()->setPassesPerFrame(64);
-    pair.traced = view.frames();
+    }
+    pair.traced = view.frames(0);
     pair.statistics = traced->getDrawable()->getStatistics();
 
     pair.difference = meanDifference(*pair.rasterized, *pair.traced);
