@@ -36,22 +36,22 @@ TEST_CASE("sample models: traced and rasterized pictures", "[gl][osg-data]")
         const char* name;
         const char* approximated = nullptr;
     };
-    for (const auto& [name, approximated] :
-         {Model{"SmokeBox.osgt"},
-          {"axes.osgt"},
-          {"cessna.osgt"},
-          {"cessnafire.osgt"},
-          {"clock.osgt"},
-          {"dumptruck.osgt"},
-          {"glider.osgt"},
-          {"glsl_simple.osgt"},
-          {"lz.osgt"},
-          {"morphing.osg"},
-          {"simpleroom.osgt"},
-          {"cow.osgt", "approximated.texgen"},
-          {"cube_mapped_torus.osgt", "approximated.texture-target"},
-          {"dot3_bumpmapping.osgt", "approximated.texture-environment"},
-          {"nathan.osg", "approximated.blending"}})
+    const Model models[] = {{"SmokeBox.osgt"},
+                            {"axes.osgt"},
+                            {"cessna.osgt"},
+                            {"cessnafire.osgt"},
+                            {"clock.osgt"},
+                            {"dumptruck.osgt"},
+                            {"glider.osgt"},
+                            {"glsl_simple.osgt"},
+                            {"lz.osgt"},
+                            {"morphing.osg"},
+                            {"simpleroom.osgt"},
+                            {"cow.osgt", "approximated.texgen"},
+                            {"cube_mapped_torus.osgt", "approximated.texture-target"},
+                            {"dot3_bumpmapping.osgt", "approximated.texture-environment"},
+                            {"nathan.osg", "approximated.blending"}};
+    for (const auto& [name, approximated] : models)
     {
         if (osgDB::findDataFile(name).empty())
         {
