@@ -12,7 +12,6 @@
 #include <osg/ClipNode>
 #include <osg/PagedLOD>
 #include <osg/PolygonMode>
-#include <osg/PrimitiveRestartIndex>
 #include <osg/Program>
 #include <osg/Projection>
 #include <osg/ProxyNode>
@@ -88,19 +87,6 @@ const char* untracedCamera(const osg::Camera& camera)
     return nullptr;
 }
 
-/// The rest of a geometry whose triangles are traced: a shallow copy, so arrays are shared. Null: nothing.
-osg::ref_ptr<osg::Geometry> withoutTriangles(const osg::Geometry& geometry)
-{
-    osg::Geometry::PrimitiveSetList rest;
-    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
-        if (!hasTriangles(*set)) rest.push_back(set);
-    if (rest.empty()) return nullptr;
-    osg::ref_ptr<osg::Geometry> copy = new osg::Geometry(geometry);
-    copy->setPrimitiveSetList(rest);
-    copy->getBound(); // now: several cull threads may ask for it at once
-    return copy;
-}
-
 /// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced. poses: a program that only
 /// does what was done in software.
 const char* rasterizedState(const GraphState& state, const osg::StateAttribute* poses)
@@ -120,21 +106,6 @@ const char* rasterizedState(const GraphState& state, const osg::StateAttribute* 
         state.isOn(kClipPlaneBit + plane->getClipPlaneNum()))
         return "rasterized.clip-plane-attribute";
     return nullptr;
-}
-
-PrimitiveRestart restartOf(const GraphState& state)
-{
-    PrimitiveRestart restart;
-    restart.atLargest = state.isOn(kFixedRestartBit);
-    restart.on = restart.atLargest || state.isOn(kPrimitiveRestartBit);
-    const auto* index = state.attribute<osg::PrimitiveRestartIndex>(kPrimitiveRestartSlot);
-    if (restart.on && index) restart.index = index->getRestartIndex();
-    return restart;
-}
-
-uint64_t keyOf(const PrimitiveRestart& restart)
-{
-    return uint64_t(restart.on) << 33 | uint64_t(restart.atLargest) << 32 | restart.index;
 }
 
 /// Something in it is placed by the view and not traced.
@@ -323,7 +294,7 @@ void GraphCollector::apply(osg::Geometry& geometry)
     if (pushed) _states.pop();
     const PrimitiveRestart restart = restartOf(_states.states()[state]);
     const auto [found, isNew] =
-        _indexOf.try_emplace({&posed, keyOf(restart)}, _graph.geometries.size());
+        _indexOf.try_emplace({&posed, restart.key()}, _graph.geometries.size());
     if (isNew) _graph.geometries.push_back({&posed, path(), {}, restart, nullptr});
     _graph.geometries[found->second].uses.push_back({engineFromLocal(), state});
 }

@@ -6,6 +6,8 @@
 #include "osgRayTrace/bridge/PolygonTriangles.h"
 #include "osgRayTrace/bridge/VertexArrays.h"
 
+#include <osg/PrimitiveRestartIndex>
+
 #include <algorithm>
 #include <limits>
 
@@ -252,6 +254,16 @@ const osg::DrawElementsUInt* soleTriangleList(const osg::Geometry& geometry,
 }
 
 } // namespace
+
+PrimitiveRestart restartOf(const GraphState& state)
+{
+    PrimitiveRestart restart;
+    restart.atLargest = state.isOn(kFixedRestartBit);
+    restart.on = restart.atLargest || state.isOn(kPrimitiveRestartBit);
+    const auto* index = state.attribute<osg::PrimitiveRestartIndex>(kPrimitiveRestartSlot);
+    if (restart.on && index) restart.index = index->getRestartIndex();
+    return restart;
+}
 
 bool hasTriangles(const osg::PrimitiveSet& set)
 {

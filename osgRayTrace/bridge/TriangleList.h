@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/Math.h"
 #include "osgRayTrace/bridge/ConversionReport.h"
+#include "osgRayTrace/bridge/StateStack.h"
 
 #include <osg/Geometry>
 
@@ -20,11 +21,12 @@ struct PrimitiveRestart
     bool atLargest = false; ///< the largest index of the type; else index
     uint32_t index = 0;
 
-    bool operator==(const PrimitiveRestart& other) const
-    {
-        return on == other.on && atLargest == other.atLargest && index == other.index;
-    }
+    /// One number for all of it.
+    uint64_t key() const { return uint64_t(on) << 33 | uint64_t(atLargest) << 32 | index; }
+    bool operator==(const PrimitiveRestart& other) const { return key() == other.key(); }
 };
+
+PrimitiveRestart restartOf(const GraphState& state);
 
 /// All triangles in the order that OpenGL draws them. Indices into the vertex arrays, not checked.
 struct TriangleList

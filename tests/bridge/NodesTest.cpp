@@ -21,6 +21,8 @@
 #include <osgAnimation/RigTransformHardware>
 #include <osgAnimation/Skeleton>
 #include <osgFX/Scribe>
+#include <osgShadow/ShadowMap>
+#include <osgShadow/ShadowedScene>
 #include <osgSim/Impostor>
 #include <osgSim/LightPointNode>
 #include <osgSim/OverlayNode>
@@ -205,6 +207,10 @@ TEST_CASE("nodes: of other kits are traced, or left to OSG and counted", "[bridg
     osg::ref_ptr<osgSim::OverlayNode> overlay = new osgSim::OverlayNode;
     overlay->addChild(triangleGeometry());
     root->addChild(overlay);
+    osg::ref_ptr<osgShadow::ShadowedScene> shadowed =
+        new osgShadow::ShadowedScene(new osgShadow::ShadowMap);
+    shadowed->addChild(triangleGeometry());
+    root->addChild(shadowed);
     root->addChild(new osgSim::LightPointNode);
     osg::ref_ptr<osgFX::Scribe> effect = new osgFX::Scribe;
     effect->addChild(triangleGeometry());
@@ -212,7 +218,7 @@ TEST_CASE("nodes: of other kits are traced, or left to OSG and counted", "[bridg
     root->addChild(new osgVolume::VolumeTile);
 
     const ConversionResult headless = convertGraph(root);
-    CHECK(headless.scene->instances.size() == 3);
+    CHECK(headless.scene->instances.size() == 4);
     CHECK(countOf(headless, "not-traced.light-points") == 1);
     CHECK(countOf(headless, "approximated.effect") == 1);
     CHECK(countOf(headless, "not-traced.volume") == 1);
@@ -220,7 +226,7 @@ TEST_CASE("nodes: of other kits are traced, or left to OSG and counted", "[bridg
     ConversionInput input = inputFor(root);
     input.rasterizesRest = true;
     const ConversionResult viewed = convertFrom(input);
-    CHECK(viewed.scene->instances.size() == 2);
+    CHECK(viewed.scene->instances.size() == 3);
     CHECK(countOf(viewed, "rasterized.effect") == 1);
     CHECK(countOf(viewed, "rasterized.volume") == 1);
     REQUIRE(viewed.rasterized);

@@ -200,6 +200,38 @@ TEST_CASE("fuzz: any geometry is converted, each triangle kept or counted", "[fu
     CHECK(kept > static_cast<uint64_t>(seedCount(kGeometries)) / 4);
 }
 
+// Without rendering, so that the sanitizers see as many.
+TEST_CASE("fuzz: ten thousand scene graphs are converted for changing views", "[fuzz]")
+{
+    osg::setNotifyLevel(osg::FATAL);
+    uint64_t traced = 0, cut = 0, posed = 0;
+    forEachSeed(10000 * sanitizerShare(),
+                [&](uint32_t seed)
+                {
+                    Dice dice(seed + 1000000);
+                    const RandomGraph graph = randomGraph(dice);
+                    SceneConverter converter;
+                    for (int i = 0; i < 2; ++i)
+                    {
+                        ConversionInput input;
+                        input.root = graph.root.get();
+                        input.eye = osg::Vec3d(2.0 - 5.0 * i, 1.5, 5.0);
+                        if (dice.oneIn(3)) input.origin = input.eye;
+                        input.rasterizesRest = graph.bounded && dice.oneIn(2);
+                        if (dice.oneIn(2)) input.view = randomView(dice, input.eye);
+                        const ConversionResult result = converter.convert(input);
+                        requireSound(result);
+                        traced += !result.scene->instances.empty();
+                        cut += countIn(result.counts, "not-traced.clipped-away");
+                        posed += countIn(result.counts, "approximated.hardware-pose");
+                    }
+                });
+    const auto count = static_cast<uint64_t>(seedCount(10000 * sanitizerShare()));
+    CHECK(traced > count / 2);
+    CHECK(cut > count / 50);   // clip planes are met
+    CHECK(posed > count / 100); // and poses that must be refused
+}
+
 TEST_CASE("fuzz: any scene graph is converted, built and rendered, and stays finite", "[fuzz]")
 {
     osg::setNotifyLevel(osg::FATAL);
