@@ -27,7 +27,7 @@ constexpr GLenum kPrimitiveRestartFixedIndex = 0x8D69; // OpenGL 4.3; OSG has no
 std::optional<unsigned int> modeBit(osg::StateAttribute::GLMode mode)
 {
     if (mode >= GL_LIGHT0 && mode < GL_LIGHT0 + kLights) return mode - GL_LIGHT0;
-    if (mode >= GL_CLIP_PLANE0 && mode < GL_CLIP_PLANE0 + kClipPlanes) 
+    if (mode >= GL_CLIP_PLANE0 && mode < GL_CLIP_PLANE0 + kClipPlanes)
         return kClipPlaneBit + (mode - GL_CLIP_PLANE0);
     switch (mode)
     {
