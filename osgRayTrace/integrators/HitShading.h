@@ -56,6 +56,20 @@ inline bool isAbove(const SurfaceLanes& surface, int i, Vec3 wi)
     return ((surface.lifted >> i) & 1u) || glm::dot(wi, laneOf(surface.geometricNormal, i)) > 0.0f;
 }
 
+/// As leave and isAbove, but of the facet in any case: for mirror-like lobes. There is no terminator in
+/// them, and what they would see from above the facet no photon could bring the other way.
+inline Vec3 leaveFacet(const SurfaceLanes& surface, int i, Vec3 wi)
+{
+    const Vec3 n = laneOf(surface.geometricNormal, i);
+    return laneOf(trianglePoints(surface), i) +
+           n * (glm::dot(wi, n) >= 0.0f ? surface.offset[i] : -surface.offset[i]);
+}
+
+inline bool isAboveFacet(const SurfaceLanes& surface, int i, Vec3 wi)
+{
+    return glm::dot(wi, laneOf(surface.geometricNormal, i)) > 0.0f;
+}
+
 /// Where on its material hit lane i of the block is.
 MaterialPoint materialPoint(const PassContext& context, const RayHitBlock& rays,
                             const SurfaceLanes& surface, int i);

@@ -169,9 +169,13 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
             sampleBsdf(bounce.bsdfs[i], wo, lobe[i], u[i], v[i]);
         if (!sample || (!sample->delta && ((bounce.ending >> i) & 1u))) continue;
         const Vec3 direction = frame.toWorld(sample->wi);
-        if (isAbove(bounce.surface, i, direction) == sample->transmitted) continue;
+        const SurfaceLanes& surface = bounce.surface;
+        const bool above =
+            sample->delta ? isAboveFacet(surface, i, direction) : isAbove(surface, i, direction);
+        if (above == sample->transmitted) continue;
         setLane(wi, i, direction);
-        setLane(origin, i, leave(bounce.surface, i, direction));
+        setLane(origin, i,
+                sample->delta ? leaveFacet(surface, i, direction) : leave(surface, i, direction));
         setLane(weight, i, sample->weight);
         pdfW[i] = sample->delta ? kInfinity : sample->pdfW;
         if (sample->transmitted) block.etaScale[i] *= bounce.bsdfs[i].eta * bounce.bsdfs[i].eta;
