@@ -3,7 +3,9 @@
 #pragma once
 
 #include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/photons/PhotonAim.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,6 +19,7 @@ struct PhotonStart
     Vec3 direction{0.0f}; ///< unit
     Vec3 power{0.0f};     ///< [W] times the number of photons emitted
     uint32_t light = kInvalid;
+    uint32_t bin = kInvalid; ///< of PhotonAim that it was aimed at, if it was
 };
 
 /// The numbers of [0,1) that an emission takes.
@@ -37,7 +40,7 @@ struct EmissionLanes
 struct StartLanes
 {
     Vec3Lanes origin, direction, power;
-    UintLanes light;
+    UintLanes light, bin;
 };
 
 /// Chooses lights in proportion to power, and directions by a mixture: a share of them uniformly within the
@@ -57,11 +60,16 @@ public:
     /// Something in the scene reflects like a mirror or transmits.
     bool hasTargets() const { return !_targets.empty(); }
 
-    std::optional<PhotonStart> emit(const EmissionPoint& point) const;
+    std::optional<PhotonStart> emit(const EmissionPoint& point, const PhotonAim* aim = nullptr) const;
 
     /// What emit returns for each lane, up to rounding; vector code where a parallelogram is the only light.
     /// Returns the lanes that have a start.
-    LaneMask emitLanes(const EmissionLanes& points, StartLanes& starts) const;
+    LaneMask emitLanes(const EmissionLanes& points, StartLanes& starts, const PhotonAim* aim = nullptr) const;
+
+    /// Of a PhotonAim for this emitter; 0: there is nothing to aim at.
+    std::size_t aimBins() const;
+    std::shared_ptr<const PhotonAim> learn(const std::vector<uint32_t>& emitted,
+                                           const std::vector<double>& seen) const;
 
     /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives after a
     /// free flight from the light is the power times this.
@@ -80,14 +88,20 @@ public:
     const Sphere& scene() const { return _scene; }
 
 private:
-    struct Aim;
+    struct Cones;
+    /// What an emission is told beside its numbers. light: for the aim.
+    struct Guide
+    {
+        const PhotonAim* aim;
+        uint32_t light;
+    };
 
-    std::optional<PhotonStart> emitArea(uint32_t light, const EmissionPoint& point) const;
-    std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point) const;
-    std::optional<PhotonStart> emitDirectional(uint32_t light, const EmissionPoint& point) const;
-    LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts) const;
-    int conesFrom(Vec3 origin, Aim* aims, float& total) const;
-    float aimedPdf(const Aim* aims, int count, float total, Vec3 direction) const;
+    std::optional<PhotonStart> emitArea(uint32_t light, const EmissionPoint& point, Guide guide) const;
+    std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point, Guide guide) const;
+    std::optional<PhotonStart> emitDirectional(uint32_t light, const EmissionPoint& point, Guide guide) const;
+    LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts, const PhotonAim* aim) const;
+    Cones conesFrom(Vec3 origin, Guide guide) const;
+    uint32_t binOf(Guide guide, uint32_t target, uint32_t bin) const;
 
     const TracedScene& _traced;
     const std::vector<Light>& _lights;

@@ -205,7 +205,8 @@ uint32_t PhotonMap::bucketOf(int64_t x, int64_t y, int64_t z) const
     return static_cast<uint32_t>((line >> 24) + static_cast<uint64_t>(x)) & _mask;
 }
 
-PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers)
+PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers,
+                     bool keepBins)
     : _count(photons.size())
 {
     if (photons.empty()) return;
@@ -221,10 +222,10 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const W
     while (buckets < _count && buckets < (1u << 30))
         buckets *= 2;
     _mask = buckets - 1;
-    sort(photons, workers);
+    sort(photons, workers, keepBins);
 }
 
-void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers)
+void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers, bool keepBins)
 {
     const std::size_t buckets = static_cast<std::size_t>(_mask) + 1;
     const int partShift = __builtin_ctzll(buckets) - __builtin_ctz(kParts);
@@ -284,6 +285,7 @@ void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers)
     for (int c = 0; c < kColumns; ++c)
         std::fill_n(column(static_cast<Column>(c)) + _count, kLanes, 0.0f);
     std::fill_n(&_normal[_count], kLanes, 0u);
+    if (keepBins) _bin = UnclearedArray<uint32_t>(_count);
     _first = UnclearedArray<uint32_t>(buckets + 1);
     _first[buckets] = static_cast<uint32_t>(_count);
     workers.forEach(
@@ -319,13 +321,14 @@ void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers)
                     columns[static_cast<std::size_t>(c) * step + to] = values[c];
                 _normal[to] = packNormal(p.normal) | std::min(p.edges, kMostEdges) << 24 |
                               (p.direct ? kDirectBit : 0u);
+                if (keepBins) _bin[to] = p.bin;
             }
         });
 }
 
 std::size_t PhotonMap::bytes() const
 {
-    return _columns.size() * sizeof(float) + (_normal.size() + _first.size()) * sizeof(uint32_t);
+    return _columns.size() * sizeof(float) + (_normal.size() + _bin.size() + _first.size()) * sizeof(uint32_t);
 }
 
 /// The stretches of photons that can be in the disc, none of them twice. One line of cells along x
@@ -445,6 +448,7 @@ Photon PhotonMap::photon(uint32_t k) const
     p.direct = (_normal[k] & kDirectBit) != 0;
     p.normal = Vec3(byteOf(_normal[k], 0), byteOf(_normal[k], 8), byteOf(_normal[k], 16));
     p.edges = static_cast<uint32_t>(edgesOf(_normal[k]));
+    if (_bin.size()) p.bin = _bin[k];
     return p;
 }
 

@@ -31,6 +31,7 @@ enum PhotonDimension : uint32_t
 struct Chunk
 {
     std::vector<Photon> photons;
+    std::vector<uint32_t> bins; ///< of PhotonAim, a photon that was emitted
     uint64_t rays = 0;
     uint64_t dropped = 0;
 };
@@ -39,11 +40,12 @@ class ChunkTracer
 {
 public:
     ChunkTracer(const TracedScene& traced, const std::vector<Light>& lights,
-                const PhotonEmitter& emitter, const PhotonPassOptions& options, uint32_t passSeed,
-                Chunk& chunk)
+                const PhotonEmitter& emitter, const PhotonAim* aim,
+                const PhotonPassOptions& options, uint32_t passSeed, Chunk& chunk)
         : _traced(traced),
           _lights(lights),
           _emitter(emitter),
+          _aim(aim),
           _options(options),
           _seed(passSeed),
           _chunk(chunk)
@@ -76,9 +78,11 @@ private:
     const TracedScene& _traced;
     const std::vector<Light>& _lights;
     const PhotonEmitter& _emitter;
+    const PhotonAim* _aim;
     const PhotonPassOptions& _options;
     uint32_t _seed;
     Chunk& _chunk;
+    uint32_t _first = 0; ///< photon of the chunk
     FlightQueue _flights{kChunk};
     // Of the block at work.
     FloatLanes _u, _v, _lobe, _roulette; ///< of its bounce
@@ -151,7 +155,8 @@ void ChunkTracer::store(const FlightBlock& block, const SurfaceLanes& surface, L
         if (isFinite(power))
             _chunk.photons.push_back({laneOf(surface.position, i), -laneOf(block.direction, i),
                                       power, laneOf(surface.geometricNormal, i),
-                                      static_cast<uint32_t>(bounce) + 1, block.direct[i] != 0});
+                                      static_cast<uint32_t>(bounce) + 1, block.direct[i] != 0,
+                                      _chunk.bins[block.photon[i] - _first]});
         else
             ++_chunk.dropped;
     }
@@ -261,18 +266,21 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
     photonPoints(photon, dimension(EmissionDirection), points.directionU, points.directionV);
     StartLanes starts;
     const float share = 1.0f / static_cast<float>(_options.photons);
-    for (LaneMask lanes = _emitter.emitLanes(points, starts) & (kAllLanes >> (kLanes - count));
+    for (LaneMask lanes = _emitter.emitLanes(points, starts, _aim) & (kAllLanes >> (kLanes - count));
          lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         _flights.append({laneOf(starts.origin, i), laneOf(starts.direction, i),
                          laneOf(starts.power, i) * share, photon[i], starts.light[i]});
+        _chunk.bins[photon[i] - _first] = starts.bin[i];
     }
 }
 
 void ChunkTracer::trace(uint32_t first, uint32_t count)
 {
+    _first = first;
     _chunk.photons.reserve(count);
+    _chunk.bins.assign(count, kInvalid);
     for (uint32_t k = 0; k < count; k += kLanes)
         emitBlock(first + k, std::min<uint32_t>(kLanes, count - k));
     readyRays(_rays);
@@ -292,7 +300,7 @@ void ChunkTracer::trace(uint32_t first, uint32_t count)
 
 TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& lights,
                            const PhotonEmitter& emitter, const PhotonPassOptions& options, int pass,
-                           const Workers& workers)
+                           const Workers& workers, const PhotonAim* aim)
 {
     TracedPhotons result;
     if (options.use == PhotonUse::None || options.photons == 0 || !emitter.emits()) return result;
@@ -307,15 +315,18 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
                     [&](std::size_t c)
                     {
                         const uint32_t first = static_cast<uint32_t>(c) * kChunk;
-                        ChunkTracer(traced, lights, emitter, options, seed, chunks[c])
+                        ChunkTracer(traced, lights, emitter, aim, options, seed, chunks[c])
                             .trace(first, std::min(kChunk, options.photons - first));
                     });
+    result.emitted.assign(emitter.aimBins(), 0u);
     std::vector<std::size_t> begin(count + 1);
     for (std::size_t c = 0; c < count; ++c)
     {
         begin[c + 1] = begin[c] + chunks[c].photons.size();
         result.rays += chunks[c].rays;
         result.dropped += chunks[c].dropped;
+        for (const uint32_t bin : chunks[c].bins)
+            if (bin != kInvalid) ++result.emitted[bin];
     }
     result.photons.resize(begin[count]);
     workers.forEach(count,

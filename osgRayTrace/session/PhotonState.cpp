@@ -40,6 +40,20 @@ float pixelWidth(const PassContext& context, int width, int height)
     return widths[widths.size() / 2];
 }
 
+constexpr std::size_t kNotedPixels = 16384; ///< about as many of a pass are learnt from
+
+/// Squares relative to the radiance of the tile, as in RenderProgress::relativeError: dim places matter, too.
+void weighSeen(const RgbaLanes* rgba, std::vector<SeenPhoton>& seen)
+{
+    float sum = 0.0f;
+    for (int b = 0; b < kTileBlocks; ++b)
+        for (int i = 0; i < kLanes; ++i)
+            sum += luminance(Vec3(rgba[b].r[i], rgba[b].g[i], rgba[b].b[i]));
+    const float mean = sum / kTilePixels;
+    for (SeenPhoton& photon : seen)
+        photon.radiance *= photon.radiance / (mean * mean + 0.01f);
+}
+
 PhotonPassOptions passOptions(const RenderOptions& options)
 {
     PhotonPassOptions result;
@@ -47,6 +61,7 @@ PhotonPassOptions passOptions(const RenderOptions& options)
     result.photons = static_cast<uint32_t>(std::max(0, options.photons));
     result.maxBounces = options.maxBounces;
     result.seed = options.seed;
+    result.aimAtViews = options.aimAtViews;
     return result;
 }
 
@@ -62,6 +77,9 @@ void PhotonState::reset(int tileCount)
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
     std::vector<HitPoints>().swap(_hitPoints);
+    std::vector<std::vector<SeenPhoton>>().swap(_seen);
+    std::vector<double>().swap(_seenSquares);
+    _passes->forgetSeen(this);
 }
 
 void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
@@ -82,6 +100,16 @@ void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, 
     }
     for (float* radius : {&_least, &_largest})
         *radius = std::clamp(*radius, _floor, ceiling);
+    // Sums over cells are rounded otherwise if the cells are: those of all views should be the same, though their pixels
+    // differ. Cells a few times too small cost little.
+    _cellRadius = wanted > 0.0f || !(density.radius > 0.0f) ? _largest : std::max(density.radius, _floor);
+    while (2.0f * _cellRadius < _largest)
+        _cellRadius *= 4.0f;
+    if (options.aimAtViews && options.photons > 0 && density.aimBins > 0)
+    {
+        _seen.resize(_pixels / kTilePixels);
+        _seenSquares.assign(density.aimBins, 0.0);
+    }
     _dark = options.photons > 0 && !density.emits;
     _limited = wanted > 0.0f && _largest != wanted;
 }
@@ -113,10 +141,28 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
         std::sqrt(globalRadiusSquared(pass, static_cast<double>(context.options.photonAlpha))));
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
     context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
-    const float cell = 2.0f * context.largestPhotonRadius;
+    sumUpSeen();
+    if (pass == PhotonPasses::kFirst && !_seenSquares.empty())
+    {
+        _passes->noteSeen(traced, *context.lights, options, this, std::move(_seenSquares));
+        std::vector<std::vector<SeenPhoton>>().swap(_seen);
+        _seenSquares.clear();
+    }
+    const float cell = 2.0f * std::max(_floor, _cellRadius * _shrink);
     _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
     context.photons = &_pass->map;
     _stored |= _pass->map.size() > 0;
+}
+
+/// In the order of the tiles, so that no thread's luck is in the sums.
+void PhotonState::sumUpSeen()
+{
+    for (std::vector<SeenPhoton>& tile : _seen)
+    {
+        for (const SeenPhoton& photon : tile)
+            _seenSquares[photon.bin] += static_cast<double>(photon.radiance);
+        tile.clear();
+    }
 }
 
 PhotonNote PhotonState::note() const
@@ -140,9 +186,15 @@ std::size_t PhotonState::viewBytes() const
     return bytes;
 }
 
-void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered) const
+void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
+    if (!_seen.empty())
+    {
+        gathered.seen = &_seen[static_cast<std::size_t>(tile)];
+        gathered.seenFirst = static_cast<uint32_t>(pass);
+        gathered.seenStride = static_cast<uint32_t>(std::clamp<std::size_t>(_pixels / kNotedPixels, 1, 16));
+    }
     gathered.separate = _local;
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
@@ -156,6 +208,7 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered) const
 void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float alpha, RgbaLanes* rgba)
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
+    if (gathered.seen) weighSeen(rgba, *gathered.seen);
     // By tile, so that no thread's luck decides which are kept.
     if (HitPoints* hits = hitPoints(tile); hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())
         *hits = HitPoints();

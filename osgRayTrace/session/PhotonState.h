@@ -25,6 +25,9 @@ class PhotonState
 {
 public:
     explicit PhotonState(std::shared_ptr<PhotonPasses> passes) : _passes(std::move(passes)) {}
+    ~PhotonState() { _passes->forgetSeen(this); }
+    PhotonState(const PhotonState&) = delete;
+    PhotonState& operator=(const PhotonState&) = delete;
 
     /// A new image. tileCount: of the film.
     void reset(int tileCount);
@@ -42,7 +45,7 @@ public:
     static constexpr std::size_t kMostHitPointBytes = std::size_t(1) << 29;
 
     /// Radii for the tile before its pass; and what it found. For the local schedule that is added to rgba.
-    void begin(int tile, int pass, GatheredPhotons& gathered) const;
+    void begin(int tile, int pass, GatheredPhotons& gathered);
     void end(int tile, int pass, const GatheredPhotons& gathered, float alpha, RgbaLanes* rgba);
 
     float radius() const { return _largest * _shrink; } ///< largest of the last pass [length]
@@ -54,6 +57,7 @@ public:
 private:
     void chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
                       const PhotonPassOptions& options, const Workers& workers);
+    void sumUpSeen();
 
     std::shared_ptr<PhotonPasses> _passes;
     std::shared_ptr<const PhotonPass> _pass;
@@ -61,6 +65,7 @@ private:
     float _floor = 0.0f;    ///< none is smaller
     float _least = 0.0f;    ///< of first radii; 0: not chosen yet
     float _largest = 0.0f;
+    float _cellRadius = 0.0f; ///< half the size of the map's cells in the first pass
     float _shrink = 1.0f;   ///< of the pass at work against the first, global schedule
     bool _local = false;
     bool _idle = false;     ///< photons for caustics, but there are none: all paths are traced from the eye
@@ -71,6 +76,8 @@ private:
     std::vector<float> _firstRadii;           ///< tile, pixel; 0: not known; empty if local
     std::vector<LocalStatistics> _statistics; ///< half, tile, pixel; empty unless local
     std::vector<HitPoints> _hitPoints;        ///< tile; empty unless paths are the same in each pass
+    std::vector<std::vector<SeenPhoton>> _seen; ///< tile; of the pass at work; empty unless it is learnt from
+    std::vector<double> _seenSquares;           ///< of all those passes: see PhotonPasses::noteSeen
 };
 
 } // namespace osgRayTrace::engine
