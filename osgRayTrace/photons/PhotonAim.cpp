@@ -3,6 +3,7 @@
 #include "osgRayTrace/photons/PhotonAim.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace osgRayTrace::engine
 {
@@ -67,8 +68,12 @@ PhotonAim::PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted, con
     for (std::size_t t = 0; t < _means.size(); ++t)
     {
         float sum = 0.0f;
-        for (uint32_t b = 0; b < kAimBins; ++b)
-            sum += _weights[t * kAimBins + b];
+        for (uint32_t ring = 0; ring < kAimRings; ++ring)
+        {
+            const float* sectors = &_weights[t * kAimBins + ring * kAimSectors];
+            _rings.push_back(std::accumulate(sectors, sectors + kAimSectors, 0.0f));
+            sum += _rings.back();
+        }
         _means[t] = sum / kAimBins;
     }
 
@@ -96,17 +101,10 @@ PhotonAim::PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted, con
 
 Vec2 PhotonAim::sample(uint32_t light, uint32_t target, Vec2 u, uint32_t& bin) const
 {
-    const float* weights = &_weights[index(light, target, _targets, 0)];
-    float rings[kAimRings];
-    float sum = 0.0f;
-    for (uint32_t r = 0; r < kAimRings; ++r)
-    {
-        rings[r] = 0.0f;
-        for (uint32_t s = 0; s < kAimSectors; ++s)
-            rings[r] += weights[r * kAimSectors + s];
-        sum += rings[r];
-    }
-    const uint32_t ring = pickScaled(rings, kAimRings, sum, u.y);
+    const std::size_t t = light * _targets + target;
+    const float* weights = &_weights[t * kAimBins];
+    const float* rings = &_rings[t * kAimRings];
+    const uint32_t ring = pickScaled(rings, kAimRings, _means[t] * kAimBins, u.y);
     const uint32_t sector = pickScaled(weights + ring * kAimSectors, kAimSectors, rings[ring], u.x);
     bin = ring * kAimSectors + sector;
     return Vec2((static_cast<float>(sector) + u.x) / kAimSectors,

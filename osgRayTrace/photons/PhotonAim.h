@@ -90,6 +90,7 @@ public:
 private:
     uint32_t _targets;
     std::vector<float> _weights; ///< by index()
+    std::vector<float> _rings;   ///< light, target, ring: sum of its sectors
     std::vector<float> _means;   ///< light, target
     std::vector<float> _cumulative;
 };

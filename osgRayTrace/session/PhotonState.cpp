@@ -72,7 +72,7 @@ void PhotonState::reset(int tileCount)
     _pass.reset();
     _least = _largest = 0.0f;
     _shrink = 1.0f;
-    _dark = _limited = _stored = false;
+    _dark = _limited = _stored = _aims = false;
     _pixels = static_cast<std::size_t>(tileCount) * kTilePixels;
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
@@ -144,6 +144,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     sumUpSeen();
     if (pass == PhotonPasses::kFirst && !_seenSquares.empty())
     {
+        _aims = true;
         _passes->noteSeen(traced, *context.lights, options, this, std::move(_seenSquares));
         std::vector<std::vector<SeenPhoton>>().swap(_seen);
         _seenSquares.clear();
@@ -201,7 +202,7 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
         const std::size_t half = (pass & 1) ? _pixels : 0;
         const float radius = _local ? std::sqrt(_statistics[half + first + p].radius2)
                                     : _firstRadii[first + p] * _shrink;
-        gathered.radius[p] = radius > 0.0f ? std::max(radius, _floor) : 0.0f;
+        gathered.radius[p] = radius > 0.0f && !choosesAgain(pass) ? std::max(radius, _floor) : 0.0f;
     }
 }
 
@@ -215,7 +216,11 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
     if (!_local)
     {
         for (std::size_t p = 0; p < kTilePixels; ++p)
-            if (_firstRadii[first + p] == 0.0f) _firstRadii[first + p] = gathered.radius[p] / _shrink;
+        {
+            float& radius = _firstRadii[first + p];
+            const float chosen = gathered.radius[p] / _shrink;
+            if (radius == 0.0f || (choosesAgain(pass) && chosen > 0.0f && chosen < radius)) radius = chosen;
+        }
         return;
     }
     for (std::size_t p = 0; p < kTilePixels; ++p)

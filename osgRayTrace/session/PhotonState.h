@@ -19,8 +19,9 @@ class Workers;
 /// Chooses radii, holds the photons of the pass at work and, for the local schedule, the statistics of each
 /// pixel. Each pixel's first radius is the given one, or the smallest of r, 2r, 4r, ... with kRadiusPhotons
 /// photons (radiusOf), where r is the width of a pixel; the largest is that, or the radius d that holds
-/// kDensityPhotons photons around a photon in the median, if that is more. Later radii follow the schedule. All are kept between the spacing of
-/// floats and the radius of the scene.
+/// kDensityPhotons photons around a photon in the median, if that is more. Later radii follow the schedule. Where the
+/// first pass that is aimed at views has more photons, radii become smaller by the same rule. All are kept between the
+/// spacing of floats and the radius of the scene.
 class PhotonState
 {
 public:
@@ -58,6 +59,7 @@ private:
     void chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
                       const PhotonPassOptions& options, const Workers& workers);
     void sumUpSeen();
+    bool choosesAgain(int pass) const { return pass == PhotonPasses::kFirst && _aims && !_local; }
 
     std::shared_ptr<PhotonPasses> _passes;
     std::shared_ptr<const PhotonPass> _pass;
@@ -72,6 +74,7 @@ private:
     bool _dark = false;     ///< there are photons to emit, but no light has power
     bool _limited = false;  ///< the radius that was set is not the one in use
     bool _stored = false;   ///< some pass has
+    bool _aims = false;     ///< from pass PhotonPasses::kFirst on photons are aimed at what this view has seen
     std::size_t _pixels = 0;                  ///< of all tiles
     std::vector<float> _firstRadii;           ///< tile, pixel; 0: not known; empty if local
     std::vector<LocalStatistics> _statistics; ///< half, tile, pixel; empty unless local
