@@ -17,9 +17,10 @@ constexpr float kGatherAlpha = 0.25f; ///< GGX width from which photons replace 
 /// Where there are more around a point no aim is needed to find some.
 constexpr uint32_t kMostNotedPhotons = 2048;
 
-/// Notes the photons of a lookup, to which its radiance is laid by their power: what the surface makes of
-/// their directions does not matter for an aim.
-void noteSeen(const PhotonMap& map, const PhotonQuery& query, float radiance, std::vector<SeenPhoton>& seen)
+/// Notes the photons of a lookup, to which its radiance is laid by their power: what the surface
+/// makes of their directions does not matter for an aim.
+void noteSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
+              std::vector<SeenPhoton>& seen)
 {
     static thread_local std::vector<uint32_t> found;
     found.clear();
@@ -47,7 +48,8 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
         const Bsdf& bsdf = bounce.bsdfs[i];
         const bool rough = bsdf.diffuse != Vec3(0.0f) || bsdf.alpha >= kGatherAlpha;
         if (rough) bounce.rough |= 1u << i;
-        // In narrow lobes there are few photons: of those that paths can find further on, none is needed.
+        // In narrow lobes there are few photons: of those that paths can find further on, none is
+        // needed.
         if (rough || (use == PhotonUse::Caustics && !bsdf.isSmooth())) bounce.gathering |= 1u << i;
     }
     bounce.ending = use == PhotonUse::Indirect ? bounce.rough : 0u;

@@ -14,8 +14,8 @@ namespace
 /// Share of the weights that is learnt: a bin whose use was missed loses no more than the rest.
 constexpr double kLearnt = 0.7;
 
-/// Bins are few enough to have been sent dozens of photons. To those with fewer the mean over their target counts
-/// as much as this many.
+/// Bins are few enough to have been sent dozens of photons. To those with fewer the mean over their
+/// target counts as much as this many.
 constexpr double kPriorPhotons = 4.0;
 
 /// Walks along weights to the one that holds u, which is rescaled to [0,1) within it.
@@ -31,8 +31,8 @@ uint32_t pickScaled(const float* weights, uint32_t count, float sum, float& u)
 
 } // namespace
 
-PhotonAim::PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted, const std::vector<double>& seen,
-                     const std::vector<float>& pmf)
+PhotonAim::PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted,
+                     const std::vector<double>& seen, const std::vector<float>& pmf)
     : _targets(targets), _weights(emitted.size(), 1.0f), _means(emitted.size() / kAimBins, 1.0f)
 {
     const std::size_t perLight = std::size_t(targets) * kAimBins;
@@ -91,7 +91,8 @@ PhotonAim::PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted, con
         const uint32_t light = lightOf(e, pmf.size());
         double factor = 1.0; // also of lights that cannot aim, as those within a target
         if (allUseful > 0.0 && sent[light] > 0.0)
-            factor = 1.0 - kLearnt + kLearnt * (useful[light] / allUseful) * (allSent / sent[light]);
+            factor =
+                1.0 - kLearnt + kLearnt * (useful[light] / allUseful) * (allSent / sent[light]);
         sums.push_back(sum += static_cast<double>(pmf[e]) * factor);
     }
     for (const double s : sums)

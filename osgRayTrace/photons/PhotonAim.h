@@ -13,16 +13,16 @@
 namespace osgRayTrace::engine
 {
 
-/// The cone (for directional lights: the disc) that holds a target is cut into bins of equal size: sectors
-/// of the turn around its axis, and rings.
+/// The cone (for directional lights: the disc) that holds a target is cut into bins of equal size:
+/// sectors of the turn around its axis, and rings.
 constexpr uint32_t kAimSectors = 8, kAimRings = 8;
 constexpr uint32_t kAimBins = kAimSectors * kAimRings;
 
 /// Lights are told apart up to this number; more are taken together in groups.
 constexpr uint32_t kMostAimLights = 16;
 
-/// The bin of a point of the unit square that is mapped onto the cone: u the turn, v the share of the solid
-/// angle (for discs: of the area) within the ring.
+/// The bin of a point of the unit square that is mapped onto the cone: u the turn, v the share of
+/// the solid angle (for discs: of the area) within the ring.
 inline uint32_t aimBinOf(float u, float v)
 {
     const auto cell = [](float x, uint32_t count)
@@ -33,7 +33,8 @@ inline uint32_t aimBinOf(float u, float v)
     return cell(v, kAimRings) * kAimSectors + cell(u, kAimSectors);
 }
 
-/// The same from the coordinates across the axis, in any unit: an eighth of a turn needs no arctangent.
+/// The same from the coordinates across the axis, in any unit: an eighth of a turn needs no
+/// arctangent.
 inline uint32_t aimBinAt(float x, float y, float v)
 {
     static_assert(kAimSectors == 8);
@@ -42,10 +43,11 @@ inline uint32_t aimBinAt(float x, float y, float v)
     return aimBinOf(0.0f, v) + 2u * quarter + (steep ^ (quarter & 1u));
 }
 
-/// Weights of the bins of each light and target, from what views saw of photons that were sent there before.
-/// The photons of a bin should be in proportion to the root mean square of what one of them adds to what
-/// is seen: that makes the variance of a sum over the bins least [Veach97, sect. 2.4.1, for strata]. A part of the weight is the
-/// same for all bins, so that light which nobody has noticed yet stays within a known factor. Immutable.
+/// Weights of the bins of each light and target, from what views saw of photons that were sent
+/// there before. The photons of a bin should be in proportion to the root mean square of what one
+/// of them adds to what is seen: that makes the variance of a sum over the bins least [Veach97,
+/// sect. 2.4.1, for strata]. A part of the weight is the same for all bins, so that light which
+/// nobody has noticed yet stays within a known factor. Immutable.
 class PhotonAim
 {
 public:
@@ -55,15 +57,16 @@ public:
         return (light * targets + target) * kAimBins + bin;
     }
 
-    /// emitted: photons that were aimed at each bin. seen: sums of the squares of what each of them added.
-    /// pmf: probability of each emitter, of which several may be one light here: see lightOf.
-    PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted, const std::vector<double>& seen,
-              const std::vector<float>& pmf);
+    /// emitted: photons that were aimed at each bin. seen: sums of the squares of what each of them
+    /// added. pmf: probability of each emitter, of which several may be one light here: see
+    /// lightOf.
+    PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted,
+              const std::vector<double>& seen, const std::vector<float>& pmf);
 
     static uint32_t lightOf(std::size_t emitter, std::size_t emitters)
     {
-        return static_cast<uint32_t>(emitters <= kMostAimLights ? emitter
-                                                                : emitter * kMostAimLights / emitters);
+        return static_cast<uint32_t>(
+            emitters <= kMostAimLights ? emitter : emitter * kMostAimLights / emitters);
     }
 
     /// Mean over the bins of a target. Its own bins' are relative to the same unit.
@@ -73,7 +76,8 @@ public:
         return _weights[index(light, target, _targets, bin)];
     }
 
-    /// That of the bin in which off lies, which goes sideways from the axis [any length], at share v of the target.
+    /// That of the bin in which off lies, which goes sideways from the axis [any length], at share
+    /// v of the target.
     float weightAt(uint32_t light, uint32_t target, Vec3 axis, Vec3 off, float v) const
     {
         Vec3 tangent, bitangent;

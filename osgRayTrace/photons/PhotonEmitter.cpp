@@ -13,88 +13,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-using Sphere = PhotonEmitter::Sphere;
-
-struct Box
-{
-    Vec3d low{std::numeric_limits<double>::infinity()};
-    Vec3d high{-std::numeric_limits<double>::infinity()};
-
-    void add(Vec3d p)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    bool empty() const { return !(low.x <= high.x); }
-};
-
-Box boxOf(const Scene& scene, const Instance& instance)
-{
-    Box box;
-    for (const Vec3& p : scene.meshes[instance.mesh]->positions)
-        box.add(Vec3d(instance.placed ? transformPoint(instance.engineFromLocal, p) : p));
-    return box;
-}
-
-/// The smallest sphere around the box's centre that holds it. Balls fill their box's sphere badly, but a
-/// cone that is too wide only wastes photons.
-Sphere sphereOf(const Box& box)
-{
-    const Vec3d half = (box.high - box.low) * 0.5;
-    return {Vec3((box.low + box.high) * 0.5), static_cast<float>(glm::length(half) * 1.000001)};
-}
-
-/// The sphere around the vertices with the box's centre: tight for balls.
-Sphere tightSphere(const Scene& scene, const Instance& instance, const Box& box)
-{
-    const Vec3 centre((box.low + box.high) * 0.5);
-    float radius2 = 0.0f;
-    for (const Vec3& p : scene.meshes[instance.mesh]->positions)
-    {
-        const Vec3 q = (instance.placed ? transformPoint(instance.engineFromLocal, p) : p) - centre;
-        radius2 = std::max(radius2, glm::dot(q, q));
-    }
-    return {centre, std::sqrt(radius2) * 1.00001f};
-}
-
-/// True if a photon can be mirrored or let through by a mirror-like lobe.
-bool bendsLight(const MaterialRecord& record)
-{
-    const auto bends = [&](const Bsdf& bsdf)
-    {
-        if (!bsdf.reflects() && !bsdf.transmits()) return false;
-        // Textures may make smooth what is rough on the average; without an interface nothing is bent.
-        return !record.constant || bsdf.isSmooth() || (bsdf.transmits() && bsdf.eta == 1.0f);
-    };
-    return bends(record.front) || bends(record.back);
-}
-
-/// Joins the two halves of a list, split at the median of its longest axis, until few enough are left.
-void group(std::vector<Sphere> spheres, std::size_t limit, std::vector<Sphere>& groups)
-{
-    if (limit <= 1 || spheres.size() <= 1)
-    {
-        Box box;
-        for (const Sphere& s : spheres)
-        {
-            box.add(Vec3d(s.centre) - Vec3d(s.radius));
-            box.add(Vec3d(s.centre) + Vec3d(s.radius));
-        }
-        groups.push_back(spheres.size() == 1 ? spheres[0] : sphereOf(box));
-        return;
-    }
-    Box box;
-    for (const Sphere& s : spheres)
-        box.add(Vec3d(s.centre));
-    const Vec3d size = box.high - box.low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::size_t half = spheres.size() / 2;
-    std::nth_element(spheres.begin(), spheres.begin() + static_cast<std::ptrdiff_t>(half), spheres.end(),
-                     [axis](const Sphere& a, const Sphere& b) { return a.centre[axis] < b.centre[axis]; });
-    group({spheres.begin(), spheres.begin() + static_cast<std::ptrdiff_t>(half)}, limit / 2, groups);
-    group({spheres.begin() + static_cast<std::ptrdiff_t>(half), spheres.end()}, limit - limit / 2, groups);
-}
-
 Vec3 toWorld(Vec3 axis, Vec3 local)
 {
     Vec3 tangent, bitangent;
@@ -129,7 +47,8 @@ struct PhotonEmitter::Cones
     {
         Vec3 axis;
         float oneMinusCosine;
-        float share; ///< of the photons that are aimed: solid angle over 2 pi, times the target's weight
+        float share; ///< of the photons that are aimed: solid angle over 2 pi, times the target's
+                     ///< weight
         uint32_t target;
     };
 
@@ -165,8 +84,8 @@ struct PhotonEmitter::Cones
             const Vec3 off = direction - cone.axis; // |off|^2 / 2 = 1 - cosine
             const float height = 0.5f * glm::dot(off, off);
             if (!(height <= cone.oneMinusCosine)) continue;
-            inside += guide.aim ? guide.aim->weightAt(guide.light, cone.target, cone.axis, direction,
-                                                      height / cone.oneMinusCosine)
+            inside += guide.aim ? guide.aim->weightAt(guide.light, cone.target, cone.axis,
+                                                      direction, height / cone.oneMinusCosine)
                                 : 1.0f;
         }
         return inside / (2.0f * kPi * total);
@@ -177,26 +96,17 @@ struct PhotonEmitter::Cones
     float total = 0.0f; ///< of the shares
 };
 
-PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights, float aimedShare)
+PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights,
+                             float aimedShare)
     : _traced(traced), _lights(lights), _aimedShare(aimedShare)
 {
-    const Scene& scene = traced.scene();
-    Box all;
-    std::vector<Sphere> targets;
-    for (const Instance& instance : scene.instances)
-    {
-        const Box box = boxOf(scene, instance);
-        if (box.empty()) continue;
-        all.add(box.low);
-        all.add(box.high);
-        if (bendsLight(traced.materials()[instance.material]))
-            targets.push_back(tightSphere(scene, instance, box));
-    }
-    if (!all.empty()) _scene = sphereOf(all);
-    if (!targets.empty()) group(std::move(targets), kMaxTargets, _targets);
+    PhotonTargets targets = photonTargets(traced, kMaxTargets);
+    _scene = targets.scene;
+    _targets = std::move(targets.spheres);
     if (_targets.empty()) _aimedShare = 0.0f;
 
-    // In proportion to power; that of point and directional lights is what they send into the scene.
+    // In proportion to power; that of point and directional lights is what they send into the
+    // scene.
     std::vector<double> powers;
     double total = 0.0;
     for (uint32_t i = 0; i < lights.size(); ++i)
@@ -214,11 +124,13 @@ PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>
         {
             const double solidAngle = 2.0 * kPi * (1.0 - std::max(-1.0f, light.spotCosCutoff));
             const double distance = std::max(_scene.radius, 1e-30f);
-            power = double(luminance(light.diffuse)) * kPi * solidAngle * falloff(i, float(distance));
+            power =
+                double(luminance(light.diffuse)) * kPi * solidAngle * falloff(i, float(distance));
             break;
         }
         case LightKind::Directional:
-            power = double(luminance(light.diffuse)) * kPi * kPi * double(_scene.radius) * _scene.radius;
+            power = double(luminance(light.diffuse)) * kPi * kPi * double(_scene.radius) *
+                    _scene.radius;
             break;
         }
         if (!(power > 0.0) || !std::isfinite(power)) continue;
@@ -232,7 +144,8 @@ PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>
     if (!_cumulative.empty()) _cumulative.back() = 1.0f;
 }
 
-std::optional<PhotonStart> PhotonEmitter::emit(const EmissionPoint& point, const PhotonAim* aim) const
+std::optional<PhotonStart> PhotonEmitter::emit(const EmissionPoint& point,
+                                               const PhotonAim* aim) const
 {
     if (_cumulative.empty()) return std::nullopt;
     const std::vector<float>& cumulative = aim ? aim->cumulative() : _cumulative;
@@ -244,9 +157,15 @@ std::optional<PhotonStart> PhotonEmitter::emit(const EmissionPoint& point, const
     switch (_lights[light].kind)
     {
     case LightKind::Parallelogram:
-    case LightKind::Mesh: start = emitArea(light, point, guide); break;
-    case LightKind::Point: start = emitPoint(light, point, guide); break;
-    case LightKind::Directional: start = emitDirectional(light, point, guide); break;
+    case LightKind::Mesh:
+        start = emitArea(light, point, guide);
+        break;
+    case LightKind::Point:
+        start = emitPoint(light, point, guide);
+        break;
+    case LightKind::Directional:
+        start = emitDirectional(light, point, guide);
+        break;
     }
     if (!start || !(pmf > 0.0f)) return std::nullopt;
     start->power /= pmf;
@@ -276,7 +195,8 @@ std::shared_ptr<const PhotonAim> PhotonEmitter::learn(const std::vector<uint32_t
     std::vector<float> pmf;
     for (std::size_t e = 0; e < _cumulative.size(); ++e)
         pmf.push_back(_cumulative[e] - (e ? _cumulative[e - 1] : 0.0f));
-    return std::make_shared<const PhotonAim>(static_cast<uint32_t>(_targets.size()), emitted, seen, pmf);
+    return std::make_shared<const PhotonAim>(static_cast<uint32_t>(_targets.size()), emitted, seen,
+                                             pmf);
 }
 
 uint32_t PhotonEmitter::binOf(Guide guide, uint32_t target, uint32_t bin) const
@@ -306,10 +226,11 @@ PhotonEmitter::Cones PhotonEmitter::conesFrom(Vec3 origin, Guide guide) const
     return result;
 }
 
-std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const EmissionPoint& point, Guide guide) const
+std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const EmissionPoint& point,
+                                                   Guide guide) const
 {
-    const std::optional<LightPoint> from = _traced.lights().samplePoint(index, point.position.x,
-                                                                        point.position.y);
+    const std::optional<LightPoint> from =
+        _traced.lights().samplePoint(index, point.position.x, point.position.y);
     if (!from) return std::nullopt;
     const Light& light = _lights[index];
     const bool twoSided = light.twoSided || light.kind == LightKind::Mesh;
@@ -319,7 +240,8 @@ std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const Emissio
     {
         MaterialPoint at;
         at.uv = from->uv;
-        radiance = _traced.materials().emission(_traced.scene().instances[light.instance].material, at);
+        radiance =
+            _traced.materials().emission(_traced.scene().instances[light.instance].material, at);
     }
     const Cones cones = conesFrom(from->position, guide);
     const float share = cones.count ? _aimedShare : 0.0f;
@@ -346,13 +268,15 @@ std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const Emissio
     if (share > 0.0f) pdf += share * cones.pdf(guide, direction);
     if (!(pdf > 0.0f)) return std::nullopt;
 
-    start.origin = from->position + from->normal * (signedCosine >= 0.0f ? from->offset : -from->offset);
+    start.origin =
+        from->position + from->normal * (signedCosine >= 0.0f ? from->offset : -from->offset);
     start.direction = direction;
     start.power = radiance * (cosine * _traced.lights().area(index) / pdf);
     return start;
 }
 
-std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const EmissionPoint& point, Guide guide) const
+std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const EmissionPoint& point,
+                                                    Guide guide) const
 {
     const Light& light = _lights[index];
     const Cones cones = conesFrom(light.position, guide);
@@ -385,7 +309,8 @@ std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const Emissi
     return start;
 }
 
-std::optional<PhotonStart> PhotonEmitter::emitDirectional(uint32_t index, const EmissionPoint& point, Guide guide) const
+std::optional<PhotonStart>
+PhotonEmitter::emitDirectional(uint32_t index, const EmissionPoint& point, Guide guide) const
 {
     const Light& light = _lights[index];
     if (!(_scene.radius > 0.0f)) return std::nullopt;
@@ -433,13 +358,15 @@ std::optional<PhotonStart> PhotonEmitter::emitDirectional(uint32_t index, const 
             const Vec3 across = acrossFrom(_targets[t]);
             if (!isIn(_targets[t], across)) continue;
             const float area = glm::dot(across, across) / (_targets[t].radius * _targets[t].radius);
-            inside += guide.aim ? guide.aim->weightAt(guide.light, t, light.direction, across, area) : 1.0f;
+            inside += guide.aim ? guide.aim->weightAt(guide.light, t, light.direction, across, area)
+                                : 1.0f;
         }
         pdf += share * inside / total;
     }
     if (!(pdf > 0.0f)) return std::nullopt;
     const Vec3 toCentre = _scene.centre - q;
-    start.origin = q + light.direction * (glm::dot(toCentre, light.direction) - 2.0f * _scene.radius);
+    start.origin =
+        q + light.direction * (glm::dot(toCentre, light.direction) - 2.0f * _scene.radius);
     start.direction = light.direction;
     start.power = light.diffuse * (kPi / pdf);
     return start;

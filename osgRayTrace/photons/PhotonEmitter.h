@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/photons/PhotonAim.h"
+#include "osgRayTrace/photons/PhotonTargets.h"
 
 #include <memory>
 #include <optional>
@@ -43,15 +44,15 @@ struct StartLanes
     UintLanes light, bin;
 };
 
-/// Chooses lights in proportion to power, and directions by a mixture: a share of them uniformly within the
-/// cones (for directional lights: discs) that hold the mirror-like and transmissive instances, the rest as
-/// the light shines. The density is that of the mixture, so every share gives the same mean
-/// [Veach97, sect. 9.2]. Thread safe.
+/// Chooses lights in proportion to power, and directions by a mixture: a share of them uniformly
+/// within the cones (for directional lights: discs) that hold the mirror-like and transmissive
+/// instances, the rest as the light shines. The density is that of the mixture, so every share
+/// gives the same mean [Veach97, sect. 9.2]. Thread safe.
 class PhotonEmitter
 {
 public:
-    /// lights: the scene's, those of eye space placed. aimedShare in [0,1): of photons aimed; 0 if nothing
-    /// in the scene is specular.
+    /// lights: the scene's, those of eye space placed. aimedShare in [0,1): of photons aimed; 0 if
+    /// nothing in the scene is specular.
     PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights, float aimedShare);
 
     /// False if no light has any power.
@@ -60,29 +61,25 @@ public:
     /// Something in the scene reflects like a mirror or transmits.
     bool hasTargets() const { return !_targets.empty(); }
 
-    std::optional<PhotonStart> emit(const EmissionPoint& point, const PhotonAim* aim = nullptr) const;
+    std::optional<PhotonStart> emit(const EmissionPoint& point,
+                                    const PhotonAim* aim = nullptr) const;
 
-    /// What emit returns for each lane, up to rounding; vector code where a parallelogram is the only light.
-    /// Returns the lanes that have a start.
-    LaneMask emitLanes(const EmissionLanes& points, StartLanes& starts, const PhotonAim* aim = nullptr) const;
+    /// What emit returns for each lane, up to rounding; vector code where a parallelogram is the
+    /// only light. Returns the lanes that have a start.
+    LaneMask emitLanes(const EmissionLanes& points, StartLanes& starts,
+                       const PhotonAim* aim = nullptr) const;
 
     /// Of a PhotonAim for this emitter; 0: there is nothing to aim at.
     std::size_t aimBins() const;
     std::shared_ptr<const PhotonAim> learn(const std::vector<uint32_t>& emitted,
                                            const std::vector<double>& seen) const;
 
-    /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives after a
-    /// free flight from the light is the power times this.
+    /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives
+    /// after a free flight from the light is the power times this.
     float falloff(uint32_t light, float distance) const;
 
-    /// At most this many: more are grouped.
+    /// At most this many.
     static constexpr std::size_t kMaxTargets = 32;
-
-    struct Sphere
-    {
-        Vec3 centre{0.0f};
-        float radius = 0.0f;
-    };
 
     /// Holds all geometry.
     const Sphere& scene() const { return _scene; }
@@ -96,10 +93,14 @@ private:
         uint32_t light;
     };
 
-    std::optional<PhotonStart> emitArea(uint32_t light, const EmissionPoint& point, Guide guide) const;
-    std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point, Guide guide) const;
-    std::optional<PhotonStart> emitDirectional(uint32_t light, const EmissionPoint& point, Guide guide) const;
-    LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts, const PhotonAim* aim) const;
+    std::optional<PhotonStart> emitArea(uint32_t light, const EmissionPoint& point,
+                                        Guide guide) const;
+    std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point,
+                                         Guide guide) const;
+    std::optional<PhotonStart> emitDirectional(uint32_t light, const EmissionPoint& point,
+                                               Guide guide) const;
+    LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts,
+                        const PhotonAim* aim) const;
     Cones conesFrom(Vec3 origin, Guide guide) const;
     uint32_t binOf(Guide guide, uint32_t target, uint32_t bin) const;
 
@@ -108,8 +109,8 @@ private:
     float _aimedShare;
     Sphere _scene;
     std::vector<Sphere> _targets;
-    std::vector<uint32_t> _emitters;  ///< index of a light
-    std::vector<float> _cumulative;   ///< an emitter; the last is 1
+    std::vector<uint32_t> _emitters; ///< index of a light
+    std::vector<float> _cumulative;  ///< an emitter; the last is 1
 };
 
 } // namespace osgRayTrace::engine

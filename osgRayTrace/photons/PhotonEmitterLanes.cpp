@@ -19,7 +19,7 @@ struct Source
     float offset, area;
     Vec3 radiance;
     uint32_t twoSided; ///< all bits or none
-    const PhotonEmitter::Sphere* targets;
+    const Sphere* targets;
     int targetCount;
     float aimedShare;
     const PhotonAim* aim; ///< or null
@@ -63,7 +63,7 @@ void pointsOn(const Source& source, const EmissionLanes& e, PointLanes& p)
 
 /// As PhotonEmitter::conesFrom.
 OSGRAYTRACE_KERNEL
-void addCone(const PhotonEmitter::Sphere& sphere, float weight, PointLanes& p, AimLanes& aim)
+void addCone(const Sphere& sphere, float weight, PointLanes& p, AimLanes& aim)
 {
     const Vec3 centre = sphere.centre;
     const float radius = sphere.radius;
@@ -105,8 +105,10 @@ void chooseCone(const AimLanes& aim, float weight, uint32_t target, FloatLanes& 
     }
 }
 
-/// The bins of the lanes that are aimed, and where in the cone their directions are: e but for those lanes.
-EmissionLanes chooseBins(const Source& source, const EmissionLanes& e, const PointLanes& p, UintLanes& bins)
+/// The bins of the lanes that are aimed, and where in the cone their directions are: e but for
+/// those lanes.
+EmissionLanes chooseBins(const Source& source, const EmissionLanes& e, const PointLanes& p,
+                         UintLanes& bins)
 {
     EmissionLanes chosen = e;
     for (int i = 0; i < kLanes; ++i)
@@ -117,7 +119,8 @@ EmissionLanes chooseBins(const Source& source, const EmissionLanes& e, const Poi
         uint32_t bin = aimBinOf(e.directionU[i], e.directionV[i]);
         if (source.aim)
         {
-            const Vec2 at = source.aim->sample(0, target, Vec2(e.directionU[i], e.directionV[i]), bin);
+            const Vec2 at =
+                source.aim->sample(0, target, Vec2(e.directionU[i], e.directionV[i]), bin);
             chosen.directionU[i] = at.x;
             chosen.directionV[i] = at.y;
         }
@@ -176,8 +179,8 @@ void countInside(const AimLanes& aim, const StartLanes& starts, FloatLanes& insi
 }
 
 /// The same where bins have weights. Most directions are in one cone.
-void addWeightsInside(const PhotonAim& weights, uint32_t target, const AimLanes& aim, const StartLanes& starts,
-                      FloatLanes& inside)
+void addWeightsInside(const PhotonAim& weights, uint32_t target, const AimLanes& aim,
+                      const StartLanes& starts, FloatLanes& inside)
 {
     for (int i = 0; i < kLanes; ++i)
     {
@@ -250,7 +253,8 @@ LaneMask emitFrom(const Source& source, const EmissionLanes& points, StartLanes&
 
 } // namespace
 
-LaneMask PhotonEmitter::emitLanes(const EmissionLanes& points, StartLanes& starts, const PhotonAim* aim) const
+LaneMask PhotonEmitter::emitLanes(const EmissionLanes& points, StartLanes& starts,
+                                  const PhotonAim* aim) const
 {
     // One plain light of area is the rule. All others go one by one.
     if (_emitters.size() != 1 || _lights[_emitters[0]].kind != LightKind::Parallelogram)

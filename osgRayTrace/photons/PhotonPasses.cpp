@@ -34,22 +34,22 @@ float densityRadius(const std::vector<Photon>& photons, const Workers& workers)
     constexpr std::size_t kSamples = 128;
     const std::size_t neighbours = std::min<std::size_t>(kDensityPhotons, photons.size() - 1);
     std::vector<float> radii(kSamples);
-    workers.forEach(
-        kSamples,
-        [&](std::size_t s)
-        {
-            const std::size_t chosen = hash(static_cast<uint32_t>(s)) % photons.size();
-            const Vec3 centre = photons[chosen].position;
-            std::vector<float> distances(photons.size());
-            for (std::size_t k = 0; k < photons.size(); ++k)
-            {
-                const Vec3 d = photons[k].position - centre;
-                distances[k] = glm::dot(d, d);
-            }
-            const auto nth = distances.begin() + static_cast<std::ptrdiff_t>(neighbours);
-            std::nth_element(distances.begin(), nth, distances.end());
-            radii[s] = std::sqrt(*nth);
-        });
+    workers.forEach(kSamples,
+                    [&](std::size_t s)
+                    {
+                        const std::size_t chosen = hash(static_cast<uint32_t>(s)) % photons.size();
+                        const Vec3 centre = photons[chosen].position;
+                        std::vector<float> distances(photons.size());
+                        for (std::size_t k = 0; k < photons.size(); ++k)
+                        {
+                            const Vec3 d = photons[k].position - centre;
+                            distances[k] = glm::dot(d, d);
+                        }
+                        const auto nth =
+                            distances.begin() + static_cast<std::ptrdiff_t>(neighbours);
+                        std::nth_element(distances.begin(), nth, distances.end());
+                        radii[s] = std::sqrt(*nth);
+                    });
     std::nth_element(radii.begin(), radii.begin() + kSamples / 2, radii.end());
     return radii[kSamples / 2];
 }
@@ -57,16 +57,17 @@ float densityRadius(const std::vector<Photon>& photons, const Workers& workers)
 } // namespace
 
 bool PhotonPasses::isCurrent(const std::shared_ptr<const TracedScene>& traced,
-                             const std::vector<Light>& lights, const PhotonPassOptions& options) const
+                             const std::vector<Light>& lights,
+                             const PhotonPassOptions& options) const
 {
-    return traced == _traced && options.use == _options.use && options.photons == _options.photons &&
-           options.maxBounces == _options.maxBounces && options.seed == _options.seed &&
-           options.aimAtViews == _options.aimAtViews &&
+    return traced == _traced && options.use == _options.use &&
+           options.photons == _options.photons && options.maxBounces == _options.maxBounces &&
+           options.seed == _options.seed && options.aimAtViews == _options.aimAtViews &&
            samePlaces(lights, _lights);
 }
 
-void PhotonPasses::begin(const std::shared_ptr<const TracedScene>& traced, const std::vector<Light>& lights,
-                         const PhotonPassOptions& options)
+void PhotonPasses::begin(const std::shared_ptr<const TracedScene>& traced,
+                         const std::vector<Light>& lights, const PhotonPassOptions& options)
 {
     if (_emitter && isCurrent(traced, lights, options)) return;
     _emitter.reset();
@@ -84,8 +85,8 @@ void PhotonPasses::begin(const std::shared_ptr<const TracedScene>& traced, const
 }
 
 PhotonDensity PhotonPasses::density(const std::shared_ptr<const TracedScene>& traced,
-                                    const std::vector<Light>& lights, const PhotonPassOptions& options,
-                                    const Workers& workers)
+                                    const std::vector<Light>& lights,
+                                    const PhotonPassOptions& options, const Workers& workers)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     begin(traced, lights, options);
@@ -93,27 +94,28 @@ PhotonDensity PhotonPasses::density(const std::shared_ptr<const TracedScene>& tr
     _first = std::make_unique<TracedPhotons>(trace(0, nullptr, workers));
     _density = std::make_unique<PhotonDensity>();
     _density->radius = densityRadius(_first->photons, workers);
-    const PhotonEmitter::Sphere& scene = _emitter->scene();
+    const Sphere& scene = _emitter->scene();
     _density->sceneRadius = scene.radius;
     _density->emits = _emitter->emits();
     _density->caustics = _emitter->emits() && _emitter->hasTargets();
     _density->aimBins = _emitter->aimBins();
-    _density->largestCoordinate =
-        std::max({std::fabs(scene.centre.x), std::fabs(scene.centre.y), std::fabs(scene.centre.z)}) +
-        scene.radius;
+    _density->largestCoordinate = std::max({std::fabs(scene.centre.x), std::fabs(scene.centre.y),
+                                            std::fabs(scene.centre.z)}) +
+                                  scene.radius;
     return *_density;
 }
 
-std::shared_ptr<const PhotonPass> PhotonPasses::pass(const std::shared_ptr<const TracedScene>& traced,
-                                                     const std::vector<Light>& lights,
-                                                     const PhotonPassOptions& options, int index,
-                                                     float cellSize, const Workers& workers)
+std::shared_ptr<const PhotonPass>
+PhotonPasses::pass(const std::shared_ptr<const TracedScene>& traced,
+                   const std::vector<Light>& lights, const PhotonPassOptions& options, int index,
+                   float cellSize, const Workers& workers)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     begin(traced, lights, options);
     const std::shared_ptr<const PhotonAim> aim = aimOf(index);
     for (const Entry& entry : _kept)
-        if (entry.index == index && entry.cellSize == cellSize && entry.aim == aim) return entry.pass;
+        if (entry.index == index && entry.cellSize == cellSize && entry.aim == aim)
+            return entry.pass;
 
     const auto start = std::chrono::steady_clock::now();
     TracedPhotons photons;
@@ -133,7 +135,8 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const std::shared_ptr<const
 
 TracedPhotons PhotonPasses::trace(int index, const PhotonAim* aim, const Workers& workers)
 {
-    TracedPhotons photons = tracePhotons(*_traced, _lights, *_emitter, _options, index, workers, aim);
+    TracedPhotons photons =
+        tracePhotons(*_traced, _lights, *_emitter, _options, index, workers, aim);
     _tracedRays += photons.rays;
     if (index < kFirst) _emitted[static_cast<std::size_t>(index)] = photons.emitted;
     return photons;
@@ -155,11 +158,13 @@ std::shared_ptr<const PhotonAim> PhotonPasses::aimOf(int index)
     return _aim = _emitter->learn(emitted, squares);
 }
 
-void PhotonPasses::noteSeen(const std::shared_ptr<const TracedScene>& traced, const std::vector<Light>& lights,
-                            const PhotonPassOptions& options, const void* view, std::vector<double> squares)
+void PhotonPasses::noteSeen(const std::shared_ptr<const TracedScene>& traced,
+                            const std::vector<Light>& lights, const PhotonPassOptions& options,
+                            const void* view, std::vector<double> squares)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    if (!_emitter || !isCurrent(traced, lights, options) || squares.size() != _emitter->aimBins()) return;
+    if (!_emitter || !isCurrent(traced, lights, options) || squares.size() != _emitter->aimBins())
+        return;
     _seen.push_back({view, std::move(squares)});
     _aim.reset();
 }
@@ -167,7 +172,8 @@ void PhotonPasses::noteSeen(const std::shared_ptr<const TracedScene>& traced, co
 void PhotonPasses::forgetSeen(const void* view)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    const auto gone = std::remove_if(_seen.begin(), _seen.end(), [&](const Seen& s) { return s.view == view; });
+    const auto gone =
+        std::remove_if(_seen.begin(), _seen.end(), [&](const Seen& s) { return s.view == view; });
     if (gone == _seen.end()) return;
     _seen.erase(gone, _seen.end());
     _aim.reset();
@@ -176,9 +182,9 @@ void PhotonPasses::forgetSeen(const void* view)
 /// Makes room: at first among the last passes, then for the sake of memory among all of them.
 void PhotonPasses::keep(Entry entry)
 {
-    const auto replaced = std::find_if(_kept.begin(), _kept.end(),
-                                       [&](const Entry& e)
-                                       { return e.index == entry.index && e.cellSize == entry.cellSize; });
+    const auto replaced = std::find_if(
+        _kept.begin(), _kept.end(),
+        [&](const Entry& e) { return e.index == entry.index && e.cellSize == entry.cellSize; });
     if (replaced != _kept.end()) _kept.erase(replaced);
     const auto isLast = [](const Entry& e) { return e.index >= kFirst; };
     if (std::count_if(_kept.begin(), _kept.end(), isLast) >= kLast)

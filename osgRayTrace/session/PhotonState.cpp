@@ -13,8 +13,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Width of a pixel on the surfaces that the view shows, in the median over a grid of its pixels [length];
-/// 0 if it shows none.
+/// Width of a pixel on the surfaces that the view shows, in the median over a grid of its pixels
+/// [length]; 0 if it shows none.
 float pixelWidth(const PassContext& context, int width, int height)
 {
     constexpr int kSide = 9;
@@ -35,14 +35,15 @@ float pixelWidth(const PassContext& context, int width, int height)
         widths.push_back(c.orthographic ? shift : across * hit->t / length);
     }
     if (widths.empty()) return 0.0f;
-    std::nth_element(widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2),
-                     widths.end());
+    std::nth_element(widths.begin(),
+                     widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2), widths.end());
     return widths[widths.size() / 2];
 }
 
 constexpr std::size_t kNotedPixels = 16384; ///< about as many of a pass are learnt from
 
-/// Squares relative to the radiance of the tile, as in RenderProgress::relativeError: dim places matter, too.
+/// Squares relative to the radiance of the tile, as in RenderProgress::relativeError: dim places
+/// matter, too.
 void weighSeen(const RgbaLanes* rgba, std::vector<SeenPhoton>& seen)
 {
     float sum = 0.0f;
@@ -82,14 +83,16 @@ void PhotonState::reset(int tileCount)
     _passes->forgetSeen(this);
 }
 
-void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
-                              const PhotonPassOptions& options, const Workers& workers)
+void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced,
+                              const PassContext& context, const PhotonPassOptions& options,
+                              const Workers& workers)
 {
     const PhotonDensity density = _passes->density(traced, *context.lights, options, workers);
     _idle = options.use == PhotonUse::Caustics && (!density.caustics || options.photons == 0);
     _floor = 8.0f * 0x1p-23f * density.largestCoordinate;
     const float ceiling = std::max(density.sceneRadius, _floor);
-    const auto wanted = static_cast<float>(context.options.photonRadius / context.traced->scene().unit);
+    const auto wanted =
+        static_cast<float>(context.options.photonRadius / context.traced->scene().unit);
     if (wanted > 0.0f)
         _least = _largest = wanted;
     else
@@ -100,9 +103,10 @@ void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, 
     }
     for (float* radius : {&_least, &_largest})
         *radius = std::clamp(*radius, _floor, ceiling);
-    // Sums over cells are rounded otherwise if the cells are: those of all views should be the same, though their pixels
-    // differ. Cells a few times too small cost little.
-    _cellRadius = wanted > 0.0f || !(density.radius > 0.0f) ? _largest : std::max(density.radius, _floor);
+    // Sums over cells are rounded otherwise if the cells are: those of all views should be the
+    // same, though their pixels differ. Cells a few times too small cost little.
+    _cellRadius =
+        wanted > 0.0f || !(density.radius > 0.0f) ? _largest : std::max(density.radius, _floor);
     while (2.0f * _cellRadius < _largest)
         _cellRadius *= 4.0f;
     if (options.aimAtViews && options.photons > 0 && density.aimBins > 0)
@@ -114,8 +118,8 @@ void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, 
     _limited = wanted > 0.0f && _largest != wanted;
 }
 
-void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context, int pass,
-                          const Workers& workers)
+void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context,
+                          int pass, const Workers& workers)
 {
     const PhotonPassOptions options = passOptions(context.options);
     context.photonUse = options.use;
@@ -181,7 +185,8 @@ HitPoints* PhotonState::hitPoints(int tile)
 
 std::size_t PhotonState::viewBytes() const
 {
-    std::size_t bytes = _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics);
+    std::size_t bytes =
+        _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics);
     for (const HitPoints& hits : _hitPoints)
         bytes += sizeof(HitPoints) + hits.bytes();
     return bytes;
@@ -194,7 +199,8 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
     {
         gathered.seen = &_seen[static_cast<std::size_t>(tile)];
         gathered.seenFirst = static_cast<uint32_t>(pass);
-        gathered.seenStride = static_cast<uint32_t>(std::clamp<std::size_t>(_pixels / kNotedPixels, 1, 16));
+        gathered.seenStride =
+            static_cast<uint32_t>(std::clamp<std::size_t>(_pixels / kNotedPixels, 1, 16));
     }
     gathered.separate = _local;
     for (std::size_t p = 0; p < kTilePixels; ++p)
@@ -206,12 +212,14 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
     }
 }
 
-void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float alpha, RgbaLanes* rgba)
+void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float alpha,
+                      RgbaLanes* rgba)
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
     if (gathered.seen) weighSeen(rgba, *gathered.seen);
     // By tile, so that no thread's luck decides which are kept.
-    if (HitPoints* hits = hitPoints(tile); hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())
+    if (HitPoints* hits = hitPoints(tile);
+        hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())
         *hits = HitPoints();
     if (!_local)
     {
@@ -219,7 +227,8 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
         {
             float& radius = _firstRadii[first + p];
             const float chosen = gathered.radius[p] / _shrink;
-            if (radius == 0.0f || (choosesAgain(pass) && chosen > 0.0f && chosen < radius)) radius = chosen;
+            if (radius == 0.0f || (choosesAgain(pass) && chosen > 0.0f && chosen < radius))
+                radius = chosen;
         }
         return;
     }
