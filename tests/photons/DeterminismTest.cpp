@@ -84,6 +84,7 @@ TEST_CASE("photon pictures: equal for 1, 2 and 5 threads, bit by bit, and beside
                     s->render(rule);
                 }
             CHECK(session.resolveRadiance() == first.rgba);
+            CHECK(photons->tracedRays() == other.progress().rays.photon);
         }
 }
 
