@@ -46,7 +46,7 @@ inline uint32_t aimBinAt(float x, float y, float v)
 /// Weights of the bins of each light and target, from what views saw of photons that were sent
 /// there before. The photons of a bin should be in proportion to the root mean square of what one
 /// of them adds to what is seen: that makes the variance of a sum over the bins least [Veach97,
-/// sect. 2.4.1, for strata]. A part of the weight is the same for all bins, so that light which
+/// ch. 2]. A part of the weight is the same for all bins, so that light which
 /// nobody has noticed yet stays within a known factor. Immutable.
 class PhotonAim
 {
