@@ -204,8 +204,8 @@ RenderOptions optionsFor(IntegratorKind kind, RadiusSchedule schedule, int photo
     options.radiusSchedule = schedule;
     options.photons = photons;
     options.photonRadius = radius;
-    options.aimAtViews =
-        false; // the formulas are of passes that are all alike: later ones would be better
+    // The formulas are of passes that are all alike: later ones would be better.
+    options.aimAtViews = false;
     return options;
 }
 
