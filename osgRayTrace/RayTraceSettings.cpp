@@ -198,6 +198,8 @@ const std::vector<OptionRow>& optionTable()
         choiceRow("radius-schedule", kRadiusScheduleWords, &S::getRadiusSchedule,
                   &S::setRadiusSchedule,
                   "Radii shrink by the number of the pass, or by the photons of each pixel"),
+        switchRow("aim-at-views", &S::getAimAtViews, &S::setAimAtViews,
+                  "Photons for mirrors and glass go where the views see their light"),
         choiceRow("debug-channel", kDebugChannelWords, &S::getDebugChannel, &S::setDebugChannel,
                   "What the debug integrator shows"),
     };
@@ -285,7 +287,8 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _photons(other._photons),
       _photonRadius(other._photonRadius),
       _photonAlpha(other._photonAlpha),
-      _radiusSchedule(other._radiusSchedule)
+      _radiusSchedule(other._radiusSchedule),
+      _aimAtViews(other._aimAtViews)
 {
 }
 
@@ -329,6 +332,11 @@ void RayTraceSettings::setShadows(bool value)
 void RayTraceSettings::setTerminatorCorrection(bool value)
 {
     change(_terminatorCorrection, value, _modifiedCount);
+}
+
+void RayTraceSettings::setAimAtViews(bool value)
+{
+    change(_aimAtViews, value, _modifiedCount);
 }
 
 void RayTraceSettings::setMaxPasses(int value)

@@ -24,10 +24,8 @@ using namespace engine;
 namespace
 {
 
-constexpr std::size_t kPhotons = 1000000;
 constexpr int kSide = 512; ///< look-ups are at what a picture of this size sees
 constexpr int kTile = 16;
-constexpr int kRuns = 9;
 
 /// On a lattice of 2^-9, so that distances are exact and no compiler's roundings can change a
 /// count.
@@ -37,7 +35,7 @@ Vec3 onLattice(Vec3 p)
 }
 
 /// Uniform by area on the surfaces of the scene, on both sides; from where a cosine says.
-std::vector<Photon> photonsOn(const Scene& scene)
+std::vector<Photon> photonsOn(const Scene& scene, std::size_t count)
 {
     struct Triangle
     {
@@ -58,8 +56,8 @@ std::vector<Photon> photonsOn(const Scene& scene)
             cumulative.push_back(area += 0.5 * double(glm::length(across)));
         }
     }
-    std::vector<Photon> photons(kPhotons);
-    for (uint32_t k = 0; k < kPhotons; ++k)
+    std::vector<Photon> photons(count);
+    for (uint32_t k = 0; k < count; ++k)
     {
         float u, v, s, t, choice, side;
         sobol2(k, hash(1), choice, side);
@@ -154,7 +152,7 @@ double millions(std::size_t count, double seconds)
 }
 
 void measureRadius(const std::vector<Photon>& photons, std::vector<PhotonQuery> queries,
-                   float radius, Rows& rows)
+                   float radius, int runs, Rows& rows)
 {
     for (PhotonQuery& query : queries)
         query.radius = radius;
@@ -166,7 +164,7 @@ void measureRadius(const std::vector<Photon>& photons, std::vector<PhotonQuery> 
     // The yardstick has the cells that suit it.
     const PlainPhotonGrid small(photons, radius), large(photons, 2.0f * radius);
     const PairedTimes cells = timePair(
-        kRuns, [&] { gatherAll(small, queries, *one, plainSums); },
+        runs, [&] { gatherAll(small, queries, *one, plainSums); },
         [&] { gatherAll(large, queries, *one, plainSums); }, threadSecondsOf);
     const float plainCell = cells.ratio < 1.0 ? radius : 2.0f * radius;
     const PlainPhotonGrid& plain = cells.ratio < 1.0 ? small : large;
@@ -181,7 +179,7 @@ void measureRadius(const std::vector<Photon>& photons, std::vector<PhotonQuery> 
     for (const auto& workers : {one, all})
     {
         const PairedTimes times = timePair(
-            kRuns, [&] { gatherAll(plain, queries, *workers, plainSums); },
+            runs, [&] { gatherAll(plain, queries, *workers, plainSums); },
             [&] { gatherAll(map, queries, *workers, sums); }, stopwatchFor(workers->threads()));
         const std::string threads = name + ", " + std::to_string(workers->threads()) + " threads";
         rows.push_back(
@@ -193,7 +191,7 @@ void measureRadius(const std::vector<Photon>& photons, std::vector<PhotonQuery> 
     for (const auto& workers : {one, all})
     {
         const PairedTimes times = timePair(
-            kRuns, [&] { PlainPhotonGrid(photons, plainCell); },
+            runs, [&] { PlainPhotonGrid(photons, plainCell); },
             [&] { PhotonMap(photons, 2.0f * radius, *workers); }, stopwatchFor(workers->threads()));
         const std::string threads = "build r " + std::to_string(radius).substr(0, 3) + ", " +
                                     std::to_string(workers->threads()) + " threads";
@@ -206,14 +204,14 @@ void measureRadius(const std::vector<Photon>& photons, std::vector<PhotonQuery> 
 
 } // namespace
 
-void measurePhotonLookups(Rows& rows)
+void measurePhotonLookups(const PhotonsOptions& options, Rows& rows)
 {
     const BenchScene bench = cornellBox(kSide, kSide);
     const auto traced = TracedScene::build(bench.scene, std::make_shared<Workers>(1));
-    const std::vector<Photon> photons = photonsOn(*bench.scene);
+    const std::vector<Photon> photons = photonsOn(*bench.scene, static_cast<std::size_t>(options.photons));
     const std::vector<PhotonQuery> queries = queriesOf(bench, *traced);
-    measureRadius(photons, queries, 4.0f, rows);
-    measureRadius(photons, queries, 2.3f, rows);
+    measureRadius(photons, queries, 4.0f, options.runs, rows);
+    measureRadius(photons, queries, 2.3f, options.runs, rows);
 }
 
 } // namespace osgRayTrace::bench

@@ -16,7 +16,6 @@ using namespace engine;
 namespace
 {
 
-constexpr int kRuns = 11;
 constexpr double kGoal = 0.60;
 constexpr float kAimedShare = 0.9f; ///< as PhotonPasses has it for caustics
 
@@ -25,7 +24,8 @@ double millions(std::size_t rays, double seconds)
     return static_cast<double>(rays) / seconds * 1e-6;
 }
 
-void measureTracing(const std::string& name, CornellKind kind, PhotonUse use, Rows& rows)
+void measureTracing(const std::string& name, CornellKind kind, PhotonUse use,
+                    const PhotonsOptions& benchOptions, Rows& rows)
 {
     const auto one = std::make_shared<Workers>(1);
     const auto all = std::make_shared<Workers>();
@@ -35,7 +35,7 @@ void measureTracing(const std::string& name, CornellKind kind, PhotonUse use, Ro
                                 use == PhotonUse::Caustics ? kAimedShare : 0.0f);
     PhotonPassOptions options;
     options.use = use;
-    options.photons = 1u << 18;
+    options.photons = 1u + static_cast<uint32_t>(benchOptions.photons) / 4;
     const auto trace = [&](const Workers& workers)
     { return tracePhotons(*prepared.traced, lights, emitter, options, 1, workers); };
 
@@ -48,7 +48,7 @@ void measureTracing(const std::string& name, CornellKind kind, PhotonUse use, Ro
         throw app::Failure(app::kCannotRender, "no photon was traced");
     const BarePackets packets(recorded);
     const PairedTimes modes = timePair(
-        kRuns, [&] { packets.trace(*one); }, [&] { traceSingly(recorded, *one); }, threadSecondsOf);
+        benchOptions.runs, [&] { packets.trace(*one); }, [&] { traceSingly(recorded, *one); }, threadSecondsOf);
     const bool singly = modes.ratio > 1.0;
     const std::size_t rays =
         recorded.camera.size() + recorded.secondary.size() + recorded.shadow.size();
@@ -56,7 +56,7 @@ void measureTracing(const std::string& name, CornellKind kind, PhotonUse use, Ro
     for (const auto& workers : {one, all})
     {
         const PairedTimes times = timePair(
-            kRuns,
+            benchOptions.runs,
             [&]
             {
                 if (singly)
@@ -76,12 +76,12 @@ void measureTracing(const std::string& name, CornellKind kind, PhotonUse use, Ro
 
 } // namespace
 
-void measurePhotonRays(Rows& rows)
+void measurePhotonRays(const PhotonsOptions& options, Rows& rows)
 {
-    measureTracing("tracing, box", CornellKind::Diffuse, PhotonUse::Indirect, rows);
-    measureTracing("tracing, box with mirror", CornellKind::Mirror, PhotonUse::Indirect, rows);
-    measureTracing("tracing, box with glass", CornellKind::Glass, PhotonUse::Indirect, rows);
-    measureTracing("tracing, caustics of glass", CornellKind::Glass, PhotonUse::Caustics, rows);
+    measureTracing("tracing, box", CornellKind::Diffuse, PhotonUse::Indirect, options, rows);
+    measureTracing("tracing, box with mirror", CornellKind::Mirror, PhotonUse::Indirect, options, rows);
+    measureTracing("tracing, box with glass", CornellKind::Glass, PhotonUse::Indirect, options, rows);
+    measureTracing("tracing, caustics of glass", CornellKind::Glass, PhotonUse::Caustics, options, rows);
 }
 
 } // namespace osgRayTrace::bench

@@ -10,8 +10,8 @@ Rows measurePhotons(const PhotonsOptions& options)
     const auto wanted = [&](const std::string& part)
     { return part.find(options.only) != std::string::npos; };
     Rows rows;
-    if (wanted("lookup")) measurePhotonLookups(rows);
-    if (wanted("tracing")) measurePhotonRays(rows);
+    if (wanted("lookup")) measurePhotonLookups(options, rows);
+    if (wanted("tracing")) measurePhotonRays(options, rows);
     if (wanted("error") && options.width > 0) measurePhotonErrors(options, rows);
     return rows;
 }

@@ -17,6 +17,8 @@ struct PhotonsOptions
     double referenceSeconds = 60.0; ///< spent on a reference that is rendered
     std::string referenceA, referenceB, referenceC; ///< files; empty: rendered
     std::string only;                               ///< rows of parts whose name holds this
+    int runs = 9;          ///< timings of each rate, of which the median counts
+    int photons = 1000000; ///< of look-ups and building; tracing emits about a quarter of it
 };
 
 /// Look-ups and building against a plain grid, tracing against Embree alone on the same rays, and
@@ -24,8 +26,8 @@ struct PhotonsOptions
 Rows measurePhotons(const PhotonsOptions& options);
 
 /// Parts of it.
-void measurePhotonLookups(Rows& rows);
-void measurePhotonRays(Rows& rows);
+void measurePhotonLookups(const PhotonsOptions& options, Rows& rows);
+void measurePhotonRays(const PhotonsOptions& options, Rows& rows);
 void measurePhotonErrors(const PhotonsOptions& options, Rows& rows);
 
 } // namespace osgRayTrace::bench

@@ -61,6 +61,14 @@ struct CommandLine
                            "of the box with a mirror");
         photons.add_option("--reference-c", photonsOptions.referenceC,
                            "of the box with a glass sphere");
+        photons
+            .add_option("--runs", photonsOptions.runs,
+                        "timings of each rate, of which the median counts")
+            ->check(CLI::Range(1, 1000))
+            ->capture_default_str();
+        photons.add_option("--photons", photonsOptions.photons, "photons of look-ups")
+            ->check(CLI::Range(1000, 10000000))
+            ->capture_default_str();
         photons.add_option("--only", photonsOptions.only,
                            "parts whose name holds this: lookup, tracing, error");
 

@@ -87,6 +87,7 @@ RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings)
     options.radiusSchedule = settings.getRadiusSchedule() == RayTraceSettings::LOCAL
                                  ? RadiusSchedule::Local
                                  : RadiusSchedule::Global;
+    options.aimAtViews = settings.getAimAtViews();
     return options;
 }
 

@@ -50,14 +50,18 @@ struct RayBegin
 
 /// Of a ray that leaves the surface towards wi: of the point itself, from where it is clear of the surface, if
 /// it is steep; else of the point above. Off a large plane that one sees 0.002 % more of a light.
-inline RayBegin leave(const SurfaceLanes& surface, int i, Vec3 wi)
+inline RayBegin leave(const SurfaceLanes& surface, int i, Vec3 wi, const Vec3Lanes& points)
 {
     const Vec3 n = laneOf(surface.geometricNormal, i);
     const float cosine = glm::dot(wi, n);
     if (std::fabs(cosine) > surface.steep[i])
-        return {laneOf(surface.position, i), surface.offset[i] / std::fabs(cosine)};
+        return {laneOf(points, i), surface.offset[i] / std::fabs(cosine)};
     const float offset = cosine >= 0.0f ? surface.offset[i] : -surface.offset[i];
-    return {laneOf(surface.position, i) + n * offset, 0.0f};
+    return {laneOf(points, i) + n * offset, 0.0f};
+}
+inline RayBegin leave(const SurfaceLanes& surface, int i, Vec3 wi)
+{
+    return leave(surface, i, wi, surface.position);
 }
 
 /// True if the direction is on the ray's side of the surface as light goes: of the facet, or for lifted
@@ -65,6 +69,18 @@ inline RayBegin leave(const SurfaceLanes& surface, int i, Vec3 wi)
 inline bool isAbove(const SurfaceLanes& surface, int i, Vec3 wi)
 {
     return ((surface.lifted >> i) & 1u) || glm::dot(wi, laneOf(surface.geometricNormal, i)) > 0.0f;
+}
+
+/// As leave and isAbove, but of the facet in any case: for mirror-like lobes. There is no terminator in
+/// them, and what they would see from above the facet no photon could bring the other way.
+inline RayBegin leaveFacet(const SurfaceLanes& surface, int i, Vec3 wi)
+{
+    return leave(surface, i, wi, trianglePoints(surface));
+}
+
+inline bool isAboveFacet(const SurfaceLanes& surface, int i, Vec3 wi)
+{
+    return glm::dot(wi, laneOf(surface.geometricNormal, i)) > 0.0f;
 }
 
 /// Where on its material hit lane i of the block is.

@@ -50,6 +50,13 @@ struct TileDiagnostics
     float dropped[kTilePixels] = {};
 };
 
+/// What a photon that was aimed at a bin of PhotonAim added to the radiance of a pixel.
+struct SeenPhoton
+{
+    uint32_t bin = kInvalid;
+    float radiance = 0.0f; ///< its luminance
+};
+
 /// Photon lookups of each pixel's camera path.
 struct GatheredPhotons
 {
@@ -60,6 +67,10 @@ struct GatheredPhotons
     bool separate = false;
     uint32_t count[kTilePixels] = {};
     Vec3 flux[kTilePixels] = {};     ///< times the path's throughput [W/sr]
+
+    /// If not null: photons are noted here of the pixels that, and seenFirst, are a multiple of seenStride.
+    std::vector<SeenPhoton>* seen = nullptr;
+    uint32_t seenFirst = 0, seenStride = 1;
 };
 
 struct HitPoints;

@@ -14,6 +14,29 @@ namespace
 
 constexpr float kGatherAlpha = 0.25f; ///< GGX width from which photons replace further bounces
 
+/// Where there are more around a point no aim is needed to find some.
+constexpr uint32_t kMostNotedPhotons = 2048;
+
+/// Notes the photons of a lookup, to which its radiance is laid by their power: what the surface
+/// makes of their directions does not matter for an aim.
+void noteSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
+              std::vector<SeenPhoton>& seen)
+{
+    static thread_local std::vector<uint32_t> found;
+    found.clear();
+    map.find(query, found);
+    float power = 0.0f;
+    for (const uint32_t k : found)
+        power += luminance(map.photon(k).power);
+    if (!(power > 0.0f)) return;
+    for (const uint32_t k : found)
+    {
+        const Photon photon = map.photon(k);
+        if (photon.bin != kInvalid)
+            seen.push_back({photon.bin, radiance * luminance(photon.power) / power});
+    }
+}
+
 } // namespace
 
 void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
@@ -25,7 +48,8 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
         const Bsdf& bsdf = bounce.bsdfs[i];
         const bool rough = bsdf.diffuse != Vec3(0.0f) || bsdf.alpha >= kGatherAlpha;
         if (rough) bounce.rough |= 1u << i;
-        // In narrow lobes there are few photons: of those that paths can find further on, none is needed.
+        // In narrow lobes there are few photons: of those that paths can find further on, none is
+        // needed.
         if (rough || (use == PhotonUse::Caustics && !bsdf.isSmooth())) bounce.gathering |= 1u << i;
     }
     bounce.ending = use == PhotonUse::Indirect ? bounce.rough : 0u;
@@ -70,13 +94,17 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
         }
         if (sum.count == 0) continue;
         const Vec3 flux = laneOf(block.throughput, i) * sum.power;
+        const float discArea = kPi * point.query.radius * point.query.radius;
+        if (gathered.seen && (pixel + gathered.seenFirst) % gathered.seenStride == 0 &&
+            sum.count <= kMostNotedPhotons)
+            noteSeen(map, point.query, luminance(flux) / discArea, *gathered.seen);
         if (gathered.separate)
         {
             gathered.count[pixel] += sum.count;
             gathered.flux[pixel] += flux;
         }
         else
-            tile.sums.add(pixel, flux / (kPi * point.query.radius * point.query.radius));
+            tile.sums.add(pixel, flux / discArea);
     }
 }
 

@@ -205,9 +205,13 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
             sampleBsdf(bounce.bsdfs[i], wo, lobe[i], u[i], v[i]);
         if (!sample || (!sample->delta && ((bounce.ending >> i) & 1u))) continue;
         const Vec3 direction = frame.toWorld(sample->wi);
-        if (isAbove(bounce.surface, i, direction) == sample->transmitted) continue;
+        const SurfaceLanes& surface = bounce.surface;
+        const bool above =
+            sample->delta ? isAboveFacet(surface, i, direction) : isAbove(surface, i, direction);
+        if (above == sample->transmitted) continue;
         setLane(wi, i, direction);
-        const RayBegin begin = leave(bounce.surface, i, direction);
+        const RayBegin begin =
+            sample->delta ? leaveFacet(surface, i, direction) : leave(surface, i, direction);
         setLane(origin, i, begin.origin);
         tNear[i] = begin.tNear;
         setLane(weight, i, sample->weight);

@@ -319,7 +319,7 @@ void push(Tile& tile, const ShadingBlock& block, int i, Vec3 direction, Vec3 wei
 {
     const float largest = std::max(weight.x, std::max(weight.y, weight.z));
     if (!(largest * etaScale >= kSmallestWeight)) return;
-    tile.stack.push_back({leave(block.surface, i, direction), direction, weight, etaScale, block.pixel[i],
+    tile.stack.push_back({leaveFacet(block.surface, i, direction), direction, weight, etaScale, block.pixel[i],
                           hash(block.seed[i] + 0x9e3779b9u), block.depth[i] + 1});
 }
 
@@ -337,7 +337,7 @@ void spawn(Tile& tile, const ShadingBlock& block)
         const float etaScale = block.etaScale[i];
         const Vec3 geometric = laneOf(block.surface.geometricNormal, i);
         const Vec3 mirrored = frame.toWorld(Vec3(-wo.x, -wo.y, wo.z));
-        if (lobes.reflection != Vec3(0.0f) && isAbove(block.surface, i, mirrored))
+        if (lobes.reflection != Vec3(0.0f) && isAboveFacet(block.surface, i, mirrored))
             push(tile, block, i, mirrored, weight * lobes.reflection, etaScale);
         if (lobes.refraction == Vec3(0.0f)) continue;
         const Vec3 refracted = frame.toWorld(lobes.refracted);

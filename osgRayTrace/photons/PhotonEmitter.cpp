@@ -13,88 +13,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-using Sphere = PhotonEmitter::Sphere;
-
-struct Box
-{
-    Vec3d low{std::numeric_limits<double>::infinity()};
-    Vec3d high{-std::numeric_limits<double>::infinity()};
-
-    void add(Vec3d p)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    bool empty() const { return !(low.x <= high.x); }
-};
-
-Box boxOf(const Scene& scene, const Instance& instance)
-{
-    Box box;
-    for (const Vec3& p : scene.meshes[instance.mesh]->positions)
-        box.add(Vec3d(instance.placed ? transformPoint(instance.engineFromLocal, p) : p));
-    return box;
-}
-
-/// The smallest sphere around the box's centre that holds it. Balls fill their box's sphere badly, but a
-/// cone that is too wide only wastes photons.
-Sphere sphereOf(const Box& box)
-{
-    const Vec3d half = (box.high - box.low) * 0.5;
-    return {Vec3((box.low + box.high) * 0.5), static_cast<float>(glm::length(half) * 1.000001)};
-}
-
-/// The sphere around the vertices with the box's centre: tight for balls.
-Sphere tightSphere(const Scene& scene, const Instance& instance, const Box& box)
-{
-    const Vec3 centre((box.low + box.high) * 0.5);
-    float radius2 = 0.0f;
-    for (const Vec3& p : scene.meshes[instance.mesh]->positions)
-    {
-        const Vec3 q = (instance.placed ? transformPoint(instance.engineFromLocal, p) : p) - centre;
-        radius2 = std::max(radius2, glm::dot(q, q));
-    }
-    return {centre, std::sqrt(radius2) * 1.00001f};
-}
-
-/// True if a photon can be mirrored or let through by a mirror-like lobe.
-bool bendsLight(const MaterialRecord& record)
-{
-    const auto bends = [&](const Bsdf& bsdf)
-    {
-        if (!bsdf.reflects() && !bsdf.transmits()) return false;
-        // Textures may make smooth what is rough on the average; without an interface nothing is bent.
-        return !record.constant || bsdf.isSmooth() || (bsdf.transmits() && bsdf.eta == 1.0f);
-    };
-    return bends(record.front) || bends(record.back);
-}
-
-/// Joins the two halves of a list, split at the median of its longest axis, until few enough are left.
-void group(std::vector<Sphere> spheres, std::size_t limit, std::vector<Sphere>& groups)
-{
-    if (limit <= 1 || spheres.size() <= 1)
-    {
-        Box box;
-        for (const Sphere& s : spheres)
-        {
-            box.add(Vec3d(s.centre) - Vec3d(s.radius));
-            box.add(Vec3d(s.centre) + Vec3d(s.radius));
-        }
-        groups.push_back(spheres.size() == 1 ? spheres[0] : sphereOf(box));
-        return;
-    }
-    Box box;
-    for (const Sphere& s : spheres)
-        box.add(Vec3d(s.centre));
-    const Vec3d size = box.high - box.low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::size_t half = spheres.size() / 2;
-    std::nth_element(spheres.begin(), spheres.begin() + static_cast<std::ptrdiff_t>(half), spheres.end(),
-                     [axis](const Sphere& a, const Sphere& b) { return a.centre[axis] < b.centre[axis]; });
-    group({spheres.begin(), spheres.begin() + static_cast<std::ptrdiff_t>(half)}, limit / 2, groups);
-    group({spheres.begin() + static_cast<std::ptrdiff_t>(half), spheres.end()}, limit - limit / 2, groups);
-}
-
 Vec3 toWorld(Vec3 axis, Vec3 local)
 {
     Vec3 tangent, bitangent;
@@ -122,33 +40,73 @@ constexpr float kWholeSphere = 4.0f * kPi;
 
 } // namespace
 
-/// The cone that holds a target; a target around the origin has none.
-struct PhotonEmitter::Aim
+/// The cones that hold the targets as seen from a point; a target around the point has none.
+struct PhotonEmitter::Cones
 {
-    Vec3 axis;
-    float oneMinusCosine;
+    struct Cone
+    {
+        Vec3 axis;
+        float oneMinusCosine;
+        float share; ///< of the photons that are aimed: solid angle over 2 pi, times the target's
+                     ///< weight
+        uint32_t target;
+    };
+
+    /// One of them, by share; u is rescaled to [0,1) of all.
+    const Cone& choose(float u) const
+    {
+        float at = u * total;
+        for (int i = 0; i < count - 1; ++i)
+        {
+            if (at < cones[i].share) return cones[i];
+            at -= cones[i].share;
+        }
+        return cones[count - 1];
+    }
+
+    /// A direction within a cone, and its bin.
+    Vec3 sample(const Cone& cone, Guide guide, Vec2 u, uint32_t& bin) const
+    {
+        if (guide.aim)
+            u = guide.aim->sample(guide.light, cone.target, u, bin);
+        else
+            bin = aimBinOf(u.x, u.y);
+        return toWorld(cone.axis, squareToCone(u, cone.oneMinusCosine));
+    }
+
+    /// [1/sr] of the aimed part of the mixture.
+    float pdf(Guide guide, Vec3 direction) const
+    {
+        float inside = 0.0f;
+        for (int i = 0; i < count; ++i)
+        {
+            const Cone& cone = cones[i];
+            const Vec3 off = direction - cone.axis; // |off|^2 / 2 = 1 - cosine
+            const float height = 0.5f * glm::dot(off, off);
+            if (!(height <= cone.oneMinusCosine)) continue;
+            inside += guide.aim ? guide.aim->weightAt(guide.light, cone.target, cone.axis,
+                                                      direction, height / cone.oneMinusCosine)
+                                : 1.0f;
+        }
+        return inside / (2.0f * kPi * total);
+    }
+
+    Cone cones[kMaxTargets];
+    int count = 0;
+    float total = 0.0f; ///< of the shares
 };
 
-PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights, float aimedShare)
+PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights,
+                             float aimedShare)
     : _traced(traced), _lights(lights), _aimedShare(aimedShare)
 {
-    const Scene& scene = traced.scene();
-    Box all;
-    std::vector<Sphere> targets;
-    for (const Instance& instance : scene.instances)
-    {
-        const Box box = boxOf(scene, instance);
-        if (box.empty()) continue;
-        all.add(box.low);
-        all.add(box.high);
-        if (bendsLight(traced.materials()[instance.material]))
-            targets.push_back(tightSphere(scene, instance, box));
-    }
-    if (!all.empty()) _scene = sphereOf(all);
-    if (!targets.empty()) group(std::move(targets), kMaxTargets, _targets);
+    PhotonTargets targets = photonTargets(traced, kMaxTargets);
+    _scene = targets.scene;
+    _targets = std::move(targets.spheres);
     if (_targets.empty()) _aimedShare = 0.0f;
 
-    // In proportion to power; that of point and directional lights is what they send into the scene.
+    // In proportion to power; that of point and directional lights is what they send into the
+    // scene.
     std::vector<double> powers;
     double total = 0.0;
     for (uint32_t i = 0; i < lights.size(); ++i)
@@ -166,11 +124,13 @@ PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>
         {
             const double solidAngle = 2.0 * kPi * (1.0 - std::max(-1.0f, light.spotCosCutoff));
             const double distance = std::max(_scene.radius, 1e-30f);
-            power = double(luminance(light.diffuse)) * kPi * solidAngle * falloff(i, float(distance));
+            power =
+                double(luminance(light.diffuse)) * kPi * solidAngle * falloff(i, float(distance));
             break;
         }
         case LightKind::Directional:
-            power = double(luminance(light.diffuse)) * kPi * kPi * double(_scene.radius) * _scene.radius;
+            power = double(luminance(light.diffuse)) * kPi * kPi * double(_scene.radius) *
+                    _scene.radius;
             break;
         }
         if (!(power > 0.0) || !std::isfinite(power)) continue;
@@ -184,19 +144,28 @@ PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>
     if (!_cumulative.empty()) _cumulative.back() = 1.0f;
 }
 
-std::optional<PhotonStart> PhotonEmitter::emit(const EmissionPoint& point) const
+std::optional<PhotonStart> PhotonEmitter::emit(const EmissionPoint& point,
+                                               const PhotonAim* aim) const
 {
     if (_cumulative.empty()) return std::nullopt;
-    const std::size_t chosen = pick(_cumulative, point.light);
-    const float pmf = _cumulative[chosen] - (chosen ? _cumulative[chosen - 1] : 0.0f);
+    const std::vector<float>& cumulative = aim ? aim->cumulative() : _cumulative;
+    const std::size_t chosen = pick(cumulative, point.light);
+    const float pmf = cumulative[chosen] - (chosen ? cumulative[chosen - 1] : 0.0f);
     const uint32_t light = _emitters[chosen];
+    const Guide guide{aim, PhotonAim::lightOf(chosen, _emitters.size())};
     std::optional<PhotonStart> start;
     switch (_lights[light].kind)
     {
     case LightKind::Parallelogram:
-    case LightKind::Mesh: start = emitArea(light, point); break;
-    case LightKind::Point: start = emitPoint(light, point); break;
-    case LightKind::Directional: start = emitDirectional(light, point); break;
+    case LightKind::Mesh:
+        start = emitArea(light, point, guide);
+        break;
+    case LightKind::Point:
+        start = emitPoint(light, point, guide);
+        break;
+    case LightKind::Directional:
+        start = emitDirectional(light, point, guide);
+        break;
     }
     if (!start || !(pmf > 0.0f)) return std::nullopt;
     start->power /= pmf;
@@ -215,14 +184,34 @@ float PhotonEmitter::falloff(uint32_t index, float distance) const
     return denominator > 0.0f ? distance * distance / denominator : 0.0f;
 }
 
-/// Cones of the targets as seen from origin, and the sum of their solid angles over 2 pi.
-int PhotonEmitter::conesFrom(Vec3 origin, Aim* aims, float& total) const
+std::size_t PhotonEmitter::aimBins() const
 {
-    int count = 0;
-    total = 0.0f;
-    if (_aimedShare <= 0.0f) return 0;
-    for (const Sphere& target : _targets)
+    return std::min<std::size_t>(_emitters.size(), kMostAimLights) * _targets.size() * kAimBins;
+}
+
+std::shared_ptr<const PhotonAim> PhotonEmitter::learn(const std::vector<uint32_t>& emitted,
+                                                      const std::vector<double>& seen) const
+{
+    std::vector<float> pmf;
+    for (std::size_t e = 0; e < _cumulative.size(); ++e)
+        pmf.push_back(_cumulative[e] - (e ? _cumulative[e - 1] : 0.0f));
+    return std::make_shared<const PhotonAim>(static_cast<uint32_t>(_targets.size()), emitted, seen,
+                                             pmf);
+}
+
+uint32_t PhotonEmitter::binOf(Guide guide, uint32_t target, uint32_t bin) const
+{
+    return PhotonAim::index(guide.light, target, static_cast<uint32_t>(_targets.size()), bin);
+}
+
+PhotonEmitter::Cones PhotonEmitter::conesFrom(Vec3 origin, Guide guide) const
+{
+    Cones result;
+    if (_aimedShare <= 0.0f) return result;
+    const float* weights = guide.aim ? guide.aim->targetWeights(guide.light) : nullptr;
+    for (uint32_t t = 0; t < _targets.size(); ++t)
     {
+        const Sphere& target = _targets[t];
         const Vec3 d = target.centre - origin;
         const float distance2 = glm::dot(d, d);
         const float sin2 = target.radius * target.radius / distance2;
@@ -230,45 +219,18 @@ int PhotonEmitter::conesFrom(Vec3 origin, Aim* aims, float& total) const
         // 1 - cos without cancellation.
         const float oneMinusCosine = sin2 / (1.0f + std::sqrt(1.0f - sin2));
         if (!(oneMinusCosine > 0.0f)) continue;
-        aims[count++] = {d / std::sqrt(distance2), oneMinusCosine};
-        total += oneMinusCosine;
+        const float share = weights ? weights[t] * oneMinusCosine : oneMinusCosine;
+        result.cones[result.count++] = {d / std::sqrt(distance2), oneMinusCosine, share, t};
+        result.total += share;
     }
-    return count;
+    return result;
 }
 
-/// [1/sr] of the aimed part of the mixture.
-float PhotonEmitter::aimedPdf(const Aim* aims, int count, float total, Vec3 direction) const
+std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const EmissionPoint& point,
+                                                   Guide guide) const
 {
-    int inside = 0;
-    for (int i = 0; i < count; ++i)
-    {
-        const Vec3 off = direction - aims[i].axis; // |off|^2 / 2 = 1 - cosine
-        inside += 0.5f * glm::dot(off, off) <= aims[i].oneMinusCosine;
-    }
-    return static_cast<float>(inside) / (2.0f * kPi * total);
-}
-
-namespace
-{
-
-/// One of the aims, by solid angle; point.aim is rescaled to [0,1) of the aimed share.
-template <class Aim> const Aim& chooseAim(const Aim* aims, int count, float total, float u)
-{
-    float at = u * total;
-    for (int i = 0; i < count - 1; ++i)
-    {
-        if (at < aims[i].oneMinusCosine) return aims[i];
-        at -= aims[i].oneMinusCosine;
-    }
-    return aims[count - 1];
-}
-
-} // namespace
-
-std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const EmissionPoint& point) const
-{
-    const std::optional<LightPoint> from = _traced.lights().samplePoint(index, point.position.x,
-                                                                        point.position.y);
+    const std::optional<LightPoint> from =
+        _traced.lights().samplePoint(index, point.position.x, point.position.y);
     if (!from) return std::nullopt;
     const Light& light = _lights[index];
     const bool twoSided = light.twoSided || light.kind == LightKind::Mesh;
@@ -278,18 +240,20 @@ std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const Emissio
     {
         MaterialPoint at;
         at.uv = from->uv;
-        radiance = _traced.materials().emission(_traced.scene().instances[light.instance].material, at);
+        radiance =
+            _traced.materials().emission(_traced.scene().instances[light.instance].material, at);
     }
-    Aim aims[kMaxTargets];
-    float total;
-    const int count = conesFrom(from->position, aims, total);
-    const float share = count ? _aimedShare : 0.0f;
+    const Cones cones = conesFrom(from->position, guide);
+    const float share = cones.count ? _aimedShare : 0.0f;
 
+    PhotonStart start;
     Vec3 direction;
     if (point.aim < share)
     {
-        const Aim& aim = chooseAim(aims, count, total, point.aim / share);
-        direction = toWorld(aim.axis, squareToCone(point.direction, aim.oneMinusCosine));
+        const Cones::Cone& cone = cones.choose(point.aim / share);
+        uint32_t bin;
+        direction = cones.sample(cone, guide, point.direction, bin);
+        start.bin = binOf(guide, cone.target, bin);
     }
     else
     {
@@ -301,30 +265,32 @@ std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const Emissio
     const float cosine = std::fabs(signedCosine);
     if (!(cosine > 0.0f) || (signedCosine < 0.0f && !twoSided)) return std::nullopt;
     float pdf = (1.0f - share) * cosine * kInvPi * (twoSided ? 0.5f : 1.0f);
-    if (share > 0.0f) pdf += share * aimedPdf(aims, count, total, direction);
+    if (share > 0.0f) pdf += share * cones.pdf(guide, direction);
     if (!(pdf > 0.0f)) return std::nullopt;
 
-    PhotonStart start;
-    start.origin = from->position + from->normal * (signedCosine >= 0.0f ? from->offset : -from->offset);
+    start.origin =
+        from->position + from->normal * (signedCosine >= 0.0f ? from->offset : -from->offset);
     start.direction = direction;
     start.power = radiance * (cosine * _traced.lights().area(index) / pdf);
     return start;
 }
 
-std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const EmissionPoint& point) const
+std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const EmissionPoint& point,
+                                                    Guide guide) const
 {
     const Light& light = _lights[index];
-    Aim aims[kMaxTargets];
-    float total;
-    const int count = conesFrom(light.position, aims, total);
-    const float share = count ? _aimedShare : 0.0f;
+    const Cones cones = conesFrom(light.position, guide);
+    const float share = cones.count ? _aimedShare : 0.0f;
     const float oneMinusCutoff = 1.0f - std::max(-1.0f, light.spotCosCutoff);
 
+    PhotonStart start;
     Vec3 direction;
     if (point.aim < share)
     {
-        const Aim& aim = chooseAim(aims, count, total, point.aim / share);
-        direction = toWorld(aim.axis, squareToCone(point.direction, aim.oneMinusCosine));
+        const Cones::Cone& cone = cones.choose(point.aim / share);
+        uint32_t bin;
+        direction = cones.sample(cone, guide, point.direction, bin);
+        start.bin = binOf(guide, cone.target, bin);
     }
     else
         direction = toWorld(light.direction, squareToCone(point.direction, oneMinusCutoff));
@@ -333,63 +299,74 @@ std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const Emissi
     const bool inSpot = light.spotCosCutoff <= -1.0f || cosine >= light.spotCosCutoff;
     if (!inSpot) return std::nullopt;
     float pdf = (1.0f - share) / (2.0f * kPi * oneMinusCutoff);
-    if (share > 0.0f) pdf += share * aimedPdf(aims, count, total, direction);
+    if (share > 0.0f) pdf += share * cones.pdf(guide, direction);
     const float spot = light.spotCosCutoff <= -1.0f || light.spotExponent == 0.0f
                            ? 1.0f
                            : std::pow(std::max(cosine, 0.0f), light.spotExponent);
-    PhotonStart start;
     start.origin = light.position;
     start.direction = direction;
     start.power = light.diffuse * (kPi * spot / pdf);
     return start;
 }
 
-std::optional<PhotonStart> PhotonEmitter::emitDirectional(uint32_t index, const EmissionPoint& point) const
+std::optional<PhotonStart>
+PhotonEmitter::emitDirectional(uint32_t index, const EmissionPoint& point, Guide guide) const
 {
     const Light& light = _lights[index];
     if (!(_scene.radius > 0.0f)) return std::nullopt;
     const float sceneArea = kPi * _scene.radius * _scene.radius;
+    const float* weights = guide.aim ? guide.aim->targetWeights(guide.light) : nullptr;
+    const auto shareOf = [&](std::size_t t) // of the photons that are aimed
+    { return kPi * _targets[t].radius * _targets[t].radius * (weights ? weights[t] : 1.0f); };
     float total = 0.0f;
-    for (const Sphere& target : _targets)
-        total += kPi * target.radius * target.radius;
+    for (std::size_t t = 0; t < _targets.size(); ++t)
+        total += shareOf(t);
     const float share = total > 0.0f ? _aimedShare : 0.0f;
 
+    PhotonStart start;
     const Sphere* disc = &_scene;
+    Vec2 at = point.position; // a turn, and the share of the disc's area
     if (point.aim < share)
     {
-        float at = point.aim / share * total;
-        std::size_t chosen = 0;
-        for (; chosen + 1 < _targets.size(); ++chosen)
-        {
-            const float area = kPi * _targets[chosen].radius * _targets[chosen].radius;
-            if (at < area) break;
-            at -= area;
-        }
+        float left = point.aim / share * total;
+        uint32_t chosen = 0;
+        for (; chosen + 1 < _targets.size() && left >= shareOf(chosen); ++chosen)
+            left -= shareOf(chosen);
         disc = &_targets[chosen];
+        uint32_t bin = aimBinOf(at.x, at.y);
+        if (guide.aim) at = guide.aim->sample(guide.light, chosen, at, bin);
+        start.bin = binOf(guide, chosen, bin);
     }
     float s, c;
-    sinCosTurn(point.position.x, s, c);
-    const float radius = disc->radius * std::sqrt(point.position.y);
+    sinCosTurn(at.x, s, c);
+    const float radius = disc->radius * std::sqrt(at.y);
     const Vec3 q = disc->centre + toWorld(light.direction, Vec3(radius * c, radius * s, 0.0f));
 
-    const auto isIn = [&](const Sphere& sphere)
+    const auto acrossFrom = [&](const Sphere& sphere)
     {
         const Vec3 d = q - sphere.centre;
-        const Vec3 across = d - light.direction * glm::dot(d, light.direction);
-        return glm::dot(across, across) <= sphere.radius * sphere.radius * 1.000002f;
+        return d - light.direction * glm::dot(d, light.direction);
     };
-    float pdf = isIn(_scene) ? (1.0f - share) / sceneArea : 0.0f;
+    const auto isIn = [](const Sphere& sphere, Vec3 across)
+    { return glm::dot(across, across) <= sphere.radius * sphere.radius * 1.000002f; };
+    float pdf = isIn(_scene, acrossFrom(_scene)) ? (1.0f - share) / sceneArea : 0.0f;
     if (share > 0.0f)
     {
-        int inside = 0;
-        for (const Sphere& target : _targets)
-            inside += isIn(target);
-        pdf += share * static_cast<float>(inside) / total;
+        float inside = 0.0f;
+        for (uint32_t t = 0; t < _targets.size(); ++t)
+        {
+            const Vec3 across = acrossFrom(_targets[t]);
+            if (!isIn(_targets[t], across)) continue;
+            const float area = glm::dot(across, across) / (_targets[t].radius * _targets[t].radius);
+            inside += guide.aim ? guide.aim->weightAt(guide.light, t, light.direction, across, area)
+                                : 1.0f;
+        }
+        pdf += share * inside / total;
     }
     if (!(pdf > 0.0f)) return std::nullopt;
-    PhotonStart start;
     const Vec3 toCentre = _scene.centre - q;
-    start.origin = q + light.direction * (glm::dot(toCentre, light.direction) - 2.0f * _scene.radius);
+    start.origin =
+        q + light.direction * (glm::dot(toCentre, light.direction) - 2.0f * _scene.radius);
     start.direction = light.direction;
     start.power = light.diffuse * (kPi / pdf);
     return start;

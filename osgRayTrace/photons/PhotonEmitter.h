@@ -3,7 +3,10 @@
 #pragma once
 
 #include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/photons/PhotonAim.h"
+#include "osgRayTrace/photons/PhotonTargets.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,6 +20,7 @@ struct PhotonStart
     Vec3 direction{0.0f}; ///< unit
     Vec3 power{0.0f};     ///< [W] times the number of photons emitted
     uint32_t light = kInvalid;
+    uint32_t bin = kInvalid; ///< of PhotonAim that it was aimed at, if it was
 };
 
 /// The numbers of [0,1) that an emission takes.
@@ -37,18 +41,18 @@ struct EmissionLanes
 struct StartLanes
 {
     Vec3Lanes origin, direction, power;
-    UintLanes light;
+    UintLanes light, bin;
 };
 
-/// Chooses lights in proportion to power, and directions by a mixture: a share of them uniformly within the
-/// cones (for directional lights: discs) that hold the mirror-like and transmissive instances, the rest as
-/// the light shines. The density is that of the mixture, so every share gives the same mean
-/// [Veach97, sect. 9.2]. Thread safe.
+/// Chooses lights in proportion to power, and directions by a mixture: a share of them uniformly
+/// within the cones (for directional lights: discs) that hold the mirror-like and transmissive
+/// instances, the rest as the light shines. The density is that of the mixture, so every share
+/// gives the same mean [Veach97, sect. 9.2]. Thread safe.
 class PhotonEmitter
 {
 public:
-    /// lights: the scene's, those of eye space placed. aimedShare in [0,1): of photons aimed; 0 if nothing
-    /// in the scene is specular.
+    /// lights: the scene's, those of eye space placed. aimedShare in [0,1): of photons aimed; 0 if
+    /// nothing in the scene is specular.
     PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights, float aimedShare);
 
     /// False if no light has any power.
@@ -57,45 +61,56 @@ public:
     /// Something in the scene reflects like a mirror or transmits.
     bool hasTargets() const { return !_targets.empty(); }
 
-    std::optional<PhotonStart> emit(const EmissionPoint& point) const;
+    std::optional<PhotonStart> emit(const EmissionPoint& point,
+                                    const PhotonAim* aim = nullptr) const;
 
-    /// What emit returns for each lane, up to rounding; vector code where a parallelogram is the only light.
-    /// Returns the lanes that have a start.
-    LaneMask emitLanes(const EmissionLanes& points, StartLanes& starts) const;
+    /// What emit returns for each lane, up to rounding; vector code where a parallelogram is the
+    /// only light. Returns the lanes that have a start.
+    LaneMask emitLanes(const EmissionLanes& points, StartLanes& starts,
+                       const PhotonAim* aim = nullptr) const;
 
-    /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives after a
-    /// free flight from the light is the power times this.
+    /// Of a PhotonAim for this emitter; 0: there is nothing to aim at.
+    std::size_t aimBins() const;
+    std::shared_ptr<const PhotonAim> learn(const std::vector<uint32_t>& emitted,
+                                           const std::vector<double>& seen) const;
+
+    /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives
+    /// after a free flight from the light is the power times this.
     float falloff(uint32_t light, float distance) const;
 
-    /// At most this many: more are grouped.
+    /// At most this many.
     static constexpr std::size_t kMaxTargets = 32;
-
-    struct Sphere
-    {
-        Vec3 centre{0.0f};
-        float radius = 0.0f;
-    };
 
     /// Holds all geometry.
     const Sphere& scene() const { return _scene; }
 
 private:
-    struct Aim;
+    struct Cones;
+    /// What an emission is told beside its numbers. light: for the aim.
+    struct Guide
+    {
+        const PhotonAim* aim;
+        uint32_t light;
+    };
 
-    std::optional<PhotonStart> emitArea(uint32_t light, const EmissionPoint& point) const;
-    std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point) const;
-    std::optional<PhotonStart> emitDirectional(uint32_t light, const EmissionPoint& point) const;
-    LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts) const;
-    int conesFrom(Vec3 origin, Aim* aims, float& total) const;
-    float aimedPdf(const Aim* aims, int count, float total, Vec3 direction) const;
+    std::optional<PhotonStart> emitArea(uint32_t light, const EmissionPoint& point,
+                                        Guide guide) const;
+    std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point,
+                                         Guide guide) const;
+    std::optional<PhotonStart> emitDirectional(uint32_t light, const EmissionPoint& point,
+                                               Guide guide) const;
+    LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts,
+                        const PhotonAim* aim) const;
+    Cones conesFrom(Vec3 origin, Guide guide) const;
+    uint32_t binOf(Guide guide, uint32_t target, uint32_t bin) const;
 
     const TracedScene& _traced;
     const std::vector<Light>& _lights;
     float _aimedShare;
     Sphere _scene;
     std::vector<Sphere> _targets;
-    std::vector<uint32_t> _emitters;  ///< index of a light
-    std::vector<float> _cumulative;   ///< an emitter; the last is 1
+    std::vector<uint32_t> _emitters; ///< index of a light
+    std::vector<float> _cumulative;  ///< an emitter; the last is 1
 };
 
 } // namespace osgRayTrace::engine

@@ -19,9 +19,10 @@ struct Source
     float offset, area;
     Vec3 radiance;
     uint32_t twoSided; ///< all bits or none
-    const PhotonEmitter::Sphere* targets;
+    const Sphere* targets;
     int targetCount;
     float aimedShare;
+    const PhotonAim* aim; ///< or null
 };
 
 /// The cones of a target from the lanes' points on the light.
@@ -35,10 +36,11 @@ struct AimLanes
 struct PointLanes
 {
     Vec3Lanes position;
-    FloatLanes total; ///< of 1 - cosine over the aims
+    FloatLanes total; ///< of 1 - cosine over the aims, times the target's weight
     AimLanes aims[PhotonEmitter::kMaxTargets];
     Vec3Lanes chosenAxis;
     FloatLanes chosenCone;
+    UintLanes chosenTarget;
 };
 
 OSGRAYTRACE_KERNEL
@@ -55,12 +57,13 @@ void pointsOn(const Source& source, const EmissionLanes& e, PointLanes& p)
         p.total[i] = 0.0f;
         p.chosenAxis.x[i] = p.chosenAxis.y[i] = p.chosenAxis.z[i] = 0.0f;
         p.chosenCone[i] = 0.0f;
+        p.chosenTarget[i] = 0u;
     }
 }
 
 /// As PhotonEmitter::conesFrom.
 OSGRAYTRACE_KERNEL
-void addCone(const PhotonEmitter::Sphere& sphere, PointLanes& p, AimLanes& aim)
+void addCone(const Sphere& sphere, float weight, PointLanes& p, AimLanes& aim)
 {
     const Vec3 centre = sphere.centre;
     const float radius = sphere.radius;
@@ -79,14 +82,14 @@ void addCone(const PhotonEmitter::Sphere& sphere, PointLanes& p, AimLanes& aim)
         aim.axis.y[i] = dy * inverse;
         aim.axis.z[i] = dz * inverse;
         aim.oneMinusCosine[i] = cone;
-        p.total[i] += cone;
+        p.total[i] += cone * weight;
     }
 }
 
 /// One of the aims, by solid angle: at counts down to it. The last one catches what rounding
 /// leaves.
 OSGRAYTRACE_KERNEL
-void chooseCone(const AimLanes& aim, FloatLanes& at, PointLanes& p)
+void chooseCone(const AimLanes& aim, float weight, uint32_t target, FloatLanes& at, PointLanes& p)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
@@ -97,8 +100,33 @@ void chooseCone(const AimLanes& aim, FloatLanes& at, PointLanes& p)
         p.chosenAxis.y[i] = select(take, aim.axis.y[i], p.chosenAxis.y[i]);
         p.chosenAxis.z[i] = select(take, aim.axis.z[i], p.chosenAxis.z[i]);
         p.chosenCone[i] = select(take, cone, p.chosenCone[i]);
-        at[i] = select(take, at[i] - cone, at[i]);
+        p.chosenTarget[i] = (target & take) | (p.chosenTarget[i] & ~take);
+        at[i] = select(take, at[i] - cone * weight, at[i]);
     }
+}
+
+/// The bins of the lanes that are aimed, and where in the cone their directions are: e but for
+/// those lanes.
+EmissionLanes chooseBins(const Source& source, const EmissionLanes& e, const PointLanes& p,
+                         UintLanes& bins)
+{
+    EmissionLanes chosen = e;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        bins[i] = kInvalid;
+        if (!(p.total[i] > 0.0f) || !(e.aim[i] < source.aimedShare)) continue;
+        const uint32_t target = p.chosenTarget[i];
+        uint32_t bin = aimBinOf(e.directionU[i], e.directionV[i]);
+        if (source.aim)
+        {
+            const Vec2 at =
+                source.aim->sample(0, target, Vec2(e.directionU[i], e.directionV[i]), bin);
+            chosen.directionU[i] = at.x;
+            chosen.directionV[i] = at.y;
+        }
+        bins[i] = PhotonAim::index(0, target, static_cast<uint32_t>(source.targetCount), bin);
+    }
+    return chosen;
 }
 
 /// Directions, by aim or as the light shines.
@@ -150,6 +178,21 @@ void countInside(const AimLanes& aim, const StartLanes& starts, FloatLanes& insi
     }
 }
 
+/// The same where bins have weights. Most directions are in one cone.
+void addWeightsInside(const PhotonAim& weights, uint32_t target, const AimLanes& aim,
+                      const StartLanes& starts, FloatLanes& inside)
+{
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const Vec3 direction(starts.direction.x[i], starts.direction.y[i], starts.direction.z[i]);
+        const Vec3 axis(aim.axis.x[i], aim.axis.y[i], aim.axis.z[i]);
+        const Vec3 off = direction - axis;
+        const float cone = aim.oneMinusCosine[i], height = 0.5f * glm::dot(off, off);
+        if (height <= cone && cone > 0.0f)
+            inside[i] += weights.weightAt(0, target, axis, direction, height / cone);
+    }
+}
+
 /// Power over the density of the mixture; origins. Returns the lanes that leave a side that shines.
 OSGRAYTRACE_KERNEL
 LaneMask powers(const Source& source, const PointLanes& p, const FloatLanes& inside,
@@ -191,26 +234,31 @@ LaneMask emitFrom(const Source& source, const EmissionLanes& points, StartLanes&
 {
     PointLanes p;
     pointsOn(source, points, p);
+    const float* weights = source.aim ? source.aim->targetWeights(0) : nullptr;
     for (int t = 0; t < source.targetCount; ++t)
-        addCone(source.targets[t], p, p.aims[t]);
+        addCone(source.targets[t], weights ? weights[t] : 1.0f, p, p.aims[t]);
     FloatLanes at, inside = {};
     for (int i = 0; i < kLanes; ++i)
         at[i] = source.aimedShare > 0.0f ? points.aim[i] / source.aimedShare * p.total[i] : 0.0f;
     for (int t = 0; t < source.targetCount; ++t)
-        chooseCone(p.aims[t], at, p);
-    directions(source, points, p, starts);
+        chooseCone(p.aims[t], weights ? weights[t] : 1.0f, static_cast<uint32_t>(t), at, p);
+    directions(source, chooseBins(source, points, p, starts.bin), p, starts);
     for (int t = 0; t < source.targetCount; ++t)
-        countInside(p.aims[t], starts, inside);
+        if (source.aim)
+            addWeightsInside(*source.aim, static_cast<uint32_t>(t), p.aims[t], starts, inside);
+        else
+            countInside(p.aims[t], starts, inside);
     return powers(source, p, inside, starts);
 }
 
 } // namespace
 
-LaneMask PhotonEmitter::emitLanes(const EmissionLanes& points, StartLanes& starts) const
+LaneMask PhotonEmitter::emitLanes(const EmissionLanes& points, StartLanes& starts,
+                                  const PhotonAim* aim) const
 {
     // One plain light of area is the rule. All others go one by one.
     if (_emitters.size() != 1 || _lights[_emitters[0]].kind != LightKind::Parallelogram)
-        return emitSingly(points, starts);
+        return emitSingly(points, starts, aim);
     const uint32_t index = _emitters[0];
     const Light& light = _lights[index];
     const LightTable& table = _traced.lights();
@@ -225,20 +273,23 @@ LaneMask PhotonEmitter::emitLanes(const EmissionLanes& points, StartLanes& start
                         maskOf(light.twoSided),
                         _targets.data(),
                         targets,
-                        _aimedShare};
+                        _aimedShare,
+                        aim};
     for (int i = 0; i < kLanes; ++i)
         starts.light[i] = index;
     return emitFrom(source, points, starts);
 }
 
-LaneMask PhotonEmitter::emitSingly(const EmissionLanes& points, StartLanes& starts) const
+LaneMask PhotonEmitter::emitSingly(const EmissionLanes& points, StartLanes& starts,
+                                   const PhotonAim* aim) const
 {
     LaneMask alive = 0;
     for (int i = 0; i < kLanes; ++i)
     {
         const std::optional<PhotonStart> start =
             emit({points.light[i], points.aim[i], Vec2(points.positionU[i], points.positionV[i]),
-                  Vec2(points.directionU[i], points.directionV[i])});
+                  Vec2(points.directionU[i], points.directionV[i])},
+                 aim);
         if (!start) continue;
         starts.origin.x[i] = start->origin.x;
         starts.origin.y[i] = start->origin.y;
@@ -250,6 +301,7 @@ LaneMask PhotonEmitter::emitSingly(const EmissionLanes& points, StartLanes& star
         starts.power.y[i] = start->power.y;
         starts.power.z[i] = start->power.z;
         starts.light[i] = start->light;
+        starts.bin[i] = start->bin;
         alive |= 1u << i;
     }
     return alive;

@@ -91,7 +91,7 @@ float sumOf(const FloatLanes& lanes)
 
 std::size_t PhotonMap::bytes() const
 {
-    return _columns.size() * sizeof(float) + (_normal.size() + _first.size()) * sizeof(uint32_t) +
+    return _columns.size() * sizeof(float) + (_normal.size() + _bin.size() + _first.size()) * sizeof(uint32_t) +
            _crowds.bytes();
 }
 
@@ -260,6 +260,7 @@ Photon PhotonMap::photon(uint32_t k) const
     p.direct = (_normal[k] & kDirectBit) != 0;
     p.normal = unpackNormal(_normal[k]);
     p.edges = static_cast<uint32_t>(edgesOf(_normal[k]));
+    if (_bin.size()) p.bin = _bin[k];
     return p;
 }
 

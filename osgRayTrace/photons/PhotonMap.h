@@ -24,6 +24,7 @@ struct Photon
     Vec3 normal{0.0f}; ///< geometric, unit, on the side of wi
     uint32_t edges = 0; ///< of its path, from the light to here
     bool direct = false; ///< met mirror-like surfaces only
+    uint32_t bin = kInvalid; ///< of PhotonAim that it was sent to, if it was
 };
 
 /// Photon paths are told apart by their number of edges up to here; longer ones count as this.
@@ -62,7 +63,9 @@ public:
 
     /// cellSize: twice the radius of most queries is best; any other is right, too. Stable: the
     /// order of equal cells is that of photons, so results do not depend on threads.
-    PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers);
+    /// keepBins: those of the photons, too.
+    PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers,
+              bool keepBins = false);
 
     std::size_t size() const { return _count; }
     std::size_t bytes() const;
@@ -107,7 +110,7 @@ private:
 
     PhotonColumns columns() const;
 
-    void sort(const std::vector<Photon>& photons, const Workers& workers);
+    void sort(const std::vector<Photon>& photons, const Workers& workers, bool keepBins);
     int rangesOf(const PhotonQuery& query, Range* ranges) const;
     uint32_t bucketOf(int64_t x, int64_t y, int64_t z) const
     {
@@ -131,6 +134,7 @@ private:
     UnclearedArray<float> _columns;
     UnclearedArray<uint32_t> _normal; ///< three signed bytes; edges in seven bits, and direct
     PhotonCrowds _crowds;             ///< boxes over the photons of crowded buckets
+    UnclearedArray<uint32_t> _bin;    ///< empty unless kept
 };
 
 } // namespace osgRayTrace::engine

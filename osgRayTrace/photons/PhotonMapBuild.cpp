@@ -99,7 +99,8 @@ void sortCrowds(const std::vector<Photon>& photons, const std::vector<uint32_t>&
 
 } // namespace
 
-PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers)
+PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers,
+                     bool keepBins)
     : _count(photons.size())
 {
     if (photons.empty()) return;
@@ -115,10 +116,10 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const W
     while (buckets < _count && buckets < (1u << 30))
         buckets *= 2;
     _mask = buckets - 1;
-    sort(photons, workers);
+    sort(photons, workers, keepBins);
 }
 
-void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers)
+void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers, bool keepBins)
 {
     const std::size_t buckets = static_cast<std::size_t>(_mask) + 1;
     const int partShift = __builtin_ctzll(buckets) - __builtin_ctz(kParts);
@@ -171,6 +172,7 @@ void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers)
     // 3. Each part by counting; its photons move once, to where they stay.
     _columns = UnclearedArray<float>(kColumns * stride());
     _normal = UnclearedArray<uint32_t>(stride());
+    if (keepBins) _bin = UnclearedArray<uint32_t>(_count);
     for (int c = 0; c < kColumns; ++c)
         std::fill_n(column(static_cast<Column>(c)) + _count, kLanes, 0.0f);
     std::fill_n(&_normal[_count], kLanes, 0u);
@@ -214,6 +216,7 @@ void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers)
                     columns[static_cast<std::size_t>(c) * step + to] = values[c];
                 _normal[to] = packNormal(p.normal) | std::min(p.edges, kMostEdges) << 24 |
                               (p.direct ? kDirectBit : 0u);
+                if (keepBins) _bin[to] = p.bin;
             }
         });
     std::vector<PhotonCrowds::Stretch> all;

@@ -35,22 +35,22 @@ float densityRadius(const std::vector<Photon>& photons, const Workers& workers)
     constexpr std::size_t kSamples = 128;
     const std::size_t neighbours = std::min<std::size_t>(kDensityPhotons, photons.size() - 1);
     std::vector<float> radii(kSamples);
-    workers.forEach(
-        kSamples,
-        [&](std::size_t s)
-        {
-            const std::size_t chosen = hash(static_cast<uint32_t>(s)) % photons.size();
-            const Vec3 centre = photons[chosen].position;
-            std::vector<float> distances(photons.size());
-            for (std::size_t k = 0; k < photons.size(); ++k)
-            {
-                const Vec3 d = photons[k].position - centre;
-                distances[k] = glm::dot(d, d);
-            }
-            const auto nth = distances.begin() + static_cast<std::ptrdiff_t>(neighbours);
-            std::nth_element(distances.begin(), nth, distances.end());
-            radii[s] = std::sqrt(*nth);
-        });
+    workers.forEach(kSamples,
+                    [&](std::size_t s)
+                    {
+                        const std::size_t chosen = hash(static_cast<uint32_t>(s)) % photons.size();
+                        const Vec3 centre = photons[chosen].position;
+                        std::vector<float> distances(photons.size());
+                        for (std::size_t k = 0; k < photons.size(); ++k)
+                        {
+                            const Vec3 d = photons[k].position - centre;
+                            distances[k] = glm::dot(d, d);
+                        }
+                        const auto nth =
+                            distances.begin() + static_cast<std::ptrdiff_t>(neighbours);
+                        std::nth_element(distances.begin(), nth, distances.end());
+                        radii[s] = std::sqrt(*nth);
+                    });
     std::nth_element(radii.begin(), radii.begin() + kSamples / 2, radii.end());
     return radii[kSamples / 2];
 }
@@ -58,21 +58,26 @@ float densityRadius(const std::vector<Photon>& photons, const Workers& workers)
 } // namespace
 
 bool PhotonPasses::isCurrent(const std::shared_ptr<const TracedScene>& traced,
-                             const std::vector<Light>& lights, const PhotonPassOptions& options) const
+                             const std::vector<Light>& lights,
+                             const PhotonPassOptions& options) const
 {
-    return traced == _traced && options.use == _options.use && options.photons == _options.photons &&
-           options.maxBounces == _options.maxBounces && options.seed == _options.seed &&
+    return traced == _traced && options.use == _options.use &&
+           options.photons == _options.photons && options.maxBounces == _options.maxBounces &&
+           options.seed == _options.seed && options.aimAtViews == _options.aimAtViews &&
            samePlaces(lights, *_lights);
 }
 
-void PhotonPasses::begin(const std::shared_ptr<const TracedScene>& traced, const std::vector<Light>& lights,
-                         const PhotonPassOptions& options)
+void PhotonPasses::begin(const std::shared_ptr<const TracedScene>& traced,
+                         const std::vector<Light>& lights, const PhotonPassOptions& options)
 {
     if (_emitter && isCurrent(traced, lights, options)) return;
     _emitter.reset();
     _first.reset();
     _density.reset();
     _kept.clear();
+    _emitted = {};
+    _seen.clear();
+    _aim.reset();
     _traced = traced;
     // Those of the scene stay where they are while it is held; there may be millions.
     const bool sceneOwns = &lights == &traced->scene().lights;
@@ -84,35 +89,36 @@ void PhotonPasses::begin(const std::shared_ptr<const TracedScene>& traced, const
 }
 
 PhotonDensity PhotonPasses::density(const std::shared_ptr<const TracedScene>& traced,
-                                    const std::vector<Light>& lights, const PhotonPassOptions& options,
-                                    const Workers& workers)
+                                    const std::vector<Light>& lights,
+                                    const PhotonPassOptions& options, const Workers& workers)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     begin(traced, lights, options);
     if (_density) return *_density;
-    _first = std::make_unique<TracedPhotons>(tracePhotons(*traced, *_lights, *_emitter, options, 0, workers));
-    _tracedRays += _first->rays;
+    _first = std::make_unique<TracedPhotons>(trace(0, nullptr, workers));
     _density = std::make_unique<PhotonDensity>();
     _density->radius = densityRadius(_first->photons, workers);
-    const PhotonEmitter::Sphere& scene = _emitter->scene();
+    const Sphere& scene = _emitter->scene();
     _density->sceneRadius = scene.radius;
     _density->emits = _emitter->emits();
     _density->caustics = _emitter->emits() && _emitter->hasTargets();
-    _density->largestCoordinate =
-        std::max({std::fabs(scene.centre.x), std::fabs(scene.centre.y), std::fabs(scene.centre.z)}) +
-        scene.radius;
+    _density->aimBins = _emitter->aimBins();
+    _density->largestCoordinate = std::max({std::fabs(scene.centre.x), std::fabs(scene.centre.y),
+                                            std::fabs(scene.centre.z)}) +
+                                  scene.radius;
     return *_density;
 }
 
-std::shared_ptr<const PhotonPass> PhotonPasses::pass(const std::shared_ptr<const TracedScene>& traced,
-                                                     const std::vector<Light>& lights,
-                                                     const PhotonPassOptions& options, int index,
-                                                     float cellSize, const Workers& workers)
+std::shared_ptr<const PhotonPass>
+PhotonPasses::pass(const std::shared_ptr<const TracedScene>& traced,
+                   const std::vector<Light>& lights, const PhotonPassOptions& options, int index,
+                   float cellSize, const Workers& workers)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     begin(traced, lights, options);
+    const std::shared_ptr<const PhotonAim> aim = aimOf(index);
     for (const Entry& entry : _kept)
-        if (entry.index == index && cellSize <= 2.0f * entry.cellSize && entry.cellSize <= 2.0f * cellSize)
+        if (entry.index == index && entry.cellSize == cellSize && entry.aim == aim)
             return entry.pass;
 
     const auto start = std::chrono::steady_clock::now();
@@ -120,25 +126,69 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const std::shared_ptr<const
     if (index == 0 && _first)
         photons = std::move(*_first);
     else
-    {
-        photons = tracePhotons(*traced, *_lights, *_emitter, options, index, workers);
-        _tracedRays += photons.rays;
-    }
+        photons = trace(index, aim.get(), workers);
     _first.reset();
     auto pass = std::make_shared<PhotonPass>();
-    pass->map = PhotonMap(photons.photons, cellSize, workers);
+    pass->map = PhotonMap(photons.photons, cellSize, workers, options.aimAtViews && index < kFirst);
     pass->rays = photons.rays;
     pass->dropped = photons.dropped;
     pass->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    keep({index, cellSize, pass});
+    keep({index, cellSize, aim, pass});
     return pass;
+}
+
+TracedPhotons PhotonPasses::trace(int index, const PhotonAim* aim, const Workers& workers)
+{
+    TracedPhotons photons =
+        tracePhotons(*_traced, *_lights, *_emitter, _options, index, workers, aim);
+    _tracedRays += photons.rays;
+    if (index < kFirst) _emitted[static_cast<std::size_t>(index)] = photons.emitted;
+    return photons;
+}
+
+/// Null: that of the scene.
+std::shared_ptr<const PhotonAim> PhotonPasses::aimOf(int index)
+{
+    if (index < kFirst || !_options.aimAtViews || _seen.empty()) return nullptr;
+    if (_aim) return _aim;
+    std::vector<uint32_t> emitted(_emitter->aimBins());
+    for (const std::vector<uint32_t>& pass : _emitted)
+        for (std::size_t b = 0; b < pass.size(); ++b)
+            emitted[b] += pass[b];
+    std::vector<double> squares(emitted.size());
+    for (const Seen& seen : _seen)
+        for (std::size_t b = 0; b < squares.size(); ++b)
+            squares[b] += seen.squares[b];
+    return _aim = _emitter->learn(emitted, squares);
+}
+
+void PhotonPasses::noteSeen(const std::shared_ptr<const TracedScene>& traced,
+                            const std::vector<Light>& lights, const PhotonPassOptions& options,
+                            const void* view, std::vector<double> squares)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (!_emitter || !isCurrent(traced, lights, options) || squares.size() != _emitter->aimBins())
+        return;
+    _seen.push_back({view, std::move(squares)});
+    _aim.reset();
+}
+
+void PhotonPasses::forgetSeen(const void* view)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    const auto gone =
+        std::remove_if(_seen.begin(), _seen.end(), [&](const Seen& s) { return s.view == view; });
+    if (gone == _seen.end()) return;
+    _seen.erase(gone, _seen.end());
+    _aim.reset();
 }
 
 /// Makes room: at first among the last passes, then for the sake of memory among all of them.
 void PhotonPasses::keep(Entry entry)
 {
-    const auto replaced = std::find_if(_kept.begin(), _kept.end(),
-                                       [&](const Entry& e) { return e.index == entry.index; });
+    const auto replaced = std::find_if(
+        _kept.begin(), _kept.end(),
+        [&](const Entry& e) { return e.index == entry.index && e.cellSize == entry.cellSize; });
     if (replaced != _kept.end()) _kept.erase(replaced);
     const auto isLast = [](const Entry& e) { return e.index >= kFirst; };
     if (std::count_if(_kept.begin(), _kept.end(), isLast) >= kLast)

@@ -32,6 +32,7 @@ enum PhotonDimension : uint32_t
 struct Chunk
 {
     std::vector<Photon> photons;
+    std::vector<uint32_t> bins; ///< of PhotonAim, a photon that was emitted
     uint64_t rays = 0;
     uint64_t dropped = 0;
 };
@@ -40,11 +41,12 @@ class ChunkTracer
 {
 public:
     ChunkTracer(const TracedScene& traced, const std::vector<Light>& lights,
-                const PhotonEmitter& emitter, const PhotonPassOptions& options, uint32_t passSeed,
-                Chunk& chunk)
+                const PhotonEmitter& emitter, const PhotonAim* aim,
+                const PhotonPassOptions& options, uint32_t passSeed, Chunk& chunk)
         : _traced(traced),
           _lights(lights),
           _emitter(emitter),
+          _aim(aim),
           _options(options),
           _seed(passSeed),
           _chunk(chunk)
@@ -78,9 +80,11 @@ private:
     const TracedScene& _traced;
     const std::vector<Light>& _lights;
     const PhotonEmitter& _emitter;
+    const PhotonAim* _aim;
     const PhotonPassOptions& _options;
     uint32_t _seed;
     Chunk& _chunk;
+    uint32_t _first = 0; ///< photon of the chunk
     FlightQueue _flights{kChunk};
     // Of the block at work.
     RayHitBlock _rays;
@@ -155,7 +159,8 @@ void ChunkTracer::store(const FlightBlock& block, const SurfaceLanes& surface, L
         if (isFinite(power))
             _chunk.photons.push_back({laneOf(surface.position, i), -laneOf(block.direction, i),
                                       power, laneOf(surface.geometricNormal, i),
-                                      static_cast<uint32_t>(bounce) + 1, block.direct[i] != 0});
+                                      static_cast<uint32_t>(bounce) + 1, block.direct[i] != 0,
+                                      _chunk.bins[block.photon[i] - _first]});
         else
             ++_chunk.dropped;
     }
@@ -274,7 +279,7 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
     photonPoints(block.photon, dimension(EmissionPosition), points.positionU, points.positionV);
     photonPoints(block.photon, dimension(EmissionDirection), points.directionU, points.directionV);
     StartLanes starts;
-    const LaneMask lanes = _emitter.emitLanes(points, starts) & (kAllLanes >> (kLanes - count));
+    const LaneMask lanes = _emitter.emitLanes(points, starts, _aim) & (kAllLanes >> (kLanes - count));
     block.origin = starts.origin;
     block.direction = starts.direction;
     block.light = starts.light;
@@ -286,11 +291,18 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
         block.power.z[i] = starts.power.z[i] * share;
     }
     _flights.append(block, lanes);
+    for (LaneMask m = lanes; m; m &= m - 1)
+    {
+        const int i = __builtin_ctz(m);
+        _chunk.bins[block.photon[i] - _first] = starts.bin[i];
+    }
 }
 
 void ChunkTracer::trace(uint32_t first, uint32_t count)
 {
+    _first = first;
     _chunk.photons.reserve(2 * count); // more than most passes store of each
+    _chunk.bins.assign(count, kInvalid);
     for (uint32_t k = 0; k < count; k += kLanes)
         emitBlock(first + k, std::min<uint32_t>(kLanes, count - k));
     readyRays(_rays);
@@ -310,7 +322,7 @@ void ChunkTracer::trace(uint32_t first, uint32_t count)
 
 TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& lights,
                            const PhotonEmitter& emitter, const PhotonPassOptions& options, int pass,
-                           const Workers& workers)
+                           const Workers& workers, const PhotonAim* aim)
 {
     TracedPhotons result;
     if (options.use == PhotonUse::None || options.photons == 0 || !emitter.emits()) return result;
@@ -326,16 +338,19 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
                     {
                         const uint32_t first = static_cast<uint32_t>(c) * kChunk;
                         Chunk chunk; // neighbours of the list share cache lines
-                        ChunkTracer(traced, lights, emitter, options, seed, chunk)
+                        ChunkTracer(traced, lights, emitter, aim, options, seed, chunk)
                             .trace(first, std::min(kChunk, options.photons - first));
                         chunks[c] = std::move(chunk);
                     });
+    result.emitted.assign(emitter.aimBins(), 0u);
     std::vector<std::size_t> begin(count + 1);
     for (std::size_t c = 0; c < count; ++c)
     {
         begin[c + 1] = begin[c] + chunks[c].photons.size();
         result.rays += chunks[c].rays;
         result.dropped += chunks[c].dropped;
+        for (const uint32_t bin : chunks[c].bins)
+            if (bin != kInvalid) ++result.emitted[bin];
     }
     result.photons.resize(begin[count]);
     workers.forEach(count,

@@ -27,6 +27,7 @@ struct PhotonPassOptions
     uint32_t photons = 0;  ///< emitted a pass
     int maxBounces = 8;    ///< edges of a path from light to eye but for the camera ray
     uint32_t seed = 0;
+    bool aimAtViews = true; ///< learn from what views see: see PhotonPasses
 };
 
 struct TracedPhotons
@@ -34,11 +35,12 @@ struct TracedPhotons
     std::vector<Photon> photons;
     uint64_t rays = 0;
     uint64_t dropped = 0;  ///< not finite: left out
+    std::vector<uint32_t> emitted; ///< by bin of PhotonAim: those that were aimed there
 };
 
-/// Photons of pass number pass; the same for any number of threads.
+/// Photons of pass number pass; the same for any number of threads. aim: null, or of the emitter.
 TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& lights,
                            const PhotonEmitter& emitter, const PhotonPassOptions& options, int pass,
-                           const Workers& workers);
+                           const Workers& workers, const PhotonAim* aim = nullptr);
 
 } // namespace osgRayTrace::engine

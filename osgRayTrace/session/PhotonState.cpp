@@ -13,8 +13,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Width of a pixel on the surfaces that the view shows, in the median over a grid of its pixels [length];
-/// 0 if it shows none.
+/// Width of a pixel on the surfaces that the view shows, in the median over a grid of its pixels
+/// [length]; 0 if it shows none.
 float pixelWidth(const PassContext& context, int width, int height)
 {
     constexpr int kSide = 9;
@@ -35,9 +35,24 @@ float pixelWidth(const PassContext& context, int width, int height)
         widths.push_back(c.orthographic ? shift : across * hit->t / length);
     }
     if (widths.empty()) return 0.0f;
-    std::nth_element(widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2),
-                     widths.end());
+    std::nth_element(widths.begin(),
+                     widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2), widths.end());
     return widths[widths.size() / 2];
+}
+
+constexpr std::size_t kNotedPixels = 16384; ///< about as many of a pass are learnt from
+
+/// Squares relative to the radiance of the tile, as in RenderProgress::relativeError: dim places
+/// matter, too.
+void weighSeen(const RgbaLanes* rgba, std::vector<SeenPhoton>& seen)
+{
+    float sum = 0.0f;
+    for (int b = 0; b < kTileBlocks; ++b)
+        for (int i = 0; i < kLanes; ++i)
+            sum += luminance(Vec3(rgba[b].r[i], rgba[b].g[i], rgba[b].b[i]));
+    const float mean = sum / kTilePixels;
+    for (SeenPhoton& photon : seen)
+        photon.radiance *= photon.radiance / (mean * mean + 0.01f);
 }
 
 PhotonPassOptions passOptions(const RenderOptions& options)
@@ -47,6 +62,7 @@ PhotonPassOptions passOptions(const RenderOptions& options)
     result.photons = static_cast<uint32_t>(std::max(0, options.photons));
     result.maxBounces = options.maxBounces;
     result.seed = options.seed;
+    result.aimAtViews = options.aimAtViews;
     return result;
 }
 
@@ -57,21 +73,26 @@ void PhotonState::reset(int tileCount)
     _pass.reset();
     _least = _largest = 0.0f;
     _shrink = 1.0f;
-    _dark = _limited = _stored = false;
+    _dark = _limited = _stored = _aims = false;
     _pixels = static_cast<std::size_t>(tileCount) * kTilePixels;
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
     std::vector<HitPoints>().swap(_hitPoints);
+    std::vector<std::vector<SeenPhoton>>().swap(_seen);
+    std::vector<double>().swap(_seenSquares);
+    _passes->forgetSeen(this);
 }
 
-void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
-                              const PhotonPassOptions& options, const Workers& workers)
+void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced,
+                              const PassContext& context, const PhotonPassOptions& options,
+                              const Workers& workers)
 {
     const PhotonDensity density = _passes->density(traced, *context.lights, options, workers);
     _idle = options.use == PhotonUse::Caustics && (!density.caustics || options.photons == 0);
     _floor = 8.0f * 0x1p-23f * density.largestCoordinate;
     const float ceiling = std::max(density.sceneRadius, _floor);
-    const auto wanted = static_cast<float>(context.options.photonRadius / context.traced->scene().unit);
+    const auto wanted =
+        static_cast<float>(context.options.photonRadius / context.traced->scene().unit);
     if (wanted > 0.0f)
         _least = _largest = wanted;
     else
@@ -82,12 +103,23 @@ void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced, 
     }
     for (float* radius : {&_least, &_largest})
         *radius = std::clamp(*radius, _floor, ceiling);
+    // Sums over cells are rounded otherwise if the cells are: those of all views should be the
+    // same, though their pixels differ. Cells a few times too small cost little.
+    _cellRadius =
+        wanted > 0.0f || !(density.radius > 0.0f) ? _largest : std::max(density.radius, _floor);
+    while (2.0f * _cellRadius < _largest)
+        _cellRadius *= 4.0f;
+    if (options.aimAtViews && options.photons > 0 && density.aimBins > 0)
+    {
+        _seen.resize(_pixels / kTilePixels);
+        _seenSquares.assign(density.aimBins, 0.0);
+    }
     _dark = options.photons > 0 && !density.emits;
     _limited = wanted > 0.0f && _largest != wanted;
 }
 
-void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context, int pass,
-                          const Workers& workers)
+void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context,
+                          int pass, const Workers& workers)
 {
     const PhotonPassOptions options = passOptions(context.options);
     context.photonUse = options.use;
@@ -113,10 +145,29 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
         std::sqrt(globalRadiusSquared(pass, static_cast<double>(context.options.photonAlpha))));
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
     context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
-    const float cell = 2.0f * context.largestPhotonRadius;
+    sumUpSeen();
+    if (pass == PhotonPasses::kFirst && !_seenSquares.empty())
+    {
+        _aims = true;
+        _passes->noteSeen(traced, *context.lights, options, this, std::move(_seenSquares));
+        std::vector<std::vector<SeenPhoton>>().swap(_seen);
+        _seenSquares.clear();
+    }
+    const float cell = 2.0f * std::max(_floor, _cellRadius * _shrink);
     _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
     context.photons = &_pass->map;
     _stored |= _pass->map.size() > 0;
+}
+
+/// In the order of the tiles, so that no thread's luck is in the sums.
+void PhotonState::sumUpSeen()
+{
+    for (std::vector<SeenPhoton>& tile : _seen)
+    {
+        for (const SeenPhoton& photon : tile)
+            _seenSquares[photon.bin] += static_cast<double>(photon.radiance);
+        tile.clear();
+    }
 }
 
 PhotonNote PhotonState::note() const
@@ -134,35 +185,51 @@ HitPoints* PhotonState::hitPoints(int tile)
 
 std::size_t PhotonState::viewBytes() const
 {
-    std::size_t bytes = _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics);
+    std::size_t bytes =
+        _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics);
     for (const HitPoints& hits : _hitPoints)
         bytes += sizeof(HitPoints) + hits.bytes();
     return bytes;
 }
 
-void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered) const
+void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
+    if (!_seen.empty())
+    {
+        gathered.seen = &_seen[static_cast<std::size_t>(tile)];
+        gathered.seenFirst = static_cast<uint32_t>(pass);
+        gathered.seenStride =
+            static_cast<uint32_t>(std::clamp<std::size_t>(_pixels / kNotedPixels, 1, 16));
+    }
     gathered.separate = _local;
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         const std::size_t half = (pass & 1) ? _pixels : 0;
         const float radius = _local ? std::sqrt(_statistics[half + first + p].radius2)
                                     : _firstRadii[first + p] * _shrink;
-        gathered.radius[p] = radius > 0.0f ? std::max(radius, _floor) : 0.0f;
+        gathered.radius[p] = radius > 0.0f && !choosesAgain(pass) ? std::max(radius, _floor) : 0.0f;
     }
 }
 
-void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float alpha, RgbaLanes* rgba)
+void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float alpha,
+                      RgbaLanes* rgba)
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
+    if (gathered.seen) weighSeen(rgba, *gathered.seen);
     // By tile, so that no thread's luck decides which are kept.
-    if (HitPoints* hits = hitPoints(tile); hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())
+    if (HitPoints* hits = hitPoints(tile);
+        hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())
         *hits = HitPoints();
     if (!_local)
     {
         for (std::size_t p = 0; p < kTilePixels; ++p)
-            if (_firstRadii[first + p] == 0.0f) _firstRadii[first + p] = gathered.radius[p] / _shrink;
+        {
+            float& radius = _firstRadii[first + p];
+            const float chosen = gathered.radius[p] / _shrink;
+            if (radius == 0.0f || (choosesAgain(pass) && chosen > 0.0f && chosen < radius))
+                radius = chosen;
+        }
         return;
     }
     for (std::size_t p = 0; p < kTilePixels; ++p)

@@ -16,33 +16,39 @@ namespace osgRayTrace::engine
 
 class Workers;
 
-/// Chooses radii, holds the photons of the pass at work and, for the local schedule, the statistics of each
-/// pixel. Each pixel's first radius is the given one, or the smallest with kRadiusPhotons photons (radiusOf)
-/// from the width of a pixel up to the radius that holds kDensityPhotons photons around a photon in the
-/// median. Later radii follow the schedule. All are kept between the spacing of floats and the radius of the
-/// scene.
+/// Chooses radii, holds the photons of the pass at work and, for the local schedule, the statistics
+/// of each pixel. Each pixel's first radius is the given one, or the smallest with kRadiusPhotons
+/// photons (radiusOf) from the width of a pixel up to the radius that holds kDensityPhotons photons
+/// around a photon in the median. Later radii follow the schedule; where the first pass that is
+/// aimed at views has more photons, they become smaller by the same rule. All are kept between the
+/// spacing of floats and the radius of the scene.
 class PhotonState
 {
 public:
     explicit PhotonState(std::shared_ptr<PhotonPasses> passes) : _passes(std::move(passes)) {}
+    ~PhotonState() { _passes->forgetSeen(this); }
+    PhotonState(const PhotonState&) = delete;
+    PhotonState& operator=(const PhotonState&) = delete;
 
     /// A new image. tileCount: of the film.
     void reset(int tileCount);
 
-    /// Traces or finds the photons of a pass and sets them in context, whose integrator is chosen. Nothing to
-    /// do for integrators without photons.
+    /// Traces or finds the photons of a pass and sets them in context, whose integrator is chosen.
+    /// Nothing to do for integrators without photons.
     void prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context, int pass,
                  const Workers& workers);
 
     bool active() const { return _pass != nullptr; }
 
-    /// The tile's hit points if camera paths are the same in each pass, as those of Ppm; else null. What a tile
-    /// has of them goes if it is more than its share of kMostHitPointBytes: its paths are followed again then.
+    /// The tile's hit points if camera paths are the same in each pass, as those of Ppm; else null.
+    /// What a tile has of them goes if it is more than its share of kMostHitPointBytes: its paths
+    /// are followed again then.
     HitPoints* hitPoints(int tile);
     static constexpr std::size_t kMostHitPointBytes = std::size_t(1) << 29;
 
-    /// Radii for the tile before its pass; and what it found. For the local schedule that is added to rgba.
-    void begin(int tile, int pass, GatheredPhotons& gathered) const;
+    /// Radii for the tile before its pass; and what it found. For the local schedule that is added
+    /// to rgba.
+    void begin(int tile, int pass, GatheredPhotons& gathered);
     void end(int tile, int pass, const GatheredPhotons& gathered, float alpha, RgbaLanes* rgba);
 
     float radius() const { return _largest * _shrink; } ///< largest of the last pass [length]
@@ -53,24 +59,33 @@ public:
 
 private:
     void chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
-                      const PhotonPassOptions& options, const Workers& workers);
+                     const PhotonPassOptions& options, const Workers& workers);
+    void sumUpSeen();
+    bool choosesAgain(int pass) const { return pass == PhotonPasses::kFirst && _aims && !_local; }
 
     std::shared_ptr<PhotonPasses> _passes;
     std::shared_ptr<const PhotonPass> _pass;
     // Radii [length]
-    float _floor = 0.0f;    ///< none is smaller
-    float _least = 0.0f;    ///< of first radii; 0: not chosen yet
+    float _floor = 0.0f; ///< none is smaller
+    float _least = 0.0f; ///< of first radii; 0: not chosen yet
     float _largest = 0.0f;
-    float _shrink = 1.0f;   ///< of the pass at work against the first, global schedule
+    float _cellRadius = 0.0f; ///< half the size of the map's cells in the first pass
+    float _shrink = 1.0f;     ///< of the pass at work against the first, global schedule
     bool _local = false;
-    bool _idle = false;     ///< photons for caustics, but there are none: all paths are traced from the eye
-    bool _dark = false;     ///< there are photons to emit, but no light has power
-    bool _limited = false;  ///< the radius that was set is not the one in use
-    bool _stored = false;   ///< some pass has
+    bool _idle =
+        false; ///< photons for caustics, but there are none: all paths are traced from the eye
+    bool _dark = false;    ///< there are photons to emit, but no light has power
+    bool _limited = false; ///< the radius that was set is not the one in use
+    bool _stored = false;  ///< some pass has
+    bool _aims =
+        false; ///< from pass PhotonPasses::kFirst on photons are aimed at what this view has seen
     std::size_t _pixels = 0;                  ///< of all tiles
     std::vector<float> _firstRadii;           ///< tile, pixel; 0: not known; empty if local
     std::vector<LocalStatistics> _statistics; ///< half, tile, pixel; empty unless local
-    std::vector<HitPoints> _hitPoints;        ///< tile; empty unless paths are the same in each pass
+    std::vector<HitPoints> _hitPoints; ///< tile; empty unless paths are the same in each pass
+    std::vector<std::vector<SeenPhoton>>
+        _seen;                        ///< tile; of the pass at work; empty unless it is learnt from
+    std::vector<double> _seenSquares; ///< of all those passes: see PhotonPasses::noteSeen
 };
 
 } // namespace osgRayTrace::engine

@@ -70,9 +70,10 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getPhotonRadius() == 0.0f);
     CHECK(settings->getPhotonAlpha() == Approx(2.0f / 3.0f));
     CHECK(settings->getRadiusSchedule() == RayTraceSettings::GLOBAL);
+    CHECK(settings->getAimAtViews());
 }
 
-TEST_CASE("settings: the table names all seventeen options once", "[api][settings]")
+TEST_CASE("settings: the table names all eighteen options once", "[api][settings]")
 {
     std::set<std::string> names;
     std::set<std::string> variables;
@@ -81,11 +82,11 @@ TEST_CASE("settings: the table names all seventeen options once", "[api][setting
         names.insert(option.name);
         variables.insert(option.environment);
     }
-    CHECK(names.size() == 17);
-    CHECK(variables.size() == 17);
+    CHECK(names.size() == 18);
+    CHECK(variables.size() == 18);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 17);
+    CHECK(RayTraceSettings::options().size() == 18);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")

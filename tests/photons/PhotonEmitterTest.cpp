@@ -28,12 +28,24 @@ struct Flux
     Estimate ball;  ///< that meets the ball's sphere
 };
 
-Flux emitted(const SceneBuilder& builder, float aimedShare)
+/// Lights and bins whose weights differ as far as they can.
+std::shared_ptr<const PhotonAim> anyAim(const PhotonEmitter& emitter)
+{
+    Uniform uniform(5);
+    std::vector<uint32_t> sent(emitter.aimBins(), 100u);
+    std::vector<double> seen(emitter.aimBins());
+    for (double& squares : seen)
+        squares = uniform() < 0.5f ? 0.0 : double(uniform());
+    return emitter.learn(sent, seen);
+}
+
+Flux emitted(const SceneBuilder& builder, float aimedShare, bool learnt = false)
 {
     const auto traced = builder.build(1);
     const PhotonEmitter emitter(*traced, traced->scene().lights, aimedShare);
     REQUIRE(emitter.emits());
     REQUIRE(emitter.hasTargets());
+    const auto aim = learnt ? anyAim(emitter) : nullptr;
     Uniform uniform(23);
     Flux flux;
     for (int k = 0; k < 300000; ++k)
@@ -43,7 +55,7 @@ Flux emitted(const SceneBuilder& builder, float aimedShare)
         point.aim = uniform();
         point.position = Vec2(uniform(), uniform());
         point.direction = Vec2(uniform(), uniform());
-        const auto start = emitter.emit(point);
+        const auto start = emitter.emit(point, aim.get());
         bool meets = false;
         if (start)
         {
@@ -58,23 +70,23 @@ Flux emitted(const SceneBuilder& builder, float aimedShare)
     return flux;
 }
 
-/// Demands the analytic flux without aiming and with two shares of it, and that the ball gets the
-/// same.
+/// Demands the analytic flux without aiming, with two shares of it and with weights, and that the ball gets
+/// the same.
 void checkFlux(const SceneBuilder& builder, double expected)
 {
     const Flux plain = emitted(builder, 0.0f);
     CAPTURE(plain.total.mean(), plain.total.standardError(), expected);
     CHECK(plain.total.agrees(expected, 1e-5 * expected));
-    for (const float share : {0.25f, 0.9f})
+    for (const auto& [share, learnt] : {std::pair(0.25f, false), {0.9f, false}, {0.9f, true}})
     {
-        const Flux aimed = emitted(builder, share);
-        CAPTURE(share, aimed.total.mean(), aimed.total.standardError());
+        const Flux aimed = emitted(builder, share, learnt);
+        CAPTURE(share, learnt, aimed.total.mean(), aimed.total.standardError());
         CHECK(aimed.total.agrees(expected, 1e-5 * expected));
         const double spread = std::hypot(plain.ball.standardError(), aimed.ball.standardError());
         CAPTURE(plain.ball.mean(), aimed.ball.mean(), spread);
         CHECK(plain.ball.mean() > 0.0);
         CHECK(std::abs(plain.ball.mean() - aimed.ball.mean()) <= 4.0 * spread);
-        if (share > 0.5f) CHECK(aimed.ball.standardError() < plain.ball.standardError());
+        if (share > 0.5f && !learnt) CHECK(aimed.ball.standardError() < plain.ball.standardError());
     }
 }
 
@@ -82,8 +94,8 @@ constexpr double kPiD = 3.14159265358979323846;
 
 } // namespace
 
-// Each case: four means within 4 standard errors and two differences; a false alarm of all has a
-// probability of 4e-4.
+// Each call of checkFlux: four means within 4 standard errors and three differences; a false alarm of all twelve calls has a
+// probability of 5e-3 at most.
 TEST_CASE("photon emission: a parallelogram, one side and two", "[photons][statistics]")
 {
     for (const bool twoSided : {false, true})
@@ -196,9 +208,11 @@ TEST_CASE("photon emission: sixteen at once are what they are one by one", "[pho
             builder.addQuadLight(corner, edgeU, edgeV, Vec3(3, 2, 1), kind == TwoSided);
         if (kind == Two) builder.addQuadLight({1, 1, 0.5f}, edgeU, edgeV, Vec3(1.0f), true);
         const auto traced = builder.build(1);
-        for (const float share : {0.0f, 0.25f, 0.9f})
+        for (const auto& [share, learnt] :
+             {std::pair(0.0f, false), {0.25f, false}, {0.9f, false}, {0.9f, true}})
         {
             const PhotonEmitter emitter(*traced, traced->scene().lights, share);
+            const auto aim = learnt ? anyAim(emitter) : nullptr;
             Uniform uniform(31);
             int different = 0, started = 0;
             for (int block = 0; block < 2000; ++block)
@@ -210,13 +224,14 @@ TEST_CASE("photon emission: sixteen at once are what they are one by one", "[pho
                           &points.directionU, &points.directionV})
                         (*lanes)[i] = uniform();
                 StartLanes starts;
-                const LaneMask alive = emitter.emitLanes(points, starts);
+                const LaneMask alive = emitter.emitLanes(points, starts, aim.get());
                 for (int i = 0; i < kLanes; ++i)
                 {
                     const auto start = emitter.emit({points.light[i],
                                                      points.aim[i],
                                                      {points.positionU[i], points.positionV[i]},
-                                                     {points.directionU[i], points.directionV[i]}});
+                                                     {points.directionU[i], points.directionV[i]}},
+                                                    aim.get());
                     started += start.has_value();
                     const bool has = (alive >> i) & 1u;
                     if (!start || !has)
@@ -229,13 +244,14 @@ TEST_CASE("photon emission: sixteen at once are what they are one by one", "[pho
                                          starts.direction.z[i]);
                     const Vec3 power(starts.power.x[i], starts.power.y[i], starts.power.z[i]);
                     REQUIRE(starts.light[i] == start->light);
+                    REQUIRE(starts.bin[i] == start->bin);
                     REQUIRE(glm::length(origin - start->origin) < 1e-5f);
                     REQUIRE(glm::length(direction - start->direction) < 2e-6f);
                     different +=
                         glm::length(power - start->power) > 1e-4f * glm::length(start->power);
                 }
             }
-            CAPTURE(int(kind), share, different);
+            CAPTURE(int(kind), share, learnt, different);
             CHECK(started > 12000);
             // Directions within roundings of a cone's rim are in it or not.
             CHECK(different <= 3);

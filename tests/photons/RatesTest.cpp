@@ -204,6 +204,8 @@ RenderOptions optionsFor(IntegratorKind kind, RadiusSchedule schedule, int photo
     options.radiusSchedule = schedule;
     options.photons = photons;
     options.photonRadius = radius;
+    // The formulas are of passes that are all alike: later ones would be better.
+    options.aimAtViews = false;
     return options;
 }
 

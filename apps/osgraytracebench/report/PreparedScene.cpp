@@ -179,6 +179,7 @@ uint64_t hashOf(const PreparedScene& prepared, const Method& method)
     hasher.add(method.options.photonRadius);
     hasher.add(method.options.photonAlpha);
     hasher.add(method.options.radiusSchedule);
+    hasher.add(method.options.aimAtViews);
     return hasher.value();
 }
 

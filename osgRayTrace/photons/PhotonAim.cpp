@@ -1,0 +1,115 @@
+// PhotonAim.cpp - learns from what was seen of photons where to send more of them. Layer: photons.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/photons/PhotonAim.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Share of the weights that is learnt: a bin whose use was missed loses no more than the rest.
+constexpr double kLearnt = 0.7;
+
+/// Bins are few enough to have been sent dozens of photons. To those with fewer the mean over their
+/// target counts as much as this many.
+constexpr double kPriorPhotons = 4.0;
+
+/// Walks along weights to the one that holds u, which is rescaled to [0,1) within it.
+uint32_t pickScaled(const float* weights, uint32_t count, float sum, float& u)
+{
+    float at = u * sum;
+    uint32_t k = 0;
+    for (; k + 1 < count && at >= weights[k]; ++k)
+        at -= weights[k];
+    u = std::min(std::max(at / weights[k], 0.0f), 0x1.fffffep-1f);
+    return k;
+}
+
+} // namespace
+
+PhotonAim::PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted,
+                     const std::vector<double>& seen, const std::vector<float>& pmf)
+    : _targets(targets), _weights(emitted.size(), 1.0f), _means(emitted.size() / kAimBins, 1.0f)
+{
+    const std::size_t perLight = std::size_t(targets) * kAimBins;
+    const std::size_t lights = perLight ? emitted.size() / perLight : 0;
+    std::vector<double> useful(lights), sent(lights);
+    for (std::size_t light = 0; light < lights; ++light)
+    {
+        std::vector<double> wanted(perLight);
+        const std::size_t first = light * perLight;
+        for (std::size_t target = 0; target < targets; ++target)
+        {
+            double photons = 0.0, squares = 0.0;
+            for (std::size_t b = target * kAimBins; b < (target + 1) * kAimBins; ++b)
+            {
+                photons += emitted[first + b];
+                squares += seen[first + b];
+            }
+            if (!(photons > 0.0) || !std::isfinite(squares)) continue;
+            for (std::size_t b = target * kAimBins; b < (target + 1) * kAimBins; ++b)
+                wanted[b] = std::sqrt((seen[first + b] + kPriorPhotons * squares / photons) /
+                                      (emitted[first + b] + kPriorPhotons));
+        }
+        for (std::size_t b = 0; b < perLight; ++b)
+        {
+            useful[light] += emitted[first + b] * wanted[b];
+            sent[light] += emitted[first + b];
+        }
+        if (!(useful[light] > 0.0)) continue;
+        const double unit = sent[light] / useful[light]; // photons on the whole stay as many
+        for (std::size_t b = 0; b < perLight; ++b)
+            _weights[first + b] = static_cast<float>(1.0 - kLearnt + kLearnt * unit * wanted[b]);
+    }
+    for (std::size_t t = 0; t < _means.size(); ++t)
+    {
+        float sum = 0.0f;
+        for (uint32_t ring = 0; ring < kAimRings; ++ring)
+        {
+            const float* sectors = &_weights[t * kAimBins + ring * kAimSectors];
+            _rings.push_back(std::accumulate(sectors, sectors + kAimSectors, 0.0f));
+            sum += _rings.back();
+        }
+        _means[t] = sum / kAimBins;
+    }
+
+    // Lights get photons in proportion to the use of theirs.
+    double allUseful = 0.0, allSent = 0.0;
+    for (std::size_t light = 0; light < lights; ++light)
+    {
+        allUseful += useful[light];
+        allSent += sent[light];
+    }
+    double sum = 0.0;
+    std::vector<double> sums;
+    for (std::size_t e = 0; e < pmf.size(); ++e)
+    {
+        const uint32_t light = lightOf(e, pmf.size());
+        double factor = 1.0; // also of lights that cannot aim, as those within a target
+        if (allUseful > 0.0 && sent[light] > 0.0)
+            factor =
+                1.0 - kLearnt + kLearnt * (useful[light] / allUseful) * (allSent / sent[light]);
+        sums.push_back(sum += static_cast<double>(pmf[e]) * factor);
+    }
+    for (const double s : sums)
+        _cumulative.push_back(static_cast<float>(s / sum));
+    if (!_cumulative.empty()) _cumulative.back() = 1.0f;
+}
+
+Vec2 PhotonAim::sample(uint32_t light, uint32_t target, Vec2 u, uint32_t& bin) const
+{
+    const std::size_t t = light * _targets + target;
+    const float* weights = &_weights[t * kAimBins];
+    const float* rings = &_rings[t * kAimRings];
+    const uint32_t ring = pickScaled(rings, kAimRings, _means[t] * kAimBins, u.y);
+    const uint32_t sector = pickScaled(weights + ring * kAimSectors, kAimSectors, rings[ring], u.x);
+    bin = ring * kAimSectors + sector;
+    return Vec2((static_cast<float>(sector) + u.x) / kAimSectors,
+                (static_cast<float>(ring) + u.y) / kAimRings);
+}
+
+} // namespace osgRayTrace::engine
