@@ -172,6 +172,13 @@ PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>
         case LightKind::Directional:
             power = double(luminance(light.diffuse)) * kPi * kPi * double(_scene.radius) * _scene.radius;
             break;
+        case LightKind::Environment:
+        {
+            const PlacedEnvironment* environment = traced.lights().shiningEnvironment();
+            if (environment && environment->light() == i)
+                power = double(luminance(environment->integral())) * kPi * double(_scene.radius) * _scene.radius;
+            break;
+        }
         }
         if (!(power > 0.0) || !std::isfinite(power)) continue;
         _emitters.push_back(i);
@@ -196,7 +203,10 @@ std::optional<PhotonStart> PhotonEmitter::emit(const EmissionPoint& point) const
     case LightKind::Parallelogram:
     case LightKind::Mesh: start = emitArea(light, point); break;
     case LightKind::Point: start = emitPoint(light, point); break;
-    case LightKind::Directional: start = emitDirectional(light, point); break;
+    case LightKind::Directional:
+        start = emitParallel(_lights[light].direction, _lights[light].diffuse * kPi, point);
+        break;
+    case LightKind::Environment: start = emitEnvironment(point); break;
     }
     if (!start || !(pmf > 0.0f)) return std::nullopt;
     start->power /= pmf;
@@ -344,9 +354,19 @@ std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const Emissi
     return start;
 }
 
-std::optional<PhotonStart> PhotonEmitter::emitDirectional(uint32_t index, const EmissionPoint& point) const
+/// A direction as the environment is bright, then as from a directional light there.
+std::optional<PhotonStart> PhotonEmitter::emitEnvironment(const EmissionPoint& point) const
 {
-    const Light& light = _lights[index];
+    const EnvironmentSample sample =
+        _traced.lights().environment()->sample(point.direction.x, point.direction.y);
+    if (!(sample.pdfW > 0.0f)) return std::nullopt;
+    return emitParallel(-sample.direction, sample.radiance / sample.pdfW, point);
+}
+
+/// Light that travels in one direction; irradiance: across it.
+std::optional<PhotonStart> PhotonEmitter::emitParallel(Vec3 direction, Vec3 irradiance,
+                                                       const EmissionPoint& point) const
+{
     if (!(_scene.radius > 0.0f)) return std::nullopt;
     const float sceneArea = kPi * _scene.radius * _scene.radius;
     float total = 0.0f;
@@ -370,12 +390,12 @@ std::optional<PhotonStart> PhotonEmitter::emitDirectional(uint32_t index, const 
     float s, c;
     sinCosTurn(point.position.x, s, c);
     const float radius = disc->radius * std::sqrt(point.position.y);
-    const Vec3 q = disc->centre + toWorld(light.direction, Vec3(radius * c, radius * s, 0.0f));
+    const Vec3 q = disc->centre + toWorld(direction, Vec3(radius * c, radius * s, 0.0f));
 
     const auto isIn = [&](const Sphere& sphere)
     {
         const Vec3 d = q - sphere.centre;
-        const Vec3 across = d - light.direction * glm::dot(d, light.direction);
+        const Vec3 across = d - direction * glm::dot(d, direction);
         return glm::dot(across, across) <= sphere.radius * sphere.radius * 1.000002f;
     };
     float pdf = isIn(_scene) ? (1.0f - share) / sceneArea : 0.0f;
@@ -389,9 +409,9 @@ std::optional<PhotonStart> PhotonEmitter::emitDirectional(uint32_t index, const 
     if (!(pdf > 0.0f)) return std::nullopt;
     PhotonStart start;
     const Vec3 toCentre = _scene.centre - q;
-    start.origin = q + light.direction * (glm::dot(toCentre, light.direction) - 2.0f * _scene.radius);
-    start.direction = light.direction;
-    start.power = light.diffuse * (kPi / pdf);
+    start.origin = q + direction * (glm::dot(toCentre, direction) - 2.0f * _scene.radius);
+    start.direction = direction;
+    start.power = irradiance / pdf;
     return start;
 }
 

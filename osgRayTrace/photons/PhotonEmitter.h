@@ -41,7 +41,7 @@ struct StartLanes
 };
 
 /// Chooses lights in proportion to power, and directions by a mixture: a share of them uniformly within the
-/// cones (for directional lights: discs) that hold the mirror-like and transmissive instances, the rest as
+/// cones (for distant lights: discs) that hold the mirror-like and transmissive instances, the rest as
 /// the light shines. The density is that of the mixture, so every share gives the same mean
 /// [Veach97, sect. 9.2]. Thread safe.
 class PhotonEmitter
@@ -84,7 +84,8 @@ private:
 
     std::optional<PhotonStart> emitArea(uint32_t light, const EmissionPoint& point) const;
     std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point) const;
-    std::optional<PhotonStart> emitDirectional(uint32_t light, const EmissionPoint& point) const;
+    std::optional<PhotonStart> emitEnvironment(const EmissionPoint& point) const;
+    std::optional<PhotonStart> emitParallel(Vec3 direction, Vec3 irradiance, const EmissionPoint& point) const;
     LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts) const;
     int conesFrom(Vec3 origin, Aim* aims, float& total) const;
     float aimedPdf(const Aim* aims, int count, float total, Vec3 direction) const;

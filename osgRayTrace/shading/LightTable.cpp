@@ -60,7 +60,7 @@ std::vector<float> cumulativeOf(const std::vector<double>& weights)
 
 } // namespace
 
-LightTable::LightTable(const Scene& scene)
+LightTable::LightTable(const Scene& scene, const LightTable* previous)
     : _scene(&scene), _areas(scene.lights.size(), 0.0f), _normals(scene.lights.size(), Vec3(0.0f)),
       _offsets(scene.lights.size(), 0.0f), _pmfs(scene.lights.size(), 0.0f), _meshes(scene.lights.size())
 {
@@ -68,6 +68,13 @@ LightTable::LightTable(const Scene& scene)
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
     {
         const Light& light = scene.lights[i];
+        if (light.kind == LightKind::Environment)
+        {
+            if (!_environment)
+                _environment = std::make_unique<PlacedEnvironment>(
+                    light, i, previous ? previous->environment() : nullptr);
+            continue;
+        }
         if (!isArea(light))
         {
             // Black ones would each cost every surface point a look.
