@@ -42,7 +42,8 @@ void EnvironmentLight::setScale(const osg::Vec3& value)
 {
     if (!std::isfinite(value.x()) || !std::isfinite(value.y()) || !std::isfinite(value.z()))
     {
-        engine::warnOnce("EnvironmentLight '" + getName() + "': scale is not finite, left as it was");
+        engine::warnOnce("EnvironmentLight '" + getName() +
+                         "': scale is not finite, left as it was");
         return;
     }
     const osg::Vec3 clamped(std::max(value.x(), 0.0f), std::max(value.y(), 0.0f),

@@ -1,4 +1,4 @@
-// main.cpp - osgraytrace_make_data FOLDER: writes our own scenes there as .osgt.
+// main.cpp - osgraytrace_make_data FOLDER: writes our own scenes there as .osgt, and a sky.
 // SPDX-License-Identifier: MIT
 #include "Scenes.h"
 
@@ -34,6 +34,7 @@ int main(int argc, char** argv)
         {"rings.osgt", rings()},
         {"glasses.osgt", glasses()},
         {"prism.osgt", prism()},
+        {"terrace.osgt", terrace()},
     };
     for (const File& file : files)
     {
@@ -42,5 +43,7 @@ int main(int argc, char** argv)
         std::cerr << "osgraytrace_make_data: cannot write " << path << '\n';
         return 4;
     }
-    return 0;
+    const std::string wrong = writeSky(std::string(argv[1]) + "/sky.exr");
+    if (!wrong.empty()) std::cerr << "osgraytrace_make_data: " << wrong << '\n';
+    return wrong.empty() ? 0 : 4;
 }

@@ -27,7 +27,8 @@ std::vector<const osg::Image*> imagesOf(const EnvironmentLight& source)
     return images;
 }
 
-/// The axes of the image in engine space, made unit and perpendicular: the zenith first, then the middle.
+/// The axes of the image in engine space, made unit and perpendicular: the zenith first, then the
+/// middle.
 Mat3 engineFromMap(const osg::Quat& rotation, const osg::Matrixd& engineFromLocal, bool& plain)
 {
     osg::Quat unit = rotation / rotation.length();
@@ -35,7 +36,8 @@ Mat3 engineFromMap(const osg::Quat& rotation, const osg::Matrixd& engineFromLoca
     { return osg::Matrixd::transform3x3(unit * v, engineFromLocal); };
     osg::Vec3d x = axis({1.0, 0.0, 0.0}), y = axis({0.0, 1.0, 0.0}), z = axis({0.0, 0.0, 1.0});
     const double scale = z.length();
-    plain = std::fabs(x.length() - scale) < 1e-4 * scale && std::fabs(y.length() - scale) < 1e-4 * scale &&
+    plain = std::fabs(x.length() - scale) < 1e-4 * scale &&
+            std::fabs(y.length() - scale) < 1e-4 * scale &&
             std::fabs(x * y) + std::fabs(y * z) + std::fabs(z * x) < 1e-4 * scale * scale;
     z.normalize();
     y.normalize();
@@ -51,7 +53,8 @@ Mat3 engineFromMap(const osg::Quat& rotation, const osg::Matrixd& engineFromLoca
 
 std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& source,
                                                    const osg::Matrixd& engineFromLocal, bool linear,
-                                                   const std::string& path, ConversionReport& report)
+                                                   const std::string& path,
+                                                   ConversionReport& report)
 {
     const std::vector<const osg::Image*> images = imagesOf(source);
     const std::string name = "environment light '" + path + "'";
@@ -70,17 +73,22 @@ std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& sourc
             warnOnce(name + ": " + std::to_string(number) + message);
             _counts[what] = number;
         };
-        note("repaired.environment-not-finite", replaced.notFinite, " pixels are not finite, taken as black");
-        note("repaired.environment-negative", replaced.negative, " pixels are negative, taken as 0");
-        note("repaired.environment-too-bright", replaced.tooBright, " pixels are above 1e30, taken as that");
+        note("repaired.environment-not-finite", replaced.notFinite,
+             " pixels are not finite, taken as black");
+        note("repaired.environment-negative", replaced.negative,
+             " pixels are negative, taken as 0");
+        note("repaired.environment-too-bright", replaced.tooBright,
+             " pixels are above 1e30, taken as that");
         remember(images, linear);
     }
     if (!_image)
     {
-        report.warn("skipped.environment-light", name,
-                    images[0] ? "image is empty, too large, of a format that cannot be read, or its cube is "
-                                "not of six equal squares; skipped"
-                              : "has no image: was its file found? skipped");
+        report.warn(
+            "skipped.environment-light", name,
+            images[0]
+                ? "image is empty, too large, of a format that cannot be read, or its cube is "
+                  "not of six equal squares; skipped"
+                : "has no image: was its file found? skipped");
         return std::nullopt;
     }
     report.add(_counts);
@@ -100,13 +108,14 @@ std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& sourc
     return light;
 }
 
-bool EnvironmentConverter::isCurrent(const std::vector<const osg::Image*>& images, bool linear) const
+bool EnvironmentConverter::isCurrent(const std::vector<const osg::Image*>& images,
+                                     bool linear) const
 {
     if (_linear != linear || images.size() != _sources.size()) return false;
     const auto same = [](const osg::Image* image, const Source& source)
     {
-        return image && source.image.get() == image && source.modified == image->getModifiedCount() &&
-               source.data == image->data();
+        return image && source.image.get() == image &&
+               source.modified == image->getModifiedCount() && source.data == image->data();
     };
     return std::equal(images.begin(), images.end(), _sources.begin(), same);
 }
@@ -116,7 +125,8 @@ void EnvironmentConverter::remember(const std::vector<const osg::Image*>& images
     _linear = linear;
     _sources.clear();
     for (const osg::Image* image : images)
-        _sources.push_back({image, image ? image->getModifiedCount() : 0u, image ? image->data() : nullptr});
+        _sources.push_back(
+            {image, image ? image->getModifiedCount() : 0u, image ? image->data() : nullptr});
 }
 
 } // namespace osgRayTrace::engine

@@ -101,11 +101,13 @@ bool readOthers(const osg::Image& image, bool decodeSrgb, ReplacedPixels& replac
 
 bool read(const osg::Image& image, bool decodeSrgb, ReplacedPixels& replaced, Pixels& pixels)
 {
-    if (!image.data() || image.s() < 1 || image.t() < 1 || int64_t(image.s()) * image.t() > kMostPixels)
+    if (!image.data() || image.s() < 1 || image.t() < 1 ||
+        int64_t(image.s()) * image.t() > kMostPixels)
         return false;
     pixels.width = image.s();
     pixels.height = image.t();
-    pixels.radiance.resize(static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
+    pixels.radiance.resize(static_cast<std::size_t>(pixels.width) *
+                           static_cast<std::size_t>(pixels.height));
     if (isPlainFloat(image))
         readFloats(image, pixels);
     else if (!readOthers(image, decodeSrgb, replaced, pixels))
@@ -144,15 +146,19 @@ Vec3 cubeRadiance(const std::array<Pixels, 6>& faces, Vec3d d)
     }
     const Pixels& pixels = faces[static_cast<std::size_t>(face)];
     const auto index = [&](double at)
-    { return std::clamp(static_cast<int>((at / major + 1.0) * 0.5 * pixels.width), 0, pixels.width - 1); };
-    return pixels.radiance[static_cast<std::size_t>(index(t)) * static_cast<std::size_t>(pixels.width) +
-                           static_cast<std::size_t>(index(s))];
+    {
+        return std::clamp(static_cast<int>((at / major + 1.0) * 0.5 * pixels.width), 0,
+                          pixels.width - 1);
+    };
+    return pixels
+        .radiance[static_cast<std::size_t>(index(t)) * static_cast<std::size_t>(pixels.width) +
+                  static_cast<std::size_t>(index(s))];
 }
 
 } // namespace
 
-std::shared_ptr<const EnvironmentImage> environmentFromImage(const osg::Image& image, bool decodeSrgb,
-                                                             ReplacedPixels& replaced)
+std::shared_ptr<const EnvironmentImage>
+environmentFromImage(const osg::Image& image, bool decodeSrgb, ReplacedPixels& replaced)
 {
     Pixels pixels;
     if (!read(image, decodeSrgb, replaced, pixels)) return nullptr;
@@ -163,14 +169,16 @@ std::shared_ptr<const EnvironmentImage> environmentFromImage(const osg::Image& i
     if (image.getOrigin() != osg::Image::TOP_LEFT) return environment;
     for (int y = 0; y < pixels.height / 2; ++y)
     {
-        const auto row = [&](int r) { return environment->radiance.begin() + std::ptrdiff_t(r) * pixels.width; };
+        const auto row = [&](int r)
+        { return environment->radiance.begin() + std::ptrdiff_t(r) * pixels.width; };
         std::swap_ranges(row(y), row(y) + pixels.width, row(pixels.height - 1 - y));
     }
     return environment;
 }
 
-std::shared_ptr<const EnvironmentImage> environmentFromCube(const std::vector<const osg::Image*>& images,
-                                                            bool decodeSrgb, ReplacedPixels& replaced)
+std::shared_ptr<const EnvironmentImage>
+environmentFromCube(const std::vector<const osg::Image*>& images, bool decodeSrgb,
+                    ReplacedPixels& replaced)
 {
     if (images.size() != 6) return nullptr;
     std::array<Pixels, 6> faces;

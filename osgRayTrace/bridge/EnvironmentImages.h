@@ -21,13 +21,14 @@ struct ReplacedPixels
     uint64_t tooBright = 0; ///< above 1e30, by that
 };
 
-/// By longitude and latitude. Image::getOrigin() is heeded: no user sets texture coordinates here. Null if the
-/// format cannot be read or there are no pixels, or more than 2^28.
-std::shared_ptr<const EnvironmentImage> environmentFromImage(const osg::Image& image, bool decodeSrgb,
-                                                             ReplacedPixels& replaced);
+/// By longitude and latitude. Image::getOrigin() is heeded: no user sets texture coordinates here.
+/// Null if the format cannot be read or there are no pixels, or more than 2^28.
+std::shared_ptr<const EnvironmentImage>
+environmentFromImage(const osg::Image& image, bool decodeSrgb, ReplacedPixels& replaced);
 
 /// Six square faces of one size in the order of osg::TextureCubeMap::Face; else null.
-std::shared_ptr<const EnvironmentImage> environmentFromCube(const std::vector<const osg::Image*>& faces,
-                                                            bool decodeSrgb, ReplacedPixels& replaced);
+std::shared_ptr<const EnvironmentImage>
+environmentFromCube(const std::vector<const osg::Image*>& faces, bool decodeSrgb,
+                    ReplacedPixels& replaced);
 
 } // namespace osgRayTrace::engine

@@ -62,7 +62,8 @@ Vec3 directionOf(const RayBlock& ray, int i)
 } // namespace
 
 void environmentLanes(const PassContext& context, const SurfaceLanes& surface, LaneMask active,
-                      LaneMask through, const FloatLanes& u, const FloatLanes& v, LightLanes& samples)
+                      LaneMask through, const FloatLanes& u, const FloatLanes& v,
+                      LightLanes& samples)
 {
     const PlacedEnvironment& environment = *context.traced->lights().environment();
     const bool uniform = context.options.environmentSampling == EnvironmentSampling::Uniform;
@@ -88,13 +89,14 @@ void stratumLanes(const EnvironmentStratum& stratum, float inversePmf, const Sur
     for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        const bool lit = setLane(surface, i, stratum.direction, (through >> i) & 1u, stratum.integral,
-                                 inversePmf, samples);
+        const bool lit = setLane(surface, i, stratum.direction, (through >> i) & 1u,
+                                 stratum.integral, inversePmf, samples);
         samples.lit |= static_cast<LaneMask>(lit) << i;
     }
 }
 
-float environmentPdfW(const PassContext& context, const PlacedEnvironment& environment, Vec3 direction)
+float environmentPdfW(const PassContext& context, const PlacedEnvironment& environment,
+                      Vec3 direction)
 {
     const bool uniform = context.options.environmentSampling == EnvironmentSampling::Uniform;
     return uniform ? kUniformPdfW : environment.pdfW(direction);

@@ -1,10 +1,13 @@
 // PathEnvironment.cpp - light that paths get from the environment, by chance and by sampling it.
 // Layer: integrators. SPDX-License-Identifier: MIT
 //
-// Importance, Uniform:  one direction a bounce and the ray that the surface sent on, by multiple importance
+// Importance, Uniform:  one direction a bounce and the ray that the surface sent on, by multiple
+// importance
 //                       sampling with the power heuristic [Veach97, sect. 9.2].
-// Structured:           the sum over all strata where the camera ray ends, one of them by chance further on;
-//                       rays that a rough surface sent on bring nothing, mirror-like ones what is there.
+// Structured:           the sum over all strata where the camera ray ends, one of them by chance
+// further on;
+//                       rays that a rough surface sent on bring nothing, mirror-like ones what is
+//                       there.
 #include "osgRayTrace/integrators/EnvironmentLanes.h"
 #include "osgRayTrace/integrators/HitShading.h"
 #include "osgRayTrace/integrators/PathBounce.h"
@@ -18,7 +21,8 @@ namespace
 /// Apart from the dimensions of all bounces: scenes without an environment keep their sequences.
 constexpr uint32_t kEnvironmentDimension = 0x10000u;
 
-void addSamples(Tile& tile, PathBlock& block, const Bounce& bounce, LightLanes& samples, LaneMask alone)
+void addSamples(Tile& tile, PathBlock& block, const Bounce& bounce, LightLanes& samples,
+                LaneMask alone)
 {
     countRays(tile, block, samples.lit);
     const LaneMask visible = visibleLanes(tile.context, samples, tile.counts);
@@ -26,7 +30,8 @@ void addSamples(Tile& tile, PathBlock& block, const Bounce& bounce, LightLanes& 
 }
 
 /// One of the strata for each lane, all alike: each stands for about the same share of the light.
-void sampleOneStratum(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMask lanes, const FloatLanes& u)
+void sampleOneStratum(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMask lanes,
+                      const FloatLanes& u)
 {
     const std::vector<EnvironmentStratum>& strata = *tile.context.strata;
     const auto count = static_cast<uint32_t>(strata.size());
@@ -39,8 +44,8 @@ void sampleOneStratum(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMa
     for (LaneMask m = lanes; m; m &= m - 1)
     {
         const int i = __builtin_ctz(m);
-        stratumLanes(strata[chosen[i]], static_cast<float>(count), bounce.surface, 1u << i, bounce.through,
-                     samples);
+        stratumLanes(strata[chosen[i]], static_cast<float>(count), bounce.surface, 1u << i,
+                     bounce.through, samples);
         lit |= samples.lit;
     }
     samples.lit = lit;
@@ -65,7 +70,8 @@ void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const
     }
     FloatLanes u, v;
     dimensionPoints(seeds, tile.context.key.index,
-                    bounceDimension(bounce.number, DimensionLightPoint) + kEnvironmentDimension, u, v);
+                    bounceDimension(bounce.number, DimensionLightPoint) + kEnvironmentDimension, u,
+                    v);
     if (tile.context.strata)
     {
         sampleOneStratum(tile, block, bounce, lanes, u);
@@ -78,7 +84,8 @@ void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const
 void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int number, PhotonUse use)
 {
     const PlacedEnvironment* environment = tile.context.traced->lights().shiningEnvironment();
-    if (number == 0 && !visibleEnvironment(tile.context)) return; // the clear colour is not ours to add
+    if (number == 0 && !visibleEnvironment(tile.context))
+        return; // the clear colour is not ours to add
     for (; missed; missed &= missed - 1)
     {
         const int i = __builtin_ctz(missed);
@@ -86,7 +93,8 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
         if (number == 0) tile.sums.a[block.pixel[i] & kPixelBits] = 1.0f;
         if (!(block.pixel[i] & kScattered))
         {
-            tile.sums.add(block.pixel[i], throughput * radianceBehind(tile.context, block.rays.ray, i));
+            tile.sums.add(block.pixel[i],
+                          throughput * radianceBehind(tile.context, block.rays.ray, i));
             continue;
         }
         if (!environment) continue; // a backdrop is no light
@@ -96,7 +104,8 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
         const Vec3 direction(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
                              block.rays.ray.directionZ[i]);
         const float weight =
-            sampled ? powerHeuristic(block.pdfW[i], environmentPdfW(tile.context, *environment, direction))
+            sampled ? powerHeuristic(block.pdfW[i],
+                                     environmentPdfW(tile.context, *environment, direction))
                     : 1.0f;
         tile.sums.add(block.pixel[i], throughput * environment->radiance(direction) * weight);
     }

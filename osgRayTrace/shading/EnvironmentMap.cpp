@@ -13,8 +13,8 @@ namespace
 
 constexpr double kTwoPi = 6.283185307179586476925;
 
-/// Sums are kept for each block, what is within is added up when a sample falls into it: half a byte a pixel
-/// instead of eight.
+/// Sums are kept for each block, what is within is added up when a sample falls into it: half a
+/// byte a pixel instead of eight.
 constexpr int kBlock = 16;
 
 /// Index of the entry of a running sum that target, below the last one, falls into.
@@ -35,7 +35,8 @@ Vec2 imagePoint(const EnvironmentImage& image, Vec3 d)
 } // namespace
 
 /// Sums are double: in float, those of a bright pixel and of dim ones would lose the dim ones.
-EnvironmentMap::EnvironmentMap(std::shared_ptr<const EnvironmentImage> image) : _image(std::move(image))
+EnvironmentMap::EnvironmentMap(std::shared_ptr<const EnvironmentImage> image)
+    : _image(std::move(image))
 {
     const int width = _image->width, height = _image->height;
     _blocksPerRow = (width + kBlock - 1) / kBlock;
@@ -46,7 +47,8 @@ EnvironmentMap::EnvironmentMap(std::shared_ptr<const EnvironmentImage> image) : 
     _blocks.reserve(static_cast<std::size_t>(height) * static_cast<std::size_t>(_blocksPerRow));
     for (int y = 0; y < height; ++y)
     {
-        const Vec3* row = &_image->radiance[static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];
+        const Vec3* row =
+            &_image->radiance[static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];
         Vec3d sum(0.0);
         double luminances = 0.0;
         for (int x = 0; x < width; ++x)
@@ -117,7 +119,8 @@ EnvironmentSample EnvironmentMap::sample(float u, float v) const
 
 float EnvironmentMap::pdfW(Vec3 direction) const
 {
-    return isBlack() ? 0.0f : static_cast<float>(luminance(radiance(direction)) / _luminanceIntegral);
+    return isBlack() ? 0.0f
+                     : static_cast<float>(luminance(radiance(direction)) / _luminanceIntegral);
 }
 
 std::size_t EnvironmentMap::pixelOf(Vec3 direction) const
@@ -125,7 +128,8 @@ std::size_t EnvironmentMap::pixelOf(Vec3 direction) const
     const Vec2 at = imagePoint(*_image, direction);
     const int x = std::clamp(static_cast<int>(at.x), 0, _image->width - 1);
     const int y = std::clamp(static_cast<int>(at.y), 0, _image->height - 1);
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(_image->width) + static_cast<std::size_t>(x);
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(_image->width) +
+           static_cast<std::size_t>(x);
 }
 
 /// y from -1 to height: beyond a pole the image goes on half a turn further.

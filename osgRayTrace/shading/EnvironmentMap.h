@@ -19,10 +19,10 @@ struct EnvironmentSample
     float pdfW = 0.0f; ///< [1/sr]; 0: nothing to sample
 };
 
-/// In the space of the image. Directions are distributed as luminance: that of a pixel over the integral of it
-/// over the sphere, uniform within a pixel, as the radiance is. So radiance over density has one luminance
-/// everywhere, and each pixel that is not black is reached, however small its share [Pharr16, sect. 14.2.4].
-/// Built once for an image; thread safe.
+/// In the space of the image. Directions are distributed as luminance: that of a pixel over the
+/// integral of it over the sphere, uniform within a pixel, as the radiance is. So radiance over
+/// density has one luminance everywhere, and each pixel that is not black is reached, however small
+/// its share [Pharr16, sect. 14.2.4]. Built once for an image; thread safe.
 class EnvironmentMap
 {
 public:
@@ -44,8 +44,8 @@ public:
     /// Of the pixel: what lights surfaces.
     Vec3 radiance(Vec3 direction) const { return _image->radiance[pixelOf(direction)]; }
 
-    /// Between the middles of pixels: what is looked at. Light is not computed with it, because its density
-    /// would be another one.
+    /// Between the middles of pixels: what is looked at. Light is not computed with it, because its
+    /// density would be another one.
     Vec3 interpolatedRadiance(Vec3 direction) const;
 
     /// [sr] of a pixel in a row.

@@ -20,9 +20,9 @@ constexpr int kMostColumns = 512, kMostRows = 256;
 /// One or more pixels of the image.
 struct Cell
 {
-    Vec3d centre{0.0};   ///< unit
-    Vec3d moment{0.0};   ///< integral of luminance times direction
-    Vec3d integral{0.0}; ///< of radiance
+    Vec3d centre{0.0};      ///< unit
+    Vec3d moment{0.0};      ///< integral of luminance times direction
+    Vec3d integral{0.0};    ///< of radiance
     double luminance = 0.0; ///< integral
     double solidAngle = 0.0;
     int layer = 0;
@@ -37,7 +37,10 @@ struct Region
     double solidAngle = 0.0;
     int strata = 0;
 
-    double importance() const { return luminance * std::pow(std::min(solidAngle, kLargestAngle), 0.25); }
+    double importance() const
+    {
+        return luminance * std::pow(std::min(solidAngle, kLargestAngle), 0.25);
+    }
 };
 
 /// The centre of a stratum, with what is nearest to it so far.
@@ -152,8 +155,8 @@ void Stratification::findRegions()
     }
 }
 
-/// Makes a region of all cells of the layer that are connected with one, diagonally too. The columns close to a
-/// ring, and across a pole the cells half a turn away are neighbours.
+/// Makes a region of all cells of the layer that are connected with one, diagonally too. The
+/// columns close to a ring, and across a pole the cells half a turn away are neighbours.
 void Stratification::grow(int seed)
 {
     const int number = static_cast<int>(_regions.size());
@@ -181,7 +184,8 @@ void Stratification::grow(int seed)
                 x = (x + 2 * _columns) % _columns;
                 const int next = y * _columns + x;
                 Cell& other = _cells[static_cast<std::size_t>(next)];
-                if (other.region >= 0 || other.layer != region.layer || !(other.luminance > 0.0)) continue;
+                if (other.region >= 0 || other.layer != region.layer || !(other.luminance > 0.0))
+                    continue;
                 other.region = number;
                 open.push_back(next);
             }
@@ -190,7 +194,8 @@ void Stratification::grow(int seed)
     _regions.push_back(std::move(region));
 }
 
-/// One stratum after the other to the region that has the most importance for each it would then have.
+/// One stratum after the other to the region that has the most importance for each it would then
+/// have.
 void Stratification::share(int count)
 {
     using Bid = std::pair<double, int>; // of equal ones, the first region
@@ -208,7 +213,8 @@ void Stratification::share(int count)
     }
 }
 
-/// Each centre is the cell farthest from all centres so far, also those of brighter regions [Hochbaum85].
+/// Each centre is the cell farthest from all centres so far, also those of brighter regions
+/// [Hochbaum85].
 void Stratification::stratify(Region& region)
 {
     const std::size_t size = region.cells.size();
@@ -229,7 +235,8 @@ void Stratification::stratify(Region& region)
                 if (cell(k).luminance > cell(farthest).luminance) farthest = k;
         }
         else
-            farthest = static_cast<std::size_t>(std::max_element(toAny.begin(), toAny.end()) - toAny.begin());
+            farthest = static_cast<std::size_t>(std::max_element(toAny.begin(), toAny.end()) -
+                                                toAny.begin());
         const Vec3d direction = cell(farthest).centre;
         for (std::size_t k = 0; k < size; ++k)
         {
@@ -280,7 +287,8 @@ std::vector<EnvironmentStratum> Stratification::strata(int count)
         if (!(luminance > 0.0)) continue;
         // All around there is no mean direction.
         const double length = glm::length(centre.moment);
-        const Vec3d direction = length > 1e-6 * luminance ? centre.moment / length : centre.direction;
+        const Vec3d direction =
+            length > 1e-6 * luminance ? centre.moment / length : centre.direction;
         result.push_back({Vec3(direction), Vec3(centre.integral)});
     }
     return result;

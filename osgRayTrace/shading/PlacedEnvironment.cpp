@@ -5,12 +5,16 @@
 namespace osgRayTrace::engine
 {
 
-PlacedEnvironment::PlacedEnvironment(const Light& light, uint32_t index, const PlacedEnvironment* previous)
+PlacedEnvironment::PlacedEnvironment(const Light& light, uint32_t index,
+                                     const PlacedEnvironment* previous)
     : _tables(previous && previous->map().image() == light.environment.image
                   ? previous->_tables
                   : std::make_shared<Tables>(light.environment.image)),
-      _index(index), _visible(light.environment.visible), _mapFromEngine(light.environment.mapFromEngine),
-      _engineFromMap(glm::transpose(light.environment.mapFromEngine)), _scale(light.radiance)
+      _index(index),
+      _visible(light.environment.visible),
+      _mapFromEngine(light.environment.mapFromEngine),
+      _engineFromMap(glm::transpose(light.environment.mapFromEngine)),
+      _scale(light.radiance)
 {
 }
 

@@ -1,5 +1,5 @@
-// PlacedEnvironment.h - the environment of a scene, turned and scaled as its light says. Layer: shading.
-// SPDX-License-Identifier: MIT
+// PlacedEnvironment.h - the environment of a scene, turned and scaled as its light says. Layer:
+// shading. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/scene/Light.h"
@@ -32,7 +32,10 @@ public:
     float pdfW(Vec3 direction) const { return map().pdfW(_mapFromEngine * direction); }
 
     /// What lights surfaces, and what is seen: see EnvironmentMap.
-    Vec3 radiance(Vec3 direction) const { return map().radiance(_mapFromEngine * direction) * _scale; }
+    Vec3 radiance(Vec3 direction) const
+    {
+        return map().radiance(_mapFromEngine * direction) * _scale;
+    }
     Vec3 seenRadiance(Vec3 direction) const
     {
         return map().interpolatedRadiance(_mapFromEngine * direction) * _scale;
