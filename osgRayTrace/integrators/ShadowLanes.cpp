@@ -17,6 +17,9 @@ namespace
 /// From here on no lift changes the direction to a light, and squares of distances are no floats.
 constexpr float kFarLight = 1e18f;
 
+/// From this share of the distance to a light on, where a ray starts is not where its surface is.
+constexpr float kFarOffset = 1e-4f;
+
 /// A parallelogram with what all lanes share.
 struct Quad
 {
@@ -134,19 +137,22 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf, const Surfa
     const Vec3 n = at(surface.geometricNormal, i);
     if (!through && glm::dot(n, sample->wi) <= 0.0f) return false;
 
-    // Measured from where the ray starts, as the path tracer does when it meets the light by chance: far from
-    // the origin that is not where the surface is, and densities that disagree would weight light twice.
+    // Light is measured from the surface: the ray starts a little above it, which a large surface would show.
+    // Far from the origin that start is what counts, as it does where the path tracer meets the light by
+    // chance: densities that disagree would weight light twice.
     const Vec3 origin = leave(surface, i, sample->wi);
     const Vec3 d = sample->point - origin;
     const float distance = glm::length(d);
     if (!(distance > 0.0f)) return false;
-    const Vec3 wi = d / distance;
+    const Vec3 towards = d / distance;
+    const bool fromStart = surface.offset[i] > kFarOffset * distance;
+    const Vec3 wi = fromStart ? towards : sample->wi;
     const float cosThetaL = std::fabs(glm::dot(wi, sample->normal));
-    const float pdfW = table.pdfArea(light, distance, cosThetaL);
+    const float pdfW = table.pdfArea(light, fromStart ? distance : sample->distance, cosThetaL);
     if (!(cosThetaL > 0.0f) || !(pdfW > 0.0f) || !(pdfW < 1e30f)) return false;
     const float clear = std::max(0.0f, distance - sample->offset / cosThetaL);
     setWi(samples, i, wi);
-    setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, wi.x, wi.y, wi.z, clear);
+    setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, towards.x, towards.y, towards.z, clear);
     samples.weight[i] = 1.0f / (pmf * pdfW);
     const Instance& instance = context.traced->scene().instances[(*context.lights)[light].instance];
     MaterialPoint point;
