@@ -123,7 +123,6 @@ osg::ref_ptr<osg::Group> terrace()
     osg::ref_ptr<osg::Image> image = new osg::Image;
     image->setFileName("sky.exr");
     image->allocateImage(1, 1, 1, GL_RGB, GL_FLOAT);
-    image->setWriteHint(osg::Image::NO_PREFERENCE);
     osg::ref_ptr<EnvironmentLight> sky = new EnvironmentLight(image);
     sky->setName("sky");
     scene->addChild(sky.get());

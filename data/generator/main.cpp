@@ -4,6 +4,7 @@
 
 #include "apps/common/PluginPath.h"
 
+#include <osgDB/Options>
 #include <osgDB/WriteFile>
 
 #include <iostream>
@@ -36,10 +37,12 @@ int main(int argc, char** argv)
         {"prism.osgt", prism()},
         {"terrace.osgt", terrace()},
     };
+    // Images by their names.
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("WriteImageHint=UseExternal");
     for (const File& file : files)
     {
         const std::string path = std::string(argv[1]) + "/" + file.name;
-        if (osgDB::writeNodeFile(*file.scene, path)) continue;
+        if (osgDB::writeNodeFile(*file.scene, path, options)) continue;
         std::cerr << "osgraytrace_make_data: cannot write " << path << '\n';
         return 4;
     }

@@ -16,8 +16,9 @@ namespace
 constexpr int kLayers = 6;             // [Agarwal03, sect. 3.2]
 constexpr double kLargestAngle = 0.01; // [sr] [Agarwal03, sect. 3.1]
 constexpr int kMostColumns = 512, kMostRows = 256;
+constexpr int kLeastColumns = 256, kLeastRows = 128;
 
-/// One or more pixels of the image.
+/// One or more pixels of the image, or a part of one.
 struct Cell
 {
     Vec3d centre{0.0};      ///< unit
@@ -93,25 +94,31 @@ Stratification::Stratification(const EnvironmentMap& map)
 void Stratification::fillCells(const EnvironmentMap& map)
 {
     const EnvironmentImage& image = *map.image();
-    const int stepX = (image.width + kMostColumns - 1) / kMostColumns;
-    const int stepY = (image.height + kMostRows - 1) / kMostRows;
-    _columns = (image.width + stepX - 1) / stepX;
-    _rowCount = (image.height + stepY - 1) / stepY;
+    const int partsX = (kLeastColumns + image.width - 1) / image.width; // of a pixel
+    const int partsY = (kLeastRows + image.height - 1) / image.height;
+    const int width = image.width * partsX, height = image.height * partsY;
+    const int stepX = (width + kMostColumns - 1) / kMostColumns; // parts in a cell
+    const int stepY = (height + kMostRows - 1) / kMostRows;
+    _columns = (width + stepX - 1) / stepX;
+    _rowCount = (height + stepY - 1) / stepY;
     _cells.resize(static_cast<std::size_t>(_columns) * static_cast<std::size_t>(_rowCount));
     std::vector<Vec3d> onEquator;
-    for (int x = 0; x < image.width; ++x)
-        onEquator.push_back(map.direction(x + 0.5, 0.5 * image.height));
-    const Vec3* pixel = image.radiance.data();
-    for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < width; ++x)
+        onEquator.push_back(map.direction((x + 0.5) / partsX, 0.5 * image.height));
+    for (int y = 0; y < height; ++y)
     {
-        const Vec3d onMeridian = map.direction(0.5 * image.width, y + 0.5); // (0, across, z)
-        const double solidAngle = map.solidAngle(y);
-        for (int x = 0; x < image.width; ++x, ++pixel)
+        const auto on = [&](double row) // (0, across, z)
+        { return map.direction(0.5 * image.width, row / partsY); };
+        const Vec3d middle = on(y + 0.5);
+        const double solidAngle = (on(y + 1.0).z - on(y).z) * 2.0 * kPi / width;
+        const Vec3* row =
+            &image.radiance[static_cast<std::size_t>(y / partsY) * static_cast<std::size_t>(image.width)];
+        for (int x = 0; x < width; ++x)
         {
             const Vec3d& e = onEquator[static_cast<std::size_t>(x)];
-            const Vec3d direction(e.x * onMeridian.y, e.y * onMeridian.y, onMeridian.z);
+            const Vec3d direction(e.x * middle.y, e.y * middle.y, middle.z);
             Cell& cell = _cells[static_cast<std::size_t>(y / stepY * _columns + x / stepX)];
-            const Vec3d integral = Vec3d(*pixel) * solidAngle;
+            const Vec3d integral = Vec3d(row[x / partsX]) * solidAngle;
             const double luminance = luminanceOf(integral);
             cell.centre += direction * solidAngle;
             cell.moment += direction * luminance;
@@ -121,11 +128,7 @@ void Stratification::fillCells(const EnvironmentMap& map)
         }
     }
     for (Cell& cell : _cells)
-    {
-        // Of a single column all centres add up to the axis, which is the best there is.
-        const double length = glm::length(cell.centre);
-        cell.centre = length > 0.0 ? cell.centre / length : Vec3d(0.0, 0.0, 1.0);
-    }
+        cell.centre = glm::normalize(cell.centre);
 }
 
 void Stratification::setLayers()

@@ -9,9 +9,11 @@
 #include <osgRayTrace/EnvironmentLight>
 
 #include <osg/Switch>
+#include <osgDB/Registry>
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::engine;
@@ -159,20 +161,39 @@ TEST_CASE("environment light: pixels of all formats; floats are never decoded, b
     CHECK(near(SkyScene(upsideDown).radiance(Vec3(0, 0, -1)), Vec3(0, 0, 5)));
 }
 
+TEST_CASE("environment light: the first row of a .hdr file is the zenith", "[bridge]")
+{
+    // Radiance's format without run lengths: red, green, blue, and an exponent with an offset of 136.
+    std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
+    for (const char* pixel : {"\x80\x40\x20\x8b", "\x80\x80\x80\x81"}) // (1024, 512, 256), (1, 1, 1)
+        for (int x = 0; x < 4; ++x)
+            file += pixel;
+    osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension("hdr");
+    REQUIRE(reader);
+    std::istringstream stream(file);
+    const osg::ref_ptr<osg::Image> image = reader->readImage(stream).getImage();
+    REQUIRE(image);
+    SkyScene scene(image);
+    CHECK(near(scene.radiance(Vec3(0.1f, 1.0f, 0.3f)), Vec3(1024, 512, 256)));
+    CHECK(near(scene.radiance(Vec3(0.1f, 1.0f, -0.3f)), Vec3(1, 1, 1)));
+}
+
 TEST_CASE("environment light: a cube map has OpenGL's faces", "[bridge]")
 {
-    // Each face its own colour; the pixel at s = t = 0 of +x is white, that is towards (1, 1, 1).
+    // Each face its own colour; the quarter at s = t = 0 of +x is white, that is towards (1, 1, 1).
     osg::ref_ptr<osg::TextureCubeMap> cube = new osg::TextureCubeMap;
     for (unsigned int face = 0; face < 6; ++face)
         cube->setImage(face, floatImage(8, 8, {float(face), 0, 0}));
-    pixel(*cube->getImage(0), 0, 0) = {9, 9, 9};
+    for (int k = 0; k < 16; ++k)
+        pixel(*cube->getImage(0), k % 4, k / 4) = {9, 9, 9};
     SkyScene scene(nullptr);
     scene.light->setCubeMap(cube);
     const Vec3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     for (int face = 0; face < 6; ++face)
-        CHECK(near(scene.radiance(axes[face]), Vec3(float(face), 0, 0)));
-    CHECK(near(scene.radiance(Vec3(1.0f, 0.88f, 0.88f)), Vec3(9.0f)));
-    CHECK(near(scene.radiance(Vec3(1.0f, -0.88f, 0.88f)), Vec3(0.0f)));
+        CHECK(near(scene.radiance(axes[face] + Vec3(0, -0.2f, -0.2f) * float(face == 0)), Vec3(float(face), 0, 0)));
+    CHECK(near(scene.radiance(Vec3(1.0f, 0.5f, 0.5f)), Vec3(9.0f)));
+    CHECK(near(scene.radiance(Vec3(1.0f, -0.5f, 0.5f)), Vec3(0.0f)));
+    CHECK(near(scene.radiance(Vec3(1.0f, 0.5f, -0.5f)), Vec3(0.0f)));
     CHECK(scene.convert().scene->lights[0].environment.image->width == 32);
 
     cube->setImage(3, floatImage(4, 8));

@@ -159,8 +159,8 @@ TEST_CASE("environment: structured sampling has no noise, and its bias is small"
             CHECK(std::fabs(path.at(p % 16, p / 16).y / picture.at(0, 0).y - 1.0f) < 1e-5f);
         }
         const double bias = picture.mean().y * M_PI / sky.irradiance - 1.0;
-        WARN("300 strata, " << sky.name << ": bias " << bias);
-        CHECK(std::fabs(bias) < 0.01);
+        CAPTURE(sky.name, bias); // measured: 1.8e-3, 9.3e-3, -9.7e-3, 1.9e-3, 6e-5, 5e-5
+        CHECK(std::fabs(bias) < 0.015);
     }
 }
 
@@ -240,7 +240,6 @@ TEST_CASE("environment: all ways to sample it have the same mean", "[integrators
           4.0 * std::hypot(importance.standardError(), uniform.standardError()));
     CHECK(importance.standardError() < 2e-3 * importance.mean());
     CHECK(uniform.standardError() < 0.02 * uniform.mean());
-    WARN("structured: bias of the picture's mean " << structured.mean() / importance.mean() - 1.0);
     CHECK(std::fabs(structured.mean() / importance.mean() - 1.0) < 0.02);
 }
 
@@ -275,8 +274,6 @@ TEST_CASE("environment: with a sun, importance sampling needs twenty times less"
         relativeSquaredError(EnvironmentSampling::Importance, 16, importanceRays);
     const double uniform = relativeSquaredError(EnvironmentSampling::Uniform, 16, uniformRays);
     CAPTURE(importance, uniform, importanceRays, uniformRays);
-    WARN("relMSE at 16 passes: importance " << importance << ", uniform " << uniform << ", rays "
-                                            << importanceRays << ", " << uniformRays);
     CHECK(uniform * uniformRays > 20.0 * importance * importanceRays);
 }
 
@@ -300,7 +297,7 @@ TEST_CASE("environment: visible or not to camera rays, always in mirrors", "[int
             const Picture picture =
                 render(traced, patchView({0, 0, 0}, {0, 0, 1}, 1.0, 16), optionsOf(kind), 4);
             CAPTURE(visible, int(kind));
-            const std::size_t mirrored = (8 * 16 + 13) * 4, missed = (8 * 16 + 2) * 4;
+            const std::size_t mirrored = (2 * 16 + 8) * 4, missed = (13 * 16 + 8) * 4;
             const float* m = &picture.rgba[mirrored];
             const float* b = &picture.rgba[missed];
             CHECK(glm::length(Vec3(m[0], m[1], m[2]) - Vec3(2, 2, 3)) < 1e-4f);
