@@ -33,7 +33,7 @@ bool setLane(const SurfaceLanes& surface, int i, Vec3 wi, bool through, Vec3 rad
              LightLanes& samples)
 {
     if (!through && glm::dot(laneOf(surface.geometricNormal, i), wi) <= 0.0f) return false;
-    const Vec3 origin = leave(surface, i, wi);
+    const RayBegin begin = leave(surface, i, wi);
     samples.wi.x[i] = wi.x;
     samples.wi.y[i] = wi.y;
     samples.wi.z[i] = wi.z;
@@ -41,13 +41,14 @@ bool setLane(const SurfaceLanes& surface, int i, Vec3 wi, bool through, Vec3 rad
         samples.radiance[c][i] = radiance[c];
     samples.weight[i] = weight;
     RayBlock& ray = samples.shadow;
-    ray.originX[i] = origin.x;
-    ray.originY[i] = origin.y;
-    ray.originZ[i] = origin.z;
+    ray.originX[i] = begin.origin.x;
+    ray.originY[i] = begin.origin.y;
+    ray.originZ[i] = begin.origin.z;
     ray.directionX[i] = wi.x;
     ray.directionY[i] = wi.y;
     ray.directionZ[i] = wi.z;
-    ray.tNear[i] = ray.time[i] = 0.0f;
+    ray.tNear[i] = begin.tNear;
+    ray.time[i] = 0.0f;
     ray.tFar[i] = kInfinity;
     ray.mask[i] = 0xffffffffu;
     ray.id[i] = ray.flags[i] = 0;

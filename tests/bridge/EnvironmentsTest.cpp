@@ -5,15 +5,16 @@
 
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
+#include "tests/plugins/TemporaryFolder.h"
 
 #include <osgRayTrace/EnvironmentLight>
 
 #include <osg/Switch>
-#include <osgDB/Registry>
+#include <osgDB/ReadFile>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
-#include <sstream>
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::engine;
@@ -163,15 +164,16 @@ TEST_CASE("environment light: pixels of all formats; floats are never decoded, b
 
 TEST_CASE("environment light: the first row of a .hdr file is the zenith", "[bridge]")
 {
-    // Radiance's format without run lengths: red, green, blue, and an exponent with an offset of 136.
+    // Radiance's format without run lengths: red, green, blue, and an exponent with an offset of
+    // 136.
     std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
-    for (const char* pixel : {"\x80\x40\x20\x8b", "\x80\x80\x80\x81"}) // (1024, 512, 256), (1, 1, 1)
+    for (const char* pixel :
+         {"\x80\x40\x20\x8b", "\x80\x80\x80\x81"}) // (1024, 512, 256), (1, 1, 1)
         for (int x = 0; x < 4; ++x)
             file += pixel;
-    osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension("hdr");
-    REQUIRE(reader);
-    std::istringstream stream(file);
-    const osg::ref_ptr<osg::Image> image = reader->readImage(stream).getImage();
+    const TemporaryFolder folder;
+    std::ofstream(folder / "sky.hdr", std::ios::binary) << file;
+    const osg::ref_ptr<osg::Image> image = osgDB::readRefImageFile(folder / "sky.hdr");
     REQUIRE(image);
     SkyScene scene(image);
     CHECK(near(scene.radiance(Vec3(0.1f, 1.0f, 0.3f)), Vec3(1024, 512, 256)));
@@ -190,7 +192,8 @@ TEST_CASE("environment light: a cube map has OpenGL's faces", "[bridge]")
     scene.light->setCubeMap(cube);
     const Vec3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     for (int face = 0; face < 6; ++face)
-        CHECK(near(scene.radiance(axes[face] + Vec3(0, -0.2f, -0.2f) * float(face == 0)), Vec3(float(face), 0, 0)));
+        CHECK(near(scene.radiance(axes[face] + Vec3(0, -0.2f, -0.2f) * float(face == 0)),
+                   Vec3(float(face), 0, 0)));
     CHECK(near(scene.radiance(Vec3(1.0f, 0.5f, 0.5f)), Vec3(9.0f)));
     CHECK(near(scene.radiance(Vec3(1.0f, -0.5f, 0.5f)), Vec3(0.0f)));
     CHECK(near(scene.radiance(Vec3(1.0f, 0.5f, -0.5f)), Vec3(0.0f)));

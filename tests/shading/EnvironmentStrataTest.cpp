@@ -88,7 +88,8 @@ TEST_CASE("strata: coarse images are cut up, none of black pixels", "[shading][s
         CHECK(map.radiance(stratum.direction) == Vec3(5.0f));
     const auto one = environmentStrata(map, 1);
     REQUIRE(one.size() == 1);
-    CHECK(glm::length(Vec3d(one[0].direction) - map.direction(10.5, 20.5)) < 1e-4);
+    CHECK(glm::length(Vec3d(one[0].direction) - map.direction(10.5, 20.5)) <
+          1e-3); // 0.1 wide; its mean is not its middle
 }
 
 TEST_CASE("strata: the sun has its own, where it is, and no light but its own", "[shading]")
