@@ -87,7 +87,7 @@ TEST_CASE("settings: the table names all nineteen options once", "[api][settings
     CHECK(variables.size() == 19);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 17);
+    CHECK(RayTraceSettings::options().size() == 19);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")
