@@ -28,6 +28,7 @@ template <typename T> struct Range
 };
 
 constexpr Range<int> kLightSamplesRange{1, 4096};
+constexpr Range<int> kEnvironmentSamplesRange{1, 4096};
 constexpr Range<int> kMaxBouncesRange{0, 1024};
 constexpr Range<int> kMaxPassesRange{1, 1 << 24};
 constexpr Range<int> kPassesPerFrameRange{1, 1024};
@@ -51,6 +52,7 @@ using Words = std::vector<std::string>;
 const Words kIntegratorWords{"auto", "whitted", "path", "ppm", "sppm", "photon-caustics", "debug"};
 const Words kRadiusScheduleWords{"global", "local"};
 const Words kLightSamplingWords{"random", "uniform-jitter", "stratified", "sobol"};
+const Words kEnvironmentSamplingWords{"importance", "structured", "uniform"};
 const Words kDebugChannelWords{"normal", "uv", "id", "albedo", "depth", "dropped", "cost"};
 const Words kColorRuleWords{"auto", "display-referred", "linear"};
 const Words kSwitchWords{"false", "true"};
@@ -172,6 +174,11 @@ const std::vector<OptionRow>& optionTable()
                   "How points on area lights are chosen"),
         numberRow("light-samples", kLightSamplesRange, &S::getLightSamples, &S::setLightSamples,
                   "Samples a hit and area light"),
+        choiceRow("environment-sampling", kEnvironmentSamplingWords, &S::getEnvironmentSampling,
+                  &S::setEnvironmentSampling, "How directions towards the environment are chosen"),
+        numberRow("environment-samples", kEnvironmentSamplesRange, &S::getEnvironmentSamples,
+                  &S::setEnvironmentSamples,
+                  "Lights that structured sampling makes of the environment, at most"),
         switchRow("shadows", &S::getShadows, &S::setShadows, "Shadows of all lights"),
         switchRow("terminator-correction", &S::getTerminatorCorrection, &S::setTerminatorCorrection,
                   "No step where light ends on smooth-shaded facets"),
@@ -276,6 +283,8 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _debugChannel(other._debugChannel),
       _colorRule(other._colorRule),
       _lightSamples(other._lightSamples),
+      _environmentSampling(other._environmentSampling),
+      _environmentSamples(other._environmentSamples),
       _maxBounces(other._maxBounces),
       _shadows(other._shadows),
       _terminatorCorrection(other._terminatorCorrection),
@@ -302,6 +311,18 @@ void RayTraceSettings::setIntegrator(Integrator value)
 void RayTraceSettings::setLightSampling(LightSampling value)
 {
     changeChoice("light-sampling", kLightSamplingWords, _lightSampling, value, _modifiedCount);
+}
+
+void RayTraceSettings::setEnvironmentSampling(EnvironmentSampling value)
+{
+    changeChoice("environment-sampling", kEnvironmentSamplingWords, _environmentSampling, value,
+                 _modifiedCount);
+}
+
+void RayTraceSettings::setEnvironmentSamples(int value)
+{
+    changeNumber("environment-samples", kEnvironmentSamplesRange, _environmentSamples, value,
+                 _modifiedCount);
 }
 
 void RayTraceSettings::setDebugChannel(DebugChannel value)

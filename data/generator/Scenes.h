@@ -4,6 +4,8 @@
 
 #include <osg/Group>
 
+#include <string>
+
 namespace osgRayTrace::data
 {
 
@@ -29,6 +31,13 @@ osg::ref_ptr<osg::Group> glasses();
 
 /// An upright prism of glass in the beam of a spot light. Centimetres, z up.
 osg::ref_ptr<osg::Group> prism();
+
+/// Balls of chrome, glass, plaster and rough gold on a terrace below sky.exr. Metres, z up.
+osg::ref_ptr<osg::Group> terrace();
+
+/// The sky of it: 128 x 64 pixels, one of which is the sun, with half of the light. Returns what is wrong, or
+/// nothing.
+std::string writeSky(const std::string& path);
 
 /// A closed room whose walls all emit 1/2 and reflect 1/2: seen from within, radiance is 1
 /// everywhere.

@@ -1,9 +1,10 @@
-// main.cpp - osgraytrace_make_data FOLDER: writes our own scenes there as .osgt.
+// main.cpp - osgraytrace_make_data FOLDER: writes our own scenes there as .osgt, and a sky.
 // SPDX-License-Identifier: MIT
 #include "Scenes.h"
 
 #include "apps/common/PluginPath.h"
 
+#include <osgDB/Options>
 #include <osgDB/WriteFile>
 
 #include <iostream>
@@ -34,13 +35,18 @@ int main(int argc, char** argv)
         {"rings.osgt", rings()},
         {"glasses.osgt", glasses()},
         {"prism.osgt", prism()},
+        {"terrace.osgt", terrace()},
     };
+    // Images by their names.
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("WriteImageHint=UseExternal");
     for (const File& file : files)
     {
         const std::string path = std::string(argv[1]) + "/" + file.name;
-        if (osgDB::writeNodeFile(*file.scene, path)) continue;
+        if (osgDB::writeNodeFile(*file.scene, path, options)) continue;
         std::cerr << "osgraytrace_make_data: cannot write " << path << '\n';
         return 4;
     }
-    return 0;
+    const std::string wrong = writeSky(std::string(argv[1]) + "/sky.exr");
+    if (!wrong.empty()) std::cerr << "osgraytrace_make_data: " << wrong << '\n';
+    return wrong.empty() ? 0 : 4;
 }

@@ -224,7 +224,7 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
                                                       static_cast<float>(reach));
     built.fillSurfaces();
     built.materials = std::make_unique<MaterialTable>(*built.scene);
-    built.lights = std::make_unique<LightTable>(*built.scene);
+    built.lights = std::make_unique<LightTable>(*built.scene, old ? old->lights.get() : nullptr);
     built.traits = sceneTraits(*built.scene);
     built.statistics.embreeBytes = built.device->bytes() - std::min(bytesBefore, built.device->bytes());
     built.statistics.seconds =

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/ClipPlanes.h"
 
 #include <osgRayTrace/AreaLight>
+#include <osgRayTrace/EnvironmentLight>
 
 #include <osg/Billboard>
 #include <osg/BlendFunc>
@@ -368,6 +369,11 @@ bool GraphCollector::collectLeaf(osg::Node& node)
     if (const auto* light = dynamic_cast<const AreaLight*>(&node))
     {
         _graph.areaLights.push_back({light, engineFromLocal(), path()});
+        return true;
+    }
+    if (const auto* light = dynamic_cast<const EnvironmentLight*>(&node))
+    {
+        _graph.environments.push_back({light, engineFromLocal(), path()});
         return true;
     }
     if (isFrom(node, "osg")) return false;

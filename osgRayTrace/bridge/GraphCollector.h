@@ -22,6 +22,7 @@
 namespace osgRayTrace
 {
 class AreaLight;
+class EnvironmentLight;
 }
 
 namespace osgRayTrace::engine
@@ -62,12 +63,20 @@ struct CollectedAreaLight
     std::string path;
 };
 
+struct CollectedEnvironment
+{
+    const EnvironmentLight* light = nullptr;
+    osg::Matrixd engineFromLocal;
+    std::string path;
+};
+
 /// Pointers into the graph: valid as long as nobody changes it.
 struct CollectedGraph
 {
     std::vector<CollectedGeometry> geometries; ///< in order of their first use
     std::vector<CollectedLight> lights;        ///< in the order of the traversal
     std::vector<CollectedAreaLight> areaLights;
+    std::vector<CollectedEnvironment> environments; ///< in the order of the traversal
     std::vector<GraphState> states;
     ClipPlanes clipPlanes;
     bool paged = false; ///< see ConversionResult

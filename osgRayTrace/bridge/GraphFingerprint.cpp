@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/SoftwareVertices.h"
 
 #include <osgRayTrace/AreaLight>
+#include <osgRayTrace/EnvironmentLight>
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/AlphaFunc>
@@ -113,6 +114,14 @@ void addTexture(Digest& digest, const osg::Texture& texture)
     }
 }
 
+void addEnvironment(Digest& digest, const EnvironmentLight& light)
+{
+    const osg::Image* image = light.getImage();
+    digest.add(image, image ? image->getModifiedCount() : 0u, light.getCubeMap());
+    if (light.getCubeMap()) addTexture(digest, *light.getCubeMap());
+    digest.add(light.getRotation().asVec4(), light.getScale(), light.getVisible());
+}
+
 void addPhysicalMaterial(Digest& digest, const PhysicalMaterial& material)
 {
     digest.add(material.getBaseColor(), material.getMetallic(), material.getRoughness(),
@@ -216,6 +225,8 @@ public:
         if (const auto* light = dynamic_cast<const AreaLight*>(&node))
             _digest.add(light->getCorner(), light->getEdgeU(), light->getEdgeV(),
                         light->getRadiance(), light->getTwoSided());
+        if (const auto* light = dynamic_cast<const EnvironmentLight*>(&node))
+            addEnvironment(_digest, *light);
         enter(node);
     }
 

@@ -46,6 +46,20 @@ LightSampling lightSampling(RayTraceSettings::LightSampling sampling)
     return LightSampling::Sobol;
 }
 
+EnvironmentSampling environmentSampling(RayTraceSettings::EnvironmentSampling sampling)
+{
+    switch (sampling)
+    {
+    case RayTraceSettings::IMPORTANCE:
+        return EnvironmentSampling::Importance;
+    case RayTraceSettings::STRUCTURED:
+        return EnvironmentSampling::Structured;
+    case RayTraceSettings::UNIFORM:
+        return EnvironmentSampling::Uniform;
+    }
+    return EnvironmentSampling::Importance;
+}
+
 DebugChannel debugChannel(RayTraceSettings::DebugChannel channel)
 {
     switch (channel)
@@ -77,6 +91,8 @@ RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings)
     options.lightSampling = lightSampling(settings.getLightSampling());
     options.debugChannel = debugChannel(settings.getDebugChannel());
     options.lightSamples = settings.getLightSamples();
+    options.environmentSampling = environmentSampling(settings.getEnvironmentSampling());
+    options.environmentSamples = settings.getEnvironmentSamples();
     options.maxBounces = settings.getMaxBounces();
     options.shadows = settings.getShadows();
     options.terminatorCorrection = settings.getTerminatorCorrection();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/SceneConverter.h"
 
+#include "osgRayTrace/bridge/EnvironmentConverter.h"
 #include "osgRayTrace/bridge/GeometryCache.h"
 #include "osgRayTrace/bridge/GraphCollector.h"
 #include "osgRayTrace/bridge/LightConverter.h"
@@ -119,7 +120,7 @@ double unitOf(const CollectedGraph& graph)
 bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
 {
     if (rule != RayTraceSettings::AUTOMATIC_COLOR) return rule == RayTraceSettings::LINEAR;
-    if (!graph.areaLights.empty()) return true;
+    if (!graph.areaLights.empty() || !graph.environments.empty()) return true;
     for (const CollectedGeometry& geometry : graph.geometries)
         for (const GeometryUse& use : geometry.uses)
             if (graph.states[use.state].attributes[kPhysicalMaterialSlot]) return true;
@@ -154,6 +155,7 @@ struct ConversionCaches
     TextureConverter textures;
     std::vector<std::shared_ptr<const Mesh>>
         areaLights; ///< their quads, in the order of the traversal
+    EnvironmentConverter environment;
 };
 
 /// Adds the parts of one snapshot to its Scene.
@@ -189,6 +191,7 @@ public:
         _scene->materials = _materials.take();
         _scene->textures = _caches.textures.end();
         addLights();
+        addEnvironment();
         if (_scene->materials.empty()) _scene->materials.push_back(fallbackMaterial());
         _report.count("converted.instance", _scene->instances.size());
         _report.count("converted.light", _scene->lights.size());
@@ -206,6 +209,7 @@ private:
     void addInstance(const CollectedGeometry& geometry, const GeometryUse& use, Instance instance);
     void addAreaLight(const CollectedAreaLight& source, std::shared_ptr<const Mesh>& quad);
     void addLights();
+    void addEnvironment();
     void setAmbient(const GraphState& state);
     uint32_t addMesh(const std::shared_ptr<const Mesh>& mesh);
     MeshRequest requestFor(const CollectedGeometry& geometry, const osg::Matrixd& transform) const;
@@ -421,6 +425,25 @@ void SceneBuilder::addLights()
         if (material.lit) enabled |= material.lightMask;
     for (const auto& [number, light] : lights)
         if (enabled >> number & 1u) _scene->lights.push_back(light);
+}
+
+/// There is one sky: the first that can be converted.
+void SceneBuilder::addEnvironment()
+{
+    bool found = false;
+    for (const CollectedEnvironment& source : _graph.environments)
+    {
+        if (found)
+        {
+            _report.warn("skipped.environment-light", "environment light '" + source.path + "'",
+                         "the scene has one before it, skipped");
+            continue;
+        }
+        const auto light = _caches.environment.convert(*source.light, source.engineFromLocal, _linear,
+                                                       source.path, _report);
+        found = light.has_value();
+        if (found) _scene->lights.push_back(*light);
+    }
 }
 
 } // namespace

@@ -27,7 +27,10 @@ bool same(const Light& a, const Light& b)
     };
     const auto area = [](const Light& l)
     { return std::tie(l.corner, l.edgeU, l.edgeV, l.radiance, l.twoSided, l.instance); };
-    return fixedFunction(a) == fixedFunction(b) && area(a) == area(b);
+    const auto environment = [](const Environment& e)
+    { return std::tie(e.image, e.mapFromEngine, e.visible); };
+    return fixedFunction(a) == fixedFunction(b) && area(a) == area(b) &&
+           environment(a.environment) == environment(b.environment);
 }
 
 /// Of two snapshots: the indices mean the same only if what they point to is the same.

@@ -28,7 +28,7 @@ IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits
 {
     if (wanted != IntegratorKind::Automatic) return wanted;
     if (!traits.physical) return IntegratorKind::Whitted;
-    const bool lights = traits.areaLights || traits.deltaLights;
+    const bool lights = traits.areaLights || traits.deltaLights || traits.environment;
     const bool caustics = lights && (traits.specular || traits.transmission);
     return caustics ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
 }

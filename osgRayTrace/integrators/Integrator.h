@@ -29,6 +29,9 @@ struct PassContext
     bool wantsDepth = true;                     ///< of the first pass
 
     PhotonUse photonUse = PhotonUse::None;
+    /// The environment's, if options.environmentSampling is Structured; null: none.
+    const std::vector<EnvironmentStratum>* strata = nullptr;
+
     const PhotonMap* photons = nullptr;         ///< of the pass; if photonUse
     float leastPhotonRadius = 0.0f;             ///< range of the radii of lookups in this pass [length]
     float largestPhotonRadius = 0.0f;

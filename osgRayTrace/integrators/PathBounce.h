@@ -41,6 +41,8 @@ struct PixelSums
     }
 };
 
+struct LightLanes;
+
 struct Tile
 {
     Tile(const PassContext& c, int l, int b, TileResult& r)
@@ -86,7 +88,19 @@ void dimensionPoints(const UintLanes& seeds, uint32_t passIndex, uint32_t dimens
 /// carry.
 void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface, PhotonUse use);
 
-/// One sample of the area lights and one of each light without area.
+/// What rays that left the scene bring: the environment, weighted against samples of it, without that which
+/// photons carry; to the eye and to mirrors it is seen, or else the background. number: of the bounce.
+void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int number, PhotonUse use);
+
+/// Adds what the visible lanes get from one light sample. Lanes of alone have no other chance to meet this
+/// light: it has its full weight.
+void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
+              LaneMask visible, LaneMask alone);
+
+/// Samples of the environment; none without it. seeds: of light samples.
+void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds);
+
+/// One sample of the area lights, of the environment and one of each light without area.
 void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce);
 
 /// Sets the ray of each lane that goes on; the others leave block.active.

@@ -76,13 +76,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     bounce.bsdfs = tile.bsdfs;
     surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface,
                rayStart(tile.context.options));
-    const Vec3 background(traced.scene().background);
-    for (LaneMask lanes = block.active & ~bounce.surface.hits; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
-        if (number > 0 && !(block.pixel[i] & kScattered))
-            tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * background);
-    }
+    addEnvironment(tile, block, block.active & ~bounce.surface.hits, number, use);
     addEmission(tile, block, bounce.surface, use);
     if (number == 0)
     {

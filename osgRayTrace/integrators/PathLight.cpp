@@ -82,8 +82,8 @@ void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightL
     }
 }
 
-/// Adds what the visible lanes get from one light sample. Lanes of alone have no other chance to
-/// meet this light: it has its full weight.
+} // namespace
+
 void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
               LaneMask visible, LaneMask alone)
 {
@@ -119,6 +119,9 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
     }
 }
 
+namespace
+{
+
 void sampleOneLight(Tile& tile, PathBlock& block, const Bounce& bounce, uint32_t light, float pmf,
                     LaneMask lanes, const FloatLanes& u, const FloatLanes& v)
 {
@@ -152,10 +155,11 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
         addLight(tile, block, bounce, samples, visibleLanes(tile.context, samples, tile.counts),
                  kAllLanes);
     }
+    const UintLanes seeds = lightSeeds(tile.context, block);
+    if (table.environment()) sampleEnvironment(tile, block, bounce, seeds);
     if (table.areaLights().empty()) return;
 
     FloatLanes u, v;
-    const UintLanes seeds = lightSeeds(tile.context, block);
     dimensionPoints(seeds, tile.context.key.index,
                     bounceDimension(bounce.number, DimensionLightPoint), u, v);
     if (table.areaLights().size() == 1)

@@ -34,6 +34,13 @@ enum class LightSampling : uint8_t
     Sobol,         ///< Owen-scrambled Sobol points, continued over passes
 };
 
+enum class EnvironmentSampling : uint8_t
+{
+    Importance, ///< in proportion to radiance, weighted against chance hits
+    Structured, ///< as a few distant lights
+    Uniform,    ///< all directions alike, weighted against chance hits
+};
+
 enum class DebugChannel : uint8_t
 {
     Normal,
@@ -51,6 +58,8 @@ struct RenderOptions
     LightSampling lightSampling = LightSampling::Sobol;
     DebugChannel debugChannel = DebugChannel::Normal;
     int lightSamples = 4;    ///< a hit and light; rounded up to a square for the n x n strategies
+    EnvironmentSampling environmentSampling = EnvironmentSampling::Importance;
+    int environmentSamples = 300; ///< lights that Structured makes of the environment, at most
     int maxBounces = 8;      ///< edges of a path after the camera ray
     bool shadows = true;
     bool terminatorCorrection = true; ///< rays of smooth-shaded facets start as RayStart::Smooth says
@@ -66,7 +75,9 @@ struct RenderOptions
     {
         return integrator != previous.integrator || lightSampling != previous.lightSampling ||
                debugChannel != previous.debugChannel || lightSamples != previous.lightSamples ||
-               maxBounces != previous.maxBounces || shadows != previous.shadows ||
+               environmentSampling != previous.environmentSampling ||
+               environmentSamples != previous.environmentSamples || maxBounces != previous.maxBounces ||
+               shadows != previous.shadows ||
                terminatorCorrection != previous.terminatorCorrection || seed != previous.seed ||
                photons != previous.photons || photonRadius != previous.photonRadius ||
                photonAlpha != previous.photonAlpha || radiusSchedule != previous.radiusSchedule ||

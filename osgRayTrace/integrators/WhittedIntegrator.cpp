@@ -4,13 +4,15 @@
 //   L(ray) = emission + direct light                         all surfaces
 //          + reflection L(mirror ray) + refraction L(refracted ray)   smooth ones
 //
-// where direct light is the mean of f cos L V / pdfW over the samples of each area light plus the
+// where direct light is the mean of f cos L V / pdfW over the samples of each area light and of the
+// environment (or the sum over its strata) plus the
 // fixed-function or physical response to each directional, point and spot light. Rays of the second line
 // go to a stack, and sixteen at a time are taken from its top.
 #include "osgRayTrace/integrators/WhittedIntegrator.h"
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/CameraLanes.h"
+#include "osgRayTrace/integrators/EnvironmentLanes.h"
 #include "osgRayTrace/integrators/FixedFunctionLighting.h"
 #include "osgRayTrace/integrators/HitShading.h"
 #include "osgRayTrace/integrators/LightGrid.h"
@@ -130,6 +132,12 @@ void fill(Vec3 value, Vec3Lanes& lanes)
     }
 }
 
+/// Fixed-function surfaces need a Bsdf for these lights.
+bool lightsArea(const PassContext& context)
+{
+    return context.traced->traits().areaLights || context.traced->traits().environment;
+}
+
 void classify(Tile& tile, ShadingBlock& block)
 {
     LaneMaterials& m = block.materials;
@@ -166,7 +174,7 @@ void classify(Tile& tile, ShadingBlock& block)
             if (!record.material->lit) continue; // all of it is emission
             const MaterialPoint point = materialPoint(tile.context, block.rays, block.surface, i);
             m.points[i] = fixedFunctionPoint(tile.context, block.surface, i, point);
-            if (tile.context.traced->traits().areaLights) m.bsdfs[i] = materials.bsdf(material, point);
+            if (lightsArea(tile.context)) m.bsdfs[i] = materials.bsdf(material, point);
             m.fixedFunction |= 1u << i;
             // OpenGL lights by the vertex normal alone, which may look the other way than the face.
             m.through |= 1u << i;
@@ -246,7 +254,31 @@ void countRays(Tile& tile, const ShadingBlock& block, LaneMask lanes)
         tile.result.diagnostics->rays[block.pixel[__builtin_ctz(lanes)]] += 1.0f;
 }
 
-/// Direct light from all area lights, sample by sample: each is taken through its stages for all blocks.
+/// Takes one light sample through its stages for all blocks. draw sets block.light for the lanes of a mask.
+template <class Draw>
+void addSample(Tile& tile, ShadingBlock* blocks, int count, float scale, const Draw& draw)
+{
+    for (ShadingBlock* block = blocks; block != blocks + count; ++block)
+    {
+        const LaneMaterials& m = block->materials;
+        draw(*block, m.diffuse | m.physical | m.fixedFunction);
+    }
+    for (ShadingBlock* block = blocks; block != blocks + count; ++block)
+    {
+        countRays(tile, *block, block->light.lit);
+        block->light.lit = visibleLanes(tile.context, block->light, tile.result.counts);
+    }
+    for (ShadingBlock* block = blocks; block != blocks + count; ++block)
+    {
+        const LaneMaterials& m = block->materials;
+        const LaneMask visible = block->light.lit;
+        if (visible & m.diffuse)
+            addDiffuse(m.normal, m.albedo, block->light, visible & m.diffuse, scale, block->radiance);
+        if (visible & ~m.diffuse) addGeneral(*block, visible & ~m.diffuse, scale);
+    }
+}
+
+/// Direct light from all area lights, sample by sample.
 void addAreaLights(Tile& tile, ShadingBlock* blocks, int count)
 {
     const PassContext& context = tile.context;
@@ -257,30 +289,44 @@ void addAreaLights(Tile& tile, ShadingBlock* blocks, int count)
     {
         for (uint32_t j = 0; j < grid.samples(); ++j)
         {
-            for (ShadingBlock* block = blocks; block != blocks + count; ++block)
-            {
-                const LaneMaterials& m = block->materials;
-                FloatLanes u = block->firstU, v = block->firstV;
-                if (k + j > 0) grid.draw(k, j, block->seed, u, v);
-                areaLightLanes(context, lights[k], 1.0f, block->surface,
-                               m.diffuse | m.physical | m.fixedFunction, m.through, u, v, block->light);
-            }
-            for (ShadingBlock* block = blocks; block != blocks + count; ++block)
-            {
-                countRays(tile, *block, block->light.lit);
-                block->light.lit = visibleLanes(context, block->light, tile.result.counts);
-            }
-            for (ShadingBlock* block = blocks; block != blocks + count; ++block)
-            {
-                const LaneMaterials& m = block->materials;
-                const LaneMask visible = block->light.lit;
-                if (visible & m.diffuse)
-                    addDiffuse(m.normal, m.albedo, block->light, visible & m.diffuse, scale,
-                               block->radiance);
-                if (visible & ~m.diffuse) addGeneral(*block, visible & ~m.diffuse, scale);
-            }
+            addSample(tile, blocks, count, scale,
+                      [&](ShadingBlock& block, LaneMask lanes)
+                      {
+                          FloatLanes u = block.firstU, v = block.firstV;
+                          if (k + j > 0) grid.draw(k, j, block.seed, u, v);
+                          areaLightLanes(context, lights[k], 1.0f, block.surface, lanes,
+                                         block.materials.through, u, v, block.light);
+                      });
         }
     }
+}
+
+/// Direct light from the environment: samples as many as of an area light, or one of each stratum.
+void addEnvironment(Tile& tile, ShadingBlock* blocks, int count)
+{
+    const PassContext& context = tile.context;
+    if (context.strata)
+    {
+        for (const EnvironmentStratum& stratum : *context.strata)
+            addSample(tile, blocks, count, 1.0f,
+                      [&](ShadingBlock& block, LaneMask lanes)
+                      {
+                          stratumLanes(stratum, 1.0f, block.surface, lanes, block.materials.through,
+                                       block.light);
+                      });
+        return;
+    }
+    const LightGrid& grid = tile.grid;
+    const std::size_t behindAreaLights = context.traced->lights().areaLights().size();
+    for (uint32_t j = 0; j < grid.samples(); ++j)
+        addSample(tile, blocks, count, 1.0f / static_cast<float>(grid.samples()),
+                  [&](ShadingBlock& block, LaneMask lanes)
+                  {
+                      FloatLanes u, v;
+                      grid.draw(behindAreaLights, j, block.seed, u, v);
+                      environmentLanes(context, block.surface, lanes, block.materials.through, u, v,
+                                       block.light);
+                  });
 }
 
 void addDeltaLights(Tile& tile, ShadingBlock& block)
@@ -373,6 +419,7 @@ void shade(Tile& tile, ShadingBlock* blocks, int count)
         fill(Vec3(0.0f), block->radiance);
     }
     addAreaLights(tile, blocks, count);
+    if (lights.shiningEnvironment()) addEnvironment(tile, blocks, count);
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
     {
         if (!lights.deltaLights().empty()) addDeltaLights(tile, *block);
@@ -414,11 +461,10 @@ void traceSecondary(Tile& tile)
     tile.result.counts.secondaryRays += static_cast<uint64_t>(__builtin_popcount(active));
     countRays(tile, block, active);
     surfacesOf(traced.surfaces(), block.rays, active, block.surface, rayStart(tile.context.options));
-    const Vec3 background(traced.scene().background);
     for (LaneMask lanes = active & ~block.surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        tile.add(block.pixel[i], laneOf(block.weight, i) * background);
+        tile.add(block.pixel[i], laneOf(block.weight, i) * radianceBehind(tile.context, block.rays.ray, i));
     }
     if (!block.surface.hits) return;
     if (!traced.lights().areaLights().empty()) drawFirst(tile.grid, block);
@@ -450,6 +496,7 @@ void traceCamera(Tile& tile, int left, int bottom, int first)
     const PassContext& context = tile.context;
     const TracedScene& traced = *context.traced;
     const bool lit = !traced.lights().areaLights().empty();
+    const bool seen = visibleEnvironment(context) != nullptr;
     for (int k = 0; k < kGroup; ++k)
     {
         ShadingBlock& block = tile.group[k];
@@ -476,7 +523,14 @@ void traceCamera(Tile& tile, int left, int bottom, int first)
         if (context.wantsDepth)
             depthLanes(context.camera, left, bottom, first + k, block.surface,
                        tile.result.depth + (first + k) * kLanes);
-        setPixels(block.radiance, block.surface.hits, tile.result.rgba[first + k]);
+        RgbaLanes& rgba = tile.result.rgba[first + k];
+        setPixels(block.radiance, block.surface.hits, rgba);
+        for (LaneMask lanes = seen ? kAllLanes & ~block.surface.hits : 0; lanes; lanes &= lanes - 1)
+        {
+            const int i = __builtin_ctz(lanes);
+            tile.add(block.pixel[i], radianceBehind(context, block.rays.ray, i));
+            rgba.a[i] = 1.0f;
+        }
     }
 }
 

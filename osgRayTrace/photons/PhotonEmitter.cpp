@@ -132,6 +132,13 @@ PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>
             power = double(luminance(light.diffuse)) * kPi * kPi * double(_scene.radius) *
                     _scene.radius;
             break;
+        case LightKind::Environment:
+        {
+            const PlacedEnvironment* environment = traced.lights().shiningEnvironment();
+            if (environment && environment->light() == i)
+                power = double(luminance(environment->integral())) * kPi * double(_scene.radius) * _scene.radius;
+            break;
+        }
         }
         if (!(power > 0.0) || !std::isfinite(power)) continue;
         _emitters.push_back(i);
@@ -164,7 +171,10 @@ std::optional<PhotonStart> PhotonEmitter::emit(const EmissionPoint& point,
         start = emitPoint(light, point, guide);
         break;
     case LightKind::Directional:
-        start = emitDirectional(light, point, guide);
+        start = emitParallel(_lights[light].direction, _lights[light].diffuse * kPi, point, guide);
+        break;
+    case LightKind::Environment:
+        start = emitEnvironment(point, guide);
         break;
     }
     if (!start || !(pmf > 0.0f)) return std::nullopt;
@@ -309,10 +319,19 @@ std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const Emissi
     return start;
 }
 
-std::optional<PhotonStart>
-PhotonEmitter::emitDirectional(uint32_t index, const EmissionPoint& point, Guide guide) const
+/// A direction as the environment is bright, then as from a directional light there.
+std::optional<PhotonStart> PhotonEmitter::emitEnvironment(const EmissionPoint& point, Guide guide) const
 {
-    const Light& light = _lights[index];
+    const EnvironmentSample sample =
+        _traced.lights().environment()->sample(point.direction.x, point.direction.y);
+    if (!(sample.pdfW > 0.0f)) return std::nullopt;
+    return emitParallel(-sample.direction, sample.radiance / sample.pdfW, point, guide);
+}
+
+/// Light that travels in one direction; irradiance: across it.
+std::optional<PhotonStart> PhotonEmitter::emitParallel(Vec3 direction, Vec3 irradiance,
+                                                       const EmissionPoint& point, Guide guide) const
+{
     if (!(_scene.radius > 0.0f)) return std::nullopt;
     const float sceneArea = kPi * _scene.radius * _scene.radius;
     const float* weights = guide.aim ? guide.aim->targetWeights(guide.light) : nullptr;
@@ -340,12 +359,12 @@ PhotonEmitter::emitDirectional(uint32_t index, const EmissionPoint& point, Guide
     float s, c;
     sinCosTurn(at.x, s, c);
     const float radius = disc->radius * std::sqrt(at.y);
-    const Vec3 q = disc->centre + toWorld(light.direction, Vec3(radius * c, radius * s, 0.0f));
+    const Vec3 q = disc->centre + toWorld(direction, Vec3(radius * c, radius * s, 0.0f));
 
     const auto acrossFrom = [&](const Sphere& sphere)
     {
         const Vec3 d = q - sphere.centre;
-        return d - light.direction * glm::dot(d, light.direction);
+        return d - direction * glm::dot(d, direction);
     };
     const auto isIn = [](const Sphere& sphere, Vec3 across)
     { return glm::dot(across, across) <= sphere.radius * sphere.radius * 1.000002f; };
@@ -358,17 +377,16 @@ PhotonEmitter::emitDirectional(uint32_t index, const EmissionPoint& point, Guide
             const Vec3 across = acrossFrom(_targets[t]);
             if (!isIn(_targets[t], across)) continue;
             const float area = glm::dot(across, across) / (_targets[t].radius * _targets[t].radius);
-            inside += guide.aim ? guide.aim->weightAt(guide.light, t, light.direction, across, area)
+            inside += guide.aim ? guide.aim->weightAt(guide.light, t, direction, across, area)
                                 : 1.0f;
         }
         pdf += share * inside / total;
     }
     if (!(pdf > 0.0f)) return std::nullopt;
     const Vec3 toCentre = _scene.centre - q;
-    start.origin =
-        q + light.direction * (glm::dot(toCentre, light.direction) - 2.0f * _scene.radius);
-    start.direction = light.direction;
-    start.power = light.diffuse * (kPi / pdf);
+    start.origin = q + direction * (glm::dot(toCentre, direction) - 2.0f * _scene.radius);
+    start.direction = direction;
+    start.power = irradiance / pdf;
     return start;
 }
 

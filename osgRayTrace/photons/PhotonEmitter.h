@@ -45,7 +45,7 @@ struct StartLanes
 };
 
 /// Chooses lights in proportion to power, and directions by a mixture: a share of them uniformly
-/// within the cones (for directional lights: discs) that hold the mirror-like and transmissive
+/// within the cones (for distant lights: discs) that hold the mirror-like and transmissive
 /// instances, the rest as the light shines. The density is that of the mixture, so every share
 /// gives the same mean [Veach97, sect. 9.2]. Thread safe.
 class PhotonEmitter
@@ -97,8 +97,9 @@ private:
                                         Guide guide) const;
     std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point,
                                          Guide guide) const;
-    std::optional<PhotonStart> emitDirectional(uint32_t light, const EmissionPoint& point,
-                                               Guide guide) const;
+    std::optional<PhotonStart> emitEnvironment(const EmissionPoint& point, Guide guide) const;
+    std::optional<PhotonStart> emitParallel(Vec3 direction, Vec3 irradiance,
+                                            const EmissionPoint& point, Guide guide) const;
     LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts,
                         const PhotonAim* aim) const;
     Cones conesFrom(Vec3 origin, Guide guide) const;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/scene/Environment.h"
 #include "osgRayTrace/scene/Mesh.h"
 
 #include <cstdint>
@@ -17,6 +18,7 @@ enum class LightKind : uint8_t
     Point,         ///< osg::Light with w != 0, with attenuation and spot terms
     Parallelogram, ///< AreaLight: corner and two edges, constant radiance
     Mesh,          ///< an instance whose material emits
+    Environment,   ///< EnvironmentLight: from all around; the first of a scene counts
 };
 
 struct Light
@@ -50,6 +52,8 @@ struct Light
     Vec3 radiance{0.0f};               ///< [W/(m^2 sr)]
     bool twoSided = false;
     uint32_t instance = kInvalid;      ///< the geometry that rays hit: Parallelogram and Mesh
+
+    Environment environment;           ///< Environment: its image, which radiance multiplies
 
     Stamp changed = 0;
 };

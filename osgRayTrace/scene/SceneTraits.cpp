@@ -46,6 +46,11 @@ SceneTraits sceneTraits(const Scene& scene)
         addMaterial(material, traits);
     for (const Light& light : scene.lights)
     {
+        if (light.kind == LightKind::Environment)
+        {
+            traits.environment = true;
+            continue;
+        }
         const bool area = light.kind == LightKind::Parallelogram || light.kind == LightKind::Mesh;
         (area ? traits.areaLights : traits.deltaLights) = true;
     }

@@ -19,6 +19,7 @@ struct SceneTraits
     bool transmission = false;
     bool deltaLights = false;      ///< directional or point lights
     bool areaLights = false;       ///< parallelogram or mesh lights
+    bool environment = false;      ///< light from all around
     size_t triangles = 0;          ///< counted once for each instance
 };
 

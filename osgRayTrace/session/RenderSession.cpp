@@ -102,6 +102,7 @@ struct RenderSession::Implementation
     RenderOptions filmOptions;
     CameraRays camera;
     std::vector<Light> placedLights; // empty: those of the scene
+    std::vector<EnvironmentStratum> strata;
     Film film;
     PhotonState photons;
     RenderProgress progress;
@@ -134,6 +135,10 @@ bool RenderSession::Implementation::begin()
         return false;
     }
     std::vector<Light> placed = engine::placedLights(scene->scene(), view); // before the film changes: it may throw
+    std::vector<EnvironmentStratum> made;
+    const PlacedEnvironment* environment = scene->lights().shiningEnvironment();
+    if (environment && options.environmentSampling == EnvironmentSampling::Structured)
+        made = environment->strata(options.environmentSamples);
     film.reset(view.width, view.height);
     photons.reset(film.tileCount());
     camera = *rays;
@@ -141,6 +146,7 @@ bool RenderSession::Implementation::begin()
     filmView = view;
     filmOptions = options;
     placedLights = std::move(placed);
+    strata = std::move(made);
     progress = RenderProgress();
     progress.restarted = true;
     progress.integrator = chooseIntegrator(options.integrator, scene->traits());
@@ -152,6 +158,7 @@ PassContext RenderSession::Implementation::contextOfPass(int pass) const
     PassContext context;
     context.traced = filmScene.get();
     context.lights = placedLights.empty() ? &filmScene->scene().lights : &placedLights;
+    context.strata = strata.empty() ? nullptr : &strata;
     context.camera = camera;
     context.width = filmView.width;
     context.height = filmView.height;

@@ -72,12 +72,20 @@ LightTable::Record LightTable::parallelogram(const Light& light)
 }
 
 /// Lights without power cost their slot and no more: a scene may hold millions.
-LightTable::LightTable(const Scene& scene) : _scene(&scene), _slots(scene.lights.size(), 0), _records(1)
+LightTable::LightTable(const Scene& scene, const LightTable* previous)
+    : _scene(&scene), _slots(scene.lights.size(), 0), _records(1)
 {
     std::vector<double> powers;
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
     {
         const Light& light = scene.lights[i];
+        if (light.kind == LightKind::Environment)
+        {
+            if (!_environment)
+                _environment = std::make_unique<PlacedEnvironment>(
+                    light, i, previous ? previous->environment() : nullptr);
+            continue;
+        }
         if (!isArea(light))
         {
             // Black ones would each cost every surface point a look.

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "osgRayTrace/scene/Scene.h"
+#include "osgRayTrace/shading/PlacedEnvironment.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -56,10 +58,20 @@ struct EmissiveMesh
 class LightTable
 {
 public:
-    explicit LightTable(const Scene& scene);
+    /// previous: of the last snapshot, whose tables of the environment are taken over if they can be; or null.
+    explicit LightTable(const Scene& scene, const LightTable* previous = nullptr);
 
     const std::vector<uint32_t>& areaLights() const { return _areaLights; }
     const std::vector<uint32_t>& deltaLights() const { return _deltaLights; }
+
+    /// Null without one. It may be black.
+    const PlacedEnvironment* environment() const { return _environment.get(); }
+
+    /// The environment if surfaces get light from it, else null.
+    const PlacedEnvironment* shiningEnvironment() const
+    {
+        return _environment && !_environment->isBlack() ? _environment.get() : nullptr;
+    }
 
     /// Area of an area light [length^2], by index into Scene::lights. 0: never sampled.
     float area(uint32_t light) const { return record(light).area; }
@@ -110,6 +122,7 @@ private:
     const Scene* _scene;
     std::vector<uint32_t> _areaLights;
     std::vector<uint32_t> _deltaLights;
+    std::unique_ptr<const PlacedEnvironment> _environment;
     std::vector<uint32_t> _slots;      ///< a light: its record
     std::vector<Record> _records;      ///< first that of all lights that are never sampled
     std::vector<float> _cumulative;    ///< an area light; the last is 1

@@ -60,6 +60,8 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getDebugChannel() == RayTraceSettings::NORMAL);
     CHECK(settings->getColorRule() == RayTraceSettings::AUTOMATIC_COLOR);
     CHECK(settings->getLightSamples() == 4);
+    CHECK(settings->getEnvironmentSampling() == RayTraceSettings::IMPORTANCE);
+    CHECK(settings->getEnvironmentSamples() == 300);
     CHECK(settings->getMaxBounces() == 8);
     CHECK(settings->getShadows());
     CHECK(settings->getMaxPasses() == 1024);
@@ -73,7 +75,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getAimAtViews());
 }
 
-TEST_CASE("settings: the table names all eighteen options once", "[api][settings]")
+TEST_CASE("settings: the table names all twenty options once", "[api][settings]")
 {
     std::set<std::string> names;
     std::set<std::string> variables;
@@ -82,11 +84,11 @@ TEST_CASE("settings: the table names all eighteen options once", "[api][settings
         names.insert(option.name);
         variables.insert(option.environment);
     }
-    CHECK(names.size() == 18);
-    CHECK(variables.size() == 18);
+    CHECK(names.size() == 20);
+    CHECK(variables.size() == 20);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 18);
+    CHECK(RayTraceSettings::options().size() == 20);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")
@@ -258,6 +260,10 @@ TEST_CASE("settings: documented defaults do not depend on the environment", "[ap
     }
     const auto settings = make();
     settings->setLightSamples(25);
+    settings->setEnvironmentSampling(RayTraceSettings::STRUCTURED);
+    settings->setEnvironmentSamples(50);
     const osg::ref_ptr<RayTraceSettings> copy = new RayTraceSettings(*settings);
     CHECK(copy->getLightSamples() == 25);
+    CHECK(copy->getEnvironmentSampling() == RayTraceSettings::STRUCTURED);
+    CHECK(copy->getEnvironmentSamples() == 50);
 }

@@ -120,6 +120,8 @@ TEST_CASE("render options: what changes the image restarts it", "[scene]")
     CHECK(restarts([](RenderOptions& o) { o.lightSampling = LightSampling::Random; }));
     CHECK(restarts([](RenderOptions& o) { o.debugChannel = DebugChannel::Id; }));
     CHECK(restarts([](RenderOptions& o) { o.lightSamples = 9; }));
+    CHECK(restarts([](RenderOptions& o) { o.environmentSampling = EnvironmentSampling::Uniform; }));
+    CHECK(restarts([](RenderOptions& o) { o.environmentSamples = 9; }));
     CHECK(restarts([](RenderOptions& o) { o.maxBounces = 1; }));
     CHECK(restarts([](RenderOptions& o) { o.shadows = false; }));
     CHECK(restarts([](RenderOptions& o) { o.terminatorCorrection = false; }));

@@ -89,6 +89,9 @@ void hashLight(Hasher& hasher, const Light& light)
         hasher.add(value);
     hasher.add(light.eyeSpace);
     hasher.add(light.twoSided);
+    hasher.add(light.environment.visible);
+    hasher.add(light.environment.mapFromEngine);
+    if (light.environment.image) hasher.addAll(light.environment.image->radiance);
 }
 
 void hashScene(Hasher& hasher, const Scene& scene)
@@ -174,6 +177,8 @@ uint64_t hashOf(const PreparedScene& prepared, const Method& method)
     hasher.add(method.options.integrator);
     hasher.add(method.options.lightSampling);
     hasher.add(method.options.lightSamples);
+    hasher.add(method.options.environmentSampling);
+    hasher.add(method.options.environmentSamples);
     hasher.add(method.options.maxBounces);
     hasher.add(method.options.photons);
     hasher.add(method.options.photonRadius);

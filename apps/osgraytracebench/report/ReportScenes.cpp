@@ -6,6 +6,7 @@
 #include "apps/osgraytracebench/report/CausticScenes.h"
 #include "apps/osgraytracebench/report/ClosedScenes.h"
 #include "apps/osgraytracebench/report/PlaneScenes.h"
+#include "apps/osgraytracebench/report/SkyScenes.h"
 
 namespace osgRayTrace::bench
 {
@@ -107,6 +108,7 @@ std::vector<ReportScene> reportScenes()
             integratingSphereScene(),
             flatMirrorScene(),
             nephroidScene(),
+            sunnySkyScene(),
             cornellScene(CornellKind::Diffuse),
             cornellScene(CornellKind::Mirror),
             cornellScene(CornellKind::Glass),

@@ -1,0 +1,160 @@
+// EnvironmentMap.cpp - tables of an image of the sphere, and look-ups. Layer: shading.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/shading/EnvironmentMap.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr double kTwoPi = 6.283185307179586476925;
+
+/// Sums are kept for each block, what is within is added up when a sample falls into it: half a
+/// byte a pixel instead of eight.
+constexpr int kBlock = 16;
+
+/// Index of the entry of a running sum that target, below the last one, falls into.
+std::size_t entryOf(const double* sums, std::size_t count, double target)
+{
+    return static_cast<std::size_t>(std::upper_bound(sums, sums + count - 1, target) - sums);
+}
+
+/// Where in the image a direction points to, in pixels; x in [0, width], y in [0, height].
+Vec2 imagePoint(const EnvironmentImage& image, Vec3 d)
+{
+    constexpr float kPerTurn = static_cast<float>(1.0 / kTwoPi);
+    const float turn = std::atan2(d.x, d.y) * kPerTurn + 0.5f;
+    const float height = std::atan2(d.z, std::sqrt(d.x * d.x + d.y * d.y)) * kInvPi + 0.5f;
+    return Vec2(turn * static_cast<float>(image.width), height * static_cast<float>(image.height));
+}
+
+} // namespace
+
+/// Sums are double: in float, those of a bright pixel and of dim ones would lose the dim ones.
+EnvironmentMap::EnvironmentMap(std::shared_ptr<const EnvironmentImage> image)
+    : _image(std::move(image))
+{
+    const int width = _image->width, height = _image->height;
+    _blocksPerRow = (width + kBlock - 1) / kBlock;
+    _rowZ.resize(static_cast<std::size_t>(height) + 1);
+    for (int y = 0; y <= height; ++y)
+        _rowZ[static_cast<std::size_t>(y)] = -std::cos(kTwoPi * 0.5 * y / height);
+    _rows.reserve(static_cast<std::size_t>(height));
+    _blocks.reserve(static_cast<std::size_t>(height) * static_cast<std::size_t>(_blocksPerRow));
+    for (int y = 0; y < height; ++y)
+    {
+        const Vec3* row =
+            &_image->radiance[static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];
+        Vec3d sum(0.0);
+        double luminances = 0.0;
+        for (int x = 0; x < width; ++x)
+        {
+            sum += Vec3d(row[x]);
+            luminances += luminance(row[x]);
+            if (x % kBlock == kBlock - 1 || x == width - 1) _blocks.push_back(luminances);
+        }
+        _integral += sum * solidAngle(y);
+        _rows.push_back(_luminanceIntegral += luminances * solidAngle(y));
+    }
+}
+
+double EnvironmentMap::solidAngle(int row) const
+{
+    const auto y = static_cast<std::size_t>(row);
+    return kTwoPi / _image->width * (_rowZ[y + 1] - _rowZ[y]);
+}
+
+Vec3d EnvironmentMap::direction(double x, double y) const
+{
+    const double azimuth = (x / _image->width - 0.5) * kTwoPi;
+    const double elevation = (y / _image->height - 0.5) * 0.5 * kTwoPi;
+    const double across = std::cos(elevation);
+    return Vec3d(across * std::sin(azimuth), across * std::cos(azimuth), std::sin(elevation));
+}
+
+EnvironmentSample EnvironmentMap::sample(float u, float v) const
+{
+    EnvironmentSample sample;
+    if (isBlack()) return sample;
+
+    // The row, and the height within it: uniform in z, as solid angle is.
+    const double vTarget = v * _luminanceIntegral;
+    const std::size_t y = entryOf(_rows.data(), _rows.size(), vTarget);
+    const double below = y ? _rows[y - 1] : 0.0;
+    const double inRow = std::clamp((vTarget - below) / (_rows[y] - below), 0.0, 1.0);
+    const double z = _rowZ[y] + inRow * (_rowZ[y + 1] - _rowZ[y]);
+
+    // The block of pixels, then the pixel.
+    const double* blocks = &_blocks[y * static_cast<std::size_t>(_blocksPerRow)];
+    const auto blockCount = static_cast<std::size_t>(_blocksPerRow);
+    const double uTarget = u * blocks[blockCount - 1];
+    const std::size_t block = entryOf(blocks, blockCount, uTarget);
+    const auto width = static_cast<std::size_t>(_image->width);
+    const Vec3* row = &_image->radiance[y * width];
+    double left = block ? blocks[block - 1] : 0.0, weight = 0.0;
+    std::size_t x = block * kBlock;
+    for (std::size_t at = x; at < std::min(width, (block + 1) * kBlock); ++at)
+    {
+        const double next = luminance(row[at]);
+        if (!(next > 0.0)) continue;
+        left += weight;
+        weight = next;
+        x = at;
+        if (left + weight > uTarget) break;
+    }
+    const double inPixel = std::clamp((uTarget - left) / weight, 0.0, 1.0);
+
+    const double azimuth = ((static_cast<double>(x) + inPixel) / _image->width - 0.5) * kTwoPi;
+    const double across = std::sqrt(std::max(0.0, (1.0 - z) * (1.0 + z)));
+    sample.direction = Vec3(static_cast<float>(across * std::sin(azimuth)),
+                            static_cast<float>(across * std::cos(azimuth)), static_cast<float>(z));
+    sample.radiance = row[x];
+    sample.pdfW = static_cast<float>(weight / _luminanceIntegral);
+    return sample;
+}
+
+float EnvironmentMap::pdfW(Vec3 direction) const
+{
+    return isBlack() ? 0.0f
+                     : static_cast<float>(luminance(radiance(direction)) / _luminanceIntegral);
+}
+
+std::size_t EnvironmentMap::pixelOf(Vec3 direction) const
+{
+    const Vec2 at = imagePoint(*_image, direction);
+    const int x = std::clamp(static_cast<int>(at.x), 0, _image->width - 1);
+    const int y = std::clamp(static_cast<int>(at.y), 0, _image->height - 1);
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(_image->width) +
+           static_cast<std::size_t>(x);
+}
+
+/// y from -1 to height: beyond a pole the image goes on half a turn further.
+Vec3 EnvironmentMap::pixelAt(int x, int y) const
+{
+    const int width = _image->width;
+    if (y < 0 || y >= _image->height)
+    {
+        y = std::clamp(y, 0, _image->height - 1);
+        x += width / 2;
+    }
+    x = (x + 2 * width) % width;
+    return _image->radiance[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                            static_cast<std::size_t>(x)];
+}
+
+Vec3 EnvironmentMap::interpolatedRadiance(Vec3 direction) const
+{
+    const Vec2 at = imagePoint(*_image, direction) - 0.5f;
+    const Vec2 low(std::floor(at.x), std::floor(at.y));
+    const Vec2 part = at - low;
+    const int x = static_cast<int>(low.x), y = static_cast<int>(low.y);
+    const Vec3 lower = pixelAt(x, y) * (1.0f - part.x) + pixelAt(x + 1, y) * part.x;
+    const Vec3 upper = pixelAt(x, y + 1) * (1.0f - part.x) + pixelAt(x + 1, y + 1) * part.x;
+    return lower * (1.0f - part.y) + upper * part.y;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,46 @@
+// PlacedEnvironment.cpp - between engine space and that of the image. Layer: shading.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/shading/PlacedEnvironment.h"
+
+namespace osgRayTrace::engine
+{
+
+PlacedEnvironment::PlacedEnvironment(const Light& light, uint32_t index,
+                                     const PlacedEnvironment* previous)
+    : _tables(previous && previous->map().image() == light.environment.image
+                  ? previous->_tables
+                  : std::make_shared<Tables>(light.environment.image)),
+      _index(index),
+      _visible(light.environment.visible),
+      _mapFromEngine(light.environment.mapFromEngine),
+      _engineFromMap(glm::transpose(light.environment.mapFromEngine)),
+      _scale(light.radiance)
+{
+}
+
+EnvironmentSample PlacedEnvironment::sample(float u, float v) const
+{
+    EnvironmentSample sample = map().sample(u, v);
+    sample.direction = _engineFromMap * sample.direction;
+    sample.radiance *= _scale;
+    return sample;
+}
+
+std::vector<EnvironmentStratum> PlacedEnvironment::strata(int count) const
+{
+    std::vector<EnvironmentStratum> strata;
+    {
+        std::lock_guard<std::mutex> lock(_tables->mutex);
+        if (_tables->count != count) _tables->strata = environmentStrata(map(), count);
+        _tables->count = count;
+        strata = _tables->strata;
+    }
+    for (EnvironmentStratum& stratum : strata)
+    {
+        stratum.direction = _engineFromMap * stratum.direction;
+        stratum.integral *= _scale;
+    }
+    return strata;
+}
+
+} // namespace osgRayTrace::engine
