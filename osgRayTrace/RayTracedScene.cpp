@@ -118,6 +118,11 @@ void RayTracedScene::dirtyScene()
     dirtyBound();
 }
 
+std::string RayTracedScene::getConversionReport() const
+{
+    return conversionReport(_drawable->getStatistics());
+}
+
 void RayTracedScene::traverse(osg::NodeVisitor& visitor)
 {
     osgUtil::CullVisitor* cull = _enabled ? visitor.asCullVisitor() : nullptr;

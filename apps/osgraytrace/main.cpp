@@ -30,6 +30,7 @@ Picture render(const Options& options, osg::Node& scene)
     Picture picture = options.context == Context::None
                           ? renderWithoutContext(options, scene, camera, progress)
                           : renderInContext(options, scene, camera, progress);
+    if (options.report) std::cout << conversionReport(picture.statistics) << std::flush;
     if (picture.statistics.triangles == 0)
         throw Failure(kCannotRender, "the scene holds no triangles to render");
     return picture;

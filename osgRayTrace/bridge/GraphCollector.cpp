@@ -149,6 +149,7 @@ GraphCollector::GraphCollector(const ConversionInput& input, ConversionReport& r
     for (const osg::ref_ptr<const osg::StateSet>& stateSet : input.inheritedState)
         _states.push(*stateSet);
     setTraversalMask(input.traversalMask);
+    _report.setPlace([this] { return path(); });
 }
 
 void applyUnit(double unit, CollectedGraph& graph)
@@ -167,6 +168,7 @@ void applyUnit(double unit, CollectedGraph& graph)
 CollectedGraph GraphCollector::take()
 {
     _graph.states = _states.states();
+    _report.setPlace({});
     return std::move(_graph);
 }
 

@@ -181,7 +181,11 @@ public:
         _scene->background = backgroundOf(_input.clearColor, _linear);
         _scene->ambient = Vec3(_input.lighting ? kViewerAmbient : kOpenGLAmbient);
         for (const CollectedGeometry& geometry : _graph.geometries)
+        {
+            _report.setPlace([&geometry] { return geometry.path; });
             addGeometry(geometry);
+        }
+        _report.setPlace({});
         _caches.areaLights.resize(_graph.areaLights.size());
         for (std::size_t i = 0; i < _graph.areaLights.size(); ++i)
             addAreaLight(_graph.areaLights[i], _caches.areaLights[i]);
@@ -442,6 +446,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     ConversionResult result;
     result.scene = state.last;
     result.counts = report.counts();
+    result.paths = report.paths();
+    warnOnceAReason(report, input.rasterizesRest);
     const auto draws = [](const RasterizedPart& part) { return part.kind == RasterizedPart::Draw; };
     if (std::any_of(graph.rasterized.begin(), graph.rasterized.end(), draws))
         result.rasterized = std::make_shared<RasterizedParts>(std::move(graph.rasterized));

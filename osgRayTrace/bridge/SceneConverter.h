@@ -44,6 +44,7 @@ struct ConversionResult
 {
     std::shared_ptr<const Scene> scene; ///< never null
     ConversionCounts counts;
+    ConversionPaths paths; ///< of what is counted, the first few
     /// For OSG to draw; null if nothing is, or ConversionInput::rasterizesRest is not set.
     std::shared_ptr<const RasterizedParts> rasterized;
     double seconds = 0.0;
