@@ -17,7 +17,7 @@ namespace osgRayTrace::engine
 /// skipped      bad data left out: index-out-of-range, not-finite, degenerate (each a triangle);
 ///              everything else an object
 /// warned       things that are traced as they are, but look wrong: far-vertices (a drawable),
-///              opposite-normals (a triangle)
+///              opposite-normals (a triangle); trace-hint: hinted to be traced, but cannot be
 /// approximated things that are traced, but not with all that OpenGL would do (a drawable or an object)
 /// not-traced   things that have no triangles, or that are not part of the scene as seen by a ray; OSG draws
 ///              them where there is a viewer

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GraphCollector.h"
 
+#include "osgRayTrace/bridge/DrawHint.h"
+
 #include <osgRayTrace/AreaLight>
 
 #include <osg/Billboard>
@@ -202,6 +204,7 @@ void GraphCollector::apply(osg::Camera& node)
     if (const char* reason = untracedCamera(node))
     {
         _report.count(reason);
+        warnIfForced("a camera of its own");
         rasterize();
         return;
     }
@@ -211,6 +214,7 @@ void GraphCollector::apply(osg::Camera& node)
 void GraphCollector::apply(osg::Projection&)
 {
     _report.count("not-traced.projection");
+    warnIfForced("a projection of its own");
     rasterize();
 }
 
@@ -243,6 +247,7 @@ void GraphCollector::apply(osg::Billboard& node)
     if (_input.rasterizesRest && hasUntracedDrawable(node))
     {
         _report.count("rasterized.billboard");
+        warnIfForced("a billboard with text or the like");
         rasterize();
         return;
     }
@@ -274,12 +279,15 @@ void GraphCollector::apply(osg::Drawable& drawable)
     const char* reason = untracedDrawable(drawable);
     if (!reason) return;
     _report.count(reason);
+    warnIfForced(drawable.className());
     rasterize();
 }
 
 void GraphCollector::apply(osg::Geometry& geometry)
 {
     if (_input.rasterizesRest && rasterizes(geometry)) return;
+    if (!_input.rasterizesRest && hintOf(getNodePath()) == DrawHint::Rasterize)
+        _report.count("approximated.rasterize-hint"); // there is no rasterizer
     if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
     const auto [found, isNew] = _indexOf.try_emplace(&geometry, _graph.geometries.size());
     if (isNew) _graph.geometries.push_back({&geometry, path(), {}, nullptr});
@@ -362,6 +370,7 @@ bool GraphCollector::collectLeaf(osg::Node& node)
     if (isFrom(node, "osg")) return false;
     _report.count(std::strcmp(node.className(), "LightPointNode") == 0 ? "not-traced.light-points"
                                                                        : "not-traced.custom-node");
+    warnIfForced(node.className());
     rasterize();
     return true;
 }
@@ -381,6 +390,9 @@ bool GraphCollector::rasterizes(const osg::Geometry& geometry)
     if (stateSet) _states.push(*stateSet);
     const char* reason = rasterizedState(_states.states()[_states.top()]);
     if (stateSet) _states.pop();
+    const DrawHint hint = hintOf(getNodePath());
+    if (hint == DrawHint::Rasterize) reason = "rasterized.hint";
+    if (hint == DrawHint::Trace) reason = nullptr;
     if (reason)
     {
         _report.count(reason);
@@ -389,9 +401,18 @@ bool GraphCollector::rasterizes(const osg::Geometry& geometry)
     }
     const osg::ref_ptr<osg::Geometry> rest = withoutTriangles(geometry);
     if (!rest) return false;
+    warnIfForced("lines, points or instanced primitives");
     const bool all = rest->getNumPrimitiveSets() == geometry.getNumPrimitiveSets();
     rasterize(RasterizedPart::Draw, all ? nullptr : rest.get());
     return false; // those without triangles are counted where triangles are made
+}
+
+/// Names what is hinted to be traced and cannot be.
+void GraphCollector::warnIfForced(const char* what)
+{
+    if (hintOf(getNodePath()) != DrawHint::Trace) return;
+    _report.warn("warned.trace-hint", "node '" + path() + "'",
+                 std::string("is hinted to be ray traced, but cannot be: ") + what);
 }
 
 osg::Matrixd GraphCollector::engineFromLocal() const

@@ -107,6 +107,7 @@ private:
     bool collectLeaf(osg::Node& node);
     void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);
     bool rasterizes(const osg::Geometry& geometry);
+    void warnIfForced(const char* what);
     osg::Matrixd engineFromLocal() const;
     std::string path() const;
 

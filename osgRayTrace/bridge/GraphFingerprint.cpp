@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GraphFingerprint.h"
 
+#include "osgRayTrace/bridge/DrawHint.h"
 #include "osgRayTrace/bridge/GraphCollector.h"
 
 #include <osgRayTrace/AreaLight>
@@ -257,7 +258,7 @@ public:
 private:
     void enter(osg::Node& node)
     {
-        _digest.add(&node);
+        _digest.add(&node, ownHint(node));
         addStateSetOf(node);
         if (getNodePath().size() < kDeepestPath) traverse(node);
         _digest.add(kEnd);
@@ -265,7 +266,7 @@ private:
 
     void addDrawable(const osg::Drawable& drawable)
     {
-        _digest.add(&drawable);
+        _digest.add(&drawable, ownHint(drawable));
         addStateSetOf(drawable);
         const osg::BoundingBox& box = drawable.getBoundingBox();
         _digest.add(box._min, box._max);
