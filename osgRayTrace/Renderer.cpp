@@ -48,11 +48,12 @@ struct ConversionKey
     osg::Vec4 clearColor;
     bool headlight = true;
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
+    engine::LightSizes lightSizes;
 
     bool operator==(const ConversionKey& other) const
     {
         return eye == other.eye && clearColor == other.clearColor && headlight == other.headlight &&
-               colorRule == other.colorRule;
+               colorRule == other.colorRule && lightSizes == other.lightSizes;
     }
 };
 
@@ -193,7 +194,8 @@ void Renderer::Implementation::convertScene()
     if (!inverted || !std::isfinite(eye.x()) || !std::isfinite(eye.y()) || !std::isfinite(eye.z()))
         throw EngineError(StatusCode::InvalidView, "the view matrix cannot be inverted");
 
-    const ConversionKey key{eye, clearColor, headlight, settings->getColorRule()};
+    const ConversionKey key{eye, clearColor, headlight, settings->getColorRule(),
+                            engine::lightSizesOf(*settings)};
     if (traced && !sceneDirty && key == convertedFor) return;
 
     const std::lock_guard<std::mutex> lock(graphMutex());
@@ -215,6 +217,7 @@ engine::ConversionInput Renderer::Implementation::conversionInput(const Conversi
     if (key.headlight) input.viewLight = viewerHeadlight();
     input.clearColor = key.clearColor;
     input.colorRule = key.colorRule;
+    input.lightSizes = key.lightSizes;
     return input;
 }
 

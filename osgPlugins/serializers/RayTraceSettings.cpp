@@ -8,8 +8,7 @@
 #include <osgDB/OutputStream>
 
 // All options by name: files of other versions, with more options or fewer, stay readable, and the
-// environment of the reader changes nothing that the writer had set. Names and values are single
-// words.
+// environment of the reader changes nothing that the writer had set. Names are single words.
 
 static bool checkOptions(const osgRayTrace::RayTraceSettings&)
 {
@@ -24,7 +23,8 @@ static bool readOptions(osgDB::InputStream& is, osgRayTrace::RayTraceSettings& s
     {
         std::string name;
         std::string value;
-        is >> name >> value;
+        is >> name;
+        is.readWrappedString(value);
         if (is.getException() || settings.set(name, value)) continue;
         OSG_WARN << "osgRayTrace: a file sets " << name << " to '" << value
                  << "', which this version does not know; ignored" << std::endl;
@@ -40,7 +40,9 @@ static bool writeOptions(osgDB::OutputStream& os, const osgRayTrace::RayTraceSet
     os << os.BEGIN_BRACKET << std::endl;
     for (const auto& option : options)
     {
-        os << option.name << settings.get(option.name) << std::endl;
+        os << option.name;
+        os.writeWrappedString(settings.get(option.name));
+        os << std::endl;
     }
     os << os.END_BRACKET << std::endl;
     return true;

@@ -373,11 +373,12 @@ void SceneBuilder::addAreaLight(const CollectedAreaLight& source, std::shared_pt
 void SceneBuilder::addLights()
 {
     std::map<int, Light> lights;
+    std::map<std::string, float> unused = _input.lightSizes.byName;
     const auto add = [&](const osg::Light& source, const osg::Matrixd& matrix, bool eyeSpace,
                          const std::string& path)
     {
         const int number = source.getLightNum();
-        const auto light = convertLight(source, matrix, eyeSpace, _unit);
+        auto light = convertLight(source, matrix, eyeSpace, _unit);
         if (!light || number < 0 || number >= 32)
         {
             _report.warn("skipped.light", "light '" + path + "'",
@@ -385,6 +386,8 @@ void SceneBuilder::addLights()
                                : "values are not finite, skipped");
             return;
         }
+        const std::string sizedAs = applyLightSize(_input.lightSizes, path, _unit, *light);
+        if (!sizedAs.empty()) unused.erase(sizedAs);
         lights[number] = *light;
         if (lights[number].name.empty()) lights[number].name = path;
     };
@@ -396,6 +399,9 @@ void SceneBuilder::addLights()
             _input.viewLightInEyeSpace, "viewer");
     for (const CollectedLight& light : _graph.lights)
         add(*light.light, light.engineFromLocal, light.eyeSpace, light.path);
+
+    for (const auto& [name, size] : unused)
+        _report.warn("warned.light-size", "light-sizes '" + name + "'", "there is no light of this name");
 
     uint32_t enabled = 0;
     for (const Material& material : _scene->materials)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/ConversionReport.h"
+#include "osgRayTrace/bridge/LightSizes.h"
 #include "osgRayTrace/bridge/RasterizedParts.h"
 #include "osgRayTrace/scene/Scene.h"
 
@@ -38,6 +39,7 @@ struct ConversionInput
     bool rasterizesRest = false;
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as shown
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
+    LightSizes lightSizes;
 };
 
 struct ConversionResult

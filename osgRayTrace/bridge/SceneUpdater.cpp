@@ -136,7 +136,8 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
     const bool seen = frameStamp && _frameNumber == frameStamp->getFrameNumber();
     const bool same = !noted.dirty && !noted.origin && root == _root && _conditions &&
                       convertAlike(*_conditions, conditions) &&
-                      _settings->getColorRule() == _colorRule;
+                      _settings->getColorRule() == _colorRule &&
+                      lightSizesOf(*_settings) == _lightSizes;
     if (seen && same) return;
     if (frameStamp) _frameNumber = frameStamp->getFrameNumber();
 
@@ -147,6 +148,7 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
     _fingerprint = fingerprint;
     _conditions = conditions;
     _colorRule = _settings->getColorRule();
+    _lightSizes = lightSizesOf(*_settings);
     if (noted.origin || !_origin) _origin = finiteOrZero(noted.origin.value_or(conditions.eye));
     if (root)
         convert(*root, conditions);
@@ -167,6 +169,7 @@ void SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
     input.inheritedState = conditions.inheritedState;
     input.clearColor = conditions.clearColor;
     input.colorRule = _colorRule;
+    input.lightSizes = _lightSizes;
     input.rasterizesRest = true;
 
     const ConversionResult conversion = _converter.convert(input);

@@ -3,6 +3,7 @@
 #include "osgRayTrace/photons/PhotonEmitter.h"
 
 #include "osgRayTrace/sampling/Warp.h"
+#include "osgRayTrace/shading/SoftLight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -100,16 +101,6 @@ Vec3 toWorld(Vec3 axis, Vec3 local)
     Vec3 tangent, bitangent;
     frameOf(axis.x, axis.y, axis.z, tangent, bitangent);
     return tangent * local.x + bitangent * local.y + axis * local.z;
-}
-
-/// Uniform in the cone of directions whose 1 - cosine is below oneMinusCosine around +z.
-Vec3 squareToCone(Vec2 u, float oneMinusCosine)
-{
-    const float z = 1.0f - u.y * oneMinusCosine;
-    const float sine = std::sqrt(std::max(0.0f, u.y * oneMinusCosine * (1.0f + z)));
-    float s, c;
-    sinCosTurn(u.x, s, c);
-    return Vec3(sine * c, sine * s, z);
 }
 
 std::size_t pick(const std::vector<float>& cumulative, float u)
@@ -215,8 +206,9 @@ float PhotonEmitter::falloff(uint32_t index, float distance) const
     return denominator > 0.0f ? distance * distance / denominator : 0.0f;
 }
 
-/// Cones of the targets as seen from origin, and the sum of their solid angles over 2 pi.
-int PhotonEmitter::conesFrom(Vec3 origin, Aim* aims, float& total) const
+/// Cones of the targets as seen from origin, and the sum of their solid angles over 2 pi. spread: photons
+/// start so far beside the origin.
+int PhotonEmitter::conesFrom(Vec3 origin, float spread, Aim* aims, float& total) const
 {
     int count = 0;
     total = 0.0f;
@@ -225,7 +217,8 @@ int PhotonEmitter::conesFrom(Vec3 origin, Aim* aims, float& total) const
     {
         const Vec3 d = target.centre - origin;
         const float distance2 = glm::dot(d, d);
-        const float sin2 = target.radius * target.radius / distance2;
+        const float radius = target.radius + spread;
+        const float sin2 = radius * radius / distance2;
         if (!(sin2 < 0.999f)) continue; // around or beside the origin: the plain emission finds it
         // 1 - cos without cancellation.
         const float oneMinusCosine = sin2 / (1.0f + std::sqrt(1.0f - sin2));
@@ -282,7 +275,7 @@ std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const Emissio
     }
     Aim aims[kMaxTargets];
     float total;
-    const int count = conesFrom(from->position, aims, total);
+    const int count = conesFrom(from->position, 0.0f, aims, total);
     const float share = count ? _aimedShare : 0.0f;
 
     Vec3 direction;
@@ -316,7 +309,7 @@ std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const Emissi
     const Light& light = _lights[index];
     Aim aims[kMaxTargets];
     float total;
-    const int count = conesFrom(light.position, aims, total);
+    const int count = conesFrom(light.position, light.radius, aims, total);
     const float share = count ? _aimedShare : 0.0f;
     const float oneMinusCutoff = 1.0f - std::max(-1.0f, light.spotCosCutoff);
 
@@ -338,7 +331,7 @@ std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const Emissi
                            ? 1.0f
                            : std::pow(std::max(cosine, 0.0f), light.spotExponent);
     PhotonStart start;
-    start.origin = light.position;
+    start.origin = isSoft(light) ? softOrigin(light, direction, point.position) : light.position;
     start.direction = direction;
     start.power = light.diffuse * (kPi * spot / pdf);
     return start;
@@ -348,6 +341,7 @@ std::optional<PhotonStart> PhotonEmitter::emitDirectional(uint32_t index, const 
 {
     const Light& light = _lights[index];
     if (!(_scene.radius > 0.0f)) return std::nullopt;
+    const Vec3 direction = isSoft(light) ? softDirection(light, point.direction) : light.direction;
     const float sceneArea = kPi * _scene.radius * _scene.radius;
     float total = 0.0f;
     for (const Sphere& target : _targets)
@@ -370,12 +364,12 @@ std::optional<PhotonStart> PhotonEmitter::emitDirectional(uint32_t index, const 
     float s, c;
     sinCosTurn(point.position.x, s, c);
     const float radius = disc->radius * std::sqrt(point.position.y);
-    const Vec3 q = disc->centre + toWorld(light.direction, Vec3(radius * c, radius * s, 0.0f));
+    const Vec3 q = disc->centre + toWorld(direction, Vec3(radius * c, radius * s, 0.0f));
 
     const auto isIn = [&](const Sphere& sphere)
     {
         const Vec3 d = q - sphere.centre;
-        const Vec3 across = d - light.direction * glm::dot(d, light.direction);
+        const Vec3 across = d - direction * glm::dot(d, direction);
         return glm::dot(across, across) <= sphere.radius * sphere.radius * 1.000002f;
     };
     float pdf = isIn(_scene) ? (1.0f - share) / sceneArea : 0.0f;
@@ -389,9 +383,9 @@ std::optional<PhotonStart> PhotonEmitter::emitDirectional(uint32_t index, const 
     if (!(pdf > 0.0f)) return std::nullopt;
     PhotonStart start;
     const Vec3 toCentre = _scene.centre - q;
-    start.origin = q + light.direction * (glm::dot(toCentre, light.direction) - 2.0f * _scene.radius);
-    start.direction = light.direction;
-    start.power = light.diffuse * (kPi / pdf);
+    start.origin = q + direction * (glm::dot(toCentre, direction) - 2.0f * _scene.radius);
+    start.direction = direction;
+    start.power = light.diffuse * (kPi * softWeight(light.sine) / pdf);
     return start;
 }
 

@@ -64,7 +64,8 @@ public:
     LaneMask emitLanes(const EmissionLanes& points, StartLanes& starts) const;
 
     /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives after a
-    /// free flight from the light is the power times this.
+    /// free flight from the light is the power times this. distance: to the light's centre, or its radius
+    /// where that is more.
     float falloff(uint32_t light, float distance) const;
 
     /// At most this many: more are grouped.
@@ -86,7 +87,7 @@ private:
     std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point) const;
     std::optional<PhotonStart> emitDirectional(uint32_t light, const EmissionPoint& point) const;
     LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts) const;
-    int conesFrom(Vec3 origin, Aim* aims, float& total) const;
+    int conesFrom(Vec3 origin, float spread, Aim* aims, float& total) const;
     float aimedPdf(const Aim* aims, int count, float total, Vec3 direction) const;
 
     const TracedScene& _traced;

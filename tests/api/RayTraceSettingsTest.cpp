@@ -72,7 +72,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getRadiusSchedule() == RayTraceSettings::GLOBAL);
 }
 
-TEST_CASE("settings: the table names all seventeen options once", "[api][settings]")
+TEST_CASE("settings: the table names all twenty options once", "[api][settings]")
 {
     std::set<std::string> names;
     std::set<std::string> variables;
@@ -81,11 +81,11 @@ TEST_CASE("settings: the table names all seventeen options once", "[api][setting
         names.insert(option.name);
         variables.insert(option.environment);
     }
-    CHECK(names.size() == 17);
-    CHECK(variables.size() == 17);
+    CHECK(names.size() == 20);
+    CHECK(variables.size() == 20);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 17);
+    CHECK(RayTraceSettings::options().size() == 20);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")
@@ -135,6 +135,26 @@ TEST_CASE("settings: every word of every choice is accepted and read back", "[ap
     CHECK(settings->getColorRule() == RayTraceSettings::DISPLAY_REFERRED);
     CHECK(settings->set("debug-channel", "cost"));
     CHECK(settings->getDebugChannel() == RayTraceSettings::COST);
+}
+
+TEST_CASE("settings: sizes of single lights are checked", "[api][settings]")
+{
+    const auto settings = make();
+    for (const char* good : {"none", "key=0.2", "key=0.2,a lamp=1e3;x=0", "a=b=1"})
+    {
+        CHECK(settings->set("light-sizes", good));
+        CHECK(settings->getLightSizes() == good);
+    }
+    for (const char* bad : {"key", "key=", "=1", "key=-1", "key=nan", "key=inf", "key=1e39", "key=1,",
+                            "key=1x", "key= 1", ",", "key=1,,x=2"})
+    {
+        INFO(bad);
+        CHECK_FALSE(settings->set("light-sizes", bad));
+        settings->setLightSizes(bad);
+        CHECK(settings->getLightSizes() == "a=b=1");
+    }
+    settings->setLightSizes("");
+    CHECK(settings->getLightSizes() == "none");
 }
 
 TEST_CASE("settings: names may be written in several ways", "[api][settings]")

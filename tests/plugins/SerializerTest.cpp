@@ -192,6 +192,7 @@ TEST_CASE("serializers: RayTraceSettings keep every option against the environme
     settings->set("terminator-correction", "off");
     settings->set("max-passes", "77");
     settings->set("seed", "4294967295");
+    settings->set("light-sizes", "the key=0.25,fill=1");
     settings->set("exposure", "-0.1");
     for (const Format& format : kFormats)
     {

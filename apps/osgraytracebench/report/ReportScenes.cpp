@@ -6,6 +6,7 @@
 #include "apps/osgraytracebench/report/CausticScenes.h"
 #include "apps/osgraytracebench/report/ClosedScenes.h"
 #include "apps/osgraytracebench/report/PlaneScenes.h"
+#include "apps/osgraytracebench/report/SphereScenes.h"
 
 namespace osgRayTrace::bench
 {
@@ -102,6 +103,8 @@ std::vector<ReportScene> reportScenes()
             axisEdgeScene(),
             rotatedEdgeScene(),
             roundBlockerScene(),
+            sphereLightScene(),
+            sunkenSphereScene(),
             furnaceScene(0.5),
             furnaceScene(0.9),
             integratingSphereScene(),
