@@ -3,6 +3,7 @@
 #include <osgRayTrace/RayTraceSettings>
 
 #include "osgRayTrace/bridge/LightSizes.h"
+#include "osgRayTrace/bridge/MaterialLibrary.h"
 #include "osgRayTrace/bridge/WarnOnce.h"
 
 #include <algorithm>
@@ -182,6 +183,11 @@ OptionRow textRow(const std::string& name, const std::string& range,
     return row;
 }
 
+bool isAnything(const std::string&)
+{
+    return true;
+}
+
 bool areLightSizes(const std::string& text)
 {
     return engine::parseLightSizes(text).has_value();
@@ -230,6 +236,8 @@ const std::vector<OptionRow>& optionTable()
         choiceRow("radius-schedule", kRadiusScheduleWords, &S::getRadiusSchedule,
                   &S::setRadiusSchedule,
                   "Radii shrink by the number of the pass, or by the photons of each pixel"),
+        textRow("materials", "none|FILE", &S::getMaterials, &S::setMaterials, isAnything,
+                "JSON file of physical materials by names in the model"),
         choiceRow("debug-channel", kDebugChannelWords, &S::getDebugChannel, &S::setDebugChannel,
                   "What the debug integrator shows"),
     };
@@ -320,7 +328,8 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _photons(other._photons),
       _photonRadius(other._photonRadius),
       _photonAlpha(other._photonAlpha),
-      _radiusSchedule(other._radiusSchedule)
+      _radiusSchedule(other._radiusSchedule),
+      _materials(other._materials)
 {
 }
 
@@ -427,6 +436,16 @@ void RayTraceSettings::setPhotonAlpha(float value)
 void RayTraceSettings::setRadiusSchedule(RadiusSchedule value)
 {
     changeChoice("radius-schedule", kRadiusScheduleWords, _radiusSchedule, value, _modifiedCount);
+}
+
+void RayTraceSettings::setMaterials(const std::string& value)
+{
+    change(_materials, value.empty() ? std::string("none") : value, _modifiedCount);
+}
+
+std::string RayTraceSettings::getMaterialsError() const
+{
+    return _materials == "none" ? std::string() : engine::readMaterialLibrary(_materials).error;
 }
 
 std::vector<RayTraceSettings::Option> RayTraceSettings::options()

@@ -50,6 +50,8 @@ void run(const Options& options)
         checkWritable(output);
     }
     if (!options.statistics.empty()) checkWritable(options.statistics);
+    const std::string materialsError = options.settings->getMaterialsError();
+    if (!materialsError.empty()) throw Failure(kCannotLoad, "--materials " + materialsError);
     osg::ref_ptr<osg::Image> reference;
     if (!options.reference.empty())
         reference = readReference(options.reference, options.width, options.height);

@@ -146,7 +146,8 @@ GraphCollector::GraphCollector(const ConversionInput& input, ConversionReport& r
       _input(input),
       _report(report),
       _worldFromLocal(1),
-      _states(rootState(input))
+      _states(rootState(input)),
+      _materials(input.materials)
 {
     for (const osg::ref_ptr<const osg::StateSet>& stateSet : input.inheritedState)
         _states.push(*stateSet);
@@ -171,6 +172,7 @@ CollectedGraph GraphCollector::take()
 {
     _graph.states = _states.states();
     _report.setPlace({});
+    _materials.reportUnused(_report);
     return std::move(_graph);
 }
 
@@ -293,7 +295,8 @@ void GraphCollector::apply(osg::Geometry& geometry)
     if (isNew) _graph.geometries.push_back({&geometry, path(), {}, nullptr});
 
     const bool pushed = pushState(geometry);
-    _graph.geometries[found->second].uses.push_back({engineFromLocal(), _states.top()});
+    _graph.geometries[found->second].uses.push_back(
+        {engineFromLocal(), _materials.stateOf(getNodePath(), _states)});
     if (pushed) _states.pop();
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/MaterialAssignment.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/SceneExtent.h"
 #include "osgRayTrace/bridge/StateStack.h"
@@ -115,6 +116,7 @@ private:
     ConversionReport& _report;
     std::vector<osg::Matrixd> _worldFromLocal; // the stack of transforms, never empty
     StateStack _states;
+    MaterialAssignment _materials; ///< keeps what it adds to the states
     CollectedGraph _graph;
     std::unordered_map<const osg::Geometry*, std::size_t> _indexOf;
 };

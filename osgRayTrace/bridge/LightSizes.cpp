@@ -23,8 +23,8 @@ std::optional<float> parseSize(const std::string& text)
     float value = 0.0f;
     const char* end = text.data() + text.size();
     const auto result = std::from_chars(text.data(), end, value);
-    const bool good = result.ec == std::errc() && result.ptr == end && value >= 0.0f &&
-                      value <= kLargestRadius;
+    const bool good =
+        result.ec == std::errc() && result.ptr == end && value >= 0.0f && value <= kLargestRadius;
     return good ? std::optional<float>(value) : std::nullopt;
 }
 
@@ -59,7 +59,8 @@ LightSizes lightSizesOf(const RayTraceSettings& settings)
             parseLightSizes(settings.getLightSizes()).value_or(std::map<std::string, float>())};
 }
 
-std::string applyLightSize(const LightSizes& sizes, const std::string& path, double unit, Light& light)
+std::string applyLightSize(const LightSizes& sizes, const std::string& path, double unit,
+                           Light& light)
 {
     auto named = sizes.byName.find(light.name);
     if (named == sizes.byName.end()) named = sizes.byName.find(lastName(path));
@@ -68,7 +69,8 @@ std::string applyLightSize(const LightSizes& sizes, const std::string& path, dou
         light.radius = static_cast<float>((isNamed ? named->second : sizes.radius) / unit);
     if (light.kind == LightKind::Directional)
     {
-        const float degrees = std::min(isNamed ? named->second : sizes.angleDegrees, kLargestDegrees);
+        const float degrees =
+            std::min(isNamed ? named->second : sizes.angleDegrees, kLargestDegrees);
         light.sine = static_cast<float>(std::sin(osg::DegreesToRadians(0.5 * degrees)));
     }
     return isNamed ? named->first : std::string();

@@ -35,7 +35,9 @@ std::optional<std::map<std::string, float>> parseLightSizes(const std::string& t
 LightSizes lightSizesOf(const RayTraceSettings& settings);
 
 /// Makes a directional or point light as large as it is meant to be: by its own name, else that of
-/// the last node of path, else by its kind. unit is Scene::unit. Returns the name that was used, or "".
-std::string applyLightSize(const LightSizes& sizes, const std::string& path, double unit, Light& light);
+/// the last node of path, else by its kind. unit is Scene::unit. Returns the name that was used, or
+/// "".
+std::string applyLightSize(const LightSizes& sizes, const std::string& path, double unit,
+                           Light& light);
 
 } // namespace osgRayTrace::engine

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/ConversionReport.h"
 #include "osgRayTrace/bridge/LightSizes.h"
+#include "osgRayTrace/bridge/MaterialLibrary.h"
 #include "osgRayTrace/bridge/RasterizedParts.h"
 #include "osgRayTrace/scene/Scene.h"
 
@@ -40,6 +41,7 @@ struct ConversionInput
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as shown
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
     LightSizes lightSizes;
+    std::shared_ptr<const MaterialLibrary> materials; ///< null: those of the graph only
 };
 
 struct ConversionResult

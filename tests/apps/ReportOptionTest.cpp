@@ -67,3 +67,26 @@ TEST_CASE("osgraytrace --report: also of a scene that cannot be rendered", "[app
     CHECK_THAT(outcome.output, Contains("              town/fence\n"));
     CHECK_THAT(outcome.errors, Contains("no triangles"));
 }
+
+TEST_CASE("osgraytrace --materials: glass by a name, and errors with their line", "[apps]")
+{
+    const TemporaryFolder folder, models;
+    const std::string town = writeScene(models, true);
+    const auto write = [&](const std::string& text)
+    { std::ofstream(models / "m.json") << text; };
+    const std::string run = town + " --size 8 8 --passes 1 -o x.exr --stats s.json --materials '" +
+                            models / "m.json" + "'";
+
+    write("{ \"nodes\": { \"roof\": { \"metallic\": 1 }, \"cellar\": {} } }");
+    const Outcome good = osgraytrace(folder, run);
+    CHECK(good.exitCode == 0);
+    CHECK_THAT(good.errors, Contains("nodes 'cellar': nothing in the scene has this name"));
+    const auto json = nlohmann::json::parse(contents(folder / "s.json"));
+    CHECK(json["integrator"] == "path"); // no longer a fixed-function scene
+
+    write("{ \"nodes\": {\n \"roof\": { \"metalic\": 1 } } }");
+    const Outcome bad = osgraytrace(folder, run);
+    CHECK(bad.exitCode == 2);
+    CHECK_THAT(bad.errors, Contains("m.json:2: nodes: 'roof': 'metalic' is no parameter"));
+    CHECK(osgraytrace(folder, town + " -o x.exr --materials 'no such.json'").exitCode == 2);
+}

@@ -120,7 +120,8 @@ TEST_CASE("hints: rasterized parts look as in the rasterizer", "[gl]")
 {
     osg::ref_ptr<osg::Group> group = new osg::Group;
     group->addChild(sphere(osg::Vec3(-0.6f, 0.0f, 0.0f), 1.2f, osg::Vec4(1, 0, 0, 1)));
-    osg::ref_ptr<osg::Node> other = sphere(osg::Vec3(0.7f, 0.2f, 0.3f), 1.2f, osg::Vec4(0, 0, 1, 1));
+    osg::ref_ptr<osg::Node> other =
+        sphere(osg::Vec3(0.7f, 0.2f, 0.3f), 1.2f, osg::Vec4(0, 0, 1, 1));
     group->addChild(other.get());
 
     Traced rasterized(group.get());

@@ -1,5 +1,5 @@
-// SoftLightTest.cpp - lights with a size, by every estimator: irradiance, shadows, the limit of none.
-// SPDX-License-Identifier: MIT
+// SoftLightTest.cpp - lights with a size, by every estimator: irradiance, shadows, the limit of
+// none. SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
 using namespace osgRayTrace::engine;
@@ -84,8 +84,8 @@ TEST_CASE("soft light: irradiance by path tracing", "[integrators][statistics][s
         CAPTURE(known.degrees);
         const int passes = known.degrees > 90.0 ? 384 : 128; // few samples are above the horizon
         for (const Light& light : {sphereLight(known.degrees), sun(known.degrees)})
-            check(measure(receiver(light).build(), receiverView(), optionsOf(IntegratorKind::Path, 1),
-                          passes),
+            check(measure(receiver(light).build(), receiverView(),
+                          optionsOf(IntegratorKind::Path, 1), passes),
                   known.irradiance);
     }
 }
@@ -114,7 +114,8 @@ TEST_CASE("soft light: what stands between shadows its part", "[integrators][sta
     SceneBuilder builder = receiver(light);
     builder.add(quadMesh({-0.5f, -0.5f, 1}, {0, 1, 0}, {1, 0, 0}), lambert(Vec3(0.0f)));
     const double expected = M_PI * 0.49 - 0.75227469;
-    check(measure(builder.build(), receiverView(), optionsOf(IntegratorKind::Path, 1), 512), expected);
+    check(measure(builder.build(), receiverView(), optionsOf(IntegratorKind::Path, 1), 512),
+          expected);
     RenderOptions options = optionsOf(IntegratorKind::Whitted);
     options.lightSamples = 64;
     check(measure(builder.build(), receiverView(), options, 16), expected);

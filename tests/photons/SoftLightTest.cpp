@@ -1,8 +1,8 @@
 // SoftLightTest.cpp - photons of lights with a size: power, aim, and the light that paths see.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
-#include "tests/PValues.h"
 #include "tests/EngineScenes.h"
+#include "tests/PValues.h"
 #include "tests/Statistics.h"
 
 #include "osgRayTrace/photons/PhotonEmitter.h"
@@ -136,7 +136,8 @@ void checkAgreement(const std::shared_ptr<const TracedScene>& traced)
         options.photonRadius = 0.03f;
         const Estimate photons = meanOf(traced, options, 12);
         const double p = welchTest(path, kRuns, photons, kRuns);
-        CAPTURE(int(kind), path.mean(), path.standardError(), photons.mean(), photons.standardError(), p);
+        CAPTURE(int(kind), path.mean(), path.standardError(), photons.mean(),
+                photons.standardError(), p);
         CHECK(photons.standardError() < 0.01 * path.mean());
         CHECK(p > threshold);
     }
@@ -160,7 +161,8 @@ TEST_CASE("photons of soft lights: all power leaves, aimed or not", "[photons][s
         for (const float share : {0.25f, 0.9f})
         {
             const Flux aimed = emitted(light, share, radius);
-            const double spread = std::hypot(plain.ball.standardError(), aimed.ball.standardError());
+            const double spread =
+                std::hypot(plain.ball.standardError(), aimed.ball.standardError());
             CAPTURE(share, aimed.total.mean(), plain.ball.mean(), aimed.ball.mean(), spread);
             CHECK(aimed.total.agrees(expected, 1e-5 * expected));
             CHECK(plain.ball.mean() > 0.0);

@@ -75,7 +75,7 @@ struct Known
     double degrees, irradiance; ///< of radiance 1 under a half-angle of 30 degrees [Snyder96]
 };
 
-constexpr Known kKnown[] = {{0.0, 0.78539816},  {60.0, 0.39269908}, {75.0, 0.22120088},
+constexpr Known kKnown[] = {{0.0, 0.78539816},  {60.0, 0.39269908},  {75.0, 0.22120088},
                             {90.0, 0.09058607}, {100.0, 0.03544902}, {121.0, 0.0}};
 
 } // namespace
@@ -126,7 +126,9 @@ TEST_CASE("soft light: tiny and far ones are the point light", "[shading]")
 // Inside it is as on the surface: neither dark nor infinite.
 TEST_CASE("soft light: from outside to inside there is no step", "[shading]")
 {
-    const auto at = [](float distance) { return irradiance(sphereLight({0, 0, distance}, 1.0f), 512); };
+    const auto at = [](float distance) {
+        return irradiance(sphereLight({0, 0, distance}, 1.0f), 512);
+    };
     CHECK(at(1.0001f) == Approx(kPiD).epsilon(1e-3));
     CHECK(at(0.9999f) == Approx(kPiD).epsilon(1e-3));
     CHECK(at(0.01f) == Approx(kPiD).epsilon(1e-3));
@@ -144,8 +146,8 @@ TEST_CASE("soft light: directions are uniform in the cone, and end at the disc",
         const Vec3 axis = glm::normalize(Vec3(0.3f, -0.8f, 0.4f));
         const Light light = sphereLight(3.0f / sine * axis, 3.0f);
         const Sectors sectors(axis);
-        std::vector<double> counts(kCells * kCells), expected(kCells * kCells,
-                                                              double(kSamples) / kCells / kCells);
+        std::vector<double> counts(kCells * kCells),
+            expected(kCells * kCells, double(kSamples) / kCells / kCells);
         for (int k = 0; k < kSamples; ++k)
         {
             const SoftLightSample sample =
@@ -174,5 +176,6 @@ TEST_CASE("soft light: a spot's profile belongs to directions", "[shading]")
     // Mean over the cone of 30 degrees of cos^4 within 20 degrees, times its solid angle, is
     // 2 pi (1 - c^5) / 5.
     const double c = light.spotCosCutoff;
-    CHECK(irradiance(light, 1024) == Approx(2.0 * kPiD * (1.0 - std::pow(c, 5)) / 5.0).epsilon(1e-3));
+    CHECK(irradiance(light, 1024) ==
+          Approx(2.0 * kPiD * (1.0 - std::pow(c, 5)) / 5.0).epsilon(1e-3));
 }

@@ -33,7 +33,8 @@ double sphereIrradiance(double sine, double theta)
     const double x = std::sqrt(1.0 / (sine * sine) - 1.0);
     const double y = std::clamp(-x * cosine / sinTheta, -1.0, 1.0);
     const double root = std::sqrt(1.0 - y * y);
-    return (cosine * std::acos(y) - x * sinTheta * root) * sine * sine + std::atan(sinTheta * root / x);
+    return (cosine * std::acos(y) - x * sinTheta * root) * sine * sine +
+           std::atan(sinTheta * root / x);
 }
 
 /// Fades as a sphere of this radiance does.
@@ -75,8 +76,9 @@ ReportScene scene(const std::string& name, const std::string& title, double heig
         const Vec3d point = origin - direction * (origin.z() / direction.z());
         const Vec3d towards = Vec3d(0.0, 0.0, height) - point;
         const double distance = towards.length();
-        return kRadiance * (kAlbedo / M_PI *
-                            sphereIrradiance(kRadius / distance, std::acos(towards.z() / distance)));
+        return kRadiance *
+               (kAlbedo / M_PI *
+                sphereIrradiance(kRadius / distance, std::acos(towards.z() / distance)));
     };
     return scene;
 }
