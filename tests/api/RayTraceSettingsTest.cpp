@@ -263,6 +263,7 @@ TEST_CASE("settings: the environment gives first values, bad ones are refused", 
             CHECK(settings->get(option.name) == value);
             CHECK(settings->getModifiedCount() == 0);
         }
+        if (option.name == "materials") continue; // a file may have any name
         const Environment bad(option.environment.c_str(), "no such value");
         CHECK(make()->get(option.name) == option.defaultValue);
     }
