@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/LightSizes.h"
 #include "osgRayTrace/bridge/MaterialLibrary.h"
 #include "osgRayTrace/bridge/RasterizedParts.h"
+#include "osgRayTrace/bridge/ReferenceView.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <osgRayTrace/RayTraceSettings>
@@ -16,6 +17,7 @@
 #include <osg/Vec3d>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -25,7 +27,10 @@ namespace osgRayTrace::engine
 struct ConversionInput
 {
     osg::Node* root = nullptr;
-    osg::Vec3d eye;    ///< world space: levels of detail, and where the origin is put
+    osg::Vec3d eye; ///< world space: levels of detail
+    /// With the same eye: sizes in pixels, and what turns to the view or moves with it. Without one
+    /// that is as if looked at from the eye, upright in the world.
+    std::optional<ReferenceView> view;
     osg::Vec3d origin; ///< of the engine's coordinates, world space
     unsigned int traversalMask = 0xffffffffu;
     /// The light that osgViewer adds outside of the graph; null: none. In view space (headlight) or
@@ -51,6 +56,7 @@ struct ConversionResult
     ConversionPaths paths; ///< of what is counted, the first few
     /// For OSG to draw; null if nothing is, or ConversionInput::rasterizesRest is not set.
     std::shared_ptr<const RasterizedParts> rasterized;
+    bool paged = false; ///< parts of the graph are files that are read when they are seen
     double seconds = 0.0;
 };
 
