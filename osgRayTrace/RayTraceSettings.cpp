@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/RayTraceSettings>
 
+#include "osgRayTrace/bridge/LightSizes.h"
+#include "osgRayTrace/bridge/MaterialLibrary.h"
 #include "osgRayTrace/bridge/WarnOnce.h"
 
 #include <algorithm>
@@ -29,6 +31,8 @@ template <typename T> struct Range
 
 constexpr Range<int> kLightSamplesRange{1, 4096};
 constexpr Range<int> kEnvironmentSamplesRange{1, 4096};
+constexpr Range<float> kLightRadiusRange{0.0f, 1e30f};
+constexpr Range<float> kLightAngleRange{0.0f, 180.0f};
 constexpr Range<int> kMaxBouncesRange{0, 1024};
 constexpr Range<int> kMaxPassesRange{1, 1 << 24};
 constexpr Range<int> kPassesPerFrameRange{1, 1024};
@@ -163,6 +167,34 @@ OptionRow switchRow(const std::string& name, bool (RayTraceSettings::*get)() con
     return row;
 }
 
+/// Any text that isGood takes.
+OptionRow textRow(const std::string& name, const std::string& range,
+                  const std::string& (RayTraceSettings::*get)() const,
+                  void (RayTraceSettings::*set)(const std::string&), bool (*isGood)(const std::string&),
+                  const std::string& help)
+{
+    OptionRow row;
+    row.option = describe(name, range, help);
+    row.get = [get](const RayTraceSettings& settings) { return (settings.*get)(); };
+    row.set = [set, isGood](RayTraceSettings& settings, const std::string& text)
+    {
+        if (!isGood(text)) return false;
+        (settings.*set)(text);
+        return true;
+    };
+    return row;
+}
+
+bool isAnything(const std::string&)
+{
+    return true;
+}
+
+bool areLightSizes(const std::string& text)
+{
+    return engine::parseLightSizes(text).has_value();
+}
+
 const std::vector<OptionRow>& optionTable()
 {
     using S = RayTraceSettings;
@@ -173,12 +205,18 @@ const std::vector<OptionRow>& optionTable()
         choiceRow("light-sampling", kLightSamplingWords, &S::getLightSampling, &S::setLightSampling,
                   "How points on area lights are chosen"),
         numberRow("light-samples", kLightSamplesRange, &S::getLightSamples, &S::setLightSamples,
-                  "Samples a hit and area light"),
+                  "Samples a hit and area light, and light with a size"),
         choiceRow("environment-sampling", kEnvironmentSamplingWords, &S::getEnvironmentSampling,
                   &S::setEnvironmentSampling, "How directions towards the environment are chosen"),
         numberRow("environment-samples", kEnvironmentSamplesRange, &S::getEnvironmentSamples,
                   &S::setEnvironmentSamples,
                   "Lights that structured sampling makes of the environment, at most"),
+        numberRow("light-radius", kLightRadiusRange, &S::getLightRadius, &S::setLightRadius,
+                  "Radius of the spheres that point and spot lights become [length]"),
+        numberRow("light-angle", kLightAngleRange, &S::getLightAngle, &S::setLightAngle,
+                  "Angular diameter of directional lights [degrees]; the sun: 0.53"),
+        textRow("light-sizes", "none|NAME=0.2", &S::getLightSizes, &S::setLightSizes, areLightSizes,
+                "Radius or angle of single lights, by their names"),
         switchRow("shadows", &S::getShadows, &S::setShadows, "Shadows of all lights"),
         switchRow("terminator-correction", &S::getTerminatorCorrection, &S::setTerminatorCorrection,
                   "No step where light ends on smooth-shaded facets"),
@@ -207,6 +245,8 @@ const std::vector<OptionRow>& optionTable()
                   "Radii shrink by the number of the pass, or by the photons of each pixel"),
         switchRow("aim-at-views", &S::getAimAtViews, &S::setAimAtViews,
                   "Photons for mirrors and glass go where the views see their light"),
+        textRow("materials", "none|FILE", &S::getMaterials, &S::setMaterials, isAnything,
+                "JSON file of physical materials by names in the model"),
         choiceRow("debug-channel", kDebugChannelWords, &S::getDebugChannel, &S::setDebugChannel,
                   "What the debug integrator shows"),
     };
@@ -285,6 +325,9 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _lightSamples(other._lightSamples),
       _environmentSampling(other._environmentSampling),
       _environmentSamples(other._environmentSamples),
+      _lightRadius(other._lightRadius),
+      _lightAngle(other._lightAngle),
+      _lightSizes(other._lightSizes),
       _maxBounces(other._maxBounces),
       _shadows(other._shadows),
       _terminatorCorrection(other._terminatorCorrection),
@@ -297,7 +340,8 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _photonRadius(other._photonRadius),
       _photonAlpha(other._photonAlpha),
       _radiusSchedule(other._radiusSchedule),
-      _aimAtViews(other._aimAtViews)
+      _aimAtViews(other._aimAtViews),
+      _materials(other._materials)
 {
 }
 
@@ -338,6 +382,24 @@ void RayTraceSettings::setColorRule(ColorRule value)
 void RayTraceSettings::setLightSamples(int value)
 {
     changeNumber("light-samples", kLightSamplesRange, _lightSamples, value, _modifiedCount);
+}
+
+void RayTraceSettings::setLightRadius(float value)
+{
+    changeNumber("light-radius", kLightRadiusRange, _lightRadius, value, _modifiedCount);
+}
+
+void RayTraceSettings::setLightAngle(float value)
+{
+    changeNumber("light-angle", kLightAngleRange, _lightAngle, value, _modifiedCount);
+}
+
+void RayTraceSettings::setLightSizes(const std::string& value)
+{
+    if (!areLightSizes(value))
+        warnOnce("light-sizes '" + value + "' are not NAME=SIZE,...; ignored");
+    else
+        change(_lightSizes, value.empty() ? std::string("none") : value, _modifiedCount);
 }
 
 void RayTraceSettings::setMaxBounces(int value)
@@ -403,6 +465,16 @@ void RayTraceSettings::setPhotonAlpha(float value)
 void RayTraceSettings::setRadiusSchedule(RadiusSchedule value)
 {
     changeChoice("radius-schedule", kRadiusScheduleWords, _radiusSchedule, value, _modifiedCount);
+}
+
+void RayTraceSettings::setMaterials(const std::string& value)
+{
+    change(_materials, value.empty() ? std::string("none") : value, _modifiedCount);
+}
+
+std::string RayTraceSettings::getMaterialsError() const
+{
+    return _materials == "none" ? std::string() : engine::readMaterialLibrary(_materials).error;
 }
 
 std::vector<RayTraceSettings::Option> RayTraceSettings::options()

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/RayTracedScene>
 
+#include "osgRayTrace/bridge/DrawHint.h"
+
 #include <osg/NodeVisitor>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/GLObjectsVisitor>
@@ -102,6 +104,36 @@ RayTracedScene::~RayTracedScene()
     static_cast<SceneRoot*>(_children.get())->detach();
 }
 
+void RayTracedScene::setHint(osg::Node* node, Hint hint)
+{
+    if (!node) return;
+    switch (hint)
+    {
+    case AUTOMATIC:
+        return engine::setOwnHint(*node, engine::DrawHint::Automatic);
+    case TRACE:
+        return engine::setOwnHint(*node, engine::DrawHint::Trace);
+    case RASTERIZE:
+        return engine::setOwnHint(*node, engine::DrawHint::Rasterize);
+    }
+}
+
+RayTracedScene::Hint RayTracedScene::getHint(const osg::Node* node)
+{
+    if (!node) return AUTOMATIC;
+    switch (engine::ownHint(*node))
+    {
+    case engine::DrawHint::Trace:
+        return TRACE;
+    case engine::DrawHint::Rasterize:
+        return RASTERIZE;
+    case engine::DrawHint::None:
+    case engine::DrawHint::Automatic:
+        break;
+    }
+    return AUTOMATIC;
+}
+
 void RayTracedScene::setEnabled(bool enabled)
 {
     _enabled = enabled;
@@ -127,6 +159,11 @@ void RayTracedScene::dirtyScene()
 {
     _drawable->dirtyScene();
     dirtyBound();
+}
+
+std::string RayTracedScene::getConversionReport() const
+{
+    return conversionReport(_drawable->getStatistics());
 }
 
 void RayTracedScene::traverse(osg::NodeVisitor& visitor)

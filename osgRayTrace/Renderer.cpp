@@ -49,11 +49,14 @@ struct ConversionKey
     osg::Vec4 clearColor;
     bool headlight = true;
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
+    engine::LightSizes lightSizes;
+    std::shared_ptr<const engine::MaterialLibrary> materials;
 
     bool operator==(const ConversionKey& other) const
     {
         return eye == other.eye && view == other.view && clearColor == other.clearColor && headlight == other.headlight &&
-               colorRule == other.colorRule;
+               colorRule == other.colorRule && lightSizes == other.lightSizes &&
+               materials == other.materials;
     }
 };
 
@@ -122,6 +125,7 @@ struct Renderer::Implementation
     int threads = -1; ///< that the session was made for
     std::shared_ptr<engine::Workers> workers;
     engine::SceneConverter converter;
+    engine::MaterialLibraryFile materialFile;
     ConversionKey convertedFor;
     std::shared_ptr<const engine::TracedScene> traced;
     std::unique_ptr<engine::RenderSession> session;
@@ -195,7 +199,9 @@ void Renderer::Implementation::convertScene()
         throw EngineError(StatusCode::InvalidView, "the view matrix cannot be inverted");
 
     const engine::ReferenceView view{viewMatrix, projectionMatrix, double(width), double(height)};
-    const ConversionKey key{eye, view, clearColor, headlight, settings->getColorRule()};
+    const ConversionKey key{eye, view, clearColor, headlight, settings->getColorRule(),
+                            engine::lightSizesOf(*settings),
+                            materialFile.library(settings->getMaterials(), sceneDirty)};
     if (traced && !sceneDirty && key == convertedFor) return;
 
     const std::lock_guard<std::mutex> lock(graphMutex());
@@ -218,6 +224,8 @@ engine::ConversionInput Renderer::Implementation::conversionInput(const Conversi
     if (key.headlight) input.viewLight = viewerHeadlight();
     input.clearColor = key.clearColor;
     input.colorRule = key.colorRule;
+    input.lightSizes = key.lightSizes;
+    input.materials = key.materials;
     return input;
 }
 

@@ -142,6 +142,8 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
         ->option_text("FILE.exr");
     app.add_option("--stats", options.statistics, "Writes counts, times and errors")
         ->option_text("FILE.json");
+    app.add_flag("--report", options.report,
+                 "Prints what was ray traced, approximated and left out, and where; needs no -o");
     app.add_option("--context", raw.context,
                    "none, osmesa, egl; other than none: through RayTraceDrawable in it")
         ->option_text("NAME")
@@ -170,9 +172,15 @@ void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
     if (raw.context == "egl") options.context = Context::Egl;
 }
 
-/// The default of 64 passes holds unless something else says when to stop.
+/// The default of 64 passes holds unless something else says when to stop. A report alone needs no
+/// picture.
 void applyPasses(const CLI::App& app, Options& options)
 {
+    if (options.outputs.empty() && options.report)
+    {
+        options.settings->setMaxPasses(1);
+        return;
+    }
     if (app.count("--passes") || std::getenv("OSGRAYTRACE_MAX_PASSES")) return;
     const bool otherwiseLimited = options.seconds > 0.0 || options.relativeError > 0.0;
     options.settings->setMaxPasses(otherwiseLimited ? 1 << 24 : kDefaultPasses);
@@ -181,7 +189,7 @@ void applyPasses(const CLI::App& app, Options& options)
 void check(const Options& options)
 {
     if (options.models.empty()) throw Failure(kUsage, "no MODEL given; --help shows the options");
-    if (options.outputs.empty())
+    if (options.outputs.empty() && !options.report)
         throw Failure(kUsage, "no -o FILE given; --help shows the options");
     if (options.width < 1 || options.height < 1 ||
         double(options.width) * options.height > kMaxPixels)

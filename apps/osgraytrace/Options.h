@@ -38,6 +38,7 @@ struct Options
     std::vector<std::string> channels;
     std::string reference;  ///< empty: none
     std::string statistics; ///< empty: none
+    bool report = false;
     Context context = Context::None;
     bool listOptions = false;
     osg::ref_ptr<RayTraceSettings> settings; ///< maxPasses is the limit of passes

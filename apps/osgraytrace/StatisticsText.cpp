@@ -52,6 +52,7 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
     json["relativeError"] = statistics.relativeError;
     json["droppedSamples"] = statistics.droppedSamples;
     json["conversion"] = statistics.conversion;
+    json["conversionPaths"] = statistics.conversionPaths;
     if (measures)
     {
         json["reference"] = {{"file", options.reference},

@@ -33,6 +33,7 @@ Picture render(const Options& options, osg::Node& scene)
     Picture picture = options.context == Context::None
                           ? renderWithoutContext(options, scene, camera, progress)
                           : renderInContext(options, scene, camera, progress);
+    if (options.report) std::cout << conversionReport(picture.statistics) << std::flush;
     if (picture.statistics.triangles == 0)
         throw Failure(kCannotRender, "the scene holds no triangles to render");
     return picture;
@@ -61,6 +62,8 @@ void run(const Options& options)
         checkWritable(output);
     }
     if (!options.statistics.empty()) checkWritable(options.statistics);
+    const std::string materialsError = options.settings->getMaterialsError();
+    if (!materialsError.empty()) throw Failure(kCannotLoad, "--materials " + materialsError);
     osg::ref_ptr<osg::Image> reference;
     if (!options.reference.empty())
         reference = readReference(options.reference, options.width, options.height);

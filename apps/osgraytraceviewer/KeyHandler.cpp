@@ -77,6 +77,9 @@ bool KeyHandler::press(int key)
     case 'r':
         _scene->setEnabled(!_scene->getEnabled());
         return true;
+    case 'R':
+        OSG_NOTICE << _scene->getConversionReport() << std::flush;
+        return true;
     case 'c':
         writeScreenshot();
         return true;
@@ -107,6 +110,7 @@ void KeyHandler::getUsage(osg::ApplicationUsage& usage) const
     usage.addKeyboardMouseBinding("-", "Exposure half a stop down");
     usage.addKeyboardMouseBinding("p", "Pause and continue ray tracing");
     usage.addKeyboardMouseBinding("r", "Switch between ray tracer and rasterizer");
+    usage.addKeyboardMouseBinding("R", "Print what is ray traced, and what is not");
     usage.addKeyboardMouseBinding("c", "Write the picture's radiance to osgraytrace-N.exr");
 }
 

@@ -141,6 +141,8 @@ int show(osgViewer::Viewer& viewer, const std::vector<std::string>& models,
     }
     for (const auto& [name, value] : assignments)
         scene->getSettings()->set(name, value);
+    const std::string materialsError = scene->getSettings()->getMaterialsError();
+    if (!materialsError.empty()) return fail(kCannotLoad, "--materials " + materialsError);
     osg::ref_ptr<StatusLine> statusLine = new StatusLine(scene.get());
     root->addChild(statusLine->camera());
 

@@ -7,9 +7,44 @@
 #include <osgDB/ObjectWrapper>
 #include <osgDB/OutputStream>
 
+#include <cstdio>
+#include <cstring>
+#include <string>
+
 // All options by name: files of other versions, with more options or fewer, stay readable, and the
 // environment of the reader changes nothing that the writer had set. Names and values are single
-// words.
+// words: of values, characters that may not be in one are written as %20.
+
+static bool isPlain(char c)
+{
+    const bool alphanumeric = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    return alphanumeric || std::strchr("-+_.,;:=/*", c) != nullptr;
+}
+
+static std::string wordOf(const std::string& value)
+{
+    std::string word;
+    for (const char c : value)
+    {
+        char code[4];
+        std::snprintf(code, sizeof code, "%%%02x", static_cast<unsigned char>(c));
+        word += c != '\0' && isPlain(c) ? std::string(1, c) : code;
+    }
+    return word;
+}
+
+static std::string valueOf(const std::string& word)
+{
+    std::string value;
+    for (std::size_t i = 0; i < word.size(); ++i)
+    {
+        unsigned int code = 0;
+        const bool coded = word[i] == '%' && std::sscanf(word.substr(i + 1, 2).c_str(), "%2x", &code) == 1;
+        value += coded ? static_cast<char>(code) : word[i];
+        if (coded) i += 2;
+    }
+    return value;
+}
 
 static bool checkOptions(const osgRayTrace::RayTraceSettings&)
 {
@@ -25,7 +60,7 @@ static bool readOptions(osgDB::InputStream& is, osgRayTrace::RayTraceSettings& s
         std::string name;
         std::string value;
         is >> name >> value;
-        if (is.getException() || settings.set(name, value)) continue;
+        if (is.getException() || settings.set(name, valueOf(value))) continue;
         OSG_WARN << "osgRayTrace: a file sets " << name << " to '" << value
                  << "', which this version does not know; ignored" << std::endl;
     }
@@ -40,7 +75,7 @@ static bool writeOptions(osgDB::OutputStream& os, const osgRayTrace::RayTraceSet
     os << os.BEGIN_BRACKET << std::endl;
     for (const auto& option : options)
     {
-        os << option.name << settings.get(option.name) << std::endl;
+        os << option.name << wordOf(settings.get(option.name)) << std::endl;
     }
     os << os.END_BRACKET << std::endl;
     return true;

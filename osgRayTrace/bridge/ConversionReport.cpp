@@ -4,6 +4,10 @@
 
 #include "osgRayTrace/bridge/WarnOnce.h"
 
+#include <algorithm>
+#include <iterator>
+#include <set>
+
 namespace osgRayTrace::engine
 {
 
@@ -29,12 +33,51 @@ constexpr Wording kGeometryWordings[] = {
      "texture coordinates that are missing or not finite, replaced by 0"},
 };
 
+/// Reasons of ConversionReport::warn: the object's own line says more.
+bool isNamedByObject(const std::string& what)
+{
+    static const std::set<std::string> others{
+        "skipped.too-deep",           "skipped.not-finite-transform", "skipped.projective-transform",
+        "skipped.singular-transform", "skipped.area-light",           "skipped.light",
+        "approximated.texture-size",  "approximated.pixel-format"};
+    const auto isIt = [&what](const Wording& wording) { return what == wording.what; };
+    return others.count(what) > 0 ||
+           std::any_of(std::begin(kGeometryWordings), std::end(kGeometryWordings), isIt);
+}
+
+bool begins(const std::string& text, const char* with)
+{
+    return text.rfind(with, 0) == 0;
+}
+
 } // namespace
+
+void ConversionReport::notePath(const std::string& what, const std::string& path)
+{
+    std::vector<std::string>& paths = _paths[what];
+    const bool isNew = std::find(paths.begin(), paths.end(), path) == paths.end();
+    if (isNew && paths.size() < kPathsKept) paths.push_back(path);
+}
+
+void ConversionReport::count(const std::string& what, uint64_t number)
+{
+    _counts[what] += number;
+    if (!_place || number == 0) return;
+    const auto noted = _paths.find(what);
+    if (noted == _paths.end() || noted->second.size() < kPathsKept) notePath(what, _place());
+}
+
+void ConversionReport::add(const ConversionCounts& counts)
+{
+    for (const auto& [what, number] : counts)
+        count(what, number);
+}
 
 void ConversionReport::warn(const std::string& what, const std::string& object,
                             const std::string& message)
 {
     count(what);
+    if (!_place) notePath(what, object);
     warnOnce(object + ": " + message);
 }
 
@@ -46,6 +89,20 @@ void warnAboutGeometry(const std::string& path, const ConversionCounts& counts)
         if (found == counts.end()) continue;
         warnOnce("geometry '" + path + "': " + std::to_string(found->second) + " " +
                  wording.message);
+    }
+}
+
+void warnOnceAReason(const ConversionReport& report, bool rasterizesRest)
+{
+    for (const auto& [what, number] : report.counts())
+    {
+        const bool differs = begins(what, "approximated.") || begins(what, "skipped.") ||
+                             (begins(what, "not-traced.") && !rasterizesRest);
+        if (!differs || isNamedByObject(what)) continue;
+        const auto paths = report.paths().find(what);
+        const bool placed = paths != report.paths().end() && !paths->second.empty();
+        warnOnceFor(what, what + ": " + std::to_string(number) +
+                              (placed ? ", the first is '" + paths->second.front() + "'" : ""));
     }
 }
 

@@ -1,10 +1,12 @@
-// ConversionReport.h - counts of what a conversion met, and its warnings. Layer: bridge.
+// ConversionReport.h - counts of what a conversion met, where, and its warnings. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -16,7 +18,7 @@ namespace osgRayTrace::engine
 /// skipped      bad data left out: index-out-of-range, not-finite, degenerate (each a triangle);
 ///              everything else an object
 /// warned       things that are traced as they are, but look wrong: far-vertices (a drawable),
-///              opposite-normals (a triangle)
+///              opposite-normals (a triangle); trace-hint: hinted to be traced, but cannot be
 /// approximated things that are traced, but not with all that OpenGL would do (a drawable or an object)
 /// not-traced   things that have no triangles, or that are not part of the scene as seen by a ray; OSG draws
 ///              them where there is a viewer
@@ -29,24 +31,45 @@ inline void addCounts(ConversionCounts& sum, const ConversionCounts& more)
         sum[what] += count;
 }
 
+/// By the same keys: node paths of the first few objects.
+using ConversionPaths = std::map<std::string, std::vector<std::string>>;
+
+constexpr std::size_t kPathsKept = 4;
+
 /// Counts and warns about bad data: once for each object and reason, as long as the process lives.
 class ConversionReport
 {
 public:
-    void count(const std::string& what, uint64_t number = 1) { _counts[what] += number; }
-    void add(const ConversionCounts& counts) { addCounts(_counts, counts); }
+    using Place = std::function<std::string()>;
+
+    /// Where what is counted from now on is found: asked for the first few of each reason only, so
+    /// it may be slow. Empty: nowhere. What it refers to must live until the next call.
+    void setPlace(Place place) { _place = std::move(place); }
+
+    void count(const std::string& what, uint64_t number = 1);
+    void add(const ConversionCounts& counts);
 
     /// Counts one skipped or changed object and names it: "transform 'root/arm': singular,
     /// skipped".
     void warn(const std::string& what, const std::string& object, const std::string& message);
 
     const ConversionCounts& counts() const { return _counts; }
+    const ConversionPaths& paths() const { return _paths; }
 
 private:
+    void notePath(const std::string& what, const std::string& path);
+
     ConversionCounts _counts;
+    ConversionPaths _paths;
+    Place _place;
 };
 
 /// Says what was left out of a geometry, in one line for each reason.
 void warnAboutGeometry(const std::string& path, const ConversionCounts& counts);
+
+/// Names each reason why something does not look as OpenGL shows it, once in the life of the
+/// process, with the first object; those that are named object by object are left out.
+/// rasterizesRest: what is not traced is drawn by OSG, and not worth a warning.
+void warnOnceAReason(const ConversionReport& report, bool rasterizesRest);
 
 } // namespace osgRayTrace::engine

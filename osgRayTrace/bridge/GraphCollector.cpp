@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/GraphCollector.h"
 
 #include "osgRayTrace/bridge/ClipPlanes.h"
+#include "osgRayTrace/bridge/DrawHint.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
@@ -130,11 +131,13 @@ GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& v
       _report(report),
       _worldFromLocal(1),
       _cullStack(input.view),
-      _states(rootState(input))
+      _states(rootState(input)),
+      _materials(input.materials)
 {
     for (const osg::ref_ptr<const osg::StateSet>& stateSet : input.inheritedState)
         _states.push(*stateSet);
     setTraversalMask(input.traversalMask);
+    _report.setPlace([this] { return path(); });
 }
 
 void applyUnit(double unit, CollectedGraph& graph)
@@ -154,6 +157,8 @@ void applyUnit(double unit, CollectedGraph& graph)
 CollectedGraph GraphCollector::take()
 {
     _graph.states = _states.states();
+    _report.setPlace({});
+    _materials.reportUnused(_report);
     return std::move(_graph);
 }
 
@@ -185,6 +190,7 @@ void GraphCollector::apply(osg::Camera& node)
     if (const char* reason = untracedCamera(node))
     {
         _report.count(reason);
+        warnIfForced("a camera of its own");
         rasterize();
         return;
     }
@@ -194,6 +200,7 @@ void GraphCollector::apply(osg::Camera& node)
 void GraphCollector::apply(osg::Projection&)
 {
     _report.count("not-traced.projection");
+    warnIfForced("a projection of its own");
     rasterize();
 }
 
@@ -245,6 +252,7 @@ void GraphCollector::apply(osg::Billboard& node)
     if (_input.rasterizesRest && hasUntracedDrawable(node))
     {
         _report.count("rasterized.billboard");
+        warnIfForced("a billboard with text or the like");
         rasterize();
         return;
     }
@@ -279,6 +287,7 @@ void GraphCollector::apply(osg::Drawable& drawable)
     const char* reason = untracedDrawable(drawable);
     if (!reason) return;
     _report.count(reason);
+    warnIfForced(drawable.className());
     rasterize();
 }
 
@@ -287,11 +296,13 @@ void GraphCollector::apply(osg::Geometry& geometry)
     const osg::Geometry& posed = _vertices.posed(geometry, getNodePath());
     const bool isPosed = &posed != &geometry;
     if (_input.rasterizesRest && rasterizes(geometry, isPosed)) return;
+    if (!_input.rasterizesRest && hintOf(getNodePath()) == DrawHint::Rasterize)
+        _report.count("approximated.rasterize-hint"); // there is no rasterizer
     if (!isPosed && SoftwareVertices::isPosedByProgram(geometry))
         _report.count("approximated.hardware-pose"); // as it was bound
     if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
     const bool pushed = pushState(geometry);
-    const uint32_t state = _states.top();
+    const uint32_t state = _materials.stateOf(getNodePath(), _states);
     if (pushed) _states.pop();
     const PrimitiveRestart restart = restartOf(_states.states()[state]);
     const auto [found, isNew] =
@@ -379,6 +390,7 @@ bool GraphCollector::collectLeaf(osg::Node& node)
     if (isFrom(node, "osg")) return false;
     _report.count(std::strcmp(node.className(), "LightPointNode") == 0 ? "not-traced.light-points"
                                                                        : "not-traced.custom-node");
+    warnIfForced(node.className());
     rasterize();
     return true;
 }
@@ -426,6 +438,9 @@ bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
     if (stateSet) _states.push(*stateSet);
     const char* reason = rasterizedState(_states.states()[_states.top()], poses);
     if (stateSet) _states.pop();
+    const DrawHint hint = hintOf(getNodePath());
+    if (hint == DrawHint::Rasterize) reason = "rasterized.hint";
+    if (hint == DrawHint::Trace) reason = nullptr;
     if (reason)
     {
         _report.count(reason);
@@ -434,9 +449,18 @@ bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
     }
     const osg::ref_ptr<osg::Geometry> rest = withoutTriangles(geometry);
     if (!rest) return false;
+    warnIfForced("lines, points or instanced primitives");
     const bool all = rest->getNumPrimitiveSets() == geometry.getNumPrimitiveSets();
     rasterize(RasterizedPart::Draw, all ? nullptr : rest.get());
     return false; // those without triangles are counted where triangles are made
+}
+
+/// Names what is hinted to be traced and cannot be.
+void GraphCollector::warnIfForced(const char* what)
+{
+    if (hintOf(getNodePath()) != DrawHint::Trace) return;
+    _report.warn("warned.trace-hint", "node '" + path() + "'",
+                 std::string("is hinted to be ray traced, but cannot be: ") + what);
 }
 
 /// Without a view the eye looks along the world's axes.

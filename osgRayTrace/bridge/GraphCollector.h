@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/ClipPlanes.h"
+#include "osgRayTrace/bridge/MaterialAssignment.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/SceneExtent.h"
 #include "osgRayTrace/bridge/SoftwareVertices.h"
@@ -133,6 +134,7 @@ private:
     void traverseGroup(osg::Group& group);
     void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);
     bool rasterizes(const osg::Geometry& geometry, bool isPosed);
+    void warnIfForced(const char* what);
     osg::Matrixd worldFromEye() const;
     osg::Matrixd engineFromLocal() const;
     std::string path() const;
@@ -143,6 +145,7 @@ private:
     std::vector<osg::Matrixd> _worldFromLocal; // the stack of transforms, never empty
     ReferenceCullStack _cullStack;
     StateStack _states;
+    MaterialAssignment _materials; ///< keeps what it adds to the states
     CollectedGraph _graph;
     std::map<std::pair<const osg::Geometry*, uint64_t>, std::size_t> _indexOf; // by restart, too
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GraphFingerprint.h"
 
+#include "osgRayTrace/bridge/DrawHint.h"
 #include "osgRayTrace/bridge/GraphCollector.h"
 #include "osgRayTrace/bridge/SoftwareVertices.h"
 
@@ -310,7 +311,7 @@ private:
 
     void enter(osg::Node& node)
     {
-        _digest.add(&node);
+        _digest.add(&node, ownHint(node));
         addStateSetOf(node);
         if (getNodePath().size() < kDeepestPath) traverse(node);
         _digest.add(kEnd);
@@ -318,7 +319,7 @@ private:
 
     void addDrawable(const osg::Drawable& drawable)
     {
-        _digest.add(&drawable);
+        _digest.add(&drawable, ownHint(drawable));
         addStateSetOf(drawable);
         const osg::BoundingBox& box = drawable.getBoundingBox();
         _digest.add(box._min, box._max);

@@ -184,7 +184,11 @@ public:
         _scene->background = backgroundOf(_input.clearColor, _linear);
         _scene->ambient = Vec3(_input.lighting ? kViewerAmbient : kOpenGLAmbient);
         for (const CollectedGeometry& geometry : _graph.geometries)
+        {
+            _report.setPlace([&geometry] { return geometry.path; });
             addGeometry(geometry);
+        }
+        _report.setPlace({});
         _caches.areaLights.resize(_graph.areaLights.size());
         for (std::size_t i = 0; i < _graph.areaLights.size(); ++i)
             addAreaLight(_graph.areaLights[i], _caches.areaLights[i]);
@@ -396,11 +400,12 @@ void SceneBuilder::addAreaLight(const CollectedAreaLight& source, std::shared_pt
 void SceneBuilder::addLights()
 {
     std::map<int, Light> lights;
+    std::map<std::string, float> unused = _input.lightSizes.byName;
     const auto add = [&](const osg::Light& source, const osg::Matrixd& matrix, bool eyeSpace,
                          const std::string& path)
     {
         const int number = source.getLightNum();
-        const auto light = convertLight(source, matrix, eyeSpace, _unit);
+        auto light = convertLight(source, matrix, eyeSpace, _unit);
         if (!light || number < 0 || number >= 32)
         {
             _report.warn("skipped.light", "light '" + path + "'",
@@ -408,6 +413,8 @@ void SceneBuilder::addLights()
                                : "values are not finite, skipped");
             return;
         }
+        const std::string sizedAs = applyLightSize(_input.lightSizes, path, _unit, *light);
+        if (!sizedAs.empty()) unused.erase(sizedAs);
         lights[number] = *light;
         if (lights[number].name.empty()) lights[number].name = path;
     };
@@ -419,6 +426,9 @@ void SceneBuilder::addLights()
             _input.viewLightInEyeSpace, "viewer");
     for (const CollectedLight& light : _graph.lights)
         add(*light.light, light.engineFromLocal, light.eyeSpace, light.path);
+
+    for (const auto& [name, size] : unused)
+        _report.warn("warned.light-size", "light-sizes '" + name + "'", "there is no light of this name");
 
     uint32_t enabled = 0;
     for (const Material& material : _scene->materials)
@@ -491,6 +501,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     result.scene = state.last;
     result.paged = graph.paged;
     result.counts = report.counts();
+    result.paths = report.paths();
+    warnOnceAReason(report, input.rasterizesRest);
     const auto draws = [](const RasterizedPart& part) { return part.kind == RasterizedPart::Draw; };
     if (std::any_of(graph.rasterized.begin(), graph.rasterized.end(), draws))
         result.rasterized = std::make_shared<RasterizedParts>(std::move(graph.rasterized));

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "osgRayTrace/bridge/ConversionReport.h"
+#include "osgRayTrace/bridge/LightSizes.h"
+#include "osgRayTrace/bridge/MaterialLibrary.h"
 #include "osgRayTrace/bridge/RasterizedParts.h"
 #include "osgRayTrace/bridge/ReferenceView.h"
 #include "osgRayTrace/scene/Scene.h"
@@ -43,12 +45,15 @@ struct ConversionInput
     bool rasterizesRest = false;
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as shown
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
+    LightSizes lightSizes;
+    std::shared_ptr<const MaterialLibrary> materials; ///< null: those of the graph only
 };
 
 struct ConversionResult
 {
     std::shared_ptr<const Scene> scene; ///< never null
     ConversionCounts counts;
+    ConversionPaths paths; ///< of what is counted, the first few
     /// For OSG to draw; null if nothing is, or ConversionInput::rasterizesRest is not set.
     std::shared_ptr<const RasterizedParts> rasterized;
     bool paged = false; ///< parts of the graph are files that are read when they are seen

@@ -134,9 +134,11 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
 {
     const ViewingConditions conditions = noted.conditions.value_or(ViewingConditions());
     const bool seen = frameStamp && _frameNumber == frameStamp->getFrameNumber();
+    const auto materials = _materialFile.library(_settings->getMaterials(), noted.dirty);
     const bool same = !noted.dirty && !noted.origin && root == _root && _conditions &&
                       convertAlike(*_conditions, conditions) &&
-                      _settings->getColorRule() == _colorRule;
+                      _settings->getColorRule() == _colorRule &&
+                      lightSizesOf(*_settings) == _lightSizes && materials == _materials;
     if (seen && same) return;
     if (frameStamp) _frameNumber = frameStamp->getFrameNumber();
 
@@ -147,6 +149,8 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
     _fingerprint = fingerprint;
     _conditions = conditions;
     _colorRule = _settings->getColorRule();
+    _lightSizes = lightSizesOf(*_settings);
+    _materials = materials;
     if (noted.origin || !_origin) _origin = finiteOrZero(noted.origin.value_or(conditions.eye));
     if (root)
         convert(*root, conditions);
@@ -168,6 +172,8 @@ void SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
     input.inheritedState = conditions.inheritedState;
     input.clearColor = conditions.clearColor;
     input.colorRule = _colorRule;
+    input.lightSizes = _lightSizes;
+    input.materials = _materials;
     input.rasterizesRest = true;
 
     const ConversionResult conversion = _converter.convert(input);

@@ -102,6 +102,9 @@ private:
     // Last converted for, successfully or not:
     std::optional<ViewingConditions> _conditions;
     RayTraceSettings::ColorRule _colorRule = RayTraceSettings::AUTOMATIC_COLOR;
+    LightSizes _lightSizes;
+    MaterialLibraryFile _materialFile;
+    std::shared_ptr<const MaterialLibrary> _materials;
     osg::Node* _root = nullptr; ///< a name, not followed
     uint64_t _fingerprint = 0;
     std::optional<osg::Vec3d> _origin;

@@ -23,7 +23,7 @@ bool same(const Light& a, const Light& b)
     {
         return std::tie(l.kind, l.number, l.eyeSpace, l.ambient, l.diffuse, l.specular, l.position,
                         l.direction, l.attenuationConstant, l.attenuationLinear,
-                        l.attenuationQuadratic, l.spotExponent, l.spotCosCutoff);
+                        l.attenuationQuadratic, l.spotExponent, l.spotCosCutoff, l.radius, l.sine);
     };
     const auto area = [](const Light& l)
     { return std::tie(l.corner, l.edgeU, l.edgeV, l.radiance, l.twoSided, l.instance); };

@@ -65,6 +65,7 @@ void setSceneStatistics(Statistics& statistics, const ConversionResult& conversi
     statistics.buildSeconds = build.seconds;
     statistics.embreeBytes = build.embreeBytes;
     statistics.conversion = conversion.counts;
+    statistics.conversionPaths = conversion.paths;
     if (build.invalidInstances > 0)
         statistics.conversion["instance.invalid-transform"] += build.invalidInstances;
 }

@@ -16,21 +16,26 @@ namespace
 
 constexpr size_t kMostMessages = 4096; ///< then silence: a scene may hold any number of bad objects
 
-/// True the first time that a message is seen.
-bool isNew(const std::string& message)
+/// True the first time that a subject is seen.
+bool isNew(const std::string& subject)
 {
     static std::mutex mutex;
     static std::unordered_set<std::string> said; // guarded by mutex
     const std::lock_guard<std::mutex> lock(mutex);
-    return said.size() < kMostMessages && said.insert(message).second;
+    return said.size() < kMostMessages && said.insert(subject).second;
 }
 
 } // namespace
 
 void warnOnce(const std::string& message) noexcept
+{
+    warnOnceFor(message, message);
+}
+
+void warnOnceFor(const std::string& subject, const std::string& message) noexcept
 try
 {
-    if (isNew(message)) OSG_WARN << "osgRayTrace: " << message << std::endl;
+    if (isNew(subject)) OSG_WARN << "osgRayTrace: " << message << std::endl;
 }
 catch (const std::exception&)
 {

@@ -11,4 +11,7 @@ namespace osgRayTrace::engine
 /// there is no memory left for that. Any thread.
 void warnOnce(const std::string& message) noexcept;
 
+/// The same, once for each subject, whatever the message is.
+void warnOnceFor(const std::string& subject, const std::string& message) noexcept;
+
 } // namespace osgRayTrace::engine

@@ -24,19 +24,19 @@ FixedFunctionPoint fixedFunctionPoint(const PassContext& context, const SurfaceL
     return p;
 }
 
-void addLight(FixedFunctionPoint& p, const Light& light, Vec3 wi, float attenuation, bool visible)
+void addLight(FixedFunctionPoint& p, const Light& light, Vec3 wi, float attenuation, float visibility)
 {
     Vec3 sum = light.ambient * p.colors.ambient;
     const float cosine = glm::dot(p.normal, wi);
-    if (visible && cosine > 0.0f)
+    if (visibility > 0.0f && cosine > 0.0f)
     {
-        sum += light.diffuse * p.colors.diffuse * cosine;
+        sum += light.diffuse * p.colors.diffuse * (cosine * visibility);
         const Vec3 specular = light.specular * p.colors.specular;
         const Vec3 half = wi + p.halfAxis;
         const float length2 = glm::dot(half, half);
         const float cosH = length2 > 0.0f ? glm::dot(p.normal, half) / std::sqrt(length2) : 0.0f;
         if (specular != Vec3(0.0f) && (cosH > 0.0f || p.shininess == 0.0f))
-            sum += specular * std::pow(std::max(cosH, 0.0f), p.shininess);
+            sum += specular * (std::pow(std::max(cosH, 0.0f), p.shininess) * visibility);
     }
     p.light += sum * attenuation;
 }

@@ -23,9 +23,9 @@ FixedFunctionPoint fixedFunctionPoint(const PassContext& context, const SurfaceL
                                       const MaterialPoint& point);
 
 /// Adds the terms of one light [OpenGL21, eq. 2.1]: attenuation * (ambient + diffuse + specular); the
-/// last two only if the light is visible. Highlights are computed with the viewer at infinity, as
+/// last two times visibility: 0 if the light is hidden, 1 or the weight of the sample else. Highlights are computed with the viewer at infinity, as
 /// OpenGL does unless told otherwise, and at each point instead of each vertex.
-void addLight(FixedFunctionPoint& point, const Light& light, Vec3 wi, float attenuation, bool visible);
+void addLight(FixedFunctionPoint& point, const Light& light, Vec3 wi, float attenuation, float visibility);
 
 /// Emission, ambient and lights together, textured. Display-referred colours are clamped to 1 before
 /// the texture, as OpenGL does.

@@ -141,21 +141,34 @@ UintLanes lightSeeds(const PassContext& context, const PathBlock& block)
     return seeds;
 }
 
+/// All soft lights are sampled, each at points of its own.
+UintLanes seedsOfLight(const UintLanes& seeds, uint32_t light)
+{
+    UintLanes own;
+    for (int i = 0; i < kLanes; ++i)
+        own[i] = hash(seeds[i] + 0x9e3779b9u * (light + 1));
+    return own;
+}
+
 } // namespace
 
 void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
 {
     const LightTable& table = tile.context.traced->lights();
     const LaneMask lanes = bounce.diffuse | bounce.general;
+    const UintLanes seeds = lightSeeds(tile.context, block);
     for (const uint32_t light : table.deltaLights())
     {
+        FloatLanes u, v;
+        if (isSoft((*tile.context.lights)[light]))
+            dimensionPoints(seedsOfLight(seeds, light), tile.context.key.index,
+                            bounceDimension(bounce.number, DimensionLightPoint), u, v);
         LightLanes samples;
-        deltaLightLanes(tile.context, light, bounce.surface, lanes, bounce.through, samples);
+        deltaLightLanes(tile.context, light, bounce.surface, lanes, bounce.through, u, v, samples);
         countRays(tile, block, samples.lit);
         addLight(tile, block, bounce, samples, visibleLanes(tile.context, samples, tile.counts),
                  kAllLanes);
     }
-    const UintLanes seeds = lightSeeds(tile.context, block);
     if (table.environment()) sampleEnvironment(tile, block, bounce, seeds);
     if (table.areaLights().empty()) return;
 

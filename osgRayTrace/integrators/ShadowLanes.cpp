@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/HitShading.h"
+#include "osgRayTrace/shading/SoftLight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -186,9 +187,11 @@ void areaLightLanes(const PassContext& context, uint32_t index, float pmf, const
 }
 
 void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLanes& surface,
-                     LaneMask active, LaneMask through, LightLanes& samples)
+                     LaneMask active, LaneMask through, const FloatLanes& u, const FloatLanes& v,
+                     LightLanes& samples)
 {
     const Light& light = (*context.lights)[index];
+    const bool soft = isSoft(light);
     through |= surface.lifted;
     samples.lit = 0;
     for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
@@ -197,7 +200,8 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
         const Material& material = context.traced->scene().materials[surface.material[i]];
         if (light.number < 32 && !((material.lightMask >> light.number) & 1u)) continue;
         const Vec3 point = at(trianglePoints(surface), i);
-        const DeltaLightSample sample = sampleDelta(light, point);
+        const SoftLightSample sample =
+            sampleSoft(light, point, soft ? Vec2(u[i], v[i]) : Vec2(0.0f));
         if (!(sample.attenuation > 0.0f)) continue;
         if (!((through >> i) & 1u) && glm::dot(at(surface.geometricNormal, i), sample.wi) <= 0.0f)
             continue;
@@ -215,7 +219,8 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
         setWi(samples, i, sample.wi);
         setShadowRay(samples.shadow, i, begin, towards, std::max(begin.tNear, distance));
         setRadiance(samples, i, light.diffuse * (kPi * sample.attenuation));
-        samples.weight[i] = 1.0f;
+        samples.attenuation[i] = sample.attenuation;
+        samples.weight[i] = sample.weight;
         samples.lit |= 1u << i;
     }
 }

@@ -15,6 +15,8 @@ struct LightLanes
     Vec3Lanes wi;         ///< unit, towards the light
     FloatLanes radiance[3]; ///< towards the surface; of a delta light pi * colour * attenuation
     FloatLanes weight;    ///< multiplies f cos: 1 / (pmf of the light's choice * pdfW); 1 for delta lights
+                          ///< without a size
+    FloatLanes attenuation; ///< of delta lights, a part of radiance
     LaneMask lit = 0;     ///< lanes that can get light from it; others are undefined
     RayBlock shadow;      ///< from the surface to the light, both ends clear of their own geometry
 };
@@ -26,9 +28,10 @@ void areaLightLanes(const PassContext& context, uint32_t light, float pmf, const
                     LaneMask active, LaneMask throughSurface, const FloatLanes& u, const FloatLanes& v,
                     LightLanes& samples);
 
-/// The same for a directional, point or spot light.
+/// The same for a directional, point or spot light. u, v: not read where it has no size.
 void deltaLightLanes(const PassContext& context, uint32_t light, const SurfaceLanes& surface,
-                     LaneMask active, LaneMask throughSurface, LightLanes& samples);
+                     LaneMask active, LaneMask throughSurface, const FloatLanes& u, const FloatLanes& v,
+                     LightLanes& samples);
 
 /// The lanes of samples.lit that see the light. Counts the rays.
 LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts);

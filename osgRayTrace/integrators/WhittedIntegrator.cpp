@@ -329,35 +329,56 @@ void addEnvironment(Tile& tile, ShadingBlock* blocks, int count)
                   });
 }
 
-void addDeltaLights(Tile& tile, ShadingBlock& block)
+/// One sample of one of them. share: of all its samples.
+void addDeltaLight(Tile& tile, ShadingBlock& block, uint32_t index, float share, const FloatLanes& u,
+                   const FloatLanes& v)
 {
     const PassContext& context = tile.context;
+    const Light& light = (*context.lights)[index];
     const LaneMaterials& m = block.materials;
     LightLanes& samples = block.light;
-    for (const uint32_t index : context.traced->lights().deltaLights())
+    deltaLightLanes(context, index, block.surface, m.diffuse | m.physical | m.fixedFunction, m.through, u, v,
+                    samples);
+    // Fixed-function lanes that face away get the light's ambient term only: no ray for them.
+    const LaneMask reached = samples.lit;
+    for (LaneMask lanes = samples.lit & m.fixedFunction; lanes; lanes &= lanes - 1)
     {
-        const Light& light = (*context.lights)[index];
-        deltaLightLanes(context, index, block.surface, m.diffuse | m.physical | m.fixedFunction,
-                        m.through, samples);
-        // Fixed-function lanes that face away get the light's ambient term only: no ray for them.
-        const LaneMask reached = samples.lit;
-        for (LaneMask lanes = samples.lit & m.fixedFunction; lanes; lanes &= lanes - 1)
+        const int i = __builtin_ctz(lanes);
+        if (glm::dot(m.points[i].normal, laneOf(samples.wi, i)) <= 0.0f) samples.lit &= ~(1u << i);
+    }
+    countRays(tile, block, samples.lit);
+    const LaneMask visible = visibleLanes(context, samples, tile.result.counts);
+    for (LaneMask lanes = reached & m.fixedFunction; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        addLight(m.points[i], light, laneOf(samples.wi, i), samples.attenuation[i] * share,
+                 (visible >> i) & 1u ? samples.weight[i] : 0.0f);
+    }
+    if (visible & m.diffuse)
+        addDiffuse(m.normal, m.albedo, samples, visible & m.diffuse, share, block.radiance);
+    if (visible & m.physical) addGeneral(block, visible & m.physical, share);
+}
+
+/// Lights with a size take as many samples as area lights do; their points follow on those and the environment's.
+void addDeltaLights(Tile& tile, ShadingBlock& block)
+{
+    const LightTable& table = tile.context.traced->lights();
+    std::size_t number = table.areaLights().size() + (table.shiningEnvironment() ? 1 : 0);
+    FloatLanes u, v;
+    for (const uint32_t index : table.deltaLights())
+    {
+        if (!isSoft((*tile.context.lights)[index]))
         {
-            const int i = __builtin_ctz(lanes);
-            if (glm::dot(m.points[i].normal, laneOf(samples.wi, i)) <= 0.0f) samples.lit &= ~(1u << i);
+            addDeltaLight(tile, block, index, 1.0f, u, v);
+            continue;
         }
-        countRays(tile, block, samples.lit);
-        const LaneMask visible = visibleLanes(context, samples, tile.result.counts);
-        for (LaneMask lanes = reached & m.fixedFunction; lanes; lanes &= lanes - 1)
+        const uint32_t count = tile.grid.samples();
+        for (uint32_t j = 0; j < count; ++j)
         {
-            const int i = __builtin_ctz(lanes);
-            const Vec3 point = laneOf(trianglePoints(block.surface), i);
-            const float attenuation = sampleDelta(light, point).attenuation;
-            addLight(m.points[i], light, laneOf(samples.wi, i), attenuation, (visible >> i) & 1u);
+            tile.grid.draw(number, j, block.seed, u, v);
+            addDeltaLight(tile, block, index, 1.0f / static_cast<float>(count), u, v);
         }
-        if (visible & m.diffuse)
-            addDiffuse(m.normal, m.albedo, samples, visible & m.diffuse, 1.0f, block.radiance);
-        if (visible & m.physical) addGeneral(block, visible & m.physical, 1.0f);
+        ++number;
     }
 }
 

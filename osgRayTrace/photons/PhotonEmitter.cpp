@@ -3,6 +3,7 @@
 #include "osgRayTrace/photons/PhotonEmitter.h"
 
 #include "osgRayTrace/sampling/Warp.h"
+#include "osgRayTrace/shading/SoftLight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,16 +19,6 @@ Vec3 toWorld(Vec3 axis, Vec3 local)
     Vec3 tangent, bitangent;
     frameOf(axis.x, axis.y, axis.z, tangent, bitangent);
     return tangent * local.x + bitangent * local.y + axis * local.z;
-}
-
-/// Uniform in the cone of directions whose 1 - cosine is below oneMinusCosine around +z.
-Vec3 squareToCone(Vec2 u, float oneMinusCosine)
-{
-    const float z = 1.0f - u.y * oneMinusCosine;
-    const float sine = std::sqrt(std::max(0.0f, u.y * oneMinusCosine * (1.0f + z)));
-    float s, c;
-    sinCosTurn(u.x, s, c);
-    return Vec3(sine * c, sine * s, z);
 }
 
 std::size_t pick(const std::vector<float>& cumulative, float u)
@@ -171,7 +162,7 @@ std::optional<PhotonStart> PhotonEmitter::emit(const EmissionPoint& point,
         start = emitPoint(light, point, guide);
         break;
     case LightKind::Directional:
-        start = emitParallel(_lights[light].direction, _lights[light].diffuse * kPi, point, guide);
+        start = emitDirectional(_lights[light], point, guide);
         break;
     case LightKind::Environment:
         start = emitEnvironment(point, guide);
@@ -214,7 +205,9 @@ uint32_t PhotonEmitter::binOf(Guide guide, uint32_t target, uint32_t bin) const
     return PhotonAim::index(guide.light, target, static_cast<uint32_t>(_targets.size()), bin);
 }
 
-PhotonEmitter::Cones PhotonEmitter::conesFrom(Vec3 origin, Guide guide) const
+/// Cones of the targets as seen from origin, and the sum of their solid angles over 2 pi. spread: photons
+/// start so far beside the origin.
+PhotonEmitter::Cones PhotonEmitter::conesFrom(Vec3 origin, float spread, Guide guide) const
 {
     Cones result;
     if (_aimedShare <= 0.0f) return result;
@@ -224,7 +217,8 @@ PhotonEmitter::Cones PhotonEmitter::conesFrom(Vec3 origin, Guide guide) const
         const Sphere& target = _targets[t];
         const Vec3 d = target.centre - origin;
         const float distance2 = glm::dot(d, d);
-        const float sin2 = target.radius * target.radius / distance2;
+        const float radius = target.radius + spread;
+        const float sin2 = radius * radius / distance2;
         if (!(sin2 < 0.999f)) continue; // around or beside the origin: the plain emission finds it
         // 1 - cos without cancellation.
         const float oneMinusCosine = sin2 / (1.0f + std::sqrt(1.0f - sin2));
@@ -253,7 +247,7 @@ std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const Emissio
         radiance =
             _traced.materials().emission(_traced.scene().instances[light.instance].material, at);
     }
-    const Cones cones = conesFrom(from->position, guide);
+    const Cones cones = conesFrom(from->position, 0.0f, guide);
     const float share = cones.count ? _aimedShare : 0.0f;
 
     PhotonStart start;
@@ -289,7 +283,7 @@ std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const Emissi
                                                     Guide guide) const
 {
     const Light& light = _lights[index];
-    const Cones cones = conesFrom(light.position, guide);
+    const Cones cones = conesFrom(light.position, light.radius, guide);
     const float share = cones.count ? _aimedShare : 0.0f;
     const float oneMinusCutoff = 1.0f - std::max(-1.0f, light.spotCosCutoff);
 
@@ -313,7 +307,7 @@ std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const Emissi
     const float spot = light.spotCosCutoff <= -1.0f || light.spotExponent == 0.0f
                            ? 1.0f
                            : std::pow(std::max(cosine, 0.0f), light.spotExponent);
-    start.origin = light.position;
+    start.origin = isSoft(light) ? softOrigin(light, direction, point.position) : light.position;
     start.direction = direction;
     start.power = light.diffuse * (kPi * spot / pdf);
     return start;
@@ -326,6 +320,13 @@ std::optional<PhotonStart> PhotonEmitter::emitEnvironment(const EmissionPoint& p
         _traced.lights().environment()->sample(point.direction.x, point.direction.y);
     if (!(sample.pdfW > 0.0f)) return std::nullopt;
     return emitParallel(-sample.direction, sample.radiance / sample.pdfW, point, guide);
+}
+
+std::optional<PhotonStart> PhotonEmitter::emitDirectional(const Light& light, const EmissionPoint& point,
+                                                          Guide guide) const
+{
+    const Vec3 direction = isSoft(light) ? softDirection(light, point.direction) : light.direction;
+    return emitParallel(direction, light.diffuse * (kPi * softWeight(light.sine)), point, guide);
 }
 
 /// Light that travels in one direction; irradiance: across it.

@@ -74,8 +74,9 @@ public:
     std::shared_ptr<const PhotonAim> learn(const std::vector<uint32_t>& emitted,
                                            const std::vector<double>& seen) const;
 
-    /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives
-    /// after a free flight from the light is the power times this.
+    /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives after a
+    /// free flight from the light is the power times this. distance: to the light's centre, or its radius
+    /// where that is more.
     float falloff(uint32_t light, float distance) const;
 
     /// At most this many.
@@ -97,12 +98,14 @@ private:
                                         Guide guide) const;
     std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point,
                                          Guide guide) const;
+    std::optional<PhotonStart> emitDirectional(const Light& light, const EmissionPoint& point,
+                                               Guide guide) const;
     std::optional<PhotonStart> emitEnvironment(const EmissionPoint& point, Guide guide) const;
     std::optional<PhotonStart> emitParallel(Vec3 direction, Vec3 irradiance,
                                             const EmissionPoint& point, Guide guide) const;
     LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts,
                         const PhotonAim* aim) const;
-    Cones conesFrom(Vec3 origin, Guide guide) const;
+    Cones conesFrom(Vec3 origin, float spread, Guide guide) const;
     uint32_t binOf(Guide guide, uint32_t target, uint32_t bin) const;
 
     const TracedScene& _traced;

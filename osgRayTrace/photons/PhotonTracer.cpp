@@ -142,7 +142,10 @@ void ChunkTracer::leaveLight(FlightBlock& block, SurfaceLanes& surface) const
         const Material& material = _traced.scene().materials[surface.material[i]];
         if (light.number < 32 && !((material.lightMask >> light.number) & 1u))
             surface.hits &= ~(1u << i);
-        const float falloff = _emitter.falloff(block.light[i], _rays.ray.tFar[i]);
+        const float distance =
+            isSoft(light) ? std::max(light.radius, glm::length(laneOf(surface.position, i) - light.position))
+                          : _rays.ray.tFar[i];
+        const float falloff = _emitter.falloff(block.light[i], distance);
         block.power.x[i] *= falloff;
         block.power.y[i] *= falloff;
         block.power.z[i] *= falloff;

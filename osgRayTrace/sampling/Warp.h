@@ -39,6 +39,18 @@ OSGRAYTRACE_INLINE Vec3 squareToCosineHemisphere(float u, float v)
 
 inline float squareToCosineHemispherePdf(float cosTheta) { return std::max(cosTheta, 0.0f) * kInvPi; }
 
+/// Uniform in the cone of directions whose 1 - cosine is below oneMinusCosine around +z:
+/// pdfW = 1 / (2 pi oneMinusCosine).
+inline Vec3 squareToCone(Vec2 u, float oneMinusCosine)
+{
+    const float height = u.y * oneMinusCosine;
+    const float z = 1.0f - height;
+    const float radius = std::sqrt(std::max(0.0f, height * (1.0f + z)));
+    float sine, cosine;
+    sinCosTurn(u.x, sine, cosine);
+    return Vec3(radius * cosine, radius * sine, z);
+}
+
 /// Two unit vectors that make a right-handed frame with the unit normal n [Duff17, listing 3].
 OSGRAYTRACE_INLINE void frameOf(float nx, float ny, float nz, Vec3& tangent, Vec3& bitangent)
 {

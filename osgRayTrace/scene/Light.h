@@ -44,6 +44,10 @@ struct Light
     float spotExponent = 0.0f;
     float spotCosCutoff = -1.0f;       ///< cosine of the cut-off angle; -1: no spot
 
+    // With a size they cast soft shadows, and stay invisible: see SoftLight.h.
+    float radius = 0.0f;               ///< Point: of a sphere [length], engine units; in eye space, too
+    float sine = 0.0f;                 ///< Directional: of the half-angle of a disc on the sky, [0,1]
+
     // Parallelogram: the image of (u, v) in [0,1]^2 is corner + u*edgeU + v*edgeV; the front side is
     // cross(edgeU, edgeV). Mesh: radiance is the material's emission, the front that of its triangles.
     Vec3 corner{0.0f};
@@ -57,5 +61,11 @@ struct Light
 
     Stamp changed = 0;
 };
+
+inline bool isSoft(const Light& light)
+{
+    return (light.kind == LightKind::Point && light.radius > 0.0f) ||
+           (light.kind == LightKind::Directional && light.sine > 0.0f);
+}
 
 } // namespace osgRayTrace::engine

@@ -211,6 +211,21 @@ std::optional<AreaLightSample> LightTable::sampleAt(uint32_t index, Vec3 p, Vec3
     return sample;
 }
 
+float distanceTerm(const Light& light, float distance)
+{
+    const float falloff = light.attenuationConstant + light.attenuationLinear * distance +
+                          light.attenuationQuadratic * distance * distance;
+    return falloff > kLeastFalloff ? 1.0f / falloff : 0.0f;
+}
+
+float spotTerm(const Light& light, Vec3 direction)
+{
+    if (light.spotCosCutoff <= -1.0f) return 1.0f;
+    const float cosine = glm::dot(direction, light.direction);
+    if (!(cosine >= light.spotCosCutoff && cosine > 0.0f)) return 0.0f;
+    return std::pow(cosine, light.spotExponent);
+}
+
 DeltaLightSample sampleDelta(const Light& light, Vec3 p)
 {
     DeltaLightSample sample;
@@ -225,16 +240,7 @@ DeltaLightSample sampleDelta(const Light& light, Vec3 p)
     if (!(distance > 0.0f)) return sample;
     sample.distance = distance;
     sample.wi = d / distance;
-    const float falloff = light.attenuationConstant + light.attenuationLinear * distance +
-                          light.attenuationQuadratic * distance * distance;
-    sample.attenuation = falloff > kLeastFalloff ? 1.0f / falloff : 0.0f;
-    if (light.spotCosCutoff > -1.0f)
-    {
-        const float cosine = -glm::dot(sample.wi, light.direction);
-        sample.attenuation *= cosine >= light.spotCosCutoff && cosine > 0.0f
-                                  ? std::pow(cosine, light.spotExponent)
-                                  : 0.0f;
-    }
+    sample.attenuation = distanceTerm(light, distance) * spotTerm(light, -sample.wi);
     return sample;
 }
 

@@ -129,7 +129,12 @@ private:
     std::vector<EmissiveMesh> _meshes; ///< of records of LightKind::Mesh
 };
 
-/// Directional and Point lights; light.eyeSpace must have been resolved.
+/// What a point light loses over a distance [OpenGL21, eq. 2.2], and what a spot sends the way of a unit
+/// direction over what it sends along its axis [OpenGL21, eq. 2.3].
+float distanceTerm(const Light& light, float distance);
+float spotTerm(const Light& light, Vec3 direction);
+
+/// Directional and Point lights as if they had no size; light.eyeSpace must have been resolved.
 DeltaLightSample sampleDelta(const Light& light, Vec3 p);
 
 } // namespace osgRayTrace::engine

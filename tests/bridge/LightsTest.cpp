@@ -261,3 +261,49 @@ TEST_CASE("geometry that emits is a light for each of its instances", "[bridge]"
     }
     CHECK(result.scene->instances[0].light == kInvalid);
 }
+
+TEST_CASE("lights with a size: by kind, by name, in engine lengths", "[bridge]")
+{
+    LitScene scene({0, 1, 2, 3});
+    scene.root->addChild(
+        new osg::MatrixTransform(osg::Matrixd::translate(1e-9, 0.0, 0.0))); // no effect
+    scene.add(0)->setPosition(osg::Vec4(0, 0, 5, 1));
+    scene.add(1)->setPosition(osg::Vec4(0, 0, 5, 0));
+    osg::Light* key = scene.add(2);
+    key->setPosition(osg::Vec4(1, 0, 5, 1));
+    key->setName("key");
+    scene.add(3)->setPosition(osg::Vec4(0, 1, 0, 0));
+    scene.root->getChild(5)->asGroup()->getChild(0)->setName("sky");
+
+    for (const Light& light : scene.lights())
+        CHECK_FALSE(isSoft(light)); // by default
+
+    scene.input.lightSizes = {0.5f, 2.0f, {{"key", 0.25f}, {"sky", 60.0f}, {"nobody", 1.0f}}};
+    const ConversionResult result = scene.converter.convert(scene.input);
+    const auto& lights = result.scene->lights;
+    REQUIRE(lights.size() == 4);
+    CHECK(lights[0].radius * result.scene->unit == Approx(0.5));
+    CHECK(lights[0].sine == 0.0f);
+    CHECK(lights[1].sine == Approx(std::sin(glm::radians(1.0)))); // the angle is a diameter
+    CHECK(lights[1].radius == 0.0f);
+    CHECK(lights[2].radius * result.scene->unit == Approx(0.25));
+    CHECK(lights[3].sine == Approx(0.5));
+    CHECK(countOf(result, "warned.light-size") == 1);
+    CHECK(result.paths.at("warned.light-size").front() == "light-sizes 'nobody'");
+
+    // A tiny scene has a unit of its own; a size alone makes a new snapshot.
+    scene.root->removeChild(0u);
+    osg::ref_ptr<osg::MatrixTransform> small =
+        new osg::MatrixTransform(osg::Matrixd::scale(1e-12, 1e-12, 1e-12));
+    small->addChild(triangleGeometry());
+    scene.root->addChild(small);
+    const auto first = scene.converter.convert(scene.input).scene;
+    REQUIRE(first->unit < 1e-6);
+    CHECK(first->lights[0].radius * first->unit == Approx(0.5));
+    scene.input.lightSizes.radius = 0.75f;
+    const auto second = scene.converter.convert(scene.input).scene;
+    CHECK(second != first);
+    CHECK(second->lights[0].radius * second->unit == Approx(0.75));
+    CHECK(second->lights[0].changed != first->lights[0].changed);
+    CHECK(second->lights[1].changed == first->lights[1].changed);
+}

@@ -85,7 +85,8 @@ void hashLight(Hasher& hasher, const Light& light)
                           light.direction, light.corner, light.edgeU, light.edgeV, light.radiance})
         hasher.add(v);
     for (const float value : {light.attenuationConstant, light.attenuationLinear,
-                              light.attenuationQuadratic, light.spotExponent, light.spotCosCutoff})
+                              light.attenuationQuadratic, light.spotExponent, light.spotCosCutoff,
+                              light.radius, light.sine})
         hasher.add(value);
     hasher.add(light.eyeSpace);
     hasher.add(light.twoSided);
@@ -157,6 +158,7 @@ PreparedScene prepare(const ReportScene& scene, const Placement& placement, int 
     input.eye = osg::Matrixd::inverse(viewFromWorld).getTrans();
     input.origin = input.eye;
     input.clearColor = scene.clearColor;
+    input.lightSizes = scene.lightSizes;
     if (scene.headlight) input.viewLight = headlight();
     result.buildSeconds = secondsOf(
         [&] {

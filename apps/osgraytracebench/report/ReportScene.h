@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/bridge/LightSizes.h"
 #include "osgRayTrace/integrators/RenderOptions.h"
 
 #include <osg/Group>
@@ -48,6 +49,7 @@ struct ReportScene
     double aspect = 1.0; ///< width / height
     osg::Vec4 clearColor{0.0f, 0.0f, 0.0f, 1.0f};
     bool headlight = false;            ///< of osgViewer
+    engine::LightSizes lightSizes;
     std::vector<Method> methods;       ///< those that are right for it
     std::vector<Placement> placements; ///< the first is the scene itself
     Formula formula;                   ///< empty: see pictureFormula

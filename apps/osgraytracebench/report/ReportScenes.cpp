@@ -7,6 +7,7 @@
 #include "apps/osgraytracebench/report/ClosedScenes.h"
 #include "apps/osgraytracebench/report/PlaneScenes.h"
 #include "apps/osgraytracebench/report/SkyScenes.h"
+#include "apps/osgraytracebench/report/SphereScenes.h"
 
 namespace osgRayTrace::bench
 {
@@ -103,6 +104,8 @@ std::vector<ReportScene> reportScenes()
             axisEdgeScene(),
             rotatedEdgeScene(),
             roundBlockerScene(),
+            sphereLightScene(),
+            sunkenSphereScene(),
             furnaceScene(0.5),
             furnaceScene(0.9),
             integratingSphereScene(),

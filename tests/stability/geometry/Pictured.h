@@ -3,10 +3,10 @@
 #pragma once
 
 #include "tests/bridge/Graphs.h"
+#include "tests/bridge/Messages.h"
 #include "tests/stability/geometry/Compare.h"
 
 #include <osg/LightSource>
-#include <osg/Notify>
 
 #include <initializer_list>
 #include <string>
@@ -37,45 +37,5 @@ inline Picture pictureOf(const ConversionResult& converted, IntegratorKind kind)
     const auto traced = TracedScene::build(converted.scene, std::make_shared<Workers>());
     return render(traced, obliqueView(), optionsOf(kind), 16);
 }
-
-/// What OSG is told while this lives.
-class Messages
-{
-public:
-    Messages() : _before(osg::getNotifyHandler()), _level(osg::getNotifyLevel())
-    {
-        osg::setNotifyLevel(osg::WARN);
-        osg::setNotifyHandler(_handler);
-    }
-    ~Messages()
-    {
-        osg::setNotifyHandler(_before);
-        osg::setNotifyLevel(_level);
-    }
-    Messages(const Messages&) = delete;
-    Messages& operator=(const Messages&) = delete;
-
-    const std::string& text() const { return _handler->text; }
-
-    int timesSaid(const std::string& words) const
-    {
-        int times = 0;
-        for (std::size_t at = text().find(words); at != std::string::npos;
-             at = text().find(words, at + words.size()))
-            ++times;
-        return times;
-    }
-
-private:
-    struct Handler : osg::NotifyHandler
-    {
-        void notify(osg::NotifySeverity, const char* message) override { text += message; }
-        std::string text;
-    };
-
-    osg::ref_ptr<Handler> _handler = new Handler;
-    osg::ref_ptr<osg::NotifyHandler> _before;
-    osg::NotifySeverity _level;
-};
 
 } // namespace osgRayTrace::engine::test

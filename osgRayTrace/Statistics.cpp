@@ -1,0 +1,83 @@
+// Statistics.cpp - the conversion's counts as text. Layer: public API.
+// SPDX-License-Identifier: MIT
+#include <osgRayTrace/Statistics>
+
+#include <algorithm>
+
+namespace osgRayTrace
+{
+
+namespace
+{
+
+struct ReportClass
+{
+    const char* prefix;
+    const char* title;
+};
+
+/// In the order of the report.
+constexpr ReportClass kClasses[] = {
+    {"converted.", "Ray traced"},
+    {"rasterized.", "Has triangles, but is left to OSG to draw"},
+    {"not-traced.", "Cannot be ray traced: drawn by OSG where there is a viewer"},
+    {"approximated.", "Ray traced, but not with all that OpenGL does"},
+    {"repaired.", "Bad values that were replaced"},
+    {"warned.", "Ray traced as it is, but looks wrong"},
+    {"skipped.", "Bad data, left out"},
+};
+
+/// "texture-size": "texture size".
+std::string words(std::string reason)
+{
+    std::replace(reason.begin(), reason.end(), '-', ' ');
+    return reason;
+}
+
+std::string rightAligned(uint64_t count)
+{
+    const std::string digits = std::to_string(count);
+    constexpr std::size_t kWidth = 10;
+    return std::string(digits.size() < kWidth ? kWidth - digits.size() : 0, ' ') + digits;
+}
+
+/// What no class above claims.
+bool isOther(const std::string& what)
+{
+    const auto claims = [&what](const ReportClass& c) { return what.rfind(c.prefix, 0) == 0; };
+    return std::none_of(std::begin(kClasses), std::end(kClasses), claims);
+}
+
+std::string line(const Statistics& statistics, const std::string& what, const std::string& reason)
+{
+    const uint64_t count = statistics.conversion.at(what);
+    std::string text = rightAligned(count) + "  " + words(reason) + '\n';
+    const auto paths = statistics.conversionPaths.find(what);
+    if (paths == statistics.conversionPaths.end()) return text;
+    for (const std::string& path : paths->second)
+        text += "              " + path + '\n';
+    return text;
+}
+
+} // namespace
+
+std::string conversionReport(const Statistics& statistics)
+{
+    std::string text;
+    for (const ReportClass& c : kClasses)
+    {
+        std::string lines;
+        const std::string prefix = c.prefix;
+        for (const auto& [what, count] : statistics.conversion)
+            if (count > 0 && what.rfind(prefix, 0) == 0)
+                lines += line(statistics, what, what.substr(prefix.size()));
+        if (!lines.empty()) text += std::string(c.title) + ":\n" + lines;
+    }
+    std::string others;
+    for (const auto& [what, count] : statistics.conversion)
+        if (count > 0 && isOther(what)) others += line(statistics, what, what);
+    if (!others.empty()) text += "Other:\n" + others;
+    return text.empty() ? "Nothing was converted.\n" : text;
+}
+
+} // namespace osgRayTrace

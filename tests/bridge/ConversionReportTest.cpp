@@ -1,0 +1,132 @@
+// ConversionReportTest.cpp - what the user is told: counts, where, and each reason once. Layer:
+// tests. SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/bridge/Graphs.h"
+#include "tests/bridge/Messages.h"
+
+#include <osgRayTrace/Statistics>
+
+#include <osg/LightSource>
+#include <osgText/Text>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::engine;
+using Strings = std::vector<std::string>;
+
+namespace
+{
+
+osg::ref_ptr<osg::Geometry> named(const std::string& name)
+{
+    osg::ref_ptr<osg::Geometry> geometry = triangleGeometry();
+    geometry->setName(name);
+    return geometry;
+}
+
+osg::ref_ptr<osg::Group> town()
+{
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->setName("town");
+    return root;
+}
+
+Strings pathsOf(const ConversionResult& result, const std::string& what)
+{
+    const auto found = result.paths.find(what);
+    return found == result.paths.end() ? Strings() : found->second;
+}
+
+} // namespace
+
+TEST_CASE("conversion report: paths of the first four, each once", "[bridge]")
+{
+    osg::ref_ptr<osg::Group> root = town();
+    root->getOrCreateStateSet()->setMode(GL_FOG, osg::StateAttribute::ON);
+    for (const char* name : {"a", "b", "b", "c", "d", "e", "f"})
+        root->addChild(named(name));
+    const ConversionResult result = convertGraph(root);
+    const Strings first{"town/a", "town/b", "town/c", "town/d"};
+    CHECK(countOf(result, "approximated.fog") == 7); // by the materials' conversion
+    CHECK(pathsOf(result, "approximated.fog") == first);
+    CHECK(countOf(result, "converted.geometry") == 7);
+    CHECK(pathsOf(result, "converted.geometry") == first);
+}
+
+TEST_CASE("conversion report: bad geometry and bad nodes are found by their paths", "[bridge]")
+{
+    osg::ref_ptr<osg::Group> root = town();
+    const auto broken = named("broken");
+    const GLuint beyond[] = {0, 1, 77};
+    broken->setPrimitiveSet(0, new osg::DrawElementsUInt(GL_TRIANGLES, 3, beyond));
+    root->addChild(broken);
+    osg::ref_ptr<osg::MatrixTransform> flat = new osg::MatrixTransform;
+    flat->setName("flat");
+    flat->setMatrix(osg::Matrixd::scale(1.0, 1.0, 0.0));
+    flat->addChild(named("below"));
+    root->addChild(flat);
+    osg::ref_ptr<osgText::Text> sign = new osgText::Text;
+    sign->setName("sign");
+    root->addChild(sign);
+    osg::ref_ptr<osg::LightSource> lamp = new osg::LightSource;
+    lamp->setName("lamp");
+    lamp->getLight()->setPosition(osg::Vec4(NAN, 0.0f, 0.0f, 1.0f));
+    root->addChild(lamp);
+
+    SceneConverter converter;
+    for (int again = 0; again < 2; ++again) // from the cache, too
+    {
+        const ConversionResult result = converter.convert(inputFor(root));
+        CHECK(pathsOf(result, "skipped.index-out-of-range") == Strings{"town/broken"});
+        CHECK(pathsOf(result, "skipped.singular-transform") == Strings{"town/flat"});
+        CHECK(pathsOf(result, "not-traced.text") == Strings{"town/sign"});
+        CHECK(pathsOf(result, "skipped.light") == Strings{"light 'town/lamp'"});
+    }
+}
+
+TEST_CASE("conversion report: each reason is named once, with its first object", "[bridge]")
+{
+    osg::ref_ptr<osg::Group> root = town();
+    for (const char* name : {"drawn", "alike"})
+    {
+        const auto geometry = named(name);
+        geometry->setDrawCallback(new osg::Drawable::DrawCallback);
+        root->addChild(geometry);
+    }
+    osg::ref_ptr<osgText::Text> sign = new osgText::Text;
+    sign->setName("sign");
+    root->addChild(sign);
+
+    const test::Messages messages;
+    SceneConverter converter;
+    ConversionInput input = inputFor(root);
+    input.rasterizesRest = true; // OSG goes on drawing the sign
+    converter.convert(input);
+    root->addChild(named("another"));
+    converter.convert(input);
+    CHECK(messages.timesSaid("draw-callback") == 1);
+    CHECK(messages.timesSaid("approximated.draw-callback: 2, the first is 'town/drawn'") == 1);
+    CHECK(messages.timesSaid("sign") == 0);
+    CHECK(messages.timesSaid("converted") == 0);
+}
+
+TEST_CASE("conversion report: as text", "[bridge]")
+{
+    Statistics statistics;
+    CHECK(conversionReport(statistics) == "Nothing was converted.\n");
+    statistics.conversion = {{"approximated.fog", 12},
+                             {"converted.geometry", 3},
+                             {"converted.light", 0},
+                             {"instance.invalid-transform", 1},
+                             {"skipped.not-finite", 1234567}};
+    statistics.conversionPaths = {{"approximated.fog", {"town/a", "town/b"}}};
+    CHECK(conversionReport(statistics) == "Ray traced:\n"
+                                          "         3  geometry\n"
+                                          "Ray traced, but not with all that OpenGL does:\n"
+                                          "        12  fog\n"
+                                          "              town/a\n"
+                                          "              town/b\n"
+                                          "Bad data, left out:\n"
+                                          "   1234567  not finite\n"
+                                          "Other:\n"
+                                          "         1  instance.invalid transform\n");
+}

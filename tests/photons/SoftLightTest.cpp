@@ -1,0 +1,189 @@
+// SoftLightTest.cpp - photons of lights with a size: power, aim, and the light that paths see.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+#include "tests/PValues.h"
+#include "tests/Statistics.h"
+
+#include "osgRayTrace/photons/PhotonEmitter.h"
+#include "osgRayTrace/shading/SoftLight.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr double kPiD = glm::pi<double>();
+constexpr Vec3 kBall(0.5f, 0.2f, 0.6f);
+
+Light softSpot(Vec3 position, Vec3 direction)
+{
+    Light light = pointLight(position, Vec3(1.0f, 0.9f, 0.8f));
+    light.radius = 0.8f;
+    light.direction = glm::normalize(direction);
+    light.spotCosCutoff = std::cos(glm::radians(50.0f));
+    light.spotExponent = 2.0f;
+    light.attenuationConstant = 1.0f; // OpenGL's default: it does not fade
+    light.attenuationQuadratic = 0.0f;
+    return light;
+}
+
+Light softSun(Vec3 direction)
+{
+    Light light;
+    light.kind = LightKind::Directional;
+    light.direction = glm::normalize(direction);
+    light.diffuse = Vec3(0.8f, 0.9f, 1.0f);
+    light.sine = 0.3f;
+    return light;
+}
+
+struct Flux
+{
+    Estimate total, ball; ///< all that leaves, and what meets the ball's sphere
+};
+
+/// A floor, and a glass ball to aim at.
+Flux emitted(const Light& light, float aimedShare, double& sceneRadius)
+{
+    SceneBuilder builder;
+    builder.add(quadMesh({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}), lambert(Vec3(0.5f)));
+    builder.add(sphereMesh(kBall, 0.4f, 16), glass(1.5f));
+    builder.addLight(light);
+    const auto traced = builder.build(1);
+    const PhotonEmitter emitter(*traced, traced->scene().lights, aimedShare);
+    sceneRadius = emitter.scene().radius;
+    Uniform uniform(29);
+    Flux flux;
+    for (int k = 0; k < 300000; ++k)
+    {
+        EmissionPoint point;
+        point.light = uniform();
+        point.aim = uniform();
+        point.position = Vec2(uniform(), uniform());
+        point.direction = Vec2(uniform(), uniform());
+        const auto start = emitter.emit(point);
+        bool meets = false;
+        if (start)
+        {
+            const Vec3 d = kBall - start->origin;
+            const float along = glm::dot(d, start->direction);
+            meets = along > 0.0f && glm::dot(d, d) - along * along < 0.16f;
+        }
+        flux.total.add(start ? double(start->power.y) : 0.0);
+        flux.ball.add(meets ? double(start->power.y) : 0.0);
+    }
+    return flux;
+}
+
+/// A closed room with a block and a rough block of metal.
+SceneBuilder room()
+{
+    SceneBuilder builder;
+    auto walls = boxMesh({-2, -2, 0}, {2, 2, 3});
+    std::vector<UVec3> inside(walls->triangles.begin(), walls->triangles.end());
+    for (UVec3& t : inside)
+        std::swap(t.y, t.z);
+    walls->triangles = std::move(inside);
+    builder.add(walls, lambert(Vec3(0.6f, 0.5f, 0.4f)));
+    builder.add(boxMesh({-1, -0.5f, 0}, {-0.3f, 0.4f, 1.2f}), lambert(Vec3(0.7f)));
+    Material metal = lambert(Vec3(0.9f, 0.8f, 0.7f));
+    metal.metallic = 1.0f;
+    metal.roughness = 0.6f;
+    builder.add(boxMesh({0.4f, 0.2f, 0}, {1.1f, 0.9f, 0.8f}), metal);
+    return builder;
+}
+
+/// A floor and a block in the open, for suns.
+SceneBuilder yard()
+{
+    SceneBuilder builder;
+    builder.add(quadMesh({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}), lambert(Vec3(0.6f, 0.5f, 0.4f)));
+    builder.add(boxMesh({-1, -0.5f, 0}, {-0.3f, 0.4f, 1.2f}), lambert(Vec3(0.7f)));
+    builder.add(quadMesh({-2, 1.5f, 0}, {4, 0, 0}, {0, 0, 3}), lambert(Vec3(0.3f, 0.5f, 0.7f)));
+    return builder;
+}
+
+constexpr int kRuns = 16;
+
+Estimate meanOf(const std::shared_ptr<const TracedScene>& traced, RenderOptions options, int passes)
+{
+    const View view = perspectiveView({0.3, -1.9, 1.6}, {0, 0.4, 0.6}, {0, 0, 1}, 70, 24, 24);
+    Estimate estimate;
+    for (uint32_t run = 0; run < kRuns; ++run)
+    {
+        options.seed = 1000 * (1 + static_cast<uint32_t>(options.integrator)) + run;
+        const Picture picture = render(traced, view, options, passes);
+        REQUIRE(picture.progress.droppedSamples == 0);
+        estimate.add(double(luminance(picture.mean())));
+    }
+    return estimate;
+}
+
+/// Six comparisons, of which one in a hundred runs raises a false alarm.
+void checkAgreement(const std::shared_ptr<const TracedScene>& traced)
+{
+    const double threshold = sidak(0.01, 6);
+    RenderOptions options = optionsOf(IntegratorKind::Path, 12);
+    const Estimate path = meanOf(traced, options, 32);
+    REQUIRE(path.mean() > 0.02);
+    for (const IntegratorKind kind :
+         {IntegratorKind::Sppm, IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
+    {
+        options.integrator = kind;
+        options.photons = 8000;
+        options.photonRadius = 0.03f;
+        const Estimate photons = meanOf(traced, options, 12);
+        const double p = welchTest(path, kRuns, photons, kRuns);
+        CAPTURE(int(kind), path.mean(), path.standardError(), photons.mean(),
+                photons.standardError(), p);
+        CHECK(photons.standardError() < 0.01 * path.mean());
+        CHECK(p > threshold);
+    }
+}
+
+} // namespace
+
+TEST_CASE("photons of soft lights: all power leaves, aimed or not", "[photons][statistics]")
+{
+    Light ball = pointLight({-0.5f, 0.3f, 2.0f});
+    ball.radius = 0.7f;
+    for (const Light& light : {ball, softSun({0.3f, 0.2f, -1.0f})})
+    {
+        double radius = 0.0;
+        const Flux plain = emitted(light, 0.0f, radius);
+        const double expected = light.kind == LightKind::Point
+                                    ? 4.0 * kPiD * kPiD
+                                    : kPiD * 0.9 * kPiD * radius * radius * softWeight(light.sine);
+        CAPTURE(int(light.kind), plain.total.mean(), plain.total.standardError(), expected);
+        CHECK(plain.total.agrees(expected, 1e-5 * expected));
+        for (const float share : {0.25f, 0.9f})
+        {
+            const Flux aimed = emitted(light, share, radius);
+            const double spread =
+                std::hypot(plain.ball.standardError(), aimed.ball.standardError());
+            CAPTURE(share, aimed.total.mean(), plain.ball.mean(), aimed.ball.mean(), spread);
+            CHECK(aimed.total.agrees(expected, 1e-5 * expected));
+            CHECK(plain.ball.mean() > 0.0);
+            CHECK(std::abs(plain.ball.mean() - aimed.ball.mean()) <= 4.0 * spread);
+            if (share > 0.5f) CHECK(aimed.ball.standardError() < plain.ball.standardError());
+        }
+    }
+}
+
+// A wall through the sphere, so that surfaces are inside of it, too.
+TEST_CASE("photons of soft lights: a spot that fades in its own way, as paths see it",
+          "[photons][statistics]")
+{
+    SceneBuilder builder = room();
+    builder.addLight(softSpot({0.2f, -0.3f, 2.7f}, {-0.2f, 0.2f, -1.0f}));
+    checkAgreement(builder.build());
+}
+
+TEST_CASE("photons of soft lights: a sun, as paths see it", "[photons][statistics]")
+{
+    SceneBuilder builder = yard();
+    builder.addLight(softSun({0.5f, 0.6f, -1.0f}));
+    checkAgreement(builder.build());
+}
