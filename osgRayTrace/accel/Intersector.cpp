@@ -129,12 +129,13 @@ RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar)
 
 } // namespace
 
-Intersector::Intersector(void* embreeScene, int nativeWidth, float reach)
-    : _scene(embreeScene), _nativeWidth(nativeWidth), _reach(reach)
+Intersector::Intersector(void* embreeScene, int nativeWidth, float reach, const HitFilter* filter)
+    : _scene(embreeScene), _nativeWidth(nativeWidth), _reach(reach), _filter(filter)
 {
 }
 
-LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence coherence) const
+LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence coherence,
+                                  HitRule rule) const
 {
     const auto scene = static_cast<RTCScene>(_scene);
     Lanes<int> valid;
@@ -142,7 +143,7 @@ LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence
     std::memset(&block.geometry, 0xff, sizeof(block.geometry));
     std::memset(&block.instance, 0xff, sizeof(block.instance));
 
-    QueryArguments query(coherence == Coherence::Coherent);
+    QueryArguments query(coherence == Coherence::Coherent, _filter, rule);
     const bool packets = coherence == Coherence::Coherent ||
                          (_nativeWidth == 16 && countLanes(active) > kFewRays);
     if (packets && _nativeWidth == 16)
@@ -204,7 +205,7 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
 
     // Never the coherent flag here: it makes occlusion packets slower, and with instances Embree 3.13.5
     // may not return at all.
-    QueryArguments query(false);
+    QueryArguments query(false, _filter);
     if (_nativeWidth == 16 && countLanes(active) > kFewRays)
     {
         query.occluded16(valid.v, scene, reinterpret_cast<RTCRay16*>(&block));
@@ -244,7 +245,7 @@ std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tN
     single.ray = singleRay(origin, direction, tNear, tFar);
     single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    QueryArguments query(false);
+    QueryArguments query(false, _filter);
     query.intersect1(static_cast<RTCScene>(_scene), &single);
     if (single.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     Hit hit;
@@ -261,7 +262,7 @@ bool Intersector::occluded(Vec3 origin, Vec3 direction, float tNear, float tFar)
     if (!traceable(_reach, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tNear, tFar))
         return true;
     RTCRay single = singleRay(origin, direction, tNear, tFar);
-    QueryArguments query(false);
+    QueryArguments query(false, _filter);
     query.occluded1(static_cast<RTCScene>(_scene), &single);
     return single.tfar < 0.0f;
 }

@@ -16,6 +16,16 @@ enum class Coherence
     Incoherent, ///< bounces
 };
 
+/// Which partial surfaces a ray meets: see HitFilter.
+struct HitRule
+{
+    bool culls = false;        ///< a camera ray: culled faces are not there
+    bool keepsBlended = false; ///< blended surfaces are hit whatever their alpha; else by chance
+};
+constexpr HitRule kCameraRays{true, false};
+
+class HitFilter;
+
 struct Hit
 {
     uint32_t instance = kInvalid; ///< index into Scene::instances
@@ -30,12 +40,13 @@ class Intersector
 {
 public:
     /// Opaque handle of an RTCScene; used by TracedScene. Rays whose origin is farther than reach from the
-    /// scene's are refused.
-    Intersector(void* embreeScene, int nativeWidth, float reach);
+    /// scene's are refused. filter is kept; null: no geometry asks it.
+    Intersector(void* embreeScene, int nativeWidth, float reach, const HitFilter* filter = nullptr);
 
     /// Closest hits of the active lanes; geometry is kInvalid in the others. Returns the lanes whose ray was
     /// refused (geometry is kInvalid there, too).
-    LaneMask closestHits(RayHitBlock& block, LaneMask active, Coherence coherence) const;
+    LaneMask closestHits(RayHitBlock& block, LaneMask active, Coherence coherence,
+                         HitRule rule = {}) const;
 
     /// Sets tFar to -infinity in the active lanes that are occluded. Refused rays count as occluded.
     LaneMask occlusion(RayBlock& block, LaneMask active) const;
@@ -47,6 +58,7 @@ private:
     void* _scene;
     int _nativeWidth;
     float _reach;
+    const HitFilter* _filter;
 };
 
 } // namespace osgRayTrace::engine

@@ -3,6 +3,7 @@
 #include "osgRayTrace/accel/TracedScene.h"
 
 #include "osgRayTrace/accel/EmbreeDevice.h"
+#include "osgRayTrace/accel/HitFilter.h"
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/SurfaceTable.h"
 #include "osgRayTrace/base/Parallel.h"
@@ -11,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace osgRayTrace::engine
 {
@@ -34,6 +36,7 @@ struct Prototype
 {
     std::shared_ptr<EmbreeDevice> device;
     std::shared_ptr<const Mesh> mesh; ///< owns the shared buffers
+    bool filtered = false;            ///< rays may pass what they meet: see HitFilter
     SceneHandle scene;
 };
 
@@ -67,13 +70,14 @@ double reachOf(const Affine& m)
     return reach - distance;
 }
 
-GeometryHandle newTriangles(RTCDevice device, const Mesh& mesh)
+GeometryHandle newTriangles(RTCDevice device, const Mesh& mesh, bool filtered)
 {
     GeometryHandle geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                mesh.positions.data(), 0, sizeof(Vec3), mesh.positions.size());
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                mesh.triangles.data(), 0, sizeof(UVec3), mesh.triangles.size());
+    if (filtered) setHitFilter(geometry.get());
     rtcCommitGeometry(geometry.get());
     return geometry;
 }
@@ -119,11 +123,14 @@ struct TracedScene::Implementation
     std::unique_ptr<MaterialTable> materials;
     std::unique_ptr<LightTable> lights;
     SceneTraits traits;
+    std::unique_ptr<HitFilter> filter;
+    std::unordered_set<const Mesh*> filtered; ///< meshes that a partial material is on
     BuildStatistics statistics;
 
     const std::shared_ptr<const Prototype>& prototype(const std::shared_ptr<const Mesh>& mesh,
                                                       const Implementation* previous);
     void fillSurfaces();
+    void findFiltered();
 };
 
 const std::shared_ptr<const Prototype>&
@@ -135,13 +142,17 @@ TracedScene::Implementation::prototype(const std::shared_ptr<const Mesh>& mesh,
     if (previous)
     {
         const auto old = previous->prototypes.find(mesh.get());
-        if (old != previous->prototypes.end()) return entry = old->second;
+        if (old != previous->prototypes.end() &&
+            (old->second->filtered || filtered.count(mesh.get()) == 0))
+            return entry = old->second;
     }
     auto built = std::make_shared<Prototype>();
     built->device = device;
     built->mesh = mesh;
+    built->filtered = filtered.count(mesh.get()) != 0;
     built->scene = newScene(device->handle());
-    rtcAttachGeometry(built->scene.get(), newTriangles(device->handle(), *mesh).get());
+    rtcAttachGeometry(built->scene.get(),
+                      newTriangles(device->handle(), *mesh, built->filtered).get());
     commit(*device, built->scene.get());
     ++statistics.builtMeshes;
     return entry = std::move(built);
@@ -158,12 +169,21 @@ void TracedScene::Implementation::fillSurfaces()
         record.positions = mesh.positions.data();
         record.normals = mesh.normals.empty() ? nullptr : mesh.normals.data();
         record.uvs = mesh.uvs.empty() ? nullptr : mesh.uvs.data();
+        record.uvs1 = mesh.uvs1.empty() ? nullptr : mesh.uvs1.data();
         record.colors = mesh.colors.empty() ? nullptr : mesh.colors.data();
         if (instance.placed) record.placed = &instance;
         record.material = instance.material;
         record.light = instance.light;
         surfaces.push_back(record);
     }
+}
+
+void TracedScene::Implementation::findFiltered()
+{
+    for (const Instance& instance : scene->instances)
+        if ((*materials)[instance.material].partial)
+            filtered.insert(scene->meshes[instance.mesh].get());
+    filter = std::make_unique<HitFilter>(surfaces, *materials); // old prototypes may ask it
 }
 
 TracedScene::TracedScene() : _implementation(std::make_unique<Implementation>()) {}
@@ -182,6 +202,9 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     built.scene = std::move(scene);
     const uint64_t bytesBefore = old ? built.device->bytes() : 0;
 
+    built.materials = std::make_unique<MaterialTable>(*built.scene);
+    built.fillSurfaces();
+    built.findFiltered();
     double reach = kLargestCoordinate;
     workers->run(
         [&]
@@ -212,7 +235,7 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
                 }
                 else
                 {
-                    geometry = newTriangles(device, *mesh);
+                    geometry = newTriangles(device, *mesh, built.filtered.count(mesh.get()) != 0);
                     ++built.statistics.builtMeshes;
                 }
                 rtcAttachGeometryByID(built.root.get(), geometry.get(), static_cast<unsigned>(i));
@@ -221,9 +244,7 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
         });
 
     built.intersector = std::make_unique<Intersector>(built.root.get(), built.device->nativeWidth(),
-                                                      static_cast<float>(reach));
-    built.fillSurfaces();
-    built.materials = std::make_unique<MaterialTable>(*built.scene);
+                                                      static_cast<float>(reach), built.filter.get());
     built.lights = std::make_unique<LightTable>(*built.scene);
     built.traits = sceneTraits(*built.scene);
     built.statistics.embreeBytes = built.device->bytes() - std::min(bytesBefore, built.device->bytes());

@@ -36,7 +36,8 @@ GeometryCache::Fingerprint GeometryCache::fingerprintOf(const osg::Geometry& geo
     const auto add = [&prints](const osg::BufferData* buffer, unsigned int kind) -> BufferPrint&
     { return prints.emplace_back(printOf(buffer, kind)); };
     for (const osg::Array* array : {positionArray(geometry), geometry.getNormalArray(),
-                                    geometry.getColorArray(), geometry.getTexCoordArray(0)})
+                                    geometry.getColorArray(), geometry.getTexCoordArray(0),
+                                    geometry.getTexCoordArray(1)})
         add(array, static_cast<unsigned int>(osg::getBinding(array)));
     for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i)
     {

@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/VertexArrays.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace osgRayTrace::engine
@@ -240,6 +241,37 @@ uint64_t oppositeNormals(const Mesh& mesh)
     return count;
 }
 
+/// Thickness of a layer, of the largest coordinate: some hundred times the rounding of hit points, and a
+/// hundredth of a pixel where the whole mesh is in view.
+constexpr float kLayer = 0x1p-16f;
+
+/// Raises all faces on their front side, so that a decal is hit before what it lies on. OpenGL moves the
+/// depth towards the viewer instead, on either side; seen from behind the order is the other one here.
+SharedArray<Vec3> lifted(const Mesh& mesh, float layers)
+{
+    std::vector<Vec3d> directions(mesh.positions.size(), Vec3d(0.0));
+    for (const UVec3& t : mesh.triangles)
+    {
+        const Vec3d face =
+            faceNormal(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+        for (int corner = 0; corner < 3; ++corner)
+            directions[t[corner]] += face;
+    }
+    float largest = 0.0f;
+    for (const Vec3& p : mesh.positions)
+        largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    const double height = double(layers) * kLayer * largest;
+    std::vector<Vec3> positions;
+    positions.reserve(mesh.positions.size() + 1); // Embree reads past the last one
+    for (std::size_t i = 0; i < directions.size(); ++i)
+    {
+        const double length = glm::length(directions[i]);
+        const Vec3d up = length > 0.0 ? directions[i] * (height / length) : Vec3d(0.0);
+        positions.push_back(Vec3(Vec3d(mesh.positions[i]) + up));
+    }
+    return positions;
+}
+
 } // namespace
 
 ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request)
@@ -274,6 +306,9 @@ ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& 
     if (const uint64_t opposite = oppositeNormals(*mesh))
         result.counts["warned.opposite-normals"] += opposite;
     mesh->uvs = reader.textureCoordinates(geometry.getTexCoordArray(0), result.counts);
+    if (geometry.getNumTexCoordArrays() > 1)
+        mesh->uvs1 = reader.textureCoordinates(geometry.getTexCoordArray(1), result.counts);
+    if (request.lift != 0.0f) mesh->positions = lifted(*mesh, request.lift);
     mesh->colors = reader.colors(geometry.getColorArray(), result.counts);
     result.mesh = std::move(mesh);
     return result;

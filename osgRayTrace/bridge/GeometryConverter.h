@@ -22,10 +22,12 @@ struct MeshRequest
     /// shared.
     std::optional<osg::Matrixd> transform;
     bool decodeColors = false; ///< vertex colours from sRGB to linear
+    float lift = 0.0f;         ///< layers that the faces are raised by: see polygonLift
 
     bool operator==(const MeshRequest& other) const
     {
-        return transform == other.transform && decodeColors == other.decodeColors;
+        return transform == other.transform && decodeColors == other.decodeColors &&
+               lift == other.lift;
     }
 };
 

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GraphCollector.h"
 
+#include "osgRayTrace/bridge/MaterialConverter.h"
+
 #include <osgRayTrace/AreaLight>
 
 #include <osg/Billboard>
-#include <osg/BlendFunc>
 #include <osg/Camera>
 #include <osg/ClipNode>
 #include <osg/PolygonMode>
@@ -120,10 +121,15 @@ const char* rasterizedState(const GraphState& state)
     const auto* polygons = state.attribute<osg::PolygonMode>(kPolygonModeSlot);
     if (polygons && polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
         return "rasterized.polygon-mode";
-    const auto* blend = state.attribute<osg::BlendFunc>(kBlendFuncSlot);
-    if (blend && state.isOn(kBlendBit) && blend->getDestinationRGB() == GL_ONE)
+    switch (blendingOf(state))
+    {
+    case Blending::Additive:
         return "rasterized.additive-blending";
-    return nullptr;
+    case Blending::Other:
+        return "rasterized.blending";
+    default:
+        return nullptr;
+    }
 }
 
 /// Something in it is placed by the view and not traced.
@@ -162,6 +168,8 @@ void applyUnit(double unit, CollectedGraph& graph)
         if (!light.eyeSpace) light.engineFromLocal.postMult(scale);
     for (CollectedAreaLight& light : graph.areaLights)
         light.engineFromLocal.postMult(scale);
+    for (PlacedTexGen& texGen : graph.texGens)
+        texGen.engineFromLocal.postMult(scale);
 }
 
 CollectedGraph GraphCollector::take()
@@ -232,6 +240,12 @@ void GraphCollector::apply(osg::ClipNode& node)
 
 void GraphCollector::apply(osg::TexGenNode& node)
 {
+    const bool inScene = node.getReferenceFrame() == osg::TexGenNode::RELATIVE_RF;
+    if (!inScene) _report.count("approximated.absolute-texgen"); // eye space in OpenGL, world space here
+    if (node.getTexGen() && node.getTextureUnit() < kUnits)
+        _graph.texGens[node.getTextureUnit()] = {
+            node.getTexGen(),
+            inScene ? engineFromLocal() : osg::Matrixd::translate(-_input.origin)};
     rasterize(RasterizedPart::PlaceState);
     apply(static_cast<osg::Node&>(node));
 }

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/SceneExtent.h"
 #include "osgRayTrace/bridge/StateStack.h"
+#include "osgRayTrace/bridge/TextureUnits.h"
 
 #include <osg/Geometry>
 #include <osg/LightSource>
@@ -64,6 +65,7 @@ struct CollectedGraph
     std::vector<CollectedLight> lights;        ///< in the order of the traversal
     std::vector<CollectedAreaLight> areaLights;
     std::vector<GraphState> states;
+    PlacedTexGens texGens;                     ///< the last of each unit, as OpenGL keeps them
     RasterizedParts rasterized; ///< if ConversionInput::rasterizesRest
 };
 

@@ -18,8 +18,11 @@
 #include <osg/Material>
 #include <osg/NodeVisitor>
 #include <osg/PolygonMode>
+#include <osg/PolygonOffset>
 #include <osg/Program>
 #include <osg/TexEnv>
+#include <osg/TexGen>
+#include <osg/TexGenNode>
 #include <osg/TexMat>
 #include <osg/Texture>
 #include <osg/Transform>
@@ -99,12 +102,23 @@ void addLight(Digest& digest, const osg::Light& light)
 void addTexture(Digest& digest, const osg::Texture& texture)
 {
     digest.add(texture.getWrap(osg::Texture::WRAP_S), texture.getWrap(osg::Texture::WRAP_T),
-               texture.getFilter(osg::Texture::MAG_FILTER));
+               texture.getFilter(osg::Texture::MAG_FILTER), texture.getInternalFormat());
+    for (int c = 0; c < 4; ++c)
+        digest.add(texture.getBorderColor()[c]);
     for (unsigned int i = 0; i < texture.getNumImages(); ++i)
     {
         const osg::Image* image = texture.getImage(i);
         digest.add(image, image ? image->getModifiedCount() : 0u);
     }
+}
+
+void addTexGen(Digest& digest, const osg::TexGen& texGen)
+{
+    digest.add(texGen.getMode());
+    for (const auto coordinate :
+         {osg::TexGen::S, osg::TexGen::T, osg::TexGen::R, osg::TexGen::Q})
+        for (int k = 0; k < 4; ++k)
+            digest.add(texGen.getPlane(coordinate)[k]);
 }
 
 void addPhysicalMaterial(Digest& digest, const PhysicalMaterial& material)
@@ -140,7 +154,8 @@ void addAttribute(Digest& digest, const osg::StateAttribute& attribute)
     else if (const auto* light = dynamic_cast<const osg::Light*>(&attribute))
         addLight(digest, *light);
     else if (const auto* model = dynamic_cast<const osg::LightModel*>(&attribute))
-        digest.add(model->getAmbientIntensity(), model->getTwoSided());
+        digest.add(model->getAmbientIntensity(), model->getTwoSided(), model->getLocalViewer(),
+                   model->getColorControl());
     else if (const auto* environment = dynamic_cast<const osg::TexEnv*>(&attribute))
         digest.add(environment->getMode(), environment->getColor());
     else if (const auto* textureMatrix = dynamic_cast<const osg::TexMat*>(&attribute))
@@ -155,6 +170,10 @@ void addAttribute(Digest& digest, const osg::StateAttribute& attribute)
         digest.add(polygons->getMode(osg::PolygonMode::FRONT));
     else if (const auto* program = dynamic_cast<const osg::Program*>(&attribute))
         digest.add(program->getNumShaders());
+    else if (const auto* texGen = dynamic_cast<const osg::TexGen*>(&attribute))
+        addTexGen(digest, *texGen);
+    else if (const auto* offset = dynamic_cast<const osg::PolygonOffset*>(&attribute))
+        digest.add(offset->getFactor(), offset->getUnits());
     else if (const auto* front = dynamic_cast<const osg::FrontFace*>(&attribute))
         digest.add(front->getMode());
 }
@@ -212,6 +231,13 @@ public:
     {
         _digest.add(node.getReferenceFrame());
         if (node.getLight()) addLight(_digest, *node.getLight());
+        enter(node);
+    }
+
+    void apply(osg::TexGenNode& node) override
+    {
+        _digest.add(node.getReferenceFrame(), node.getTextureUnit());
+        if (node.getTexGen()) addTexGen(_digest, *node.getTexGen());
         enter(node);
     }
 

@@ -206,6 +206,7 @@ private:
     void setAmbient(const GraphState& state);
     uint32_t addMesh(const std::shared_ptr<const Mesh>& mesh);
     MeshRequest requestFor(const osg::Matrixd& transform) const;
+    MeshRequest requestFor(const GeometryUse& use) const;
 
     const ConversionInput& _input;
     const CollectedGraph& _graph;
@@ -224,6 +225,13 @@ MeshRequest SceneBuilder::requestFor(const osg::Matrixd& transform) const
     MeshRequest request;
     if (!transform.isIdentity()) request.transform = transform;
     request.decodeColors = _linear;
+    return request;
+}
+
+MeshRequest SceneBuilder::requestFor(const GeometryUse& use) const
+{
+    MeshRequest request = requestFor(use.engineFromLocal);
+    request.lift = polygonLift(_graph.states[use.state]);
     return request;
 }
 
@@ -254,7 +262,7 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
         return;
     }
     const GeometryUse& use = geometry.uses.front();
-    const MeshRequest request = requestFor(use.engineFromLocal);
+    const MeshRequest request = requestFor(use);
     addBaked(
         geometry, use,
         _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report));
@@ -287,11 +295,11 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
         instance.mesh = meshIndex;
         instance.placed = true;
         instance.engineFromLocal = toAffine(frame.localFromMesh * use.engineFromLocal);
-        if (!isPlaceable(instance.engineFromLocal))
+        if (!isPlaceable(instance.engineFromLocal) || polygonLift(_graph.states[use.state]) != 0.0f)
         {
             addBaked(geometry, use,
                      _caches.geometries.mesh(*geometry.geometry, variant,
-                                             requestFor(use.engineFromLocal), geometry.path,
+                                             requestFor(use), geometry.path,
                                              _report));
             continue;
         }
@@ -306,7 +314,8 @@ void SceneBuilder::addInstance(const CollectedGeometry& geometry, const Geometry
                                Instance instance)
 {
     const GraphState& state = _graph.states[use.state];
-    instance.material = _materials.index(state, surfaceInputs(*geometry.geometry));
+    instance.material = _materials.index(state, surfaceInputs(*geometry.geometry),
+                                         {use.engineFromLocal, &_graph.texGens});
     setAmbient(state);
     const Material& material = _materials.at(instance.material);
     const auto index = static_cast<uint32_t>(_scene->instances.size());

@@ -116,11 +116,10 @@ Bsdf ChunkTracer::bsdfAt(const RayHitBlock& rays, const SurfaceLanes& surface, i
     const bool front = (surface.front >> i) & 1u;
     if (record.constant) return front ? record.front : record.back;
     const SurfaceRecord& where = _traced.surfaces()[surface.instance[i]];
-    MaterialPoint at;
-    at.front = front;
-    at.uv = interpolateUv(where, rays.primitive[i], rays.u[i], rays.v[i]);
-    at.vertexColor = interpolateColor(where, rays.primitive[i], rays.u[i], rays.v[i]);
-    return _traced.materials().bsdf(surface.material[i], at);
+    const Vec3 direction(rays.ray.directionX[i], rays.ray.directionY[i], rays.ray.directionZ[i]);
+    return _traced.materials().bsdf(surface.material[i],
+                                    materialPointOf(where, record, rays.primitive[i], rays.u[i],
+                                                    rays.v[i], front, direction));
 }
 
 /// What the lights do not light is passed by, and fixed-function ones fade in their own ways.

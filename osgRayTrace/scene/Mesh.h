@@ -22,6 +22,7 @@ struct Mesh
     SharedArray<UVec3> triangles; ///< each index < positions.size()
     SharedArray<Vec3> normals;    ///< unit, one a position; empty: the geometric normal is used
     SharedArray<Vec2> uvs;        ///< texture unit 0, one a position; may be empty
+    SharedArray<Vec2> uvs1;       ///< texture unit 1; may be empty
     SharedArray<Vec4> colors;     ///< RGBA vertex colours, one a position; may be empty
     Stamp changed = 0;
 };

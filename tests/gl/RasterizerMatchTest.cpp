@@ -1,16 +1,12 @@
 // RasterizerMatchTest.cpp - plain lit models look as OpenGL draws them. Layer: tests.
 // Set OSG_FILE_PATH to OpenSceneGraph's sample models.
 // SPDX-License-Identifier: MIT
-#include "TestViewer.h"
-#include "tests/Catch.h"
+#include "MatchPictures.h"
 
 #include <osg/Material>
-#include <osg/NodeVisitor>
 #include <osg/Program>
 #include <osgDB/ReadFile>
-#include <osgGA/TrackballManipulator>
 
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -20,8 +16,14 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-constexpr int kWidth = 640, kHeight = 480;
-constexpr int kSamples = 4; // a pixel and axis, of the rasterized picture
+MatchSetup homeView()
+{
+    MatchSetup setup;
+    setup.width = 640;
+    setup.height = 480;
+    setup.homeView = true;
+    return setup;
+}
 
 /// The cow is a chrome one: its texture is looked up by the reflected direction.
 struct RemoveTextures : osg::NodeVisitor
@@ -43,42 +45,6 @@ struct RemoveTextures : osg::NodeVisitor
         traverse(node);
     }
 };
-
-bool covered(const osg::Image& depth, int x, int y)
-{
-    return *reinterpret_cast<const float*>(depth.data(x, y)) < 1.0f;
-}
-
-/// Colour and coverage of a picture.
-struct Picture
-{
-    osg::ref_ptr<osg::Image> color;
-    std::vector<bool> covered; ///< anywhere within the pixel
-};
-
-/// Means of kSamples * kSamples pixels: the ray traced picture is antialiased, so this one must be.
-Picture reduced(const osg::Image& color, const osg::Image& depth)
-{
-    Picture small{new osg::Image, {}};
-    small.color->allocateImage(kWidth, kHeight, 1, GL_RGBA, GL_UNSIGNED_BYTE);
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x)
-        {
-            osg::Vec4 sum;
-            bool any = false;
-            for (int i = 0; i < kSamples * kSamples; ++i)
-            {
-                const int px = x * kSamples + i % kSamples, py = y * kSamples + i / kSamples;
-                sum += pixel(color, px, py);
-                any = any || covered(depth, px, py);
-            }
-            for (int c = 0; c < 4; ++c)
-                small.color->data(x, y)[c] =
-                    static_cast<unsigned char>(sum[c] / (kSamples * kSamples) + 0.5f);
-            small.covered.push_back(any);
-        }
-    return small;
-}
 
 osg::ref_ptr<osg::Node> plainModel(const std::string& name)
 {
@@ -128,60 +94,6 @@ osg::ref_ptr<osg::Program> lightingByPixel(bool usesVertexColors)
     return program;
 }
 
-/// At osgviewer's home view.
-void setUp(TestViewer& view)
-{
-    view.camera().setComputeNearFarMode(osg::Camera::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
-    view.viewer.setCameraManipulator(new osgGA::TrackballManipulator);
-    view.frames(); // the manipulator goes home
-}
-
-Picture rasterize(osg::Node* model)
-{
-    TestViewer view(kWidth * kSamples, kHeight * kSamples, model);
-    setUp(view);
-    const osg::ref_ptr<osg::Image> color = view.frames();
-    return reduced(*color, *view.capture->getDepthImage());
-}
-
-Picture rayTrace(osg::Node* model)
-{
-    osg::ref_ptr<RayTracedScene> scene = tracedScene(model);
-    scene->getSettings()->setPassesPerFrame(64);
-    TestViewer view(kWidth, kHeight, scene.get());
-    setUp(view);
-    Picture picture{view.frames(), {}};
-    const Statistics statistics = scene->getDrawable()->getStatistics();
-    REQUIRE(statistics.ok);
-    REQUIRE(statistics.passes >= 64);
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x)
-            picture.covered.push_back(covered(*view.capture->getDepthImage(), x, y));
-    return picture;
-}
-
-struct Comparison
-{
-    double difference; ///< mean over the pixels that both cover, 0 to 255
-    int both;
-    int either;
-};
-
-Comparison compare(const Picture& a, const Picture& b)
-{
-    Comparison comparison{};
-    const auto pixelOf = [](int x, int y) { return std::size_t(y * kWidth + x); };
-    for (std::size_t i = 0; i < a.covered.size(); ++i)
-    {
-        comparison.both += a.covered[i] && b.covered[i];
-        comparison.either += a.covered[i] || b.covered[i];
-    }
-    comparison.difference = meanDifference(
-        *a.color, *b.color,
-        [&](int x, int y) { return a.covered[pixelOf(x, y)] && b.covered[pixelOf(x, y)]; });
-    return comparison;
-}
-
 } // namespace
 
 TEST_CASE("rasterizer match: plain lit models look as OpenGL draws them", "[gl][osg-data]")
@@ -203,13 +115,13 @@ TEST_CASE("rasterizer match: plain lit models look as OpenGL draws them", "[gl][
         WARN("skipped: " << tested.name << " is not in OSG_FILE_PATH");
         return;
     }
-    const Picture traced = rayTrace(model.get());
+    const Picture traced = rayTrace(model.get(), homeView());
 
-    const Comparison byVertex = compare(traced, rasterize(model.get()));
+    const Comparison byVertex = compare(traced, rasterize(model.get(), homeView()));
     osg::ref_ptr<osg::Group> shaded = new osg::Group;
     shaded->addChild(model);
     shaded->getOrCreateStateSet()->setAttribute(lightingByPixel(!tested.hasMaterial));
-    const Comparison byPixel = compare(traced, rasterize(shaded.get()));
+    const Comparison byPixel = compare(traced, rasterize(shaded.get(), homeView()));
 
     std::cout << tested.name << ": mean difference " << byVertex.difference
               << "/255 lit by vertex, " << byPixel.difference << "/255 by pixel, over "
