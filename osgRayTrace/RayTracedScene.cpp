@@ -4,6 +4,7 @@
 
 #include <osg/NodeVisitor>
 #include <osgUtil/CullVisitor>
+#include <osgUtil/GLObjectsVisitor>
 
 namespace osgRayTrace
 {
@@ -120,6 +121,10 @@ void RayTracedScene::dirtyScene()
 
 void RayTracedScene::traverse(osg::NodeVisitor& visitor)
 {
+    // osgViewer compiles all OpenGL objects before the first cull, and textures then give up their images,
+    // which tracing needs. What is traced needs no such objects, the rest gets them as it is drawn.
+    if (_enabled && dynamic_cast<osgUtil::GLObjectsVisitor*>(&visitor)) return;
+
     osgUtil::CullVisitor* cull = _enabled ? visitor.asCullVisitor() : nullptr;
     if (cull)
     {

@@ -73,7 +73,7 @@ bool HitFilter::stops(const Candidate& c, HitRule rule) const
     if (!record.partial) return true;
     const Material& material = *record.material;
     if (rule.culls && isCulled(material, isFrontFace(material, c.front))) return false;
-    if (!material.blended && material.alphaTest == Comparison::Always) return true;
+    if (!material.blended && material.alphaTest == AlphaTest::Always) return true;
 
     Vec3 direction = c.direction;
     if (record.generated && surface.placed)

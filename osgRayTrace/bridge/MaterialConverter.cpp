@@ -192,28 +192,28 @@ std::vector<uint32_t> valuesOf(const Material& m)
     return MaterialValues(m).take();
 }
 
-Comparison comparisonOf(osg::AlphaFunc::ComparisonFunction function)
+AlphaTest comparisonOf(osg::AlphaFunc::ComparisonFunction function)
 {
     switch (function)
     {
     case osg::AlphaFunc::NEVER:
-        return Comparison::Never;
+        return AlphaTest::Never;
     case osg::AlphaFunc::LESS:
-        return Comparison::Less;
+        return AlphaTest::Less;
     case osg::AlphaFunc::EQUAL:
-        return Comparison::Equal;
+        return AlphaTest::Equal;
     case osg::AlphaFunc::LEQUAL:
-        return Comparison::LessOrEqual;
+        return AlphaTest::LessOrEqual;
     case osg::AlphaFunc::GREATER:
-        return Comparison::Greater;
+        return AlphaTest::Greater;
     case osg::AlphaFunc::NOTEQUAL:
-        return Comparison::NotEqual;
+        return AlphaTest::NotEqual;
     case osg::AlphaFunc::GEQUAL:
-        return Comparison::GreaterOrEqual;
+        return AlphaTest::GreaterOrEqual;
     case osg::AlphaFunc::ALWAYS:
-        return Comparison::Always;
+        return AlphaTest::Always;
     }
-    return Comparison::Always;
+    return AlphaTest::Always;
 }
 
 FaceCulling cullingOf(const GraphState& state)
@@ -241,8 +241,7 @@ bool sameMaterial(const Material& a, const Material& b)
 SurfaceInputs surfaceInputs(const osg::Geometry& geometry)
 {
     SurfaceInputs inputs;
-    for (unsigned int unit = 0; unit < kUnits; ++unit)
-        inputs.hasTextureCoordinates[unit] = isReadable(geometry.getTexCoordArray(unit));
+    inputs.hasTextureCoordinates = isReadable(geometry.getTexCoordArray(0));
     const osg::Array* colors = geometry.getColorArray();
     const osg::Array::Binding binding = bindingOf(colors);
     inputs.hasVertexColors =
@@ -289,8 +288,7 @@ uint32_t MaterialConverter::index(const GraphState& state, const SurfaceInputs& 
     applyFaces(material, state, placement);
     if (!isPhysical)
     {
-        applyTextureUnits(material, state, inputs.hasTextureCoordinates, placement, _textures,
-                          _report);
+        applyTextureUnits(material, state, placement, _textures, _report);
         if (_linear) decode(material);
     }
     return merged(material);
@@ -384,7 +382,7 @@ void MaterialConverter::applyOpacity(Material& material, const GraphState& state
         material.alphaReference =
             std::clamp(finiteOr(test->getReferenceValue(), 0.0f), 0.0f, 1.0f);
     }
-    if (!material.blended && material.alphaTest == Comparison::Always)
+    if (!material.blended && material.alphaTest == AlphaTest::Always)
         material.alpha = material.back.alpha = 1.0f;
 }
 
@@ -412,7 +410,7 @@ Material MaterialConverter::physical(const GraphState& state, const SurfaceInput
     material.transmission = source.getTransmission();
     material.ior = source.getIor();
     material.emission = rgb(source.getEmission());
-    if (!inputs.hasTextureCoordinates[0])
+    if (!inputs.hasTextureCoordinates)
     {
         if (source.getBaseColorTexture() || source.getMetallicRoughnessTexture() ||
             source.getTransmissionTexture() || source.getEmissionTexture())

@@ -20,7 +20,7 @@ struct SurfaceInputs
     bool hasVertexColors = false; ///< colours that vary over it
     bool hasOverallColor = false; ///< one colour for all of it
     Vec4 overallColor{1.0f};      ///< as OpenGL gets it, not decoded
-    bool hasTextureCoordinates[kUnits] = {};
+    bool hasTextureCoordinates = false; ///< of unit 0
 };
 
 SurfaceInputs surfaceInputs(const osg::Geometry& geometry);

@@ -200,6 +200,7 @@ std::shared_ptr<Texture> TextureConverter::converted(const osg::Texture& texture
     result->linearFilter = !isNearest(texture.getFilter(osg::Texture::MAG_FILTER));
     result->wrapS = wrapOf(texture, osg::Texture::WRAP_S);
     result->wrapT = wrapOf(texture, osg::Texture::WRAP_T);
+    if (texture.getTextureTarget() == GL_TEXTURE_1D) result->wrapT = TextureWrap::ClampToEdge;
     result->border = borderOf(texture);
     setChannels(internalFormatOf(texture, image), image.getPixelFormat(), *result);
     result->changed = _stamp;
@@ -214,7 +215,7 @@ bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture& texture
     const Texture& old = *entry.converted;
     if (old.linearFilter == isNearest(texture.getFilter(osg::Texture::MAG_FILTER)) ||
         old.wrapS != wrapOf(texture, osg::Texture::WRAP_S) ||
-        old.wrapT != wrapOf(texture, osg::Texture::WRAP_T) || old.border != borderOf(texture))
+        (old.wrapT != wrapOf(texture, osg::Texture::WRAP_T) && old.height > 1) || old.border != borderOf(texture))
         return false;
     for (unsigned int i = 0; i < entry.images.size(); ++i)
     {

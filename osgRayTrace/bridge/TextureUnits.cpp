@@ -107,8 +107,9 @@ public:
     {
     }
 
-    /// False if there are neither coordinates nor a way to make them.
-    bool setMapping(bool hasCoordinates, const osg::Texture& texture, TextureMapping& mapping) const
+    /// False if generated coordinates are asked for and nobody says how. A geometry without any has those
+    /// that OpenGL begins with, (0, 0, 0, 1), at all vertices: a mesh without them is the same.
+    bool setMapping(const osg::Texture& texture, TextureMapping& mapping) const
     {
         osg::Matrixd matrix;
         mapping.coordinates = _unit == 0 ? TextureCoordinates::Uv0 : TextureCoordinates::Uv1;
@@ -118,7 +119,7 @@ public:
             matrix = generation(*own, _placement.engineFromLocal, mapping);
         else if (generates && _placement.texGens && (*_placement.texGens)[_unit].texGen)
             matrix = placedGeneration((*_placement.texGens)[_unit], mapping);
-        else if (!hasCoordinates || generates)
+        else if (generates)
             return false;
 
         bool normalized = texture.getTextureTarget() != GL_TEXTURE_RECTANGLE;
@@ -165,8 +166,8 @@ void setEnvironment(const GraphState& state, unsigned int unit, TextureEnvironme
 } // namespace
 
 void applyTextureUnits(Material& material, const GraphState& state,
-                       const bool (&hasCoordinates)[kUnits], const SurfacePlacement& placement,
-                       TextureConverter& textures, ConversionReport& report)
+                       const SurfacePlacement& placement, TextureConverter& textures,
+                       ConversionReport& report)
 {
     uint32_t* const indices[kUnits] = {&material.baseColorTexture, &material.second.texture};
     TextureMapping* const mappings[kUnits] = {&material.mapping, &material.second.mapping};
@@ -178,8 +179,7 @@ void applyTextureUnits(Material& material, const GraphState& state,
         const osg::Texture* texture = enabledTexture(state, unit);
         if (!texture) continue;
         TextureMapping mapping;
-        if (!UnitConverter(state, unit, placement)
-                 .setMapping(hasCoordinates[unit], *texture, mapping))
+        if (!UnitConverter(state, unit, placement).setMapping(*texture, mapping))
         {
             report.count("approximated.no-texture-coordinates");
             continue;

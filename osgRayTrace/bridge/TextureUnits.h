@@ -37,10 +37,10 @@ inline bool isMirrored(const osg::Matrixd& m)
     return (x ^ y) * z < 0.0;
 }
 
-/// Sets textures, their environments and the way to their coordinates. hasCoordinates: by unit. Counts what
-/// is left out: further units, units without coordinates, texture combiners.
+/// Sets textures, their environments and the way to their coordinates. Counts what is left out: units
+/// whose coordinates nobody generates, texture combiners.
 void applyTextureUnits(Material& material, const GraphState& state,
-                       const bool (&hasCoordinates)[kUnits], const SurfacePlacement& placement,
-                       TextureConverter& textures, ConversionReport& report);
+                       const SurfacePlacement& placement, TextureConverter& textures,
+                       ConversionReport& report);
 
 } // namespace osgRayTrace::engine

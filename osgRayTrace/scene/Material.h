@@ -67,8 +67,8 @@ struct SecondTexture
     TextureMapping mapping;
 };
 
-/// When a value passes: compared with a reference.
-enum class Comparison : uint8_t
+/// When an alpha passes: compared with a reference.
+enum class AlphaTest : uint8_t
 {
     Never,
     Less,
@@ -137,7 +137,7 @@ struct Material
     // How much of the surface is there: see MaterialTable::opacity.
     float alpha = 1.0f;
     bool blended = false;                ///< alpha is the opacity; else it is just tested
-    Comparison alphaTest = Comparison::Always;
+    AlphaTest alphaTest = AlphaTest::Always;
     float alphaReference = 0.0f;
     FaceCulling culling = FaceCulling::None;
     bool clockwise = false;              ///< what OpenGL calls the front is the mesh's clockwise side

@@ -21,18 +21,18 @@ bool isTextured(const Material& material)
            material.second.texture != kInvalid;
 }
 
-bool passes(Comparison test, float value, float reference)
+bool passes(AlphaTest test, float value, float reference)
 {
     switch (test)
     {
-    case Comparison::Never: return false;
-    case Comparison::Less: return value < reference;
-    case Comparison::Equal: return value == reference;
-    case Comparison::LessOrEqual: return value <= reference;
-    case Comparison::Greater: return value > reference;
-    case Comparison::NotEqual: return value != reference;
-    case Comparison::GreaterOrEqual: return value >= reference;
-    case Comparison::Always: return true;
+    case AlphaTest::Never: return false;
+    case AlphaTest::Less: return value < reference;
+    case AlphaTest::Equal: return value == reference;
+    case AlphaTest::LessOrEqual: return value <= reference;
+    case AlphaTest::Greater: return value > reference;
+    case AlphaTest::NotEqual: return value != reference;
+    case AlphaTest::GreaterOrEqual: return value >= reference;
+    case AlphaTest::Always: return true;
     }
     return true;
 }
@@ -206,7 +206,7 @@ float MaterialTable::opacity(uint32_t material, const MaterialPoint& point) cons
 bool MaterialTable::isPartial(const Material& m) const
 {
     if (m.culling != FaceCulling::None) return true;
-    if (!m.blended && m.alphaTest == Comparison::Always) return false;
+    if (!m.blended && m.alphaTest == AlphaTest::Always) return false;
     const auto isOpaque = [this](uint32_t texture)
     { return texture == kInvalid || _scene->textures[texture]->opaque; };
     const bool constant = isOpaque(m.baseColorTexture) && isOpaque(m.second.texture) &&

@@ -177,13 +177,13 @@ TEST_CASE("textures that cannot be sampled are left out and counted", "[bridge]"
         CHECK(soleMaterial(result).baseColorTexture == kInvalid);
         CHECK(countOf(result, "approximated.texture-without-image") == 1);
     }
-    SECTION("no coordinates")
+    SECTION("but one without coordinates is looked up at the corner, as in OpenGL")
     {
         const auto geometry = texturedGeometry(smallTexture());
         geometry->setTexCoordArray(0, nullptr);
         const ConversionResult result = convertGraph(geometry);
-        CHECK(soleMaterial(result).baseColorTexture == kInvalid);
-        CHECK(countOf(result, "approximated.no-texture-coordinates") == 1);
+        CHECK(soleMaterial(result).baseColorTexture == 0);
+        CHECK(soleMesh(result).uvs.empty());
     }
     SECTION("generated coordinates that nothing generates")
     {

@@ -28,7 +28,7 @@ struct Picture
 /// How the two pictures of a scene are made.
 struct MatchSetup
 {
-    int width = 160, height = 120;
+    int width = 120, height = 90;
     int samples = 4; ///< a pixel and axis, of the rasterized picture; squared, passes of the traced one
     bool homeView = false; ///< osgviewer's, else TestViewer's
     std::function<void(TestViewer&)> view = {}; ///< further changes

@@ -131,3 +131,33 @@ TEST_CASE("rasterizer match: plain lit models look as OpenGL draws them", "[gl][
     CHECK(byVertex.both > 1000);
     CHECK(byVertex.both > 0.9 * byVertex.either);
 }
+
+TEST_CASE("rasterizer match: models with textures, alpha and generated coordinates", "[gl][osg-data]")
+{
+    struct Model
+    {
+        std::string name;
+        double most; ///< mean difference, of 255
+    };
+    const Model tested = GENERATE(
+        Model{"cow.osgt", 2.0}, Model{"lz.osgt", 2.0}, Model{"simpleroom.osgt", 2.0},
+        Model{"axes.osgt", 2.0}, Model{"clock.osgt", 2.0}, Model{"cube_mapped_torus.osgt", 2.0},
+        Model{"nathan.osg", 2.0}, Model{"morphing.osg", 2.0}, Model{"dot3_bumpmapping.osgt", 2.0},
+        Model{"glsl_simple.osgt", 2.0}, Model{"SmokeBox.osgt", 2.0}, Model{"cessnafire.osgt", 4.0});
+    const osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(tested.name);
+    if (!model)
+    {
+        WARN("skipped: " << tested.name << " is not in OSG_FILE_PATH");
+        return;
+    }
+    MatchSetup setup = homeView();
+    setup.width = 240;
+    setup.height = 180;
+    Statistics statistics;
+    const Comparison comparison =
+        match(tested.name, model.get(), setup, &statistics);
+    for (const auto& [what, count] : statistics.conversion)
+        if (what.compare(0, 10, "converted.") != 0) std::cout << "    " << what << ' ' << count << std::endl;
+    CHECK(comparison.difference < tested.most);
+    CHECK(comparison.both > 0.9 * comparison.either);
+}

@@ -91,6 +91,18 @@ TEST_CASE("match: a pyramid with colours and normals of its own, as osgshape has
     checkMatch("pyramid-normals", turned);
 }
 
+TEST_CASE("match: osgshape's hull, textured and without coordinates", "[gl][coverage]")
+{
+    const osg::ref_ptr<osg::ConvexHull> hull = new osg::ConvexHull;
+    const osg::Vec3 corners[] = {{-2, 2, -2}, {0, -2, -2}, {2, 2, -2}, {0, 0, 2}};
+    hull->setVertices(new osg::Vec3Array(4, corners));
+    GLubyte indices[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    hull->setIndices(new osg::UByteArray(12, indices));
+    const osg::ref_ptr<osg::ShapeDrawable> pyramid = new osg::ShapeDrawable(hull);
+    pyramid->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
+    checkMatch("osgshape-pyramid", pyramid);
+}
+
 TEST_CASE("match: Material with every color mode, lit and not", "[gl][coverage]")
 {
     const std::pair<const char*, osg::Material::ColorMode> modes[] = {
@@ -135,7 +147,7 @@ TEST_CASE("match: LightModel with two sides, a local viewer, separate highlights
     open->setCreateBottom(false);
     bowl->setTessellationHints(open);
     osg::ref_ptr<osg::Node> thing = ball;
-    if (kind <= 1) thing = placed(osg::Matrixd::rotate(0.7, osg::Vec3d(1, 0.4, 0)), bowl);
+    if (kind <= 1) thing = placed(osg::Matrixd::rotate(-2.4, osg::Vec3d(1, 0.4, 0)), bowl);
     osg::StateSet& state = *thing->getOrCreateStateSet();
     state.setAttribute(model);
     state.setAttribute(material);

@@ -143,6 +143,8 @@ TEST_CASE("match: object and eye linear texture generation", "[gl][coverage]")
         placed(osg::Matrixd::rotate(0.5, osg::Vec3d(1, 1, 0)) *
                    osg::Matrixd::translate(0.5, 0.3, 0.0) * osg::Matrixd::scale(1.0, 1.5, 1.0),
                ball);
+    // OpenGL would light with the length that the scale gives to normals; we never do.
+    root->getOrCreateStateSet()->setMode(GL_NORMALIZE, kOn);
     checkMatch(mode == osg::TexGen::OBJECT_LINEAR ? "texgen-object-linear" : "texgen-eye-linear",
                root, obliquely());
 }
@@ -196,6 +198,19 @@ TEST_CASE("match: texture environments of two units", "[gl][coverage]")
             state.setTextureAttribute(unit, environment);
             checkMatch(std::string("texenv-") + name + (unit ? "-unit1" : "-unit0"), geometry);
         }
+}
+
+TEST_CASE("match: textured things without coordinates show the corner of the texture",
+          "[gl][coverage]")
+{
+    const auto with = square(1.5f);
+    const auto without = square(1.5f);
+    without->setTexCoordArray(0, nullptr);
+    without->setTexCoordArray(1, nullptr);
+    const auto root = groupOf({placed(osg::Matrixd::translate(1.6, 0.0, 0.0), without),
+                               placed(osg::Matrixd::translate(-1.6, 0.0, 0.0), with)});
+    root->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
+    checkMatch("no-coordinates", root);
 }
 
 TEST_CASE("match: one-dimensional and rectangle textures", "[gl][coverage]")
@@ -279,8 +294,9 @@ TEST_CASE("match: pixel formats, packed, wide and compressed", "[gl][coverage]")
         // The alpha counts, too: it blends over a background of another colour.
         const auto front = unlit(square(3.0f, {1, 1, 1, 1}, 1.0f, 0.1f));
         osg::StateSet& state = *front->getStateSet();
-        const auto texture = textureOf(anyImage(format.format, format.type), osg::Texture::REPEAT,
-                                       osg::Texture::NEAREST);
+        const auto image = anyImage(format.format, format.type);
+        if (format.format == GL_BGRA) image->setInternalTextureFormat(GL_RGBA);
+        const auto texture = textureOf(image, osg::Texture::REPEAT, osg::Texture::NEAREST);
         state.setTextureAttributeAndModes(0, texture);
         state.setMode(GL_BLEND, kOn);
         state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
