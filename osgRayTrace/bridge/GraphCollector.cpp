@@ -121,6 +121,7 @@ const char* rasterizedState(const GraphState& state)
     const auto* polygons = state.attribute<osg::PolygonMode>(kPolygonModeSlot);
     if (polygons && polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
         return "rasterized.polygon-mode";
+    if (combinesTextures(state)) return "rasterized.texture-combine";
     switch (blendingOf(state))
     {
     case Blending::Additive:

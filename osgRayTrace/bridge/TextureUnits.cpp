@@ -165,6 +165,15 @@ void setEnvironment(const GraphState& state, unsigned int unit, TextureEnvironme
 
 } // namespace
 
+bool combinesTextures(const GraphState& state)
+{
+    for (unsigned int unit = 0; unit < kUnits; ++unit)
+        if (enabledTexture(state, unit) &&
+            state.attribute<osg::TexEnvCombine>(unit, kTextureEnvironmentSlot))
+            return true;
+    return false;
+}
+
 void applyTextureUnits(Material& material, const GraphState& state,
                        const SurfacePlacement& placement, TextureConverter& textures,
                        ConversionReport& report)

@@ -37,6 +37,9 @@ inline bool isMirrored(const osg::Matrixd& m)
     return (x ^ y) * z < 0.0;
 }
 
+/// True if a unit that is enabled has a texture combiner, which we have no counterpart of.
+bool combinesTextures(const GraphState& state);
+
 /// Sets textures, their environments and the way to their coordinates. Counts what is left out: units
 /// whose coordinates nobody generates, texture combiners.
 void applyTextureUnits(Material& material, const GraphState& state,
