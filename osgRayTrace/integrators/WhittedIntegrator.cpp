@@ -380,7 +380,7 @@ void passThrough(Tile& tile, ShadingBlock& block)
         const bool fromCamera = (block.fromCamera >> i) & 1u;
         // What is left out of a camera ray would be missing in the coverage.
         if (!fromCamera && !(largest * block.etaScale[i] >= kSmallestWeight)) continue;
-        tile.stack.push_back({origin, direction, behind, block.etaScale[i], block.pixel[i],
+        tile.stack.push_back({{origin, 0.0f}, direction, behind, block.etaScale[i], block.pixel[i],
                               hash(block.seed[i] + 0x85ebca6bu), block.depth[i], fromCamera});
     }
 }
