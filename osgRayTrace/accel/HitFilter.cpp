@@ -21,10 +21,14 @@ bool isCulled(const Material& material, bool front)
 {
     switch (material.culling)
     {
-    case FaceCulling::None: return false;
-    case FaceCulling::Back: return !front;
-    case FaceCulling::Front: return front;
-    case FaceCulling::FrontAndBack: return true;
+    case FaceCulling::None:
+        return false;
+    case FaceCulling::Back:
+        return !front;
+    case FaceCulling::Front:
+        return front;
+    case FaceCulling::FrontAndBack:
+        return true;
     }
     return false;
 }
@@ -49,7 +53,8 @@ void filter(const RTCFilterFunctionNArguments* args)
     {
         if (args->valid[i] == 0) continue;
         HitFilter::Candidate c;
-        c.instance = hitInstance(RTCHitN_geomID(args->hit, n, i), RTCHitN_instID(args->hit, n, i, 0));
+        c.instance =
+            hitInstance(RTCHitN_geomID(args->hit, n, i), RTCHitN_instID(args->hit, n, i, 0));
         c.primitive = RTCHitN_primID(args->hit, n, i);
         c.u = RTCHitN_u(args->hit, n, i);
         c.v = RTCHitN_v(args->hit, n, i);

@@ -9,10 +9,11 @@
 namespace osgRayTrace::engine
 {
 
-/// Asked by Embree for each hit on a mesh that a partial material is on, for rays of every kind: camera,
-/// shadow, mirror, bounce and photon. A surface of opacity a stops a ray with probability a, so what gets
-/// through is 1 - a of the light in the mean. The chance is a hash of the ray and the triangle: the same
-/// ray meets the same surfaces whatever thread traces it, and surfaces behind each other are independent.
+/// Asked by Embree for each hit on a mesh that a partial material is on, for rays of every kind:
+/// camera, shadow, mirror, bounce and photon. A surface of opacity a stops a ray with probability
+/// a, so what gets through is 1 - a of the light in the mean. The chance is a hash of the ray and
+/// the triangle: the same ray meets the same surfaces whatever thread traces it, and surfaces
+/// behind each other are independent.
 class HitFilter
 {
 public:

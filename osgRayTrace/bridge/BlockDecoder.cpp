@@ -36,8 +36,8 @@ void unpack565(uint32_t packed, float* rgb)
     rgb[2] = static_cast<float>(packed & 31u) / 31.0f;
 }
 
-/// [EXTs3tc, sect. 3.8.3]. Only DXT1 has the three-colour code, whose last value is black, and transparent
-/// where there is alpha.
+/// [EXTs3tc, sect. 3.8.3]. Only DXT1 has the three-colour code, whose last value is black, and
+/// transparent where there is alpha.
 void decodeColors(const uint8_t* bytes, bool dxt1, bool transparentBlack, BlockColors& block)
 {
     const uint32_t packed0 = littleEndian(bytes, 2), packed1 = littleEndian(bytes + 2, 2);
@@ -58,8 +58,8 @@ void decodeColors(const uint8_t* bytes, bool dxt1, bool transparentBlack, BlockC
         std::copy_n(palette[codes >> 2 * i & 3u], 4, block.rgba[i]);
 }
 
-/// Sixteen values by two end points and codes of three bits: the alpha of DXT5 and the channels of RGTC
-/// [ARBrgtc].
+/// Sixteen values by two end points and codes of three bits: the alpha of DXT5 and the channels of
+/// RGTC [ARBrgtc].
 void decodeChannel(const uint8_t* bytes, bool isSigned, int channel, BlockColors& block)
 {
     const auto endPoint = [isSigned](uint8_t byte)
@@ -184,7 +184,8 @@ bool decodeBlocks(const osg::Image& image, Texture& texture)
     const std::size_t blocks = std::size_t((image.s() + 3) / kBlock) * ((image.t() + 3) / kBlock);
     if (bytes == 0 || image.getTotalSizeInBytes() < blocks * bytes) return false;
     if (isSignedFormat(image.getPixelFormat()))
-        store(image, bytes, [](float value) { return value; }, texture.floats);
+        store(
+            image, bytes, [](float value) { return value; }, texture.floats);
     else
         store(
             image, bytes,

@@ -9,9 +9,9 @@
 namespace osgRayTrace::engine
 {
 
-/// Fills the pixels of the texture, not its size: bytes, but floats for the signed formats of RGTC. Red and
-/// red-green formats have no blue [ARBrgtc]. False, and the texture untouched, for other formats and
-/// for images with too little data.
+/// Fills the pixels of the texture, not its size: bytes, but floats for the signed formats of RGTC.
+/// Red and red-green formats have no blue [ARBrgtc]. False, and the texture untouched, for other
+/// formats and for images with too little data.
 bool decodeBlocks(const osg::Image& image, Texture& texture);
 
 } // namespace osgRayTrace::engine

@@ -53,7 +53,8 @@ TextureEnvironment environmentOf(osg::TexEnv::Mode mode)
     }
 }
 
-/// Both keep the transposed matrix of the other's convention, so the numbers stand in the same places.
+/// Both keep the transposed matrix of the other's convention, so the numbers stand in the same
+/// places.
 Mat4 toMat4(const osg::Matrixd& m)
 {
     Mat4 result;
@@ -75,8 +76,9 @@ osg::Matrixd linearGeneration(const osg::TexGen& source, const osg::Matrixd& eng
     return osg::Matrixd::inverse(engineFromLocal) * planes;
 }
 
-/// Eye linear planes are taken to eye space by the modelview matrix of their place, and vertices by theirs:
-/// the view falls out [OpenGL21, sect. 2.11.4]. So both linear kinds are planes of a place in the scene.
+/// Eye linear planes are taken to eye space by the modelview matrix of their place, and vertices by
+/// theirs: the view falls out [OpenGL21, sect. 2.11.4]. So both linear kinds are planes of a place
+/// in the scene.
 osg::Matrixd generation(const osg::TexGen& source, const osg::Matrixd& engineFromPlanes,
                         TextureMapping& mapping)
 {
@@ -107,8 +109,9 @@ public:
     {
     }
 
-    /// False if generated coordinates are asked for and nobody says how. A geometry without any has those
-    /// that OpenGL begins with, (0, 0, 0, 1), at all vertices: a mesh without them is the same.
+    /// False if generated coordinates are asked for and nobody says how. A geometry without any has
+    /// those that OpenGL begins with, (0, 0, 0, 1), at all vertices: a mesh without them is the
+    /// same.
     bool setMapping(const osg::Texture& texture, TextureMapping& mapping) const
     {
         osg::Matrixd matrix;

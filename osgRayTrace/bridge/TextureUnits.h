@@ -14,8 +14,8 @@
 namespace osgRayTrace::engine
 {
 
-/// The texture generation that a TexGenNode places, for all that uses generated coordinates and has no
-/// osg::TexGen of its own.
+/// The texture generation that a TexGenNode places, for all that uses generated coordinates and has
+/// no osg::TexGen of its own.
 struct PlacedTexGen
 {
     const osg::TexGen* texGen = nullptr;
@@ -40,8 +40,8 @@ inline bool isMirrored(const osg::Matrixd& m)
 /// True if a unit that is enabled has a texture combiner, which we have no counterpart of.
 bool combinesTextures(const GraphState& state);
 
-/// Sets textures, their environments and the way to their coordinates. Counts what is left out: units
-/// whose coordinates nobody generates, texture combiners.
+/// Sets textures, their environments and the way to their coordinates. Counts what is left out:
+/// units whose coordinates nobody generates, texture combiners.
 void applyTextureUnits(Material& material, const GraphState& state,
                        const SurfacePlacement& placement, TextureConverter& textures,
                        ConversionReport& report);

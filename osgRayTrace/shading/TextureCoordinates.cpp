@@ -22,14 +22,18 @@ Vec4 source(TextureCoordinates coordinates, const TexturePoint& p)
 {
     switch (coordinates)
     {
-    case TextureCoordinates::Uv0: return Vec4(p.uv, 0.0f, 1.0f);
-    case TextureCoordinates::Uv1: return Vec4(p.uv1, 0.0f, 1.0f);
-    case TextureCoordinates::Position: return Vec4(p.position, 1.0f);
+    case TextureCoordinates::Uv0:
+        return Vec4(p.uv, 0.0f, 1.0f);
+    case TextureCoordinates::Uv1:
+        return Vec4(p.uv1, 0.0f, 1.0f);
+    case TextureCoordinates::Position:
+        return Vec4(p.position, 1.0f);
     case TextureCoordinates::SphereMap:
         return sphereMap(p.eyeFromEngine * glm::reflect(p.direction, p.normal));
     case TextureCoordinates::ReflectionMap:
         return Vec4(p.eyeFromEngine * glm::reflect(p.direction, p.normal), 1.0f);
-    case TextureCoordinates::NormalMap: return Vec4(p.eyeFromEngine * p.normal, 1.0f);
+    case TextureCoordinates::NormalMap:
+        return Vec4(p.eyeFromEngine * p.normal, 1.0f);
     }
     return Vec4(0.0f, 0.0f, 0.0f, 1.0f);
 }

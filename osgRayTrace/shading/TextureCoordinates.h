@@ -1,5 +1,5 @@
-// TextureCoordinates.h - where in its texture a unit looks, at a point of a surface. Layer: shading.
-// SPDX-License-Identifier: MIT
+// TextureCoordinates.h - where in its texture a unit looks, at a point of a surface. Layer:
+// shading. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/scene/Material.h"
@@ -31,10 +31,11 @@ inline bool dependsOnEye(const TextureMapping& mapping)
     return mapping.coordinates >= TextureCoordinates::SphereMap;
 }
 
-/// (s, t, r, q) [OpenGL21, eq. 2.9 and sect. 2.11.4]. OpenGL takes the direction from the eye to the vertex,
-/// at each vertex; here it is that of the ray that hit, at each point. For camera rays these are the same.
-/// In a mirror the picture that a chrome thing shows is then that of its mirror image, with the view's own
-/// axes as the axes of the map: what one would see from behind the mirror.
+/// (s, t, r, q) [OpenGL21, eq. 2.9 and sect. 2.11.4]. OpenGL takes the direction from the eye to
+/// the vertex, at each vertex; here it is that of the ray that hit, at each point. For camera rays
+/// these are the same. In a mirror the picture that a chrome thing shows is then that of its mirror
+/// image, with the view's own axes as the axes of the map: what one would see from behind the
+/// mirror.
 Vec4 textureCoordinates(const TextureMapping& mapping, const TexturePoint& point);
 
 } // namespace osgRayTrace::engine

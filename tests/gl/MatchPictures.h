@@ -29,8 +29,9 @@ struct Picture
 struct MatchSetup
 {
     int width = 120, height = 90;
-    int samples = 4; ///< a pixel and axis, of the rasterized picture; squared, passes of the traced one
-    bool homeView = false; ///< osgviewer's, else TestViewer's
+    int samples =
+        4; ///< a pixel and axis, of the rasterized picture; squared, passes of the traced one
+    bool homeView = false;                      ///< osgviewer's, else TestViewer's
     std::function<void(TestViewer&)> view = {}; ///< further changes
 };
 
@@ -83,8 +84,7 @@ inline Picture rasterize(osg::Node* model, const MatchSetup& setup)
     return reduced(*color, *view.capture->getDepthImage(), setup);
 }
 
-inline Picture rayTrace(osg::Node* model, const MatchSetup& setup,
-                        Statistics* wanted = nullptr)
+inline Picture rayTrace(osg::Node* model, const MatchSetup& setup, Statistics* wanted = nullptr)
 {
     const osg::ref_ptr<RayTracedScene> scene = tracedScene(model);
     const int passes = setup.samples * setup.samples * 4;

@@ -1,5 +1,5 @@
-// OpacityMatchTest.cpp - blending, alpha test, culled faces and polygon offset look as OpenGL draws them.
-// SPDX-License-Identifier: MIT
+// OpacityMatchTest.cpp - blending, alpha test, culled faces and polygon offset look as OpenGL draws
+// them. SPDX-License-Identifier: MIT
 #include "StateScenes.h"
 
 #include <osg/AlphaFunc>
@@ -64,10 +64,10 @@ TEST_CASE("match: alpha of the vertices and of the texture", "[gl][coverage]")
 TEST_CASE("match: all functions of the alpha test", "[gl][coverage]")
 {
     const std::pair<const char*, osg::AlphaFunc::ComparisonFunction> functions[] = {
-        {"never", osg::AlphaFunc::NEVER},       {"less", osg::AlphaFunc::LESS},
-        {"equal", osg::AlphaFunc::EQUAL},       {"lequal", osg::AlphaFunc::LEQUAL},
-        {"greater", osg::AlphaFunc::GREATER},   {"notequal", osg::AlphaFunc::NOTEQUAL},
-        {"gequal", osg::AlphaFunc::GEQUAL},     {"always", osg::AlphaFunc::ALWAYS}};
+        {"never", osg::AlphaFunc::NEVER},     {"less", osg::AlphaFunc::LESS},
+        {"equal", osg::AlphaFunc::EQUAL},     {"lequal", osg::AlphaFunc::LEQUAL},
+        {"greater", osg::AlphaFunc::GREATER}, {"notequal", osg::AlphaFunc::NOTEQUAL},
+        {"gequal", osg::AlphaFunc::GEQUAL},   {"always", osg::AlphaFunc::ALWAYS}};
     for (const auto& [name, function] : functions)
     {
         const auto front = unlit(square(3.0f, {1, 1, 1, 1}, 1.0f, 0.5f));
@@ -130,13 +130,14 @@ TEST_CASE("match: polygon offset puts decals before what they lie on", "[gl][cov
     };
     MatchSetup setup;
     setup.view = [](TestViewer& view) { view.look({3.0, 5.0, 6.0}); };
-    // Drawn last, all would lose or win by chance; the order of the graph is not that of the layers.
+    // Drawn last, all would lose or win by chance; the order of the graph is not that of the
+    // layers.
     const auto layers = groupOf({decal(1.0f, {0.1f, 0.1f, 0.9f, 1.0f}, -2.0f),
                                  decal(3.0f, {0.8f, 0.8f, 0.8f, 1.0f}, 0.0f),
                                  decal(2.0f, {0.9f, 0.1f, 0.1f, 1.0f}, -1.0f)});
     checkMatch("polygon-offset-front", layers, setup);
-    const auto base = groupOf({decal(2.0f, {0.9f, 0.1f, 0.1f, 1.0f}, 0.0f),
-                               decal(3.0f, {0.8f, 0.8f, 0.8f, 1.0f}, 1.0f)});
+    const auto base = groupOf(
+        {decal(2.0f, {0.9f, 0.1f, 0.1f, 1.0f}, 0.0f), decal(3.0f, {0.8f, 0.8f, 0.8f, 1.0f}, 1.0f)});
     checkMatch("polygon-offset-back", base, setup);
     // Shared, as instances are: one of two uses has the offset.
     const auto shared = unlit(square(1.0f, {0.1f, 0.9f, 0.1f, 1.0f}));

@@ -84,8 +84,8 @@ osg::ref_ptr<osg::Program> lightingByPixel(bool usesVertexColors, Lookup lookup 
         #endif
             gl_Position = ftransform();
         })"));
-    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, std::string("#version 120\n") +
-                                                             lookups[int(lookup)] + R"(
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT,
+                                       std::string("#version 120\n") + lookups[int(lookup)] + R"(
         varying vec3 normal, towards;
         uniform sampler2D picture;
         uniform samplerCube cube;
@@ -154,8 +154,8 @@ TEST_CASE("rasterizer match: plain lit models look as OpenGL draws them", "[gl][
 
 TEST_CASE("rasterizer match: chrome looks as OpenGL draws it", "[gl][osg-data]")
 {
-    // OpenGL looks generated coordinates up at the vertices of coarse meshes, we at each point: the difference
-    // is gone when OpenGL does so, too.
+    // OpenGL looks generated coordinates up at the vertices of coarse meshes, we at each point: the
+    // difference is gone when OpenGL does so, too.
     struct Model
     {
         std::string name;
@@ -201,9 +201,9 @@ TEST_CASE("rasterizer match: models with textures and alpha", "[gl][osg-data]")
         double most; ///< mean difference, of 255
     };
     // What glsl_simple.osgt leaves to OpenGL has jagged edges in one of the two pictures.
-    const Model tested = GENERATE(Model{"lz.osgt", 2.0}, Model{"simpleroom.osgt", 2.0},
-                                  Model{"axes.osgt", 2.0}, Model{"nathan.osg", 2.0},
-                                  Model{"glsl_simple.osgt", 6.0});
+    const Model tested =
+        GENERATE(Model{"lz.osgt", 2.0}, Model{"simpleroom.osgt", 2.0}, Model{"axes.osgt", 2.0},
+                 Model{"nathan.osg", 2.0}, Model{"glsl_simple.osgt", 6.0});
     const osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(tested.name);
     if (!model)
     {

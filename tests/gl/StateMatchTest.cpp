@@ -51,8 +51,11 @@ osg::ref_ptr<osg::LightSource> lamp(int number, const osg::Vec4& position, const
 TEST_CASE("match: shapes in the colours that ShapeDrawable gives them", "[gl][coverage]")
 {
     const auto at = [](double x, double y, osg::Node* node)
-    { return placed(osg::Matrixd::rotate(-1.2, osg::Vec3d(1, 0, 0)) *
-                    osg::Matrixd::translate(x, y, 0.0), node); };
+    {
+        return placed(osg::Matrixd::rotate(-1.2, osg::Vec3d(1, 0, 0)) *
+                          osg::Matrixd::translate(x, y, 0.0),
+                      node);
+    };
     const auto root = groupOf(
         {at(-2.5, 1.2, shapeOf(new osg::Sphere({}, 0.9f), {0.9f, 0.3f, 0.2f, 1.0f})),
          at(0.0, 1.2, shapeOf(new osg::Cone({}, 0.9f, 1.6f), {0.2f, 0.9f, 0.3f, 1.0f})),
@@ -155,7 +158,8 @@ TEST_CASE("match: LightModel with two sides, a local viewer, separate highlights
     checkMatch(std::string("light-model-") + names[kind], thing);
 }
 
-TEST_CASE("match: lights of the graph: positions, attenuation, spots, numbers, places", "[gl][coverage]")
+TEST_CASE("match: lights of the graph: positions, attenuation, spots, numbers, places",
+          "[gl][coverage]")
 {
     const auto root = groupOf({shapeOf(new osg::Sphere({-1.5f, 0, 0}, 1.4f), {1, 1, 1, 1}),
                                shapeOf(new osg::Sphere({1.5f, 0, 0}, 1.4f), {1, 1, 1, 1})});
@@ -189,9 +193,12 @@ TEST_CASE("match: states with OVERRIDE and PROTECTED", "[gl][coverage]")
         ball->getStateSet()->setMode(GL_LIGHTING, kOff | (value & osg::StateAttribute::PROTECTED));
         return placed(osg::Matrixd::translate(x, y, 0.0), ball);
     };
-    const auto inner = groupOf({ballWith(-1.2, 1.2, kOn), ballWith(1.2, 1.2, kOn | osg::StateAttribute::PROTECTED)});
-    inner->getOrCreateStateSet()->setAttribute(shinyMaterial(), kOn | osg::StateAttribute::OVERRIDE);
+    const auto inner = groupOf(
+        {ballWith(-1.2, 1.2, kOn), ballWith(1.2, 1.2, kOn | osg::StateAttribute::PROTECTED)});
+    inner->getOrCreateStateSet()->setAttribute(shinyMaterial(),
+                                               kOn | osg::StateAttribute::OVERRIDE);
     inner->getStateSet()->setMode(GL_LIGHTING, kOn | osg::StateAttribute::OVERRIDE);
-    const auto root = groupOf({inner, ballWith(-1.2, -1.2, kOn), ballWith(1.2, -1.2, osg::StateAttribute::INHERIT)});
+    const auto root = groupOf(
+        {inner, ballWith(-1.2, -1.2, kOn), ballWith(1.2, -1.2, osg::StateAttribute::INHERIT)});
     checkMatch("inheritance", root);
 }

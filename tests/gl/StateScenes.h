@@ -16,7 +16,8 @@ constexpr auto kOff = osg::StateAttribute::OFF;
 /// Larger than what the human eye forgives; what both pictures cover, and in which they must agree.
 constexpr double kMostDifference = 2.0; ///< of 255
 
-/// A square in the plane z = 0 with coordinates 0 to repeat in units 0 and 1, normals +z, of one colour.
+/// A square in the plane z = 0 with coordinates 0 to repeat in units 0 and 1, normals +z, of one
+/// colour.
 inline osg::ref_ptr<osg::Geometry> square(float half, const osg::Vec4& color = {1, 1, 1, 1},
                                           float repeat = 1.0f, float z = 0.0f)
 {
@@ -50,9 +51,9 @@ inline osg::ref_ptr<osg::Image> patchwork(int size, GLenum format = GL_RGBA)
     return image;
 }
 
-inline osg::ref_ptr<osg::Texture2D> textureOf(osg::Image* image,
-                                              osg::Texture::WrapMode wrap = osg::Texture::REPEAT,
-                                              osg::Texture::FilterMode filter = osg::Texture::LINEAR)
+inline osg::ref_ptr<osg::Texture2D>
+textureOf(osg::Image* image, osg::Texture::WrapMode wrap = osg::Texture::REPEAT,
+          osg::Texture::FilterMode filter = osg::Texture::LINEAR)
 {
     osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
     texture->setWrap(osg::Texture::WRAP_S, wrap);
@@ -79,7 +80,8 @@ inline osg::ref_ptr<osg::MatrixTransform> placed(const osg::Matrixd& matrix, osg
 }
 
 /// Draws both, writes what differs, and wants them alike: traced in the main and covered alike.
-inline Statistics checkMatch(const std::string& name, osg::Node* model, const MatchSetup& setup = {})
+inline Statistics checkMatch(const std::string& name, osg::Node* model,
+                             const MatchSetup& setup = {})
 {
     Statistics statistics;
     const Comparison comparison = match(name, model, setup, &statistics);

@@ -1,5 +1,5 @@
-// TextureMatchTest.cpp - textures look as OpenGL draws them: coordinates, wrap modes, environments, formats.
-// SPDX-License-Identifier: MIT
+// TextureMatchTest.cpp - textures look as OpenGL draws them: coordinates, wrap modes, environments,
+// formats. SPDX-License-Identifier: MIT
 #include "StateScenes.h"
 
 #include <osg/TexEnv>
@@ -158,7 +158,8 @@ TEST_CASE("match: a TexGenNode places eye linear coordinates in the scene", "[gl
         new osg::TexGenNode(linearTexGen(osg::TexGen::EYE_LINEAR));
     node->setTextureUnit(0);
     const auto root = groupOf(
-        {placed(osg::Matrixd::rotate(1.0, osg::Vec3d(0, 0, 1)) * osg::Matrixd::translate(1, 0, 0), node),
+        {placed(osg::Matrixd::rotate(1.0, osg::Vec3d(0, 0, 1)) * osg::Matrixd::translate(1, 0, 0),
+                node),
          placed(osg::Matrixd::translate(-1.0, 0.5, 0.0), ball)});
     checkMatch("texgen-node", root, obliquely());
 }
@@ -172,7 +173,8 @@ TEST_CASE("match: sphere, reflection and normal maps follow the view", "[gl][cov
         const auto ball = fineSphere();
         ball->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
         generate(*ball, 0, texGenOf(mode), mode != osg::TexGen::SPHERE_MAP);
-        checkMatch(name + view, placed(osg::Matrixd::rotate(0.7, osg::Vec3d(0, 1, 0)), ball), setup);
+        checkMatch(name + view, placed(osg::Matrixd::rotate(0.7, osg::Vec3d(0, 1, 0)), ball),
+                   setup);
     };
     traced("texgen-sphere-map", osg::TexGen::SPHERE_MAP, textureOf(environmentPicture(64)));
     traced("texgen-reflection-map", osg::TexGen::REFLECTION_MAP, cubeMap(32));
@@ -265,30 +267,29 @@ TEST_CASE("match: pixel formats, packed, wide and compressed", "[gl][coverage]")
         const char* name;
         GLenum format, type;
     };
-    const Format formats[] = {
-        {"rgba", GL_RGBA, GL_UNSIGNED_BYTE},
-        {"bgra", GL_BGRA, GL_UNSIGNED_BYTE},
-        {"luminance", GL_LUMINANCE, GL_UNSIGNED_BYTE},
-        {"luminance-alpha", GL_LUMINANCE_ALPHA, GL_UNSIGNED_BYTE},
-        {"alpha", GL_ALPHA, GL_UNSIGNED_BYTE},
-        {"red", GL_RED, GL_UNSIGNED_BYTE},
-        {"rgb-short", GL_RGB, GL_UNSIGNED_SHORT},
-        {"rgb-float", GL_RGB, GL_FLOAT},
-        {"rgb-half", GL_RGB, GL_HALF_FLOAT},
-        {"5-6-5", GL_RGB, GL_UNSIGNED_SHORT_5_6_5},
-        {"3-3-2", GL_RGB, GL_UNSIGNED_BYTE_3_3_2},
-        {"4-4-4-4", GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4},
-        {"4-4-4-4-rev", GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4_REV},
-        {"5-5-5-1", GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1},
-        {"1-5-5-5-rev-bgra", GL_BGRA, GL_UNSIGNED_SHORT_1_5_5_5_REV},
-        {"8-8-8-8", GL_RGBA, GL_UNSIGNED_INT_8_8_8_8},
-        {"2-10-10-10-rev", GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV},
-        {"dxt1", GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_UNSIGNED_BYTE},
-        {"dxt1a", GL_COMPRESSED_RGBA_S3TC_DXT1_EXT, GL_UNSIGNED_BYTE},
-        {"dxt3", GL_COMPRESSED_RGBA_S3TC_DXT3_EXT, GL_UNSIGNED_BYTE},
-        {"dxt5", GL_COMPRESSED_RGBA_S3TC_DXT5_EXT, GL_UNSIGNED_BYTE},
-        {"rgtc1", GL_COMPRESSED_RED_RGTC1_EXT, GL_UNSIGNED_BYTE},
-        {"rgtc2", GL_COMPRESSED_RED_GREEN_RGTC2_EXT, GL_UNSIGNED_BYTE}};
+    const Format formats[] = {{"rgba", GL_RGBA, GL_UNSIGNED_BYTE},
+                              {"bgra", GL_BGRA, GL_UNSIGNED_BYTE},
+                              {"luminance", GL_LUMINANCE, GL_UNSIGNED_BYTE},
+                              {"luminance-alpha", GL_LUMINANCE_ALPHA, GL_UNSIGNED_BYTE},
+                              {"alpha", GL_ALPHA, GL_UNSIGNED_BYTE},
+                              {"red", GL_RED, GL_UNSIGNED_BYTE},
+                              {"rgb-short", GL_RGB, GL_UNSIGNED_SHORT},
+                              {"rgb-float", GL_RGB, GL_FLOAT},
+                              {"rgb-half", GL_RGB, GL_HALF_FLOAT},
+                              {"5-6-5", GL_RGB, GL_UNSIGNED_SHORT_5_6_5},
+                              {"3-3-2", GL_RGB, GL_UNSIGNED_BYTE_3_3_2},
+                              {"4-4-4-4", GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4},
+                              {"4-4-4-4-rev", GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4_REV},
+                              {"5-5-5-1", GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1},
+                              {"1-5-5-5-rev-bgra", GL_BGRA, GL_UNSIGNED_SHORT_1_5_5_5_REV},
+                              {"8-8-8-8", GL_RGBA, GL_UNSIGNED_INT_8_8_8_8},
+                              {"2-10-10-10-rev", GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV},
+                              {"dxt1", GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_UNSIGNED_BYTE},
+                              {"dxt1a", GL_COMPRESSED_RGBA_S3TC_DXT1_EXT, GL_UNSIGNED_BYTE},
+                              {"dxt3", GL_COMPRESSED_RGBA_S3TC_DXT3_EXT, GL_UNSIGNED_BYTE},
+                              {"dxt5", GL_COMPRESSED_RGBA_S3TC_DXT5_EXT, GL_UNSIGNED_BYTE},
+                              {"rgtc1", GL_COMPRESSED_RED_RGTC1_EXT, GL_UNSIGNED_BYTE},
+                              {"rgtc2", GL_COMPRESSED_RED_GREEN_RGTC2_EXT, GL_UNSIGNED_BYTE}};
     for (const Format& format : formats)
     {
         // The alpha counts, too: it blends over a background of another colour.
@@ -300,8 +301,7 @@ TEST_CASE("match: pixel formats, packed, wide and compressed", "[gl][coverage]")
         state.setTextureAttributeAndModes(0, texture);
         state.setMode(GL_BLEND, kOn);
         state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
-        const auto root =
-            groupOf({unlit(square(3.5f, osg::Vec4(0.2f, 0.5f, 0.8f, 1.0f))), front});
+        const auto root = groupOf({unlit(square(3.5f, osg::Vec4(0.2f, 0.5f, 0.8f, 1.0f))), front});
         checkMatch(std::string("format-") + format.name, root);
     }
 }

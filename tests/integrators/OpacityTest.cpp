@@ -1,5 +1,5 @@
-// OpacityTest.cpp - a pane of opacity a leaves 1 - a of the light: to camera, mirror, shadow and photon rays.
-// SPDX-License-Identifier: MIT
+// OpacityTest.cpp - a pane of opacity a leaves 1 - a of the light: to camera, mirror, shadow and
+// photon rays. SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 #include "tests/Statistics.h"
@@ -38,8 +38,8 @@ Estimate meanOf(const SceneBuilder& builder, const View& view, IntegratorKind ki
     return estimate;
 }
 
-/// 5 standard errors of eight values each: a false alarm has a probability of about 1e-3 in each case by
-/// Student's distribution, 0 with these fixed seeds.
+/// 5 standard errors of eight values each: a false alarm has a probability of about 1e-3 in each
+/// case by Student's distribution, 0 with these fixed seeds.
 void checkShare(const Estimate& with, const Estimate& without)
 {
     const double expected = (1.0 - kAlpha) * without.mean();
@@ -91,7 +91,8 @@ TEST_CASE("opacity: mirror, shadow and photon rays", "[integrators]")
     CAPTURE(int(kind));
     SECTION("a mirror shows a plate behind a pane")
     {
-        // The mirror fills the view; the pane is between it and the plate, beside the camera's rays.
+        // The mirror fills the view; the pane is between it and the plate, beside the camera's
+        // rays.
         const View view = perspectiveView({0, -4, 4}, {0, 0, 0}, {0, 0, 1}, 4.0, kPixels, kPixels);
         const auto scene = [](bool pane)
         {
@@ -135,7 +136,8 @@ TEST_CASE("opacity: photons on their way to a mirror and from it", "[integrators
         return builder;
     };
     // Through the pane twice: on the way up and on the way down.
-    const Estimate with = meanOf(scene(true), view, kind, 24), without = meanOf(scene(false), view, kind, 12);
+    const Estimate with = meanOf(scene(true), view, kind, 24),
+                   without = meanOf(scene(false), view, kind, 12);
     const double share = (1.0 - kAlpha) * (1.0 - kAlpha), expected = share * without.mean();
     const double error = std::hypot(with.standardError(), share * without.standardError());
     CAPTURE(with.mean(), expected, error);
