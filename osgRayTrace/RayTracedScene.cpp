@@ -68,6 +68,16 @@ private:
     const osg::CullSettings::InheritanceMask _inheritance;
 };
 
+/// Goes through a scene before its first frame and uploads all of it. Textures may be set to let go of their images then,
+/// which are needed here; what OSG goes on drawing is uploaded when it is drawn.
+bool uploads(const osg::NodeVisitor& visitor)
+{
+    const auto* objects = dynamic_cast<const osgUtil::GLObjectsVisitor*>(&visitor);
+    constexpr auto kUploads = osgUtil::GLObjectsVisitor::COMPILE_DISPLAY_LISTS |
+                              osgUtil::GLObjectsVisitor::COMPILE_STATE_ATTRIBUTES;
+    return objects && (objects->getMode() & kUploads);
+}
+
 } // namespace
 
 RayTracedScene::RayTracedScene() : _children(new SceneRoot(this)), _drawable(new RayTraceDrawable)
@@ -121,10 +131,6 @@ void RayTracedScene::dirtyScene()
 
 void RayTracedScene::traverse(osg::NodeVisitor& visitor)
 {
-    // osgViewer compiles all OpenGL objects before the first cull, and textures then give up their images,
-    // which tracing needs. What is traced needs no such objects, the rest gets them as it is drawn.
-    if (_enabled && dynamic_cast<osgUtil::GLObjectsVisitor*>(&visitor)) return;
-
     osgUtil::CullVisitor* cull = _enabled ? visitor.asCullVisitor() : nullptr;
     if (cull)
     {
@@ -139,9 +145,11 @@ void RayTracedScene::traverse(osg::NodeVisitor& visitor)
             _drawable->accept(*cull);
         }
         _drawable->cullRasterized(*cull);
+        _drawable->requestPages(*this, *cull);
         return;
     }
 
+    if (_enabled && uploads(visitor)) return;
     osg::Group::traverse(visitor);
     // Before the first cull the light and the eye are not known: that cull converts.
     const bool update = visitor.getVisitorType() == osg::NodeVisitor::UPDATE_VISITOR;

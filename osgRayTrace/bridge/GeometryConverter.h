@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/ConversionReport.h"
+#include "osgRayTrace/bridge/TriangleList.h"
 #include "osgRayTrace/scene/Mesh.h"
 
 #include <osg/Geometry>
@@ -11,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -23,11 +25,14 @@ struct MeshRequest
     std::optional<osg::Matrixd> transform;
     bool decodeColors = false; ///< vertex colours from sRGB to linear
     float lift = 0.0f;         ///< layers that the faces are raised by: see polygonLift
+    PrimitiveRestart restart;
+    std::vector<Vec4d> clipPlanes; ///< after the transform; see clip
 
     bool operator==(const MeshRequest& other) const
     {
         return transform == other.transform && decodeColors == other.decodeColors &&
-               lift == other.lift;
+               lift == other.lift && restart == other.restart &&
+               clipPlanes == other.clipPlanes;
     }
 };
 

@@ -3,12 +3,16 @@
 #include "osgRayTrace/bridge/GraphFingerprint.h"
 
 #include "osgRayTrace/bridge/GraphCollector.h"
+#include "osgRayTrace/bridge/SoftwareVertices.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/AlphaFunc>
+#include <osg/Billboard>
 #include <osg/BlendFunc>
+#include <osg/ClipNode>
+#include <osg/ClipPlane>
 #include <osg/CullFace>
 #include <osg/FrontFace>
 #include <osg/Geometry>
@@ -19,6 +23,7 @@
 #include <osg/NodeVisitor>
 #include <osg/PolygonMode>
 #include <osg/PolygonOffset>
+#include <osg/PrimitiveRestartIndex>
 #include <osg/Program>
 #include <osg/TexEnv>
 #include <osg/TexGen>
@@ -28,6 +33,7 @@
 #include <osg/Transform>
 
 #include <cstring>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -174,6 +180,10 @@ void addAttribute(Digest& digest, const osg::StateAttribute& attribute)
         addTexGen(digest, *texGen);
     else if (const auto* offset = dynamic_cast<const osg::PolygonOffset*>(&attribute))
         digest.add(offset->getFactor(), offset->getUnits());
+    else if (const auto* restart = dynamic_cast<const osg::PrimitiveRestartIndex*>(&attribute))
+        digest.add(restart->getRestartIndex());
+    else if (const auto* plane = dynamic_cast<const osg::ClipPlane*>(&attribute))
+        digest.add(plane->getClipPlaneNum(), plane->getClipPlane());
     else if (const auto* front = dynamic_cast<const osg::FrontFace*>(&attribute))
         digest.add(front->getMode());
 }
@@ -208,7 +218,10 @@ class FingerprintVisitor : public osg::NodeVisitor
 {
 public:
     explicit FingerprintVisitor(const ViewingConditions& conditions)
-        : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN), _eye(conditions.eye)
+        : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN),
+          _eye(conditions.eye),
+          _view(conditions.view),
+          _cullStack(conditions.view)
     {
         setTraversalMask(conditions.traversalMask);
         for (const osg::ref_ptr<const osg::StateSet>& stateSet : conditions.inheritedState)
@@ -244,11 +257,29 @@ public:
     void apply(osg::Transform& node) override
     {
         const osg::Matrixd outer = _sceneFromLocal;
-        node.computeLocalToWorldMatrix(_sceneFromLocal, this);
+        _sceneFromLocal = worldFromLocal(node, outer, *this, _view);
         _digest.addMatrix(_sceneFromLocal);
         enter(node);
         _sceneFromLocal = outer;
     }
+
+    void apply(osg::Billboard& node) override
+    {
+        digestView();
+        _digest.add(node.getMode(), node.getAxis(), node.getNormal());
+        enter(node);
+    }
+
+    void apply(osg::ClipNode& node) override
+    {
+        if (node.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF) digestView();
+        for (const auto& plane : node.getClipPlaneList())
+            if (plane) _digest.add(plane->getClipPlaneNum(), plane->getClipPlane());
+        enter(node);
+    }
+
+    osg::CullStack* asCullStack() override { return _cullStack.at(_sceneFromLocal); }
+    const osg::CullStack* asCullStack() const override { return _cullStack.at(_sceneFromLocal); }
 
     void apply(osg::Drawable& drawable) override
     {
@@ -259,6 +290,8 @@ public:
     void apply(osg::Geometry& geometry) override
     {
         addDrawable(geometry);
+        for (const float weight : SoftwareVertices::weightsOf(geometry))
+            _digest.add(weight);
         _arrays.clear();
         geometry.getArrayList(_arrays);
         for (const auto& array : _arrays)
@@ -266,13 +299,15 @@ public:
                         array->getBinding());
         for (const auto& primitives : geometry.getPrimitiveSetList())
             _digest.add(primitives.get(), primitives->getModifiedCount(), primitives->getMode(),
-                        primitives->getNumIndices());
+                        hasTriangles(*primitives) ? primitives->getNumIndices() : 0u);
         traverse(geometry);
     }
 
-    float getDistanceToEyePoint(const osg::Vec3& point, bool) const override
+    float getDistanceToEyePoint(const osg::Vec3& point, bool useLodScale) const override
     {
-        return static_cast<float>((osg::Vec3d(point) * _sceneFromLocal - _eye).length());
+        const float scale = useLodScale && _view ? _view->lodScale : 1.0f;
+        const osg::Vec3d eye = _eye * osg::Matrixd::inverse(_sceneFromLocal); // as in a cull traversal
+        return static_cast<float>((osg::Vec3d(point) - eye).length()) * scale;
     }
 
     float getDistanceToViewPoint(const osg::Vec3& point, bool useLodScale) const override
@@ -281,6 +316,13 @@ public:
     }
 
 private:
+    /// Of what turns to the view or moves with it.
+    void digestView()
+    {
+        _digest.add(_eye);
+        if (_view) _digest.addMatrix(_view->viewFromWorld);
+    }
+
     void enter(osg::Node& node)
     {
         _digest.add(&node);
@@ -307,6 +349,8 @@ private:
 
     Digest _digest;
     osg::Vec3d _eye;
+    std::optional<ReferenceView> _view;
+    ReferenceCullStack _cullStack;
     osg::Matrixd _sceneFromLocal;
     osg::Geometry::ArrayList _arrays;
 };

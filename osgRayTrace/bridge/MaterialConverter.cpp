@@ -11,6 +11,7 @@
 #include <osg/BlendFunc>
 #include <osg/CullFace>
 #include <osg/FrontFace>
+#include <osg/ClipPlane>
 #include <osg/LightModel>
 #include <osg/Material>
 #include <osg/PolygonMode>
@@ -448,7 +449,10 @@ void MaterialConverter::countApproximations(const GraphState& state)
     if (blending == Blending::Additive || blending == Blending::Other)
         _report.count("approximated.blending");
     if (state.isOn(kFogBit)) _report.count("approximated.fog");
-    if (state.isOn(kClipPlaneBit)) _report.count("approximated.clip-plane");
+    const auto* plane = state.attribute<osg::ClipPlane>(kClipPlaneSlot);
+    if (plane && plane->getClipPlaneNum() < kClipPlanes &&
+        state.isOn(kClipPlaneBit + plane->getClipPlaneNum()))
+        _report.count("approximated.clip-plane-attribute");
     if (state.usesHigherTextures()) _report.count("approximated.texture-unit");
     if (const auto* mode = state.attribute<osg::PolygonMode>(kPolygonModeSlot))
         if (mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)

@@ -149,6 +149,7 @@ Material fallbackMaterial()
 /// What is kept between snapshots.
 struct ConversionCaches
 {
+    SoftwareVertices vertices;
     GeometryCache geometries;
     TextureConverter textures;
     std::vector<std::shared_ptr<const Mesh>>
@@ -197,6 +198,8 @@ public:
 private:
     void addGeometry(const CollectedGeometry& geometry);
     void warnIfCoarse(const CollectedGeometry& geometry);
+    Clipping clipBy(const CollectedGeometry& geometry, const GeometryUse& use,
+                    MeshRequest& request);
     void addPlacedUses(const CollectedGeometry& geometry);
     void addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
                   const std::shared_ptr<const Mesh>& mesh);
@@ -205,8 +208,7 @@ private:
     void addLights();
     void setAmbient(const GraphState& state);
     uint32_t addMesh(const std::shared_ptr<const Mesh>& mesh);
-    MeshRequest requestFor(const osg::Matrixd& transform) const;
-    MeshRequest requestFor(const GeometryUse& use) const;
+    MeshRequest requestFor(const CollectedGeometry& geometry, const osg::Matrixd& transform) const;
 
     const ConversionInput& _input;
     const CollectedGraph& _graph;
@@ -220,18 +222,13 @@ private:
     const osg::LightModel* _lightModel = nullptr; // the first one met
 };
 
-MeshRequest SceneBuilder::requestFor(const osg::Matrixd& transform) const
+MeshRequest SceneBuilder::requestFor(const CollectedGeometry& geometry,
+                                     const osg::Matrixd& transform) const
 {
     MeshRequest request;
+    request.restart = geometry.restart;
     if (!transform.isIdentity()) request.transform = transform;
     request.decodeColors = _linear;
-    return request;
-}
-
-MeshRequest SceneBuilder::requestFor(const GeometryUse& use) const
-{
-    MeshRequest request = requestFor(use.engineFromLocal);
-    request.lift = polygonLift(_graph.states[use.state]);
     return request;
 }
 
@@ -251,6 +248,21 @@ void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
                  "coordinates below a transform");
 }
 
+/// Puts the planes that cross the geometry into the request, which is for engine space.
+Clipping SceneBuilder::clipBy(const CollectedGeometry& geometry, const GeometryUse& use,
+                              MeshRequest& request)
+{
+    std::vector<Vec4d> planes = _graph.clipPlanes.planesOn(_graph.states[use.state]);
+    if (planes.empty()) return Clipping::None;
+    const osg::Array* positions = positionArray(*geometry.geometry);
+    const bool bounded = positions && geometry.bounds->count == positions->getNumElements();
+    const Clipping clipping =
+        bounded ? clippingOf(*geometry.bounds, use.engineFromLocal, planes) : Clipping::Partly;
+    if (clipping == Clipping::Wholly) _report.count("not-traced.clipped-away");
+    if (clipping == Clipping::Partly) request.clipPlanes = std::move(planes);
+    return clipping;
+}
+
 /// Used once: positions in engine space, made in double. Used more often: one mesh, several
 /// instances.
 void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
@@ -262,7 +274,9 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
         return;
     }
     const GeometryUse& use = geometry.uses.front();
-    const MeshRequest request = requestFor(use);
+    MeshRequest request = requestFor(geometry, use.engineFromLocal);
+    request.lift = polygonLift(_graph.states[use.state]);
+    if (clipBy(geometry, use, request) == Clipping::Wholly) return;
     addBaked(
         geometry, use,
         _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report));
@@ -281,7 +295,7 @@ void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse
 void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
 {
     const MeshFrame frame = meshFrame(*geometry.bounds);
-    const MeshRequest request = requestFor(frame.meshFromLocal);
+    const MeshRequest request = requestFor(geometry, frame.meshFromLocal);
     const auto mesh =
         _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report);
     if (!mesh) return;
@@ -291,15 +305,19 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
     for (const GeometryUse& use : geometry.uses)
     {
         ++variant;
+        MeshRequest own = requestFor(geometry, use.engineFromLocal);
+        own.lift = polygonLift(_graph.states[use.state]);
+        const Clipping clipping = clipBy(geometry, use, own);
+        if (clipping == Clipping::Wholly) continue;
         Instance instance;
         instance.mesh = meshIndex;
         instance.placed = true;
         instance.engineFromLocal = toAffine(frame.localFromMesh * use.engineFromLocal);
-        if (!isPlaceable(instance.engineFromLocal) || polygonLift(_graph.states[use.state]) != 0.0f)
+        if (clipping == Clipping::Partly || own.lift != 0.0f ||
+            !isPlaceable(instance.engineFromLocal))
         {
             addBaked(geometry, use,
-                     _caches.geometries.mesh(*geometry.geometry, variant,
-                                             requestFor(use), geometry.path,
+                     _caches.geometries.mesh(*geometry.geometry, variant, own, geometry.path,
                                              _report));
             continue;
         }
@@ -434,7 +452,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     const Stamp now = ++state.stamp;
 
     ConversionReport report;
-    GraphCollector collector(input, report);
+    state.caches.vertices.begin();
+    GraphCollector collector(input, state.caches.vertices, report);
     if (input.root) input.root->accept(collector);
     CollectedGraph graph = collector.take();
 
@@ -447,9 +466,11 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     SceneBuilder builder(input, graph, unit, linear, now, state.caches, report);
     state.last = stampChanges(builder.build(), state.last, now);
     state.caches.geometries.end();
+    state.caches.vertices.end();
 
     ConversionResult result;
     result.scene = state.last;
+    result.paged = graph.paged;
     result.counts = report.counts();
     const auto draws = [](const RasterizedPart& part) { return part.kind == RasterizedPart::Draw; };
     if (std::any_of(graph.rasterized.begin(), graph.rasterized.end(), draws))

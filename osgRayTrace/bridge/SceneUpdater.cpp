@@ -151,7 +151,7 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
     if (root)
         convert(*root, conditions);
     else
-        publish(nullptr, nullptr, Statistics());
+        publish(nullptr, ConversionResult(), Statistics());
 }
 
 void SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
@@ -159,6 +159,7 @@ void SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
     ConversionInput input;
     input.root = &root;
     input.eye = conditions.eye;
+    input.view = conditions.view;
     input.origin = *_origin;
     input.traversalMask = conditions.traversalMask;
     input.viewLight = conditions.light;
@@ -175,17 +176,18 @@ void SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
         traced = TracedScene::build(conversion.scene, _workers, traced);
     Statistics statistics;
     setSceneStatistics(statistics, conversion, *traced);
-    publish(std::move(traced), conversion.rasterized, statistics);
+    publish(std::move(traced), conversion, statistics);
 }
 
 void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene,
-                           std::shared_ptr<const RasterizedParts> rasterized,
-                           const Statistics& statistics)
+                           const ConversionResult& conversion, const Statistics& statistics)
 {
+    std::shared_ptr<const RasterizedParts> rasterized = conversion.rasterized;
     std::lock_guard<std::mutex> lock(_versionMutex);
     // The old ones are freed after the lock, unless a view still draws them.
     _version.scene.swap(scene);
     _version.rasterized.swap(rasterized);
+    _version.paged = conversion.paged;
     _statistics = statistics;
 }
 

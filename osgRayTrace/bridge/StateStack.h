@@ -13,6 +13,8 @@
 namespace osgRayTrace::engine
 {
 
+constexpr unsigned int kClipPlanes = 8;
+
 /// The modes that matter here, as bits of a set. Bits 0 to 31 are GL_LIGHT0 + n.
 enum ModeBit : unsigned int
 {
@@ -21,8 +23,11 @@ enum ModeBit : unsigned int
     kAlphaTestBit,
     kCullFaceBit,
     kFogBit,
-    kClipPlaneBit,     ///< any of them
-    kPolygonOffsetBit,
+    kPrimitiveRestartBit,
+    kFixedRestartBit,  ///< primitive restart at the largest index of the type
+    kClipPlaneBit,     ///< and the bits that follow: kClipPlanes of them
+    kClipPlaneBitEnd = kClipPlaneBit + kClipPlanes,
+    kPolygonOffsetBit = kClipPlaneBitEnd,
     kTextureUnitBit,   ///< of unit 0: see UnitBit; then those of unit 1
     kHigherTextureBit = kTextureUnitBit + 12, ///< any texture target of units 2, 3, ...: up to bit 63
     kModeBitEnd = 64,
@@ -51,6 +56,8 @@ enum AttributeSlot : unsigned int
     kLightModelSlot,
     kProgramSlot,
     kPolygonModeSlot,
+    kPrimitiveRestartSlot,
+    kClipPlaneSlot, ///< of any number: the last one met; those of clip nodes are no attributes
     kBlendFuncSlot,
     kAlphaFuncSlot,
     kCullFaceSlot,
