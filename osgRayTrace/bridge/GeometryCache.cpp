@@ -4,10 +4,25 @@
 
 #include "osgRayTrace/bridge/VertexArrays.h"
 
+#include <algorithm>
 #include <tuple>
 
 namespace osgRayTrace::engine
 {
+
+namespace
+{
+
+/// Equal triangles become one array, by which a BVH that can be refitted is known.
+void shareTriangles(Mesh& mesh, const Mesh& before)
+{
+    if (mesh.positions.size() == before.positions.size() &&
+        mesh.triangles.size() == before.triangles.size() &&
+        std::equal(mesh.triangles.begin(), mesh.triangles.end(), before.triangles.begin()))
+        mesh.triangles = before.triangles;
+}
+
+} // namespace
 
 bool GeometryCache::BufferPrint::operator==(const BufferPrint& other) const
 {
@@ -50,6 +65,45 @@ GeometryCache::Fingerprint GeometryCache::fingerprintOf(const osg::Geometry& geo
     return prints;
 }
 
+const GeometryCache::Entry* GeometryCache::find(const osg::Geometry& geometry) const
+{
+    const auto found = _entries.find({&geometry, kOwnVariant});
+    if (found == _entries.end()) return nullptr;
+    return found->second.geometry.get() == &geometry ? &found->second : nullptr;
+}
+
+const MeshRequest* GeometryCache::lastRequest(const osg::Geometry& geometry) const
+{
+    const Entry* entry = find(geometry);
+    return entry ? &entry->request : nullptr;
+}
+
+const ConversionCounts& GeometryCache::lastCounts(const osg::Geometry& geometry) const
+{
+    static const ConversionCounts none;
+    const Entry* entry = find(geometry);
+    return entry ? entry->counts : none;
+}
+
+bool GeometryCache::hasSameArrays(const osg::Geometry& geometry) const
+{
+    const Entry* entry = find(geometry);
+    return entry && entry->fingerprint == fingerprintOf(geometry);
+}
+
+Liveness GeometryCache::liveness(const osg::Geometry& geometry) const
+{
+    const auto found = _liveness.find(&geometry);
+    return found == _liveness.end() ? Liveness::Still : found->second;
+}
+
+void GeometryCache::noteLiveness(const osg::Geometry& geometry, Liveness liveness)
+{
+    if (liveness == Liveness::Still) return;
+    Liveness& known = _liveness[&geometry];
+    known = std::max(known, liveness);
+}
+
 std::shared_ptr<const Mesh> GeometryCache::mesh(const osg::Geometry& geometry, uint32_t variant,
                                                 const MeshRequest& request, const std::string& path,
                                                 ConversionReport& report)
@@ -61,12 +115,18 @@ std::shared_ptr<const Mesh> GeometryCache::mesh(const osg::Geometry& geometry, u
                        entry.fingerprint == fingerprint;
     if (!known)
     {
+        const bool other = entry.used != 0 && entry.geometry.get() == &geometry &&
+                           !(entry.fingerprint == fingerprint);
         ConvertedMesh converted = convertGeometry(geometry, request);
         if (converted.mesh)
         {
             converted.mesh->name = path;
             converted.mesh->changed = _stamp;
+            converted.mesh->deforms = request.copies;
+            if (other && entry.mesh && request.copies && entry.request.copies)
+                shareTriangles(*converted.mesh, *entry.mesh);
         }
+        ++_converted;
         warnAboutGeometry(path, converted.counts);
         entry = {&geometry, geometry.getDataVariance(), std::move(fingerprint),
                  request,   std::move(converted.mesh),  std::move(converted.counts),
@@ -100,6 +160,8 @@ void GeometryCache::end()
         entry = entry->second.used == _stamp ? std::next(entry) : _bounds.erase(entry);
     for (auto entry = _entries.begin(); entry != _entries.end();)
         entry = entry->second.used == _stamp ? std::next(entry) : _entries.erase(entry);
+    for (auto live = _liveness.begin(); live != _liveness.end();)
+        live = find(*live->first) ? std::next(live) : _liveness.erase(live);
 }
 
 } // namespace osgRayTrace::engine

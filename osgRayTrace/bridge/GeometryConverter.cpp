@@ -125,13 +125,14 @@ bool isMirrored(const MeshRequest& request)
 }
 
 SharedArray<UVec3> checkedTriangles(TriangleList& list, const osg::Geometry& geometry,
-                                    const Positions& positions, bool mirrored,
+                                    const Positions& positions, const MeshRequest& request,
                                     ConversionCounts& counts)
 {
     if (list.size() == 0) return {};
     const TriangleJudge judge(positions);
     const bool sound = judge.allSound(list.data(), list.size());
-    if (sound && list.source && !mirrored && geometry.getDataVariance() != osg::Object::DYNAMIC &&
+    const bool mirrored = isMirrored(request);
+    if (sound && list.source && !mirrored && !request.copies && geometry.getDataVariance() != osg::Object::DYNAMIC &&
         list.source->getDataVariance() != osg::Object::DYNAMIC)
         return shareIndices(*list.source);
 
@@ -265,7 +266,7 @@ ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& 
     Positions positions = reader.positions(*vertices);
     auto mesh = std::make_shared<Mesh>();
     mesh->triangles =
-        checkedTriangles(list, geometry, positions, isMirrored(request), result.counts);
+        checkedTriangles(list, geometry, positions, request, result.counts);
     if (mesh->triangles.empty()) return result;
 
     mesh->positions = std::move(positions.values);

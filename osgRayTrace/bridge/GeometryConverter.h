@@ -22,10 +22,12 @@ struct MeshRequest
     /// shared.
     std::optional<osg::Matrixd> transform;
     bool decodeColors = false; ///< vertex colours from sRGB to linear
+    bool copies = false;       ///< shares no arrays: they will change
 
     bool operator==(const MeshRequest& other) const
     {
-        return transform == other.transform && decodeColors == other.decodeColors;
+        return transform == other.transform && decodeColors == other.decodeColors &&
+               copies == other.copies;
     }
 };
 
