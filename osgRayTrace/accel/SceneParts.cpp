@@ -108,6 +108,7 @@ bool PartPool::refit(Prototype& spare, const std::shared_ptr<const Mesh>& mesh, 
 std::unique_ptr<Prototype> PartPool::spareOf(const UVec3* triangles)
 {
     std::lock_guard<std::mutex> lock(_mutex);
+    _wanted.insert(triangles);
     const auto found = _prototypes.find(triangles);
     if (found == _prototypes.end()) return nullptr;
     std::unique_ptr<Prototype> spare = std::move(found->second);
@@ -119,8 +120,10 @@ std::shared_ptr<const Prototype> PartPool::prototype(const std::shared_ptr<const
                                                      BuildCounts& counts)
 {
     if (mesh->deforms)
-        if (std::unique_ptr<Prototype> spare = spareOf(mesh->triangles.data()))
-            if (refit(*spare, mesh, counts)) return shared(std::move(spare));
+    {
+        std::unique_ptr<Prototype> spare = spareOf(mesh->triangles.data());
+        if (spare && refit(*spare, mesh, counts)) return shared(std::move(spare));
+    }
     return shared(build(mesh, counts));
 }
 
@@ -197,7 +200,7 @@ std::shared_ptr<const RootPart> PartPool::root(const std::vector<Placement>& pla
     return shared(std::move(root));
 }
 
-void PartPool::keepOnly(const std::unordered_set<const UVec3*>& triangles, bool partsGone)
+void PartPool::keepOnly(const std::unordered_set<const UVec3*>& triangles)
 {
     std::vector<std::unique_ptr<Prototype>> gone; // freed after the lock
     std::vector<std::unique_ptr<RootPart>> roots;
@@ -213,7 +216,6 @@ void PartPool::keepOnly(const std::unordered_set<const UVec3*>& triangles, bool 
         gone.push_back(std::move(spare->second));
         spare = _prototypes.erase(spare);
     }
-    if (!partsGone) return;
     ++_generation;
     roots.swap(_roots);
 }

@@ -100,9 +100,9 @@ public:
     std::shared_ptr<const RootPart> root(const std::vector<Placement>& placements,
                                          const std::vector<uint64_t>& prints, BuildCounts& counts);
 
-    /// Forgets spare prototypes of other meshes than these and, if parts are gone, all spare roots: they
-    /// hold what was removed.
-    void keepOnly(const std::unordered_set<const UVec3*>& triangles, bool partsGone);
+    /// Something was removed. Forgets spare prototypes of other meshes than those with these triangles, and
+    /// all roots that exist, spare or not: they hold what is gone.
+    void keepOnly(const std::unordered_set<const UVec3*>& triangles);
 
     /// Takes a part back, or deletes it. Any thread.
     void giveBack(std::unique_ptr<Prototype> prototype);

@@ -127,6 +127,7 @@ struct TracedScene::Implementation
     std::shared_ptr<PartPool> pool;
     std::shared_ptr<const Scene> scene;
     std::vector<std::shared_ptr<const Prototype>> prototypes; ///< by mesh; null: not needed
+    std::size_t prototypeCount = 0;
     std::shared_ptr<const FlatPart> flat;                     ///< null: there is none
     std::shared_ptr<const RootPart> root;                     ///< null: the flat part is all
     std::vector<InstanceState> states;                        ///< by instance
@@ -144,6 +145,7 @@ struct TracedScene::Implementation
     std::vector<bool> attached();
     void makePrototypes(const std::vector<bool>& attached, const Implementation* old,
                         const Workers& workers, BuildCounts& counts);
+    void forgetGone();
     void makeFlat(const std::vector<bool>& attached, const Implementation* old, BuildCounts& counts);
     void makeRoot(const std::vector<bool>& attached, const Implementation* old, BuildCounts& counts);
     void makeTables(const Implementation* old);
@@ -210,13 +212,23 @@ void TracedScene::Implementation::makePrototypes(const std::vector<bool>& attach
     for (std::size_t i = 0; i < attached.size(); ++i)
         if (attached[i] && scene->instances[i].placed) needed[scene->instances[i].mesh] = true;
 
-    // Most are where they were.
+    // Most are where they were. What has only deformed is not looked for: it is refitted.
     std::unordered_map<const Mesh*, const std::shared_ptr<const Prototype>*> known;
+    std::size_t kept = 0, deformed = 0;
     const auto knownPrototype = [&](std::size_t i) -> std::shared_ptr<const Prototype>
     {
         if (!old) return nullptr;
         const auto& before = old->prototypes;
-        if (i < before.size() && old->scene->meshes[i] == meshes[i]) return before[i];
+        if (i < before.size() && before[i])
+        {
+            const Mesh& mesh = *before[i]->mesh;
+            if (&mesh == meshes[i].get()) return before[i];
+            if (mesh.deforms && mesh.triangles.data() == meshes[i]->triangles.data())
+            {
+                ++deformed;
+                return nullptr;
+            }
+        }
         if (known.empty())
             for (const auto& prototype : before)
                 if (prototype) known[prototype->mesh.get()] = &prototype;
@@ -229,7 +241,11 @@ void TracedScene::Implementation::makePrototypes(const std::vector<bool>& attach
     {
         if (!needed[i]) continue;
         prototypes[i] = knownPrototype(i);
-        if (!prototypes[i]) missing.push_back(i);
+        ++prototypeCount;
+        if (prototypes[i])
+            ++kept;
+        else
+            missing.push_back(i);
     }
     const auto make = [&](std::size_t i)
     { prototypes[missing[i]] = pool->prototype(meshes[missing[i]], counts); };
@@ -237,12 +253,16 @@ void TracedScene::Implementation::makePrototypes(const std::vector<bool>& attach
         workers.run([&] { make(0); }); // Embree's own threads for a large one
     else
         workers.forEach(missing.size(), make);
+    if (old && kept + deformed < old->prototypeCount) forgetGone();
+}
 
-    if (sameMeshes && old && missing.empty()) return;
+/// What the previous scene had and this one has not is not kept for later ones.
+void TracedScene::Implementation::forgetGone()
+{
     std::unordered_set<const UVec3*> refittable;
-    for (const auto& mesh : meshes)
+    for (const auto& mesh : scene->meshes)
         if (mesh->deforms) refittable.insert(mesh->triangles.data());
-    pool->keepOnly(refittable, old && !sameMeshes);
+    pool->keepOnly(refittable);
 }
 
 void TracedScene::Implementation::makeFlat(const std::vector<bool>& attached,

@@ -13,6 +13,16 @@ namespace osgRayTrace::engine
 namespace
 {
 
+/// Order of a fingerprint.
+enum : std::size_t
+{
+    kPositions,
+    kNormals,
+    kColors,
+    kUvs,
+    kPrimitives, ///< and all that follow
+};
+
 /// Equal triangles become one array, by which a BVH that can be refitted is known.
 void shareTriangles(Mesh& mesh, const Mesh& before)
 {
@@ -48,9 +58,11 @@ GeometryCache::BufferPrint GeometryCache::printOf(const osg::BufferData* buffer,
 GeometryCache::Fingerprint GeometryCache::fingerprintOf(const osg::Geometry& geometry)
 {
     Fingerprint prints;
+    prints.reserve(4 + geometry.getNumPrimitiveSets());
     const auto add = [&prints](const osg::BufferData* buffer, unsigned int kind) -> BufferPrint&
     { return prints.emplace_back(printOf(buffer, kind)); };
-    for (const osg::Array* array : {positionArray(geometry), geometry.getNormalArray(),
+    for (const osg::Array* array : // in the order of the indices above
+         {positionArray(geometry), geometry.getNormalArray(),
                                     geometry.getColorArray(), geometry.getTexCoordArray(0)})
         add(array, static_cast<unsigned int>(osg::getBinding(array)));
     for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i)
@@ -88,7 +100,9 @@ const ConversionCounts& GeometryCache::lastCounts(const osg::Geometry& geometry)
 bool GeometryCache::hasSameArrays(const osg::Geometry& geometry) const
 {
     const Entry* entry = find(geometry);
-    return entry && entry->fingerprint == fingerprintOf(geometry);
+    if (!entry || !(entry->fingerprint == fingerprintOf(geometry))) return false;
+    entry->same = _stamp;
+    return true;
 }
 
 Liveness GeometryCache::liveness(const osg::Geometry& geometry) const
@@ -104,20 +118,37 @@ void GeometryCache::noteLiveness(const osg::Geometry& geometry, Liveness livenes
     known = std::max(known, liveness);
 }
 
+/// Positions changed alone, as a rule. Not if values were repaired, which may have been by positions, or
+/// if vertices were split, which is by primitive sets: then counts or sizes say so.
+KeptArrays GeometryCache::keptArrays(const Entry& before, const Fingerprint& now)
+{
+    KeptArrays kept;
+    const Fingerprint& then = before.fingerprint;
+    const bool plain = before.counts.empty() && then.size() == now.size() &&
+                       std::equal(then.begin() + kPrimitives, then.end(), now.begin() + kPrimitives);
+    if (!plain) return kept;
+    if (then[kNormals] == now[kNormals]) kept.normals = before.mesh->normals;
+    if (then[kColors] == now[kColors]) kept.colors = before.mesh->colors;
+    if (then[kUvs] == now[kUvs]) kept.uvs = before.mesh->uvs;
+    return kept;
+}
+
 std::shared_ptr<const Mesh> GeometryCache::mesh(const osg::Geometry& geometry, uint32_t variant,
                                                 const MeshRequest& request, const std::string& path,
                                                 ConversionReport& report)
 {
     Entry& entry = _entries[{&geometry, variant}];
-    Fingerprint fingerprint = fingerprintOf(geometry);
     const bool known = entry.used != 0 && entry.geometry.get() == &geometry &&
                        entry.variance == geometry.getDataVariance() && entry.request == request &&
-                       entry.fingerprint == fingerprint;
+                       (entry.same == _stamp || entry.fingerprint == fingerprintOf(geometry));
     if (!known)
     {
+        Fingerprint fingerprint = fingerprintOf(geometry);
         const bool other = entry.used != 0 && entry.geometry.get() == &geometry &&
                            !(entry.fingerprint == fingerprint);
-        ConvertedMesh converted = convertGeometry(geometry, request);
+        const bool kept = other && entry.mesh && entry.request == request && request.copies;
+        ConvertedMesh converted = convertGeometry(
+            geometry, request, kept ? keptArrays(entry, fingerprint) : KeptArrays());
         if (converted.mesh)
         {
             converted.mesh->name = path;

@@ -7,7 +7,6 @@
 
 #include <osg/observer_ptr>
 
-#include <map>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -90,6 +89,15 @@ private:
         std::shared_ptr<const Mesh> mesh;
         ConversionCounts counts;
         Stamp used = 0;
+        mutable Stamp same = 0; ///< arrays were found to be the same in this snapshot
+    };
+    using Key = std::pair<const osg::Geometry*, uint32_t>;
+    struct KeyHash
+    {
+        std::size_t operator()(const Key& key) const
+        {
+            return std::hash<const void*>()(key.first) + key.second * std::size_t(0x9e3779b97f4a7c15);
+        }
     };
 
     struct BoundsEntry
@@ -103,8 +111,9 @@ private:
     static Fingerprint fingerprintOf(const osg::Geometry& geometry);
 
     const Entry* find(const osg::Geometry& geometry) const;
+    static KeptArrays keptArrays(const Entry& before, const Fingerprint& now);
 
-    std::map<std::pair<const osg::Geometry*, uint32_t>, Entry> _entries;
+    std::unordered_map<Key, Entry, KeyHash> _entries;
     std::unordered_map<const osg::Geometry*, Liveness> _liveness; ///< those that are not still
     uint64_t _converted = 0;
     std::unordered_map<const osg::Array*, BoundsEntry> _bounds;

@@ -243,7 +243,8 @@ uint64_t oppositeNormals(const Mesh& mesh)
 
 } // namespace
 
-ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request)
+ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request,
+                              const KeptArrays& kept)
 {
     ConvertedMesh result;
     const auto skip = [&result](const char* reason)
@@ -270,12 +271,21 @@ ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& 
     if (mesh->triangles.empty()) return result;
 
     mesh->positions = std::move(positions.values);
-    Normals normals = reader.normals(geometry.getNormalArray());
-    mesh->normals = completed(normals, *mesh, result.counts);
+    const auto fits = [&mesh](const auto& array) { return array.size() == mesh->positions.size(); };
+    if (fits(kept.normals))
+        mesh->normals = kept.normals;
+    else
+    {
+        Normals normals = reader.normals(geometry.getNormalArray());
+        mesh->normals = completed(normals, *mesh, result.counts);
+    }
     if (const uint64_t opposite = oppositeNormals(*mesh))
         result.counts["warned.opposite-normals"] += opposite;
-    mesh->uvs = reader.textureCoordinates(geometry.getTexCoordArray(0), result.counts);
-    mesh->colors = reader.colors(geometry.getColorArray(), result.counts);
+    mesh->uvs = fits(kept.uvs)
+                    ? kept.uvs
+                    : reader.textureCoordinates(geometry.getTexCoordArray(0), result.counts);
+    mesh->colors =
+        fits(kept.colors) ? kept.colors : reader.colors(geometry.getColorArray(), result.counts);
     result.mesh = std::move(mesh);
     return result;
 }

@@ -10,6 +10,7 @@
 #include <osg/LightSource>
 #include <osg/MatrixTransform>
 #include <osg/PositionAttitudeTransform>
+#include <osg/ShapeDrawable>
 #include <osg/Switch>
 
 #include <algorithm>
@@ -157,7 +158,7 @@ bool GraphWatch::isVisible(const osg::Node& node) const
 GraphWatch::Kind GraphWatch::kindOf(const osg::Node& node)
 {
     const std::type_info& type = typeid(node);
-    if (type == typeid(osg::Geometry)) return Kind::Geometry;
+    if (type == typeid(osg::Geometry) || type == typeid(osg::ShapeDrawable)) return Kind::Geometry;
     if (type == typeid(osg::MatrixTransform)) return Kind::MatrixTransform;
     if (type == typeid(osg::PositionAttitudeTransform)) return Kind::PositionAttitudeTransform;
     if (type == typeid(osg::Group) || type == typeid(osg::Geode)) return Kind::Group;
