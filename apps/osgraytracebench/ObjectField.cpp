@@ -111,8 +111,8 @@ BareField::BareField(const ObjectField& field) : _device(rtcNewDevice(nullptr))
         rtcSetGeometryBuildQuality(object.mesh, RTC_BUILD_QUALITY_REFIT);
         object.vertices = rtcSetNewGeometryBuffer(object.mesh, RTC_BUFFER_TYPE_VERTEX, 0,
                                                   RTC_FORMAT_FLOAT3, 12, vertices.size());
-        void* const triangles = rtcSetNewGeometryBuffer(
-            object.mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, indices.size() / 3);
+        void* const triangles = rtcSetNewGeometryBuffer(object.mesh, RTC_BUFFER_TYPE_INDEX, 0,
+                                                        RTC_FORMAT_UINT3, 12, indices.size() / 3);
         std::memcpy(object.vertices, vertices.getDataPointer(), vertices.getTotalDataSize());
         std::memcpy(triangles, indices.getDataPointer(), indices.getTotalDataSize());
         rtcCommitGeometry(object.mesh);

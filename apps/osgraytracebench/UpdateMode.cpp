@@ -83,14 +83,14 @@ void measureEdits(Rows& rows)
     rows.push_back({"first build", live.statistics().buildSeconds * 1e3, "ms"});
 
     const double walk = medianSeconds([&] { live.update(); });
-    rows.push_back({"unchanged walk", walk * 1e3 * 1e4 / field.nodes(), "ms/10,000 nodes",
-                    Goal::AtMost, 1.0});
+    rows.push_back(
+        {"unchanged walk", walk * 1e3 * 1e4 / field.nodes(), "ms/10,000 nodes", Goal::AtMost, 1.0});
 
     // Everything moves once: then all objects are instances, as they are in the yardstick.
     for (unsigned int i = 0; i < field.count(); ++i)
         field.transforms[i]->setMatrix(field.place(i, 0.01));
-    rows.push_back({"all moved for the first time",
-                    1e3 * threadSecondsOf([&] { live.update(); }), "ms"});
+    rows.push_back(
+        {"all moved for the first time", 1e3 * threadSecondsOf([&] { live.update(); }), "ms"});
 
     const Workers one(1);
     BareField bare(field);
@@ -121,8 +121,7 @@ void measureEdits(Rows& rows)
         return threadSecondsOf(body);
     };
     const auto updateField = [&] { live.update(); };
-    const auto refitField = [&]
-    { one.run([&] { bare.deform(field, 0, kDeformedStep); }); };
+    const auto refitField = [&] { one.run([&] { bare.deform(field, 0, kDeformedStep); }); };
     for (int i = 0; i < 3; ++i) // the meshes that deform leave the others, and get their copies
         timeDeformed(updateField);
     std::vector<double> ours, embrees, ratios;

@@ -27,8 +27,8 @@ SceneHandle newScene(RTCDevice device)
     return scene;
 }
 
-/// Throws EngineError if this or anything before it failed. Embree would build a geometry that lacks a
-/// buffer, for want of memory, and read from nowhere.
+/// Throws EngineError if this or anything before it failed. Embree would build a geometry that
+/// lacks a buffer, for want of memory, and read from nowhere.
 void commit(EmbreeDevice& device, RTCScene scene, BuildCounts& counts)
 {
     device.checkErrors();
@@ -41,9 +41,9 @@ void place(RTCGeometry instance, const Placement& placement)
 {
     const Affine& m = *placement.engineFromLocal;
     rtcSetGeometryInstancedScene(instance, placement.scene);
-    const float columns[12] = {m.linear[0].x,   m.linear[0].y,   m.linear[0].z,   m.linear[1].x,
-                               m.linear[1].y,   m.linear[1].z,   m.linear[2].x,   m.linear[2].y,
-                               m.linear[2].z,   m.translation.x, m.translation.y, m.translation.z};
+    const float columns[12] = {m.linear[0].x, m.linear[0].y,   m.linear[0].z,   m.linear[1].x,
+                               m.linear[1].y, m.linear[1].z,   m.linear[2].x,   m.linear[2].y,
+                               m.linear[2].z, m.translation.x, m.translation.y, m.translation.z};
     rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
     rtcCommitGeometry(instance);
 }

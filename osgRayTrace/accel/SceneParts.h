@@ -1,5 +1,5 @@
-// SceneParts.h - the BVHs that a TracedScene is made of, and who may change them. Layer: accel; private to it.
-// SPDX-License-Identifier: MIT
+// SceneParts.h - the BVHs that a TracedScene is made of, and who may change them. Layer: accel;
+// private to it. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/accel/BvhQuality.h"
@@ -77,10 +77,10 @@ struct RootPart
     bool sound = true; ///< false while it is changed
 };
 
-/// Keeps parts that no version uses any more, so that the next version can be made by changing them: a
-/// draw thread may still trace the last version, so there are two of each part that changes, in turn.
-/// A part in a version is never changed. Spare parts are taken by the thread that builds, and given back by
-/// whoever lets a version go.
+/// Keeps parts that no version uses any more, so that the next version can be made by changing
+/// them: a draw thread may still trace the last version, so there are two of each part that
+/// changes, in turn. A part in a version is never changed. Spare parts are taken by the thread that
+/// builds, and given back by whoever lets a version go.
 class PartPool : public std::enable_shared_from_this<PartPool>
 {
 public:
@@ -88,7 +88,8 @@ public:
 
     const std::shared_ptr<EmbreeDevice>& device() const { return _device; }
 
-    /// Refitted if there is a spare one with the same triangles that does not suffer by it, else built.
+    /// Refitted if there is a spare one with the same triangles that does not suffer by it, else
+    /// built.
     std::shared_ptr<const Prototype> prototype(const std::shared_ptr<const Mesh>& mesh,
                                                BuildCounts& counts);
 
@@ -100,8 +101,8 @@ public:
     std::shared_ptr<const RootPart> root(const std::vector<Placement>& placements,
                                          const std::vector<uint64_t>& prints, BuildCounts& counts);
 
-    /// Something was removed. Forgets spare prototypes of other meshes than those with these triangles, and
-    /// all roots that exist, spare or not: they hold what is gone.
+    /// Something was removed. Forgets spare prototypes of other meshes than those with these
+    /// triangles, and all roots that exist, spare or not: they hold what is gone.
     void keepOnly(const std::unordered_set<const UVec3*>& triangles);
 
     /// Takes a part back, or deletes it. Any thread.

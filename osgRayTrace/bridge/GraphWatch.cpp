@@ -36,8 +36,8 @@ inline void fetch(const void* object, int begin, int end)
 /// Mixes two numbers into one: both halves of their product.
 inline uint64_t fold(uint64_t a, uint64_t b)
 {
-    const auto product = static_cast<unsigned __int128>(a ^ 0x9e3779b97f4a7c15u) *
-                         (b ^ 0xbf58476d1ce4e5b9u);
+    const auto product =
+        static_cast<unsigned __int128>(a ^ 0x9e3779b97f4a7c15u) * (b ^ 0xbf58476d1ce4e5b9u);
     return static_cast<uint64_t>(product) ^ static_cast<uint64_t>(product >> 64);
 }
 
@@ -46,7 +46,8 @@ inline uint64_t bitsOf(const void* pointer)
     return reinterpret_cast<uintptr_t>(pointer);
 }
 
-/// Of an even number of doubles, two at a time and each pair apart from the others, which makes it fast.
+/// Of an even number of doubles, two at a time and each pair apart from the others, which makes it
+/// fast.
 inline uint64_t printOfDoubles(const double* values, int count)
 {
     uint64_t print = 0;
@@ -54,7 +55,8 @@ inline uint64_t printOfDoubles(const double* values, int count)
     {
         uint64_t pair[2];
         std::memcpy(pair, values + i, sizeof pair);
-        print += fold(pair[0] + static_cast<uint64_t>(i), pair[1]) * (2 * static_cast<uint64_t>(i) + 1);
+        print +=
+            fold(pair[0] + static_cast<uint64_t>(i), pair[1]) * (2 * static_cast<uint64_t>(i) + 1);
     }
     return print;
 }
@@ -78,7 +80,8 @@ uint64_t bufferPrint(const osg::BufferData& data)
     {
         count = set->getNumIndices();
         kind = set->getMode();
-        if (set->getType() == osg::PrimitiveSet::DrawArraysPrimitiveType) // whose setFirst has no dirty()
+        if (set->getType() ==
+            osg::PrimitiveSet::DrawArraysPrimitiveType) // whose setFirst has no dirty()
             kind |= uint64_t(uint32_t(static_cast<const osg::DrawArrays*>(set)->getFirst())) << 32;
     }
     return fold(data.getModifiedCount() | count << 32, bitsOf(data.getDataPointer()) ^ kind << 8);
@@ -132,7 +135,16 @@ osg::Node* soleNodeBelow(osg::Node& node, unsigned int traversalMask)
 
 void GraphWatch::forget()
 {
-    _slots.clear();
+    _recorded = false;
+}
+
+/// What stands for the decorator is looked through: it is no parent that would know of its end.
+osg::Node* GraphWatch::firstNode(osg::Node& root) const
+{
+    if (!isVisible(root)) return nullptr;
+    const bool stands = std::strcmp(root.className(), "SceneRoot") == 0 &&
+                        std::strcmp(root.libraryName(), "osgRayTrace") == 0;
+    return stands ? soleNodeBelow(root, _traversalMask) : &root;
 }
 
 void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
@@ -145,8 +157,10 @@ void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
     for (const osg::ref_ptr<const osg::StateSet>& stateSet : conditions.inheritedState)
         addStateSet(inherited, *stateSet);
     _inheritedPrint = inherited.value();
-    recordNode(root, kNone, osg::Matrixd(), 1);
+    _first = firstNode(root);
+    if (_first) recordNode(*_first, kNone, osg::Matrixd(), _first == &root ? 1 : 2);
     _known.clear();
+    _recorded = true;
 }
 
 bool GraphWatch::isVisible(const osg::Node& node) const
@@ -220,14 +234,6 @@ void GraphWatch::recordNode(osg::Node& node, uint32_t place, const osg::Matrixd&
         recordGeometry(static_cast<osg::Geometry&>(node), place);
         return;
     }
-    if (depth == 1 && kind == Kind::Opaque && std::strcmp(node.className(), "SceneRoot") == 0)
-    {
-        if (osg::Node* below = soleNodeBelow(node, _traversalMask))
-        {
-            recordNode(*below, place, sceneFromLocal, depth + 1);
-            return;
-        }
-    }
     if (kind == Kind::Opaque)
     {
         recordOpaque(node, place, sceneFromLocal);
@@ -256,8 +262,7 @@ void GraphWatch::recordNode(osg::Node& node, uint32_t place, const osg::Matrixd&
         recordState(node);
     }
     osg::Group& parent = *node.asGroup();
-    const auto* selector =
-        kind == Kind::Switch ? static_cast<const osg::Switch*>(&node) : nullptr;
+    const auto* selector = kind == Kind::Switch ? static_cast<const osg::Switch*>(&node) : nullptr;
     for (unsigned int i = 0; i < parent.getNumChildren(); ++i)
         if (parent.getChild(i) && (!selector || selector->getValue(i)))
             recordNode(*parent.getChild(i), place, inner, depth + 1);
@@ -317,8 +322,7 @@ uint64_t GraphWatch::printOf(const Slot& slot) const
     }
     case Kind::MatrixTransform:
     case Kind::PositionAttitudeTransform:
-        return fold(groupPrint(node),
-                    static_cast<const osg::Transform&>(node).getReferenceFrame());
+        return fold(groupPrint(node), static_cast<const osg::Transform&>(node).getReferenceFrame());
     case Kind::Light:
     {
         const auto& source = static_cast<const osg::LightSource&>(node);
@@ -335,10 +339,10 @@ uint64_t GraphWatch::printOf(const Slot& slot) const
     return 0;
 }
 
-GraphChanges GraphWatch::look(const ViewingConditions& conditions)
+GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditions)
 {
     GraphChanges changes;
-    if (_slots.empty() || conditions.traversalMask != _traversalMask)
+    if (!_recorded || conditions.traversalMask != _traversalMask || firstNode(root) != _first)
     {
         changes.convert = changes.record = true;
         return changes;

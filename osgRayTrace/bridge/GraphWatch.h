@@ -1,5 +1,5 @@
-// GraphWatch.h - finds what has changed in a scene graph, in next to no time if nothing has. Layer: bridge.
-// SPDX-License-Identifier: MIT
+// GraphWatch.h - finds what has changed in a scene graph, in next to no time if nothing has. Layer:
+// bridge. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/bridge/GraphChanges.h"
@@ -15,12 +15,12 @@
 namespace osgRayTrace::engine
 {
 
-/// A graph as it was seen last: its visible nodes in the order of the traversal in one array, each with a
-/// number made of its own values. A look compares them one after the other, without a traversal. A node is
-/// read only after its parent was found to have it still, so nothing here keeps nodes alive.
-/// Nodes of the plain classes are known one by one; of any other node (level of detail, billboard, a class
-/// of the application's own) only whether anything in it and below it has changed: see graphFingerprint,
-/// also for what goes unseen. Bounds are not looked at.
+/// A graph as it was seen last: its visible nodes in the order of the traversal in one array, each
+/// with a number made of its own values. A look compares them one after the other, without a
+/// traversal. A node is read only after its parent was found to have it still, so nothing here
+/// keeps nodes alive. Nodes of the plain classes are known one by one; of any other node (level of
+/// detail, billboard, a class of the application's own) only whether anything in it and below it
+/// has changed: see graphFingerprint, also for what goes unseen. Bounds are not looked at.
 class GraphWatch
 {
 public:
@@ -30,9 +30,9 @@ public:
     /// The next look finds everything changed.
     void forget();
 
-    /// What has changed since the last look or record(), under the same conditions but for the eye and the
-    /// inherited state.
-    GraphChanges look(const ViewingConditions& conditions);
+    /// What has changed in the graph below the same root since the last look or record(), under the
+    /// same conditions but for the eye and the inherited state.
+    GraphChanges look(osg::Node& root, const ViewingConditions& conditions);
 
 private:
     static constexpr uint32_t kNone = 0xffffffffu;
@@ -88,6 +88,7 @@ private:
         uint32_t use = 0;
     };
 
+    osg::Node* firstNode(osg::Node& root) const;
     void recordNode(osg::Node& node, uint32_t place, const osg::Matrixd& sceneFromLocal,
                     std::size_t depth);
     void recordGeometry(osg::Geometry& geometry, uint32_t place);
@@ -110,6 +111,8 @@ private:
     void lookAtStates(GraphChanges& changes);
     void findMoved(GraphChanges& changes);
 
+    bool _recorded = false;
+    osg::Node* _first = nullptr; ///< of the slots; null: nothing is visible. A name, not followed
     unsigned int _traversalMask = 0xffffffffu;
     ViewingConditions _plain; ///< of the last look, without inherited state
     std::vector<Slot> _slots;

@@ -12,7 +12,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Volume of the axes made unit. More than GraphCollector asks for: what is nearly flat goes its way.
+/// Volume of the axes made unit. More than GraphCollector asks for: what is nearly flat goes its
+/// way.
 constexpr double kSmallestVolume = 1e-6;
 
 /// A mesh keeps its frame while its centre is not so many radii from its origin.
@@ -128,7 +129,8 @@ bool ScenePatcher::place(const osg::Geometry& geometry, uint32_t index,
     return true;
 }
 
-/// From the arrays as they are. False if it counts other bad data than it did: the report would change.
+/// From the arrays as they are. False if it counts other bad data than it did: the report would
+/// change.
 bool ScenePatcher::makeMesh(const osg::Geometry& geometry, const MeshRequest& request,
                             uint32_t meshIndex)
 {

@@ -1,5 +1,5 @@
-// ScenePatcher.h - a new Scene from the last one where only places and shapes have changed. Layer: bridge.
-// SPDX-License-Identifier: MIT
+// ScenePatcher.h - a new Scene from the last one where only places and shapes have changed. Layer:
+// bridge. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/bridge/GeometryCache.h"
@@ -25,16 +25,16 @@ struct SceneIndex
     std::vector<uint32_t> instances; ///< by use; kInvalid: nothing of it is traced
 };
 
-/// Redoes the instances that moved and the meshes that deformed, and nothing else. What does so for the
-/// first time gets a mesh in its own coordinates, and so leaves the flat BVH.
+/// Redoes the instances that moved and the meshes that deformed, and nothing else. What does so for
+/// the first time gets a mesh in its own coordinates, and so leaves the flat BVH.
 class ScenePatcher
 {
 public:
     /// last: in units of 1, and of ordinary lengths (see SceneExtent).
     ScenePatcher(const Scene& last, const SceneIndex& index, GeometryCache& geometries, Stamp now);
 
-    /// Null if the graph must be converted again: something looks different from what it did before in more
-    /// than its place and its shape.
+    /// Null if the graph must be converted again: something looks different from what it did before
+    /// in more than its place and its shape.
     std::shared_ptr<Scene> patch(const GraphChanges& changes);
 
     /// patch() has changed something.

@@ -175,7 +175,7 @@ GraphChanges SceneUpdater::look(osg::Node& root, bool same, bool sameRoot,
     if (sameRoot)
     {
         // Also under other conditions: then all changes are known, and the next look finds none of them.
-        const GraphChanges found = _watch.look(conditions);
+        const GraphChanges found = _watch.look(root, conditions);
         if (same) changes = found;
         changes.record = found.record;
         std::lock_guard<std::mutex> lock(_versionMutex);

@@ -1,5 +1,5 @@
-// LiveGraph.cpp - a small scene graph that is edited, and a view of it without OpenGL. Layer: tests.
-// SPDX-License-Identifier: MIT
+// LiveGraph.cpp - a small scene graph that is edited, and a view of it without OpenGL. Layer:
+// tests. SPDX-License-Identifier: MIT
 #include "tests/bridge/LiveGraph.h"
 
 #include <osg/Geometry>
@@ -86,8 +86,9 @@ LiveGraph::LiveGraph()
     for (int i = 0; i < 3; ++i)
     {
         materials.push_back(new osg::Material);
-        materials.back()->setDiffuse(osg::Material::FRONT_AND_BACK,
-                                     osg::Vec4(0.3f * float(i), 0.8f, 0.9f - 0.3f * float(i), 1.0f));
+        materials.back()->setDiffuse(
+            osg::Material::FRONT_AND_BACK,
+            osg::Vec4(0.3f * float(i), 0.8f, 0.9f - 0.3f * float(i), 1.0f));
     }
     root->addChild(group);
     root->addChild(light);

@@ -1,5 +1,5 @@
-// LiveSceneTest.cpp - what is redone for each kind of edit, and that the picture is that of a fresh conversion.
-// SPDX-License-Identifier: MIT
+// LiveSceneTest.cpp - what is redone for each kind of edit, and that the picture is that of a fresh
+// conversion. SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"
 
@@ -57,7 +57,8 @@ Done updateOf(LiveView& view, const osg::Node& root)
 
 } // namespace
 
-TEST_CASE("live scene: nothing is redone for nothing, and the accumulated image goes on", "[bridge]")
+TEST_CASE("live scene: nothing is redone for nothing, and the accumulated image goes on",
+          "[bridge]")
 {
     LiveGraph graph;
     LiveView view(graph.root.get());
@@ -66,7 +67,8 @@ TEST_CASE("live scene: nothing is redone for nothing, and the accumulated image 
     const int passes = view.passes();
     CHECK(updateOf(view, *graph.root) == Done{1, 0, 0, 0, 0, 0, 0, 0});
 
-    // Neither for what no ray meets: hidden nodes, bits of masks that hide nothing, a camera that moves.
+    // Neither for what no ray meets: hidden nodes, bits of masks that hide nothing, a camera that
+    // moves.
     graph.hidden->setMatrix(osg::Matrixd::translate(1.0, 2.0, 3.0));
     graph.objects[0]->setNodeMask(0x7fffffffu);
     graph.objects[1]->setMatrix(graph.objects[1]->getMatrix());

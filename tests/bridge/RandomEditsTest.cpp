@@ -16,10 +16,7 @@ namespace
 class Editor
 {
 public:
-    explicit Editor(LiveGraph& graph) : _graph(graph)
-    {
-        graph.root->addChild(_added);
-    }
+    explicit Editor(LiveGraph& graph) : _graph(graph) { graph.root->addChild(_added); }
 
     void edit()
     {
@@ -63,10 +60,7 @@ public:
     }
 
     /// Where it all began; deformed tiles stay as they are.
-    void removeAll()
-    {
-        _added->removeChildren(0, _added->getNumChildren());
-    }
+    void removeAll() { _added->removeChildren(0, _added->getNumChildren()); }
 
     /// Everything that was there from the beginning has become live.
     void touchAll()
@@ -87,8 +81,7 @@ private:
     {
         const unsigned int which = number(LiveGraph::kObjects + _added->getNumChildren());
         if (which < LiveGraph::kObjects) return *_graph.objects[which];
-        return static_cast<osg::MatrixTransform&>(
-            *_added->getChild(which - LiveGraph::kObjects));
+        return static_cast<osg::MatrixTransform&>(*_added->getChild(which - LiveGraph::kObjects));
     }
 
     static void swapStates(osg::Node& a, osg::Node& b)
@@ -116,7 +109,8 @@ private:
 
 } // namespace
 
-TEST_CASE("random edits: a thousand, and the picture is always that of a fresh conversion", "[bridge]")
+TEST_CASE("random edits: a thousand, and the picture is always that of a fresh conversion",
+          "[bridge]")
 {
     LiveGraph graph;
     Editor editor(graph);
