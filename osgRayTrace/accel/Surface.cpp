@@ -15,6 +15,12 @@ namespace
 constexpr float kOffsetScale = 32.0f * 0x1p-24f;
 constexpr float kEdgeScale = 8.0f * 0x1p-24f;
 
+/// Rays whose cosine is above kSteep begin on their very point if the offset is no more than this share of the
+/// triangle's edges: the way that they skip, four offsets at most, then hides nothing.
+constexpr float kFineOffset = 1e-4f;
+constexpr float kSteep = 0.25f;
+constexpr float kNever = 2.0f;
+
 constexpr float kSmallestLift = 4.0f;       ///< [error bounds]
 constexpr float kShortestNormal2 = 1e-12f;  ///< squared length below which a normal is none
 /// Squared cosine of 40 degrees. A facet that a vertex normal leaves by more is no piece of a smooth surface,
@@ -104,7 +110,7 @@ OSGRAYTRACE_INLINE float inversePowerOfTwo(float x)
 /// passed on is kept in memory, lane after lane, and the loop then becomes no vector code.
 OSGRAYTRACE_INLINE void planeOf(float ax, float ay, float az, float bx, float by, float bz, float cx,
                                 float cy, float cz, float transformBound, float& normalX,
-                                float& normalY, float& normalZ, float& offset)
+                                float& normalY, float& normalZ, float& offset, float& steep)
 {
     const float e1x = bx - ax, e1y = by - ay, e1z = bz - az;
     const float e2x = cx - ax, e2y = cy - ay, e2z = cz - az;
@@ -127,12 +133,13 @@ OSGRAYTRACE_INLINE void planeOf(float ax, float ay, float az, float bx, float by
                         largestOf(ay, by, cy) * std::fabs(normalY) +
                         largestOf(az, bz, cz) * std::fabs(normalZ);
     offset = kOffsetScale * (bound + 2.0f * transformBound) + kEdgeScale * edge;
+    steep = select(offset <= kFineOffset * edge, kSteep, kNever);
 }
 
 /// Everything about lane i of a surface but its interpolated normal. Returns all bits if the ray comes
 /// from the front.
 OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, float nx, float ny, float nz,
-                                       float offset, float ax, float ay, float az, float bx,
+                                       float offset, float steep, float ax, float ay, float az, float bx,
                                        float by, float bz, float cx, float cy, float cz,
                                        SurfaceLanes& s)
 {
@@ -150,6 +157,7 @@ OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, float nx
     s.shadingNormal.y[i] = ny;
     s.shadingNormal.z[i] = nz;
     s.offset[i] = offset;
+    s.steep[i] = steep;
     return maskOf(cosine <= 0.0f);
 }
 
@@ -163,9 +171,9 @@ void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
         const float ax = t.a.x[i], ay = t.a.y[i], az = t.a.z[i];
         const float bx = t.b.x[i], by = t.b.y[i], bz = t.b.z[i];
         const float cx = t.c.x[i], cy = t.c.y[i], cz = t.c.z[i];
-        float nx, ny, nz, offset;
-        planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[i], nx, ny, nz, offset);
-        front |= bitOfLane(setSurface(block, i, nx, ny, nz, offset, ax, ay, az, bx, by, bz, cx, cy, cz, s),
+        float nx, ny, nz, offset, steep;
+        planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[i], nx, ny, nz, offset, steep);
+        front |= bitOfLane(setSurface(block, i, nx, ny, nz, offset, steep, ax, ay, az, bx, by, bz, cx, cy, cz, s),
                            i);
     }
     s.front = front;
@@ -178,12 +186,12 @@ void geometryOfOne(const RayHitBlock& block, const TriangleLanes& t, int from, S
     const float ax = t.a.x[from], ay = t.a.y[from], az = t.a.z[from];
     const float bx = t.b.x[from], by = t.b.y[from], bz = t.b.z[from];
     const float cx = t.c.x[from], cy = t.c.y[from], cz = t.c.z[from];
-    float nx, ny, nz, offset;
-    planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[from], nx, ny, nz, offset);
+    float nx, ny, nz, offset, steep;
+    planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[from], nx, ny, nz, offset, steep);
     LaneMask front = 0;
     OSGRAYTRACE_SIMD_OR(front)
     for (int i = 0; i < kLanes; ++i)
-        front |= bitOfLane(setSurface(block, i, nx, ny, nz, offset, ax, ay, az, bx, by, bz, cx, cy, cz, s),
+        front |= bitOfLane(setSurface(block, i, nx, ny, nz, offset, steep, ax, ay, az, bx, by, bz, cx, cy, cz, s),
                            i);
     s.front = front;
 }

@@ -16,6 +16,7 @@ struct SurfaceLanes
     Vec3Lanes geometricNormal; ///< unit, on the side that the ray comes from
     Vec3Lanes shadingNormal;   ///< unit; as the mesh has it: not turned to either side
     FloatLanes offset;         ///< distance along geometricNormal that clears the error of position
+    FloatLanes steep;          ///< cosine above which rays may begin at position itself: see leave
     UintLanes instance;        ///< index into Scene::instances; undefined outside of hits
     UintLanes material;        ///< index into Scene::materials
     LaneMask hits = 0;

@@ -23,7 +23,7 @@ struct HitPoint
     Vec3 direction;       ///< of the ray that came here, unit
     Vec3 throughput;
     Vec3 albedo;  ///< if diffuse
-    float offset; ///< see SurfaceLanes
+    float offset, steep; ///< see SurfaceLanes
     uint32_t material;
     uint32_t instance;
     uint32_t seed;   ///< of the pixel

@@ -41,12 +41,23 @@ inline RayStart rayStart(const RenderOptions& options)
     return options.terminatorCorrection ? RayStart::Smooth : RayStart::Triangle;
 }
 
-/// Start of a ray that leaves the surface towards wi.
-inline Vec3 leave(const SurfaceLanes& surface, int i, Vec3 wi)
+/// Where a ray begins: at distance tNear from origin.
+struct RayBegin
+{
+    Vec3 origin;
+    float tNear;
+};
+
+/// Of a ray that leaves the surface towards wi: of the point itself, from where it is clear of the surface, if
+/// it is steep; else of the point above. Off a large plane that one sees 0.002 % more of a light.
+inline RayBegin leave(const SurfaceLanes& surface, int i, Vec3 wi)
 {
     const Vec3 n = laneOf(surface.geometricNormal, i);
-    return laneOf(surface.position, i) +
-           n * (glm::dot(wi, n) >= 0.0f ? surface.offset[i] : -surface.offset[i]);
+    const float cosine = glm::dot(wi, n);
+    if (std::fabs(cosine) > surface.steep[i])
+        return {laneOf(surface.position, i), surface.offset[i] / std::fabs(cosine)};
+    const float offset = cosine >= 0.0f ? surface.offset[i] : -surface.offset[i];
+    return {laneOf(surface.position, i) + n * offset, 0.0f};
 }
 
 /// True if the direction is on the ray's side of the surface as light goes: of the facet, or for lifted

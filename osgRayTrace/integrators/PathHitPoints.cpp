@@ -42,6 +42,7 @@ void restore(const HitPoints& hits, const HitPoint* points, int count, PathBlock
         block.rays.ray.directionY[i] = point.direction.y;
         block.rays.ray.directionZ[i] = point.direction.z;
         surface.offset[i] = point.offset;
+        surface.steep[i] = point.steep;
         surface.material[i] = point.material;
         surface.instance[i] = point.instance;
         block.seed[i] = point.seed;
@@ -76,6 +77,7 @@ void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits
         point.diffuse = bitOf(bounce.diffuse, i);
         point.albedo = point.diffuse ? laneOf(bounce.albedo, i) : Vec3(0.0f);
         point.offset = surface.offset[i];
+        point.steep = surface.steep[i];
         point.material = surface.material[i];
         point.instance = surface.instance[i];
         point.seed = block.seed[i];

@@ -15,6 +15,7 @@ void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
     to.rays.ray.originX[k] = from.rays.ray.originX[i];
     to.rays.ray.originY[k] = from.rays.ray.originY[i];
     to.rays.ray.originZ[k] = from.rays.ray.originZ[i];
+    to.rays.ray.tNear[k] = from.rays.ray.tNear[i];
     to.rays.ray.directionX[k] = from.rays.ray.directionX[i];
     to.rays.ray.directionY[k] = from.rays.ray.directionY[i];
     to.rays.ray.directionZ[k] = from.rays.ray.directionZ[i];
@@ -49,10 +50,7 @@ void closeRanks(PathQueue& paths)
         const int used = std::min(kLanes, count - b * kLanes);
         block.active = (1u << used) - 1u;
         for (int i = 0; i < kLanes; ++i)
-        {
-            block.rays.ray.tNear[i] = 0.0f;
             block.rays.ray.tFar[i] = kInfinity;
-        }
     }
 }
 

@@ -22,7 +22,7 @@ constexpr float kRouletteThroughput = 0.4f;
 OSGRAYTRACE_KERNEL
 LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface,
                            const FloatLanes& u, const FloatLanes& v, Vec3Lanes& wi,
-                           Vec3Lanes& origin, FloatLanes& pdfW)
+                           Vec3Lanes& origin, FloatLanes& tNear, FloatLanes& pdfW)
 {
     const LaneMask lifted = surface.lifted;
     LaneMask alive = 0;
@@ -47,11 +47,15 @@ LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface,
         wi.y[i] = wy;
         wi.z[i] = wz;
         pdfW[i] = lz * kInvPi;
-        origin.x[i] = surface.position.x[i] + gx * surface.offset[i];
-        origin.y[i] = surface.position.y[i] + gy * surface.offset[i];
-        origin.z[i] = surface.position.z[i] + gz * surface.offset[i];
-        const uint32_t above = maskOf(wx * gx + wy * gy + wz * gz > 0.0f) | laneBit(lifted, i);
-        alive |= bitOfLane(above & maskOf(lz > 0.0f), i);
+        const float above = wx * gx + wy * gy + wz * gz;
+        const bool steep = above > surface.steep[i];
+        const float offset = select(steep, 0.0f, surface.offset[i]);
+        origin.x[i] = surface.position.x[i] + gx * offset;
+        origin.y[i] = surface.position.y[i] + gy * offset;
+        origin.z[i] = surface.position.z[i] + gz * offset;
+        tNear[i] = select(steep, surface.offset[i] / std::max(above, surface.steep[i]), 0.0f);
+        const uint32_t leaves = maskOf(above > 0.0f) | laneBit(lifted, i);
+        alive |= bitOfLane(leaves & maskOf(lz > 0.0f), i);
     }
     return alive;
 }
@@ -110,7 +114,7 @@ LaneMask playRoulette(const FloatLanes& roulette, const FloatLanes& survival, Ve
 
 /// Sets the rays of all lanes, whether they go on or not.
 OSGRAYTRACE_KERNEL
-void setOff(PathBlock& block, const Vec3Lanes& origin, const Vec3Lanes& wi,
+void setOff(PathBlock& block, const Vec3Lanes& origin, const FloatLanes& tNear, const Vec3Lanes& wi,
             const Vec3Lanes& throughput, const FloatLanes& pdfW, LaneMask gathering, LaneMask rough)
 {
     RayBlock& ray = block.rays.ray;
@@ -120,6 +124,7 @@ void setOff(PathBlock& block, const Vec3Lanes& origin, const Vec3Lanes& wi,
         ray.originX[i] = origin.x[i];
         ray.originY[i] = origin.y[i];
         ray.originZ[i] = origin.z[i];
+        ray.tNear[i] = tNear[i];
         ray.directionX[i] = wi.x[i];
         ray.directionY[i] = wi.y[i];
         ray.directionZ[i] = wi.z[i];
@@ -154,9 +159,9 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
     if (bounce.general) lobeAndRoulette();
 
     Vec3Lanes wi, origin;
-    FloatLanes pdfW;
+    FloatLanes tNear, pdfW;
     Vec3Lanes weight = bounce.albedo;
-    LaneMask alive = diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, pdfW) &
+    LaneMask alive = diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, tNear, pdfW) &
                      bounce.diffuse & ~bounce.ending;
     for (LaneMask lanes = bounce.general; lanes; lanes &= lanes - 1)
     {
@@ -171,7 +176,9 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         const Vec3 direction = frame.toWorld(sample->wi);
         if (isAbove(bounce.surface, i, direction) == sample->transmitted) continue;
         setLane(wi, i, direction);
-        setLane(origin, i, leave(bounce.surface, i, direction));
+        const RayBegin begin = leave(bounce.surface, i, direction);
+        setLane(origin, i, begin.origin);
+        tNear[i] = begin.tNear;
         setLane(weight, i, sample->weight);
         pdfW[i] = sample->delta ? kInfinity : sample->pdfW;
         if (sample->transmitted) block.etaScale[i] *= bounce.bsdfs[i].eta * bounce.bsdfs[i].eta;
@@ -186,7 +193,7 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         if (!bounce.general) lobeAndRoulette();
         block.active &= playRoulette(roulette, survival, throughput);
     }
-    setOff(block, origin, wi, throughput, pdfW, bounce.gathering, bounce.rough);
+    setOff(block, origin, tNear, wi, throughput, pdfW, bounce.gathering, bounce.rough);
 }
 
 } // namespace osgRayTrace::engine

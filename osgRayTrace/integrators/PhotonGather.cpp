@@ -5,6 +5,7 @@
 
 #include "osgRayTrace/integrators/HitShading.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -12,6 +13,10 @@ namespace osgRayTrace::engine
 
 namespace
 {
+
+/// Halvings of the octave that a radius is in. In whole octaves a caustic would have rings around it: where
+/// the radius takes in its rim, and where the next larger one still does after it has shrunk.
+constexpr int kRadiusSteps = 4;
 
 void addPhotons(const PhotonMap& map, const GatherPoint& point, const PhotonQuery& query,
                 const ShadingFrame& frame, Vec3 wo, bool behind, PhotonSum& sum)
@@ -37,9 +42,21 @@ void addPhotons(const PhotonMap& map, const GatherPoint& point, const PhotonQuer
 
 float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float largest)
 {
-    for (query.radius = least; query.radius < largest; query.radius *= 2.0f)
-        if (map.gather(query).count >= kRadiusPhotons) return query.radius;
-    return largest;
+    const auto holdsEnough = [&](float radius)
+    {
+        query.radius = radius;
+        return map.gather(query).count >= kRadiusPhotons;
+    };
+    if (holdsEnough(least)) return least;
+    float few = least, enough = std::min(2.0f * least, largest);
+    for (; enough < largest && !holdsEnough(enough); enough = std::min(2.0f * enough, largest))
+        few = enough;
+    for (int i = 0; i < kRadiusSteps; ++i)
+    {
+        const float middle = std::sqrt(few * enough);
+        (holdsEnough(middle) ? enough : few) = middle;
+    }
+    return enough;
 }
 
 PhotonSum gatherDiffuse(const PhotonMap& map, const PhotonQuery& query, Vec3 albedo)

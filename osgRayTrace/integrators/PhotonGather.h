@@ -18,7 +18,7 @@ struct GatherPoint
     bool directOnly = false; ///< photons that met another than a mirror-like surface are left out
 };
 
-/// The smallest of least, twice that, four times, ... largest within which there are kRadiusPhotons photons;
+/// The smallest radius from least to largest within which there are kRadiusPhotons photons, to a twentieth;
 /// largest if there are never as many.
 float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float largest);
 constexpr uint32_t kRadiusPhotons = 16;

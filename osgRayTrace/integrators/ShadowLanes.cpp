@@ -107,6 +107,13 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
     return lit & active;
 }
 
+void setShadowRay(RayBlock& ray, int i, const RayBegin& begin, Vec3 direction, float tFar)
+{
+    setShadowRay(ray, i, begin.origin.x, begin.origin.y, begin.origin.z, direction.x, direction.y, direction.z,
+                 tFar);
+    ray.tNear[i] = begin.tNear;
+}
+
 void setRadiance(LightLanes& samples, int i, Vec3 radiance)
 {
     samples.radiance[0][i] = radiance.x;
@@ -136,17 +143,17 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf, const Surfa
 
     // Measured from where the ray starts, as the path tracer does when it meets the light by chance: far from
     // the origin that is not where the surface is, and densities that disagree would weight light twice.
-    const Vec3 origin = leave(surface, i, sample->wi);
-    const Vec3 d = sample->point - origin;
+    const RayBegin begin = leave(surface, i, sample->wi);
+    const Vec3 d = sample->point - begin.origin;
     const float distance = glm::length(d);
     if (!(distance > 0.0f)) return false;
     const Vec3 wi = d / distance;
     const float cosThetaL = std::fabs(glm::dot(wi, sample->normal));
     const float pdfW = table.pdfArea(light, distance, cosThetaL);
     if (!(cosThetaL > 0.0f) || !(pdfW > 0.0f) || !(pdfW < 1e30f)) return false;
-    const float clear = std::max(0.0f, distance - sample->offset / cosThetaL);
+    const float clear = std::max(begin.tNear, distance - sample->offset / cosThetaL);
     setWi(samples, i, wi);
-    setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, wi.x, wi.y, wi.z, clear);
+    setShadowRay(samples.shadow, i, begin, wi, clear);
     samples.weight[i] = 1.0f / (pmf * pdfW);
     const Instance& instance = context.traced->scene().instances[(*context.lights)[light].instance];
     MaterialPoint point;
@@ -194,20 +201,19 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
         if (!(sample.attenuation > 0.0f)) continue;
         if (!((through >> i) & 1u) && glm::dot(at(surface.geometricNormal, i), sample.wi) <= 0.0f)
             continue;
-        const Vec3 origin = leave(surface, i, sample.wi);
+        const RayBegin begin = leave(surface, i, sample.wi);
         Vec3 towards = sample.wi;
         float distance = sample.distance;
         if (((surface.lifted >> i) & 1u) && distance < kFarLight)
         {
             // The lift is no small thing: to the light itself, not past it.
-            towards = point + sample.wi * distance - origin;
+            towards = point + sample.wi * distance - begin.origin;
             distance = glm::length(towards);
             if (!(distance > 0.0f)) continue;
             towards /= distance;
         }
         setWi(samples, i, sample.wi);
-        setShadowRay(samples.shadow, i, origin.x, origin.y, origin.z, towards.x, towards.y, towards.z,
-                     distance);
+        setShadowRay(samples.shadow, i, begin, towards, std::max(begin.tNear, distance));
         setRadiance(samples, i, light.diffuse * (kPi * sample.attenuation));
         samples.weight[i] = 1.0f;
         samples.lit |= 1u << i;

@@ -31,7 +31,8 @@ constexpr float kSmallestWeight = 1.0f / 1024.0f;
 
 struct SecondaryRay
 {
-    Vec3 origin, direction, weight;
+    RayBegin begin;
+    Vec3 direction, weight;
     float etaScale;
     uint32_t pixel;
     uint32_t seed;
@@ -390,13 +391,14 @@ void traceSecondary(Tile& tile)
     {
         const SecondaryRay& from = tile.stack.back();
         RayBlock& ray = block.rays.ray;
-        ray.originX[i] = from.origin.x;
-        ray.originY[i] = from.origin.y;
-        ray.originZ[i] = from.origin.z;
+        ray.originX[i] = from.begin.origin.x;
+        ray.originY[i] = from.begin.origin.y;
+        ray.originZ[i] = from.begin.origin.z;
         ray.directionX[i] = from.direction.x;
         ray.directionY[i] = from.direction.y;
         ray.directionZ[i] = from.direction.z;
-        ray.tNear[i] = ray.time[i] = 0.0f;
+        ray.tNear[i] = from.begin.tNear;
+        ray.time[i] = 0.0f;
         ray.tFar[i] = kInfinity;
         ray.mask[i] = 0xffffffffu;
         ray.id[i] = ray.flags[i] = 0;

@@ -17,10 +17,10 @@ namespace osgRayTrace::engine
 class Workers;
 
 /// Chooses radii, holds the photons of the pass at work and, for the local schedule, the statistics of each
-/// pixel. Each pixel's first radius is the given one, or the smallest of r, 2r, 4r, ... with kRadiusPhotons
-/// photons (radiusOf), where r is the width of a pixel; the largest is that, or the radius d that holds
-/// kDensityPhotons photons around a photon in the median, if that is more. Later radii follow the schedule. All are kept between the spacing of
-/// floats and the radius of the scene.
+/// pixel. Each pixel's first radius is the given one, or the smallest with kRadiusPhotons photons (radiusOf)
+/// from the width of a pixel up to the radius that holds kDensityPhotons photons around a photon in the
+/// median. Later radii follow the schedule. All are kept between the spacing of floats and the radius of the
+/// scene.
 class PhotonState
 {
 public:
