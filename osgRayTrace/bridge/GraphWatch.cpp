@@ -24,7 +24,7 @@ namespace
 {
 
 /// So far ahead memory is fetched, and these are the cache lines of it that are read.
-constexpr std::size_t kAhead = 6;
+constexpr std::size_t kAhead = 12;
 constexpr int kNodeBegin = 3, kNodeEnd = 7, kBufferBegin = 0, kBufferEnd = 3;
 
 inline void fetch(const void* object, int begin, int end)
