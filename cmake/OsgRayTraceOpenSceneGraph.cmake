@@ -2,7 +2,7 @@
 # Used by this project and, installed beside its package file, by its consumers.
 if(NOT TARGET osgRayTrace::OSG)
     find_package(OpenSceneGraph 3.6 REQUIRED QUIET
-                 COMPONENTS osgViewer osgGA osgText osgDB osgUtil)
+                 COMPONENTS osgViewer osgGA osgText osgAnimation osgDB osgUtil)
     find_package(OpenGL REQUIRED QUIET)
     add_library(osgRayTrace::OSG INTERFACE IMPORTED)
     set_target_properties(osgRayTrace::OSG PROPERTIES

@@ -3,6 +3,7 @@
 #include <osgRayTrace/RayTraceDrawable>
 
 #include "osgRayTrace/DisplayTexture.h"
+#include "osgRayTrace/bridge/PageRequests.h"
 #include "osgRayTrace/bridge/SceneUpdater.h"
 #include "osgRayTrace/bridge/StatisticsFromEngine.h"
 #include "osgRayTrace/bridge/ViewFromMatrices.h"
@@ -368,6 +369,11 @@ void RayTraceDrawable::cullRasterized(osgUtil::CullVisitor& visitor) const
 {
     const engine::SceneVersion version = _implementation->scene.version();
     if (version.rasterized) engine::cullParts(*version.rasterized, visitor);
+}
+
+void RayTraceDrawable::requestPages(osg::Group& scene, osgUtil::CullVisitor& visitor) const
+{
+    if (_implementation->scene.version().paged) engine::requestPages(scene, visitor);
 }
 
 void RayTraceDrawable::forgetFailure()

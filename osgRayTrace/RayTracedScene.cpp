@@ -4,6 +4,7 @@
 
 #include <osg/NodeVisitor>
 #include <osgUtil/CullVisitor>
+#include <osgUtil/GLObjectsVisitor>
 
 namespace osgRayTrace
 {
@@ -66,6 +67,16 @@ private:
     const osg::CullSettings::ComputeNearFarMode _mode;
     const osg::CullSettings::InheritanceMask _inheritance;
 };
+
+/// Goes through a scene before its first frame and uploads all of it. Textures may be set to let go of their images then,
+/// which are needed here; what OSG goes on drawing is uploaded when it is drawn.
+bool uploads(const osg::NodeVisitor& visitor)
+{
+    const auto* objects = dynamic_cast<const osgUtil::GLObjectsVisitor*>(&visitor);
+    constexpr auto kUploads = osgUtil::GLObjectsVisitor::COMPILE_DISPLAY_LISTS |
+                              osgUtil::GLObjectsVisitor::COMPILE_STATE_ATTRIBUTES;
+    return objects && (objects->getMode() & kUploads);
+}
 
 } // namespace
 
@@ -134,9 +145,11 @@ void RayTracedScene::traverse(osg::NodeVisitor& visitor)
             _drawable->accept(*cull);
         }
         _drawable->cullRasterized(*cull);
+        _drawable->requestPages(*this, *cull);
         return;
     }
 
+    if (_enabled && uploads(visitor)) return;
     osg::Group::traverse(visitor);
     // Before the first cull the light and the eye are not known: that cull converts.
     const bool update = visitor.getVisitorType() == osg::NodeVisitor::UPDATE_VISITOR;

@@ -45,13 +45,14 @@ std::mutex& graphMutex()
 struct ConversionKey
 {
     osg::Vec3d eye;
+    engine::ReferenceView view;
     osg::Vec4 clearColor;
     bool headlight = true;
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
 
     bool operator==(const ConversionKey& other) const
     {
-        return eye == other.eye && clearColor == other.clearColor && headlight == other.headlight &&
+        return eye == other.eye && view == other.view && clearColor == other.clearColor && headlight == other.headlight &&
                colorRule == other.colorRule;
     }
 };
@@ -193,7 +194,8 @@ void Renderer::Implementation::convertScene()
     if (!inverted || !std::isfinite(eye.x()) || !std::isfinite(eye.y()) || !std::isfinite(eye.z()))
         throw EngineError(StatusCode::InvalidView, "the view matrix cannot be inverted");
 
-    const ConversionKey key{eye, clearColor, headlight, settings->getColorRule()};
+    const engine::ReferenceView view{viewMatrix, projectionMatrix, double(width), double(height)};
+    const ConversionKey key{eye, view, clearColor, headlight, settings->getColorRule()};
     if (traced && !sceneDirty && key == convertedFor) return;
 
     const std::lock_guard<std::mutex> lock(graphMutex());
@@ -211,6 +213,7 @@ engine::ConversionInput Renderer::Implementation::conversionInput(const Conversi
     engine::ConversionInput input;
     input.root = scene.get();
     input.eye = key.eye;
+    input.view = key.view;
     input.origin = key.eye;
     if (key.headlight) input.viewLight = viewerHeadlight();
     input.clearColor = key.clearColor;

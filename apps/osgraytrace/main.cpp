@@ -12,6 +12,9 @@
 #include "apps/common/ModelFiles.h"
 #include "apps/common/PluginPath.h"
 
+#include <osg/FrameStamp>
+#include <osgUtil/UpdateVisitor>
+
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -35,6 +38,15 @@ Picture render(const Options& options, osg::Node& scene)
     return picture;
 }
 
+/// As osgviewer's first frame: skeletons are posed, clocks are set.
+void updateToStart(osg::Node& scene)
+{
+    const osg::ref_ptr<osg::FrameStamp> start = new osg::FrameStamp;
+    osgUtil::UpdateVisitor visitor;
+    visitor.setFrameStamp(start);
+    scene.accept(visitor);
+}
+
 void printMeasures(const ErrorMeasures& measures)
 {
     std::printf("RMSE %.6g\nrelMSE %.6g\nmean ratio %.6g\n", measures.rmse, measures.relMse,
@@ -53,6 +65,7 @@ void run(const Options& options)
     if (!options.reference.empty())
         reference = readReference(options.reference, options.width, options.height);
     const osg::ref_ptr<osg::Node> scene = readScene(options.models);
+    updateToStart(*scene);
 
     const Picture picture = render(options, *scene);
     std::optional<ErrorMeasures> measures;

@@ -70,7 +70,7 @@ GeometryCache::Fingerprint GeometryCache::fingerprintOf(const osg::Geometry& geo
         const osg::PrimitiveSet* set = geometry.getPrimitiveSet(i);
         if (!set) continue;
         BufferPrint& print = add(set, set->getMode());
-        print.count = set->getNumIndices();
+        if (hasTriangles(*set)) print.count = set->getNumIndices(); // others may lack what they count
         if (const auto* arrays = dynamic_cast<const osg::DrawArrays*>(set))
             print.first = static_cast<unsigned int>(arrays->getFirst());
     }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GeometryConverter.h"
 
-#include "osgRayTrace/bridge/TriangleList.h"
+#include "osgRayTrace/bridge/MeshClipper.h"
 #include "osgRayTrace/bridge/VertexArrays.h"
 
 #include <algorithm>
@@ -257,7 +257,7 @@ ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& 
     if (!vertices || vertices->getNumElements() == 0) return skip("not-traced.no-vertices");
     if (!isReadable(vertices) || vertices->getDataSize() < 2) return skip("skipped.vertex-type");
 
-    TriangleList list = trianglesOf(geometry, vertices->getNumElements());
+    TriangleList list = trianglesOf(geometry, vertices->getNumElements(), request.restart);
     addCounts(result.counts, list.counts);
     VertexMap map;
     map.vertexCount = vertices->getNumElements();
@@ -286,6 +286,8 @@ ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& 
                     : reader.textureCoordinates(geometry.getTexCoordArray(0), result.counts);
     mesh->colors =
         fits(kept.colors) ? kept.colors : reader.colors(geometry.getColorArray(), result.counts);
+    if (!request.clipPlanes.empty()) clip(*mesh, request.clipPlanes);
+    if (mesh->triangles.empty()) return skip("not-traced.clipped-away");
     result.mesh = std::move(mesh);
     return result;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/ConversionReport.h"
+#include "osgRayTrace/bridge/TriangleList.h"
 #include "osgRayTrace/scene/Mesh.h"
 
 #include <osg/Geometry>
@@ -11,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -23,11 +25,13 @@ struct MeshRequest
     std::optional<osg::Matrixd> transform;
     bool decodeColors = false; ///< vertex colours from sRGB to linear
     bool copies = false;       ///< shares no arrays: they will change
+    PrimitiveRestart restart;
+    std::vector<Vec4d> clipPlanes; ///< after the transform; see clip
 
     bool operator==(const MeshRequest& other) const
     {
         return transform == other.transform && decodeColors == other.decodeColors &&
-               copies == other.copies;
+               restart == other.restart && clipPlanes == other.clipPlanes && copies == other.copies;
     }
 };
 

@@ -2,15 +2,19 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GraphCollector.h"
 
+#include "osgRayTrace/bridge/ClipPlanes.h"
+
 #include <osgRayTrace/AreaLight>
 
 #include <osg/Billboard>
 #include <osg/BlendFunc>
 #include <osg/Camera>
 #include <osg/ClipNode>
+#include <osg/PagedLOD>
 #include <osg/PolygonMode>
 #include <osg/Program>
 #include <osg/Projection>
+#include <osg/ProxyNode>
 #include <osg/TexGenNode>
 #include <osg/Transform>
 #include <osgText/TextBase>
@@ -83,46 +87,24 @@ const char* untracedCamera(const osg::Camera& camera)
     return nullptr;
 }
 
-bool hasTriangles(const osg::PrimitiveSet& set)
-{
-    switch (set.getMode())
-    {
-    case GL_TRIANGLES:
-    case GL_TRIANGLE_STRIP:
-    case GL_TRIANGLE_FAN:
-    case GL_QUADS:
-    case GL_QUAD_STRIP:
-    case GL_POLYGON:
-        return set.getNumInstances() == 0;
-    default:
-        return false;
-    }
-}
-
-/// The rest of a geometry whose triangles are traced: a shallow copy, so arrays are shared. Null: nothing.
-osg::ref_ptr<osg::Geometry> withoutTriangles(const osg::Geometry& geometry)
-{
-    osg::Geometry::PrimitiveSetList rest;
-    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
-        if (!hasTriangles(*set)) rest.push_back(set);
-    if (rest.empty()) return nullptr;
-    osg::ref_ptr<osg::Geometry> copy = new osg::Geometry(geometry);
-    copy->setPrimitiveSetList(rest);
-    copy->getBound(); // now: several cull threads may ask for it at once
-    return copy;
-}
-
-/// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced.
-const char* rasterizedState(const GraphState& state)
+/// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced. poses: a program that only
+/// does what was done in software.
+const char* rasterizedState(const GraphState& state, const osg::StateAttribute* poses)
 {
     const auto* program = state.attribute<osg::Program>(kProgramSlot);
-    if (program && program->getNumShaders() > 0) return "rasterized.shader-program";
+    if (program && program->getNumShaders() > 0 && program != poses)
+        return "rasterized.shader-program";
     const auto* polygons = state.attribute<osg::PolygonMode>(kPolygonModeSlot);
     if (polygons && polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
         return "rasterized.polygon-mode";
     const auto* blend = state.attribute<osg::BlendFunc>(kBlendFuncSlot);
     if (blend && state.isOn(kBlendBit) && blend->getDestinationRGB() == GL_ONE)
         return "rasterized.additive-blending";
+    // In the coordinates of the drawable that happens to be drawn first with it.
+    const auto* plane = state.attribute<osg::ClipPlane>(kClipPlaneSlot);
+    if (plane && plane->getClipPlaneNum() < kClipPlanes &&
+        state.isOn(kClipPlaneBit + plane->getClipPlaneNum()))
+        return "rasterized.clip-plane-attribute";
     return nullptr;
 }
 
@@ -139,11 +121,14 @@ bool hasUntracedDrawable(const osg::Billboard& billboard)
 
 } // namespace
 
-GraphCollector::GraphCollector(const ConversionInput& input, ConversionReport& report)
+GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
+                               ConversionReport& report)
     : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN),
       _input(input),
+      _vertices(vertices),
       _report(report),
       _worldFromLocal(1),
+      _cullStack(input.view),
       _states(rootState(input))
 {
     for (const osg::ref_ptr<const osg::StateSet>& stateSet : input.inheritedState)
@@ -162,6 +147,7 @@ void applyUnit(double unit, CollectedGraph& graph)
         if (!light.eyeSpace) light.engineFromLocal.postMult(scale);
     for (CollectedAreaLight& light : graph.areaLights)
         light.engineFromLocal.postMult(scale);
+    graph.clipPlanes.applyUnit(unit);
 }
 
 CollectedGraph GraphCollector::take()
@@ -172,7 +158,7 @@ CollectedGraph GraphCollector::take()
 
 void GraphCollector::apply(osg::Node& node)
 {
-    if (!node.asGroup() && collectLeaf(node)) return;
+    if (node.asGroup() ? leavesGroup(node) : collectLeaf(node)) return;
     const bool pushed = pushState(node);
     traverseChildren(node);
     if (pushed) _states.pop();
@@ -181,11 +167,9 @@ void GraphCollector::apply(osg::Node& node)
 void GraphCollector::apply(osg::Transform& node)
 {
     const bool pushed = pushState(node);
-    osg::Matrixd worldFromLocal = _worldFromLocal.back();
-    node.computeLocalToWorldMatrix(worldFromLocal, this);
-    if (node.getReferenceFrame() != osg::Transform::RELATIVE_RF)
+    if (node.getReferenceFrame() != osg::Transform::RELATIVE_RF && !_input.view)
         _report.count("approximated.absolute-transform"); // eye space in OpenGL, world space here
-    traverseBelow(worldFromLocal, node);
+    traverseBelow(worldFromLocal(node, _worldFromLocal.back(), *this, _input.view), node);
     if (pushed) _states.pop();
 }
 
@@ -227,6 +211,25 @@ void GraphCollector::apply(osg::LightSource& node)
 void GraphCollector::apply(osg::ClipNode& node)
 {
     rasterize(RasterizedPart::PlaceState);
+    const bool inEyeSpace = node.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF;
+    const osg::Matrixd engineFromPlane =
+        inEyeSpace ? worldFromEye() * osg::Matrixd::translate(-_input.origin) : engineFromLocal();
+    for (const osg::ref_ptr<osg::ClipPlane>& plane : node.getClipPlaneList())
+        if (plane && !_graph.clipPlanes.set(*plane, engineFromPlane))
+            _report.warn("skipped.clip-plane", "clip node '" + path() + "'",
+                         "plane is not finite or has a number above 7, skipped");
+    apply(static_cast<osg::Node&>(node));
+}
+
+void GraphCollector::apply(osg::PagedLOD& node)
+{
+    _graph.paged = true;
+    apply(static_cast<osg::LOD&>(node));
+}
+
+void GraphCollector::apply(osg::ProxyNode& node)
+{
+    if (node.getNumFileNames() > node.getNumChildren()) _graph.paged = true;
     apply(static_cast<osg::Node&>(node));
 }
 
@@ -245,9 +248,12 @@ void GraphCollector::apply(osg::Billboard& node)
         return;
     }
     const bool pushed = pushState(node);
-    if (node.getMode() == osg::Billboard::POINT_ROT_EYE)
+    if (node.getMode() == osg::Billboard::POINT_ROT_EYE && !_input.view)
         _report.count("approximated.billboard"); // upright in the world, not in the view
     const osg::Vec3 eye = getEyePoint();
+    const osg::Matrixd worldFromView = worldFromEye();
+    const osg::Matrixd viewFromLocal =
+        _worldFromLocal.back() * osg::Matrixd::inverse(worldFromView);
     // Since OSG 3.6 any child can be added, and one that is no drawable has no position.
     const std::size_t positions = node.getPositionList().size();
     for (unsigned int i = 0; i < node.getNumDrawables(); ++i)
@@ -258,9 +264,9 @@ void GraphCollector::apply(osg::Billboard& node)
             _report.count("not-traced.billboard-child");
             continue;
         }
-        osg::Matrixd worldFromLocal = _worldFromLocal.back();
-        node.computeMatrix(worldFromLocal, eye, node.getPosition(i));
-        if (!pushMatrix(worldFromLocal)) continue;
+        osg::Matrixd viewFromDrawable = viewFromLocal;
+        node.computeMatrix(viewFromDrawable, eye, node.getPosition(i));
+        if (!pushMatrix(viewFromDrawable * worldFromView)) continue;
         drawable->accept(*this);
         _worldFromLocal.pop_back();
     }
@@ -277,14 +283,20 @@ void GraphCollector::apply(osg::Drawable& drawable)
 
 void GraphCollector::apply(osg::Geometry& geometry)
 {
-    if (_input.rasterizesRest && rasterizes(geometry)) return;
+    const osg::Geometry& posed = _vertices.posed(geometry, getNodePath());
+    const bool isPosed = &posed != &geometry;
+    if (_input.rasterizesRest && rasterizes(geometry, isPosed)) return;
+    if (!isPosed && SoftwareVertices::isPosedByProgram(geometry))
+        _report.count("approximated.hardware-pose"); // as it was bound
     if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
-    const auto [found, isNew] = _indexOf.try_emplace(&geometry, _graph.geometries.size());
-    if (isNew) _graph.geometries.push_back({&geometry, path(), {}, nullptr});
-
     const bool pushed = pushState(geometry);
-    _graph.geometries[found->second].uses.push_back({engineFromLocal(), _states.top()});
+    const uint32_t state = _states.top();
     if (pushed) _states.pop();
+    const PrimitiveRestart restart = restartOf(_states.states()[state]);
+    const auto [found, isNew] =
+        _indexOf.try_emplace({&posed, restart.key()}, _graph.geometries.size());
+    if (isNew) _graph.geometries.push_back({&posed, path(), {}, restart, nullptr});
+    _graph.geometries[found->second].uses.push_back({engineFromLocal(), state});
 }
 
 osg::Vec3 GraphCollector::getEyePoint() const
@@ -292,9 +304,10 @@ osg::Vec3 GraphCollector::getEyePoint() const
     return _input.eye * osg::Matrixd::inverse(_worldFromLocal.back());
 }
 
-float GraphCollector::getDistanceToEyePoint(const osg::Vec3& position, bool) const
+float GraphCollector::getDistanceToEyePoint(const osg::Vec3& position, bool useLodScale) const
 {
-    return (position - getEyePoint()).length();
+    const float scale = useLodScale && _input.view ? _input.view->lodScale : 1.0f;
+    return (position - getEyePoint()).length() * scale;
 }
 
 float GraphCollector::getDistanceFromEyePoint(const osg::Vec3& position, bool) const
@@ -364,6 +377,32 @@ bool GraphCollector::collectLeaf(osg::Node& node)
     return true;
 }
 
+/// True if the group is of a kit that draws its children in a way of its own, by a cull traversal only: OSG
+/// draws it where there is OpenGL, and its children stand for it elsewhere.
+bool GraphCollector::leavesGroup(osg::Node& node)
+{
+    const bool effect = isFrom(node, "osgFX"), volume = isFrom(node, "osgVolume");
+    if (!effect && !volume) return false;
+    if (_input.rasterizesRest)
+    {
+        _report.count(effect ? "rasterized.effect" : "rasterized.volume");
+        rasterize();
+        return true;
+    }
+    _report.count(effect ? "approximated.effect" : "not-traced.volume");
+    if (effect) traverseGroup(*node.asGroup());
+    return true;
+}
+
+/// Its children, whatever its own traverse does.
+void GraphCollector::traverseGroup(osg::Group& group)
+{
+    const bool pushed = pushState(group);
+    for (unsigned int i = 0; i < group.getNumChildren() && getNodePath().size() < kDeepestPath; ++i)
+        group.getChild(i)->accept(*this);
+    if (pushed) _states.pop();
+}
+
 /// Leaves the node that is visited to OSG.
 void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
 {
@@ -373,11 +412,13 @@ void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
 }
 
 /// Leaves to OSG what it draws better. True if nothing is left to trace.
-bool GraphCollector::rasterizes(const osg::Geometry& geometry)
+bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
 {
     const osg::StateSet* stateSet = geometry.getStateSet();
+    const osg::StateAttribute* poses =
+        isPosed && stateSet ? stateSet->getAttribute(osg::StateAttribute::PROGRAM) : nullptr;
     if (stateSet) _states.push(*stateSet);
-    const char* reason = rasterizedState(_states.states()[_states.top()]);
+    const char* reason = rasterizedState(_states.states()[_states.top()], poses);
     if (stateSet) _states.pop();
     if (reason)
     {
@@ -390,6 +431,13 @@ bool GraphCollector::rasterizes(const osg::Geometry& geometry)
     const bool all = rest->getNumPrimitiveSets() == geometry.getNumPrimitiveSets();
     rasterize(RasterizedPart::Draw, all ? nullptr : rest.get());
     return false; // those without triangles are counted where triangles are made
+}
+
+/// Without a view the eye looks along the world's axes.
+osg::Matrixd GraphCollector::worldFromEye() const
+{
+    return _input.view ? osg::Matrixd::inverse(_input.view->viewFromWorld)
+                       : osg::Matrixd::translate(_input.eye);
 }
 
 osg::Matrixd GraphCollector::engineFromLocal() const

@@ -2,17 +2,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/ClipPlanes.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/SceneExtent.h"
+#include "osgRayTrace/bridge/SoftwareVertices.h"
 #include "osgRayTrace/bridge/StateStack.h"
+#include "osgRayTrace/bridge/TriangleList.h"
 
 #include <osg/Geometry>
 #include <osg/LightSource>
 #include <osg/Matrixd>
 #include <osg/NodeVisitor>
 
+#include <map>
 #include <string>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace osgRayTrace
@@ -39,6 +43,7 @@ struct CollectedGeometry
     const osg::Geometry* geometry = nullptr;
     std::string path; ///< of the first use: "root/child/geometry"
     std::vector<GeometryUse> uses;
+    PrimitiveRestart restart; ///< of all uses
     const VertexBounds* bounds = nullptr; ///< not the collector's: see SceneConverter
 };
 
@@ -64,6 +69,8 @@ struct CollectedGraph
     std::vector<CollectedLight> lights;        ///< in the order of the traversal
     std::vector<CollectedAreaLight> areaLights;
     std::vector<GraphState> states;
+    ClipPlanes clipPlanes;
+    bool paged = false; ///< see ConversionResult
     RasterizedParts rasterized; ///< if ConversionInput::rasterizesRest
 };
 
@@ -76,7 +83,8 @@ void applyUnit(double unit, CollectedGraph& graph);
 class GraphCollector : public osg::NodeVisitor
 {
 public:
-    GraphCollector(const ConversionInput& input, ConversionReport& report);
+    GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
+                   ConversionReport& report);
 
     /// What was found; call once, after the traversal.
     CollectedGraph take();
@@ -88,12 +96,19 @@ public:
     void apply(osg::Projection& node) override;
     void apply(osg::LightSource& node) override;
     void apply(osg::ClipNode& node) override;
+    void apply(osg::PagedLOD& node) override;
+    void apply(osg::ProxyNode& node) override;
     void apply(osg::TexGenNode& node) override;
     void apply(osg::Billboard& node) override;
     void apply(osg::Drawable& drawable) override;
     void apply(osg::Geometry& geometry) override;
 
-    // In the local coordinates of the node that asks: levels of detail and billboards.
+    // In the local coordinates of the node that asks: levels of detail and what turns to the view.
+    osg::CullStack* asCullStack() override { return _cullStack.at(_worldFromLocal.back()); }
+    const osg::CullStack* asCullStack() const override
+    {
+        return _cullStack.at(_worldFromLocal.back());
+    }
     osg::Vec3 getEyePoint() const override;
     float getDistanceToEyePoint(const osg::Vec3& position, bool useLodScale) const override;
     float getDistanceFromEyePoint(const osg::Vec3& position, bool useLodScale) const override;
@@ -105,17 +120,22 @@ private:
     bool pushMatrix(const osg::Matrixd& worldFromLocal);
     void traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node& node);
     bool collectLeaf(osg::Node& node);
+    bool leavesGroup(osg::Node& node);
+    void traverseGroup(osg::Group& group);
     void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);
-    bool rasterizes(const osg::Geometry& geometry);
+    bool rasterizes(const osg::Geometry& geometry, bool isPosed);
+    osg::Matrixd worldFromEye() const;
     osg::Matrixd engineFromLocal() const;
     std::string path() const;
 
     const ConversionInput& _input;
+    SoftwareVertices& _vertices;
     ConversionReport& _report;
     std::vector<osg::Matrixd> _worldFromLocal; // the stack of transforms, never empty
+    ReferenceCullStack _cullStack;
     StateStack _states;
     CollectedGraph _graph;
-    std::unordered_map<const osg::Geometry*, std::size_t> _indexOf;
+    std::map<std::pair<const osg::Geometry*, uint64_t>, std::size_t> _indexOf; // by restart, too
 };
 
 } // namespace osgRayTrace::engine

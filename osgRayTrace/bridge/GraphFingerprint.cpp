@@ -4,13 +4,19 @@
 
 #include "osgRayTrace/bridge/GraphCollector.h"
 #include "osgRayTrace/bridge/StateFingerprint.h"
+#include "osgRayTrace/bridge/SoftwareVertices.h"
 
 #include <osgRayTrace/AreaLight>
 
+#include <osg/Billboard>
+#include <osg/ClipNode>
 #include <osg/Geometry>
 #include <osg/LightSource>
 #include <osg/NodeVisitor>
 #include <osg/Transform>
+
+#include <optional>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -25,6 +31,8 @@ public:
     FingerprintVisitor(const ViewingConditions& conditions, const osg::Matrixd& sceneFromLocal)
         : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN),
           _eye(conditions.eye),
+          _view(conditions.view),
+          _cullStack(conditions.view),
           _sceneFromLocal(sceneFromLocal)
     {
         setTraversalMask(conditions.traversalMask);
@@ -54,11 +62,29 @@ public:
     void apply(osg::Transform& node) override
     {
         const osg::Matrixd outer = _sceneFromLocal;
-        node.computeLocalToWorldMatrix(_sceneFromLocal, this);
+        _sceneFromLocal = worldFromLocal(node, outer, *this, _view);
         _digest.addMatrix(_sceneFromLocal);
         enter(node);
         _sceneFromLocal = outer;
     }
+
+    void apply(osg::Billboard& node) override
+    {
+        digestView();
+        _digest.add(node.getMode(), node.getAxis(), node.getNormal());
+        enter(node);
+    }
+
+    void apply(osg::ClipNode& node) override
+    {
+        if (node.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF) digestView();
+        for (const auto& plane : node.getClipPlaneList())
+            if (plane) _digest.add(plane->getClipPlaneNum(), plane->getClipPlane());
+        enter(node);
+    }
+
+    osg::CullStack* asCullStack() override { return _cullStack.at(_sceneFromLocal); }
+    const osg::CullStack* asCullStack() const override { return _cullStack.at(_sceneFromLocal); }
 
     void apply(osg::Drawable& drawable) override
     {
@@ -69,6 +95,8 @@ public:
     void apply(osg::Geometry& geometry) override
     {
         addDrawable(geometry);
+        for (const float weight : SoftwareVertices::weightsOf(geometry))
+            _digest.add(weight);
         _arrays.clear();
         geometry.getArrayList(_arrays);
         for (const auto& array : _arrays)
@@ -76,13 +104,15 @@ public:
                         array->getBinding());
         for (const auto& primitives : geometry.getPrimitiveSetList())
             _digest.add(primitives.get(), primitives->getModifiedCount(), primitives->getMode(),
-                        primitives->getNumIndices());
+                        hasTriangles(*primitives) ? primitives->getNumIndices() : 0u);
         traverse(geometry);
     }
 
-    float getDistanceToEyePoint(const osg::Vec3& point, bool) const override
+    float getDistanceToEyePoint(const osg::Vec3& point, bool useLodScale) const override
     {
-        return static_cast<float>((osg::Vec3d(point) * _sceneFromLocal - _eye).length());
+        const float scale = useLodScale && _view ? _view->lodScale : 1.0f;
+        const osg::Vec3d eye = _eye * osg::Matrixd::inverse(_sceneFromLocal); // as in a cull traversal
+        return static_cast<float>((osg::Vec3d(point) - eye).length()) * scale;
     }
 
     float getDistanceToViewPoint(const osg::Vec3& point, bool useLodScale) const override
@@ -91,6 +121,13 @@ public:
     }
 
 private:
+    /// Of what turns to the view or moves with it.
+    void digestView()
+    {
+        _digest.add(_eye);
+        if (_view) _digest.addMatrix(_view->viewFromWorld);
+    }
+
     void enter(osg::Node& node)
     {
         _digest.add(&node);
@@ -117,6 +154,8 @@ private:
 
     Digest _digest;
     osg::Vec3d _eye;
+    std::optional<ReferenceView> _view;
+    ReferenceCullStack _cullStack;
     osg::Matrixd _sceneFromLocal;
     osg::Geometry::ArrayList _arrays;
 };

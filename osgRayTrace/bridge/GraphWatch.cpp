@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/GraphCollector.h"
 #include "osgRayTrace/bridge/GraphFingerprint.h"
 #include "osgRayTrace/bridge/StateFingerprint.h"
+#include "osgRayTrace/bridge/TriangleList.h"
 
 #include <osg/Geode>
 #include <osg/LightSource>
@@ -78,7 +79,7 @@ uint64_t bufferPrint(const osg::BufferData& data)
     }
     else if (const osg::PrimitiveSet* set = data.asPrimitiveSet())
     {
-        count = set->getNumIndices();
+        if (hasTriangles(*set)) count = set->getNumIndices(); // others may lack what they count
         kind = set->getMode();
         if (set->getType() ==
             osg::PrimitiveSet::DrawArraysPrimitiveType) // whose setFirst has no dirty()
@@ -173,6 +174,9 @@ GraphWatch::Kind GraphWatch::kindOf(const osg::Node& node)
 {
     const std::type_info& type = typeid(node);
     if (type == typeid(osg::Geometry) || type == typeid(osg::ShapeDrawable)) return Kind::Geometry;
+    const osg::Transform* transform = node.asTransform();
+    if (transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF)
+        return Kind::Opaque; // where it is depends on the view
     if (type == typeid(osg::MatrixTransform)) return Kind::MatrixTransform;
     if (type == typeid(osg::PositionAttitudeTransform)) return Kind::PositionAttitudeTransform;
     if (type == typeid(osg::Group) || type == typeid(osg::Geode)) return Kind::Group;
@@ -348,6 +352,7 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
         return changes;
     }
     _plain.eye = conditions.eye;
+    _plain.view = conditions.view;
     _moved.assign(_places.size(), false);
     _anyMoved = false;
     if (!lookAtNodes())

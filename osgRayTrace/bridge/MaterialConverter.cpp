@@ -7,6 +7,7 @@
 
 #include <osgRayTrace/PhysicalMaterial>
 
+#include <osg/ClipPlane>
 #include <osg/LightModel>
 #include <osg/Material>
 #include <osg/PolygonMode>
@@ -297,7 +298,10 @@ void MaterialConverter::countApproximations(const GraphState& state)
     if (state.isOn(kAlphaTestBit)) _report.count("approximated.alpha-test");
     if (state.isOn(kCullFaceBit)) _report.count("approximated.cull-face");
     if (state.isOn(kFogBit)) _report.count("approximated.fog");
-    if (state.isOn(kClipPlaneBit)) _report.count("approximated.clip-plane");
+    const auto* plane = state.attribute<osg::ClipPlane>(kClipPlaneSlot);
+    if (plane && plane->getClipPlaneNum() < kClipPlanes &&
+        state.isOn(kClipPlaneBit + plane->getClipPlaneNum()))
+        _report.count("approximated.clip-plane-attribute");
     if (state.usesHigherTextures()) _report.count("approximated.texture-unit");
     if (const auto* mode = state.attribute<osg::PolygonMode>(kPolygonModeSlot))
         if (mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/RasterizedParts.h"
 
+#include "osgRayTrace/bridge/TriangleList.h"
+
 #include <osg/ClipNode>
 #include <osg/LightSource>
 #include <osg/TexGenNode>
@@ -98,6 +100,18 @@ void placeState(const osg::Node& node, osgUtil::CullVisitor& visitor)
 }
 
 } // namespace
+
+osg::ref_ptr<osg::Geometry> withoutTriangles(const osg::Geometry& geometry)
+{
+    osg::Geometry::PrimitiveSetList rest;
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
+        if (!hasTriangles(*set)) rest.push_back(set);
+    if (rest.empty()) return nullptr;
+    osg::ref_ptr<osg::Geometry> copy = new osg::Geometry(geometry);
+    copy->setPrimitiveSetList(rest);
+    copy->getBound(); // now: several cull threads may ask for it at once
+    return copy;
+}
 
 RasterizedPart rasterizedPart(RasterizedPart::Kind kind, const osg::NodePath& path)
 {

@@ -104,6 +104,7 @@ Material fallbackMaterial()
 /// What is kept between snapshots.
 struct ConversionCaches
 {
+    SoftwareVertices vertices;
     GeometryCache geometries;
     TextureConverter textures;
     struct Quad
@@ -189,6 +190,8 @@ private:
     void putFlatFirst();
     void addGeometry(const CollectedGeometry& geometry);
     void warnIfCoarse(const CollectedGeometry& geometry);
+    Clipping clipBy(const CollectedGeometry& geometry, const GeometryUse& use,
+                    MeshRequest& request);
     void addPlacedUses(const CollectedGeometry& geometry);
     void addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
                   const std::shared_ptr<const Mesh>& mesh);
@@ -197,7 +200,7 @@ private:
     void addLights();
     void setAmbient(const GraphState& state);
     uint32_t addMesh(const std::shared_ptr<const Mesh>& mesh);
-    MeshRequest requestFor(const osg::Matrixd& transform) const;
+    MeshRequest requestFor(const CollectedGeometry& geometry, const osg::Matrixd& transform) const;
 
     const ConversionInput& _input;
     const CollectedGraph& _graph;
@@ -214,9 +217,11 @@ private:
     const osg::LightModel* _lightModel = nullptr; // the first one met
 };
 
-MeshRequest SceneBuilder::requestFor(const osg::Matrixd& transform) const
+MeshRequest SceneBuilder::requestFor(const CollectedGeometry& geometry,
+                                     const osg::Matrixd& transform) const
 {
     MeshRequest request;
+    request.restart = geometry.restart;
     if (!transform.isIdentity()) request.transform = transform;
     request.decodeColors = _linear;
     return request;
@@ -258,7 +263,7 @@ bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
     if (_comparable && last && !cache.hasSameArrays(geometry))
         cache.noteLiveness(geometry, Liveness::Deforms);
     else if (_comparable && once && last &&
-             last->transform != requestFor(collected.uses.front().engineFromLocal).transform)
+             last->transform != requestFor(collected, collected.uses.front().engineFromLocal).transform)
         cache.noteLiveness(geometry, Liveness::Moves);
     else if (once && (_caches.dissolved || (_comparable && !last && !_newJoinFlat)))
         cache.noteLiveness(geometry, Liveness::Moves);
@@ -288,6 +293,21 @@ void SceneBuilder::putFlatFirst()
         if (index != kInvalid) index = now[index];
 }
 
+/// Puts the planes that cross the geometry into the request, which is for engine space.
+Clipping SceneBuilder::clipBy(const CollectedGeometry& geometry, const GeometryUse& use,
+                              MeshRequest& request)
+{
+    std::vector<Vec4d> planes = _graph.clipPlanes.planesOn(_graph.states[use.state]);
+    if (planes.empty()) return Clipping::None;
+    const osg::Array* positions = positionArray(*geometry.geometry);
+    const bool bounded = positions && geometry.bounds->count == positions->getNumElements();
+    const Clipping clipping =
+        bounded ? clippingOf(*geometry.bounds, use.engineFromLocal, planes) : Clipping::Partly;
+    if (clipping == Clipping::Wholly) _report.count("not-traced.clipped-away");
+    if (clipping == Clipping::Partly) request.clipPlanes = std::move(planes);
+    return clipping;
+}
+
 /// Used once: positions in engine space, made in double. Used more often: one mesh, several
 /// instances.
 void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
@@ -301,7 +321,12 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
         return;
     }
     const GeometryUse& use = geometry.uses.front();
-    const MeshRequest request = requestFor(use.engineFromLocal);
+    MeshRequest request = requestFor(geometry, use.engineFromLocal);
+    if (clipBy(geometry, use, request) == Clipping::Wholly)
+    {
+        _index.instances.push_back(kInvalid);
+        return;
+    }
     addBaked(
         geometry, use,
         _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report));
@@ -324,7 +349,7 @@ void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse
 void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
 {
     const MeshFrame frame = meshFrame(*geometry.bounds);
-    MeshRequest request = requestFor(frame.meshFromLocal);
+    MeshRequest request = requestFor(geometry, frame.meshFromLocal);
     request.copies = _caches.geometries.liveness(*geometry.geometry) == Liveness::Deforms;
     const auto mesh =
         _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report);
@@ -339,14 +364,21 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
     for (const GeometryUse& use : geometry.uses)
     {
         ++variant;
+        MeshRequest own = requestFor(geometry, use.engineFromLocal);
+        const Clipping clipping = clipBy(geometry, use, own);
+        if (clipping == Clipping::Wholly)
+        {
+            _index.instances.push_back(kInvalid);
+            continue;
+        }
         Instance instance;
         instance.mesh = meshIndex;
-        if (placeInstance(instance, frame.localFromMesh * use.engineFromLocal))
+        if (clipping == Clipping::None &&
+            placeInstance(instance, frame.localFromMesh * use.engineFromLocal))
             addInstance(geometry, use, instance);
         else
             addBaked(geometry, use,
-                     _caches.geometries.mesh(*geometry.geometry, variant,
-                                             requestFor(use.engineFromLocal), geometry.path,
+                     _caches.geometries.mesh(*geometry.geometry, variant, own, geometry.path,
                                              _report));
     }
 }
@@ -501,7 +533,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     const Stamp now = ++state.stamp;
 
     ConversionReport report;
-    GraphCollector collector(input, report);
+    state.caches.vertices.begin();
+    GraphCollector collector(input, state.caches.vertices, report);
     if (input.root) input.root->accept(collector);
     CollectedGraph graph = collector.take();
 
@@ -519,11 +552,16 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     SceneBuilder builder(input, graph, unit, linear, comparable, now, state.caches, report);
     state.last = stampChanges(builder.build(), state.last, now);
     state.caches.geometries.end();
-    state.ordinary = unit == 1.0 && lengths.areOrdinary();
+    // Where planes clip depends on where a geometry is.
+    const bool clips = std::any_of(graph.states.begin(), graph.states.end(), [](const GraphState& s)
+                                   { return s.isOn(kClipPlaneBit); });
+    state.ordinary = unit == 1.0 && lengths.areOrdinary() && !clips;
     state.index = builder.takeIndex();
+    state.caches.vertices.end();
 
     ConversionResult result;
     result.scene = state.last;
+    result.paged = graph.paged;
     result.counts = report.counts();
     addUntraced(graph.rasterized, state.index);
     const auto draws = [](const RasterizedPart& part) { return part.kind == RasterizedPart::Draw; };

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/ConversionReport.h"
 #include "osgRayTrace/bridge/GraphChanges.h"
 #include "osgRayTrace/bridge/RasterizedParts.h"
+#include "osgRayTrace/bridge/ReferenceView.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <osgRayTrace/RayTraceSettings>
@@ -25,7 +26,10 @@ namespace osgRayTrace::engine
 struct ConversionInput
 {
     osg::Node* root = nullptr;
-    osg::Vec3d eye;    ///< world space: levels of detail, and where the origin is put
+    osg::Vec3d eye; ///< world space: levels of detail
+    /// With the same eye: sizes in pixels, and what turns to the view or moves with it. Without one
+    /// that is as if looked at from the eye, upright in the world.
+    std::optional<ReferenceView> view;
     osg::Vec3d origin; ///< of the engine's coordinates, world space
     unsigned int traversalMask = 0xffffffffu;
     /// The light that osgViewer adds outside of the graph; null: none. In view space (headlight) or
@@ -48,6 +52,7 @@ struct ConversionResult
     ConversionCounts counts;
     /// For OSG to draw; null if nothing is, or ConversionInput::rasterizesRest is not set.
     std::shared_ptr<const RasterizedParts> rasterized;
+    bool paged = false; ///< parts of the graph are files that are read when they are seen
     double seconds = 0.0;
 };
 

@@ -150,7 +150,7 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
     if (!root)
     {
         _watch.forget();
-        publish(nullptr, nullptr, _done);
+        publish(nullptr, ConversionResult(), _done);
         return;
     }
     const GraphChanges changes = look(*root, same, sameRoot, conditions);
@@ -190,6 +190,7 @@ ConversionResult SceneUpdater::convert(osg::Node& root, const ViewingConditions&
     ConversionInput input;
     input.root = &root;
     input.eye = conditions.eye;
+    input.view = conditions.view;
     input.origin = *_origin;
     input.traversalMask = conditions.traversalMask;
     input.viewLight = conditions.light;
@@ -218,17 +219,18 @@ void SceneUpdater::build(const ConversionResult& conversion)
     _done.convertedMeshes = _converter.convertedMeshes();
     Statistics statistics = _done;
     setSceneStatistics(statistics, conversion, *traced);
-    publish(std::move(traced), conversion.rasterized, statistics);
+    publish(std::move(traced), conversion, statistics);
 }
 
 void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene,
-                           std::shared_ptr<const RasterizedParts> rasterized,
-                           const Statistics& statistics)
+                           const ConversionResult& conversion, const Statistics& statistics)
 {
+    std::shared_ptr<const RasterizedParts> rasterized = conversion.rasterized;
     std::lock_guard<std::mutex> lock(_versionMutex);
     // The old ones are freed after the lock, unless a view still draws them.
     _version.scene.swap(scene);
     _version.rasterized.swap(rasterized);
+    _version.paged = conversion.paged;
     _statistics = statistics;
 }
 

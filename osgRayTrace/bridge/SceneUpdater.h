@@ -30,6 +30,7 @@ struct SceneVersion
     std::shared_ptr<PhotonPasses> photons; ///< of all views
     osg::ref_ptr<const RayTraceSettings> settings;
     std::shared_ptr<const RasterizedParts> rasterized; ///< for OSG to draw; null: as scene
+    bool paged = false; ///< see ConversionResult
 };
 
 /// Update converts, draw takes the version there is. Cull notes who looks at the scene: the first
@@ -87,7 +88,7 @@ private:
     ConversionResult convert(osg::Node& root, const ViewingConditions& conditions);
     void build(const ConversionResult& conversion);
     void publish(std::shared_ptr<const TracedScene> scene,
-                 std::shared_ptr<const RasterizedParts> rasterized, const Statistics& statistics);
+                 const ConversionResult& conversion, const Statistics& statistics);
     void fail(const char* message) noexcept;
 
     mutable std::mutex _notedMutex; // cull and draw threads write, update reads

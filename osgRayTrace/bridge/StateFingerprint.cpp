@@ -6,11 +6,13 @@
 
 #include <osg/AlphaFunc>
 #include <osg/BlendFunc>
+#include <osg/ClipPlane>
 #include <osg/CullFace>
 #include <osg/FrontFace>
 #include <osg/LightModel>
 #include <osg/Material>
 #include <osg/PolygonMode>
+#include <osg/PrimitiveRestartIndex>
 #include <osg/Program>
 #include <osg/TexEnv>
 #include <osg/TexMat>
@@ -89,6 +91,10 @@ void addAttribute(Digest& digest, const osg::StateAttribute& attribute)
         digest.add(polygons->getMode(osg::PolygonMode::FRONT));
     else if (const auto* program = dynamic_cast<const osg::Program*>(&attribute))
         digest.add(program->getNumShaders());
+    else if (const auto* restart = dynamic_cast<const osg::PrimitiveRestartIndex*>(&attribute))
+        digest.add(restart->getRestartIndex());
+    else if (const auto* plane = dynamic_cast<const osg::ClipPlane*>(&attribute))
+        digest.add(plane->getClipPlaneNum(), plane->getClipPlane());
     else if (const auto* front = dynamic_cast<const osg::FrontFace*>(&attribute))
         digest.add(front->getMode());
 }

@@ -22,12 +22,13 @@ namespace
 {
 
 constexpr unsigned int kLights = 32;
-constexpr unsigned int kClipPlanes = 6;
+constexpr GLenum kPrimitiveRestartFixedIndex = 0x8D69; // OpenGL 4.3; OSG has no name for it
 
 std::optional<unsigned int> modeBit(osg::StateAttribute::GLMode mode)
 {
     if (mode >= GL_LIGHT0 && mode < GL_LIGHT0 + kLights) return mode - GL_LIGHT0;
-    if (mode >= GL_CLIP_PLANE0 && mode < GL_CLIP_PLANE0 + kClipPlanes) return kClipPlaneBit;
+    if (mode >= GL_CLIP_PLANE0 && mode < GL_CLIP_PLANE0 + kClipPlanes)
+        return kClipPlaneBit + (mode - GL_CLIP_PLANE0);
     switch (mode)
     {
     case GL_LIGHTING:
@@ -40,6 +41,10 @@ std::optional<unsigned int> modeBit(osg::StateAttribute::GLMode mode)
         return kCullFaceBit;
     case GL_FOG:
         return kFogBit;
+    case GL_PRIMITIVE_RESTART:
+        return kPrimitiveRestartBit;
+    case kPrimitiveRestartFixedIndex:
+        return kFixedRestartBit;
     default:
         return std::nullopt;
     }
@@ -84,6 +89,10 @@ std::optional<AttributeSlot> attributeSlot(osg::StateAttribute::Type type)
         return kPolygonModeSlot;
     case osg::StateAttribute::BLENDFUNC:
         return kBlendFuncSlot;
+    case osg::StateAttribute::PRIMITIVERESTARTINDEX:
+        return kPrimitiveRestartSlot;
+    case osg::StateAttribute::CLIPPLANE:
+        return kClipPlaneSlot;
     default:
         return std::nullopt;
     }

@@ -13,6 +13,8 @@
 namespace osgRayTrace::engine
 {
 
+constexpr unsigned int kClipPlanes = 8;
+
 /// The modes that matter here, as bits of a set. Bits 0 to 31 are GL_LIGHT0 + n.
 enum ModeBit : unsigned int
 {
@@ -21,8 +23,11 @@ enum ModeBit : unsigned int
     kAlphaTestBit,
     kCullFaceBit,
     kFogBit,
-    kClipPlaneBit,     ///< any of them
-    kTexture2DBit,     ///< unit 0
+    kPrimitiveRestartBit,
+    kFixedRestartBit,  ///< primitive restart at the largest index of the type
+    kClipPlaneBit,     ///< and the bits that follow: kClipPlanes of them
+    kClipPlaneBitEnd = kClipPlaneBit + kClipPlanes,
+    kTexture2DBit = kClipPlaneBitEnd, ///< unit 0
     kOtherTextureBit,  ///< unit 0: 1-D, 3-D, cube map, rectangle
     kTexGenBit,        ///< unit 0, any of S, T, R, Q
     kHigherTextureBit, ///< and the bits that follow: any texture target of units 1, 2, ...
@@ -37,6 +42,8 @@ enum AttributeSlot : unsigned int
     kLightModelSlot,
     kProgramSlot,
     kPolygonModeSlot,
+    kPrimitiveRestartSlot,
+    kClipPlaneSlot, ///< of any number: the last one met; those of clip nodes are no attributes
     kBlendFuncSlot,
     kTextureSlot,
     kTextureEnvironmentSlot,

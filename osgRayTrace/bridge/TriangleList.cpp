@@ -2,7 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/TriangleList.h"
 
+#include "osgRayTrace/bridge/ArrayReader.h"
+#include "osgRayTrace/bridge/PolygonTriangles.h"
+#include "osgRayTrace/bridge/VertexArrays.h"
+
+#include <osg/PrimitiveRestartIndex>
+
 #include <algorithm>
+#include <limits>
 
 namespace osgRayTrace::engine
 {
@@ -98,8 +105,9 @@ const char* untracedMode(GLenum mode)
 class TriangleCollector
 {
 public:
-    TriangleCollector(TriangleList& list, std::size_t vertexCount)
-        : _list(list), _vertexCount(vertexCount)
+    TriangleCollector(TriangleList& list, const osg::Geometry& geometry, std::size_t vertexCount,
+                      const PrimitiveRestart& restart)
+        : _list(list), _geometry(geometry), _vertexCount(vertexCount), _restart(restart)
     {
     }
 
@@ -160,10 +168,8 @@ private:
         if (usable < wanted)
             _list.counts["skipped.index-out-of-range"] +=
                 triangleCount(mode, wanted) - triangleCount(mode, usable);
-        grow(triangleCount(mode, usable));
-        appendTriangles(
-            mode, usable, [first](std::size_t i) { return static_cast<uint32_t>(first + i); },
-            _list.triangles);
+        appendPrimitives(mode, usable,
+                         [first](std::size_t i) { return static_cast<uint32_t>(first + i); });
     }
 
     template <class Elements> bool appendIndices(const osg::PrimitiveSet& set)
@@ -172,11 +178,53 @@ private:
         if (!elements) return false;
         if (elements->empty()) return true;
         const auto* index = &elements->front();
-        grow(triangleCount(set.getMode(), elements->size()));
-        appendTriangles(
-            set.getMode(), elements->size(),
-            [index](std::size_t i) { return static_cast<uint32_t>(index[i]); }, _list.triangles);
+        using Index = typename Elements::value_type;
+        const uint32_t end = _restart.atLargest ? std::numeric_limits<Index>::max() : _restart.index;
+        const std::size_t size = elements->size();
+        for (std::size_t first = 0; first <= size;)
+        {
+            const auto* last = index + size;
+            if (_restart.on)
+                last = std::find_if(index + first, last, [end](Index i) { return i == end; });
+            const auto* run = index + first;
+            appendPrimitives(set.getMode(), static_cast<std::size_t>(last - run),
+                             [run](std::size_t i) { return static_cast<uint32_t>(run[i]); });
+            first = static_cast<std::size_t>(last - index) + 1;
+        }
         return true;
+    }
+
+    template <class Index>
+    void appendPrimitives(GLenum mode, std::size_t count, const Index& index)
+    {
+        grow(triangleCount(mode, count));
+        if (mode != GL_POLYGON || !appendConcave(count, index))
+            appendTriangles(mode, count, index, _list.triangles);
+    }
+
+    /// False if the fan is right.
+    template <class Index> bool appendConcave(std::size_t count, const Index& index)
+    {
+        if (count < 4 || count > kMostCorners) return false;
+        readPositions();
+        std::vector<Vec3d> corners;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            if (index(i) >= _positions.size()) return false;
+            corners.push_back(_positions[index(i)]);
+        }
+        const std::vector<UVec3> cut = concavePolygonTriangles(corners);
+        for (const UVec3& t : cut)
+            _list.triangles.emplace_back(index(t.x), index(t.y), index(t.z));
+        return !cut.empty();
+    }
+
+    void readPositions()
+    {
+        if (!_positions.empty()) return;
+        _positions.resize(_vertexCount);
+        forEachRow(*positionArray(_geometry), {_vertexCount},
+                   [&](std::size_t i, const Vec4d& row) { _positions[i] = Vec3d(row) / row.w; });
     }
 
     /// Exact for a single set; doubles, as a vector does by itself, for many small ones.
@@ -189,11 +237,16 @@ private:
     }
 
     TriangleList& _list;
+    const osg::Geometry& _geometry;
     std::size_t _vertexCount;
+    const PrimitiveRestart& _restart;
+    std::vector<Vec3d> _positions; // if there are polygons
 };
 
-const osg::DrawElementsUInt* soleTriangleList(const osg::Geometry& geometry)
+const osg::DrawElementsUInt* soleTriangleList(const osg::Geometry& geometry,
+                                              const PrimitiveRestart& restart)
 {
+    if (restart.on) return nullptr;
     if (geometry.getNumPrimitiveSets() != 1) return nullptr;
     const auto* elements = dynamic_cast<const osg::DrawElementsUInt*>(geometry.getPrimitiveSet(0));
     if (!elements || elements->getMode() != GL_TRIANGLES || elements->size() < 3) return nullptr;
@@ -201,6 +254,32 @@ const osg::DrawElementsUInt* soleTriangleList(const osg::Geometry& geometry)
 }
 
 } // namespace
+
+PrimitiveRestart restartOf(const GraphState& state)
+{
+    PrimitiveRestart restart;
+    restart.atLargest = state.isOn(kFixedRestartBit);
+    restart.on = restart.atLargest || state.isOn(kPrimitiveRestartBit);
+    const auto* index = state.attribute<osg::PrimitiveRestartIndex>(kPrimitiveRestartSlot);
+    if (restart.on && index) restart.index = index->getRestartIndex();
+    return restart;
+}
+
+bool hasTriangles(const osg::PrimitiveSet& set)
+{
+    switch (set.getType())
+    {
+    case osg::PrimitiveSet::DrawArraysPrimitiveType:
+    case osg::PrimitiveSet::DrawArrayLengthsPrimitiveType:
+    case osg::PrimitiveSet::MultiDrawArraysPrimitiveType:
+    case osg::PrimitiveSet::DrawElementsUBytePrimitiveType:
+    case osg::PrimitiveSet::DrawElementsUShortPrimitiveType:
+    case osg::PrimitiveSet::DrawElementsUIntPrimitiveType:
+        return untracedMode(set.getMode()) == nullptr;
+    default:
+        return false; // commands that are on the GPU
+    }
+}
 
 const UVec3* TriangleList::data() const
 {
@@ -212,16 +291,17 @@ std::size_t TriangleList::size() const
     return source ? source->size() / 3 : triangles.size();
 }
 
-TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount)
+TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount,
+                         const PrimitiveRestart& restart)
 {
     TriangleList list;
-    list.source = soleTriangleList(geometry);
+    list.source = soleTriangleList(geometry, restart);
     if (list.source)
     {
         list.setEnds = {list.size()};
         return list;
     }
-    TriangleCollector collector(list, vertexCount);
+    TriangleCollector collector(list, geometry, vertexCount, restart);
     for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i)
     {
         if (const osg::PrimitiveSet* set = geometry.getPrimitiveSet(i)) collector.append(*set);

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/Math.h"
 #include "osgRayTrace/bridge/ConversionReport.h"
+#include "osgRayTrace/bridge/StateStack.h"
 
 #include <osg/Geometry>
 
@@ -12,6 +13,20 @@
 
 namespace osgRayTrace::engine
 {
+
+/// An index that ends a strip, fan or polygon and begins the next one.
+struct PrimitiveRestart
+{
+    bool on = false;
+    bool atLargest = false; ///< the largest index of the type; else index
+    uint32_t index = 0;
+
+    /// One number for all of it.
+    uint64_t key() const { return uint64_t(on) << 33 | uint64_t(atLargest) << 32 | index; }
+    bool operator==(const PrimitiveRestart& other) const { return key() == other.key(); }
+};
+
+PrimitiveRestart restartOf(const GraphState& state);
 
 /// All triangles in the order that OpenGL draws them. Indices into the vertex arrays, not checked.
 struct TriangleList
@@ -27,8 +42,13 @@ struct TriangleList
     std::size_t size() const;
 };
 
-/// Triangles, strips, fans, quads, quad strips and polygons (as fans, as OpenGL does it) of
-/// DrawArrays, MultiDrawArrays, DrawArrayLengths and DrawElements. Sets of other kinds are counted.
-TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount);
+/// Triangles, strips, fans, quads, quad strips and polygons of DrawArrays, MultiDrawArrays,
+/// DrawArrayLengths and DrawElements. Sets of other kinds are counted. Concave polygons are cut into
+/// triangles; OpenGL leaves open what it does with them, and draws fans.
+TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount,
+                         const PrimitiveRestart& restart);
+
+/// Whether it has triangles: they are traced.
+bool hasTriangles(const osg::PrimitiveSet& set);
 
 } // namespace osgRayTrace::engine

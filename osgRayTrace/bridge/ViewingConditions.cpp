@@ -92,6 +92,14 @@ bool sameLight(const osg::Light* a, const osg::Light* b, const osg::Vec3d& eye)
     return a->compare(*moved) == 0;
 }
 
+std::optional<ReferenceView> referenceView(osgUtil::CullVisitor& visitor)
+{
+    const osg::Viewport* viewport = visitor.getViewport();
+    if (!viewport || !visitor.getProjectionMatrix()) return std::nullopt;
+    return ReferenceView{*visitor.getModelViewMatrix(), *visitor.getProjectionMatrix(),
+                         viewport->width(), viewport->height(), visitor.getLODScale()};
+}
+
 } // namespace
 
 ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor)
@@ -101,6 +109,7 @@ ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor)
     const osg::Matrixd sceneFromEye = osg::Matrixd::inverse(eyeFromScene);
     conditions.eye = sceneFromEye.getTrans();
     conditions.traversalMask = visitor.getTraversalMask();
+    conditions.view = referenceView(visitor);
     conditions.inheritedState = inheritedState(visitor.getCurrentStateGraph());
 
     osgUtil::RenderStage* stage = visitor.getCurrentRenderStage();

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/ReferenceView.h"
+
 #include <osg/Light>
 #include <osg/StateSet>
 #include <osg/Vec3d>
@@ -21,6 +23,7 @@ namespace osgRayTrace::engine
 struct ViewingConditions
 {
     osg::Vec3d eye;
+    std::optional<ReferenceView> view; ///< none if there is no viewport
     unsigned int traversalMask = 0xffffffffu;
 
     /// The first light that the pass had when it came to the scene; that is osgViewer's own, which
@@ -37,8 +40,8 @@ struct ViewingConditions
 /// Those of the visitor's pass, where it stands. Cull thread.
 ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor);
 
-/// True if a scene converted for a need not be converted again for b. The eye and the inherited
-/// state are not compared; a light that only moved by rounding is the same.
+/// True if a scene converted for a need not be converted again for b. The eye, the view and
+/// the inherited state are not compared; a light that only moved by rounding is the same.
 bool convertAlike(const ViewingConditions& a, const ViewingConditions& b);
 
 } // namespace osgRayTrace::engine

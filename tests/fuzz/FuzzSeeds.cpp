@@ -65,12 +65,19 @@ double Dice::strange(double size, int rarity)
     return oneOf(kStrange);
 }
 
-int seedCount(int usual)
+int sanitizerShare()
 {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    usual = (usual + 7) / 8;
+    return 8;
+#else
+    return 1;
 #endif
-    return numberFrom("OSGRAYTRACE_FUZZ_SEEDS", usual);
+}
+
+int seedCount(int usual)
+{
+    const int share = sanitizerShare();
+    return numberFrom("OSGRAYTRACE_FUZZ_SEEDS", (usual + share - 1) / share);
 }
 
 void forEachSeed(int usual, const std::function<void(uint32_t seed)>& test)

@@ -36,7 +36,10 @@ private:
     std::mt19937 _engine;
 };
 
-/// Number of seeds: that of OSGRAYTRACE_FUZZ_SEEDS, else `usual`; under a sanitizer an eighth of
+/// A sanitizer's share of the seeds: 1 without one.
+int sanitizerShare();
+
+/// Number of seeds: that of OSGRAYTRACE_FUZZ_SEEDS, else `usual`; under a sanitizer its share of
 /// it, which takes about as long.
 int seedCount(int usual);
 

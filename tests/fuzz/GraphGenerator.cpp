@@ -7,15 +7,24 @@
 
 #include <osgRayTrace/AreaLight>
 
+#include <osg/AutoTransform>
 #include <osg/Billboard>
 #include <osg/Camera>
+#include <osg/ClipNode>
 #include <osg/Geode>
 #include <osg/LOD>
 #include <osg/LightSource>
 #include <osg/MatrixTransform>
+#include <osg/ProxyNode>
 #include <osg/Sequence>
 #include <osg/ShapeDrawable>
 #include <osg/Switch>
+#include <osgAnimation/Bone>
+#include <osgAnimation/MorphGeometry>
+#include <osgAnimation/MorphTransformHardware>
+#include <osgAnimation/RigGeometry>
+#include <osgAnimation/RigTransformHardware>
+#include <osgAnimation/Skeleton>
 
 namespace osgRayTrace::test
 {
@@ -92,8 +101,12 @@ private:
 
     osg::ref_ptr<osg::Node> leaf()
     {
-        switch (_dice.below(8))
+        switch (_dice.below(10))
         {
+        case 8:
+            return rig();
+        case 9:
+            return morph();
         case 0:
             return areaLight();
         case 1:
@@ -110,6 +123,87 @@ private:
         osg::ref_ptr<osg::Geometry> made = randomGeometry(_dice);
         if (_graph.bounded) made->setComputeBoundingBoxCallback(new BoundOfVertices);
         _graph.geometries.push_back(made);
+        return made;
+    }
+
+    /// What osgAnimation would read and write through, right or not.
+    osg::ref_ptr<osg::Node> rig()
+    {
+        osg::ref_ptr<osgAnimation::RigGeometry> made = new osgAnimation::RigGeometry;
+        const osg::ref_ptr<osg::Geometry> source = randomGeometry(_dice);
+        made->setSourceGeometry(_dice.oneIn(8) ? nullptr : source.get());
+        if (_dice.oneIn(2)) made->setRigTransformImplementation(new osgAnimation::RigTransformHardware);
+        if (_graph.bounded || _dice.oneIn(2)) made->setComputeBoundingBoxCallback(new BoundOfVertices);
+        osg::ref_ptr<osgAnimation::VertexInfluenceMap> influences = new osgAnimation::VertexInfluenceMap;
+        const osg::Array* vertices = source->getVertexArray();
+        const auto count = vertices ? static_cast<int>(vertices->getNumElements()) : 0;
+        const char* names[] = {"bone 0", "bone 1", "", "no such bone"};
+        for (int i = _dice.below(2 * count + 4); i > 0; --i)
+        {
+            const unsigned int vertex = _dice.oneIn(100) || count == 0 ? _dice.bits() : unsigned(_dice.below(count));
+            (*influences)[_dice.oneOf(names)].push_back(
+                osgAnimation::VertexIndexWeight(vertex, strangeFloat(_dice, 1.0, 30)));
+        }
+        if (!_dice.oneIn(8)) made->setInfluenceMap(influences);
+        return below(made);
+    }
+
+    /// A skeleton around it, as a rule.
+    osg::ref_ptr<osg::Node> below(osg::Node* rig)
+    {
+        osg::ref_ptr<osg::Group> holder = new osg::MatrixTransform(randomMatrix(_dice));
+        holder->addChild(rig);
+        if (_dice.oneIn(5)) return holder;
+        osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
+        for (const char* name : {"bone 0", "bone 1"})
+        {
+            osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone(name);
+            bone->setInvBindMatrixInSkeletonSpace(randomMatrix(_dice));
+            bone->setMatrixInSkeletonSpace(randomMatrix(_dice));
+            skeleton->addChild(bone);
+        }
+        skeleton->addChild(holder);
+        return skeleton;
+    }
+
+    osg::ref_ptr<osg::Node> morph()
+    {
+        osg::ref_ptr<osgAnimation::MorphGeometry> made = new osgAnimation::MorphGeometry(*randomGeometry(_dice));
+        if (_graph.bounded || _dice.oneIn(2)) made->setComputeBoundingBoxCallback(new BoundOfVertices);
+        for (int i = _dice.below(3); i > 0; --i)
+            made->addMorphTarget(_dice.oneIn(9) ? nullptr
+                                                : (_dice.oneIn(2) ? osg::ref_ptr<osg::Geometry>(
+                                                                        new osg::Geometry(*made))
+                                                                  : randomGeometry(_dice))
+                                                      .get(),
+                                 strangeFloat(_dice, 1.0, 9));
+        if (!_dice.oneIn(4)) made->setMorphTransformImplementation(new osgAnimation::MorphTransformHardware);
+        if (_dice.oneIn(4)) made->setMethod(osgAnimation::MorphGeometry::RELATIVE);
+        if (_dice.oneIn(4)) made->setVertexSource(new osg::Vec3Array(_dice.below(9)));
+        if (_dice.oneIn(4)) made->setNormalSource(new osg::Vec3Array(_dice.below(9)));
+        made->setMorphNormals(_dice.oneIn(2));
+        return made;
+    }
+
+    osg::ref_ptr<osg::Group> clipNode()
+    {
+        osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+        const int rarity = _dice.oneIn(3) ? 3 : 1 << 30;
+        for (int i = _dice.below(4); i > 0; --i)
+            clip->addClipPlane(new osg::ClipPlane(
+                static_cast<unsigned int>(_dice.below(9)), _dice.strange(1.0, rarity),
+                _dice.strange(1.0, rarity), _dice.strange(1.0, rarity), _dice.strange(0.5, rarity)));
+        if (_dice.oneIn(4)) clip->setReferenceFrame(osg::ClipNode::ABSOLUTE_RF);
+        return clip;
+    }
+
+    osg::ref_ptr<osg::Group> turning()
+    {
+        osg::ref_ptr<osg::AutoTransform> made = new osg::AutoTransform;
+        made->setAutoRotateMode(static_cast<osg::AutoTransform::AutoRotateMode>(_dice.below(4)));
+        made->setAutoScaleToScreen(_dice.oneIn(2));
+        made->setPosition(osg::Vec3d(_dice.strange(1.0, 9), _dice.strange(1.0, 9), _dice.strange(1.0, 9)));
+        if (_dice.oneIn(3)) made->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
         return made;
     }
 
@@ -159,8 +253,18 @@ private:
 
     osg::ref_ptr<osg::Group> emptyGroup()
     {
-        switch (_dice.below(10))
+        switch (_dice.below(13))
         {
+        case 10:
+            return clipNode();
+        case 11:
+            return turning();
+        case 12:
+        {
+            osg::ref_ptr<osg::ProxyNode> proxy = new osg::ProxyNode;
+            if (_dice.oneIn(2)) proxy->setFileName(0, "none");
+            return proxy;
+        }
         case 0:
             return new osg::Switch;
         case 1:

@@ -63,11 +63,36 @@ uint64_t countIn(const ConversionCounts& counts, const std::string& what)
     return found == counts.end() ? 0 : found->second;
 }
 
+/// Cut by planes it is no larger; with restarts it has no more triangles.
+void requireSoundVariants(const osg::Geometry& geometry, const ConvertedMesh& whole)
+{
+    MeshRequest cut;
+    cut.clipPlanes = {Vec4d(1.0, 0.3, -0.2, 0.1), Vec4d(-0.4, 1.0, 0.6, 0.5)};
+    const ConvertedMesh clipped = convertGeometry(geometry, cut);
+    if (!whole.mesh) REQUIRE(!clipped.mesh);
+    if (whole.mesh && !clipped.mesh) REQUIRE(countIn(clipped.counts, "not-traced.clipped-away") == 1);
+    if (clipped.mesh)
+    {
+        REQUIRE(faultOf(*clipped.mesh) == "");
+        for (const UVec3& t : clipped.mesh->triangles)
+            REQUIRE((t.x != t.y && t.y != t.z && t.z != t.x));
+    }
+
+    MeshRequest restarted;
+    restarted.restart.on = true;
+    restarted.restart.index = 2;
+    const ConvertedMesh runs = convertGeometry(geometry, restarted);
+    if (!runs.mesh) return;
+    REQUIRE(faultOf(*runs.mesh) == "");
+    REQUIRE(runs.mesh->triangles.size() <= trianglesOfSets(geometry));
+}
+
 /// A geometry that is not refused as a whole: each triangle of its sets is in the mesh or counted.
 void requireAllTrianglesCounted(const osg::Geometry& geometry)
 {
     const ConvertedMesh converted = convertGeometry(geometry, MeshRequest());
     const ConversionCounts& counts = converted.counts;
+    requireSoundVariants(geometry, converted);
     for (const char* whole :
          {"skipped.deprecated-data", "not-traced.no-vertices", "skipped.vertex-type"})
         if (countIn(counts, whole)) return;
@@ -106,6 +131,19 @@ View viewOfOrigin()
     view.width = view.height = kSize;
     view.clipFromView = glm::perspective(0.8, 1.0, 0.1, 100.0);
     view.viewFromWorld = glm::lookAt(Vec3d(2.0, 1.5, 5.0), Vec3d(0.0), Vec3d(0.0, 1.0, 0.0));
+    return view;
+}
+
+/// Mostly one that looks at the origin.
+ReferenceView randomView(Dice& dice, const osg::Vec3d& eye)
+{
+    ReferenceView view;
+    view.viewFromWorld = osg::Matrixd::lookAt(eye, osg::Vec3d(), osg::Vec3d(0.0, 1.0, 0.0));
+    view.projection = osg::Matrixd::perspective(40.0, 1.0, 0.1, 100.0);
+    view.width = view.height = dice.oneIn(9) ? 0.0 : kSize;
+    view.lodScale = dice.oneIn(9) ? 0.0f : 1.0f;
+    if (dice.oneIn(9)) view.viewFromWorld(dice.below(4), dice.below(4)) = dice.strange(1.0, 2);
+    if (dice.oneIn(9)) view.projection(dice.below(4), dice.below(4)) = dice.strange(1.0, 2);
     return view;
 }
 
@@ -162,6 +200,38 @@ TEST_CASE("fuzz: any geometry is converted, each triangle kept or counted", "[fu
     CHECK(kept > static_cast<uint64_t>(seedCount(kGeometries)) / 4);
 }
 
+// Without rendering, so that the sanitizers see as many.
+TEST_CASE("fuzz: ten thousand scene graphs are converted for changing views", "[fuzz]")
+{
+    osg::setNotifyLevel(osg::FATAL);
+    uint64_t traced = 0, cut = 0, posed = 0;
+    forEachSeed(10000 * sanitizerShare(),
+                [&](uint32_t seed)
+                {
+                    Dice dice(seed + 1000000);
+                    const RandomGraph graph = randomGraph(dice);
+                    SceneConverter converter;
+                    for (int i = 0; i < 2; ++i)
+                    {
+                        ConversionInput input;
+                        input.root = graph.root.get();
+                        input.eye = osg::Vec3d(2.0 - 5.0 * i, 1.5, 5.0);
+                        if (dice.oneIn(3)) input.origin = input.eye;
+                        input.rasterizesRest = graph.bounded && dice.oneIn(2);
+                        if (dice.oneIn(2)) input.view = randomView(dice, input.eye);
+                        const ConversionResult result = converter.convert(input);
+                        requireSound(result);
+                        traced += !result.scene->instances.empty();
+                        cut += countIn(result.counts, "not-traced.clipped-away");
+                        posed += countIn(result.counts, "approximated.hardware-pose");
+                    }
+                });
+    const auto count = static_cast<uint64_t>(seedCount(10000 * sanitizerShare()));
+    CHECK(traced > count / 2);
+    CHECK(cut > count / 50);   // clip planes are met
+    CHECK(posed > count / 100); // and poses that must be refused
+}
+
 TEST_CASE("fuzz: any scene graph is converted, built and rendered, and stays finite", "[fuzz]")
 {
     osg::setNotifyLevel(osg::FATAL);
@@ -176,6 +246,8 @@ TEST_CASE("fuzz: any scene graph is converted, built and rendered, and stays fin
                     input.root = graph.root.get();
                     input.eye = osg::Vec3d(2.0, 1.5, 5.0);
                     if (dice.oneIn(3)) input.origin = input.eye;
+                    input.rasterizesRest = graph.bounded && dice.oneIn(3);
+                    if (dice.oneIn(2)) input.view = randomView(dice, input.eye);
                     SceneConverter converter;
                     const ConversionResult result = converter.convert(input);
                     requireSound(result);

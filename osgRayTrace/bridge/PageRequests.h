@@ -1,0 +1,20 @@
+// PageRequests.h - asks for the files that a view would load. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Group>
+
+namespace osgUtil
+{
+class CullVisitor;
+}
+
+namespace osgRayTrace::engine
+{
+
+/// Requests the pages (PagedLOD, ProxyNode) below the node that the visitor is at, and marks those
+/// in use, as its own traversal of what is in the frustum would. Where the scene is traced nothing
+/// else does. Cull threads.
+void requestPages(osg::Group& scene, osgUtil::CullVisitor& visitor);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,462 @@
+// GeometryPairsTest.cpp - primitives, arrays, shapes and poses, traced and rasterized. Layer:
+// tests. SPDX-License-Identifier: MIT
+#include "PicturePair.h"
+#include "tests/Catch.h"
+
+#include <osg/ImageStream>
+#include <osg/MatrixTransform>
+#include <osg/PrimitiveRestartIndex>
+#include <osg/Texture2D>
+#include <osgAnimation/Bone>
+#include <osgAnimation/MorphGeometry>
+#include <osgAnimation/MorphTransformHardware>
+#include <osgAnimation/RigGeometry>
+#include <osgAnimation/RigTransformHardware>
+#include <osgAnimation/RigTransformSoftware>
+#include <osgAnimation/Skeleton>
+#include <osgAnimation/StackedMatrixElement>
+#include <osgAnimation/UpdateBone>
+#include <osgUtil/Tessellator>
+
+#include <cmath>
+#include <iostream>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::test;
+
+namespace
+{
+
+void lookDown(TestViewer& view)
+{
+    normalize(view);
+    view.look(osg::Vec3d(1.0, -2.0, 8.0), osg::Vec3d());
+}
+
+PicturePair checkSame(const std::string& name, const SceneMaker& makeScene, int frames = 3)
+{
+    const PicturePair pair = picturePair(name, makeScene, lookDown, frames);
+    std::cout << name << ": mean difference " << pair.difference << "/255, worst tile "
+              << pair.worst << ", " << pair.covered << " pixels covered" << std::endl;
+    CHECK(pair.covered > 1000);
+    CHECK(pair.difference < 2.0);
+    CHECK(pair.worst < 24.0);
+    return pair;
+}
+
+osg::ref_ptr<osg::MatrixTransform> at(const osg::Matrix& matrix, osg::Node* node)
+{
+    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrix);
+    transform->addChild(node);
+    return transform;
+}
+
+osg::ref_ptr<osg::MatrixTransform> at(double x, double y, osg::Node* node)
+{
+    return at(osg::Matrix::translate(x, y, 0.0), node);
+}
+
+/// Alternating points of a band along an arc, each of its own colour.
+template <class Positions> osg::ref_ptr<osg::Geometry> band(int count, double scale = 1.0)
+{
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    osg::ref_ptr<Positions> positions = new Positions;
+    osg::ref_ptr<osg::Vec4ubArray> colors = new osg::Vec4ubArray;
+    for (int i = 0; i < count; ++i)
+    {
+        const double angle = 0.25 * (i / 2), radius = scale * (i % 2 ? 0.6 : 0.3);
+        typename Positions::ElementDataType p;
+        using Number = std::decay_t<decltype(p[0])>;
+        p[0] = static_cast<Number>(radius * std::cos(angle));
+        p[1] = static_cast<Number>(radius * std::sin(angle));
+        if (Positions::ElementDataType::num_components > 2)
+            p[2] = static_cast<Number>(0.1 * scale * (i % 3));
+        positions->push_back(p);
+        colors->push_back(osg::Vec4ub(static_cast<unsigned char>(255 - 20 * i),
+                                      static_cast<unsigned char>(20 * i), 100, 255));
+    }
+    geometry->setVertexArray(positions);
+    geometry->setColorArray(colors, osg::Array::BIND_PER_VERTEX);
+    geometry->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    return geometry;
+}
+
+osg::ref_ptr<osg::Geometry> bandOf(GLenum mode)
+{
+    const auto geometry = band<osg::Vec3Array>(12);
+    geometry->addPrimitiveSet(new osg::DrawArrays(mode, 0, 12));
+    return geometry;
+}
+
+template <class Positions> osg::ref_ptr<osg::Node> bandOfType(double scale)
+{
+    const auto geometry = band<Positions>(12, scale);
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, 12));
+    return at(osg::Matrix::scale(1.0 / scale, 1.0 / scale, 1.0 / scale), geometry.get());
+}
+
+/// A tube of rings along z, of two bones.
+osg::ref_ptr<osg::Geometry> tube()
+{
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array, normals = new osg::Vec3Array;
+    osg::ref_ptr<osg::DrawElementsUInt> triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
+    constexpr unsigned int kRings = 13, kSides = 16;
+    for (unsigned int r = 0; r < kRings; ++r)
+        for (unsigned int s = 0; s < kSides; ++s)
+        {
+            const float angle = 2.0f * float(osg::PI) * s / kSides;
+            normals->push_back(osg::Vec3(std::cos(angle), std::sin(angle), 0.0f));
+            positions->push_back(normals->back() * 0.3f + osg::Vec3(0.0f, 0.0f, 0.2f * r));
+            if (r == 0) continue;
+            const unsigned int a = r * kSides + s, b = r * kSides + (s + 1) % kSides;
+            for (const unsigned int i : {a - kSides, b - kSides, a, a, b - kSides, b})
+                triangles->push_back(i);
+        }
+    geometry->setVertexArray(positions);
+    geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
+    const osg::Vec4 color(0.9f, 0.5f, 0.2f, 1.0f);
+    geometry->setColorArray(new osg::Vec4Array(1, &color), osg::Array::BIND_OVERALL);
+    geometry->addPrimitiveSet(triangles);
+    return geometry;
+}
+
+osg::ref_ptr<osgAnimation::Bone> bone(const std::string& name, const osg::Matrix& inSkeleton,
+                                      const osg::Matrix& local)
+{
+    osg::ref_ptr<osgAnimation::Bone> made = new osgAnimation::Bone(name);
+    made->setInvBindMatrixInSkeletonSpace(osg::Matrix::inverse(inSkeleton));
+    osg::ref_ptr<osgAnimation::UpdateBone> update = new osgAnimation::UpdateBone(name);
+    update->getStackedTransforms().push_back(new osgAnimation::StackedMatrixElement("m", local));
+    made->setUpdateCallback(update);
+    return made;
+}
+
+osg::ref_ptr<osg::Node> bentTube(osgAnimation::RigTransform* transform)
+{
+    osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
+    skeleton->setDefaultUpdateCallback();
+    const osg::Matrix middle = osg::Matrix::translate(0.0, 0.0, 1.2);
+    const auto lower = bone("lower", osg::Matrix(), osg::Matrix());
+    const auto upper =
+        bone("upper", middle, osg::Matrix::rotate(1.1, osg::Vec3d(0.0, 1.0, 0.0)) * middle);
+    lower->addChild(upper);
+    skeleton->addChild(lower);
+
+    osg::ref_ptr<osgAnimation::RigGeometry> rig = new osgAnimation::RigGeometry;
+    rig->setSourceGeometry(tube());
+    osg::ref_ptr<osgAnimation::VertexInfluenceMap> influences =
+        new osgAnimation::VertexInfluenceMap;
+    const auto* positions =
+        static_cast<osg::Vec3Array*>(rig->getSourceGeometry()->getVertexArray());
+    for (unsigned int i = 0; i < positions->size(); ++i)
+    {
+        const float share = osg::clampBetween(((*positions)[i].z() - 0.8f) / 0.8f, 0.0f, 1.0f);
+        if (share < 1.0f)
+            (*influences)["lower"].push_back(osgAnimation::VertexIndexWeight(i, 1.0f - share));
+        if (share > 0.0f)
+            (*influences)["upper"].push_back(osgAnimation::VertexIndexWeight(i, share));
+    }
+    rig->setInfluenceMap(influences);
+    rig->setRigTransformImplementation(transform);
+    rig->setUpdateCallback(new osgAnimation::UpdateRigGeometry);
+    skeleton->addChild(
+        at(osg::Matrix::rotate(0.3, osg::Vec3d(0, 0, 1)) * osg::Matrix::translate(0.0, 0.0, 0.1),
+           rig.get()));
+    return at(osg::Matrix::rotate(-1.2, osg::Vec3d(1.0, 0.2, 0.0)) *
+                  osg::Matrix::translate(0.0, -1.0, 0.0),
+              skeleton.get());
+}
+
+osg::ref_ptr<osg::Node> fattened(osgAnimation::MorphTransform* transform)
+{
+    osg::ref_ptr<osgAnimation::MorphGeometry> morph = new osgAnimation::MorphGeometry(*tube());
+    for (const float size : {1.8f, 0.4f})
+    {
+        const auto target = tube();
+        for (osg::Vec3& p : *static_cast<osg::Vec3Array*>(target->getVertexArray()))
+        {
+            const float growth = 1.0f + (size - 1.0f) * std::fabs(std::sin(2.0f * p.z() * size));
+            p = osg::Vec3(p.x() * growth, p.y() * growth, p.z());
+        }
+        morph->addMorphTarget(target, size > 1.0f ? 0.7f : 0.2f);
+    }
+    morph->setMorphTransformImplementation(transform);
+    morph->setVertexSource(
+        new osg::Vec3Array(*static_cast<osg::Vec3Array*>(morph->getVertexArray())));
+    morph->setNormalSource(
+        new osg::Vec3Array(*static_cast<osg::Vec3Array*>(morph->getNormalArray())));
+    morph->dirty();
+    return at(osg::Matrix::rotate(-1.2, osg::Vec3d(1.0, 0.2, 0.0)) *
+                  osg::Matrix::translate(0.0, -1.0, 0.0),
+              morph.get());
+}
+
+/// Shades as the shader that OSG would load from its data does not: nothing but to be there, with
+/// no vertex shader file.
+osg::ref_ptr<osg::Shader> noShader()
+{
+    return new osg::Shader(
+        osg::Shader::VERTEX,
+        "void main() { gl_Position = ftransform(); gl_FrontColor = vec4(1.0); }");
+}
+
+/// A video of one new picture a frame.
+class Video : public osg::ImageStream
+{
+public:
+    Video() { show(0); }
+    bool requiresUpdateCall() const override { return true; }
+    void update(osg::NodeVisitor* visitor) override
+    {
+        show(visitor->getFrameStamp() ? visitor->getFrameStamp()->getFrameNumber() : 0);
+    }
+
+private:
+    void show(unsigned int frame)
+    {
+        if (!data()) allocateImage(16, 16, 1, GL_RGB, GL_UNSIGNED_BYTE);
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 16; ++x)
+            {
+                const bool lit = (x / 4 + y / 4 + int(frame)) % 2 == 0;
+                data(x, y)[0] = lit ? 230 : 30;
+                data(x, y)[1] = static_cast<unsigned char>(60 * (frame % 5));
+                data(x, y)[2] = lit ? 20 : 160;
+            }
+        dirty();
+    }
+};
+
+} // namespace
+
+TEST_CASE("pairs: primitives of all modes", "[gl]")
+{
+    checkSame("modes",
+              []
+              {
+                  osg::ref_ptr<osg::Group> root = new osg::Group;
+                  const GLenum modes[] = {GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN,
+                                          GL_QUADS, GL_QUAD_STRIP};
+                  for (int i = 0; i < 5; ++i)
+                      root->addChild(
+                          at(1.4 * (i % 3) - 2.1, 1.4 * (i / 3) - 1.2, bandOf(modes[i]).get()));
+                  return root;
+              });
+}
+
+TEST_CASE("pairs: strips that restart, at any index and at the largest", "[gl]")
+{
+    const PicturePair pair = checkSame(
+        "restart",
+        []
+        {
+            osg::ref_ptr<osg::Group> root = new osg::Group;
+            const unsigned short indices[] = {0, 1, 2, 3, 4, 99, 6, 7, 8, 9, 99, 10, 11};
+            const auto strips = band<osg::Vec3Array>(12);
+            osg::ref_ptr<osg::DrawElementsUShort> set =
+                new osg::DrawElementsUShort(GL_TRIANGLE_STRIP, 13, indices);
+            strips->addPrimitiveSet(set);
+            struct NoBox : osg::Drawable::ComputeBoundingBoxCallback
+            {
+                osg::BoundingBox computeBound(const osg::Drawable&) const override
+                {
+                    return {-1, -1, -1, 1, 1, 1};
+                }
+            };
+            strips->setComputeBoundingBoxCallback(new NoBox); // OSG's own would read vertex 99
+            strips->setUseDisplayList(false);
+            strips->setUseVertexBufferObjects(true);
+            osg::StateSet* state = strips->getOrCreateStateSet();
+            state->setMode(GL_PRIMITIVE_RESTART, osg::StateAttribute::ON);
+            state->setAttribute(new osg::PrimitiveRestartIndex(99));
+            root->addChild(at(osg::Matrix::scale(3, 3, 3), strips.get()));
+            return root;
+        });
+    CHECK(pair.count("skipped.index-out-of-range") == 0);
+}
+
+TEST_CASE("pairs: a concave polygon looks as OSG's tessellator makes it", "[gl]")
+{
+    bool tessellated = true; // the rasterized one comes first
+    checkSame(
+        "concave",
+        [&]
+        {
+            // An arrow, a comb and an outline that leads to a hole and back; the fan of each is
+            // wrong.
+            const std::vector<std::vector<osg::Vec2>> outlines = {
+                {{0.5f, 0.0f}, {1.0f, 1.0f}, {0.5f, 0.6f}, {0.0f, 1.0f}},
+                {{0, 0},
+                 {1, 0},
+                 {1, 1},
+                 {0.8f, 1},
+                 {0.8f, 0.3f},
+                 {0.6f, 0.3f},
+                 {0.6f, 1},
+                 {0.4f, 1},
+                 {0.4f, 0.3f},
+                 {0.2f, 0.3f},
+                 {0.2f, 1},
+                 {0, 1}},
+                {{0, 0},
+                 {1, 0},
+                 {1, 1},
+                 {0, 1},
+                 {0, 0},
+                 {0.3f, 0.3f},
+                 {0.3f, 0.7f},
+                 {0.7f, 0.7f},
+                 {0.7f, 0.3f},
+                 {0.3f, 0.3f}}};
+            osg::ref_ptr<osg::Group> root = new osg::Group;
+            for (std::size_t i = 0; i < outlines.size(); ++i)
+            {
+                osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+                osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+                for (const osg::Vec2& p : outlines[i])
+                    vertices->push_back(osg::Vec3(p, 0.2f * p.x()));
+                geometry->setVertexArray(vertices);
+                const osg::Vec4 color(0.9f, 0.6f, 0.2f, 1.0f);
+                geometry->setColorArray(new osg::Vec4Array(1, &color), osg::Array::BIND_OVERALL);
+                const osg::Vec3 normal(0.0f, 0.0f, 1.0f);
+                geometry->setNormalArray(new osg::Vec3Array(1, &normal), osg::Array::BIND_OVERALL);
+                geometry->addPrimitiveSet(
+                    new osg::DrawArrays(GL_POLYGON, 0, static_cast<int>(outlines[i].size())));
+                if (tessellated)
+                {
+                    osg::ref_ptr<osgUtil::Tessellator> tessellator = new osgUtil::Tessellator;
+                    tessellator->setTessellationType(osgUtil::Tessellator::TESS_TYPE_GEOMETRY);
+                    tessellator->setWindingType(osgUtil::Tessellator::TESS_WINDING_ODD);
+                    tessellator->retessellatePolygons(*geometry);
+                }
+                root->addChild(at(osg::Matrix::scale(1.6, 1.6, 1.0) *
+                                      osg::Matrix::translate(1.8 * double(i) - 2.7, -0.8, 0.0),
+                                  geometry.get()));
+            }
+            tessellated = false;
+            return root;
+        });
+}
+
+TEST_CASE("pairs: positions of all types", "[gl]")
+{
+    checkSame("types",
+              []
+              {
+                  osg::ref_ptr<osg::Group> root = new osg::Group;
+                  const osg::ref_ptr<osg::Node> bands[] = {
+                      bandOfType<osg::Vec2Array>(1.0),     bandOfType<osg::Vec3Array>(1.0),
+                      bandOfType<osg::Vec3dArray>(1.0),    bandOfType<osg::Vec2dArray>(1.0),
+                      bandOfType<osg::Vec3sArray>(3000.0), bandOfType<osg::Vec3iArray>(3000.0),
+                      bandOfType<osg::Vec2sArray>(3000.0), bandOfType<osg::Vec2iArray>(3000.0)};
+                  for (int i = 0; i < 8; ++i)
+                      root->addChild(at(1.4 * (i % 4) - 2.1, 1.4 * (i / 4) - 1.2, bands[i].get()));
+                  return root;
+              });
+}
+
+TEST_CASE("pairs: shapes, composite ones too", "[gl]")
+{
+    checkSame("shapes",
+              []
+              {
+                  osg::ref_ptr<osg::Group> root = new osg::Group;
+                  osg::ref_ptr<osg::HeightField> field = new osg::HeightField;
+                  field->allocate(5, 5);
+                  field->setOrigin(osg::Vec3(-0.5f, -0.5f, 0.0f));
+                  field->setXInterval(0.25f);
+                  field->setYInterval(0.25f);
+                  for (unsigned int i = 0; i < 25; ++i)
+                      field->setHeight(i % 5, i / 5, 0.05f * float(i * 7 % 5));
+                  osg::ref_ptr<osg::CompositeShape> composite = new osg::CompositeShape;
+                  composite->addChild(new osg::Box(osg::Vec3(-0.2f, 0, 0), 0.4f));
+                  composite->addChild(new osg::Sphere(osg::Vec3(0.2f, 0, 0.2f), 0.3f));
+                  osg::Shape* shapes[] = {new osg::Sphere(osg::Vec3(), 0.5f),
+                                          new osg::Box(osg::Vec3(), 0.7f, 0.4f, 0.9f),
+                                          new osg::Cone(osg::Vec3(), 0.4f, 0.9f),
+                                          new osg::Cylinder(osg::Vec3(), 0.3f, 0.8f),
+                                          new osg::Capsule(osg::Vec3(), 0.25f, 0.6f),
+                                          field.get(),
+                                          composite.get()};
+                  for (int i = 0; i < 7; ++i)
+                  {
+                      osg::ref_ptr<osg::TessellationHints> hints = new osg::TessellationHints;
+                      hints->setDetailRatio(2.0f);
+                      osg::ref_ptr<osg::ShapeDrawable> drawable =
+                          new osg::ShapeDrawable(shapes[i], hints);
+                      drawable->setColor(osg::Vec4(0.3f + 0.1f * i, 0.9f - 0.1f * i, 0.5f, 1.0f));
+                      root->addChild(at(1.4 * (i % 4) - 2.1, 1.4 * (i / 4) - 1.0, drawable.get()));
+                  }
+                  return root;
+              });
+}
+
+TEST_CASE("pairs: one geometry in many places, mirrored and uneven", "[gl]")
+{
+    checkSame("shared",
+              []
+              {
+                  osg::ref_ptr<osg::Group> root = new osg::Group;
+                  osg::ref_ptr<osg::ShapeDrawable> cone =
+                      new osg::ShapeDrawable(new osg::Cone(osg::Vec3(), 0.4f, 1.0f));
+                  cone->setColor(osg::Vec4(0.8f, 0.7f, 0.2f, 1.0f));
+                  const auto pair = at(osg::Matrix::rotate(0.7, osg::Vec3d(1, 0, 0)), cone.get());
+                  for (int i = 0; i < 8; ++i)
+                      root->addChild(at(
+                          osg::Matrix::scale(i % 2 ? -1.0 : 1.0, 0.6 + 0.1 * i, 1.3 - 0.1 * i) *
+                              osg::Matrix::rotate(0.4 * i, osg::Vec3d(0, 1, 0.5)) *
+                              osg::Matrix::translate(1.4 * (i % 4) - 2.1, 1.4 * (i / 4) - 1.0, 0.0),
+                          pair.get()));
+                  return root;
+              });
+}
+
+TEST_CASE("pairs: a rig whose transform is left to the hardware", "[gl]")
+{
+    bool software = true; // the rasterized one comes first
+    checkSame("rig",
+              [&]
+              {
+                  osg::ref_ptr<osgAnimation::RigTransformHardware> hardware =
+                      new osgAnimation::RigTransformHardware;
+                  hardware->setShader(noShader());
+                  const auto scene = software ? bentTube(new osgAnimation::RigTransformSoftware)
+                                              : bentTube(hardware);
+                  software = false;
+                  return scene;
+              });
+}
+
+TEST_CASE("pairs: a morph whose transform is left to the hardware", "[gl]")
+{
+    bool software = true;
+    checkSame("morph",
+              [&]
+              {
+                  osg::ref_ptr<osgAnimation::MorphTransformHardware> hardware =
+                      new osgAnimation::MorphTransformHardware;
+                  hardware->setShader(noShader());
+                  const auto scene = software ? fattened(new osgAnimation::MorphTransformSoftware)
+                                              : fattened(hardware);
+                  software = false;
+                  return scene;
+              });
+}
+
+TEST_CASE("pairs: a video shows the picture of the frame", "[gl]")
+{
+    checkSame(
+        "video",
+        []
+        {
+            osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(new Video);
+            texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+            texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+            texture->setResizeNonPowerOfTwoHint(false);
+            const auto square = unlitSquare(2.0f, osg::Vec4(1, 1, 1, 1));
+            square->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
+            return square;
+        },
+        4);
+}
