@@ -126,13 +126,14 @@ bool isMirrored(const MeshRequest& request)
 }
 
 SharedArray<UVec3> checkedTriangles(TriangleList& list, const osg::Geometry& geometry,
-                                    const Positions& positions, bool mirrored,
+                                    const Positions& positions, const MeshRequest& request,
                                     ConversionCounts& counts)
 {
     if (list.size() == 0) return {};
     const TriangleJudge judge(positions);
     const bool sound = judge.allSound(list.data(), list.size());
-    if (sound && list.source && !mirrored && geometry.getDataVariance() != osg::Object::DYNAMIC &&
+    const bool mirrored = isMirrored(request);
+    if (sound && list.source && !mirrored && !request.copies && geometry.getDataVariance() != osg::Object::DYNAMIC &&
         list.source->getDataVariance() != osg::Object::DYNAMIC)
         return shareIndices(*list.source);
 
@@ -274,7 +275,8 @@ SharedArray<Vec3> lifted(const Mesh& mesh, float layers)
 
 } // namespace
 
-ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request)
+ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request,
+                              const KeptArrays& kept)
 {
     ConvertedMesh result;
     const auto skip = [&result](const char* reason)
@@ -297,19 +299,30 @@ ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& 
     Positions positions = reader.positions(*vertices);
     auto mesh = std::make_shared<Mesh>();
     mesh->triangles =
-        checkedTriangles(list, geometry, positions, isMirrored(request), result.counts);
+        checkedTriangles(list, geometry, positions, request, result.counts);
     if (mesh->triangles.empty()) return result;
 
     mesh->positions = std::move(positions.values);
-    Normals normals = reader.normals(geometry.getNormalArray());
-    mesh->normals = completed(normals, *mesh, result.counts);
+    const auto fits = [&mesh](const auto& array) { return array.size() == mesh->positions.size(); };
+    if (fits(kept.normals))
+        mesh->normals = kept.normals;
+    else
+    {
+        Normals normals = reader.normals(geometry.getNormalArray());
+        mesh->normals = completed(normals, *mesh, result.counts);
+    }
     if (const uint64_t opposite = oppositeNormals(*mesh))
         result.counts["warned.opposite-normals"] += opposite;
-    mesh->uvs = reader.textureCoordinates(geometry.getTexCoordArray(0), result.counts);
+    mesh->uvs = fits(kept.uvs)
+                    ? kept.uvs
+                    : reader.textureCoordinates(geometry.getTexCoordArray(0), result.counts);
     if (geometry.getNumTexCoordArrays() > 1)
-        mesh->uvs1 = reader.textureCoordinates(geometry.getTexCoordArray(1), result.counts);
+        mesh->uvs1 = fits(kept.uvs1)
+                         ? kept.uvs1
+                         : reader.textureCoordinates(geometry.getTexCoordArray(1), result.counts);
+    mesh->colors =
+        fits(kept.colors) ? kept.colors : reader.colors(geometry.getColorArray(), result.counts);
     if (request.lift != 0.0f) mesh->positions = lifted(*mesh, request.lift);
-    mesh->colors = reader.colors(geometry.getColorArray(), result.counts);
     if (!request.clipPlanes.empty()) clip(*mesh, request.clipPlanes);
     if (mesh->triangles.empty()) return skip("not-traced.clipped-away");
     result.mesh = std::move(mesh);
