@@ -5,6 +5,7 @@
 #include "apps/osgraytracebench/FeaturesMode.h"
 #include "apps/osgraytracebench/LimitMode.h"
 #include "apps/osgraytracebench/PhotonsMode.h"
+#include "apps/osgraytracebench/UpdateMode.h"
 #include "apps/osgraytracebench/report/CompareMode.h"
 #include "apps/osgraytracebench/report/ReportMode.h"
 
@@ -36,7 +37,7 @@ struct CommandLine
 {
     CommandLine()
     {
-        for (CLI::App* rows : {&limit, &features, &photons})
+        for (CLI::App* rows : {&limit, &features, &photons, &update})
             rows->add_option("--json", json, "write the rows to this file as well");
 
         photons
@@ -109,6 +110,7 @@ struct CommandLine
     {
         if (limit) return runRows(measureLimit(), json);
         if (features) return runRows(measureFeatures(), json);
+        if (update) return runRows(measureUpdate(), json);
         if (photons) return runRows(measurePhotons(photonsOptions), json);
         if (compare) return runCompare(before, after, falseAlarmRate);
         app::addPluginPath();
@@ -122,6 +124,8 @@ struct CommandLine
         *application.add_subcommand("features", "what features cost a scene that does not use them");
     CLI::App& photons = *application.add_subcommand(
         "photons", "photon maps against a plain grid and Embree alone; error against time");
+    CLI::App& update = *application.add_subcommand(
+        "update", "what edits of a large live scene cost, against Embree alone");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(

@@ -23,15 +23,32 @@ static_assert(offsetof(RayBlock, tFar) == offsetof(RTCRay16, tfar), "fields in E
 static_assert(offsetof(RayHitBlock, primitive) == offsetof(RTCRayHit16, hit) + offsetof(RTCHit16, primID),
               "fields in Embree's order");
 
+#if OSGRAYTRACE_EMBREE == 4
+using RayQueryContext = RTCRayQueryContext;
+#else
+using RayQueryContext = RTCIntersectContext;
+#endif
+
+/// What the filters of a query are handed.
+struct FilterContext : RayQueryContext
+{
+    const HitFilter* filter = nullptr;
+    HitRule rule;
+};
+
 /// The per-query arguments of either version, with the coherence flag.
 class QueryArguments
 {
 public:
-    explicit QueryArguments(bool coherent)
+    QueryArguments(bool coherent, const HitFilter* filter, HitRule rule = {})
     {
+        _context.filter = filter;
+        _context.rule = rule;
 #if OSGRAYTRACE_EMBREE == 4
+        rtcInitRayQueryContext(&_context);
         rtcInitIntersectArguments(&_intersect);
         rtcInitOccludedArguments(&_occluded);
+        _intersect.context = _occluded.context = &_context;
         if (coherent)
             _intersect.flags = _occluded.flags = RTC_RAY_QUERY_FLAG_COHERENT;
 #else
@@ -71,6 +88,7 @@ public:
 private:
     RTCIntersectArguments _intersect;
     RTCOccludedArguments _occluded;
+    FilterContext _context;
 #else
     void intersect16(const int* valid, RTCScene scene, RTCRayHit16* rays)
     {
@@ -100,7 +118,7 @@ private:
     void occluded1(RTCScene scene, RTCRay* ray) { rtcOccluded1(scene, &_context, ray); }
 
 private:
-    RTCIntersectContext _context;
+    FilterContext _context;
 #endif
 };
 

@@ -109,6 +109,15 @@ RTCRay singleRay(const RayBlock& block, int lane)
     return ray;
 }
 
+/// Geometry of the flat part is known by its own index.
+OSGRAYTRACE_KERNEL
+void forgetInstance(UintLanes& instances, uint32_t flat)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+        instances[i] = instances[i] == flat ? kInvalid : instances[i];
+}
+
 RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar)
 {
     RTCRay ray;
@@ -129,26 +138,39 @@ RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar)
 
 } // namespace
 
-Intersector::Intersector(void* embreeScene, int nativeWidth, float reach)
-    : _scene(embreeScene), _nativeWidth(nativeWidth), _reach(reach)
+Intersector::Intersector(void* embreeScene, int nativeWidth, float reach, uint32_t flatInstance,
+                         const HitFilter* filter)
+    : _scene(embreeScene),
+      _nativeWidth(nativeWidth),
+      _reach(reach),
+      _filter(filter),
+      _flatInstance(flatInstance)
 {
 }
 
-LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence coherence) const
+LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence coherence,
+                                  HitRule rule) const
 {
-    const auto scene = static_cast<RTCScene>(_scene);
     Lanes<int> valid;
     const LaneMask refused = checkRays(block.ray, _reach, active, valid);
     std::memset(&block.geometry, 0xff, sizeof(block.geometry));
     std::memset(&block.instance, 0xff, sizeof(block.instance));
+    query(block, valid, active, coherence, rule);
+    if (_flatInstance != kInvalid) forgetInstance(block.instance, _flatInstance);
+    return refused;
+}
 
-    QueryArguments query(coherence == Coherence::Coherent);
+void Intersector::query(RayHitBlock& block, const Lanes<int>& valid, LaneMask active,
+                        Coherence coherence, HitRule rule) const
+{
+    const auto scene = static_cast<RTCScene>(_scene);
+    QueryArguments arguments(coherence == Coherence::Coherent, _filter, rule);
     const bool packets = coherence == Coherence::Coherent ||
                          (_nativeWidth == 16 && countLanes(active) > kFewRays);
     if (packets && _nativeWidth == 16)
     {
-        query.intersect16(valid.v, scene, reinterpret_cast<RTCRayHit16*>(&block));
-        return refused;
+        arguments.intersect16(valid.v, scene, reinterpret_cast<RTCRayHit16*>(&block));
+        return;
     }
     if (packets && _nativeWidth == 8)
     {
@@ -159,10 +181,10 @@ LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence
             std::memcpy(packetValid, &valid[first], sizeof(packetValid));
             loadRays<RTCRay8, 8>(block.ray, first, packet.ray);
             clearHits<RTCRayHit8, 8>(packet);
-            query.intersect8(packetValid, scene, &packet);
+            arguments.intersect8(packetValid, scene, &packet);
             storeHits<RTCRayHit8, 8>(packet, first, block);
         }
-        return refused;
+        return;
     }
     if (packets && _nativeWidth == 4)
     {
@@ -173,10 +195,10 @@ LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence
             std::memcpy(packetValid, &valid[first], sizeof(packetValid));
             loadRays<RTCRay4, 4>(block.ray, first, packet.ray);
             clearHits<RTCRayHit4, 4>(packet);
-            query.intersect4(packetValid, scene, &packet);
+            arguments.intersect4(packetValid, scene, &packet);
             storeHits<RTCRayHit4, 4>(packet, first, block);
         }
-        return refused;
+        return;
     }
     for (int i = 0; i < kLanes; ++i)
     {
@@ -185,7 +207,7 @@ LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence
         single.ray = singleRay(block.ray, i);
         single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        query.intersect1(scene, &single);
+        arguments.intersect1(scene, &single);
         block.ray.tFar[i] = single.ray.tfar;
         block.u[i] = single.hit.u;
         block.v[i] = single.hit.v;
@@ -193,7 +215,6 @@ LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence
         block.geometry[i] = single.hit.geomID;
         block.instance[i] = single.hit.instID[0];
     }
-    return refused;
 }
 
 LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
@@ -204,7 +225,7 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
 
     // Never the coherent flag here: it makes occlusion packets slower, and with instances Embree 3.13.5
     // may not return at all.
-    QueryArguments query(false);
+    QueryArguments query(false, _filter);
     if (_nativeWidth == 16 && countLanes(active) > kFewRays)
     {
         query.occluded16(valid.v, scene, reinterpret_cast<RTCRay16*>(&block));
@@ -244,11 +265,12 @@ std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tN
     single.ray = singleRay(origin, direction, tNear, tFar);
     single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    QueryArguments query(false);
+    QueryArguments query(false, _filter);
     query.intersect1(static_cast<RTCScene>(_scene), &single);
     if (single.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     Hit hit;
-    hit.instance = hitInstance(single.hit.geomID, single.hit.instID[0]);
+    const uint32_t instance = single.hit.instID[0] == _flatInstance ? kInvalid : single.hit.instID[0];
+    hit.instance = hitInstance(single.hit.geomID, instance);
     hit.primitive = single.hit.primID;
     hit.u = single.hit.u;
     hit.v = single.hit.v;
@@ -261,7 +283,7 @@ bool Intersector::occluded(Vec3 origin, Vec3 direction, float tNear, float tFar)
     if (!traceable(_reach, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tNear, tFar))
         return true;
     RTCRay single = singleRay(origin, direction, tNear, tFar);
-    QueryArguments query(false);
+    QueryArguments query(false, _filter);
     query.occluded1(static_cast<RTCScene>(_scene), &single);
     return single.tfar < 0.0f;
 }

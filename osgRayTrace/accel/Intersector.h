@@ -5,6 +5,7 @@
 #include "osgRayTrace/accel/RayBlock.h"
 
 #include <memory>
+#include <cstdint>
 #include <optional>
 
 namespace osgRayTrace::engine
@@ -15,6 +16,16 @@ enum class Coherence
     Coherent,   ///< camera rays: neighbours take the same way through the BVH
     Incoherent, ///< bounces
 };
+
+/// Which partial surfaces a ray meets: see HitFilter.
+struct HitRule
+{
+    bool culls = false;        ///< a camera ray: culled faces are not there
+    bool keepsBlended = false; ///< blended surfaces are hit whatever their alpha; else by chance
+};
+constexpr HitRule kCameraRays{true, false};
+
+class HitFilter;
 
 struct Hit
 {
@@ -30,12 +41,15 @@ class Intersector
 {
 public:
     /// Opaque handle of an RTCScene; used by TracedScene. Rays whose origin is farther than reach from the
-    /// scene's are refused.
-    Intersector(void* embreeScene, int nativeWidth, float reach);
+    /// scene's are refused. flatInstance: the Embree instance, if any, whose geometry is not placed.
+    /// filter is kept; null: no geometry asks it.
+    Intersector(void* embreeScene, int nativeWidth, float reach, uint32_t flatInstance = kInvalid,
+                const HitFilter* filter = nullptr);
 
     /// Closest hits of the active lanes; geometry is kInvalid in the others. Returns the lanes whose ray was
     /// refused (geometry is kInvalid there, too).
-    LaneMask closestHits(RayHitBlock& block, LaneMask active, Coherence coherence) const;
+    LaneMask closestHits(RayHitBlock& block, LaneMask active, Coherence coherence,
+                         HitRule rule = {}) const;
 
     /// Sets tFar to -infinity in the active lanes that are occluded. Refused rays count as occluded.
     LaneMask occlusion(RayBlock& block, LaneMask active) const;
@@ -44,9 +58,14 @@ public:
     bool occluded(Vec3 origin, Vec3 direction, float tNear, float tFar) const;
 
 private:
+    void query(RayHitBlock& block, const Lanes<int>& valid, LaneMask active, Coherence coherence,
+               HitRule rule) const;
+
     void* _scene;
     int _nativeWidth;
     float _reach;
+    const HitFilter* _filter;
+    uint32_t _flatInstance;
 };
 
 } // namespace osgRayTrace::engine

@@ -417,6 +417,46 @@ Vec2 interpolateUv(const SurfaceRecord& record, uint32_t primitive, float u, flo
     return record.uvs[t.x] * (1.0f - u - v) + record.uvs[t.y] * u + record.uvs[t.z] * v;
 }
 
+Vec2 interpolateUv1(const SurfaceRecord& record, uint32_t primitive, float u, float v)
+{
+    if (!record.uvs1) return Vec2(0.0f);
+    const UVec3 t = record.triangles[primitive];
+    return record.uvs1[t.x] * (1.0f - u - v) + record.uvs1[t.y] * u + record.uvs1[t.z] * v;
+}
+
+/// Position and normal in engine space, as texture generation needs them.
+static void setGenerated(const SurfaceRecord& record, uint32_t primitive, float u, float v,
+                         MaterialPoint& point)
+{
+    const UVec3 t = record.triangles[primitive];
+    const float w = 1.0f - u - v;
+    const Vec3 a = record.positions[t.x], b = record.positions[t.y], c = record.positions[t.z];
+    point.position = a * w + b * u + c * v;
+    Vec3 normal = record.normals
+                      ? record.normals[t.x] * w + record.normals[t.y] * u + record.normals[t.z] * v
+                      : glm::cross((b - a) / glm::length(b - a), (c - a) / glm::length(c - a));
+    if (record.placed)
+    {
+        point.position = transformPoint(record.placed->engineFromLocal, point.position);
+        normal = record.placed->normalFromLocal * normal;
+    }
+    const float length = glm::length(normal);
+    if (length > 0.0f && length < kInfinity) point.normal = normal / length;
+}
+
+MaterialPoint materialPointOf(const SurfaceRecord& record, const MaterialRecord& material,
+                              uint32_t primitive, float u, float v, bool front, Vec3 direction)
+{
+    MaterialPoint point;
+    point.front = front;
+    point.uv = interpolateUv(record, primitive, u, v);
+    point.uv1 = interpolateUv1(record, primitive, u, v);
+    point.vertexColor = interpolateColor(record, primitive, u, v);
+    point.direction = direction;
+    if (material.generated) setGenerated(record, primitive, u, v, point);
+    return point;
+}
+
 Vec4 interpolateColor(const SurfaceRecord& record, uint32_t primitive, float u, float v)
 {
     if (!record.colors) return Vec4(1.0f);

@@ -5,6 +5,7 @@
 #include "osgRayTrace/accel/RayBlock.h"
 #include "osgRayTrace/accel/SurfaceTable.h"
 #include "osgRayTrace/base/Lanes.h"
+#include "osgRayTrace/shading/MaterialTable.h"
 
 namespace osgRayTrace::engine
 {
@@ -69,6 +70,13 @@ void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lan
 
 /// Texture coordinates of unit 0 at a hit; zero if the mesh has none.
 Vec2 interpolateUv(const SurfaceRecord& record, uint32_t primitive, float u, float v);
+
+/// The same of unit 1.
+Vec2 interpolateUv1(const SurfaceRecord& record, uint32_t primitive, float u, float v);
+
+/// Where the material is at a hit. ray: its direction, unit. The eye's axes are left to the caller.
+MaterialPoint materialPointOf(const SurfaceRecord& record, const MaterialRecord& material,
+                              uint32_t primitive, float u, float v, bool front, Vec3 direction);
 
 /// RGBA vertex colour at a hit; white if the mesh has none.
 Vec4 interpolateColor(const SurfaceRecord& record, uint32_t primitive, float u, float v);

@@ -16,6 +16,7 @@ struct SurfaceRecord
     const Vec3* positions = nullptr;
     const Vec3* normals = nullptr;
     const Vec2* uvs = nullptr;
+    const Vec2* uvs1 = nullptr;
     const Vec4* colors = nullptr;
     const Instance* placed = nullptr; ///< its transforms; null: positions are in engine space
     uint32_t material = 0;

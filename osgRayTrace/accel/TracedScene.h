@@ -22,12 +22,17 @@ class Workers;
 struct BuildStatistics
 {
     double seconds = 0.0;
-    uint64_t embreeBytes = 0;    ///< held by the device for this scene, as Embree reports it
+    uint64_t embreeBytes = 0;    ///< as embreeBytes() was then
     size_t builtMeshes = 0;      ///< built now; the rest was taken from the previous one
+    size_t refitMeshes = 0;      ///< BVHs that were adapted to other positions
+    size_t staticBuilds = 0;     ///< of the one BVH over all meshes that are not placed: 0 or 1
+    size_t commits = 0;          ///< rtcCommitScene, of meshes and of the top level
     size_t invalidInstances = 0; ///< left out: transform singular, not finite, or out of range
 };
 
-/// Immutable once built; sessions share it. Reuses from previous what did not change (may be null).
+/// Immutable once built; sessions share it. Reuses from previous what did not change (may be null), and
+/// changes what neither previous nor anybody else uses any more. Meshes that are not placed are in one flat
+/// BVH; where there are others, it is one of the instances of the top level.
 class TracedScene
 {
 public:
@@ -44,6 +49,10 @@ public:
     const MaterialTable& materials() const;
     const LightTable& lights() const;
     const BuildStatistics& statistics() const;
+
+    /// What the device holds now, as Embree reports it: for this scene, for others made from it or that it
+    /// was made from, and spare parts for the next ones. Any thread.
+    uint64_t embreeBytes() const;
 
 private:
     TracedScene();

@@ -4,10 +4,36 @@
 
 #include "osgRayTrace/bridge/VertexArrays.h"
 
+#include <algorithm>
 #include <tuple>
 
 namespace osgRayTrace::engine
 {
+
+namespace
+{
+
+/// Order of a fingerprint.
+enum : std::size_t
+{
+    kPositions,
+    kNormals,
+    kColors,
+    kUvs,
+    kUvs1,
+    kPrimitives, ///< and all that follow
+};
+
+/// Equal triangles become one array, by which a BVH that can be refitted is known.
+void shareTriangles(Mesh& mesh, const Mesh& before)
+{
+    if (mesh.positions.size() == before.positions.size() &&
+        mesh.triangles.size() == before.triangles.size() &&
+        std::equal(mesh.triangles.begin(), mesh.triangles.end(), before.triangles.begin()))
+        mesh.triangles = before.triangles;
+}
+
+} // namespace
 
 bool GeometryCache::BufferPrint::operator==(const BufferPrint& other) const
 {
@@ -33,10 +59,13 @@ GeometryCache::BufferPrint GeometryCache::printOf(const osg::BufferData* buffer,
 GeometryCache::Fingerprint GeometryCache::fingerprintOf(const osg::Geometry& geometry)
 {
     Fingerprint prints;
+    prints.reserve(kPrimitives + geometry.getNumPrimitiveSets());
     const auto add = [&prints](const osg::BufferData* buffer, unsigned int kind) -> BufferPrint&
     { return prints.emplace_back(printOf(buffer, kind)); };
+    // In the order of the indices above.
     for (const osg::Array* array : {positionArray(geometry), geometry.getNormalArray(),
-                                    geometry.getColorArray(), geometry.getTexCoordArray(0)})
+                                    geometry.getColorArray(), geometry.getTexCoordArray(0),
+                                    geometry.getTexCoordArray(1)})
         add(array, static_cast<unsigned int>(osg::getBinding(array)));
     for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i)
     {
@@ -50,23 +79,88 @@ GeometryCache::Fingerprint GeometryCache::fingerprintOf(const osg::Geometry& geo
     return prints;
 }
 
+const GeometryCache::Entry* GeometryCache::find(const osg::Geometry& geometry) const
+{
+    const auto found = _entries.find({&geometry, kOwnVariant});
+    if (found == _entries.end()) return nullptr;
+    return found->second.geometry.get() == &geometry ? &found->second : nullptr;
+}
+
+const MeshRequest* GeometryCache::lastRequest(const osg::Geometry& geometry) const
+{
+    const Entry* entry = find(geometry);
+    return entry ? &entry->request : nullptr;
+}
+
+const ConversionCounts& GeometryCache::lastCounts(const osg::Geometry& geometry) const
+{
+    static const ConversionCounts none;
+    const Entry* entry = find(geometry);
+    return entry ? entry->counts : none;
+}
+
+bool GeometryCache::hasSameArrays(const osg::Geometry& geometry) const
+{
+    const Entry* entry = find(geometry);
+    if (!entry || !(entry->fingerprint == fingerprintOf(geometry))) return false;
+    entry->same = _stamp;
+    return true;
+}
+
+Liveness GeometryCache::liveness(const osg::Geometry& geometry) const
+{
+    const auto found = _liveness.find(&geometry);
+    return found == _liveness.end() ? Liveness::Still : found->second;
+}
+
+void GeometryCache::noteLiveness(const osg::Geometry& geometry, Liveness liveness)
+{
+    if (liveness == Liveness::Still) return;
+    Liveness& known = _liveness[&geometry];
+    known = std::max(known, liveness);
+}
+
+/// Positions changed alone, as a rule. Not if values were repaired, which may have been by positions, or
+/// if vertices were split, which is by primitive sets: then counts or sizes say so.
+KeptArrays GeometryCache::keptArrays(const Entry& before, const Fingerprint& now)
+{
+    KeptArrays kept;
+    const Fingerprint& then = before.fingerprint;
+    const bool plain = before.counts.empty() && then.size() == now.size() &&
+                       std::equal(then.begin() + kPrimitives, then.end(), now.begin() + kPrimitives);
+    if (!plain) return kept;
+    if (then[kNormals] == now[kNormals]) kept.normals = before.mesh->normals;
+    if (then[kColors] == now[kColors]) kept.colors = before.mesh->colors;
+    if (then[kUvs] == now[kUvs]) kept.uvs = before.mesh->uvs;
+    if (then[kUvs1] == now[kUvs1]) kept.uvs1 = before.mesh->uvs1;
+    return kept;
+}
+
 std::shared_ptr<const Mesh> GeometryCache::mesh(const osg::Geometry& geometry, uint32_t variant,
                                                 const MeshRequest& request, const std::string& path,
                                                 ConversionReport& report)
 {
     Entry& entry = _entries[{&geometry, variant}];
-    Fingerprint fingerprint = fingerprintOf(geometry);
     const bool known = entry.used != 0 && entry.geometry.get() == &geometry &&
                        entry.variance == geometry.getDataVariance() && entry.request == request &&
-                       entry.fingerprint == fingerprint;
+                       (entry.same == _stamp || entry.fingerprint == fingerprintOf(geometry));
     if (!known)
     {
-        ConvertedMesh converted = convertGeometry(geometry, request);
+        Fingerprint fingerprint = fingerprintOf(geometry);
+        const bool other = entry.used != 0 && entry.geometry.get() == &geometry &&
+                           !(entry.fingerprint == fingerprint);
+        const bool kept = other && entry.mesh && entry.request == request && request.copies;
+        ConvertedMesh converted = convertGeometry(
+            geometry, request, kept ? keptArrays(entry, fingerprint) : KeptArrays());
         if (converted.mesh)
         {
             converted.mesh->name = path;
             converted.mesh->changed = _stamp;
+            converted.mesh->deforms = request.copies;
+            if (other && entry.mesh && request.copies && entry.request.copies)
+                shareTriangles(*converted.mesh, *entry.mesh);
         }
+        ++_converted;
         warnAboutGeometry(path, converted.counts);
         entry = {&geometry, geometry.getDataVariance(), std::move(fingerprint),
                  request,   std::move(converted.mesh),  std::move(converted.counts),
@@ -100,6 +194,8 @@ void GeometryCache::end()
         entry = entry->second.used == _stamp ? std::next(entry) : _bounds.erase(entry);
     for (auto entry = _entries.begin(); entry != _entries.end();)
         entry = entry->second.used == _stamp ? std::next(entry) : _entries.erase(entry);
+    for (auto live = _liveness.begin(); live != _liveness.end();)
+        live = find(*live->first) ? std::next(live) : _liveness.erase(live);
 }
 
 } // namespace osgRayTrace::engine

@@ -7,7 +7,6 @@
 
 #include <osg/observer_ptr>
 
-#include <map>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -17,12 +16,23 @@
 namespace osgRayTrace::engine
 {
 
+/// What a geometry has done since it first came.
+enum class Liveness : uint8_t
+{
+    Still,
+    Moves,
+    Deforms, ///< its arrays change, and maybe its place
+};
+
 /// A geometry is taken as unchanged while its arrays and primitive sets are the same objects with
 /// the same modified counts, sizes and addresses: call dirty() on an array whose values were
 /// changed.
 class GeometryCache
 {
 public:
+    /// Of mesh(): the mesh that all uses share. The use number n that cannot is n + 1.
+    static constexpr uint32_t kOwnVariant = 0;
+
     /// Begins a snapshot. stamp is that of meshes converted now.
     void begin(Stamp stamp) { _stamp = stamp; }
 
@@ -31,6 +41,21 @@ public:
     std::shared_ptr<const Mesh> mesh(const osg::Geometry& geometry, uint32_t variant,
                                      const MeshRequest& request, const std::string& path,
                                      ConversionReport& report);
+
+    /// Null: it was not asked for in the last snapshot. The request of its shared mesh, and what it gave.
+    const MeshRequest* lastRequest(const osg::Geometry& geometry) const;
+    const ConversionCounts& lastCounts(const osg::Geometry& geometry) const;
+
+    /// Whether its arrays are those of its last mesh. It was asked for in the last snapshot.
+    bool hasSameArrays(const osg::Geometry& geometry) const;
+
+    Liveness liveness(const osg::Geometry& geometry) const;
+
+    /// Never takes anything back: what has moved once will move again.
+    void noteLiveness(const osg::Geometry& geometry, Liveness liveness);
+
+    /// Meshes that were made from arrays, ever.
+    uint64_t converted() const { return _converted; }
 
     /// Of the geometry's positions, from the last snapshot if they are the same. Valid until end().
     const VertexBounds& bounds(const osg::Geometry& geometry);
@@ -64,6 +89,15 @@ private:
         std::shared_ptr<const Mesh> mesh;
         ConversionCounts counts;
         Stamp used = 0;
+        mutable Stamp same = 0; ///< arrays were found to be the same in this snapshot
+    };
+    using Key = std::pair<const osg::Geometry*, uint32_t>;
+    struct KeyHash
+    {
+        std::size_t operator()(const Key& key) const
+        {
+            return std::hash<const void*>()(key.first) + key.second * std::size_t(0x9e3779b97f4a7c15);
+        }
     };
 
     struct BoundsEntry
@@ -76,7 +110,12 @@ private:
     static BufferPrint printOf(const osg::BufferData* buffer, unsigned int kind);
     static Fingerprint fingerprintOf(const osg::Geometry& geometry);
 
-    std::map<std::pair<const osg::Geometry*, uint32_t>, Entry> _entries;
+    const Entry* find(const osg::Geometry& geometry) const;
+    static KeptArrays keptArrays(const Entry& before, const Fingerprint& now);
+
+    std::unordered_map<Key, Entry, KeyHash> _entries;
+    std::unordered_map<const osg::Geometry*, Liveness> _liveness; ///< those that are not still
+    uint64_t _converted = 0;
     std::unordered_map<const osg::Array*, BoundsEntry> _bounds;
     Stamp _stamp = 0;
 };

@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/VertexArrays.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace osgRayTrace::engine
@@ -125,13 +126,14 @@ bool isMirrored(const MeshRequest& request)
 }
 
 SharedArray<UVec3> checkedTriangles(TriangleList& list, const osg::Geometry& geometry,
-                                    const Positions& positions, bool mirrored,
+                                    const Positions& positions, const MeshRequest& request,
                                     ConversionCounts& counts)
 {
     if (list.size() == 0) return {};
     const TriangleJudge judge(positions);
     const bool sound = judge.allSound(list.data(), list.size());
-    if (sound && list.source && !mirrored && geometry.getDataVariance() != osg::Object::DYNAMIC &&
+    const bool mirrored = isMirrored(request);
+    if (sound && list.source && !mirrored && !request.copies && geometry.getDataVariance() != osg::Object::DYNAMIC &&
         list.source->getDataVariance() != osg::Object::DYNAMIC)
         return shareIndices(*list.source);
 
@@ -240,9 +242,41 @@ uint64_t oppositeNormals(const Mesh& mesh)
     return count;
 }
 
+/// Thickness of a layer, of the largest coordinate: some hundred times the rounding of hit points, and a
+/// hundredth of a pixel where the whole mesh is in view.
+constexpr float kLayer = 0x1p-16f;
+
+/// Raises all faces on their front side, so that a decal is hit before what it lies on. OpenGL moves the
+/// depth towards the viewer instead, on either side; seen from behind the order is the other one here.
+SharedArray<Vec3> lifted(const Mesh& mesh, float layers)
+{
+    std::vector<Vec3d> directions(mesh.positions.size(), Vec3d(0.0));
+    for (const UVec3& t : mesh.triangles)
+    {
+        const Vec3d face =
+            faceNormal(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+        for (int corner = 0; corner < 3; ++corner)
+            directions[t[corner]] += face;
+    }
+    float largest = 0.0f;
+    for (const Vec3& p : mesh.positions)
+        largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    const double height = double(layers) * kLayer * largest;
+    std::vector<Vec3> positions;
+    positions.reserve(mesh.positions.size() + 1); // Embree reads past the last one
+    for (std::size_t i = 0; i < directions.size(); ++i)
+    {
+        const double length = glm::length(directions[i]);
+        const Vec3d up = length > 0.0 ? directions[i] * (height / length) : Vec3d(0.0);
+        positions.push_back(Vec3(Vec3d(mesh.positions[i]) + up));
+    }
+    return positions;
+}
+
 } // namespace
 
-ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request)
+ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request,
+                              const KeptArrays& kept)
 {
     ConvertedMesh result;
     const auto skip = [&result](const char* reason)
@@ -265,16 +299,30 @@ ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& 
     Positions positions = reader.positions(*vertices);
     auto mesh = std::make_shared<Mesh>();
     mesh->triangles =
-        checkedTriangles(list, geometry, positions, isMirrored(request), result.counts);
+        checkedTriangles(list, geometry, positions, request, result.counts);
     if (mesh->triangles.empty()) return result;
 
     mesh->positions = std::move(positions.values);
-    Normals normals = reader.normals(geometry.getNormalArray());
-    mesh->normals = completed(normals, *mesh, result.counts);
+    const auto fits = [&mesh](const auto& array) { return array.size() == mesh->positions.size(); };
+    if (fits(kept.normals))
+        mesh->normals = kept.normals;
+    else
+    {
+        Normals normals = reader.normals(geometry.getNormalArray());
+        mesh->normals = completed(normals, *mesh, result.counts);
+    }
     if (const uint64_t opposite = oppositeNormals(*mesh))
         result.counts["warned.opposite-normals"] += opposite;
-    mesh->uvs = reader.textureCoordinates(geometry.getTexCoordArray(0), result.counts);
-    mesh->colors = reader.colors(geometry.getColorArray(), result.counts);
+    mesh->uvs = fits(kept.uvs)
+                    ? kept.uvs
+                    : reader.textureCoordinates(geometry.getTexCoordArray(0), result.counts);
+    if (geometry.getNumTexCoordArrays() > 1)
+        mesh->uvs1 = fits(kept.uvs1)
+                         ? kept.uvs1
+                         : reader.textureCoordinates(geometry.getTexCoordArray(1), result.counts);
+    mesh->colors =
+        fits(kept.colors) ? kept.colors : reader.colors(geometry.getColorArray(), result.counts);
+    if (request.lift != 0.0f) mesh->positions = lifted(*mesh, request.lift);
     if (!request.clipPlanes.empty()) clip(*mesh, request.clipPlanes);
     if (mesh->triangles.empty()) return skip("not-traced.clipped-away");
     result.mesh = std::move(mesh);

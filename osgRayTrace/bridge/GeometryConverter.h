@@ -24,13 +24,16 @@ struct MeshRequest
     /// shared.
     std::optional<osg::Matrixd> transform;
     bool decodeColors = false; ///< vertex colours from sRGB to linear
+    float lift = 0.0f;         ///< layers that the faces are raised by: see polygonLift
+    bool copies = false;       ///< shares no arrays: they will change
     PrimitiveRestart restart;
     std::vector<Vec4d> clipPlanes; ///< after the transform; see clip
 
     bool operator==(const MeshRequest& other) const
     {
         return transform == other.transform && decodeColors == other.decodeColors &&
-               restart == other.restart && clipPlanes == other.clipPlanes;
+               lift == other.lift && copies == other.copies && restart == other.restart &&
+               clipPlanes == other.clipPlanes;
     }
 };
 
@@ -40,11 +43,21 @@ struct ConvertedMesh
     ConversionCounts counts;
 };
 
+/// Arrays of an earlier mesh of the geometry that were made from the very same data; empty: none.
+struct KeptArrays
+{
+    SharedArray<Vec3> normals;
+    SharedArray<Vec2> uvs;
+    SharedArray<Vec2> uvs1;
+    SharedArray<Vec4> colors;
+};
+
 /// Every triangle of the mesh is sound: indices in range, vertices finite and, transformed, at most
 /// 1e18 in magnitude, area not zero; the others are dropped and counted. Without usable normals the mesh
 /// has none, that is flat facets (OpenGL would light all of it with the last normal that some other
 /// object used). Where layout, transform and DataVariance allow it the mesh shares the OSG arrays
 /// and keeps them alive; nobody may then write to them while a Scene holds the mesh.
-ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request);
+ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request,
+                              const KeptArrays& kept = {});
 
 } // namespace osgRayTrace::engine

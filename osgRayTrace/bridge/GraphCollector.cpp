@@ -4,12 +4,12 @@
 
 #include "osgRayTrace/bridge/ClipPlanes.h"
 #include "osgRayTrace/bridge/DrawHint.h"
+#include "osgRayTrace/bridge/MaterialConverter.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
 
 #include <osg/Billboard>
-#include <osg/BlendFunc>
 #include <osg/Camera>
 #include <osg/ClipNode>
 #include <osg/PagedLOD>
@@ -99,9 +99,16 @@ const char* rasterizedState(const GraphState& state, const osg::StateAttribute* 
     const auto* polygons = state.attribute<osg::PolygonMode>(kPolygonModeSlot);
     if (polygons && polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
         return "rasterized.polygon-mode";
-    const auto* blend = state.attribute<osg::BlendFunc>(kBlendFuncSlot);
-    if (blend && state.isOn(kBlendBit) && blend->getDestinationRGB() == GL_ONE)
+    if (combinesTextures(state)) return "rasterized.texture-combine";
+    switch (blendingOf(state))
+    {
+    case Blending::Additive:
         return "rasterized.additive-blending";
+    case Blending::Other:
+        return "rasterized.blending";
+    default:
+        break;
+    }
     // In the coordinates of the drawable that happens to be drawn first with it.
     const auto* plane = state.attribute<osg::ClipPlane>(kClipPlaneSlot);
     if (plane && plane->getClipPlaneNum() < kClipPlanes &&
@@ -151,6 +158,8 @@ void applyUnit(double unit, CollectedGraph& graph)
         if (!light.eyeSpace) light.engineFromLocal.postMult(scale);
     for (CollectedAreaLight& light : graph.areaLights)
         light.engineFromLocal.postMult(scale);
+    for (PlacedTexGen& texGen : graph.texGens)
+        texGen.engineFromLocal.postMult(scale);
     graph.clipPlanes.applyUnit(unit);
 }
 
@@ -243,6 +252,12 @@ void GraphCollector::apply(osg::ProxyNode& node)
 
 void GraphCollector::apply(osg::TexGenNode& node)
 {
+    const bool inScene = node.getReferenceFrame() == osg::TexGenNode::RELATIVE_RF;
+    if (!inScene) _report.count("approximated.absolute-texgen"); // eye space in OpenGL, world space here
+    if (node.getTexGen() && node.getTextureUnit() < kUnits)
+        _graph.texGens[node.getTextureUnit()] = {
+            node.getTexGen(),
+            inScene ? engineFromLocal() : osg::Matrixd::translate(-_input.origin)};
     rasterize(RasterizedPart::PlaceState);
     apply(static_cast<osg::Node&>(node));
 }

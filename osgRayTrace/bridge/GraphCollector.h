@@ -8,6 +8,7 @@
 #include "osgRayTrace/bridge/SceneExtent.h"
 #include "osgRayTrace/bridge/SoftwareVertices.h"
 #include "osgRayTrace/bridge/StateStack.h"
+#include "osgRayTrace/bridge/TextureUnits.h"
 #include "osgRayTrace/bridge/TriangleList.h"
 
 #include <osg/Geometry>
@@ -79,6 +80,7 @@ struct CollectedGraph
     std::vector<CollectedAreaLight> areaLights;
     std::vector<CollectedEnvironment> environments; ///< in the order of the traversal
     std::vector<GraphState> states;
+    PlacedTexGens texGens;                     ///< the last of each unit, as OpenGL keeps them
     ClipPlanes clipPlanes;
     bool paged = false; ///< see ConversionResult
     RasterizedParts rasterized; ///< if ConversionInput::rasterizesRest

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/ViewingConditions.h"
 
+#include <osg/Matrixd>
 #include <osg/Node>
 
 #include <cstdint>
@@ -16,6 +17,8 @@ namespace osgRayTrace::engine
 /// values of the attributes and lights that are traced; those of the inherited state included.
 /// Vertex data that is written without Array::dirty(), and images without Image::dirty(), go
 /// unseen: that is what dirtyScene() is for. Reads the graph only.
-uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions);
+/// sceneFromLocal: of the place that root is at.
+uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions,
+                          const osg::Matrixd& sceneFromLocal = osg::Matrixd());
 
 } // namespace osgRayTrace::engine

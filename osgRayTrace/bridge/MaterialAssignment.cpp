@@ -19,7 +19,7 @@ namespace
 
 const osg::Texture2D* textureOf(const GraphState& state)
 {
-    return state.isOn(kTexture2DBit) ? state.attribute<osg::Texture2D>(kTextureSlot) : nullptr;
+    return state.isOn(0, kTexture2DBit) ? state.attribute<osg::Texture2D>(0, kTextureSlot) : nullptr;
 }
 
 float linear(float value)

@@ -7,13 +7,16 @@
 
 #include <osgRayTrace/PhysicalMaterial>
 
+#include <osg/AlphaFunc>
+#include <osg/BlendFunc>
+#include <osg/CullFace>
+#include <osg/FrontFace>
 #include <osg/ClipPlane>
 #include <osg/LightModel>
 #include <osg/Material>
 #include <osg/PolygonMode>
+#include <osg/PolygonOffset>
 #include <osg/Program>
-#include <osg/TexEnv>
-#include <osg/TexMat>
 
 #include <algorithm>
 #include <cmath>
@@ -67,8 +70,21 @@ VertexColorUse vertexColorUse(osg::Material::ColorMode mode)
     }
 }
 
-/// Does to the whole material what a vertex colour would do.
-void replaceColor(Material& material, VertexColorUse use, const Vec4& color)
+FaceColors faceColors(const osg::Material& source, osg::Material::Face face)
+{
+    FaceColors colors;
+    colors.ambient = rgb(source.getAmbient(face));
+    colors.diffuse = rgb(source.getDiffuse(face));
+    colors.specular = rgb(source.getSpecular(face));
+    colors.emission = rgb(source.getEmission(face));
+    colors.alpha = finiteOr(source.getDiffuse(face).a(), 1.0f);
+    colors.shininess =
+        std::clamp(finiteOr(source.getShininess(face), 0.0f), 0.0f, kLargestShininess);
+    return colors;
+}
+
+/// Does to all of a face what a vertex colour would do.
+void replaceColor(FaceColors& face, VertexColorUse use, const Vec4& color)
 {
     const Vec3 value(color);
     switch (use)
@@ -76,48 +92,144 @@ void replaceColor(Material& material, VertexColorUse use, const Vec4& color)
     case VertexColorUse::None:
         break;
     case VertexColorUse::Ambient:
-        material.ambient = value;
+        face.ambient = value;
         break;
     case VertexColorUse::Specular:
-        material.specular = value;
+        face.specular = value;
         break;
     case VertexColorUse::Emission:
-        material.emission = value;
+        face.emission = value;
         break;
     case VertexColorUse::AmbientAndDiffuse:
-        material.ambient = value;
-        material.diffuse = value;
-        material.alpha = color.w;
+        face.ambient = value;
+        face.diffuse = value;
+        face.alpha = color.w;
         break;
     case VertexColorUse::Diffuse:
-        material.diffuse = value;
-        material.alpha = color.w;
+        face.diffuse = value;
+        face.alpha = color.w;
         break;
     }
 }
 
-/// The values that decide on the picture, for comparison.
-std::vector<uint32_t> valuesOf(const Material& m)
+FaceColors frontOf(const Material& m)
 {
-    std::vector<uint32_t> values;
-    values.reserve(40);
-    const auto add = [&values](float value)
+    return {m.ambient, m.diffuse, m.specular, m.emission, m.shininess, m.alpha};
+}
+
+void setFront(Material& m, const FaceColors& face)
+{
+    m.ambient = face.ambient;
+    m.diffuse = face.diffuse;
+    m.specular = face.specular;
+    m.emission = face.emission;
+    m.shininess = face.shininess;
+    m.alpha = face.alpha;
+}
+
+/// The values that decide on the picture, for comparison.
+class MaterialValues
+{
+public:
+    explicit MaterialValues(const Material& m)
+    {
+        _values.reserve(64);
+        add(frontOf(m));
+        add(m.baseColor);
+        for (const float value : {m.metallic, m.roughness, m.transmission, m.ior, m.alphaReference})
+            add(value);
+        _values.insert(_values.end(),
+                       {static_cast<uint32_t>(m.model), uint32_t(m.lit),
+                        uint32_t(m.twoSidedLighting), m.lightMask,
+                        static_cast<uint32_t>(m.vertexColorUse), m.baseColorTexture,
+                        m.metallicRoughnessTexture, m.transmissionTexture, m.emissionTexture,
+                        uint32_t(m.separateSpecular), uint32_t(m.localViewer), uint32_t(m.blended),
+                        static_cast<uint32_t>(m.alphaTest), static_cast<uint32_t>(m.culling),
+                        uint32_t(m.clockwise), m.second.texture, uint32_t(m.hasBack)});
+        if (m.baseColorTexture != kInvalid)
+            add(m.textureEnvironment, m.environmentColor, m.mapping);
+        if (m.second.texture != kInvalid)
+            add(m.second.environment, m.second.environmentColor, m.second.mapping);
+        if (m.hasBack) add(m.back);
+    }
+
+    std::vector<uint32_t> take() { return std::move(_values); }
+
+private:
+    void add(float value)
     {
         uint32_t bits;
         std::memcpy(&bits, &value, sizeof bits);
-        values.push_back(bits);
-    };
-    for (const Vec3& color : {m.ambient, m.diffuse, m.specular, m.baseColor, m.emission})
+        _values.push_back(bits);
+    }
+    void add(const Vec3& v)
+    {
         for (int c = 0; c < 3; ++c)
+            add(v[c]);
+    }
+    void add(const FaceColors& face)
+    {
+        for (const Vec3& color : {face.ambient, face.diffuse, face.specular, face.emission})
+            add(color);
+        add(face.shininess);
+        add(face.alpha);
+    }
+    void add(TextureEnvironment environment, const Vec4& color, const TextureMapping& mapping)
+    {
+        _values.push_back(static_cast<uint32_t>(environment));
+        for (int c = 0; c < 4; ++c)
             add(color[c]);
-    for (const float value : {m.shininess, m.metallic, m.roughness, m.transmission, m.ior, m.alpha})
-        add(value);
-    values.insert(values.end(),
-                  {static_cast<uint32_t>(m.model), uint32_t(m.lit), uint32_t(m.twoSidedLighting),
-                   m.lightMask, static_cast<uint32_t>(m.vertexColorUse),
-                   static_cast<uint32_t>(m.textureEnvironment), m.baseColorTexture,
-                   m.metallicRoughnessTexture, m.transmissionTexture, m.emissionTexture});
-    return values;
+        _values.push_back(static_cast<uint32_t>(mapping.coordinates));
+        for (int column = 0; column < 4 && mapping.transformed; ++column)
+            for (int row = 0; row < 4; ++row)
+                add(mapping.matrix[column][row]);
+    }
+
+    std::vector<uint32_t> _values;
+};
+
+std::vector<uint32_t> valuesOf(const Material& m)
+{
+    return MaterialValues(m).take();
+}
+
+AlphaTest comparisonOf(osg::AlphaFunc::ComparisonFunction function)
+{
+    switch (function)
+    {
+    case osg::AlphaFunc::NEVER:
+        return AlphaTest::Never;
+    case osg::AlphaFunc::LESS:
+        return AlphaTest::Less;
+    case osg::AlphaFunc::EQUAL:
+        return AlphaTest::Equal;
+    case osg::AlphaFunc::LEQUAL:
+        return AlphaTest::LessOrEqual;
+    case osg::AlphaFunc::GREATER:
+        return AlphaTest::Greater;
+    case osg::AlphaFunc::NOTEQUAL:
+        return AlphaTest::NotEqual;
+    case osg::AlphaFunc::GEQUAL:
+        return AlphaTest::GreaterOrEqual;
+    case osg::AlphaFunc::ALWAYS:
+        return AlphaTest::Always;
+    }
+    return AlphaTest::Always;
+}
+
+FaceCulling cullingOf(const GraphState& state)
+{
+    if (!state.isOn(kCullFaceBit)) return FaceCulling::None;
+    const auto* faces = state.attribute<osg::CullFace>(kCullFaceSlot);
+    switch (faces ? faces->getMode() : osg::CullFace::BACK)
+    {
+    case osg::CullFace::FRONT:
+        return FaceCulling::Front;
+    case osg::CullFace::FRONT_AND_BACK:
+        return FaceCulling::FrontAndBack;
+    default:
+        return FaceCulling::Back;
+    }
 }
 
 } // namespace
@@ -145,14 +257,41 @@ SurfaceInputs surfaceInputs(const osg::Geometry& geometry)
     return inputs;
 }
 
-uint32_t MaterialConverter::index(const GraphState& state, const SurfaceInputs& inputs)
+Blending blendingOf(const GraphState& state)
+{
+    if (!state.isOn(kBlendBit)) return Blending::Opaque;
+    const auto* blend = state.attribute<osg::BlendFunc>(kBlendFuncSlot);
+    if (!blend) return Blending::Straight; // osgViewer's default function
+    const GLenum source = blend->getSourceRGB(), destination = blend->getDestinationRGB();
+    if (destination == GL_ZERO && source == GL_ONE) return Blending::Opaque;
+    if (destination == GL_ONE) return Blending::Additive;
+    return source == GL_SRC_ALPHA && destination == GL_ONE_MINUS_SRC_ALPHA ? Blending::Straight
+                                                                           : Blending::Other;
+}
+
+float polygonLift(const GraphState& state)
+{
+    constexpr float kMostLayers = 64.0f;
+    if (!state.isOn(kPolygonOffsetBit)) return 0.0f;
+    const auto* offset = state.attribute<osg::PolygonOffset>(kPolygonOffsetSlot);
+    if (!offset) return 0.0f;
+    const float units = offset->getUnits() != 0.0f ? offset->getUnits() : offset->getFactor();
+    return std::isfinite(units) ? std::clamp(-units, -kMostLayers, kMostLayers) : 0.0f;
+}
+
+uint32_t MaterialConverter::index(const GraphState& state, const SurfaceInputs& inputs,
+                                  const SurfacePlacement& placement)
 {
     countApproximations(state);
-    if (state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot))
-        return merged(physical(state, inputs));
-    Material material = fixedFunction(state, inputs);
-    if (_linear) decode(material);
-    applyTexture(material, state, inputs);
+    const bool isPhysical = state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot) != nullptr;
+    Material material = isPhysical ? physical(state, inputs) : fixedFunction(state, inputs);
+    applyOpacity(material, state);
+    applyFaces(material, state, placement);
+    if (!isPhysical)
+    {
+        applyTextureUnits(material, state, placement, _textures, _report);
+        if (_linear) decode(material);
+    }
     return merged(material);
 }
 
@@ -176,20 +315,29 @@ Material MaterialConverter::fixedFunction(const GraphState& state,
     material.lightMask = material.lit ? static_cast<uint32_t>(state.modesOn) : 0xffffffffu;
     if (const auto* model = state.attribute<osg::LightModel>(kLightModelSlot))
         material.twoSidedLighting = material.lit && model->getTwoSided();
+    if (const auto* model = state.attribute<osg::LightModel>(kLightModelSlot))
+    {
+        material.localViewer = material.lit && model->getLocalViewer();
+        material.separateSpecular =
+            material.lit && model->getColorControl() == osg::LightModel::SEPARATE_SPECULAR_COLOR;
+    }
     if (const auto* source = state.attribute<osg::Material>(kMaterialSlot))
     {
         material.name = source->getName();
-        material.ambient = rgb(source->getAmbient(kFront));
-        material.diffuse = rgb(source->getDiffuse(kFront));
-        material.specular = rgb(source->getSpecular(kFront));
-        material.emission = rgb(source->getEmission(kFront));
-        material.alpha = finiteOr(source->getDiffuse(kFront).a(), 1.0f);
-        material.shininess =
-            std::clamp(finiteOr(source->getShininess(kFront), 0.0f), 0.0f, kLargestShininess);
+        setFront(material, faceColors(*source, kFront));
+        material.back = faceColors(*source, osg::Material::BACK);
+        material.hasBack = material.twoSidedLighting;
     }
     applyColor(material, state, inputs);
-    if (!state.isOn(kBlendBit))
-        material.alpha = 1.0f; // OpenGL writes it, but nothing shows through
+    if (material.hasBack)
+    {
+        Material back = material;
+        setFront(back, material.back);
+        back.hasBack = material.hasBack = false;
+        applyColor(back, state, inputs);
+        material.hasBack = !sameMaterial(material, back);
+        material.back = frontOf(back);
+    }
     return material;
 }
 
@@ -215,41 +363,39 @@ void MaterialConverter::applyColor(Material& material, const GraphState& state,
         return;
     }
     if (inputs.hasOverallColor)
-        replaceColor(material, use, inputs.overallColor);
+    {
+        FaceColors face = frontOf(material);
+        replaceColor(face, use, inputs.overallColor);
+        setFront(material, face);
+    }
     else if (use == VertexColorUse::AmbientAndDiffuse)
         material.ambient = material.diffuse;
 }
 
-void MaterialConverter::applyTexture(Material& material, const GraphState& state,
-                                     const SurfaceInputs& inputs)
+/// Alpha that is neither blended nor tested is written by OpenGL, but nothing shows through.
+void MaterialConverter::applyOpacity(Material& material, const GraphState& state) const
 {
-    if (state.isOn(kOtherTextureBit)) _report.count("approximated.texture-target");
-    if (!state.isOn(kTexture2DBit)) return;
-    const auto* texture = state.attribute<osg::Texture2D>(kTextureSlot);
-    if (!texture) return;
-    if (state.isOn(kTexGenBit))
+    material.blended = blendingOf(state) != Blending::Opaque;
+    const auto* test = state.attribute<osg::AlphaFunc>(kAlphaFuncSlot);
+    if (test && state.isOn(kAlphaTestBit))
     {
-        _report.count("approximated.texgen");
-        return;
+        material.alphaTest = comparisonOf(test->getFunction());
+        material.alphaReference =
+            std::clamp(finiteOr(test->getReferenceValue(), 0.0f), 0.0f, 1.0f);
     }
-    if (!inputs.hasTextureCoordinates)
-    {
-        _report.count("approximated.no-texture-coordinates");
-        return;
-    }
-    if (state.attributes[kTextureMatrixSlot]) _report.count("approximated.texture-matrix");
-    material.baseColorTexture = _textures.index(texture, TextureContent::Color, _report);
+    if (!material.blended && material.alphaTest == AlphaTest::Always)
+        material.alpha = material.back.alpha = 1.0f;
+}
 
-    const osg::StateAttribute* environment = state.attributes[kTextureEnvironmentSlot];
-    if (!environment) return;
-    const auto* plain = dynamic_cast<const osg::TexEnv*>(environment);
-    const osg::TexEnv::Mode mode = plain ? plain->getMode() : osg::TexEnv::ADD;
-    if (mode == osg::TexEnv::REPLACE)
-        material.textureEnvironment = TextureEnvironment::Replace;
-    else if (mode == osg::TexEnv::DECAL)
-        material.textureEnvironment = TextureEnvironment::Decal;
-    else if (mode != osg::TexEnv::MODULATE)
-        _report.count("approximated.texture-environment");
+/// A transform that mirrors turns the winding that OpenGL sees, and not what is outside for the mesh.
+void MaterialConverter::applyFaces(Material& material, const GraphState& state,
+                                   const SurfacePlacement& placement) const
+{
+    material.culling = cullingOf(state);
+    if (material.culling == FaceCulling::None && !material.twoSidedLighting) return;
+    const auto* front = state.attribute<osg::FrontFace>(kFrontFaceSlot);
+    const bool clockwise = front && front->getMode() == osg::FrontFace::CLOCKWISE;
+    material.clockwise = clockwise != isMirrored(placement.engineFromLocal);
 }
 
 Material MaterialConverter::physical(const GraphState& state, const SurfaceInputs& inputs)
@@ -288,15 +434,20 @@ void MaterialConverter::decode(Material& material) const
     material.diffuse = decoded(material.diffuse);
     material.specular = decoded(material.specular);
     material.emission = decoded(material.emission);
+    for (Vec3* color : {&material.back.ambient, &material.back.diffuse, &material.back.specular,
+                        &material.back.emission})
+        *color = decoded(*color);
+    for (Vec4* color : {&material.environmentColor, &material.second.environmentColor})
+        *color = Vec4(decoded(Vec3(*color)), color->w);
 }
 
 void MaterialConverter::countApproximations(const GraphState& state)
 {
     const auto* program = state.attribute<osg::Program>(kProgramSlot);
     if (program && !program->isFixedFunction()) _report.count("approximated.shader");
-    if (state.isOn(kBlendBit)) _report.count("approximated.blending");
-    if (state.isOn(kAlphaTestBit)) _report.count("approximated.alpha-test");
-    if (state.isOn(kCullFaceBit)) _report.count("approximated.cull-face");
+    const Blending blending = blendingOf(state);
+    if (blending == Blending::Additive || blending == Blending::Other)
+        _report.count("approximated.blending");
     if (state.isOn(kFogBit)) _report.count("approximated.fog");
     const auto* plane = state.attribute<osg::ClipPlane>(kClipPlaneSlot);
     if (plane && plane->getClipPlaneNum() < kClipPlanes &&

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/StateStack.h"
-#include "osgRayTrace/bridge/TextureConverter.h"
+#include "osgRayTrace/bridge/TextureUnits.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <osg/Geometry>
@@ -20,10 +20,24 @@ struct SurfaceInputs
     bool hasVertexColors = false; ///< colours that vary over it
     bool hasOverallColor = false; ///< one colour for all of it
     Vec4 overallColor{1.0f};      ///< as OpenGL gets it, not decoded
-    bool hasTextureCoordinates = false;
+    bool hasTextureCoordinates = false; ///< of unit 0
 };
 
 SurfaceInputs surfaceInputs(const osg::Geometry& geometry);
+
+/// What GL_BLEND and the blend function do to what is behind.
+enum class Blending
+{
+    Opaque,
+    Straight, ///< source alpha and one minus it, also if no function is set
+    Additive, ///< adds to what is behind
+    Other,
+};
+Blending blendingOf(const GraphState& state);
+
+/// Layers that glPolygonOffset lifts the faces by, towards the viewer. 0: none. The offset's units count,
+/// or its factor if it has none.
+float polygonLift(const GraphState& state);
 
 /// One snapshot's materials.
 class MaterialConverter
@@ -36,7 +50,8 @@ public:
     }
 
     /// Index into the materials. Counts what of the state is only approximated, for each call.
-    uint32_t index(const GraphState& state, const SurfaceInputs& inputs);
+    uint32_t index(const GraphState& state, const SurfaceInputs& inputs,
+                   const SurfacePlacement& placement = {});
 
     /// A lamp that reflects nothing, for an area light.
     uint32_t lampIndex(const Vec3& radiance);
@@ -49,7 +64,9 @@ private:
     Material fixedFunction(const GraphState& state, const SurfaceInputs& inputs) const;
     Material physical(const GraphState& state, const SurfaceInputs& inputs);
     void applyColor(Material& material, const GraphState& state, const SurfaceInputs& inputs) const;
-    void applyTexture(Material& material, const GraphState& state, const SurfaceInputs& inputs);
+    void applyOpacity(Material& material, const GraphState& state) const;
+    void applyFaces(Material& material, const GraphState& state,
+                    const SurfacePlacement& placement) const;
     void decode(Material& material) const;
     void countApproximations(const GraphState& state);
     uint32_t merged(const Material& material);

@@ -16,7 +16,7 @@ namespace
 struct Vertices
 {
     std::vector<Vec3> positions, normals;
-    std::vector<Vec2> uvs;
+    std::vector<Vec2> uvs, uvs1;
     std::vector<Vec4> colors;
 };
 
@@ -114,6 +114,7 @@ private:
         _vertices.positions.push_back(Vec3(p + (q - p) * t));
         appendNormal(_vertices.normals, a, b, t);
         appendBetween(_vertices.uvs, a, b, t);
+        appendBetween(_vertices.uvs1, a, b, t);
         appendBetween(_vertices.colors, a, b, t);
         return next;
     }
@@ -127,7 +128,7 @@ private:
 
 void clip(Mesh& mesh, const std::vector<Vec4d>& planes)
 {
-    Vertices vertices{copyOf(mesh.positions), copyOf(mesh.normals), copyOf(mesh.uvs),
+    Vertices vertices{copyOf(mesh.positions), copyOf(mesh.normals), copyOf(mesh.uvs), copyOf(mesh.uvs1),
                       copyOf(mesh.colors)};
     std::vector<UVec3> triangles = copyOf(mesh.triangles);
     for (const Vec4d& plane : planes)
@@ -138,6 +139,7 @@ void clip(Mesh& mesh, const std::vector<Vec4d>& planes)
     mesh.positions = std::move(vertices.positions);
     mesh.normals = std::move(vertices.normals);
     mesh.uvs = std::move(vertices.uvs);
+    mesh.uvs1 = std::move(vertices.uvs1);
     mesh.colors = std::move(vertices.colors);
     mesh.triangles = std::move(triangles);
 }

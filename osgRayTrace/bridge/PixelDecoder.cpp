@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/PixelDecoder.h"
 
+#include "osgRayTrace/bridge/BlockDecoder.h"
+
 #include <glm/gtc/packing.hpp>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <type_traits>
@@ -17,6 +20,10 @@ namespace
 
 constexpr int kZero = -1; ///< a channel that is 0
 constexpr int kOne = -2;  ///< a channel that is 1
+
+// OpenGL 3.0's, which OSG's headers do not name.
+constexpr GLenum kSmallFloatType = 0x8C3B;     ///< GL_UNSIGNED_INT_10F_11F_11F_REV
+constexpr GLenum kSharedExponentType = 0x8C3E; ///< GL_UNSIGNED_INT_5_9_9_9_REV
 
 /// Where red, green, blue and alpha stand in a pixel of so many components.
 struct Layout
@@ -48,6 +55,10 @@ std::optional<Layout> layoutOf(GLenum format)
         return Layout{1, {kOne, kOne, kOne, 0}};
     case GL_RED:
         return Layout{1, {0, kZero, kZero, kOne}};
+    case GL_GREEN:
+        return Layout{1, {kZero, 0, kZero, kOne}};
+    case GL_BLUE:
+        return Layout{1, {kZero, kZero, 0, kOne}};
     case GL_RG:
         return Layout{2, {0, 1, kZero, kOne}};
     default:
@@ -143,24 +154,121 @@ bool decodePlain(const osg::Image& image, Texture& texture)
     }
 }
 
-bool isDxt(GLenum format)
+/// One number holds all components: the first in the highest bits, or in the lowest if reversed.
+struct Packing
 {
-    return format == GL_COMPRESSED_RGB_S3TC_DXT1_EXT ||
-           format == GL_COMPRESSED_RGBA_S3TC_DXT1_EXT ||
-           format == GL_COMPRESSED_RGBA_S3TC_DXT3_EXT || format == GL_COMPRESSED_RGBA_S3TC_DXT5_EXT;
+    int bytes;
+    int components;
+    int bits[4];
+    bool reversed;
+};
+
+std::optional<Packing> packingOf(GLenum type)
+{
+    switch (type)
+    {
+    case GL_UNSIGNED_BYTE_3_3_2:
+        return Packing{1, 3, {3, 3, 2, 0}, false};
+    case GL_UNSIGNED_BYTE_2_3_3_REV:
+        return Packing{1, 3, {3, 3, 2, 0}, true};
+    case GL_UNSIGNED_SHORT_5_6_5:
+        return Packing{2, 3, {5, 6, 5, 0}, false};
+    case GL_UNSIGNED_SHORT_5_6_5_REV:
+        return Packing{2, 3, {5, 6, 5, 0}, true};
+    case GL_UNSIGNED_SHORT_4_4_4_4:
+        return Packing{2, 4, {4, 4, 4, 4}, false};
+    case GL_UNSIGNED_SHORT_4_4_4_4_REV:
+        return Packing{2, 4, {4, 4, 4, 4}, true};
+    case GL_UNSIGNED_SHORT_5_5_5_1:
+        return Packing{2, 4, {5, 5, 5, 1}, false};
+    case GL_UNSIGNED_SHORT_1_5_5_5_REV:
+        return Packing{2, 4, {5, 5, 5, 1}, true};
+    case GL_UNSIGNED_INT_8_8_8_8:
+        return Packing{4, 4, {8, 8, 8, 8}, false};
+    case GL_UNSIGNED_INT_8_8_8_8_REV:
+        return Packing{4, 4, {8, 8, 8, 8}, true};
+    case GL_UNSIGNED_INT_10_10_10_2:
+        return Packing{4, 4, {10, 10, 10, 2}, false};
+    case GL_UNSIGNED_INT_2_10_10_10_REV:
+        return Packing{4, 4, {10, 10, 10, 2}, true};
+    default:
+        return std::nullopt;
+    }
 }
 
-void decodeDxt(const osg::Image& image, Texture& texture)
+/// In the byte order of the machine, as OpenGL reads it [OpenGL21, table 3.8].
+uint32_t packedPixel(const uint8_t* source, int bytes)
 {
+    uint32_t value = 0;
+    uint16_t half;
+    switch (bytes)
+    {
+    case 1:
+        return *source;
+    case 2:
+        std::memcpy(&half, source, sizeof half);
+        return half;
+    default:
+        std::memcpy(&value, source, sizeof value);
+        return value;
+    }
+}
+
+bool decodePacked(const osg::Image& image, const Packing& packing, Texture& texture)
+{
+    const auto layout = layoutOf(image.getPixelFormat());
+    if (!layout || layout->components != packing.components) return false;
     texture.bytes.resize(static_cast<std::size_t>(image.s()) * image.t() * 4);
-    uint8_t* pixel = texture.bytes.data();
+    uint8_t* out = texture.bytes.data();
     for (int y = 0; y < image.t(); ++y)
-        for (int x = 0; x < image.s(); ++x, pixel += 4)
+    {
+        const uint8_t* source = image.data(0, y);
+        for (int x = 0; x < image.s(); ++x, source += packing.bytes, out += 4)
         {
-            const osg::Vec4 color = image.getColor(x, y);
+            const uint32_t pixel = packedPixel(source, packing.bytes);
+            uint8_t values[4] = {};
+            int low = packing.reversed ? 0 : 8 * packing.bytes;
+            for (int c = 0; c < packing.components; ++c)
+            {
+                const int bits = packing.bits[c];
+                if (!packing.reversed) low -= bits;
+                const uint32_t largest = (1u << bits) - 1u;
+                values[c] = static_cast<uint8_t>(((pixel >> low & largest) * 255u + largest / 2) /
+                                                 largest);
+                if (packing.reversed) low += bits;
+            }
             for (int c = 0; c < 4; ++c)
-                pixel[c] = static_cast<uint8_t>(std::lround(255.0f * color[c]));
+            {
+                const int from = layout->channel[c];
+                out[c] = from >= 0 ? values[from] : from == kOne ? 255 : 0;
+            }
         }
+    }
+    return true;
+}
+
+/// Three numbers with a common exponent, or with their own ones, without sign
+/// [OpenGL30, sect. 2.1.3 and 3.9.1].
+bool decodeSharedExponent(const osg::Image& image, Texture& texture)
+{
+    const bool shared = image.getDataType() == kSharedExponentType;
+    if (image.getPixelFormat() != GL_RGB) return false;
+    texture.floats.resize(static_cast<std::size_t>(image.s()) * image.t() * 4);
+    float* out = texture.floats.data();
+    for (int y = 0; y < image.t(); ++y)
+    {
+        const uint8_t* source = image.data(0, y);
+        for (int x = 0; x < image.s(); ++x, source += 4, out += 4)
+        {
+            const uint32_t pixel = packedPixel(source, 4);
+            const Vec3 color =
+                shared ? Vec3(glm::unpackF3x9_E1x5(pixel)) : Vec3(glm::unpackF2x11_1x10(pixel));
+            for (int c = 0; c < 3; ++c)
+                out[c] = finiteOrZero(color[c]);
+            out[3] = 1.0f;
+        }
+    }
+    return true;
 }
 
 } // namespace
@@ -170,8 +278,15 @@ bool decodePixels(const osg::Image& image, Texture& texture)
     if (!image.data() || image.s() < 1 || image.t() < 1) return false;
     if (image.isCompressed())
     {
-        if (!isDxt(image.getPixelFormat())) return false;
-        decodeDxt(image, texture);
+        if (!decodeBlocks(image, texture)) return false;
+    }
+    else if (const auto packing = packingOf(image.getDataType()))
+    {
+        if (!decodePacked(image, *packing, texture)) return false;
+    }
+    else if (image.getDataType() == kSharedExponentType || image.getDataType() == kSmallFloatType)
+    {
+        if (!decodeSharedExponent(image, texture)) return false;
     }
     else if (!decodePlain(image, texture))
         return false;

@@ -9,7 +9,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Fills size and pixels of the texture: 8-bit images (and DXT) as bytes, others as floats. Row 0
+/// Fills size and pixels of the texture: images of 8 bits or less a channel, and compressed ones, as bytes, others as floats (10 bits as bytes). Row 0
 /// of the result is the row that OpenGL takes as the lowest, the first in memory:
 /// Image::getOrigin() is a hint for file writers and users who set coordinates, and OSG does not
 /// look at it when it uploads a texture. Missing channels as in OpenGL: alpha and luminance formats

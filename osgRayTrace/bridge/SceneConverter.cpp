@@ -7,7 +7,9 @@
 #include "osgRayTrace/bridge/GraphCollector.h"
 #include "osgRayTrace/bridge/LightConverter.h"
 #include "osgRayTrace/bridge/MaterialConverter.h"
+#include "osgRayTrace/bridge/MeshPlacement.h"
 #include "osgRayTrace/bridge/SceneExtent.h"
+#include "osgRayTrace/bridge/ScenePatcher.h"
 #include "osgRayTrace/bridge/SnapshotStamps.h"
 #include "osgRayTrace/bridge/TextureConverter.h"
 #include "osgRayTrace/bridge/VertexArrays.h"
@@ -32,60 +34,13 @@ namespace
 constexpr float kViewerAmbient = 0.1f;
 constexpr float kOpenGLAmbient = 0.2f;
 
-/// Of GeometryCache: the mesh that all uses share. The use number n that cannot is n + 1.
-constexpr uint32_t kOwnVariant = 0;
+constexpr uint32_t kOwnVariant = GeometryCache::kOwnVariant;
 
-Affine toAffine(const osg::Matrixd& m)
-{
-    Affine affine;
-    affine.linear = Mat3(Vec3(m(0, 0), m(0, 1), m(0, 2)), Vec3(m(1, 0), m(1, 1), m(1, 2)),
-                         Vec3(m(2, 0), m(2, 1), m(2, 2)));
-    affine.translation = Vec3(m(3, 0), m(3, 1), m(3, 2));
-    return affine;
-}
+/// Vertices of the flat BVH: fewer are built again in no time.
+constexpr uint64_t kSmallFlat = 32768;
 
-/// Whether Embree can invert the transform in float (see TracedScene); else the mesh is baked.
-bool isPlaceable(const Affine& affine)
-{
-    constexpr float kSmallest = 1e-8f, kLargest = 1e8f;
-    if (!isFinite(affine.translation)) return false;
-    for (int column = 0; column < 3; ++column)
-    {
-        const float length = glm::length(affine.linear[column]);
-        if (!(length >= kSmallest && length <= kLargest)) return false;
-    }
-    return std::fabs(glm::determinant(glm::dmat3(affine.linear))) > 1e-28;
-}
-
-/// Local coordinates are moved to their centre if that is so many radii away: else an instance
-/// would lose in float what its large coordinates lose.
-constexpr double kFarFromOrigin = 64.0;
-
-/// Of a shared geometry: its mesh has its own origin and unit where those of the geometry would lose
-/// in float.
-struct MeshFrame
-{
-    osg::Matrixd meshFromLocal, localFromMesh;
-};
-
-MeshFrame meshFrame(const VertexBounds& bounds)
-{
-    MeshFrame frame;
-    if (bounds.count == 0) return frame;
-    const osg::Vec3d centre(bounds.centre().x, bounds.centre().y, bounds.centre().z);
-    if (centre.length() > kFarFromOrigin * bounds.radius())
-    {
-        frame.meshFromLocal.makeTranslate(-centre);
-        frame.localFromMesh.makeTranslate(centre);
-    }
-    LengthCounts lengths;
-    lengths.add(largestCoordinate(bounds, frame.meshFromLocal));
-    const double unit = lengths.unit(), inverse = 1.0 / unit;
-    if (unit == 1.0) return frame;
-    frame.meshFromLocal.postMultScale(osg::Vec3d(inverse, inverse, inverse));
-    frame.localFromMesh.preMultScale(osg::Vec3d(unit, unit, unit));
-    return frame;
-}
+/// Builds of a larger one for the sake of what leaves it; then all meshes get BVHs of their own.
+constexpr int kMostFlatBuilds = 3;
 
 void setBounds(CollectedGraph& graph, GeometryCache& geometries)
 {
@@ -94,7 +49,7 @@ void setBounds(CollectedGraph& graph, GeometryCache& geometries)
 }
 
 /// Of all that is traced, where the lengths of the graph are those of the world.
-double unitOf(const CollectedGraph& graph)
+LengthCounts lengthsOf(const CollectedGraph& graph)
 {
     LengthCounts lengths;
     for (const CollectedGeometry& geometry : graph.geometries)
@@ -114,7 +69,7 @@ double unitOf(const CollectedGraph& graph)
             lengths.add(std::max({std::fabs(q.x()), std::fabs(q.y()), std::fabs(q.z())}));
         }
     }
-    return lengths.unit();
+    return lengths;
 }
 
 bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
@@ -153,21 +108,50 @@ struct ConversionCaches
     SoftwareVertices vertices;
     GeometryCache geometries;
     TextureConverter textures;
-    std::vector<std::shared_ptr<const Mesh>>
-        areaLights; ///< their quads, in the order of the traversal
     EnvironmentConverter environment;
+    struct Quad
+    {
+        std::shared_ptr<const Mesh> mesh;
+        bool moves = false; ///< has moved: it is in no flat BVH
+    };
+    std::vector<Quad> areaLights; ///< in the order of the traversal
+    std::vector<const Mesh*> flat; ///< all meshes that are not placed; names, not followed
+    uint64_t flatVertices = 0;
+    int flatBuilds = 0;     ///< of a large flat BVH that something has left
+    bool dissolved = false; ///< there is no flat BVH any more
 };
+
+/// If a large flat BVH must be built time and again, there shall be none.
+void noteFlat(const Scene& scene, bool comparable, ConversionCaches& caches)
+{
+    std::vector<const Mesh*> flat;
+    uint64_t vertices = 0;
+    for (const Instance& instance : scene.instances)
+    {
+        if (instance.placed) continue;
+        flat.push_back(scene.meshes[instance.mesh].get());
+        vertices += flat.back()->positions.size();
+    }
+    const bool large = caches.flatVertices > kSmallFlat;
+    if (comparable && large && flat != caches.flat &&
+        ++caches.flatBuilds >= kMostFlatBuilds)
+        caches.dissolved = true;
+    caches.flat = std::move(flat);
+    caches.flatVertices = vertices;
+}
 
 /// Adds the parts of one snapshot to its Scene.
 class SceneBuilder
 {
 public:
     SceneBuilder(const ConversionInput& input, const CollectedGraph& graph, double unit,
-                 bool linear, Stamp now, ConversionCaches& caches, ConversionReport& report)
+                 bool linear, bool comparable, Stamp now, ConversionCaches& caches,
+                 ConversionReport& report)
         : _input(input),
           _graph(graph),
           _unit(unit),
           _linear(linear),
+          _comparable(comparable),
           _now(now),
           _caches(caches),
           _report(report),
@@ -183,6 +167,7 @@ public:
         _scene->displayReferred = !_linear;
         _scene->background = backgroundOf(_input.clearColor, _linear);
         _scene->ambient = Vec3(_input.lighting ? kViewerAmbient : kOpenGLAmbient);
+        noteNew();
         for (const CollectedGeometry& geometry : _graph.geometries)
         {
             _report.setPlace([&geometry] { return geometry.path; });
@@ -194,6 +179,8 @@ public:
             addAreaLight(_graph.areaLights[i], _caches.areaLights[i]);
         _scene->materials = _materials.take();
         _scene->textures = _caches.textures.end();
+        putFlatFirst();
+        noteFlat(*_scene, _comparable, _caches);
         addLights();
         addEnvironment();
         if (_scene->materials.empty()) _scene->materials.push_back(fallbackMaterial());
@@ -202,7 +189,12 @@ public:
         return std::move(_scene);
     }
 
+    SceneIndex takeIndex() { return std::move(_index); }
+
 private:
+    void noteNew();
+    bool isPlaced(const CollectedGeometry& geometry);
+    void putFlatFirst();
     void addGeometry(const CollectedGeometry& geometry);
     void warnIfCoarse(const CollectedGeometry& geometry);
     Clipping clipBy(const CollectedGeometry& geometry, const GeometryUse& use,
@@ -211,7 +203,7 @@ private:
     void addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
                   const std::shared_ptr<const Mesh>& mesh);
     void addInstance(const CollectedGeometry& geometry, const GeometryUse& use, Instance instance);
-    void addAreaLight(const CollectedAreaLight& source, std::shared_ptr<const Mesh>& quad);
+    void addAreaLight(const CollectedAreaLight& source, ConversionCaches::Quad& quad);
     void addLights();
     void addEnvironment();
     void setAmbient(const GraphState& state);
@@ -222,11 +214,14 @@ private:
     const CollectedGraph& _graph;
     double _unit;
     bool _linear;
+    bool _comparable; ///< with the last snapshot: what differs has changed
+    bool _newJoinFlat = true;
     Stamp _now;
     ConversionCaches& _caches;
     ConversionReport& _report;
     MaterialConverter _materials;
     std::shared_ptr<Scene> _scene;
+    SceneIndex _index;
     const osg::LightModel* _lightModel = nullptr; // the first one met
 };
 
@@ -256,6 +251,56 @@ void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
                  "coordinates below a transform");
 }
 
+/// What comes into a scene gets BVHs of its own, unless it is so much that the flat one may as well be
+/// built again.
+void SceneBuilder::noteNew()
+{
+    uint64_t vertices = 0;
+    for (const CollectedGeometry& geometry : _graph.geometries)
+        if (!_caches.geometries.lastRequest(*geometry.geometry)) vertices += geometry.bounds->count;
+    _newJoinFlat = vertices >= _caches.flatVertices;
+}
+
+/// Used more often than once, or not still: what has moved or deformed since it came will do so again.
+bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
+{
+    const osg::Geometry& geometry = *collected.geometry;
+    GeometryCache& cache = _caches.geometries;
+    const MeshRequest* last = cache.lastRequest(geometry);
+    const bool once = collected.uses.size() == 1;
+    if (_comparable && last && !cache.hasSameArrays(geometry))
+        cache.noteLiveness(geometry, Liveness::Deforms);
+    else if (_comparable && once && last &&
+             last->transform != requestFor(collected, collected.uses.front().engineFromLocal).transform)
+        cache.noteLiveness(geometry, Liveness::Moves);
+    else if (once && (_caches.dissolved || (_comparable && !last && !_newJoinFlat)))
+        cache.noteLiveness(geometry, Liveness::Moves);
+    return !once || cache.liveness(geometry) != Liveness::Still;
+}
+
+/// Their indices are then a matter of themselves alone, and so is their BVH.
+void SceneBuilder::putFlatFirst()
+{
+    std::vector<Instance>& instances = _scene->instances;
+    std::vector<uint32_t> order(instances.size()), now(instances.size());
+    for (uint32_t i = 0; i < order.size(); ++i)
+        order[i] = i;
+    std::stable_partition(order.begin(), order.end(),
+                          [&](uint32_t i) { return !instances[i].placed; });
+    std::vector<Instance> sorted;
+    sorted.reserve(instances.size());
+    for (uint32_t i = 0; i < order.size(); ++i)
+    {
+        sorted.push_back(instances[order[i]]);
+        now[order[i]] = i;
+    }
+    instances.swap(sorted);
+    for (Light& light : _scene->lights)
+        if (light.instance != kInvalid) light.instance = now[light.instance];
+    for (uint32_t& index : _index.instances)
+        if (index != kInvalid) index = now[index];
+}
+
 /// Puts the planes that cross the geometry into the request, which is for engine space.
 Clipping SceneBuilder::clipBy(const CollectedGeometry& geometry, const GeometryUse& use,
                               MeshRequest& request)
@@ -276,14 +321,27 @@ Clipping SceneBuilder::clipBy(const CollectedGeometry& geometry, const GeometryU
 void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 {
     warnIfCoarse(geometry);
-    if (geometry.uses.size() > 1)
+    const auto first = static_cast<uint32_t>(_index.instances.size());
+    // One that is here twice has other primitive restart: only one of both is in the index.
+    const bool once = _index.uses.count(geometry.geometry) == 0;
+    const bool lifted = std::any_of(geometry.uses.begin(), geometry.uses.end(),
+                                    [this](const GeometryUse& use)
+                                    { return polygonLift(_graph.states[use.state]) != 0.0f; });
+    _index.uses[geometry.geometry] = {first, static_cast<uint32_t>(geometry.uses.size()),
+                                      once && !lifted};
+    if (isPlaced(geometry))
     {
         addPlacedUses(geometry);
         return;
     }
     const GeometryUse& use = geometry.uses.front();
     MeshRequest request = requestFor(geometry, use.engineFromLocal);
-    if (clipBy(geometry, use, request) == Clipping::Wholly) return;
+    request.lift = polygonLift(_graph.states[use.state]);
+    if (clipBy(geometry, use, request) == Clipping::Wholly)
+    {
+        _index.instances.push_back(kInvalid);
+        return;
+    }
     addBaked(
         geometry, use,
         _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report));
@@ -292,7 +350,11 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
                             const std::shared_ptr<const Mesh>& mesh)
 {
-    if (!mesh) return;
+    if (!mesh)
+    {
+        _index.instances.push_back(kInvalid);
+        return;
+    }
     _report.count("converted.geometry");
     Instance instance;
     instance.mesh = addMesh(mesh);
@@ -302,10 +364,15 @@ void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse
 void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
 {
     const MeshFrame frame = meshFrame(*geometry.bounds);
-    const MeshRequest request = requestFor(geometry, frame.meshFromLocal);
+    MeshRequest request = requestFor(geometry, frame.meshFromLocal);
+    request.copies = _caches.geometries.liveness(*geometry.geometry) == Liveness::Deforms;
     const auto mesh =
         _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report);
-    if (!mesh) return;
+    if (!mesh)
+    {
+        _index.instances.resize(_index.instances.size() + geometry.uses.size(), kInvalid);
+        return;
+    }
     _report.count("converted.geometry");
     const uint32_t meshIndex = addMesh(mesh);
     uint32_t variant = kOwnVariant;
@@ -313,23 +380,22 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
     {
         ++variant;
         MeshRequest own = requestFor(geometry, use.engineFromLocal);
+        own.lift = polygonLift(_graph.states[use.state]);
         const Clipping clipping = clipBy(geometry, use, own);
-        if (clipping == Clipping::Wholly) continue;
+        if (clipping == Clipping::Wholly)
+        {
+            _index.instances.push_back(kInvalid);
+            continue;
+        }
         Instance instance;
         instance.mesh = meshIndex;
-        instance.placed = true;
-        instance.engineFromLocal = toAffine(frame.localFromMesh * use.engineFromLocal);
-        if (clipping == Clipping::Partly || !isPlaceable(instance.engineFromLocal))
-        {
+        if (clipping == Clipping::None && own.lift == 0.0f &&
+            placeInstance(instance, frame.localFromMesh * use.engineFromLocal))
+            addInstance(geometry, use, instance);
+        else
             addBaked(geometry, use,
                      _caches.geometries.mesh(*geometry.geometry, variant, own, geometry.path,
                                              _report));
-            continue;
-        }
-        const glm::dmat3 linear(instance.engineFromLocal.linear);
-        instance.normalFromLocal = Mat3(glm::transpose(glm::inverse(linear)));
-        instance.mirrored = glm::determinant(linear) < 0.0;
-        addInstance(geometry, use, instance);
     }
 }
 
@@ -337,7 +403,8 @@ void SceneBuilder::addInstance(const CollectedGeometry& geometry, const Geometry
                                Instance instance)
 {
     const GraphState& state = _graph.states[use.state];
-    instance.material = _materials.index(state, surfaceInputs(*geometry.geometry));
+    instance.material = _materials.index(state, surfaceInputs(*geometry.geometry),
+                                         {use.engineFromLocal, &_graph.texGens});
     setAmbient(state);
     const Material& material = _materials.at(instance.material);
     const auto index = static_cast<uint32_t>(_scene->instances.size());
@@ -346,6 +413,7 @@ void SceneBuilder::addInstance(const CollectedGeometry& geometry, const Geometry
         instance.light = static_cast<uint32_t>(_scene->lights.size());
         _scene->lights.push_back(meshLight(geometry.path, material.emission, index));
     }
+    _index.instances.push_back(index);
     _scene->instances.push_back(instance);
 }
 
@@ -366,7 +434,7 @@ void SceneBuilder::setAmbient(const GraphState& state)
 }
 
 /// quad is that of the last snapshot, if any, and stays if the light has not moved.
-void SceneBuilder::addAreaLight(const CollectedAreaLight& source, std::shared_ptr<const Mesh>& quad)
+void SceneBuilder::addAreaLight(const CollectedAreaLight& source, ConversionCaches::Quad& quad)
 {
     auto converted = convertAreaLight(*source.light, source.engineFromLocal);
     if (!converted)
@@ -378,14 +446,16 @@ void SceneBuilder::addAreaLight(const CollectedAreaLight& source, std::shared_pt
     _report.count("converted.area-light");
     Instance instance;
     instance.material = _materials.lampIndex(converted->light.radiance);
-    if (!quad || !std::equal(quad->positions.begin(), quad->positions.end(),
-                             converted->mesh->positions.begin()))
+    if (!quad.mesh || !std::equal(quad.mesh->positions.begin(), quad.mesh->positions.end(),
+                                  converted->mesh->positions.begin()))
     {
         converted->mesh->name = source.path;
         converted->mesh->changed = _now;
-        quad = converted->mesh;
+        quad.moves |= _comparable;
+        quad.mesh = converted->mesh;
     }
-    instance.mesh = addMesh(quad);
+    instance.mesh = addMesh(quad.mesh);
+    if (quad.moves || _caches.dissolved) placeInstance(instance, osg::Matrixd());
     if (converted->light.radiance != Vec3(0.0f))
     {
         instance.light = static_cast<uint32_t>(_scene->lights.size());
@@ -456,12 +526,31 @@ void SceneBuilder::addEnvironment()
     }
 }
 
+/// Geometry that OpenGL draws is where its path puts it: it may move without a conversion.
+void addUntraced(const RasterizedParts& parts, SceneIndex& index)
+{
+    const auto traced = static_cast<uint32_t>(index.instances.size());
+    for (const RasterizedPart& part : parts)
+    {
+        const osg::Geometry* geometry = part.path.empty() ? nullptr : part.path.back()->asGeometry();
+        if (!geometry || part.kind != RasterizedPart::Draw) continue;
+        const auto [found, isNew] = index.uses.try_emplace(geometry);
+        if (!isNew && found->second.first < traced) continue;
+        if (isNew) found->second.first = static_cast<uint32_t>(index.instances.size());
+        ++found->second.count;
+        index.instances.push_back(kInvalid);
+    }
+}
+
 } // namespace
 
 struct SceneConverter::Implementation
 {
     ConversionCaches caches;
     std::shared_ptr<const Scene> last;
+    ConversionResult lastResult;
+    SceneIndex index;
+    bool ordinary = false; ///< unit is 1, and stays so as long as lengths are ordinary
     Stamp stamp = 0;
 };
 
@@ -472,6 +561,11 @@ SceneConverter::~SceneConverter() = default;
 void SceneConverter::forget()
 {
     _implementation->caches = ConversionCaches();
+}
+
+uint64_t SceneConverter::convertedMeshes() const
+{
+    return _implementation->caches.geometries.converted();
 }
 
 ConversionResult SceneConverter::convert(const ConversionInput& input)
@@ -489,12 +583,22 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     const bool linear = isLinear(graph, input.colorRule);
     state.caches.geometries.begin(now);
     setBounds(graph, state.caches.geometries);
-    const double unit = unitOf(graph);
+    const LengthCounts lengths = lengthsOf(graph);
+    const double unit = lengths.unit();
     applyUnit(unit, graph);
     state.caches.textures.begin(linear, now);
-    SceneBuilder builder(input, graph, unit, linear, now, state.caches, report);
+    const Vec3d origin(input.origin.x(), input.origin.y(), input.origin.z());
+    const bool comparable = state.last && !state.last->instances.empty() &&
+                            state.last->origin == origin && state.last->unit == unit &&
+                            state.last->displayReferred == !linear;
+    SceneBuilder builder(input, graph, unit, linear, comparable, now, state.caches, report);
     state.last = stampChanges(builder.build(), state.last, now);
     state.caches.geometries.end();
+    // Where planes clip depends on where a geometry is.
+    const bool clips = std::any_of(graph.states.begin(), graph.states.end(), [](const GraphState& s)
+                                   { return s.isOn(kClipPlaneBit); });
+    state.ordinary = unit == 1.0 && lengths.areOrdinary() && !clips;
+    state.index = builder.takeIndex();
     state.caches.vertices.end();
 
     ConversionResult result;
@@ -503,12 +607,33 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     result.counts = report.counts();
     result.paths = report.paths();
     warnOnceAReason(report, input.rasterizesRest);
+    addUntraced(graph.rasterized, state.index);
     const auto draws = [](const RasterizedPart& part) { return part.kind == RasterizedPart::Draw; };
     if (std::any_of(graph.rasterized.begin(), graph.rasterized.end(), draws))
         result.rasterized = std::make_shared<RasterizedParts>(std::move(graph.rasterized));
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    state.lastResult = result;
     return result;
+}
+
+std::optional<ConversionResult> SceneConverter::patch(const GraphChanges& changes)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    Implementation& state = *_implementation;
+    if (!state.last || !state.ordinary || (state.caches.dissolved && !state.caches.flat.empty()))
+        return std::nullopt;
+    const Stamp now = ++state.stamp;
+    ScenePatcher patcher(*state.last, state.index, state.caches.geometries, now);
+    const std::shared_ptr<const Scene> scene = patcher.patch(changes);
+    if (!scene) return std::nullopt;
+    if (patcher.changed()) state.last = scene;
+    if (patcher.leftFlat()) noteFlat(*scene, true, state.caches);
+    if (state.caches.dissolved && !state.caches.flat.empty()) return std::nullopt;
+    state.lastResult.scene = state.last;
+    state.lastResult.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return state.lastResult;
 }
 
 } // namespace osgRayTrace::engine

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/ConversionReport.h"
+#include "osgRayTrace/bridge/GraphChanges.h"
 #include "osgRayTrace/bridge/LightSizes.h"
 #include "osgRayTrace/bridge/MaterialLibrary.h"
 #include "osgRayTrace/bridge/RasterizedParts.h"
@@ -73,6 +74,13 @@ public:
     /// are (see GeometryCache and TextureConverter); an unchanged graph gives the last Scene
     /// itself.
     ConversionResult convert(const ConversionInput& input);
+
+    /// The last scene with these changes alone redone; the scene itself if they change nothing. Nothing: call
+    /// convert(). The graph has no other changes since the last call of either, which did not throw.
+    std::optional<ConversionResult> patch(const GraphChanges& changes);
+
+    /// Meshes that were made from arrays, ever.
+    uint64_t convertedMeshes() const;
 
     /// The next conversion reads all arrays and images again, whatever their modified counts say.
     void forget();

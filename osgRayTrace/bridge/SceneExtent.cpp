@@ -118,6 +118,19 @@ double LengthCounts::unit() const
     return 1.0;
 }
 
+bool LengthCounts::areOrdinary() const
+{
+    return _counts.empty() || (_counts.begin()->first >= kSmallestExtent &&
+                               _counts.rbegin()->first <= kLargestExtent);
+}
+
+bool isOrdinaryLength(double length)
+{
+    LengthCounts counts;
+    counts.add(length);
+    return std::isfinite(length) && counts.areOrdinary();
+}
+
 VertexBounds vertexBounds(const osg::Array& positions)
 {
     // Among coordinates of ordinary size there are no outliers.

@@ -29,11 +29,17 @@ public:
     /// be and no smaller: they are the ones with small things in them.
     double unit() const;
 
+    /// All of them are such that unit() is 1 whatever other such lengths there are.
+    bool areOrdinary() const;
+
 private:
     LengthCounts ordinary() const;
 
     std::map<int, uint64_t> _counts; ///< by binary exponent
 };
+
+/// Of LengthCounts::areOrdinary.
+bool isOrdinaryLength(double length);
 
 /// A box around the vertices of a geometry, in its own coordinates; without outliers.
 struct VertexBounds

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/SceneUpdater.h"
 
-#include "osgRayTrace/bridge/GraphFingerprint.h"
 #include "osgRayTrace/bridge/StatisticsFromEngine.h"
 #include "osgRayTrace/bridge/WarnOnce.h"
 
@@ -81,7 +80,9 @@ SceneVersion SceneUpdater::version() const
 Statistics SceneUpdater::statistics() const
 {
     std::lock_guard<std::mutex> lock(_versionMutex);
-    return _statistics;
+    Statistics statistics = _statistics;
+    if (_version.scene) statistics.embreeBytes = _version.scene->embreeBytes();
+    return statistics;
 }
 
 void SceneUpdater::update(osg::Node* root, const RayTraceSettings& settings,
@@ -141,24 +142,54 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
                       lightSizesOf(*_settings) == _lightSizes && materials == _materials;
     if (seen && same) return;
     if (frameStamp) _frameNumber = frameStamp->getFrameNumber();
+    if (!root && same) return;
 
-    const uint64_t fingerprint = root ? graphFingerprint(*root, conditions) : 0;
-    if (same && fingerprint == _fingerprint) return;
-
+    const bool sameRoot = root == _root;
     _root = root;
-    _fingerprint = fingerprint;
     _conditions = conditions;
     _colorRule = _settings->getColorRule();
     _lightSizes = lightSizesOf(*_settings);
     _materials = materials;
     if (noted.origin || !_origin) _origin = finiteOrZero(noted.origin.value_or(conditions.eye));
-    if (root)
-        convert(*root, conditions);
-    else
-        publish(nullptr, ConversionResult(), Statistics());
+    if (!root)
+    {
+        _watch.forget();
+        publish(nullptr, ConversionResult(), _done);
+        return;
+    }
+    const GraphChanges changes = look(*root, same, sameRoot, conditions);
+    if (changes.none()) return;
+
+    const bool wasStale = std::exchange(_stale, true);
+    std::optional<ConversionResult> conversion;
+    if (!changes.convert && !wasStale) conversion = _converter.patch(changes);
+    ++(conversion ? _done.patches : _done.conversions);
+    if (!conversion) conversion = convert(*root, conditions);
+    _stale = false;
+    build(*conversion);
 }
 
-void SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
+/// What has changed; the graph is remembered as it is now, whatever becomes of its conversion.
+GraphChanges SceneUpdater::look(osg::Node& root, bool same, bool sameRoot,
+                                const ViewingConditions& conditions)
+{
+    GraphChanges changes;
+    changes.convert = !same;
+    changes.record = !sameRoot;
+    if (sameRoot)
+    {
+        // Also under other conditions: then all changes are known, and the next look finds none of them.
+        const GraphChanges found = _watch.look(root, conditions);
+        if (same) changes = found;
+        changes.record = found.record;
+        std::lock_guard<std::mutex> lock(_versionMutex);
+        _statistics.walks = ++_done.walks;
+    }
+    if (changes.record) _watch.record(root, conditions);
+    return changes;
+}
+
+ConversionResult SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
 {
     ConversionInput input;
     input.root = &root;
@@ -176,11 +207,23 @@ void SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
     input.materials = _materials;
     input.rasterizesRest = true;
 
-    const ConversionResult conversion = _converter.convert(input);
+    return _converter.convert(input);
+}
+
+void SceneUpdater::build(const ConversionResult& conversion)
+{
     std::shared_ptr<const TracedScene> traced = version().scene;
     if (!traced || &traced->scene() != conversion.scene.get())
+    {
         traced = TracedScene::build(conversion.scene, _workers, traced);
-    Statistics statistics;
+        const BuildStatistics& made = traced->statistics();
+        _done.builtMeshes += made.builtMeshes;
+        _done.refitMeshes += made.refitMeshes;
+        _done.staticBuilds += made.staticBuilds;
+        _done.embreeCommits += made.commits;
+    }
+    _done.convertedMeshes = _converter.convertedMeshes();
+    Statistics statistics = _done;
     setSceneStatistics(statistics, conversion, *traced);
     publish(std::move(traced), conversion, statistics);
 }

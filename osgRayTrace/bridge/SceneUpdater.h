@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/bridge/GraphWatch.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/ViewingConditions.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
@@ -49,8 +50,8 @@ public:
     /// serve near things and far ones, see kOriginDistance. Draw threads.
     void noteDrawn(const void* camera, const osg::Vec3d& eye, double nearDistance);
 
-    /// Takes the settings over and converts the graph if anything of it, of the settings or of the
-    /// noted conditions changed; once for a frame number, unless the latter did. Null root: no
+    /// Takes the settings over and redoes what changed of the graph, of the settings or of the noted
+    /// conditions; once for a frame number, unless the latter did. Null root: no
     /// scene. Update and cull threads. Does not throw: a failure leaves the last version and is in
     /// the statistics.
     void update(osg::Node* root, const RayTraceSettings& settings,
@@ -82,7 +83,10 @@ private:
     Noted takeNoted();
     void takeSettings(const RayTraceSettings& settings);
     void convertIfChanged(osg::Node* root, const Noted& noted, const osg::FrameStamp* frameStamp);
-    void convert(osg::Node& root, const ViewingConditions& conditions);
+    GraphChanges look(osg::Node& root, bool same, bool sameRoot,
+                      const ViewingConditions& conditions);
+    ConversionResult convert(osg::Node& root, const ViewingConditions& conditions);
+    void build(const ConversionResult& conversion);
     void publish(std::shared_ptr<const TracedScene> scene,
                  const ConversionResult& conversion, const Statistics& statistics);
     void fail(const char* message) noexcept;
@@ -99,14 +103,16 @@ private:
     osg::ref_ptr<const RayTraceSettings> _settings; ///< as they were in the last update
     std::shared_ptr<Workers> _workers;
     std::optional<unsigned int> _frameNumber; ///< last looked at
-    // Last converted for, successfully or not:
+    // Last looked at for, and converted successfully or not:
     std::optional<ViewingConditions> _conditions;
     RayTraceSettings::ColorRule _colorRule = RayTraceSettings::AUTOMATIC_COLOR;
     LightSizes _lightSizes;
     MaterialLibraryFile _materialFile;
     std::shared_ptr<const MaterialLibrary> _materials;
     osg::Node* _root = nullptr; ///< a name, not followed
-    uint64_t _fingerprint = 0;
+    GraphWatch _watch;
+    Statistics _done;    ///< its totals alone
+    bool _stale = false; ///< the last conversion failed: the converter has not seen all changes
     std::optional<osg::Vec3d> _origin;
 };
 

@@ -45,6 +45,32 @@ std::optional<unsigned int> modeBit(osg::StateAttribute::GLMode mode)
         return kPrimitiveRestartBit;
     case kPrimitiveRestartFixedIndex:
         return kFixedRestartBit;
+    case GL_POLYGON_OFFSET_FILL:
+        return kPolygonOffsetBit;
+    default:
+        return std::nullopt;
+    }
+}
+
+std::optional<UnitBit> unitBit(osg::StateAttribute::GLMode mode)
+{
+    switch (mode)
+    {
+    case GL_TEXTURE_1D:
+        return kTexture1DBit;
+    case GL_TEXTURE_2D:
+        return kTexture2DBit;
+    case GL_TEXTURE_3D:
+        return kTexture3DBit;
+    case GL_TEXTURE_CUBE_MAP:
+        return kCubeMapBit;
+    case GL_TEXTURE_RECTANGLE:
+        return kRectangleBit;
+    case GL_TEXTURE_GEN_S:
+    case GL_TEXTURE_GEN_T:
+    case GL_TEXTURE_GEN_R:
+    case GL_TEXTURE_GEN_Q:
+        return kTexGenBit;
     default:
         return std::nullopt;
     }
@@ -52,26 +78,13 @@ std::optional<unsigned int> modeBit(osg::StateAttribute::GLMode mode)
 
 std::optional<unsigned int> textureModeBit(osg::StateAttribute::GLMode mode, std::size_t unit)
 {
-    const auto higher = static_cast<unsigned int>(
-        std::min<std::size_t>(kHigherTextureBit + unit - 1, kModeBitEnd - 1));
-    switch (mode)
-    {
-    case GL_TEXTURE_2D:
-        return unit == 0 ? kTexture2DBit : higher;
-    case GL_TEXTURE_1D:
-    case GL_TEXTURE_3D:
-    case GL_TEXTURE_CUBE_MAP:
-    case GL_TEXTURE_RECTANGLE:
-        return unit == 0 ? kOtherTextureBit : higher;
-    case GL_TEXTURE_GEN_S:
-    case GL_TEXTURE_GEN_T:
-    case GL_TEXTURE_GEN_R:
-    case GL_TEXTURE_GEN_Q:
-        if (unit == 0) return kTexGenBit;
-        return std::nullopt;
-    default:
-        return std::nullopt;
-    }
+    const std::optional<UnitBit> bit = unitBit(mode);
+    if (!bit) return std::nullopt;
+    if (unit < kUnits)
+        return static_cast<unsigned int>(kTextureUnitBit + unit * kUnitBits + *bit);
+    if (*bit == kTexGenBit) return std::nullopt;
+    return static_cast<unsigned int>(
+        std::min<std::size_t>(kHigherTextureBit + unit - kUnits, kModeBitEnd - 1));
 }
 
 std::optional<AttributeSlot> attributeSlot(osg::StateAttribute::Type type)
@@ -89,6 +102,14 @@ std::optional<AttributeSlot> attributeSlot(osg::StateAttribute::Type type)
         return kPolygonModeSlot;
     case osg::StateAttribute::BLENDFUNC:
         return kBlendFuncSlot;
+    case osg::StateAttribute::ALPHAFUNC:
+        return kAlphaFuncSlot;
+    case osg::StateAttribute::CULLFACE:
+        return kCullFaceSlot;
+    case osg::StateAttribute::FRONTFACE:
+        return kFrontFaceSlot;
+    case osg::StateAttribute::POLYGONOFFSET:
+        return kPolygonOffsetSlot;
     case osg::StateAttribute::PRIMITIVERESTARTINDEX:
         return kPrimitiveRestartSlot;
     case osg::StateAttribute::CLIPPLANE:
@@ -98,7 +119,7 @@ std::optional<AttributeSlot> attributeSlot(osg::StateAttribute::Type type)
     }
 }
 
-std::optional<AttributeSlot> textureAttributeSlot(osg::StateAttribute::Type type)
+std::optional<UnitSlot> unitSlot(osg::StateAttribute::Type type)
 {
     switch (type)
     {
@@ -108,6 +129,8 @@ std::optional<AttributeSlot> textureAttributeSlot(osg::StateAttribute::Type type
         return kTextureEnvironmentSlot;
     case osg::StateAttribute::TEXMAT:
         return kTextureMatrixSlot;
+    case osg::StateAttribute::TEXGEN:
+        return kTexGenSlot;
     default:
         return std::nullopt;
     }
@@ -128,7 +151,7 @@ void applyMode(GraphState& state, unsigned int bit, unsigned int value)
     state.modesOverride = overrides ? state.modesOverride | mask : state.modesOverride & ~mask;
 }
 
-void applyAttribute(GraphState& state, AttributeSlot slot,
+void applyAttribute(GraphState& state, unsigned int slot,
                     const osg::StateSet::RefAttributePair& pair)
 {
     const uint32_t mask = 1u << slot;
@@ -162,9 +185,10 @@ void applyTextures(GraphState& state, const osg::StateSet& stateSet)
                    [unit](osg::StateAttribute::GLMode mode) { return textureModeBit(mode, unit); });
 
     const osg::StateSet::TextureAttributeList& attributes = stateSet.getTextureAttributeList();
-    if (attributes.empty()) return;
-    for (const auto& [type, pair] : attributes[0])
-        if (const auto slot = textureAttributeSlot(type.first)) applyAttribute(state, *slot, pair);
+    for (unsigned int unit = 0; unit < std::min<std::size_t>(kUnits, attributes.size()); ++unit)
+        for (const auto& [type, pair] : attributes[unit])
+            if (const auto slot = unitSlot(type.first))
+                applyAttribute(state, kUnitSlot + unit * kUnitSlots + *slot, pair);
 }
 
 GraphState applied(GraphState state, const osg::StateSet& stateSet)

@@ -27,14 +27,28 @@ enum ModeBit : unsigned int
     kFixedRestartBit,  ///< primitive restart at the largest index of the type
     kClipPlaneBit,     ///< and the bits that follow: kClipPlanes of them
     kClipPlaneBitEnd = kClipPlaneBit + kClipPlanes,
-    kTexture2DBit = kClipPlaneBitEnd, ///< unit 0
-    kOtherTextureBit,  ///< unit 0: 1-D, 3-D, cube map, rectangle
-    kTexGenBit,        ///< unit 0, any of S, T, R, Q
-    kHigherTextureBit, ///< and the bits that follow: any texture target of units 1, 2, ...
+    kPolygonOffsetBit = kClipPlaneBitEnd,
+    kTextureUnitBit,   ///< of unit 0: see UnitBit; then those of unit 1
+    kHigherTextureBit = kTextureUnitBit + 12, ///< any texture target of units 2, 3, ...: up to bit 63
     kModeBitEnd = 64,
 };
 
-/// The attributes that matter here; textures are those of unit 0.
+/// Of one texture unit.
+enum UnitBit : unsigned int
+{
+    kTexture1DBit,
+    kTexture2DBit,
+    kTexture3DBit,
+    kCubeMapBit,
+    kRectangleBit,
+    kTexGenBit, ///< any of S, T, R, Q
+    kUnitBits,
+};
+
+constexpr unsigned int kUnits = 2; ///< that are followed
+static_assert(kTextureUnitBit + kUnits * kUnitBits == kHigherTextureBit, "bits of the units");
+
+/// The attributes that matter here.
 enum AttributeSlot : unsigned int
 {
     kMaterialSlot,
@@ -45,11 +59,24 @@ enum AttributeSlot : unsigned int
     kPrimitiveRestartSlot,
     kClipPlaneSlot, ///< of any number: the last one met; those of clip nodes are no attributes
     kBlendFuncSlot,
+    kAlphaFuncSlot,
+    kCullFaceSlot,
+    kFrontFaceSlot,
+    kPolygonOffsetSlot,
+    kUnitSlot, ///< of unit 0: see UnitSlot; then those of unit 1
+    kAttributeSlots = kUnitSlot + 8,
+};
+
+/// Of one texture unit.
+enum UnitSlot : unsigned int
+{
     kTextureSlot,
     kTextureEnvironmentSlot,
     kTextureMatrixSlot,
-    kAttributeSlots,
+    kTexGenSlot,
+    kUnitSlots,
 };
+static_assert(kUnitSlot + kUnits * kUnitSlots == kAttributeSlots, "slots of the units");
 
 /// Accumulated state. Attributes live as long as the graph does.
 struct GraphState
@@ -60,12 +87,20 @@ struct GraphState
     uint32_t attributesOverride = 0; ///< bit: AttributeSlot
 
     bool isOn(unsigned int modeBit) const { return (modesOn >> modeBit & 1u) != 0; }
+    bool isOn(unsigned int unit, UnitBit bit) const
+    {
+        return isOn(kTextureUnitBit + unit * kUnitBits + bit);
+    }
     bool usesHigherTextures() const { return modesOn >> kHigherTextureBit != 0; }
 
     /// Null if there is none of this class.
     template <class T> const T* attribute(AttributeSlot slot) const
     {
         return dynamic_cast<const T*>(attributes[slot]);
+    }
+    template <class T> const T* attribute(unsigned int unit, UnitSlot slot) const
+    {
+        return dynamic_cast<const T*>(attributes[kUnitSlot + unit * kUnitSlots + slot]);
     }
 };
 

@@ -1,8 +1,12 @@
-// TextureConverter.cpp - wrap and filter modes, and the cache of textures. Layer: bridge.
+// TextureConverter.cpp - texture targets, wrap and filter modes, and the cache of textures. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/TextureConverter.h"
 
 #include "osgRayTrace/bridge/PixelDecoder.h"
+#include "osgRayTrace/bridge/TextureFormats.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace osgRayTrace::engine
 {
@@ -18,9 +22,24 @@ TextureWrap wrapOf(const osg::Texture& texture, osg::Texture::WrapParameter dire
         return TextureWrap::Repeat;
     case osg::Texture::MIRROR:
         return TextureWrap::Mirror;
+    case osg::Texture::CLAMP:
+        return TextureWrap::Clamp;
+    case osg::Texture::CLAMP_TO_BORDER:
+        return TextureWrap::ClampToBorder;
     default:
         return TextureWrap::ClampToEdge;
     }
+}
+
+/// Finite, and in [0, 1] as OpenGL takes it for textures of fixed-point formats.
+Vec4 borderOf(const osg::Texture& texture)
+{
+    const osg::Vec4d& color = texture.getBorderColor();
+    Vec4 border(0.0f);
+    for (int c = 0; c < 4; ++c)
+        if (std::isfinite(color[c]))
+            border[c] = static_cast<float>(std::clamp(color[c], 0.0, 1.0));
+    return border;
 }
 
 bool isSrgbFormat(GLint internalFormat)
@@ -42,7 +61,17 @@ bool isNearest(osg::Texture::FilterMode mode)
     return mode == osg::Texture::NEAREST;
 }
 
-std::string nameOf(const osg::Texture2D& texture, const osg::Image& image)
+bool isCube(const osg::Texture& texture)
+{
+    return texture.getTextureTarget() == GL_TEXTURE_CUBE_MAP;
+}
+
+unsigned int imageCount(const osg::Texture& texture)
+{
+    return isCube(texture) ? 6u : 1u;
+}
+
+std::string nameOf(const osg::Texture& texture, const osg::Image& image)
 {
     if (!texture.getName().empty()) return texture.getName();
     return image.getFileName().empty() ? image.getName() : image.getFileName();
@@ -60,7 +89,55 @@ void fillMagenta(Texture& texture)
 {
     texture.width = 1;
     texture.height = 1;
+    texture.cube = false;
+    texture.floats.clear();
     texture.bytes = {255, 0, 255, 255};
+}
+
+/// The format in which OpenGL keeps it, which says what it lacks: the user's, or the image's.
+GLint internalFormatOf(const osg::Texture& texture, const osg::Image& image)
+{
+    if (texture.getInternalFormatMode() == osg::Texture::USE_USER_DEFINED_FORMAT &&
+        texture.getInternalFormat() != 0)
+        return texture.getInternalFormat();
+    return image.getInternalTextureFormat();
+}
+
+/// What OpenGL's base format lacks never reaches the texture environment [OpenGL21, table 3.22].
+void setChannels(GLint internalFormat, GLenum pixelFormat, Texture& texture)
+{
+    const TextureChannels channels = textureChannels(internalFormat, pixelFormat);
+    texture.hasColor = channels.color;
+    texture.hasAlpha = channels.alpha;
+    const bool floats = !texture.floats.empty();
+    const std::size_t count = floats ? texture.floats.size() : texture.bytes.size();
+    texture.opaque = true;
+    for (std::size_t i = 3; i < count; i += 4)
+    {
+        if (!channels.alpha)
+            floats ? (void)(texture.floats[i] = 1.0f) : (void)(texture.bytes[i] = 255);
+        else if (floats ? texture.floats[i] < 1.0f : texture.bytes[i] < 255)
+            texture.opaque = false;
+    }
+}
+
+/// Puts the faces of a cube above each other. False if they are not squares of one size and kind.
+bool decodeCube(const osg::Texture& source, Texture& texture)
+{
+    for (unsigned int face = 0; face < 6; ++face)
+    {
+        const osg::Image* image = source.getImage(face);
+        Texture one;
+        if (!image || !decodePixels(*image, one) || one.width != one.height) return false;
+        if (face > 0 && (one.width != texture.width || one.bytes.empty() != texture.bytes.empty()))
+            return false;
+        texture.width = one.width;
+        texture.bytes.insert(texture.bytes.end(), one.bytes.begin(), one.bytes.end());
+        texture.floats.insert(texture.floats.end(), one.floats.begin(), one.floats.end());
+    }
+    texture.height = 6 * texture.width;
+    texture.cube = true;
+    return true;
 }
 
 } // namespace
@@ -74,7 +151,7 @@ void TextureConverter::begin(bool linear, Stamp stamp)
         entry.index = kInvalid;
 }
 
-uint32_t TextureConverter::index(const osg::Texture2D* texture, TextureContent content,
+uint32_t TextureConverter::index(const osg::Texture* texture, TextureContent content,
                                  ConversionReport& report)
 {
     if (!texture) return kInvalid;
@@ -85,56 +162,70 @@ uint32_t TextureConverter::index(const osg::Texture2D* texture, TextureContent c
     if (!isCurrent(entry, *texture))
     {
         entry = {};
-        const osg::Image* image = texture->getImage();
-        if (!image || !image->data())
+        for (unsigned int i = 0; i < imageCount(*texture); ++i)
         {
-            report.count("approximated.texture-without-image");
-            return kInvalid;
+            const osg::Image* image = texture->getImage(i);
+            if (!image || !image->data())
+            {
+                report.count("approximated.texture-without-image");
+                return kInvalid;
+            }
+            entry.images.push_back({image, image->getModifiedCount(), image->data()});
         }
-        auto converted = std::make_shared<Texture>();
-        converted->name = nameOf(*texture, *image);
-        if (isTooLarge(*image))
-        {
-            report.warn("approximated.texture-size", "texture '" + converted->name + "'",
-                        "more than 2^28 texels or 4 GiB, shown in magenta");
-            fillMagenta(*converted);
-        }
-        else if (!decodePixels(*image, *converted))
-        {
-            report.warn("approximated.pixel-format", "texture '" + converted->name + "'",
-                        "pixel format cannot be read, shown in magenta");
-            fillMagenta(*converted);
-        }
-        converted->decodeSrgb = decode && !converted->bytes.empty();
-        converted->linearFilter = !isNearest(texture->getFilter(osg::Texture::MAG_FILTER));
-        converted->wrapS = wrapOf(*texture, osg::Texture::WRAP_S);
-        converted->wrapT = wrapOf(*texture, osg::Texture::WRAP_T);
-        converted->changed = _stamp;
         entry.texture = texture;
-        entry.image = image;
-        entry.imageModified = image->getModifiedCount();
-        entry.imageData = image->data();
-        entry.converted = std::move(converted);
+        entry.converted = converted(*texture, decode, report);
     }
     entry.index = static_cast<uint32_t>(_textures.size());
     _textures.push_back(entry.converted);
     return entry.index;
 }
 
+std::shared_ptr<Texture> TextureConverter::converted(const osg::Texture& texture, bool decode,
+                                                     ConversionReport& report) const
+{
+    const osg::Image& image = *texture.getImage(0);
+    auto result = std::make_shared<Texture>();
+    result->name = nameOf(texture, image);
+    const auto bad = [&](const char* what, const char* message)
+    {
+        report.warn(what, "texture '" + result->name + "'", message);
+        fillMagenta(*result);
+    };
+    if (isTooLarge(image))
+        bad("approximated.texture-size", "more than 2^28 texels or 4 GiB, shown in magenta");
+    else if (isCube(texture) ? !decodeCube(texture, *result) : !decodePixels(image, *result))
+        bad("approximated.pixel-format", "pixel format cannot be read, shown in magenta");
+    if (image.r() > 1) report.count("approximated.texture-layers");
+    result->decodeSrgb = decode && !result->bytes.empty();
+    result->linearFilter = !isNearest(texture.getFilter(osg::Texture::MAG_FILTER));
+    result->wrapS = wrapOf(texture, osg::Texture::WRAP_S);
+    result->wrapT = wrapOf(texture, osg::Texture::WRAP_T);
+    if (texture.getTextureTarget() == GL_TEXTURE_1D) result->wrapT = TextureWrap::ClampToEdge;
+    result->border = borderOf(texture);
+    setChannels(internalFormatOf(texture, image), image.getPixelFormat(), *result);
+    result->changed = _stamp;
+    return result;
+}
+
 /// Also true if the image was given up after it went to OpenGL (setUnRefImageDataAfterApply): what
 /// was converted before stays.
-bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture2D& texture) const
+bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture& texture) const
 {
     if (!entry.converted || entry.texture.get() != &texture) return false;
     const Texture& old = *entry.converted;
     if (old.linearFilter == isNearest(texture.getFilter(osg::Texture::MAG_FILTER)) ||
         old.wrapS != wrapOf(texture, osg::Texture::WRAP_S) ||
-        old.wrapT != wrapOf(texture, osg::Texture::WRAP_T))
+        (old.wrapT != wrapOf(texture, osg::Texture::WRAP_T) && old.height > 1) || old.border != borderOf(texture))
         return false;
-    const osg::Image* image = texture.getImage();
-    if (!image) return true;
-    return entry.image.get() == image && entry.imageModified == image->getModifiedCount() &&
-           entry.imageData == image->data();
+    for (unsigned int i = 0; i < entry.images.size(); ++i)
+    {
+        const osg::Image* image = texture.getImage(i);
+        const ImagePrint& print = entry.images[i];
+        if (image && (print.image.get() != image || print.modified != image->getModifiedCount() ||
+                      print.data != image->data()))
+            return false;
+    }
+    return true;
 }
 
 std::vector<std::shared_ptr<const Texture>> TextureConverter::end()

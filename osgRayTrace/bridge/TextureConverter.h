@@ -1,4 +1,4 @@
-// TextureConverter.h - from osg::Texture2D to Texture, each converted once. Layer: bridge.
+// TextureConverter.h - from osg::Texture to Texture, each converted once. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,7 +6,7 @@
 #include "osgRayTrace/scene/Material.h"
 
 #include <osg/Image>
-#include <osg/Texture2D>
+#include <osg/Texture>
 #include <osg/observer_ptr>
 
 #include <map>
@@ -34,26 +34,36 @@ public:
 
     /// Index into textures(); kInvalid if there is nothing to sample (no image on the CPU). A
     /// format that cannot be read becomes magenta.
-    uint32_t index(const osg::Texture2D* texture, TextureContent content, ConversionReport& report);
+    /// 1-D, 2-D, rectangle and cube textures; of arrays and 3-D textures the first layer.
+    uint32_t index(const osg::Texture* texture, TextureContent content, ConversionReport& report);
+
+    /// Of this snapshot.
+    const Texture& at(uint32_t index) const { return *_textures[index]; }
 
     /// Ends the snapshot: its textures. Forgets what was not used in it.
     std::vector<std::shared_ptr<const Texture>> end();
 
 private:
-    using Key = std::pair<const osg::Texture2D*, bool>; // bool: decode from sRGB
+    using Key = std::pair<const osg::Texture*, bool>; // bool: decode from sRGB
+
+    struct ImagePrint
+    {
+        osg::observer_ptr<const osg::Image> image;
+        unsigned int modified = 0;
+        const void* data = nullptr;
+    };
 
     struct Entry
     {
-        osg::observer_ptr<const osg::Texture2D>
-            texture; // tells a new object at an old address apart
-        osg::observer_ptr<const osg::Image> image;
-        unsigned int imageModified = 0;
-        const void* imageData = nullptr;
+        osg::observer_ptr<const osg::Texture> texture; // tells a new object at an old address apart
+        std::vector<ImagePrint> images;
         std::shared_ptr<const Texture> converted;
         uint32_t index = kInvalid; // in this snapshot
     };
 
-    bool isCurrent(const Entry& entry, const osg::Texture2D& texture) const;
+    bool isCurrent(const Entry& entry, const osg::Texture& texture) const;
+    std::shared_ptr<Texture> converted(const osg::Texture& texture, bool decode,
+                                       ConversionReport& report) const;
 
     std::map<Key, Entry> _entries;
     std::vector<std::shared_ptr<const Texture>> _textures;

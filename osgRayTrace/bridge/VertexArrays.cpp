@@ -151,7 +151,7 @@ template <class T> const T* VertexReader::shareable(const osg::Array& array) con
 template <class T> SharedArray<T> VertexReader::share(const osg::Array& array) const
 {
     const T* values = rowsOf<T>(array);
-    const bool changes = _geometry.getDataVariance() == osg::Object::DYNAMIC ||
+    const bool changes = _request.copies || _geometry.getDataVariance() == osg::Object::DYNAMIC ||
                          array.getDataVariance() == osg::Object::DYNAMIC;
     if (changes || !mayBeReadPast(values + _map.vertexCount))
         return copyOf(values, _map.vertexCount);

@@ -89,7 +89,7 @@ void DebugIntegrator::renderTile(const PassContext& context, int left, int botto
         SurfaceLanes surface;
         alignas(64) float depth[kLanes];
         cameraRayLanes(context.camera, context.key, left, bottom, b, false, rays, seeds);
-        context.traced->intersector().closestHits(rays, kAllLanes, Coherence::Coherent);
+        context.traced->intersector().closestHits(rays, kAllLanes, Coherence::Coherent, kCameraRays);
         result.counts.cameraRays += kLanes;
         surfacesOf(context.traced->surfaces(), rays, kAllLanes, surface);
         depthLanes(context.camera, left, bottom, b, surface, depth);

@@ -17,7 +17,7 @@ void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits
         UintLanes seeds;
         SurfaceLanes surface;
         cameraRayLanes(context.camera, context.key, left, bottom, b, true, rays, seeds);
-        context.traced->intersector().closestHits(rays, kAllLanes, Coherence::Coherent);
+        context.traced->intersector().closestHits(rays, kAllLanes, Coherence::Coherent, kCameraRays);
         surfacesOf(context.traced->surfaces(), rays, kAllLanes, surface);
         for (int i = 0; i < kLanes; ++i)
         {

@@ -8,19 +8,21 @@
 namespace osgRayTrace::engine
 {
 
-FixedFunctionPoint fixedFunctionPoint(const PassContext& context, const SurfaceLanes& surface, int i,
-                                      const MaterialPoint& point)
+FixedFunctionPoint fixedFunctionPoint(const PassContext& context, const RayHitBlock& rays,
+                                      const SurfaceLanes& surface, int i, const MaterialPoint& point)
 {
     const MaterialTable& materials = context.traced->materials();
     const Material& material = *materials[surface.material[i]].material;
     FixedFunctionPoint p;
-    p.colors = fixedFunctionColors(material, point.vertexColor);
+    const bool front = isFrontFace(material, point.front);
+    p.colors = fixedFunctionColors(material, point.vertexColor, front);
     p.normal = laneOf(surface.shadingNormal, i);
-    if (material.twoSidedLighting && !point.front) p.normal = -p.normal;
+    if (material.twoSidedLighting && !front) p.normal = -p.normal;
     p.halfAxis = context.towardsViewer;
-    p.shininess = material.shininess;
-    p.environment = material.textureEnvironment;
-    if (material.baseColorTexture != kInvalid) p.texture = materials.baseTexture(material, point.uv);
+    if (material.localViewer)
+        p.halfAxis = -Vec3(rays.ray.directionX[i], rays.ray.directionY[i], rays.ray.directionZ[i]);
+    p.separateSpecular = material.separateSpecular;
+    p.textures = materials.textures(material, point);
     return p;
 }
 
@@ -35,8 +37,10 @@ void addLight(FixedFunctionPoint& p, const Light& light, Vec3 wi, float attenuat
         const Vec3 half = wi + p.halfAxis;
         const float length2 = glm::dot(half, half);
         const float cosH = length2 > 0.0f ? glm::dot(p.normal, half) / std::sqrt(length2) : 0.0f;
-        if (specular != Vec3(0.0f) && (cosH > 0.0f || p.shininess == 0.0f))
-            sum += specular * (std::pow(std::max(cosH, 0.0f), p.shininess) * visibility);
+        if (specular != Vec3(0.0f) && (cosH > 0.0f || p.colors.shininess == 0.0f))
+            (p.separateSpecular ? p.highlights : sum) +=
+                specular * (std::pow(std::max(cosH, 0.0f), p.colors.shininess) * visibility *
+                            (p.separateSpecular ? attenuation : 1.0f));
     }
     p.light += sum * attenuation;
 }
@@ -46,7 +50,7 @@ Vec3 litColor(const PassContext& context, const FixedFunctionPoint& p)
     const Scene& scene = context.traced->scene();
     Vec3 color = p.colors.emission + scene.ambient * p.colors.ambient + p.light;
     if (scene.displayReferred) color = glm::clamp(color, 0.0f, 1.0f);
-    return Vec3(applyTextureEnvironment(p.environment, Vec4(color, p.colors.alpha), p.texture));
+    return Vec3(applyTextures(p.textures, Vec4(color, p.colors.alpha))) + p.highlights;
 }
 
 } // namespace osgRayTrace::engine

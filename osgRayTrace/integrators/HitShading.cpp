@@ -10,13 +10,19 @@ namespace osgRayTrace::engine
 MaterialPoint materialPoint(const PassContext& context, const RayHitBlock& rays,
                             const SurfaceLanes& surface, int i)
 {
-    MaterialPoint point;
-    point.front = (surface.front >> i) & 1u;
+    const bool front = (surface.front >> i) & 1u;
     const MaterialRecord& material = context.traced->materials()[surface.material[i]];
-    if (material.constant) return point;
-    const SurfaceRecord& record = context.traced->surfaces()[surface.instance[i]];
-    point.uv = interpolateUv(record, rays.primitive[i], rays.u[i], rays.v[i]);
-    point.vertexColor = interpolateColor(record, rays.primitive[i], rays.u[i], rays.v[i]);
+    if (material.constant)
+    {
+        MaterialPoint point;
+        point.front = front;
+        return point;
+    }
+    const Vec3 direction(rays.ray.directionX[i], rays.ray.directionY[i], rays.ray.directionZ[i]);
+    MaterialPoint point =
+        materialPointOf(context.traced->surfaces()[surface.instance[i]], material,
+                        rays.primitive[i], rays.u[i], rays.v[i], front, direction);
+    if (material.generated) point.eyeFromEngine = context.eyeFromEngine;
     return point;
 }
 

@@ -23,6 +23,7 @@ struct PassContext
     CameraRays camera;
     int width = 0, height = 0;                  ///< of the image [pixels]
     Vec3 towardsViewer{0.0f, 0.0f, 1.0f};       ///< the view's +z axis, unit, engine space
+    Mat3 eyeFromEngine{1.0f};                   ///< rotation into the view's axes
     RenderOptions options;                      ///< integrator is the chosen one, never Automatic
     PassKey key;
     PassKey pathKey;                            ///< of camera paths; key, but of the first pass for PPM

@@ -66,7 +66,8 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     PathBlock& block = tile.paths.blocks[b];
     const TracedScene& traced = *tile.context.traced;
     const Coherence coherence = number == 0 ? Coherence::Coherent : Coherence::Incoherent;
-    traced.intersector().closestHits(block.rays, block.active, coherence);
+    traced.intersector().closestHits(block.rays, block.active, coherence,
+                                     number == 0 ? kCameraRays : HitRule());
     const auto rays = static_cast<uint64_t>(__builtin_popcount(block.active));
     (number == 0 ? tile.counts.cameraRays : tile.counts.secondaryRays) += rays;
     countRays(tile, block, block.active);

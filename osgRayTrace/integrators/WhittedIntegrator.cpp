@@ -4,6 +4,7 @@
 //   L(ray) = emission + direct light                         all surfaces
 //          + reflection L(mirror ray) + refraction L(refracted ray)   smooth ones
 //
+// and a L(surface) + (1 - a) L(the ray that goes on) where a surface of opacity a is blended,
 // where direct light is the mean of f cos L V / pdfW over the samples of each area light and of the
 // environment (or the sum over its strata) plus the
 // fixed-function or physical response to each directional, point and spot light. Rays of the second line
@@ -39,6 +40,7 @@ struct SecondaryRay
     uint32_t pixel;
     uint32_t seed;
     int depth;
+    bool fromCamera = false; ///< a camera ray that goes on behind blended surfaces
 };
 
 /// Blocks of camera rays that are taken through the stages together: independent work for the CPU to
@@ -70,6 +72,7 @@ struct ShadingBlock
     FloatLanes etaScale;       ///< weight outside of glass over weight
     FloatLanes firstU, firstV; ///< first sample on the first area light: drawn early, see drawFirst
     int depth[kLanes];
+    LaneMask fromCamera = 0;   ///< camera rays, and those that go on
 
     LaneMaterials materials;
     LightLanes light;          ///< the sample at work
@@ -93,6 +96,13 @@ struct Tile
         block.r[pixel % kLanes] += radiance.x;
         block.g[pixel % kLanes] += radiance.y;
         block.b[pixel % kLanes] += radiance.z;
+    }
+
+    /// What is behind shows through by so much.
+    void uncover(uint32_t pixel, float share)
+    {
+        float& alpha = result.rgba[pixel / kLanes].a[pixel % kLanes];
+        alpha = std::max(0.0f, alpha - share);
     }
 
     const PassContext& context;
@@ -173,7 +183,7 @@ void classify(Tile& tile, ShadingBlock& block)
         {
             if (!record.material->lit) continue; // all of it is emission
             const MaterialPoint point = materialPoint(tile.context, block.rays, block.surface, i);
-            m.points[i] = fixedFunctionPoint(tile.context, block.surface, i, point);
+            m.points[i] = fixedFunctionPoint(tile.context, block.rays, block.surface, i, point);
             if (lightsArea(tile.context)) m.bsdfs[i] = materials.bsdf(material, point);
             m.fixedFunction |= 1u << i;
             // OpenGL lights by the vertex normal alone, which may look the other way than the face.
@@ -414,6 +424,34 @@ void spawn(Tile& tile, const ShadingBlock& block)
     }
 }
 
+/// Sends the rays of blended lanes on with what the surfaces let through, and leaves them the rest.
+void passThrough(Tile& tile, ShadingBlock& block)
+{
+    const MaterialTable& materials = tile.context.traced->materials();
+    for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const uint32_t material = block.surface.material[i];
+        if (!materials[material].partial || !materials[material].material->blended) continue;
+        const float opacity = materials.opacity(
+            material, materialPoint(tile.context, block.rays, block.surface, i));
+        const Vec3 weight = laneOf(block.weight, i);
+        setLane(block.weight, i, weight * opacity);
+        if (opacity >= 1.0f) continue;
+        const Vec3 direction = rayDirection(block.rays.ray, i);
+        const Vec3 normal = laneOf(block.surface.geometricNormal, i);
+        const Vec3 origin =
+            laneOf(trianglePoints(block.surface), i) - normal * block.surface.offset[i];
+        const Vec3 behind = weight * (1.0f - opacity);
+        const float largest = std::max(behind.x, std::max(behind.y, behind.z));
+        const bool fromCamera = (block.fromCamera >> i) & 1u;
+        // What is left out of a camera ray would be missing in the coverage.
+        if (!fromCamera && !(largest * block.etaScale[i] >= kSmallestWeight)) continue;
+        tile.stack.push_back({{origin, 0.0f}, direction, behind, block.etaScale[i], block.pixel[i],
+                              hash(block.seed[i] + 0x85ebca6bu), block.depth[i], fromCamera});
+    }
+}
+
 /// Adds what surfaces send by themselves, and the finished colour of fixed-function ones.
 void addOwnLight(const Tile& tile, ShadingBlock& block)
 {
@@ -438,6 +476,7 @@ void shade(Tile& tile, ShadingBlock* blocks, int count)
     {
         classify(tile, *block);
         fill(Vec3(0.0f), block->radiance);
+        if (tile.context.traced->traits().blended) passThrough(tile, *block);
     }
     addAreaLights(tile, blocks, count);
     if (lights.shiningEnvironment()) addEnvironment(tile, blocks, count);
@@ -455,7 +494,12 @@ void traceSecondary(Tile& tile)
     const TracedScene& traced = *tile.context.traced;
     ShadingBlock& block = tile.group[0];
     LaneMask active = 0;
-    for (int i = 0; i < kLanes && !tile.stack.empty(); ++i)
+    block.fromCamera = 0;
+    // Rays from the camera and others are not taken together: they meet other surfaces.
+    const bool fromCamera = tile.stack.back().fromCamera;
+    const bool seen = visibleEnvironment(tile.context) != nullptr;
+    for (int i = 0; i < kLanes && !tile.stack.empty() && tile.stack.back().fromCamera == fromCamera;
+         ++i)
     {
         const SecondaryRay& from = tile.stack.back();
         RayBlock& ray = block.rays.ray;
@@ -476,16 +520,22 @@ void traceSecondary(Tile& tile)
         block.seed[i] = from.seed;
         block.depth[i] = from.depth;
         active |= 1u << i;
+        if (fromCamera) block.fromCamera |= 1u << i;
         tile.stack.pop_back();
     }
-    traced.intersector().closestHits(block.rays, active, Coherence::Incoherent);
+    traced.intersector().closestHits(block.rays, active, Coherence::Incoherent,
+                                     {fromCamera, true});
     tile.result.counts.secondaryRays += static_cast<uint64_t>(__builtin_popcount(active));
     countRays(tile, block, active);
     surfacesOf(traced.surfaces(), block.rays, active, block.surface, rayStart(tile.context.options));
     for (LaneMask lanes = active & ~block.surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        tile.add(block.pixel[i], laneOf(block.weight, i) * radianceBehind(tile.context, block.rays.ray, i));
+        if (fromCamera && !seen)
+            tile.uncover(block.pixel[i], block.weight.x[i]);
+        else
+            tile.add(block.pixel[i],
+                     laneOf(block.weight, i) * radianceBehind(tile.context, block.rays.ray, i));
     }
     if (!block.surface.hits) return;
     if (!traced.lights().areaLights().empty()) drawFirst(tile.grid, block);
@@ -494,6 +544,18 @@ void traceSecondary(Tile& tile)
     {
         const int i = __builtin_ctz(lanes);
         tile.add(block.pixel[i], laneOf(block.weight, i) * laneOf(block.radiance, i));
+    }
+}
+
+OSGRAYTRACE_KERNEL
+void weigh(const Vec3Lanes& weight, Vec3Lanes& radiance)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        radiance.x[i] *= weight.x[i];
+        radiance.y[i] *= weight.y[i];
+        radiance.z[i] *= weight.z[i];
     }
 }
 
@@ -529,18 +591,20 @@ void traceCamera(Tile& tile, int left, int bottom, int first)
             block.etaScale[i] = 1.0f;
             block.depth[i] = 0;
         }
+        block.fromCamera = kAllLanes;
         if (lit) drawFirst(tile.grid, block);
     }
     for (ShadingBlock& block : tile.group)
-        traced.intersector().closestHits(block.rays, kAllLanes, Coherence::Coherent);
+        traced.intersector().closestHits(block.rays, kAllLanes, Coherence::Coherent, {true, true});
     for (ShadingBlock& block : tile.group)
         surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface, rayStart(context.options));
     tile.result.counts.cameraRays += kGroup * kLanes;
     shade(tile, tile.group, kGroup);
     for (int k = 0; k < kGroup; ++k)
     {
-        const ShadingBlock& block = tile.group[k];
+        ShadingBlock& block = tile.group[k];
         countRays(tile, block, kAllLanes);
+        if (traced.traits().blended) weigh(block.weight, block.radiance);
         if (context.wantsDepth)
             depthLanes(context.camera, left, bottom, first + k, block.surface,
                        tile.result.depth + (first + k) * kLanes);

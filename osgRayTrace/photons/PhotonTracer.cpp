@@ -123,11 +123,11 @@ const Bsdf* ChunkTracer::bsdfAt(const SurfaceLanes& surface, int i)
     const bool front = (surface.front >> i) & 1u;
     if (record.constant) return front ? &record.front : &record.back;
     const SurfaceRecord& where = _traced.surfaces()[surface.instance[i]];
-    MaterialPoint at;
-    at.front = front;
-    at.uv = interpolateUv(where, _rays.primitive[i], _rays.u[i], _rays.v[i]);
-    at.vertexColor = interpolateColor(where, _rays.primitive[i], _rays.u[i], _rays.v[i]);
-    _textured[i] = _traced.materials().bsdf(surface.material[i], at);
+    const RayBlock& ray = _rays.ray;
+    const Vec3 direction(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
+    _textured[i] = _traced.materials().bsdf(
+        surface.material[i], materialPointOf(where, record, _rays.primitive[i], _rays.u[i], _rays.v[i],
+                                             front, direction));
     return &_textured[i];
 }
 

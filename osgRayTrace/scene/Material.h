@@ -29,12 +29,76 @@ enum class VertexColorUse : uint8_t
     AmbientAndDiffuse,
 };
 
-/// What texture unit 0 does to the lit fragment colour.
+/// What a texture unit does to the colour that comes from lighting or the unit before.
 enum class TextureEnvironment : uint8_t
 {
     Modulate,
     Replace,
     Decal,
+    Blend,
+    Add,
+};
+
+/// What a unit's texture coordinates are made of [OpenGL21, sect. 2.11.4].
+enum class TextureCoordinates : uint8_t
+{
+    Uv0,           ///< (u, v, 0, 1) of Mesh::uvs
+    Uv1,           ///< (u, v, 0, 1) of Mesh::uvs1
+    Position,      ///< (p, 1) in engine space: object and eye linear, which the converter puts into matrix
+    SphereMap,     ///< (s, t, 0, 1); depends on the eye, as do those below: see textureCoordinates
+    ReflectionMap, ///< (r, 1)
+    NormalMap,     ///< (n, 1)
+};
+
+/// How a unit finds its place in the texture: (s, t, r, q) = matrix * what coordinates says.
+struct TextureMapping
+{
+    TextureCoordinates coordinates = TextureCoordinates::Uv0;
+    bool transformed = false; ///< else matrix is the identity and not looked at
+    Mat4 matrix{1.0f};
+};
+
+/// Texture unit 1, applied to what unit 0 leaves.
+struct SecondTexture
+{
+    uint32_t texture = kInvalid;
+    TextureEnvironment environment = TextureEnvironment::Modulate;
+    Vec4 environmentColor{0.0f};
+    TextureMapping mapping;
+};
+
+/// When an alpha passes: compared with a reference.
+enum class AlphaTest : uint8_t
+{
+    Never,
+    Less,
+    Equal,
+    LessOrEqual,
+    Greater,
+    NotEqual,
+    GreaterOrEqual,
+    Always,
+};
+
+/// Faces that camera rays pass by. Shadow, mirror and light rays meet them all the same: a room whose
+/// walls are culled so that one can look in stays a closed room.
+enum class FaceCulling : uint8_t
+{
+    None,
+    Back,
+    Front,
+    FrontAndBack,
+};
+
+/// What lights that face sees.
+struct FaceColors
+{
+    Vec3 ambient{0.2f};
+    Vec3 diffuse{0.8f};
+    Vec3 specular{0.0f};
+    Vec3 emission{0.0f};
+    float shininess = 0.0f;
+    float alpha = 1.0f;
 };
 
 /// All colours linear when the scene is, display-referred otherwise (Scene::displayReferred).
@@ -52,7 +116,14 @@ struct Material
     bool twoSidedLighting = false;       ///< the normal is turned to the viewer before lighting
     uint32_t lightMask = 0xffffffffu;    ///< bit n: osg::Light number n is enabled here
     VertexColorUse vertexColorUse = VertexColorUse::None;
-    TextureEnvironment textureEnvironment = TextureEnvironment::Modulate;
+    TextureEnvironment textureEnvironment = TextureEnvironment::Modulate; ///< of unit 0
+    Vec4 environmentColor{0.0f};         ///< of TextureEnvironment::Blend
+    TextureMapping mapping;              ///< of unit 0
+    SecondTexture second;
+    bool separateSpecular = false;       ///< highlights are added after the textures
+    bool localViewer = false;            ///< highlights look to the viewer's place, not along its axis
+    bool hasBack = false;                ///< two-sided lighting with other colours on the back
+    FaceColors back;
 
     // Physical [glTF20, sect. 3.9 and KHR_materials_transmission, KHR_materials_ior].
     Vec3 baseColor{1.0f};
@@ -62,7 +133,14 @@ struct Material
     float ior = 1.5f;
 
     Vec3 emission{0.0f};                 ///< Physical: radiance [W/(m^2 sr)]; FixedFunction: GL emission
+
+    // How much of the surface is there: see MaterialTable::opacity.
     float alpha = 1.0f;
+    bool blended = false;                ///< alpha is the opacity; else it is just tested
+    AlphaTest alphaTest = AlphaTest::Always;
+    float alphaReference = 0.0f;
+    FaceCulling culling = FaceCulling::None;
+    bool clockwise = false;              ///< what OpenGL calls the front is the mesh's clockwise side
 
     // Textures: indices into Scene::textures or kInvalid.
     uint32_t baseColorTexture = kInvalid; ///< FixedFunction: unit 0; Physical: times baseColor
@@ -90,6 +168,8 @@ enum class TextureWrap : uint8_t
     Repeat,
     ClampToEdge,
     Mirror,
+    Clamp,         ///< OpenGL's first one: half of the filter's last step is border
+    ClampToBorder,
 };
 
 /// A decoded 2-D image, RGBA, row 0 at the bottom. Exactly one of the two arrays is filled.
@@ -97,7 +177,12 @@ struct Texture
 {
     std::string name;
     int width = 0;
-    int height = 0;
+    int height = 0;               ///< of a cube map 6*width: its faces in OpenGL's order, +x at the bottom
+    bool cube = false;            ///< looked up by a direction, wrap modes do not matter
+    bool hasColor = true;         ///< false: alpha only, colours pass unchanged
+    bool hasAlpha = true;         ///< false: alpha passes unchanged
+    bool opaque = false;          ///< all alpha is 1
+    Vec4 border{0.0f};            ///< in the texture's own encoding
     std::vector<uint8_t> bytes;   ///< width*height*4
     std::vector<float> floats;    ///< width*height*4, always linear
     bool decodeSrgb = false;      ///< bytes only: RGB is sRGB encoded, decode to linear

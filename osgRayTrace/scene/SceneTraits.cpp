@@ -17,7 +17,9 @@ void addMaterial(const Material& material, SceneTraits& traits)
     traits.textures |= material.baseColorTexture != kInvalid ||
                        material.metallicRoughnessTexture != kInvalid ||
                        material.transmissionTexture != kInvalid ||
-                       material.emissionTexture != kInvalid;
+                       material.emissionTexture != kInvalid ||
+                       material.second.texture != kInvalid;
+    traits.blended |= material.blended;
     traits.vertexColors |= material.vertexColorUse != VertexColorUse::None;
     if (material.model == MaterialModel::FixedFunction)
     {

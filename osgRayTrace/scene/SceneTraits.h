@@ -13,6 +13,7 @@ struct SceneTraits
     bool smoothNormals = false;    ///< some mesh has vertex normals
     bool textures = false;
     bool vertexColors = false;
+    bool blended = false;          ///< some surface lets light through by its alpha
     bool fixedFunction = false;    ///< some material is FixedFunction
     bool physical = false;         ///< some material is Physical and more than a lamp
     bool specular = false;         ///< mirror-like reflection somewhere

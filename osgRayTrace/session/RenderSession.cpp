@@ -65,10 +65,13 @@ RenderProgress failed(RenderProgress& progress, StatusCode code, const char* mes
     }
 }
 
-Vec3 viewerAxis(const View& view)
+/// Of unit axes, whatever scale the view has.
+Mat3 eyeFromEngine(const View& view)
 {
-    const glm::dmat3 viewFromWorld(view.viewFromWorld);
-    return glm::normalize(Vec3(glm::transpose(viewFromWorld) * Vec3d(0.0, 0.0, 1.0)));
+    glm::dmat3 axes = glm::transpose(glm::dmat3(view.viewFromWorld));
+    for (int i = 0; i < 3; ++i)
+        axes[i] = glm::normalize(axes[i]);
+    return Mat3(glm::transpose(axes));
 }
 
 } // namespace
@@ -162,7 +165,8 @@ PassContext RenderSession::Implementation::contextOfPass(int pass) const
     context.camera = camera;
     context.width = filmView.width;
     context.height = filmView.height;
-    context.towardsViewer = viewerAxis(filmView);
+    context.eyeFromEngine = eyeFromEngine(filmView);
+    context.towardsViewer = glm::transpose(context.eyeFromEngine)[2];
     context.options = filmOptions;
     context.options.integrator = progress.integrator;
     context.key = passKey(filmOptions.seed, pass);

@@ -17,7 +17,24 @@ namespace
 bool isTextured(const Material& material)
 {
     return material.baseColorTexture != kInvalid || material.metallicRoughnessTexture != kInvalid ||
-           material.transmissionTexture != kInvalid || material.emissionTexture != kInvalid;
+           material.transmissionTexture != kInvalid || material.emissionTexture != kInvalid ||
+           material.second.texture != kInvalid;
+}
+
+bool passes(AlphaTest test, float value, float reference)
+{
+    switch (test)
+    {
+    case AlphaTest::Never: return false;
+    case AlphaTest::Less: return value < reference;
+    case AlphaTest::Equal: return value == reference;
+    case AlphaTest::LessOrEqual: return value <= reference;
+    case AlphaTest::Greater: return value > reference;
+    case AlphaTest::NotEqual: return value != reference;
+    case AlphaTest::GreaterOrEqual: return value >= reference;
+    case AlphaTest::Always: return true;
+    }
+    return true;
 }
 
 float maxComponent(Vec3 v) { return std::max(v.x, std::max(v.y, v.z)); }
@@ -41,7 +58,7 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
         MaterialRecord record;
         record.material = &material;
         record.fixedFunction = material.model == MaterialModel::FixedFunction;
-        record.constant = !isTextured(material) &&
+        record.constant = !isTextured(material) && !material.hasBack &&
                           (!record.fixedFunction || material.vertexColorUse == VertexColorUse::None);
         if (!isInvisible(material)) // else it is not traced: no photons are aimed at it
         {
@@ -53,7 +70,10 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
         record.plainDiffuse = record.constant && record.front.isDiffuse() &&
                               !(record.fixedFunction && !material.lit);
         record.emits = material.emission != Vec3(0.0f) || (record.fixedFunction && !material.lit) ||
-                       material.vertexColorUse == VertexColorUse::Emission;
+                       material.vertexColorUse == VertexColorUse::Emission ||
+                       (material.hasBack && material.back.emission != Vec3(0.0f));
+        record.generated = isGenerated(material.mapping) || isGenerated(material.second.mapping);
+        record.partial = isPartial(material);
         _records.push_back(record);
     }
 }
@@ -95,7 +115,7 @@ MaterialTable::Coat MaterialTable::coatOf(const Material& m, float eta) const
 /// [glTF20, appendix B.2]: a mix of a dielectric and a metal by metallic.
 Bsdf MaterialTable::physical(const Material& m, const MaterialPoint& point) const
 {
-    const Vec4 base = textureOr(m.baseColorTexture, point.uv, Vec4(1.0f));
+    const Vec4 base = baseTexture(m, point);
     const Vec4 metallicRoughness = textureOr(m.metallicRoughnessTexture, point.uv, Vec4(1.0f));
     const Vec4 clear = textureOr(m.transmissionTexture, point.uv, Vec4(1.0f));
     const Vec3 color = clampUnit(m.baseColor * Vec3(base));
@@ -120,13 +140,12 @@ Bsdf MaterialTable::fixedFunction(const Material& m, const MaterialPoint& point)
 {
     Bsdf bsdf;
     if (!m.lit) return bsdf;
-    const FixedFunctionColors colors = fixedFunctionColors(m, point.vertexColor);
-    const Vec4 texture = baseTexture(m, point.uv);
-    const Vec4 tinted =
-        applyTextureEnvironment(m.textureEnvironment, Vec4(colors.diffuse, 1.0f), texture);
+    const FaceColors colors =
+        fixedFunctionColors(m, point.vertexColor, isFrontFace(m, point.front));
+    const Vec4 tinted = applyTextures(textures(m, point), Vec4(colors.diffuse, 1.0f));
     const Vec3 specular = clampUnit(colors.specular) *
-                          std::min(1.0f, 8.0f / (std::max(m.shininess, 0.0f) + 2.0f));
-    bsdf.alpha = std::sqrt(2.0f / (std::max(m.shininess, 0.0f) + 2.0f));
+                          std::min(1.0f, 8.0f / (std::max(colors.shininess, 0.0f) + 2.0f));
+    bsdf.alpha = std::sqrt(2.0f / (std::max(colors.shininess, 0.0f) + 2.0f));
     bsdf.reflectance = specular;
     bsdf.grazing = maxComponent(specular);
     bsdf.diffuse = clampUnit(Vec3(tinted)) * (1.0f - bsdf.grazing);
@@ -140,14 +159,59 @@ Vec3 MaterialTable::emission(uint32_t material, const MaterialPoint& point) cons
     const Material& m = *record.material;
     if (!record.fixedFunction)
         return m.emission * Vec3(textureOr(m.emissionTexture, point.uv, Vec4(1.0f)));
-    const FixedFunctionColors colors = fixedFunctionColors(m, point.vertexColor);
+    const FaceColors colors =
+        fixedFunctionColors(m, point.vertexColor, isFrontFace(m, point.front));
     const Vec3 own = m.lit ? colors.emission : colors.diffuse;
-    return Vec3(applyTextureEnvironment(m.textureEnvironment, Vec4(own, 1.0f), baseTexture(m, point.uv)));
+    return Vec3(applyTextures(textures(m, point), Vec4(own, 1.0f)));
 }
 
-Vec4 MaterialTable::baseTexture(const Material& material, Vec2 uv) const
+Vec4 MaterialTable::baseTexture(const Material& material, const MaterialPoint& point) const
 {
-    return textureOr(material.baseColorTexture, uv, Vec4(1.0f));
+    if (material.baseColorTexture == kInvalid) return Vec4(1.0f);
+    return sampleTexture(*_scene->textures[material.baseColorTexture],
+                         textureCoordinates(material.mapping, point));
+}
+
+TextureTerms MaterialTable::textures(const Material& m, const MaterialPoint& point) const
+{
+    TextureTerms terms;
+    const auto add = [&](uint32_t index, TextureEnvironment environment, Vec4 color,
+                         const TextureMapping& mapping)
+    {
+        if (index == kInvalid) return;
+        const Texture& texture = *_scene->textures[index];
+        terms.units[terms.count++] = {environment, texture.hasColor, texture.hasAlpha,
+                                      sampleTexture(texture, textureCoordinates(mapping, point)),
+                                      color};
+    };
+    add(m.baseColorTexture, m.textureEnvironment, m.environmentColor, m.mapping);
+    add(m.second.texture, m.second.environment, m.second.environmentColor, m.second.mapping);
+    return terms;
+}
+
+float MaterialTable::opacity(uint32_t material, const MaterialPoint& point) const
+{
+    const Material& m = _scene->materials[material];
+    const FaceColors colors =
+        fixedFunctionColors(m, point.vertexColor, isFrontFace(m, point.front));
+    float alpha = m.alpha * baseTexture(m, point).w;
+    if (m.model == MaterialModel::FixedFunction)
+        alpha = applyTextures(textures(m, point), Vec4(Vec3(0.0f), colors.alpha)).w;
+    alpha = std::clamp(alpha, 0.0f, 1.0f);
+    if (!passes(m.alphaTest, alpha, m.alphaReference)) return 0.0f;
+    return m.blended ? alpha : 1.0f;
+}
+
+/// False if every ray that meets the surface hits it, for all that is known without looking at points.
+bool MaterialTable::isPartial(const Material& m) const
+{
+    if (m.culling != FaceCulling::None) return true;
+    if (!m.blended && m.alphaTest == AlphaTest::Always) return false;
+    const auto isOpaque = [this](uint32_t texture)
+    { return texture == kInvalid || _scene->textures[texture]->opaque; };
+    const bool constant = isOpaque(m.baseColorTexture) && isOpaque(m.second.texture) &&
+                          m.vertexColorUse == VertexColorUse::None && !m.hasBack;
+    return !constant || !(m.alpha >= 1.0f) || !passes(m.alphaTest, 1.0f, m.alphaReference);
 }
 
 Vec4 MaterialTable::textureOr(uint32_t texture, Vec2 uv, Vec4 otherwise) const
@@ -155,10 +219,11 @@ Vec4 MaterialTable::textureOr(uint32_t texture, Vec2 uv, Vec4 otherwise) const
     return texture == kInvalid ? otherwise : sampleTexture(*_scene->textures[texture], uv);
 }
 
-FixedFunctionColors fixedFunctionColors(const Material& material, const Vec4& vertexColor)
+FaceColors fixedFunctionColors(const Material& material, const Vec4& vertexColor, bool front)
 {
-    FixedFunctionColors colors{material.ambient, material.diffuse, material.specular,
-                               material.emission, material.alpha};
+    FaceColors colors{material.ambient,  material.diffuse,   material.specular,
+                      material.emission, material.shininess, material.alpha};
+    if (!front && material.hasBack) colors = material.back;
     const Vec3 rgb(vertexColor);
     if (!material.lit)
     {
@@ -188,15 +253,30 @@ FixedFunctionColors fixedFunctionColors(const Material& material, const Vec4& ve
     return colors;
 }
 
-Vec4 applyTextureEnvironment(TextureEnvironment environment, Vec4 lit, Vec4 texture)
+Vec4 applyTextureEnvironment(const TextureTerms::Term& texture, Vec4 lit)
 {
-    switch (environment)
+    const Vec3 from(lit), color(texture.value);
+    const Vec3 kept = texture.hasColor ? color : from;
+    const float alpha = texture.hasAlpha ? texture.value.w : 1.0f;
+    switch (texture.environment)
     {
-    case TextureEnvironment::Modulate: return lit * texture;
-    case TextureEnvironment::Replace: return texture;
-    case TextureEnvironment::Decal:
-        return Vec4(glm::mix(Vec3(lit), Vec3(texture), texture.w), lit.w);
+    case TextureEnvironment::Modulate:
+        return Vec4(texture.hasColor ? from * color : from, lit.w * alpha);
+    case TextureEnvironment::Replace: return Vec4(kept, texture.hasAlpha ? alpha : lit.w);
+    case TextureEnvironment::Decal: return Vec4(glm::mix(from, kept, alpha), lit.w);
+    case TextureEnvironment::Blend:
+        return Vec4(texture.hasColor ? glm::mix(from, Vec3(texture.environmentColor), color) : from,
+                    lit.w * alpha);
+    case TextureEnvironment::Add:
+        return Vec4(texture.hasColor ? from + color : from, lit.w * alpha);
     }
+    return lit;
+}
+
+Vec4 applyTextures(const TextureTerms& textures, Vec4 lit)
+{
+    for (int i = 0; i < textures.count; ++i)
+        lit = applyTextureEnvironment(textures.units[i], lit);
     return lit;
 }
 

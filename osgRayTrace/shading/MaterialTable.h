@@ -5,6 +5,7 @@
 
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/shading/Bsdf.h"
+#include "osgRayTrace/shading/TextureCoordinates.h"
 
 #include <vector>
 
@@ -12,9 +13,8 @@ namespace osgRayTrace::engine
 {
 
 /// Where on a surface the material is asked for.
-struct MaterialPoint
+struct MaterialPoint : TexturePoint
 {
-    Vec2 uv{0.0f};
     Vec4 vertexColor{1.0f};
     bool front = true; ///< seen from the counter-clockwise side: decides inside and outside of glass
 };
@@ -28,6 +28,21 @@ struct MaterialRecord
     bool plainDiffuse = false; ///< constant, and nothing but a Lambert base
     bool fixedFunction = false;
     bool emits = false;       ///< emission, or an unlit fixed-function colour
+    bool generated = false;   ///< texture coordinates need the point's position, normal and direction
+    bool partial = false;     ///< some rays pass it: see opacity and Material::culling
+};
+
+/// The texture units of a fixed-function material, looked up at a point.
+struct TextureTerms
+{
+    struct Term
+    {
+        TextureEnvironment environment = TextureEnvironment::Modulate;
+        bool hasColor = true, hasAlpha = true;
+        Vec4 value{1.0f}, environmentColor{0.0f};
+    };
+    Term units[2];
+    int count = 0;
 };
 
 /// Indexed by material. Built once for a scene; thread safe.
@@ -46,10 +61,16 @@ public:
     /// Radiance that leaves the surface by itself: emission, or the colour of unlit fixed-function ones.
     Vec3 emission(uint32_t material, const MaterialPoint& point) const;
 
-    /// Unit 0 or base colour texture at a point; white without one.
-    Vec4 baseTexture(const Material& material, Vec2 uv) const;
+    /// Those of a fixed-function material at a point.
+    TextureTerms textures(const Material& material, const MaterialPoint& point) const;
+
+    /// Share of the light that the surface stops at a point: 0 where the alpha test fails, alpha if the
+    /// material is blended (straight alpha, source alpha and one minus it), else 1. In [0, 1].
+    float opacity(uint32_t material, const MaterialPoint& point) const;
 
 private:
+    bool isPartial(const Material& material) const;
+    Vec4 baseTexture(const Material& material, const MaterialPoint& point) const;
     Vec4 textureOr(uint32_t texture, Vec2 uv, Vec4 otherwise) const;
     Bsdf physical(const Material& material, const MaterialPoint& point) const;
     Bsdf fixedFunction(const Material& material, const MaterialPoint& point) const;
@@ -65,15 +86,19 @@ private:
     std::vector<std::array<Coat, 2>> _coats; ///< a material: from outside, from inside
 };
 
-/// Ambient, diffuse, specular and emission after the vertex colour has replaced what it replaces.
-struct FixedFunctionColors
-{
-    Vec3 ambient, diffuse, specular, emission;
-    float alpha;
-};
-FixedFunctionColors fixedFunctionColors(const Material& material, const Vec4& vertexColor);
+/// Those of the seen face after the vertex colour has replaced what it replaces.
+FaceColors fixedFunctionColors(const Material& material, const Vec4& vertexColor, bool front = true);
 
-/// The texture environment of unit 0 applied to a lit colour [OpenGL21, table 3.23].
-Vec4 applyTextureEnvironment(TextureEnvironment environment, Vec4 lit, Vec4 texture);
+/// OpenGL's idea of the front, where lighting has two sides.
+inline bool isFrontFace(const Material& material, bool counterClockwise)
+{
+    return counterClockwise != material.clockwise;
+}
+
+/// A texture environment applied to a lit colour [OpenGL21, table 3.22 and 3.23].
+Vec4 applyTextureEnvironment(const TextureTerms::Term& texture, Vec4 lit);
+
+/// All units, one after the other.
+Vec4 applyTextures(const TextureTerms& textures, Vec4 lit);
 
 } // namespace osgRayTrace::engine

@@ -31,15 +31,35 @@ const std::array<float, 256>& decodedBytes()
 /// Texel index in [0, size) of any integer position.
 int wrapped(int i, int size, TextureWrap wrap)
 {
-    if (wrap == TextureWrap::ClampToEdge) return i < 0 ? 0 : i >= size ? size - 1 : i;
+    if (wrap != TextureWrap::Repeat && wrap != TextureWrap::Mirror)
+        return i < 0 ? 0 : i >= size ? size - 1 : i;
     const int period = wrap == TextureWrap::Mirror ? 2 * size : size;
     int m = i % period;
     if (m < 0) m += period;
     return m < size ? m : period - 1 - m;
 }
 
+bool hasBorder(TextureWrap wrap)
+{
+    return wrap == TextureWrap::Clamp || wrap == TextureWrap::ClampToBorder;
+}
+
+/// OpenGL's borders are data, decoded like texels.
+Vec4 borderOf(const Texture& texture)
+{
+    Vec4 color = texture.border;
+    if (texture.decodeSrgb)
+        for (int c = 0; c < 3; ++c)
+            color[c] = decodedBytes()[static_cast<std::size_t>(
+                std::lround(255.0f * std::fmin(std::fmax(color[c], 0.0f), 1.0f)))];
+    return color;
+}
+
 Vec4 texel(const Texture& texture, int x, int y)
 {
+    if ((hasBorder(texture.wrapS) && (x < 0 || x >= texture.width)) ||
+        (hasBorder(texture.wrapT) && (y < 0 || y >= texture.height)))
+        return borderOf(texture);
     const std::size_t at =
         4 * (static_cast<std::size_t>(wrapped(y, texture.height, texture.wrapT)) *
                  static_cast<std::size_t>(texture.width) +
@@ -56,21 +76,59 @@ Vec4 texel(const Texture& texture, int x, int y)
     return Vec4(b[0], b[1], b[2], b[3]) * (1.0f / 255.0f);
 }
 
-/// A coordinate in texels, within what an int holds; NaN becomes 0.
-float texels(float coordinate, int size)
+/// A coordinate in texels, within what an int holds; NaN becomes 0. TextureWrap::Clamp keeps it within
+/// the image [OpenGL21, sect. 3.8.7].
+float texels(float coordinate, int size, TextureWrap wrap)
 {
+    if (wrap == TextureWrap::Clamp) coordinate = std::fmin(std::fmax(coordinate, 0.0f), 1.0f);
     const float value = coordinate * static_cast<float>(size);
     return std::fabs(value) < 1e9f ? value : 0.0f;
+}
+
+/// With the nearest texel the coordinate 1 is the last one, not the border.
+int nearest(float texelsOf, int size, TextureWrap wrap)
+{
+    const int i = static_cast<int>(std::floor(texelsOf));
+    return wrap == TextureWrap::Clamp && i >= size ? size - 1 : i;
+}
+
+/// A face of a cube map and the place on it [OpenGL21, table 3.19].
+Vec4 sampleCube(const Texture& texture, Vec3 r)
+{
+    const Vec3 a(std::fabs(r.x), std::fabs(r.y), std::fabs(r.z));
+    int face;
+    float s, t, largest;
+    if (a.x >= a.y && a.x >= a.z)
+        face = r.x >= 0.0f ? 0 : 1, s = r.x >= 0.0f ? -r.z : r.z, t = -r.y, largest = a.x;
+    else if (a.y >= a.z)
+        face = r.y >= 0.0f ? 2 : 3, s = r.x, t = r.y >= 0.0f ? r.z : -r.z, largest = a.y;
+    else
+        face = r.z >= 0.0f ? 4 : 5, s = r.z >= 0.0f ? r.x : -r.x, t = -r.y, largest = a.z;
+    const float scale = largest > 0.0f && largest < kInfinity ? 0.5f / largest : 0.0f;
+    const int size = texture.width;
+    const auto inFace = [size](float coordinate)
+    { return std::fmin(std::fmax(coordinate * float(size) - 0.5f, 0.0f), float(size - 1)); };
+    const float x = inFace(s * scale + 0.5f), y = inFace(t * scale + 0.5f);
+    const int bottom = face * size;
+    if (!texture.linearFilter)
+        return texel(texture, int(std::lround(x)), bottom + int(std::lround(y)));
+    const int x0 = int(x), y0 = int(y), x1 = x0 + 1 < size ? x0 + 1 : x0,
+              y1 = y0 + 1 < size ? y0 + 1 : y0;
+    const float fx = x - float(x0), fy = y - float(y0);
+    const Vec4 low = glm::mix(texel(texture, x0, bottom + y0), texel(texture, x1, bottom + y0), fx);
+    const Vec4 high = glm::mix(texel(texture, x0, bottom + y1), texel(texture, x1, bottom + y1), fx);
+    return glm::mix(low, high, fy);
 }
 
 } // namespace
 
 Vec4 sampleTexture(const Texture& texture, Vec2 uv)
 {
-    const float x = texels(uv.x, texture.width);
-    const float y = texels(uv.y, texture.height);
+    const float x = texels(uv.x, texture.width, texture.wrapS);
+    const float y = texels(uv.y, texture.height, texture.wrapT);
     if (!texture.linearFilter)
-        return texel(texture, static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+        return texel(texture, nearest(x, texture.width, texture.wrapS),
+                     nearest(y, texture.height, texture.wrapT));
 
     const float x0 = std::floor(x - 0.5f), y0 = std::floor(y - 0.5f);
     const float fx = x - 0.5f - x0, fy = y - 0.5f - y0;
@@ -78,6 +136,13 @@ Vec4 sampleTexture(const Texture& texture, Vec2 uv)
     const Vec4 bottom = texel(texture, ix, iy) * (1.0f - fx) + texel(texture, ix + 1, iy) * fx;
     const Vec4 top = texel(texture, ix, iy + 1) * (1.0f - fx) + texel(texture, ix + 1, iy + 1) * fx;
     return bottom * (1.0f - fy) + top * fy;
+}
+
+Vec4 sampleTexture(const Texture& texture, Vec4 coordinates)
+{
+    if (texture.cube) return sampleCube(texture, Vec3(coordinates));
+    const float q = coordinates.w;
+    return sampleTexture(texture, q == 1.0f ? Vec2(coordinates) : Vec2(coordinates) / q);
 }
 
 } // namespace osgRayTrace::engine

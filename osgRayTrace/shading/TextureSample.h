@@ -11,4 +11,7 @@ namespace osgRayTrace::engine
 /// decoded to linear if it asks for that. Any uv; not finite ones give the corner texel.
 Vec4 sampleTexture(const Texture& texture, Vec2 uv);
 
+/// The same at (s, t, r, q): of a cube map in the direction (s, t, r), else at (s, t)/q.
+Vec4 sampleTexture(const Texture& texture, Vec4 coordinates);
+
 } // namespace osgRayTrace::engine

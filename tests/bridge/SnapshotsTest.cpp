@@ -76,8 +76,6 @@ TEST_CASE("a changed array or primitive set makes one new mesh", "[bridge]")
     scene = checkSecondChanged(scene);
     static_cast<osg::DrawArrays*>(graph.second->getPrimitiveSet(0))->setMode(GL_TRIANGLE_STRIP);
     scene = checkSecondChanged(scene);
-    graph.transform->setMatrix(osg::Matrixd::translate(1.0, 0.0, 0.0));
-    scene = checkSecondChanged(scene);
     graph.second->setDataVariance(osg::Object::DYNAMIC);
     checkSecondChanged(scene);
 }
@@ -107,6 +105,26 @@ TEST_CASE("a moved instance keeps its mesh, a changed material changes only itse
     CHECK(painted->instances[1].changed == moved->instances[1].changed);
     CHECK(painted->materials[0].changed == moved->materials[0].changed);
     CHECK(painted->materials[1].changed > moved->materials[1].changed);
+}
+
+TEST_CASE("what has moved once has a mesh of its own, which is placed from then on", "[bridge]")
+{
+    TwoTriangles graph;
+    const auto before = graph.convert();
+    CHECK_FALSE(before->instances[1].placed);
+    graph.transform->setMatrix(osg::Matrixd::translate(1.0, 0.0, 0.0));
+    const auto first = graph.convert();
+    REQUIRE(first->instances.size() == 2);
+    CHECK_FALSE(first->instances[0].placed);
+    CHECK(first->meshes[0] == before->meshes[0]);
+    CHECK(first->instances[1].placed);
+    CHECK(firstCorner(*first, 1) == Vec3(1.0f, 0.0f, 0.0f));
+    graph.transform->setMatrix(osg::Matrixd::translate(2.0, 0.0, 0.0));
+    const auto second = graph.convert();
+    CHECK(second->meshes == first->meshes);
+    CHECK(firstCorner(*second, 1) == Vec3(2.0f, 0.0f, 0.0f));
+    graph.transform->setMatrix(osg::Matrixd());
+    CHECK(graph.convert()->instances[1].placed);
 }
 
 TEST_CASE("a changed light or background changes the scene and no geometry", "[bridge]")

@@ -90,12 +90,12 @@ TEST_CASE("state stack: agrees with osg::State for random nestings", "[bridge]")
         CHECK(state.isOn(kLightingBit) == isOn(*expected, GL_LIGHTING));
         CHECK(state.isOn(3) == isOn(*expected, GL_LIGHT0 + 3));
         CHECK(state.isOn(kBlendBit) == isOn(*expected, GL_BLEND));
-        CHECK(state.isOn(kTexture2DBit) == reference->isTexture2DOn());
+        CHECK(state.isOn(0, kTexture2DBit) == reference->isTexture2DOn());
         CHECK(state.attributes[kMaterialSlot] ==
               expected->getAttribute(osg::StateAttribute::MATERIAL));
         CHECK(state.attributes[kPhysicalMaterialSlot] ==
               expected->getAttribute(PhysicalMaterial::ATTRIBUTE_TYPE));
-        CHECK(state.attributes[kTextureSlot] == reference->texture());
+        CHECK(state.attributes[kUnitSlot + kTextureSlot] == reference->texture());
     }
 }
 

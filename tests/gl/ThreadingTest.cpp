@@ -3,6 +3,8 @@
 #include "TestViewer.h"
 #include "tests/Catch.h"
 
+#include <osg/Geometry>
+#include <osg/Material>
 #include <osg/MatrixTransform>
 
 using namespace osgRayTrace;
@@ -26,6 +28,51 @@ osg::ref_ptr<FrameCapture> addCamera(osgViewer::Viewer& viewer, const osg::Matri
     return capture;
 }
 
+/// Changes of all kinds, as an application makes them: in callbacks of the update traversal, with
+/// DataVariance DYNAMIC.
+class EditAll : public osg::NodeCallback
+{
+public:
+    explicit EditAll(osg::Group* root) : _spare(sphere(osg::Vec3(1.0f, 1.0f, -2.0f), 0.3f, kGreen))
+    {
+        _moving->setDataVariance(osg::Object::DYNAMIC);
+        _moving->addChild(sphere(osg::Vec3(-1.5f, 0.0f, -2.0f), 0.3f, kGreen));
+        _deforming->setDataVariance(osg::Object::DYNAMIC);
+        _deforming->getVertexArray()->setDataVariance(osg::Object::DYNAMIC);
+        _material->setDataVariance(osg::Object::DYNAMIC);
+        osg::StateSet* state = _moving->getOrCreateStateSet();
+        state->setDataVariance(osg::Object::DYNAMIC);
+        state->setAttributeAndModes(_material);
+        root->addChild(_moving);
+        root->addChild(_deforming);
+    }
+
+    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override
+    {
+        osg::Group& root = *node->asGroup();
+        const int frame = ++_frame;
+        _moving->setMatrix(osg::Matrixd::translate(0.02 * frame, 0.0, 0.0));
+        auto& vertices = static_cast<osg::Vec3Array&>(*_deforming->getVertexArray());
+        for (osg::Vec3& v : vertices)
+            v.z() = -2.0f + 0.1f * float((frame + int(10.0f * v.x())) % 5);
+        vertices.dirty();
+        if (frame % 3 == 0)
+            _material->setDiffuse(osg::Material::FRONT_AND_BACK,
+                                  osg::Vec4(0.1f * float(frame % 10), 0.5f, 0.5f, 1.0f));
+        if (frame % 8 == 4) root.addChild(_spare);
+        if (frame % 8 == 0) root.removeChild(_spare);
+        traverse(node, visitor);
+    }
+
+private:
+    osg::ref_ptr<osg::MatrixTransform> _moving = new osg::MatrixTransform;
+    osg::ref_ptr<osg::Geometry> _deforming = osg::createTexturedQuadGeometry(
+        osg::Vec3(-2.0f, -2.0f, -2.0f), osg::Vec3(1.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 1.0f, 0.0f));
+    osg::ref_ptr<osg::Material> _material = new osg::Material;
+    osg::ref_ptr<osg::Node> _spare;
+    int _frame = 0;
+};
+
 } // namespace
 
 TEST_CASE("threading: 50 frames of a moving scene in three contexts", "[gl]")
@@ -39,6 +86,10 @@ TEST_CASE("threading: 50 frames of a moving scene in three contexts", "[gl]")
     moving->addChild(unlitSquare(1.0f, kGreen));
     osg::ref_ptr<RayTracedScene> scene = tracedScene(moving.get());
     scene->addChild(sphere(osg::Vec3(0.0f, 0.0f, -3.0f), 0.5f, osg::Vec4(1, 1, 1, 1)));
+    osg::ref_ptr<osg::Group> edited = new osg::Group;
+    edited->setDataVariance(osg::Object::DYNAMIC);
+    edited->setUpdateCallback(new EditAll(edited.get()));
+    scene->addChild(edited);
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(scene);
 
@@ -71,5 +122,9 @@ TEST_CASE("threading: 50 frames of a moving scene in three contexts", "[gl]")
                 green += pixel(*capture->getColorImage(), x, y) == osg::Vec4(0, 255, 0, 255);
         CHECK(green > 50);
     }
-    CHECK(scene->getDrawable()->getStatistics().passes >= 1);
+    const Statistics statistics = scene->getDrawable()->getStatistics();
+    CHECK(statistics.passes >= 1);
+    CHECK(statistics.patches > 5);
+    CHECK(statistics.conversions > 5);
+    CHECK(statistics.refitMeshes > 5);
 }

@@ -164,9 +164,34 @@ TEST_CASE("material: vertex colours replace what OpenGL lets them replace", "[sh
 TEST_CASE("material: texture environments", "[shading]")
 {
     const Vec4 lit(0.8f, 0.4f, 0.2f, 0.5f), texture(0.5f, 0.5f, 1.0f, 0.25f);
-    CHECK(applyTextureEnvironment(TextureEnvironment::Modulate, lit, texture) == lit * texture);
-    CHECK(applyTextureEnvironment(TextureEnvironment::Replace, lit, texture) == texture);
-    const Vec4 decal = applyTextureEnvironment(TextureEnvironment::Decal, lit, texture);
+    TextureTerms::Term term;
+    term.value = texture;
+    term.environmentColor = Vec4(0.0f, 1.0f, 0.0f, 1.0f);
+    const auto applied = [&](TextureEnvironment environment)
+    {
+        term.environment = environment;
+        return applyTextureEnvironment(term, lit);
+    };
+    CHECK(applied(TextureEnvironment::Modulate) == lit * texture);
+    CHECK(applied(TextureEnvironment::Replace) == texture);
+    const Vec4 decal = applied(TextureEnvironment::Decal);
     CHECK(decal.x == Approx(0.8 * 0.75 + 0.5 * 0.25));
     CHECK(decal.w == 0.5f);
+    const Vec4 blend = applied(TextureEnvironment::Blend);
+    CHECK(blend.x == Approx(0.4));
+    CHECK(blend.y == Approx(0.7));
+    CHECK(blend.z == Approx(0.0).margin(1e-6));
+    CHECK(blend.w == Approx(0.125));
+    const Vec4 add = applied(TextureEnvironment::Add);
+    CHECK(add.x == Approx(1.3));
+    CHECK(add.w == Approx(0.125));
+
+    term.hasColor = false; // an alpha texture
+    CHECK(applied(TextureEnvironment::Modulate) == Vec4(Vec3(lit), 0.125f));
+    CHECK(applied(TextureEnvironment::Replace) == Vec4(Vec3(lit), 0.25f));
+    CHECK(applied(TextureEnvironment::Add) == Vec4(Vec3(lit), 0.125f));
+    term.hasColor = true;
+    term.hasAlpha = false; // an RGB texture
+    CHECK(applied(TextureEnvironment::Replace) == Vec4(Vec3(texture), 0.5f));
+    CHECK(applied(TextureEnvironment::Modulate) == Vec4(Vec3(lit * texture), 0.5f));
 }

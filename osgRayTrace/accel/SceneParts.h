@@ -1,0 +1,137 @@
+// SceneParts.h - the BVHs that a TracedScene is made of, and who may change them. Layer: accel;
+// private to it. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/BvhQuality.h"
+#include "osgRayTrace/accel/EmbreeDevice.h"
+#include "osgRayTrace/scene/Mesh.h"
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+struct SceneRelease
+{
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+struct GeometryRelease
+{
+    void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease>;
+using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, GeometryRelease>;
+
+/// Counted while a scene is built, by several threads.
+struct BuildCounts
+{
+    std::atomic<std::size_t> built{0}, refit{0}, flat{0}, commits{0};
+};
+
+/// A mesh with a BVH of its own, for instances of it.
+struct Prototype
+{
+    std::shared_ptr<EmbreeDevice> device; // first: destroyed last
+    std::shared_ptr<const Mesh> mesh;     ///< owns the buffers that Embree reads
+    bool filtered = false;                ///< rays may pass what they meet: see HitFilter
+    SceneHandle scene;
+    RTCGeometry triangles = nullptr;   ///< the scene's own; set if it can be refitted
+    std::optional<BvhQuality> quality; ///< likewise
+    uint64_t serial = 0;               ///< a new one for each build and refit
+    bool sound = true;                 ///< false while it is changed
+};
+
+/// All that has never moved: one BVH over all meshes, attached by the indices of their instances.
+struct FlatPart
+{
+    struct Member
+    {
+        uint32_t instance = 0;
+        const Mesh* mesh = nullptr;
+        bool filtered = false; ///< as in Prototype
+    };
+    using Members = std::vector<Member>;
+
+    std::shared_ptr<EmbreeDevice> device;
+    Members members;
+    std::vector<std::shared_ptr<const Mesh>> owners;
+    SceneHandle scene;
+    uint64_t serial = 0;
+};
+
+/// What a root holds at an index: an instance of a scene.
+struct Placement
+{
+    RTCScene scene = nullptr; ///< null: nothing
+    uint64_t serial = 0;      ///< of the prototype
+    const Affine* engineFromLocal = nullptr;
+};
+
+/// The BVH over instances.
+struct RootPart
+{
+    std::shared_ptr<EmbreeDevice> device;
+    SceneHandle scene;
+    std::vector<uint64_t> prints; ///< of the placements; 0: nothing there
+    uint64_t generation = 0;
+    bool sound = true; ///< false while it is changed
+};
+
+/// Keeps parts that no version uses any more, so that the next version can be made by changing
+/// them: a draw thread may still trace the last version, so there are two of each part that
+/// changes, in turn. A part in a version is never changed. Spare parts are taken by the thread that
+/// builds, and given back by whoever lets a version go.
+class PartPool : public std::enable_shared_from_this<PartPool>
+{
+public:
+    explicit PartPool(std::shared_ptr<EmbreeDevice> device) : _device(std::move(device)) {}
+
+    const std::shared_ptr<EmbreeDevice>& device() const { return _device; }
+
+    /// Refitted if there is a spare one with the same triangles that does not suffer by it, else
+    /// built.
+    std::shared_ptr<const Prototype> prototype(const std::shared_ptr<const Mesh>& mesh,
+                                               bool filtered, BuildCounts& counts);
+
+    std::shared_ptr<const FlatPart> flat(FlatPart::Members members,
+                                         std::vector<std::shared_ptr<const Mesh>> owners,
+                                         BuildCounts& counts);
+
+    /// A root with these placements, by index; a spare one is changed where it differs.
+    std::shared_ptr<const RootPart> root(const std::vector<Placement>& placements,
+                                         const std::vector<uint64_t>& prints, BuildCounts& counts);
+
+    /// Something was removed. Forgets spare prototypes of other meshes than those with these
+    /// triangles, and all roots that exist, spare or not: they hold what is gone.
+    void keepOnly(const std::unordered_set<const UVec3*>& triangles);
+
+    /// Takes a part back, or deletes it. Any thread.
+    void giveBack(std::unique_ptr<Prototype> prototype);
+    void giveBack(std::unique_ptr<RootPart> root);
+
+private:
+    template <class Part> std::shared_ptr<Part> shared(std::unique_ptr<Part> part);
+    std::unique_ptr<Prototype> spareOf(const UVec3* triangles);
+    std::unique_ptr<Prototype> build(const std::shared_ptr<const Mesh>& mesh, bool filtered,
+                                     BuildCounts& counts);
+    bool refit(Prototype& spare, const std::shared_ptr<const Mesh>& mesh, bool filtered,
+               BuildCounts& counts);
+
+    std::shared_ptr<EmbreeDevice> _device;
+    std::atomic<uint64_t> _serial{0};
+
+    std::mutex _mutex; // all below: the thread that builds, and those that let versions go
+    std::unordered_set<const UVec3*> _wanted; ///< triangles of meshes that may be refitted
+    std::unordered_multimap<const UVec3*, std::unique_ptr<Prototype>> _prototypes;
+    std::vector<std::unique_ptr<RootPart>> _roots;
+    uint64_t _generation = 0;
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,60 @@
+// Digest.h - many values in one number, to tell whether one of them has changed. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Matrixd>
+
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+namespace osgRayTrace::engine
+{
+
+/// Mixes values one after the other into 64 bits.
+class Digest
+{
+public:
+    uint64_t value() const { return _value; }
+
+    template <class T> void add(const T& item)
+    {
+        if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_pointer_v<T>)
+        {
+            uint64_t bits = 0;
+            static_assert(sizeof(item) <= sizeof(bits));
+            std::memcpy(&bits, &item, sizeof(item));
+            addBits(bits);
+        }
+        else
+        {
+            for (unsigned int i = 0; i < T::num_components; ++i)
+                add(item[i]);
+        }
+    }
+
+    template <class First, class... Rest> void add(const First& first, const Rest&... rest)
+    {
+        add(first);
+        (add(rest), ...);
+    }
+
+    void addMatrix(const osg::Matrixd& matrix)
+    {
+        for (int i = 0; i < 16; ++i)
+            add(matrix.ptr()[i]);
+    }
+
+private:
+    void addBits(uint64_t bits) // [Steele14, mix64 of SplitMix, chained]
+    {
+        uint64_t z = (_value ^ bits) + 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        _value = z ^ (z >> 31);
+    }
+
+    uint64_t _value = 0;
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,49 @@
+// TextureUnits.h - what the state of texture units 0 and 1 makes of a material. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/StateStack.h"
+#include "osgRayTrace/bridge/TextureConverter.h"
+#include "osgRayTrace/scene/Material.h"
+
+#include <osg/Matrixd>
+#include <osg/TexGen>
+
+#include <array>
+
+namespace osgRayTrace::engine
+{
+
+/// The texture generation that a TexGenNode places, for all that uses generated coordinates and has
+/// no osg::TexGen of its own.
+struct PlacedTexGen
+{
+    const osg::TexGen* texGen = nullptr;
+    osg::Matrixd engineFromLocal;
+};
+using PlacedTexGens = std::array<PlacedTexGen, kUnits>;
+
+/// Where a surface is.
+struct SurfacePlacement
+{
+    osg::Matrixd engineFromLocal;
+    const PlacedTexGens* texGens = nullptr; ///< null: none
+};
+
+inline bool isMirrored(const osg::Matrixd& m)
+{
+    const osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
+        z(m(2, 0), m(2, 1), m(2, 2));
+    return (x ^ y) * z < 0.0;
+}
+
+/// True if a unit that is enabled has a texture combiner, which we have no counterpart of.
+bool combinesTextures(const GraphState& state);
+
+/// Sets textures, their environments and the way to their coordinates. Counts what is left out:
+/// units whose coordinates nobody generates, texture combiners.
+void applyTextureUnits(Material& material, const GraphState& state,
+                       const SurfacePlacement& placement, TextureConverter& textures,
+                       ConversionReport& report);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,49 @@
+// TextureCoordinates.cpp - texture generation and texture matrices. Layer: shading.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/shading/TextureCoordinates.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// [OpenGL21, sect. 2.11.4]: r is what the sphere in the picture reflects at (s, t).
+Vec4 sphereMap(Vec3 r)
+{
+    const float m = 2.0f * std::sqrt(r.x * r.x + r.y * r.y + (r.z + 1.0f) * (r.z + 1.0f));
+    if (!(m > 0.0f)) return Vec4(0.5f, 0.5f, 0.0f, 1.0f); // straight away: all of the rim
+    return Vec4(r.x / m + 0.5f, r.y / m + 0.5f, 0.0f, 1.0f);
+}
+
+Vec4 source(TextureCoordinates coordinates, const TexturePoint& p)
+{
+    switch (coordinates)
+    {
+    case TextureCoordinates::Uv0:
+        return Vec4(p.uv, 0.0f, 1.0f);
+    case TextureCoordinates::Uv1:
+        return Vec4(p.uv1, 0.0f, 1.0f);
+    case TextureCoordinates::Position:
+        return Vec4(p.position, 1.0f);
+    case TextureCoordinates::SphereMap:
+        return sphereMap(p.eyeFromEngine * glm::reflect(p.direction, p.normal));
+    case TextureCoordinates::ReflectionMap:
+        return Vec4(p.eyeFromEngine * glm::reflect(p.direction, p.normal), 1.0f);
+    case TextureCoordinates::NormalMap:
+        return Vec4(p.eyeFromEngine * p.normal, 1.0f);
+    }
+    return Vec4(0.0f, 0.0f, 0.0f, 1.0f);
+}
+
+} // namespace
+
+Vec4 textureCoordinates(const TextureMapping& mapping, const TexturePoint& point)
+{
+    const Vec4 coordinates = source(mapping.coordinates, point);
+    return mapping.transformed ? mapping.matrix * coordinates : coordinates;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,307 @@
+// TextureMatchTest.cpp - textures look as OpenGL draws them: coordinates, wrap modes, environments,
+// formats. SPDX-License-Identifier: MIT
+#include "StateScenes.h"
+
+#include <osg/TexEnv>
+#include <osg/TexGen>
+#include <osg/TexGenNode>
+#include <osg/TexMat>
+#include <osg/Texture1D>
+#include <osg/TextureCubeMap>
+#include <osg/TextureRectangle>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::test;
+
+namespace
+{
+
+/// Bright where it reflects the side that the name of the texel says.
+osg::ref_ptr<osg::Image> environmentPicture(int size)
+{
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(size, size, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+        {
+            const float s = (x + 0.5f) / size, t = (y + 0.5f) / size;
+            image->setColor(osg::Vec4(s, t, 0.5f + 0.5f * std::sin(8.0f * (s + t)), 1.0f), x, y);
+        }
+    return image;
+}
+
+osg::ref_ptr<osg::TextureCubeMap> cubeMap(int size)
+{
+    osg::ref_ptr<osg::TextureCubeMap> cube = new osg::TextureCubeMap;
+    for (unsigned int face = 0; face < 6; ++face)
+    {
+        const osg::ref_ptr<osg::Image> image = environmentPicture(size);
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x)
+            {
+                osg::Vec4 color = image->getColor(x, y);
+                color.b() = float(face) / 5.0f;
+                image->setColor(color, x, y);
+            }
+        cube->setImage(face, image);
+    }
+    cube->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_EDGE);
+    cube->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);
+    cube->setWrap(osg::Texture::WRAP_R, osg::Texture::CLAMP_TO_EDGE);
+    cube->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
+    cube->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+    return cube;
+}
+
+void generate(osg::Node& node, unsigned int unit, osg::TexGen* texGen, bool third = false)
+{
+    osg::StateSet& state = *node.getOrCreateStateSet();
+    if (texGen) state.setTextureAttribute(unit, texGen);
+    state.setTextureMode(unit, GL_TEXTURE_GEN_S, kOn);
+    state.setTextureMode(unit, GL_TEXTURE_GEN_T, kOn);
+    if (third) state.setTextureMode(unit, GL_TEXTURE_GEN_R, kOn);
+}
+
+osg::ref_ptr<osg::TexGen> linearTexGen(osg::TexGen::Mode mode)
+{
+    osg::ref_ptr<osg::TexGen> texGen = new osg::TexGen;
+    texGen->setMode(mode);
+    texGen->setPlane(osg::TexGen::S, osg::Vec4(0.3f, 0.1f, 0.0f, 0.2f));
+    texGen->setPlane(osg::TexGen::T, osg::Vec4(0.0f, 0.25f, 0.1f, 0.4f));
+    return texGen;
+}
+
+osg::ref_ptr<osg::TexGen> texGenOf(osg::TexGen::Mode mode)
+{
+    osg::ref_ptr<osg::TexGen> texGen = new osg::TexGen;
+    texGen->setMode(mode);
+    return texGen;
+}
+
+/// Fine enough for OpenGL's coordinates at vertices to be those at points.
+osg::ref_ptr<osg::ShapeDrawable> fineSphere(float radius = 3.0f)
+{
+    osg::ref_ptr<osg::TessellationHints> hints = new osg::TessellationHints;
+    hints->setDetailRatio(8.0f);
+    return new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(), radius), hints.get());
+}
+
+MatchSetup obliquely()
+{
+    MatchSetup setup;
+    setup.view = [](TestViewer& view) { view.look({6.0, 4.0, 7.0}, {}, {0.1, 1.0, 0.2}); };
+    return setup;
+}
+
+} // namespace
+
+TEST_CASE("match: wrap modes, with border colour", "[gl][coverage]")
+{
+    const std::pair<const char*, osg::Texture::WrapMode> modes[] = {
+        {"repeat", osg::Texture::REPEAT},
+        {"mirror", osg::Texture::MIRROR},
+        {"clamp", osg::Texture::CLAMP},
+        {"clamp-to-edge", osg::Texture::CLAMP_TO_EDGE},
+        {"clamp-to-border", osg::Texture::CLAMP_TO_BORDER}};
+    for (const auto& [name, mode] : modes)
+        for (const auto filter : {osg::Texture::LINEAR, osg::Texture::NEAREST})
+        {
+            const auto geometry = unlit(square(3.0f));
+            auto& coordinates = static_cast<osg::Vec2Array&>(*geometry->getTexCoordArray(0));
+            for (osg::Vec2& c : coordinates)
+                c = c * 3.0f - osg::Vec2(1.1f, 0.9f);
+            const auto texture = textureOf(patchwork(4, GL_RGB), mode, filter);
+            texture->setBorderColor(osg::Vec4d(0.1, 0.9, 0.3, 1.0));
+            geometry->getStateSet()->setTextureAttributeAndModes(0, texture);
+            checkMatch(std::string("wrap-") + name +
+                           (filter == osg::Texture::NEAREST ? "-nearest" : ""),
+                       geometry);
+        }
+}
+
+TEST_CASE("match: texture matrix, also a projective one", "[gl][coverage]")
+{
+    osg::Matrixd matrix = osg::Matrixd::scale(2.0, 3.0, 1.0) *
+                          osg::Matrixd::rotate(0.4, osg::Vec3d(0, 0, 1)) *
+                          osg::Matrixd::translate(0.3, 0.1, 0.0);
+    const bool projective = GENERATE(false, true);
+    if (projective) matrix(0, 3) = 0.7;
+    const auto geometry = unlit(square(3.0f));
+    // OpenGL interpolates (s, t, q) over each triangle, so this is right for large ones, too.
+    geometry->getStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
+    geometry->getStateSet()->setTextureAttribute(0, new osg::TexMat(matrix));
+    checkMatch(projective ? "texture-matrix-projective" : "texture-matrix", geometry);
+}
+
+TEST_CASE("match: object and eye linear texture generation", "[gl][coverage]")
+{
+    const auto mode = GENERATE(osg::TexGen::OBJECT_LINEAR, osg::TexGen::EYE_LINEAR);
+    const auto ball = fineSphere(1.5f);
+    ball->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
+    generate(*ball, 0, linearTexGen(mode));
+    const osg::ref_ptr<osg::Node> root =
+        placed(osg::Matrixd::rotate(0.5, osg::Vec3d(1, 1, 0)) *
+                   osg::Matrixd::translate(0.5, 0.3, 0.0) * osg::Matrixd::scale(1.0, 1.5, 1.0),
+               ball);
+    // OpenGL would light with the length that the scale gives to normals; we never do.
+    root->getOrCreateStateSet()->setMode(GL_NORMALIZE, kOn);
+    checkMatch(mode == osg::TexGen::OBJECT_LINEAR ? "texgen-object-linear" : "texgen-eye-linear",
+               root, obliquely());
+}
+
+TEST_CASE("match: a TexGenNode places eye linear coordinates in the scene", "[gl][coverage]")
+{
+    const auto ball = fineSphere(1.5f);
+    ball->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
+    generate(*ball, 0, nullptr);
+    const osg::ref_ptr<osg::TexGenNode> node =
+        new osg::TexGenNode(linearTexGen(osg::TexGen::EYE_LINEAR));
+    node->setTextureUnit(0);
+    const auto root = groupOf(
+        {placed(osg::Matrixd::rotate(1.0, osg::Vec3d(0, 0, 1)) * osg::Matrixd::translate(1, 0, 0),
+                node),
+         placed(osg::Matrixd::translate(-1.0, 0.5, 0.0), ball)});
+    checkMatch("texgen-node", root, obliquely());
+}
+
+TEST_CASE("match: sphere, reflection and normal maps follow the view", "[gl][coverage]")
+{
+    const auto setup = GENERATE(0, 1) == 0 ? MatchSetup() : obliquely();
+    const std::string view = setup.view ? "-oblique" : "";
+    const auto traced = [&](const char* name, osg::TexGen::Mode mode, osg::Texture* texture)
+    {
+        const auto ball = fineSphere();
+        ball->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
+        generate(*ball, 0, texGenOf(mode), mode != osg::TexGen::SPHERE_MAP);
+        checkMatch(name + view, placed(osg::Matrixd::rotate(0.7, osg::Vec3d(0, 1, 0)), ball),
+                   setup);
+    };
+    traced("texgen-sphere-map", osg::TexGen::SPHERE_MAP, textureOf(environmentPicture(64)));
+    traced("texgen-reflection-map", osg::TexGen::REFLECTION_MAP, cubeMap(32));
+    traced("texgen-normal-map", osg::TexGen::NORMAL_MAP, cubeMap(32));
+}
+
+TEST_CASE("match: texture environments of two units", "[gl][coverage]")
+{
+    const std::pair<const char*, osg::TexEnv::Mode> modes[] = {{"modulate", osg::TexEnv::MODULATE},
+                                                               {"replace", osg::TexEnv::REPLACE},
+                                                               {"decal", osg::TexEnv::DECAL},
+                                                               {"blend", osg::TexEnv::BLEND},
+                                                               {"add", osg::TexEnv::ADD}};
+    for (const auto& [name, mode] : modes)
+        for (const unsigned int unit : {0u, 1u})
+        {
+            const auto geometry = square(3.0f, osg::Vec4(0.9f, 0.7f, 0.5f, 1.0f), 1.5f);
+            osg::StateSet& state = *geometry->getOrCreateStateSet();
+            const osg::ref_ptr<osg::TexEnv> environment = new osg::TexEnv(mode);
+            environment->setColor(osg::Vec4(0.2f, 0.9f, 0.4f, 1.0f));
+            if (unit == 1) state.setTextureAttributeAndModes(0, textureOf(environmentPicture(32)));
+            state.setTextureAttributeAndModes(unit, textureOf(patchwork(8)));
+            state.setTextureAttribute(unit, environment);
+            checkMatch(std::string("texenv-") + name + (unit ? "-unit1" : "-unit0"), geometry);
+        }
+}
+
+TEST_CASE("match: textured things without coordinates show the corner of the texture",
+          "[gl][coverage]")
+{
+    const auto with = square(1.5f);
+    const auto without = square(1.5f);
+    without->setTexCoordArray(0, nullptr);
+    without->setTexCoordArray(1, nullptr);
+    const auto root = groupOf({placed(osg::Matrixd::translate(1.6, 0.0, 0.0), without),
+                               placed(osg::Matrixd::translate(-1.6, 0.0, 0.0), with)});
+    root->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
+    checkMatch("no-coordinates", root);
+}
+
+TEST_CASE("match: one-dimensional and rectangle textures", "[gl][coverage]")
+{
+    const osg::ref_ptr<osg::Image> line = new osg::Image;
+    line->allocateImage(16, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    for (int x = 0; x < 16; ++x)
+        line->setColor(osg::Vec4(x / 15.0f, 1.0f - x / 15.0f, x % 2 ? 1.0f : 0.5f, 1.0f), x, 0);
+    const osg::ref_ptr<osg::Texture1D> one = new osg::Texture1D(line);
+    one->setWrap(osg::Texture::WRAP_S, osg::Texture::REPEAT);
+    one->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
+    const auto stripes = unlit(square(3.0f, {1, 1, 1, 1}, 2.0f));
+    stripes->getStateSet()->setTextureAttributeAndModes(0, one);
+    checkMatch("texture-1d", stripes);
+
+    const auto rectangle = unlit(square(3.0f, {1, 1, 1, 1}, 12.0f));
+    rectangle->getStateSet()->setTextureAttributeAndModes(
+        0, new osg::TextureRectangle(patchwork(12, GL_RGB)));
+    checkMatch("texture-rectangle", rectangle);
+}
+
+namespace
+{
+
+/// An image of any format, its bytes made by a hash: whatever they mean, OpenGL and we must agree.
+osg::ref_ptr<osg::Image> anyImage(GLenum format, GLenum type)
+{
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(8, 8, 1, format, type);
+    unsigned char* bytes = image->data();
+    uint32_t x = 12345;
+    for (unsigned int i = 0; i < image->getTotalSizeInBytes(); ++i)
+    {
+        x = x * 1664525u + 1013904223u;
+        bytes[i] = static_cast<unsigned char>(x >> 24);
+    }
+    if (type == GL_FLOAT)
+        for (unsigned int i = 0; i < image->getTotalSizeInBytes() / 4; ++i)
+            reinterpret_cast<float*>(bytes)[i] = float(bytes[4 * i]) / 255.0f;
+    if (type == GL_HALF_FLOAT)
+        for (unsigned int i = 0; i < image->getTotalSizeInBytes() / 2; ++i)
+            reinterpret_cast<uint16_t*>(bytes)[i] &= 0x3bffu; // 0 to 1
+    return image;
+}
+
+} // namespace
+
+TEST_CASE("match: pixel formats, packed, wide and compressed", "[gl][coverage]")
+{
+    struct Format
+    {
+        const char* name;
+        GLenum format, type;
+    };
+    const Format formats[] = {{"rgba", GL_RGBA, GL_UNSIGNED_BYTE},
+                              {"bgra", GL_BGRA, GL_UNSIGNED_BYTE},
+                              {"luminance", GL_LUMINANCE, GL_UNSIGNED_BYTE},
+                              {"luminance-alpha", GL_LUMINANCE_ALPHA, GL_UNSIGNED_BYTE},
+                              {"alpha", GL_ALPHA, GL_UNSIGNED_BYTE},
+                              {"red", GL_RED, GL_UNSIGNED_BYTE},
+                              {"rgb-short", GL_RGB, GL_UNSIGNED_SHORT},
+                              {"rgb-float", GL_RGB, GL_FLOAT},
+                              {"rgb-half", GL_RGB, GL_HALF_FLOAT},
+                              {"5-6-5", GL_RGB, GL_UNSIGNED_SHORT_5_6_5},
+                              {"3-3-2", GL_RGB, GL_UNSIGNED_BYTE_3_3_2},
+                              {"4-4-4-4", GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4},
+                              {"4-4-4-4-rev", GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4_REV},
+                              {"5-5-5-1", GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1},
+                              {"1-5-5-5-rev-bgra", GL_BGRA, GL_UNSIGNED_SHORT_1_5_5_5_REV},
+                              {"8-8-8-8", GL_RGBA, GL_UNSIGNED_INT_8_8_8_8},
+                              {"2-10-10-10-rev", GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV},
+                              {"dxt1", GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_UNSIGNED_BYTE},
+                              {"dxt1a", GL_COMPRESSED_RGBA_S3TC_DXT1_EXT, GL_UNSIGNED_BYTE},
+                              {"dxt3", GL_COMPRESSED_RGBA_S3TC_DXT3_EXT, GL_UNSIGNED_BYTE},
+                              {"dxt5", GL_COMPRESSED_RGBA_S3TC_DXT5_EXT, GL_UNSIGNED_BYTE},
+                              {"rgtc1", GL_COMPRESSED_RED_RGTC1_EXT, GL_UNSIGNED_BYTE},
+                              {"rgtc2", GL_COMPRESSED_RED_GREEN_RGTC2_EXT, GL_UNSIGNED_BYTE}};
+    for (const Format& format : formats)
+    {
+        // The alpha counts, too: it blends over a background of another colour.
+        const auto front = unlit(square(3.0f, {1, 1, 1, 1}, 1.0f, 0.1f));
+        osg::StateSet& state = *front->getStateSet();
+        const auto image = anyImage(format.format, format.type);
+        if (format.format == GL_BGRA) image->setInternalTextureFormat(GL_RGBA);
+        const auto texture = textureOf(image, osg::Texture::REPEAT, osg::Texture::NEAREST);
+        state.setTextureAttributeAndModes(0, texture);
+        state.setMode(GL_BLEND, kOn);
+        state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+        const auto root = groupOf({unlit(square(3.5f, osg::Vec4(0.2f, 0.5f, 0.8f, 1.0f))), front});
+        checkMatch(std::string("format-") + format.name, root);
+    }
+}
