@@ -233,6 +233,41 @@ TEST_CASE("live state: opacity and faces", "[bridge]")
     }
 }
 
+TEST_CASE("live state: BVHs that were built for opaque surfaces", "[bridge]")
+{
+    StateGraph graph;
+    Watched watched(graph);
+    const auto pierce = [&]
+    {
+        graph.alpha->setReferenceValue(0.5f);
+        graph.alpha->setFunction(osg::AlphaFunc::GREATER);
+    };
+    SECTION("of a tile that has moved")
+    {
+        watched.move("moved", at(0.1, 0.1));
+        watched.move("moved on", at(0.2, 0.1));
+        watched.edit("alpha test", pierce);
+    }
+    SECTION("of a tile that deforms")
+    {
+        for (int i = 0; i < 4; ++i)
+            watched.edit("deformed", [&] { graph.deform(0, 0.05f + 0.05f * float(i)); });
+        watched.edit("alpha test while it deforms",
+                     [&]
+                     {
+                         pierce();
+                         graph.deform(0, 0.18f);
+                     });
+        watched.edit("deformed on", [&] { graph.deform(0, 0.1f); });
+    }
+    SECTION("of tiles that are still beside one that moves")
+    {
+        watched.edit("another moved", [&] { graph.objects[5]->setMatrix(at(2.1, 0.7)); });
+        watched.edit("alpha test", pierce);
+        watched.edit("another moved on", [&] { graph.objects[5]->setMatrix(at(1.9, 0.6)); });
+    }
+}
+
 TEST_CASE("live state: light model and two sides", "[bridge]")
 {
     StateGraph graph;
@@ -308,7 +343,11 @@ TEST_CASE("live state: raised faces", "[bridge]")
     watched.edit("raised", [&] { graph.offset->setUnits(-3.0f); });
     for (int i = 1; i < 6; ++i)
         watched.move("moved", at(0.05 * i, 0.03 * i));
+    watched.edit(
+        "raised more", [&] { graph.offset->setUnits(-4.0f); }, false);
+    watched.move("moved after a conversion", at(0.1, 0.1));
+    watched.move("moved back", at(0.0, 0.1));
     watched.edit("deformed", [&] { graph.deform(0, 0.05f); });
     watched.edit("flat again", [&] { graph.deform(0, 0.0f); });
-    watched.move("moved again", at(0.0, 0.1));
+    watched.move("moved again", at(0.1, 0.2));
 }
