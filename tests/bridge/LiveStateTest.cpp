@@ -5,6 +5,7 @@
 
 #include <osg/AlphaFunc>
 #include <osg/BlendFunc>
+#include <osg/ClipNode>
 #include <osg/CullFace>
 #include <osg/FrontFace>
 #include <osg/Geometry>
@@ -350,4 +351,18 @@ TEST_CASE("live state: raised faces", "[bridge]")
     watched.edit("deformed", [&] { graph.deform(0, 0.05f); });
     watched.edit("flat again", [&] { graph.deform(0, 0.0f); });
     watched.move("moved again", at(0.1, 0.2));
+}
+
+TEST_CASE("live state: a clip plane of any number over tiles that are elsewhere", "[bridge]")
+{
+    StateGraph graph;
+    osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+    clip->addClipPlane(new osg::ClipPlane(3, osg::Plane(-1.0, 0.0, 0.0, 0.5)));
+    graph.root->addChild(clip);
+    graph.state->setMode(GL_CLIP_PLANE0 + 3, kOn);
+    Watched watched(graph);
+    watched.move("moved", at(0.1, 0.2));
+    watched.move("moved on", at(0.2, 0.3));
+    watched.edit("plane", [&] { clip->getClipPlane(0)->setClipPlane(-1.0, 0.0, 0.0, 0.3); });
+    watched.edit("deformed", [&] { graph.deform(0, 0.05f); });
 }
