@@ -199,6 +199,15 @@ TEST_CASE(
     CHECK(changes(clip));
     CHECK_FALSE(changes(triangleGeometry()));
 
+    osg::ref_ptr<osg::LOD> levels = new osg::LOD;
+    levels->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+    levels->addChild(triangleGeometry(), 0.0f, 10.0f);
+    levels->addChild(triangleGeometry(), 10.0f, 1e6f);
+    ViewingConditions near, far;
+    near.eye.set(0.0, 0.0, 9.0);
+    far.eye.set(0.0, 0.0, 11.0);
+    CHECK(watchSees(levels, near, far, kNoChange));
+
     clip->addClipPlane(new osg::ClipPlane(0, 1.0, 0.0, 0.0, 0.0));
     const uint64_t before = graphFingerprint(*clip, ViewingConditions());
     clip->getClipPlane(0)->setClipPlane(1.0, 0.0, 0.0, 0.1);
