@@ -595,8 +595,9 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.last = stampChanges(builder.build(), state.last, now);
     state.caches.geometries.end();
     // Where planes clip depends on where a geometry is.
+    constexpr uint64_t kAllPlanes = ((uint64_t(1) << kClipPlanes) - 1) << kClipPlaneBit;
     const bool clips = std::any_of(graph.states.begin(), graph.states.end(), [](const GraphState& s)
-                                   { return s.isOn(kClipPlaneBit); });
+                                   { return (s.modesOn & kAllPlanes) != 0; });
     state.ordinary = unit == 1.0 && lengths.areOrdinary() && !clips;
     state.index = builder.takeIndex();
     state.caches.vertices.end();

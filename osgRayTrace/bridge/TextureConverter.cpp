@@ -173,6 +173,7 @@ uint32_t TextureConverter::index(const osg::Texture* texture, TextureContent con
             entry.images.push_back({image, image->getModifiedCount(), image->data()});
         }
         entry.texture = texture;
+        entry.internalFormat = internalFormatOf(*texture, *texture->getImage(0));
         entry.converted = converted(*texture, decode, report);
     }
     entry.index = static_cast<uint32_t>(_textures.size());
@@ -217,6 +218,8 @@ bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture& texture
         old.wrapS != wrapOf(texture, osg::Texture::WRAP_S) ||
         (old.wrapT != wrapOf(texture, osg::Texture::WRAP_T) && old.height > 1) || old.border != borderOf(texture))
         return false;
+    const osg::Image* first = texture.getImage(0);
+    if (first && entry.internalFormat != internalFormatOf(texture, *first)) return false;
     for (unsigned int i = 0; i < entry.images.size(); ++i)
     {
         const osg::Image* image = texture.getImage(i);

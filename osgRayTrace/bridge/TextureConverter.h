@@ -57,6 +57,7 @@ private:
     {
         osg::observer_ptr<const osg::Texture> texture; // tells a new object at an old address apart
         std::vector<ImagePrint> images;
+        GLint internalFormat = 0;
         std::shared_ptr<const Texture> converted;
         uint32_t index = kInvalid; // in this snapshot
     };

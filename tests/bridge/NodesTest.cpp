@@ -1,6 +1,7 @@
 // NodesTest.cpp - nodes that depend on the view or belong to other kits, and poses. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GraphFingerprint.h"
+#include "osgRayTrace/bridge/GraphWatch.h"
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 
@@ -59,6 +60,28 @@ ViewingConditions conditionsOf(const ConversionInput& input)
     conditions.view = input.view;
     return conditions;
 }
+
+/// Whether the watch of a graph with the node in it has it converted again, when it is viewed so and then
+/// so, and changed in between. If it has, the next look finds nothing.
+template <class Change>
+bool watchSees(osg::Node* node, const ViewingConditions& before, const ViewingConditions& after,
+               const Change& change)
+{
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrix::rotate(0.3, 1, 0, 0));
+    root->addChild(place);
+    place->addChild(node);
+    GraphWatch watch;
+    watch.record(*root, before);
+    CHECK(watch.look(*root, before).none());
+    change();
+    const bool seen = watch.look(*root, after).convert;
+    watch.record(*root, after);
+    CHECK(watch.look(*root, after).none());
+    return seen;
+}
+
+constexpr auto kNoChange = [] {};
 
 osg::ref_ptr<osgAnimation::Bone> boneAt(const std::string& name, const osg::Matrix& bound,
                                         const osg::Matrix& posed)
@@ -131,6 +154,16 @@ TEST_CASE("nodes: levels by size in pixels, with OSG's scale", "[bridge]")
     CHECK(corners(5.0, 1.0f) == 4);  // of 500 pixels for 3.6 units
     CHECK(corners(60.0, 1.0f) == 3); // of 500 pixels for 44
     CHECK(corners(5.0, 20.0f) == 3);
+
+    const auto watched = [&](double distance, float scale)
+    {
+        ConversionInput input = viewedFrom(lod, {0.0, -distance, 0.0});
+        input.view->lodScale = scale;
+        return conditionsOf(input);
+    };
+    CHECK(watchSees(lod, watched(5.0, 1.0f), watched(60.0, 1.0f), kNoChange));
+    CHECK(watchSees(lod, watched(5.0, 1.0f), watched(5.0, 20.0f), kNoChange));
+    CHECK_FALSE(watchSees(lod, watched(5.0, 1.0f), watched(5.5, 1.0f), kNoChange));
 }
 
 TEST_CASE(
@@ -142,7 +175,11 @@ TEST_CASE(
         const auto print = [&](const osg::Vec3d& up) {
             return graphFingerprint(*node, conditionsOf(viewedFrom(node, {5.0, 6.0, 7.0}, up)));
         };
-        return print({0, 0, 1}) != print({0, 1, 0});
+        const bool printed = print({0, 0, 1}) != print({0, 1, 0});
+        const auto upright = [&](const osg::Vec3d& up)
+        { return conditionsOf(viewedFrom(node, {5.0, 6.0, 7.0}, up)); };
+        CHECK(watchSees(node, upright({0, 0, 1}), upright({0, 1, 0}), kNoChange) == printed);
+        return printed;
     };
     osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
     billboard->addDrawable(triangleGeometry());
@@ -162,10 +199,20 @@ TEST_CASE(
     CHECK(changes(clip));
     CHECK_FALSE(changes(triangleGeometry()));
 
+    osg::ref_ptr<osg::LOD> levels = new osg::LOD;
+    levels->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+    levels->addChild(triangleGeometry(), 0.0f, 10.0f);
+    levels->addChild(triangleGeometry(), 10.0f, 1e6f);
+    ViewingConditions near, far;
+    near.eye.set(0.0, 0.0, 9.0);
+    far.eye.set(0.0, 0.0, 11.0);
+    CHECK(watchSees(levels, near, far, kNoChange));
+
     clip->addClipPlane(new osg::ClipPlane(0, 1.0, 0.0, 0.0, 0.0));
     const uint64_t before = graphFingerprint(*clip, ViewingConditions());
     clip->getClipPlane(0)->setClipPlane(1.0, 0.0, 0.0, 0.1);
     CHECK(graphFingerprint(*clip, ViewingConditions()) != before);
+    CHECK(watchSees(clip, {}, {}, [&] { clip->getClipPlane(0)->setClipPlane(1.0, 0.0, 0.0, 0.2); }));
 }
 
 TEST_CASE("nodes: what hides things from a view only hides nothing", "[bridge]")
@@ -324,6 +371,8 @@ TEST_CASE("poses: a morph of the hardware has the shape of its weights", "[bridg
     const uint64_t before = graphFingerprint(*morph, ViewingConditions());
     morph->setWeight(0, 0.25f);
     CHECK(graphFingerprint(*morph, ViewingConditions()) != before);
+    CHECK(watchSees(morph, {}, {}, [&] { morph->setWeight(0, 0.3f); }));
+    morph->setWeight(0, 0.25f);
     CHECK(height() == 1.0f);
     CHECK(static_cast<osg::Vec3Array*>(morph->getVertexArray())->front().z() == 0.0f);
 
