@@ -79,8 +79,8 @@ LaneMask mirror(PathBlock& block, const Bounce& bounce, const FloatLanes& lobe, 
         const int i = __builtin_ctz(lanes);
         const bool transmitted = (sampled.transmitted >> i) & 1u;
         const Vec3 direction = laneOf(wi, i);
-        if (isAbove(bounce.surface, i, direction) == transmitted) continue;
-        const RayBegin begin = leave(bounce.surface, i, direction);
+        if (isAboveFacet(bounce.surface, i, direction) == transmitted) continue;
+        const RayBegin begin = leaveFacet(bounce.surface, i, direction);
         setLane(origin, i, begin.origin);
         tNear[i] = begin.tNear;
         pdfW[i] = kInfinity;
