@@ -41,6 +41,7 @@ struct SecondaryRay
     uint32_t seed;
     int depth;
     bool fromCamera = false; ///< a camera ray that goes on behind blended surfaces
+    int layers = 0;          ///< blended surfaces that it has passed one after the other
 };
 
 /// Blocks of camera rays that are taken through the stages together: independent work for the CPU to
@@ -72,6 +73,7 @@ struct ShadingBlock
     FloatLanes etaScale;       ///< weight outside of glass over weight
     FloatLanes firstU, firstV; ///< first sample on the first area light: drawn early, see drawFirst
     int depth[kLanes];
+    int layers[kLanes]; ///< see SecondaryRay
     LaneMask fromCamera = 0;   ///< camera rays, and those that go on
 
     LaneMaterials materials;
@@ -424,6 +426,10 @@ void spawn(Tile& tile, const ShadingBlock& block)
     }
 }
 
+/// Behind this many blended surfaces the next one is taken as opaque. Where coordinates are so large that no
+/// offset clears a surface, a ray would meet the same one without end.
+constexpr int kMostLayers = 256;
+
 /// Sends the rays of blended lanes on with what the surfaces let through, and leaves them the rest.
 void passThrough(Tile& tile, ShadingBlock& block)
 {
@@ -433,6 +439,7 @@ void passThrough(Tile& tile, ShadingBlock& block)
         const int i = __builtin_ctz(lanes);
         const uint32_t material = block.surface.material[i];
         if (!materials[material].partial || !materials[material].material->blended) continue;
+        if (block.layers[i] >= kMostLayers) continue;
         const float opacity = materials.opacity(
             material, materialPoint(tile.context, block.rays, block.surface, i));
         const Vec3 weight = laneOf(block.weight, i);
@@ -448,7 +455,8 @@ void passThrough(Tile& tile, ShadingBlock& block)
         // What is left out of a camera ray would be missing in the coverage.
         if (!fromCamera && !(largest * block.etaScale[i] >= kSmallestWeight)) continue;
         tile.stack.push_back({{origin, 0.0f}, direction, behind, block.etaScale[i], block.pixel[i],
-                              hash(block.seed[i] + 0x85ebca6bu), block.depth[i], fromCamera});
+                              hash(block.seed[i] + 0x85ebca6bu), block.depth[i], fromCamera,
+                              block.layers[i] + 1});
     }
 }
 
@@ -519,6 +527,7 @@ void traceSecondary(Tile& tile)
         block.pixel[i] = from.pixel;
         block.seed[i] = from.seed;
         block.depth[i] = from.depth;
+        block.layers[i] = from.layers;
         active |= 1u << i;
         if (fromCamera) block.fromCamera |= 1u << i;
         tile.stack.pop_back();
@@ -589,7 +598,7 @@ void traceCamera(Tile& tile, int left, int bottom, int first)
         {
             block.pixel[i] = static_cast<uint32_t>((first + k) * kLanes + i);
             block.etaScale[i] = 1.0f;
-            block.depth[i] = 0;
+            block.depth[i] = block.layers[i] = 0;
         }
         block.fromCamera = kAllLanes;
         if (lit) drawFirst(tile.grid, block);
