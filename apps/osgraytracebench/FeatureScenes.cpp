@@ -31,6 +31,19 @@ std::shared_ptr<const Texture> whiteTexel()
     return texture;
 }
 
+/// It lights nothing, and is not seen.
+Light blackEnvironment()
+{
+    auto image = std::make_shared<EnvironmentImage>();
+    image->width = image->height = 1;
+    image->radiance = {Vec3(0.0f)};
+    Light light;
+    light.kind = LightKind::Environment;
+    light.environment.image = image;
+    light.environment.visible = false;
+    return light;
+}
+
 Hidden plainTriangle()
 {
     Hidden hidden;
@@ -144,6 +157,20 @@ std::vector<ScenePair> unusedFeatures(int size)
              h.material.ior = 1.5f;
              h.material.roughness = 0.0f;
          }},
+        {"alpha",
+         [](Scene&, Hidden& h)
+         {
+             h.material.alpha = 0.5f;
+             h.material.blended = true;
+         }},
+        {"alpha test, culled faces",
+         [](Scene&, Hidden& h)
+         {
+             h.material.alphaTest = AlphaTest::Greater;
+             h.material.alphaReference = 0.5f;
+             h.material.culling = FaceCulling::Back;
+         }},
+        {"environment", [](Scene& s, Hidden&) { s.lights.push_back(blackEnvironment()); }},
     };
     const BenchScene plain = boxWith(size, [](Scene&, Hidden&) {});
     // First what the method itself gives for two scenes that are one.

@@ -101,7 +101,8 @@ std::string namesOf(const SceneTraits& traits)
         {"textures", traits.textures},           {"vertexColors", traits.vertexColors},
         {"fixedFunction", traits.fixedFunction}, {"physical", traits.physical},
         {"specular", traits.specular},           {"transmission", traits.transmission},
-        {"deltaLights", traits.deltaLights},     {"areaLights", traits.areaLights}};
+        {"deltaLights", traits.deltaLights},     {"areaLights", traits.areaLights},
+        {"blended", traits.blended},             {"environment", traits.environment}};
     std::string names;
     for (const auto& [name, on] : all)
         if (on) names += (names.empty() ? "" : " ") + std::string(name);

@@ -224,6 +224,15 @@ SharedArray<Vec3> completed(Normals& normals, const Mesh& mesh, ConversionCounts
     return values;
 }
 
+/// True if the corners are so nearly in one line that rounding decides which way the face looks, as at the
+/// poles of OSG's own spheres. face: the cross product of two edges from a.
+bool hasNoSide(Vec3d face, Vec3d a, Vec3d b, Vec3d c)
+{
+    const double edge = std::max(glm::length(b - a), glm::length(c - a));
+    const double coordinate = std::max({glm::length(a), glm::length(b), glm::length(c)});
+    return glm::length(face) <= 8.0 * 0x1p-24 * coordinate * edge;
+}
+
 /// Triangles all of whose normals look to their back: they are shaded on the side that is seen.
 uint64_t oppositeNormals(const Mesh& mesh)
 {
@@ -233,11 +242,12 @@ uint64_t oppositeNormals(const Mesh& mesh)
     uint64_t count = 0;
     for (const UVec3& t : mesh.triangles)
     {
-        const Vec3d a(positions[t.x]);
-        const Vec3d face = glm::cross(Vec3d(positions[t.y]) - a, Vec3d(positions[t.z]) - a);
-        count += (glm::dot(face, Vec3d(normals[t.x])) < 0.0) &
-                 (glm::dot(face, Vec3d(normals[t.y])) < 0.0) &
-                 (glm::dot(face, Vec3d(normals[t.z])) < 0.0);
+        const Vec3d a(positions[t.x]), b(positions[t.y]), c(positions[t.z]);
+        const Vec3d face = glm::cross(b - a, c - a);
+        const bool opposite = (glm::dot(face, Vec3d(normals[t.x])) < 0.0) &
+                              (glm::dot(face, Vec3d(normals[t.y])) < 0.0) &
+                              (glm::dot(face, Vec3d(normals[t.z])) < 0.0);
+        if (opposite && !hasNoSide(face, a, b, c)) ++count;
     }
     return count;
 }

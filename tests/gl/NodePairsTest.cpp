@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "PicturePair.h"
 #include "tests/Catch.h"
+#include "tests/plugins/TemporaryFolder.h"
 
 #include <osg/AutoTransform>
 #include <osg/Billboard>
@@ -24,10 +25,8 @@
 #include <osgText/Text3D>
 
 #include <OpenThreads/Thread>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 
 using namespace osgRayTrace;
@@ -329,8 +328,8 @@ TEST_CASE("pairs: switches, sequences and joints", "[gl]")
 
 TEST_CASE("pairs: pages and proxies are loaded for the view", "[gl]")
 {
-    const std::string near = "/tmp/osgRayTraceNear" + std::to_string(getpid()) + ".osgt";
-    const std::string proxied = "/tmp/osgRayTraceProxied" + std::to_string(getpid()) + ".osgt";
+    const TemporaryFolder folder;
+    const std::string near = folder / "near.osgt", proxied = folder / "proxied.osgt";
     osgDB::writeNodeFile(*group({sphere(osg::Vec3(), 0.9f, kGreen)}), near);
     osgDB::writeNodeFile(*group({box(kBlue)}), proxied);
     checkSame(
@@ -364,8 +363,6 @@ TEST_CASE("pairs: pages and proxies are loaded for the view", "[gl]")
                     quiet = 0;
             }
         });
-    std::remove(near.c_str());
-    std::remove(proxied.c_str());
 }
 
 TEST_CASE("pairs: a tile of a terrain", "[gl]")

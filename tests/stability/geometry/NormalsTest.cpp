@@ -4,6 +4,7 @@
 #include "tests/stability/geometry/Pictured.h"
 
 #include <osg/MatrixTransform>
+#include <osg/ShapeDrawable>
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <cmath>
@@ -133,4 +134,16 @@ TEST_CASE("stability 54: normals opposite to their faces are turned, but for Ope
         if (kind == IntegratorKind::Whitted) CHECK(dark.mean().y < 0.5f * shown.mean().y);
         CHECK(dark.progress.droppedSamples == 0);
     }
+}
+
+TEST_CASE("stability 54: slivers at the poles of spheres have no side", "[stability]")
+{
+    for (const osg::Vec3& centre : {osg::Vec3(), osg::Vec3(3.0f, -7.0f, 0.7f)})
+        for (const float radius : {0.01f, 0.9f, 5.0f})
+        {
+            osg::ref_ptr<osg::ShapeDrawable> sphere =
+                new osg::ShapeDrawable(new osg::Sphere(centre, radius));
+            CAPTURE(radius, centre.x());
+            CHECK(countOf(convertGraph(lit({sphere})), "warned.opposite-normals") == 0);
+        }
 }
