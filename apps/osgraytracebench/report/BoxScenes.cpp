@@ -71,8 +71,8 @@ ReportScene causticScene(CausticKind kind)
         scene.graph = data::glasses();
         break;
     case CausticKind::Rings:
-        scene.name = "s9-rings";
-        scene.title = "S9: rings and their caustics in a looking-glass";
+        scene.name = "rings";
+        scene.title = "Rings and their caustics in a looking-glass";
         scene.graph = data::rings();
         break;
     }
