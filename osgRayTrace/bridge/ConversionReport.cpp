@@ -62,6 +62,7 @@ void ConversionReport::notePath(const std::string& what, const std::string& path
 void ConversionReport::count(const std::string& what, uint64_t number)
 {
     _counts[what] += number;
+    _remarks += !begins(what, "converted.");
     if (!_place || number == 0) return;
     const auto noted = _paths.find(what);
     if (noted == _paths.end() || noted->second.size() < kPathsKept) notePath(what, _place());
@@ -71,6 +72,14 @@ void ConversionReport::add(const ConversionCounts& counts)
 {
     for (const auto& [what, number] : counts)
         count(what, number);
+}
+
+void ConversionReport::add(const ConversionReport& other)
+{
+    add(other._counts);
+    for (const auto& [what, paths] : other._paths)
+        for (const std::string& path : paths)
+            notePath(what, path);
 }
 
 void ConversionReport::warn(const std::string& what, const std::string& object,

@@ -48,12 +48,16 @@ public:
 
     void count(const std::string& what, uint64_t number = 1);
     void add(const ConversionCounts& counts);
+    void add(const ConversionReport& other); ///< with its paths
 
     /// Counts one skipped or changed object and names it: "transform 'root/arm': singular,
     /// skipped".
     void warn(const std::string& what, const std::string& object, const std::string& message);
 
     const ConversionCounts& counts() const { return _counts; }
+
+    /// Times that something was counted but what was converted.
+    uint64_t remarks() const { return _remarks; }
     const ConversionPaths& paths() const { return _paths; }
 
 private:
@@ -61,6 +65,7 @@ private:
 
     ConversionCounts _counts;
     ConversionPaths _paths;
+    uint64_t _remarks = 0;
     Place _place;
 };
 

@@ -188,6 +188,22 @@ const VertexBounds& GeometryCache::bounds(const osg::Geometry& geometry)
     return entry.bounds;
 }
 
+/// Uses have no variants of their own where it is called, or they are forgotten with the next conversion.
+void GeometryCache::drop(const osg::Geometry* geometry)
+{
+    const auto entry = _entries.find({geometry, kOwnVariant});
+    if (entry != _entries.end())
+    {
+        if (!entry->second.fingerprint.empty())
+        {
+            const osg::BufferData* positions = entry->second.fingerprint[kPositions].buffer.get();
+            if (positions) _bounds.erase(positions->asArray());
+        }
+        _entries.erase(entry);
+    }
+    _liveness.erase(geometry);
+}
+
 void GeometryCache::end()
 {
     for (auto entry = _bounds.begin(); entry != _bounds.end();)

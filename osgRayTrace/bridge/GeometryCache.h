@@ -60,6 +60,9 @@ public:
     /// Of the geometry's positions, from the last snapshot if they are the same. Valid until end().
     const VertexBounds& bounds(const osg::Geometry& geometry);
 
+    /// Forgets a geometry. A name: it is not followed.
+    void drop(const osg::Geometry* geometry);
+
     /// Ends the snapshot: forgets geometry that was not asked for in it.
     void end();
 

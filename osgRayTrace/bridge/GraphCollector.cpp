@@ -4,7 +4,7 @@
 
 #include "osgRayTrace/bridge/ClipPlanes.h"
 #include "osgRayTrace/bridge/DrawHint.h"
-#include "osgRayTrace/bridge/MaterialConverter.h"
+#include "osgRayTrace/bridge/UntracedParts.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
@@ -13,13 +13,10 @@
 #include <osg/Camera>
 #include <osg/ClipNode>
 #include <osg/PagedLOD>
-#include <osg/PolygonMode>
-#include <osg/Program>
 #include <osg/Projection>
 #include <osg/ProxyNode>
 #include <osg/TexGenNode>
 #include <osg/Transform>
-#include <osgText/TextBase>
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +28,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// State above the scene graph, as osgViewer and osgUtil::SceneView set it.
 GraphState rootState(const ConversionInput& input)
 {
     GraphState state;
@@ -62,73 +58,15 @@ const char* matrixFault(const osg::Matrixd& m)
     return volume > kSmallestVolume ? nullptr : "skipped.singular-transform";
 }
 
-bool isFrom(const osg::Object& object, const char* library)
-{
-    return std::strcmp(object.libraryName(), library) == 0;
-}
-
-/// Why a drawable that is no osg::Geometry is not traced; null: it is our own.
-const char* untracedDrawable(const osg::Drawable& drawable)
-{
-    if (dynamic_cast<const osgText::TextBase*>(&drawable)) return "not-traced.text";
-    if (isFrom(drawable, "osgParticle")) return "not-traced.particles";
-    if (isFrom(drawable, "osgRayTrace")) return nullptr;
-    return "not-traced.custom-drawable";
-}
-
-/// Why the content of a camera in the graph is not a part of the scene around it; null: it is.
-const char* untracedCamera(const osg::Camera& camera)
-{
-    if (camera.getRenderTargetImplementation() != osg::Camera::FRAME_BUFFER ||
-        !camera.getBufferAttachmentMap().empty())
-        return "not-traced.render-to-texture-camera";
-    if (camera.getRenderOrder() != osg::Camera::NESTED_RENDER ||
-        camera.getReferenceFrame() != osg::Transform::RELATIVE_RF ||
-        !camera.getProjectionMatrix().isIdentity())
-        return "not-traced.hud-camera";
-    return nullptr;
-}
-
-/// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced. poses: a program that only
-/// does what was done in software.
-const char* rasterizedState(const GraphState& state, const osg::StateAttribute* poses)
-{
-    const auto* program = state.attribute<osg::Program>(kProgramSlot);
-    if (program && program->getNumShaders() > 0 && program != poses)
-        return "rasterized.shader-program";
-    const auto* polygons = state.attribute<osg::PolygonMode>(kPolygonModeSlot);
-    if (polygons && polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
-        return "rasterized.polygon-mode";
-    if (combinesTextures(state)) return "rasterized.texture-combine";
-    switch (blendingOf(state))
-    {
-    case Blending::Additive:
-        return "rasterized.additive-blending";
-    case Blending::Other:
-        return "rasterized.blending";
-    default:
-        break;
-    }
-    // In the coordinates of the drawable that happens to be drawn first with it.
-    const auto* plane = state.attribute<osg::ClipPlane>(kClipPlaneSlot);
-    if (plane && plane->getClipPlaneNum() < kClipPlanes &&
-        state.isOn(kClipPlaneBit + plane->getClipPlaneNum()))
-        return "rasterized.clip-plane-attribute";
-    return nullptr;
-}
-
-/// Something in it is placed by the view and not traced.
-bool hasUntracedDrawable(const osg::Billboard& billboard)
-{
-    for (unsigned int i = 0; i < billboard.getNumDrawables(); ++i)
-    {
-        const osg::Drawable* drawable = billboard.getDrawable(i);
-        if (drawable && !drawable->asGeometry()) return true;
-    }
-    return false;
-}
-
 } // namespace
+
+StateStack statesAbove(const ConversionInput& input)
+{
+    StateStack states(rootState(input));
+    for (const osg::ref_ptr<const osg::StateSet>& stateSet : input.inheritedState)
+        states.push(*stateSet);
+    return states;
+}
 
 GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
                                ConversionReport& report)
@@ -138,11 +76,9 @@ GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& v
       _report(report),
       _worldFromLocal(1),
       _cullStack(input.view),
-      _states(rootState(input)),
+      _states(statesAbove(input)),
       _materials(input.materials)
 {
-    for (const osg::ref_ptr<const osg::StateSet>& stateSet : input.inheritedState)
-        _states.push(*stateSet);
     setTraversalMask(input.traversalMask);
     _report.setPlace([this] { return path(); });
 }
@@ -154,13 +90,28 @@ void applyUnit(double unit, CollectedGraph& graph)
     for (CollectedGeometry& geometry : graph.geometries)
         for (GeometryUse& use : geometry.uses)
             use.engineFromLocal.postMult(scale);
-    for (CollectedLight& light : graph.lights)
+    for (CollectedLight& light : graph.lights.lights)
         if (!light.eyeSpace) light.engineFromLocal.postMult(scale);
-    for (CollectedAreaLight& light : graph.areaLights)
+    for (CollectedAreaLight& light : graph.lights.areaLights)
         light.engineFromLocal.postMult(scale);
     for (PlacedTexGen& texGen : graph.texGens)
         texGen.engineFromLocal.postMult(scale);
     graph.clipPlanes.applyUnit(unit);
+}
+
+bool GraphCollector::collectAt(const osg::NodePath& path)
+{
+    for (auto node = path.begin(); node + 1 != path.end(); ++node)
+    {
+        pushOntoNodePath(*node);
+        pushState(**node);
+        const osg::Transform* transform = (*node)->asTransform();
+        if (transform &&
+            !pushMatrix(worldFromLocal(*transform, _worldFromLocal.back(), *this, _input.view)))
+            return false;
+    }
+    path.back()->accept(*this);
+    return true;
 }
 
 CollectedGraph GraphCollector::take()
@@ -215,11 +166,11 @@ void GraphCollector::apply(osg::Projection&)
 
 void GraphCollector::apply(osg::LightSource& node)
 {
-    if (const osg::Light* light = node.getLight())
+    if (node.getLight())
     {
         const bool eyeSpace = node.getReferenceFrame() == osg::LightSource::ABSOLUTE_RF;
-        _graph.lights.push_back(
-            {light, eyeSpace ? osg::Matrixd() : engineFromLocal(), eyeSpace, path()});
+        _graph.lights.lights.push_back(
+            {&node, eyeSpace ? osg::Matrixd() : engineFromLocal(), eyeSpace, path()});
         rasterize(RasterizedPart::PlaceState);
     }
     apply(static_cast<osg::Node&>(node));
@@ -394,12 +345,12 @@ bool GraphCollector::collectLeaf(osg::Node& node)
 {
     if (const auto* light = dynamic_cast<const AreaLight*>(&node))
     {
-        _graph.areaLights.push_back({light, engineFromLocal(), path()});
+        _graph.lights.areaLights.push_back({light, engineFromLocal(), path()});
         return true;
     }
     if (const auto* light = dynamic_cast<const EnvironmentLight*>(&node))
     {
-        _graph.environments.push_back({light, engineFromLocal(), path()});
+        _graph.lights.environments.push_back({light, engineFromLocal(), path()});
         return true;
     }
     if (isFrom(node, "osg")) return false;

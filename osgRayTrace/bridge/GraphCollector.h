@@ -52,7 +52,7 @@ struct CollectedGeometry
 
 struct CollectedLight
 {
-    const osg::Light* light = nullptr;
+    const osg::LightSource* source = nullptr;
     osg::Matrixd engineFromLocal; ///< identity in eye space
     bool eyeSpace = false;
     std::string path;
@@ -72,13 +72,19 @@ struct CollectedEnvironment
     std::string path;
 };
 
+/// In the order of the traversal.
+struct LightSources
+{
+    std::vector<CollectedLight> lights;
+    std::vector<CollectedAreaLight> areaLights;
+    std::vector<CollectedEnvironment> environments;
+};
+
 /// Pointers into the graph: valid as long as nobody changes it.
 struct CollectedGraph
 {
     std::vector<CollectedGeometry> geometries; ///< in order of their first use
-    std::vector<CollectedLight> lights;        ///< in the order of the traversal
-    std::vector<CollectedAreaLight> areaLights;
-    std::vector<CollectedEnvironment> environments; ///< in the order of the traversal
+    LightSources lights;
     std::vector<GraphState> states;
     PlacedTexGens texGens;                     ///< the last of each unit, as OpenGL keeps them
     ClipPlanes clipPlanes;
@@ -90,6 +96,9 @@ struct CollectedGraph
 /// in the world. This puts all matrices into units of Scene::unit.
 void applyUnit(double unit, CollectedGraph& graph);
 
+/// State above the scene graph, as osgViewer and osgUtil::SceneView set it, and what is inherited.
+StateStack statesAbove(const ConversionInput& input);
+
 /// Visits active children only (masks, switches, levels of detail for the eye point), multiplies
 /// transforms in double and accumulates state. Counts what is not a part of the traced scene.
 class GraphCollector : public osg::NodeVisitor
@@ -97,6 +106,10 @@ class GraphCollector : public osg::NodeVisitor
 public:
     GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
                    ConversionReport& report);
+
+    /// Visits the last node of a path from the root, in the place and the state that it has there. The others
+    /// are of the plain classes that GraphWatch knows. False: it cannot be placed.
+    bool collectAt(const osg::NodePath& path);
 
     /// What was found; call once, after the traversal.
     CollectedGraph take();

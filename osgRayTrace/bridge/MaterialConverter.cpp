@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/MaterialConverter.h"
 
+#include "osgRayTrace/bridge/MaterialList.h"
 #include "osgRayTrace/bridge/VertexArrays.h"
 #include "osgRayTrace/film/ToneMap.h"
 
@@ -20,7 +21,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace osgRayTrace::engine
 {
@@ -112,11 +112,6 @@ void replaceColor(FaceColors& face, VertexColorUse use, const Vec4& color)
     }
 }
 
-FaceColors frontOf(const Material& m)
-{
-    return {m.ambient, m.diffuse, m.specular, m.emission, m.shininess, m.alpha};
-}
-
 void setFront(Material& m, const FaceColors& face)
 {
     m.ambient = face.ambient;
@@ -125,72 +120,6 @@ void setFront(Material& m, const FaceColors& face)
     m.emission = face.emission;
     m.shininess = face.shininess;
     m.alpha = face.alpha;
-}
-
-/// The values that decide on the picture, for comparison.
-class MaterialValues
-{
-public:
-    explicit MaterialValues(const Material& m)
-    {
-        _values.reserve(64);
-        add(frontOf(m));
-        add(m.baseColor);
-        for (const float value : {m.metallic, m.roughness, m.transmission, m.ior, m.alphaReference})
-            add(value);
-        _values.insert(_values.end(),
-                       {static_cast<uint32_t>(m.model), uint32_t(m.lit),
-                        uint32_t(m.twoSidedLighting), m.lightMask,
-                        static_cast<uint32_t>(m.vertexColorUse), m.baseColorTexture,
-                        m.metallicRoughnessTexture, m.transmissionTexture, m.emissionTexture,
-                        uint32_t(m.separateSpecular), uint32_t(m.localViewer), uint32_t(m.blended),
-                        static_cast<uint32_t>(m.alphaTest), static_cast<uint32_t>(m.culling),
-                        uint32_t(m.clockwise), m.second.texture, uint32_t(m.hasBack)});
-        if (m.baseColorTexture != kInvalid)
-            add(m.textureEnvironment, m.environmentColor, m.mapping);
-        if (m.second.texture != kInvalid)
-            add(m.second.environment, m.second.environmentColor, m.second.mapping);
-        if (m.hasBack) add(m.back);
-    }
-
-    std::vector<uint32_t> take() { return std::move(_values); }
-
-private:
-    void add(float value)
-    {
-        uint32_t bits;
-        std::memcpy(&bits, &value, sizeof bits);
-        _values.push_back(bits);
-    }
-    void add(const Vec3& v)
-    {
-        for (int c = 0; c < 3; ++c)
-            add(v[c]);
-    }
-    void add(const FaceColors& face)
-    {
-        for (const Vec3& color : {face.ambient, face.diffuse, face.specular, face.emission})
-            add(color);
-        add(face.shininess);
-        add(face.alpha);
-    }
-    void add(TextureEnvironment environment, const Vec4& color, const TextureMapping& mapping)
-    {
-        _values.push_back(static_cast<uint32_t>(environment));
-        for (int c = 0; c < 4; ++c)
-            add(color[c]);
-        _values.push_back(static_cast<uint32_t>(mapping.coordinates));
-        for (int column = 0; column < 4 && mapping.transformed; ++column)
-            for (int row = 0; row < 4; ++row)
-                add(mapping.matrix[column][row]);
-    }
-
-    std::vector<uint32_t> _values;
-};
-
-std::vector<uint32_t> valuesOf(const Material& m)
-{
-    return MaterialValues(m).take();
 }
 
 AlphaTest comparisonOf(osg::AlphaFunc::ComparisonFunction function)
@@ -234,11 +163,6 @@ FaceCulling cullingOf(const GraphState& state)
 
 } // namespace
 
-bool sameMaterial(const Material& a, const Material& b)
-{
-    return valuesOf(a) == valuesOf(b);
-}
-
 SurfaceInputs surfaceInputs(const osg::Geometry& geometry)
 {
     SurfaceInputs inputs;
@@ -279,8 +203,8 @@ float polygonLift(const GraphState& state)
     return std::isfinite(units) ? std::clamp(-units, -kMostLayers, kMostLayers) : 0.0f;
 }
 
-uint32_t MaterialConverter::index(const GraphState& state, const SurfaceInputs& inputs,
-                                  const SurfacePlacement& placement)
+Material MaterialConverter::material(const GraphState& state, const SurfaceInputs& inputs,
+                                     const SurfacePlacement& placement)
 {
     countApproximations(state);
     const bool isPhysical = state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot) != nullptr;
@@ -292,10 +216,10 @@ uint32_t MaterialConverter::index(const GraphState& state, const SurfaceInputs& 
         applyTextureUnits(material, state, placement, _textures, _report);
         if (_linear) decode(material);
     }
-    return merged(material);
+    return material;
 }
 
-uint32_t MaterialConverter::lampIndex(const Vec3& radiance)
+Material lampMaterial(const Vec3& radiance)
 {
     Material material;
     material.name = "area light";
@@ -304,7 +228,7 @@ uint32_t MaterialConverter::lampIndex(const Vec3& radiance)
     material.ior = 1.0f;
     material.emission = radiance;
     material.lightMask = 0; // black: no light of OpenGL changes it
-    return merged(material);
+    return material;
 }
 
 Material MaterialConverter::fixedFunction(const GraphState& state,
@@ -457,14 +381,6 @@ void MaterialConverter::countApproximations(const GraphState& state)
     if (const auto* mode = state.attribute<osg::PolygonMode>(kPolygonModeSlot))
         if (mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
             _report.count("approximated.polygon-mode");
-}
-
-uint32_t MaterialConverter::merged(const Material& material)
-{
-    const auto [known, isNew] =
-        _known.try_emplace(valuesOf(material), static_cast<uint32_t>(_materials.size()));
-    if (isNew) _materials.push_back(material);
-    return known->second;
 }
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// MaterialConverter.h - from inherited OpenGL state to materials, equal ones merged. Layer: bridge.
+// MaterialConverter.h - from inherited OpenGL state to materials. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,9 +7,6 @@
 #include "osgRayTrace/scene/Scene.h"
 
 #include <osg/Geometry>
-
-#include <map>
-#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -39,7 +36,7 @@ Blending blendingOf(const GraphState& state);
 /// or its factor if it has none.
 float polygonLift(const GraphState& state);
 
-/// One snapshot's materials.
+/// From state to materials.
 class MaterialConverter
 {
 public:
@@ -49,16 +46,9 @@ public:
     {
     }
 
-    /// Index into the materials. Counts what of the state is only approximated, for each call.
-    uint32_t index(const GraphState& state, const SurfaceInputs& inputs,
-                   const SurfacePlacement& placement = {});
-
-    /// A lamp that reflects nothing, for an area light.
-    uint32_t lampIndex(const Vec3& radiance);
-
-    const Material& at(uint32_t index) const { return _materials[index]; }
-
-    std::vector<Material> take() { return std::move(_materials); }
+    /// Counts what of the state is only approximated, for each call.
+    Material material(const GraphState& state, const SurfaceInputs& inputs,
+                      const SurfacePlacement& placement = {});
 
 private:
     Material fixedFunction(const GraphState& state, const SurfaceInputs& inputs) const;
@@ -69,16 +59,13 @@ private:
                     const SurfacePlacement& placement) const;
     void decode(Material& material) const;
     void countApproximations(const GraphState& state);
-    uint32_t merged(const Material& material);
 
     bool _linear;
     TextureConverter& _textures;
     ConversionReport& _report;
-    std::vector<Material> _materials;
-    std::map<std::vector<uint32_t>, uint32_t> _known; // by all values
 };
 
-/// Equal in all that affects the picture: name and stamp do not.
-bool sameMaterial(const Material& a, const Material& b);
+/// A lamp that reflects nothing, for an area light.
+Material lampMaterial(const Vec3& radiance);
 
 } // namespace osgRayTrace::engine

@@ -58,6 +58,8 @@ struct ConversionResult
     /// For OSG to draw; null if nothing is, or ConversionInput::rasterizesRest is not set.
     std::shared_ptr<const RasterizedParts> rasterized;
     bool paged = false; ///< parts of the graph are files that are read when they are seen
+    /// Of those in the scene: what was removed left them, and they hold nothing.
+    std::size_t emptyInstances = 0, emptyMeshes = 0;
     double seconds = 0.0;
 };
 

@@ -1,11 +1,16 @@
-// ScenePatcher.cpp - moves instances and exchanges meshes. Layer: bridge.
+// ScenePatcher.cpp - edits of state, of lights and of which nodes there are. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/ScenePatcher.h"
 
-#include "osgRayTrace/bridge/MeshPlacement.h"
-#include "osgRayTrace/bridge/TextureUnits.h"
+#include "osgRayTrace/bridge/LightConverter.h"
+#include "osgRayTrace/bridge/PlacePatcher.h"
+#include "osgRayTrace/bridge/SceneBuilder.h"
+#include "osgRayTrace/bridge/SceneLights.h"
+#include "osgRayTrace/bridge/SnapshotStamps.h"
 
-#include <cmath>
+#include <osgRayTrace/AreaLight>
+
+#include <algorithm>
 
 namespace osgRayTrace::engine
 {
@@ -13,198 +18,333 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Volume of the axes made unit. More than GraphCollector asks for: what is nearly flat goes its
-/// way.
-constexpr double kSmallestVolume = 1e-6;
-
-/// A mesh keeps its frame while its centre is not so many radii from its origin.
-constexpr double kFarFromOrigin = 128.0;
-
-/// One that surely is placed as it is: finite, affine and far from singular.
-bool isSound(const osg::Matrixd& m)
+/// Of what came, in units of the world.
+LengthCounts lengthsOf(const CollectedGraph& graph)
 {
-    for (int i = 0; i < 16; ++i)
-        if (!std::isfinite(m.ptr()[i])) return false;
-    if (m(0, 3) != 0.0 || m(1, 3) != 0.0 || m(2, 3) != 0.0 || m(3, 3) != 1.0) return false;
-    osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
-        z(m(2, 0), m(2, 1), m(2, 2));
-    x.normalize();
-    y.normalize();
-    z.normalize();
-    return std::fabs((x ^ y) * z) > kSmallestVolume;
+    LengthCounts lengths;
+    for (const CollectedGeometry& geometry : graph.geometries)
+        for (const GeometryUse& use : geometry.uses)
+            if (geometry.bounds->count > 0)
+                lengths.add(largestCoordinate(*geometry.bounds, use.engineFromLocal),
+                            geometry.bounds->count);
+    return lengths;
 }
 
-/// Its coordinates are generated from places in the scene: the matrix has where the surface is.
-bool isPlaceBound(const Material& material)
+bool anyShines(const std::vector<Light>& lights)
 {
-    return material.mapping.coordinates == TextureCoordinates::Position ||
-           material.second.mapping.coordinates == TextureCoordinates::Position;
+    return std::any_of(lights.begin(), lights.end(),
+                       [](const Light& light) { return light.instance != kInvalid; });
 }
 
-/// OpenGL's front is on the other side where a transform mirrors.
-bool dependsOnWinding(const Material& material)
+osg::NodePath fromRoot(const osg::NodePath& path, osg::Node* root)
 {
-    return material.culling != FaceCulling::None || material.twoSidedLighting;
-}
-
-/// OpenGL draws nothing of it: then it has no parts that are copied for that.
-bool hasTrianglesAlone(const osg::Geometry& geometry)
-{
-    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
-        if (!set || set->getMode() < GL_TRIANGLES || set->getMode() > GL_POLYGON) return false;
-    return true;
-}
-
-/// Of a mesh that stays in its frame.
-bool fitsFrame(const VertexBounds& bounds, const osg::Matrixd& meshFromLocal)
-{
-    if (bounds.count == 0 || areCoarseInFloat(bounds)) return false;
-    const osg::Vec3d centre =
-        osg::Vec3d(bounds.centre().x, bounds.centre().y, bounds.centre().z) * meshFromLocal;
-    const double largest = largestCoordinate(bounds, meshFromLocal);
-    return isOrdinaryLength(largest) && centre.length() <= kFarFromOrigin * largest;
+    osg::NodePath whole = path;
+    if (whole.front() != root) whole.insert(whole.begin(), root);
+    return whole;
 }
 
 } // namespace
 
-ScenePatcher::ScenePatcher(const Scene& last, const SceneIndex& index, GeometryCache& geometries,
-                           Stamp now)
-    : _index(index), _geometries(geometries), _now(now), _scene(std::make_shared<Scene>(last))
+ScenePatcher::ScenePatcher(const Scene& last, const ConversionInput& input,
+                           ConversionCaches& caches, ConvertedGraph& made, Stamp now)
+    : _last(last),
+      _input(input),
+      _caches(caches),
+      _made(made),
+      _now(now),
+      _scene(std::make_shared<Scene>(last))
 {
 }
 
 std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
 {
-    _geometries.begin(_now);
-    for (const osg::Geometry* geometry : changes.deformed)
-        _geometries.noteLiveness(*geometry, Liveness::Deforms);
-    for (const MovedUse& use : changes.moved)
-        if (!move(use)) return nullptr;
-    for (const osg::Geometry* geometry : changes.deformed)
-        if (!deform(*geometry)) return nullptr;
+    _caches.geometries.begin(_now);
+    _caches.textures.resume(_now);
+    for (const GraphSplice& one : changes.splices)
+        if (!splice(one)) return nullptr;
+    takeMaterials();
+    if (!moveAndDeform(changes) || !restate(changes.restated)) return nullptr;
+    if (changes.lights && !relightLamps()) return nullptr;
+    takeMaterials();
+    const bool relights = changes.lights || _spliced || !changes.restated.empty();
+    if (relights && !relight()) return nullptr;
+    dropRemoved();
     if (_changed) _scene->changed = _now;
     return std::move(_scene);
 }
 
-void ScenePatcher::touch(uint32_t index)
+bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
 {
-    Instance& instance = _scene->instances[index];
-    instance.changed = _now;
-    if (instance.light != kInvalid) _scene->lights[instance.light].changed = _now;
+    PlacePatcher places(*_scene, _made.index, _caches.geometries, _now);
+    for (const osg::Geometry* geometry : changes.deformed)
+        _caches.geometries.noteLiveness(*geometry, Liveness::Deforms);
+    for (const MovedUse& use : changes.moved)
+        if (!places.move(use)) return false;
+    for (const osg::Geometry* geometry : changes.deformed)
+        if (!places.deform(*geometry)) return false;
+    _changed |= places.changed();
+    _leftFlat |= places.leftFlat();
+    return true;
+}
+
+/// Where equal materials become one, or one becomes two, indices of others stay what they are.
+bool ScenePatcher::restate(const std::vector<RestatedUse>& uses)
+{
+    if (uses.empty()) return true;
+    if (_input.materials) return false; // rules look at names
+    StateStack states = statesAbove(_input);
+    ConversionReport report;
+    MaterialConverter converter(!_scene->displayReferred, _caches.textures, report);
+    for (const RestatedUse& use : uses)
+        if (!restateUse(use, states, converter, report)) return false;
+    for (const auto& [instance, material] : _restated)
+        _made.materials.release(_scene->instances[instance].material);
+    for (const auto& [index, material] : _restated)
+    {
+        Instance& instance = _scene->instances[index];
+        const uint32_t before = instance.material;
+        instance.material = _made.materials.add(material);
+        if (instance.material != before) instance.changed = _now;
+    }
+    return true;
+}
+
+bool ScenePatcher::restateUse(const RestatedUse& use, StateStack& states,
+                              MaterialConverter& converter, ConversionReport& report)
+{
+    const auto found = _made.index.geometries.find(use.geometry);
+    if (found == _made.index.geometries.end() || !found->second.patchable) return false;
+    if (found->second.uses.size() != use.uses) return false;
+    const TracedUse& traced = found->second.uses[use.use];
+    if (traced.treatment == kInvalid) return false;
+
+    int pushed = 0;
+    for (const osg::Node* node : fromRoot(use.path, _input.root))
+        if (const osg::StateSet* stateSet = node->getStateSet())
+        {
+            states.push(*stateSet);
+            ++pushed;
+        }
+    const GraphState& state = states.states()[states.top()];
+    for (; pushed > 0; --pushed)
+        states.pop();
+    Treatment treatment = treatmentOf(state);
+    const Treatment& before = _made.index.treatments[traced.treatment];
+    if (traced.instance == kInvalid) return treatment == before;
+    const Vec3d& origin = _scene->origin;
+    report = ConversionReport();
+    const Material material = converter.material(
+        state, surfaceInputs(*use.geometry),
+        {use.worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z),
+         &_made.texGens});
+    treatment.counts = report.counts();
+    if (!(treatment == before)) return false;
+    if (!sameMaterial(material, _made.materials[_scene->instances[traced.instance].material]))
+        _restated.emplace_back(traced.instance, material);
+    return true;
+}
+
+/// Of area lights; their places and shapes are a matter of the whole graph.
+bool ScenePatcher::relightLamps()
+{
+    for (std::size_t i = 0; i < _made.lights.areaLights.size(); ++i)
+    {
+        const CollectedAreaLight& source = _made.lights.areaLights[i];
+        ConversionCaches::Quad& quad = _caches.areaLights[i];
+        const auto converted = convertAreaLight(*source.light, source.engineFromLocal);
+        if (converted.has_value() != (quad.instance != kInvalid)) return false;
+        if (!converted) continue;
+        if (!std::equal(quad.mesh->positions.begin(), quad.mesh->positions.end(),
+                        converted->mesh->positions.begin()))
+            return false;
+        quad.light = converted->light;
+        Instance& instance = _scene->instances[quad.instance];
+        const Material lamp = lampMaterial(quad.light.radiance);
+        if (sameMaterial(lamp, _made.materials[instance.material])) continue;
+        _made.materials.release(instance.material);
+        instance.material = _made.materials.add(lamp);
+        instance.changed = _now;
+    }
+    return true;
+}
+
+/// Those that have changed, and their textures.
+void ScenePatcher::takeMaterials()
+{
+    const std::vector<uint32_t> exchanged = _made.materials.takeChanged();
+    const std::vector<Material>& all = _made.materials.all();
+    if (!exchanged.empty())
+    {
+        if (!all.empty()) _scene->materials.resize(all.size());
+        for (const uint32_t index : exchanged)
+        {
+            _scene->materials[index] = all[index];
+            _scene->materials[index].changed = _now;
+        }
+        _caches.textures.keepOnly(
+            _made.materials.usedTextures(_caches.textures.all().size()));
+        _changed = true;
+    }
+    if (_scene->textures == _caches.textures.all()) return;
+    _scene->textures = _caches.textures.all();
     _changed = true;
 }
 
-bool ScenePatcher::move(const MovedUse& use)
+bool ScenePatcher::relight()
 {
-    const auto found = _index.uses.find(use.geometry);
-    if (found == _index.uses.end() || found->second.count != use.uses) return false;
-    if (!found->second.patchable) return false;
-    const uint32_t index = _index.instances[found->second.first + use.use];
-    if (!isSound(use.worldFromLocal)) return false;
-    if (index == kInvalid) return true;
-    if (isPlaceBound(_scene->materials[_scene->instances[index].material])) return false;
-    const Vec3d& origin = _scene->origin;
-    return place(*use.geometry, index,
-                 use.worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z));
-}
-
-bool ScenePatcher::place(const osg::Geometry& geometry, uint32_t index,
-                         const osg::Matrixd& engineFromLocal)
-{
-    const VertexBounds& bounds = _geometries.bounds(geometry);
-    if (!isOrdinaryLength(largestCoordinate(bounds, engineFromLocal))) return false;
-    Instance& instance = _scene->instances[index];
-    const bool winding = dependsOnWinding(_scene->materials[instance.material]);
-    if (winding && !instance.placed) return false; // whether it was mirrored is not known
-    osg::Matrixd localFromMesh;
-    if (instance.placed)
-    {
-        const MeshRequest* request = _geometries.lastRequest(geometry);
-        if (!request) return false;
-        if (request->transform) localFromMesh = osg::Matrixd::inverse(*request->transform);
-    }
-    else
-    {
-        const MeshFrame frame = meshFrame(bounds);
-        if (!fitsFrame(bounds, frame.meshFromLocal)) return false;
-        _geometries.noteLiveness(geometry, Liveness::Moves);
-        const MeshRequest* last = _geometries.lastRequest(geometry);
-        if (!last) return false;
-        MeshRequest request = *last;
-        request.transform.reset();
-        if (!frame.meshFromLocal.isIdentity()) request.transform = frame.meshFromLocal;
-        request.copies = _geometries.liveness(geometry) == Liveness::Deforms;
-        if (!makeMesh(geometry, request, instance.mesh)) return false;
-        localFromMesh = frame.localFromMesh;
-        _leftFlat = true;
-    }
-    const Affine before = instance.engineFromLocal;
-    const bool wasPlaced = instance.placed, wasMirrored = instance.mirrored;
-    if (!placeInstance(instance, localFromMesh * engineFromLocal)) return false;
-    if (winding && instance.mirrored != wasMirrored) return false;
-    if (!wasPlaced || before.linear != instance.engineFromLocal.linear ||
-        before.translation != instance.engineFromLocal.translation)
-        touch(index);
-    return true;
-}
-
-/// From the arrays as they are. False if it counts other bad data than it did: the report would
-/// change.
-bool ScenePatcher::makeMesh(const osg::Geometry& geometry, const MeshRequest& request,
-                            uint32_t meshIndex)
-{
-    std::shared_ptr<const Mesh>& mesh = _scene->meshes[meshIndex];
-    const ConversionCounts before = _geometries.lastCounts(geometry);
     ConversionReport report;
-    const auto made =
-        _geometries.mesh(geometry, GeometryCache::kOwnVariant, request, mesh->name, report);
-    if (!made || report.counts() != before) return false;
-    mesh = made;
+    setLights(*_scene, _input, _made.lights, _caches, report);
+    if (report.counts() != _made.lightCounts) return false;
+    _changed |= stampLights(_scene->lights, _last.lights, _now);
+    if (!anyShines(_last.lights) && !anyShines(_scene->lights)) return true;
+    const std::size_t count = std::min(_last.instances.size(), _scene->instances.size());
+    for (std::size_t i = 0; i < count; ++i)
+        if (_scene->instances[i].light != _last.instances[i].light)
+            _scene->instances[i].changed = _now;
     return true;
 }
 
-bool ScenePatcher::deform(const osg::Geometry& geometry)
+bool ScenePatcher::splice(const GraphSplice& splice)
 {
-    const auto found = _index.uses.find(&geometry);
-    if (found == _index.uses.end() || found->second.count == 0) return false;
-    if (!found->second.patchable) return false;
-    const MeshRequest* last = _geometries.lastRequest(geometry);
-    if (!last || !hasTrianglesAlone(geometry)) return false;
-    const uint32_t first = found->second.first, end = first + found->second.count;
-    for (uint32_t i = first; i < end; ++i)
-    {
-        const uint32_t index = _index.instances[i];
-        if (index == kInvalid) return false;
-        const Instance& instance = _scene->instances[index];
-        if (!instance.placed)
-        {
-            if (found->second.count > 1) return false;
-            const osg::Matrixd engineFromLocal = last->transform.value_or(osg::Matrixd());
-            return place(geometry, index, engineFromLocal);
-        }
-        if (instance.mesh != _scene->instances[_index.instances[first]].mesh) return false;
-    }
+    _spliced = _changed = true;
+    return remove(splice) && (splice.added.empty() || add(splice));
+}
 
-    const VertexBounds& bounds = _geometries.bounds(geometry);
-    MeshRequest request = *last;
-    request.copies = true;
-    if (!fitsFrame(bounds, request.transform.value_or(osg::Matrixd()))) return false;
-    const uint32_t meshIndex = _scene->instances[_index.instances[first]].mesh;
-    const std::shared_ptr<const Mesh> before = _scene->meshes[meshIndex];
-    if (!makeMesh(geometry, request, meshIndex)) return false;
-    if (_scene->meshes[meshIndex] == before) return true; // made when it was moved
-    for (uint32_t i = first; i < end; ++i)
+bool ScenePatcher::remove(const GraphSplice& splice)
+{
+    // The last of each first: those before it keep their numbers.
+    for (auto gone = splice.removed.rbegin(); gone != splice.removed.rend(); ++gone)
     {
-        const Instance& instance = _scene->instances[_index.instances[i]];
-        const Affine& m = instance.engineFromLocal;
-        const double reach = glm::length(m.translation) +
-                             largestCoordinate(bounds, request.transform.value_or(osg::Matrixd())) *
-                                 double(glm::length(m.linear[0]) + glm::length(m.linear[1]) +
-                                        glm::length(m.linear[2]));
-        if (!isOrdinaryLength(reach)) return false;
-        touch(_index.instances[i]);
+        const auto found = _made.index.geometries.find(gone->geometry);
+        if (found == _made.index.geometries.end()) return false;
+        TracedGeometry& traced = found->second;
+        if (!traced.patchable || !traced.plain || gone->use >= traced.uses.size()) return false;
+        if (!removeUse(traced, gone->use)) return false;
+        if (!traced.uses.empty()) continue;
+        _made.index.geometries.erase(found);
+        _removed.push_back(gone->geometry);
+        --_geometries;
     }
     return true;
+}
+
+bool ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
+{
+    const TracedUse gone = traced.uses[use];
+    if (gone.instance == kInvalid || gone.treatment == kInvalid) return false;
+    Instance& instance = _scene->instances[gone.instance];
+    if (traced.uses.size() > 1 && !instance.placed) return false;
+    const Treatment& treatment = _made.index.treatments[gone.treatment];
+    traced.uses.erase(traced.uses.begin() + use);
+    if (!treatment.counts.empty()) return false; // paths may be named
+    if ((treatment.hasAmbient || treatment.physical) && isLastOf(gone.treatment)) return false;
+
+    _leftFlat |= !instance.placed;
+    _made.materials.release(instance.material);
+    const uint32_t mesh = instance.mesh;
+    instance = Instance();
+    instance.mesh = emptyMeshIndex();
+    instance.placed = true;
+    instance.changed = _now;
+    _made.instanceGaps.push_back(gone.instance);
+    --_instances;
+    if (!traced.uses.empty()) return true;
+    _scene->meshes[mesh] = emptyMesh();
+    _made.meshGaps.push_back(mesh);
+    return true;
+}
+
+/// Whether no other use has this treatment: what it alone decides for all of the scene would change.
+bool ScenePatcher::isLastOf(uint32_t treatment) const
+{
+    for (const auto& [geometry, traced] : _made.index.geometries)
+        for (const TracedUse& use : traced.uses)
+            if (use.treatment == treatment && use.instance != kInvalid) return false;
+    return true;
+}
+
+uint32_t ScenePatcher::emptyMeshIndex()
+{
+    if (_made.emptyMesh == kInvalid)
+    {
+        _made.emptyMesh = static_cast<uint32_t>(_scene->meshes.size());
+        _scene->meshes.push_back(emptyMesh());
+    }
+    return _made.emptyMesh;
+}
+
+bool ScenePatcher::add(const GraphSplice& splice)
+{
+    if (_input.materials) return false; // rules look at names
+    ConversionReport report;
+    GraphCollector collector(_input, _caches.vertices, report);
+    if (!collector.collectAt(fromRoot(splice.added, _input.root))) return false;
+    CollectedGraph graph = collector.take();
+    const LightSources& lights = graph.lights;
+    const bool plain = lights.lights.empty() && lights.areaLights.empty() &&
+                       lights.environments.empty() && graph.rasterized.empty() && !graph.paged &&
+                       report.counts().empty();
+    if (!plain) return false;
+    graph.texGens = _made.texGens;
+    uint64_t vertices = 0;
+    for (CollectedGeometry& geometry : graph.geometries)
+    {
+        geometry.bounds = &_caches.geometries.bounds(*geometry.geometry);
+        vertices += geometry.bounds->count;
+    }
+    // So much shall be flat.
+    if (vertices > kSmallFlat && vertices >= _caches.flatVertices) return false;
+    if (!graph.geometries.empty() && !lengthsOf(graph).areOrdinary()) return false;
+    for (const CollectedGeometry& geometry : graph.geometries)
+        if (!addGeometry(graph, geometry, splice)) return false;
+    return true;
+}
+
+bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
+                               const GraphSplice& splice)
+{
+    const bool automatic = _input.colorRule == RayTraceSettings::AUTOMATIC_COLOR;
+    for (const GeometryUse& use : geometry.uses)
+    {
+        const Treatment treatment = treatmentOf(graph.states[use.state]);
+        if (treatment.physical && automatic && _scene->displayReferred) return false;
+        if (treatment.hasAmbient && treatment.ambient != _scene->ambient) return false;
+    }
+    const auto known = _made.index.geometries.find(geometry.geometry);
+    const bool isNew = known == _made.index.geometries.end();
+    if (!isNew && !(known->second.patchable && known->second.plain)) return false;
+    ConversionReport report;
+    BuildRules rules;
+    rules.linear = !_scene->displayReferred;
+    rules.comparable = true;
+    rules.now = _now;
+    SceneBuilder builder(_input, graph, rules, _caches, _made, *_scene, report);
+    std::vector<ChangedUse> uses;
+    for (const ChangedUse& use : splice.uses)
+        if (use.geometry == geometry.geometry) uses.push_back(use);
+    if (uses.size() != geometry.uses.size()) return false;
+    if (isNew)
+        builder.add(geometry);
+    else
+        for (std::size_t i = 0; i < uses.size(); ++i)
+            if (uses[i].use > known->second.uses.size() ||
+                !builder.addUse(geometry, geometry.uses[i], uses[i].use))
+                return false;
+    const TracedGeometry& traced = _made.index.geometries[geometry.geometry];
+    if (!traced.patchable || !traced.plain || traced.uses.size() != uses.front().uses) return false;
+    const auto isThere = [this](const TracedUse& use)
+    { return use.instance != kInvalid && _scene->instances[use.instance].placed; };
+    if (!std::all_of(traced.uses.begin(), traced.uses.end(), isThere)) return false;
+    _geometries += isNew;
+    _instances += static_cast<int64_t>(uses.size());
+    return report.remarks() == 0;
+}
+
+/// What came back in another place is kept.
+void ScenePatcher::dropRemoved()
+{
+    for (const osg::Geometry* geometry : _removed)
+        if (_made.index.geometries.count(geometry) == 0) _caches.geometries.drop(geometry);
 }
 
 } // namespace osgRayTrace::engine

@@ -1,41 +1,28 @@
-// ScenePatcher.h - a new Scene from the last one where only places and shapes have changed. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// ScenePatcher.h - a new Scene from the last one, with nothing redone but what has changed. Layer: bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/GeometryCache.h"
+#include "osgRayTrace/bridge/ConversionState.h"
 #include "osgRayTrace/bridge/GraphChanges.h"
-#include "osgRayTrace/scene/Scene.h"
+#include "osgRayTrace/bridge/MaterialConverter.h"
 
 #include <memory>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace osgRayTrace::engine
 {
 
-/// Which instance each use of a geometry has become.
-struct SceneIndex
-{
-    struct Uses
-    {
-        uint32_t first = 0; ///< in instances
-        uint32_t count = 0;
-        bool patchable = true; ///< false: it is made where it is, as raised faces are
-    };
-    std::unordered_map<const osg::Geometry*, Uses> uses;
-    std::vector<uint32_t> instances; ///< by use; kInvalid: nothing of it is traced
-};
-
-/// Redoes the instances that moved and the meshes that deformed, and nothing else. What does so for
-/// the first time gets a mesh in its own coordinates, and so leaves the flat BVH.
+/// For one patch. What it does to made and caches belongs to the scene that patch() returns; if that is none, to
+/// no scene: then the graph must be converted again.
 class ScenePatcher
 {
 public:
     /// last: in units of 1, and of ordinary lengths (see SceneExtent).
-    ScenePatcher(const Scene& last, const SceneIndex& index, GeometryCache& geometries, Stamp now);
+    ScenePatcher(const Scene& last, const ConversionInput& input, ConversionCaches& caches,
+                 ConvertedGraph& made, Stamp now);
 
-    /// Null if the graph must be converted again: something looks different from what it did before
-    /// in more than its place and its shape.
+    /// Null if there is more to do than this knows.
     std::shared_ptr<Scene> patch(const GraphChanges& changes);
 
     /// patch() has changed something.
@@ -44,19 +31,40 @@ public:
     /// Some mesh left the flat BVH.
     bool leftFlat() const { return _leftFlat; }
 
-private:
-    bool move(const MovedUse& use);
-    bool deform(const osg::Geometry& geometry);
-    bool place(const osg::Geometry& geometry, uint32_t index, const osg::Matrixd& engineFromLocal);
-    bool makeMesh(const osg::Geometry& geometry, const MeshRequest& request, uint32_t meshIndex);
-    void touch(uint32_t index);
+    /// What is converted now, beyond what was or less.
+    int64_t geometriesMore() const { return _geometries; }
+    int64_t instancesMore() const { return _instances; }
 
-    const SceneIndex& _index;
-    GeometryCache& _geometries;
+private:
+    bool splice(const GraphSplice& splice);
+    bool remove(const GraphSplice& splice);
+    bool removeUse(TracedGeometry& traced, uint32_t use);
+    bool isLastOf(uint32_t treatment) const;
+    bool add(const GraphSplice& splice);
+    bool addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
+                     const GraphSplice& splice);
+    bool moveAndDeform(const GraphChanges& changes);
+    bool restate(const std::vector<RestatedUse>& uses);
+    bool restateUse(const RestatedUse& use, StateStack& states, MaterialConverter& converter,
+                    ConversionReport& report);
+    bool relightLamps();
+    bool relight();
+    void takeMaterials();
+    void dropRemoved();
+    uint32_t emptyMeshIndex();
+
+    const Scene& _last;
+    const ConversionInput& _input;
+    ConversionCaches& _caches;
+    ConvertedGraph& _made;
     Stamp _now;
     std::shared_ptr<Scene> _scene;
+    std::vector<std::pair<uint32_t, Material>> _restated; ///< instances that get other materials
+    std::vector<const osg::Geometry*> _removed;           ///< names, not followed
+    int64_t _geometries = 0, _instances = 0;
     bool _changed = false;
     bool _leftFlat = false;
+    bool _spliced = false; ///< instances came or went
 };
 
 } // namespace osgRayTrace::engine

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/SnapshotStamps.h"
 
-#include "osgRayTrace/bridge/MaterialConverter.h"
+#include "osgRayTrace/bridge/MaterialList.h"
 
 #include <tuple>
 
@@ -60,6 +60,12 @@ bool stampParts(std::vector<Part>& parts, const std::vector<Part>& previous, Sta
 }
 
 } // namespace
+
+bool stampLights(std::vector<Light>& lights, const std::vector<Light>& previous, Stamp now)
+{
+    return !stampParts(lights, previous, now,
+                       [](const Light& a, const Light& b) { return same(a, b); });
+}
 
 std::shared_ptr<const Scene> stampChanges(std::shared_ptr<Scene> scene,
                                           const std::shared_ptr<const Scene>& previous, Stamp now)

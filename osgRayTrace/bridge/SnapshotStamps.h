@@ -15,4 +15,7 @@ namespace osgRayTrace::engine
 std::shared_ptr<const Scene> stampChanges(std::shared_ptr<Scene> scene,
                                           const std::shared_ptr<const Scene>& previous, Stamp now);
 
+/// Stamps lights alone, likewise. True if one of them or their number differs.
+bool stampLights(std::vector<Light>& lights, const std::vector<Light>& previous, Stamp now);
+
 } // namespace osgRayTrace::engine

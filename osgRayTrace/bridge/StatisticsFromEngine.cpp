@@ -58,8 +58,8 @@ void setSceneStatistics(Statistics& statistics, const ConversionResult& conversi
     const BuildStatistics& build = traced.statistics();
 
     statistics.triangles = traced.traits().triangles;
-    statistics.meshes = scene.meshes.size();
-    statistics.instances = scene.instances.size();
+    statistics.meshes = scene.meshes.size() - conversion.emptyMeshes;
+    statistics.instances = scene.instances.size() - conversion.emptyInstances;
     statistics.lights = scene.lights.size();
     statistics.convertSeconds = conversion.seconds;
     statistics.buildSeconds = build.seconds;

@@ -147,6 +147,7 @@ void TextureConverter::begin(bool linear, Stamp stamp)
     _linear = linear;
     _stamp = stamp;
     _textures.clear();
+    _gaps.clear();
     for (auto& [key, entry] : _entries)
         entry.index = kInvalid;
 }
@@ -158,27 +159,45 @@ uint32_t TextureConverter::index(const osg::Texture* texture, TextureContent con
     const bool color = content == TextureContent::Color;
     const bool decode = color && (_linear || isSrgbFormat(texture->getInternalFormat()));
     Entry& entry = _entries[{texture, decode}];
-    if (entry.index != kInvalid && entry.texture.get() == texture) return entry.index;
-    if (!isCurrent(entry, *texture))
+    const bool current = (entry.looked == _stamp && entry.texture.get() == texture) ||
+                         isCurrent(entry, *texture);
+    if (!current && !convert(entry, *texture, decode, report)) return kInvalid;
+    entry.looked = _stamp;
+    if (entry.index == kInvalid && !_gaps.empty())
     {
-        entry = {};
-        for (unsigned int i = 0; i < imageCount(*texture); ++i)
-        {
-            const osg::Image* image = texture->getImage(i);
-            if (!image || !image->data())
-            {
-                report.count("approximated.texture-without-image");
-                return kInvalid;
-            }
-            entry.images.push_back({image, image->getModifiedCount(), image->data()});
-        }
-        entry.texture = texture;
-        entry.internalFormat = internalFormatOf(*texture, *texture->getImage(0));
-        entry.converted = converted(*texture, decode, report);
+        entry.index = _gaps.back();
+        _gaps.pop_back();
     }
-    entry.index = static_cast<uint32_t>(_textures.size());
-    _textures.push_back(entry.converted);
+    if (entry.index == kInvalid)
+    {
+        entry.index = static_cast<uint32_t>(_textures.size());
+        _textures.push_back(entry.converted);
+    }
+    _textures[entry.index] = entry.converted;
     return entry.index;
+}
+
+/// Keeps the entry's index. False if there is nothing to sample.
+bool TextureConverter::convert(Entry& entry, const osg::Texture& texture, bool decode,
+                               ConversionReport& report)
+{
+    const uint32_t index = entry.index;
+    entry = {};
+    for (unsigned int i = 0; i < imageCount(texture); ++i)
+    {
+        const osg::Image* image = texture.getImage(i);
+        if (!image || !image->data())
+        {
+            report.count("approximated.texture-without-image");
+            return false;
+        }
+        entry.images.push_back({image, image->getModifiedCount(), image->data()});
+    }
+    entry.index = index;
+    entry.texture = &texture;
+    entry.internalFormat = internalFormatOf(texture, *texture.getImage(0));
+    entry.converted = converted(texture, decode, report);
+    return true;
 }
 
 std::shared_ptr<Texture> TextureConverter::converted(const osg::Texture& texture, bool decode,
@@ -231,11 +250,31 @@ bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture& texture
     return true;
 }
 
-std::vector<std::shared_ptr<const Texture>> TextureConverter::end()
+void TextureConverter::end()
 {
     for (auto entry = _entries.begin(); entry != _entries.end();)
         entry = entry->second.index == kInvalid ? _entries.erase(entry) : std::next(entry);
-    return std::move(_textures);
+}
+
+void TextureConverter::keepOnly(const std::vector<bool>& used)
+{
+    static const std::shared_ptr<const Texture> nothing = []
+    {
+        auto texture = std::make_shared<Texture>();
+        fillMagenta(*texture);
+        return texture;
+    }();
+    for (uint32_t i = 0; i < _textures.size(); ++i)
+    {
+        if (used[i] || _textures[i] == nothing) continue;
+        _textures[i] = nothing;
+        _gaps.push_back(i);
+    }
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+    {
+        const uint32_t index = entry->second.index;
+        entry = index == kInvalid || !used[index] ? _entries.erase(entry) : std::next(entry);
+    }
 }
 
 } // namespace osgRayTrace::engine

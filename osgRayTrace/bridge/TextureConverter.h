@@ -32,7 +32,10 @@ public:
     /// Begins a snapshot. stamp is that of textures converted now.
     void begin(bool linear, Stamp stamp);
 
-    /// Index into textures(); kInvalid if there is nothing to sample (no image on the CPU). A
+    /// Goes on with the last snapshot: indices stay, and what has changed is converted in its place.
+    void resume(Stamp stamp) { _stamp = stamp; }
+
+    /// Index into all(); kInvalid if there is nothing to sample (no image on the CPU). A
     /// format that cannot be read becomes magenta.
     /// 1-D, 2-D, rectangle and cube textures; of arrays and 3-D textures the first layer.
     uint32_t index(const osg::Texture* texture, TextureContent content, ConversionReport& report);
@@ -40,8 +43,14 @@ public:
     /// Of this snapshot.
     const Texture& at(uint32_t index) const { return *_textures[index]; }
 
-    /// Ends the snapshot: its textures. Forgets what was not used in it.
-    std::vector<std::shared_ptr<const Texture>> end();
+    /// Of this snapshot. Where one was dropped there is another that nobody samples.
+    const std::vector<std::shared_ptr<const Texture>>& all() const { return _textures; }
+
+    /// Forgets what was not used in this snapshot.
+    void end();
+
+    /// Forgets those of the snapshot that are not used any more, by index.
+    void keepOnly(const std::vector<bool>& used);
 
 private:
     using Key = std::pair<const osg::Texture*, bool>; // bool: decode from sRGB
@@ -60,14 +69,17 @@ private:
         GLint internalFormat = 0;
         std::shared_ptr<const Texture> converted;
         uint32_t index = kInvalid; // in this snapshot
+        Stamp looked = 0;          // at its image
     };
 
     bool isCurrent(const Entry& entry, const osg::Texture& texture) const;
+    bool convert(Entry& entry, const osg::Texture& texture, bool decode, ConversionReport& report);
     std::shared_ptr<Texture> converted(const osg::Texture& texture, bool decode,
                                        ConversionReport& report) const;
 
     std::map<Key, Entry> _entries;
     std::vector<std::shared_ptr<const Texture>> _textures;
+    std::vector<uint32_t> _gaps; // in _textures
     bool _linear = false;
     Stamp _stamp = 0;
 };

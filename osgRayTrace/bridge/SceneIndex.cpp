@@ -1,0 +1,52 @@
+// SceneIndex.cpp - how state decides on the treatment of a surface. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/SceneIndex.h"
+
+#include "osgRayTrace/bridge/MaterialConverter.h"
+#include "osgRayTrace/bridge/TriangleList.h"
+#include "osgRayTrace/bridge/UntracedParts.h"
+
+#include <osg/LightModel>
+
+#include <algorithm>
+#include <tuple>
+
+namespace osgRayTrace::engine
+{
+
+bool Treatment::operator==(const Treatment& other) const
+{
+    const auto values = [](const Treatment& t)
+    {
+        return std::tie(t.rasterized, t.restart, t.lift, t.physical, t.hasAmbient, t.ambient,
+                        t.counts);
+    };
+    return values(*this) == values(other);
+}
+
+Treatment treatmentOf(const GraphState& state)
+{
+    Treatment treatment;
+    treatment.rasterized = rasterizedState(state, nullptr);
+    treatment.restart = restartOf(state).key();
+    treatment.lift = polygonLift(state);
+    treatment.physical = state.attributes[kPhysicalMaterialSlot] != nullptr;
+    const auto* model = state.attribute<osg::LightModel>(kLightModelSlot);
+    treatment.hasAmbient = model && state.isOn(kLightingBit);
+    if (treatment.hasAmbient)
+    {
+        const osg::Vec4& color = model->getAmbientIntensity();
+        treatment.ambient = Vec3(color.r(), color.g(), color.b());
+    }
+    return treatment;
+}
+
+uint32_t SceneIndex::treatment(const Treatment& treatment)
+{
+    const auto found = std::find(treatments.begin(), treatments.end(), treatment);
+    const auto index = static_cast<uint32_t>(found - treatments.begin());
+    if (found == treatments.end()) treatments.push_back(treatment);
+    return index;
+}
+
+} // namespace osgRayTrace::engine

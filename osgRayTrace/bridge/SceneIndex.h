@@ -1,0 +1,55 @@
+// SceneIndex.h - which part of a Scene each path to a geometry has become. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/ConversionReport.h"
+#include "osgRayTrace/bridge/StateStack.h"
+#include "osgRayTrace/scene/Scene.h"
+
+#include <osg/Geometry>
+
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// What of a use's state decides on more than its material.
+struct Treatment
+{
+    const char* rasterized = nullptr; ///< see rasterizedState
+    uint64_t restart = 0;
+    float lift = 0.0f;
+    bool physical = false;
+    bool hasAmbient = false; ///< a light model of its own, lit
+    Vec3 ambient{0.0f};
+    ConversionCounts counts; ///< of its material
+
+    bool operator==(const Treatment& other) const;
+};
+
+Treatment treatmentOf(const GraphState& state);
+
+struct TracedUse
+{
+    uint32_t instance = kInvalid;  ///< kInvalid: nothing of it is traced
+    uint32_t treatment = kInvalid; ///< kInvalid: OSG draws it
+};
+
+struct TracedGeometry
+{
+    std::vector<TracedUse> uses; ///< in the order of the traversal
+    bool patchable = true;       ///< false: it is made where it is, as raised faces are
+    bool plain = true;           ///< nothing of it is counted but that it was converted
+};
+
+struct SceneIndex
+{
+    std::unordered_map<const osg::Geometry*, TracedGeometry> geometries;
+    std::vector<Treatment> treatments; ///< all different
+
+    uint32_t treatment(const Treatment& treatment);
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,120 @@
+// SceneLights.cpp - which lights of OpenGL's numbers shine, and what else does. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/SceneLights.h"
+
+#include "osgRayTrace/bridge/LightConverter.h"
+
+#include <osg/LightSource>
+
+#include <map>
+#include <string>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Surfaces that emit, then area lights.
+void addShining(Scene& scene, const std::vector<ConversionCaches::Quad>& quads)
+{
+    std::vector<bool> isQuad(quads.empty() ? 0 : scene.instances.size());
+    for (const ConversionCaches::Quad& quad : quads)
+        if (quad.instance != kInvalid) isQuad[quad.instance] = true;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i)
+    {
+        Instance& instance = scene.instances[i];
+        const Material& material = scene.materials[instance.material];
+        instance.light = kInvalid;
+        if (material.model != MaterialModel::Physical || material.emission == Vec3(0.0f)) continue;
+        const Mesh& mesh = *scene.meshes[instance.mesh];
+        if ((!isQuad.empty() && isQuad[i]) || mesh.triangles.empty()) continue;
+        instance.light = static_cast<uint32_t>(scene.lights.size());
+        scene.lights.push_back(meshLight(mesh.name, material.emission, i));
+    }
+    for (const ConversionCaches::Quad& quad : quads)
+    {
+        if (quad.instance == kInvalid || quad.light.radiance == Vec3(0.0f)) continue;
+        scene.instances[quad.instance].light = static_cast<uint32_t>(scene.lights.size());
+        scene.lights.push_back(quad.light);
+        scene.lights.back().instance = quad.instance;
+    }
+}
+
+/// As OpenGL keeps lights: by number, the last one set stays, and a light that no surface has
+/// enabled does nothing. The viewer's light is set before those of the graph.
+void addNumbered(Scene& scene, const ConversionInput& input,
+                 const std::vector<CollectedLight>& sources, ConversionReport& report)
+{
+    std::map<int, Light> lights;
+    std::map<std::string, float> unused = input.lightSizes.byName;
+    const auto add = [&](const osg::Light& source, const osg::Matrixd& matrix, bool eyeSpace,
+                         const std::string& path)
+    {
+        const int number = source.getLightNum();
+        auto light = convertLight(source, matrix, eyeSpace, scene.unit);
+        if (!light || number < 0 || number >= 32)
+        {
+            report.warn("skipped.light", "light '" + path + "'",
+                        light ? "number is not 0 to 31, skipped"
+                              : "values are not finite, skipped");
+            return;
+        }
+        const std::string sizedAs = applyLightSize(input.lightSizes, path, scene.unit, *light);
+        if (!sizedAs.empty()) unused.erase(sizedAs);
+        lights[number] = *light;
+        if (lights[number].name.empty()) lights[number].name = path;
+    };
+    const double scale = 1.0 / scene.unit;
+    const osg::Matrixd engineFromWorld =
+        osg::Matrixd::translate(-input.origin) * osg::Matrixd::scale(scale, scale, scale);
+    if (input.viewLight)
+        add(*input.viewLight, input.viewLightInEyeSpace ? osg::Matrixd() : engineFromWorld,
+            input.viewLightInEyeSpace, "viewer");
+    for (const CollectedLight& light : sources)
+        if (light.source->getLight())
+            add(*light.source->getLight(), light.engineFromLocal, light.eyeSpace, light.path);
+
+    for (const auto& [name, size] : unused)
+        report.warn("warned.light-size", "light-sizes '" + name + "'",
+                    "there is no light of this name");
+
+    uint32_t enabled = 0;
+    for (const Material& material : scene.materials)
+        if (material.lit) enabled |= material.lightMask;
+    for (const auto& [number, light] : lights)
+        if (enabled >> number & 1u) scene.lights.push_back(light);
+}
+
+/// There is one sky: the first that can be converted.
+void addEnvironment(Scene& scene, const std::vector<CollectedEnvironment>& sources,
+                    EnvironmentConverter& converter, ConversionReport& report)
+{
+    bool found = false;
+    for (const CollectedEnvironment& source : sources)
+    {
+        if (found)
+        {
+            report.warn("skipped.environment-light", "environment light '" + source.path + "'",
+                        "the scene has one before it, skipped");
+            continue;
+        }
+        const auto light = converter.convert(*source.light, source.engineFromLocal,
+                                             !scene.displayReferred, source.path, report);
+        found = light.has_value();
+        if (found) scene.lights.push_back(*light);
+    }
+}
+
+} // namespace
+
+void setLights(Scene& scene, const ConversionInput& input, const LightSources& sources,
+               ConversionCaches& caches, ConversionReport& report)
+{
+    scene.lights.clear();
+    addShining(scene, caches.areaLights);
+    addNumbered(scene, input, sources.lights, report);
+    addEnvironment(scene, sources.environments, caches.environment, report);
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,31 @@
+// UntracedParts.h - what in a graph is not traced, and why. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/StateStack.h"
+
+#include <osg/Billboard>
+#include <osg/Camera>
+#include <osg/Drawable>
+
+namespace osgRayTrace::engine
+{
+
+/// Reasons are keys of ConversionCounts.
+
+bool isFrom(const osg::Object& object, const char* library);
+
+/// Why a drawable that is no osg::Geometry is not traced; null: it is our own.
+const char* untracedDrawable(const osg::Drawable& drawable);
+
+/// Why the content of a camera in the graph is not a part of the scene around it; null: it is.
+const char* untracedCamera(const osg::Camera& camera);
+
+/// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced. poses: a
+/// program that only does what was done in software.
+const char* rasterizedState(const GraphState& state, const osg::StateAttribute* poses);
+
+/// Something in it is placed by the view and not traced.
+bool hasUntracedDrawable(const osg::Billboard& billboard);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,325 @@
+// WatchedGraph.cpp - records graphs, and splices parts of them. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/WatchedGraph.h"
+
+#include "osgRayTrace/bridge/GraphCollector.h"
+#include "osgRayTrace/bridge/GraphFingerprint.h"
+#include "osgRayTrace/bridge/StateFingerprint.h"
+
+#include <osg/Transform>
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// A place in a list with gaps.
+template <class Item> uint32_t newIndex(std::vector<Item>& items, std::vector<uint32_t>& free)
+{
+    if (free.empty())
+    {
+        items.emplace_back();
+        return static_cast<uint32_t>(items.size() - 1);
+    }
+    const uint32_t index = free.back();
+    free.pop_back();
+    items[index] = Item();
+    return index;
+}
+
+} // namespace
+
+/// Of all transforms around it: what is here is not only a matter of matrices.
+void WatchedGraph::fix(uint32_t place)
+{
+    for (; place != kNowhere && !places[place].fixed; place = places[place].outer)
+        places[place].fixed = true;
+}
+
+void WatchedGraph::setState(uint32_t& state, const osg::StateSet* stateSet)
+{
+    const uint32_t before = state;
+    state = kNowhere;
+    if (stateSet)
+    {
+        const auto [known, isNew] = _stateOf.try_emplace(stateSet, 0);
+        if (isNew)
+        {
+            known->second = newIndex(states, _freeStates);
+            Digest digest;
+            addStateSet(digest, *stateSet);
+            states[known->second] = {stateSet, digest.value(), 0, false};
+        }
+        state = known->second;
+        ++states[state].uses;
+    }
+    if (before == kNowhere || --states[before].uses > 0) return;
+    _stateOf.erase(states[before].stateSet);
+    states[before] = WatchedState();
+    _freeStates.push_back(before);
+}
+
+void WatchedGraph::setBuffers(uint32_t index)
+{
+    forEachBuffer(*geometries[index].geometry,
+                  [this, index](const osg::BufferData* data, bool shape)
+                  {
+                      if (!data) return;
+                      const BufferKind kind = bufferKindOf(*data);
+                      buffers.push_back({data, bufferPrint(kind, *data), index, kind, shape});
+                  });
+}
+
+void WatchedGraph::removeBuffers(uint32_t index)
+{
+    const auto first = std::find_if(buffers.begin(), buffers.end(),
+                                    [index](const WatchedBuffer& b) { return b.geometry == index; });
+    const auto last = std::find_if(first, buffers.end(),
+                                   [index](const WatchedBuffer& b) { return b.geometry != index; });
+    buffers.erase(first, last);
+}
+
+void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& sceneFromParent,
+                          std::size_t depth, const ViewingConditions& conditions)
+{
+    if (!isVisible(node))
+    {
+        if (parent != kNowhere) hidden.push_back({&node, parent});
+        return;
+    }
+    if (depth > kDeepestPath) return;
+    WatchedNode entry;
+    entry.node = &node;
+    entry.kind = kindOf(node);
+    entry.parent = parent;
+    entry.place = parent == kNowhere ? kNowhere : nodes[parent].place;
+    entry.hint = hintPrint(node);
+    entry.list = listOf(entry.kind, node);
+    const auto index = static_cast<uint32_t>(nodes.size());
+    entry.end = index + 1;
+    if (entry.kind == NodeKind::Geometry)
+    {
+        appendGeometry(static_cast<osg::Geometry&>(node), entry);
+        return;
+    }
+    if (entry.kind == NodeKind::Opaque)
+    {
+        fix(entry.place);
+        entry.item = static_cast<uint32_t>(opaqueMatrices.size());
+        opaqueMatrices.push_back(sceneFromParent);
+        entry.print = graphFingerprint(node, conditions, sceneFromParent);
+        nodes.push_back(entry);
+        return;
+    }
+
+    entry.repeated = !_known.try_emplace(&node, true).second;
+    repeats += entry.repeated;
+    osg::Matrixd inner = sceneFromParent;
+    if (isTransform(entry.kind))
+    {
+        WatchedPlace here;
+        here.node = index;
+        here.print = matrixPrint(entry.kind, node);
+        here.outer = entry.place;
+        entry.place = static_cast<uint32_t>(places.size());
+        places.push_back(here);
+        static_cast<osg::Transform&>(node).computeLocalToWorldMatrix(inner, nullptr);
+    }
+    if (isLight(entry.kind))
+    {
+        fix(entry.place);
+        lights.push_back({index, lightPrint(entry.kind, node)});
+    }
+    entry.print = nodePrint(entry.kind, node);
+    setState(entry.state, node.getStateSet());
+    nodes.push_back(entry);
+    if (const osg::Group* group = node.asGroup())
+        for (unsigned int i = 0; i < childrenOf(*group).size(); ++i)
+            if (osg::Node* child = childrenOf(*group)[i].get(); child && isOn(entry.kind, *group, i))
+                append(*child, index, inner, depth + 1, conditions);
+    nodes[index].end = static_cast<uint32_t>(nodes.size());
+}
+
+void WatchedGraph::appendGeometry(osg::Geometry& geometry, WatchedNode entry)
+{
+    const auto [known, isNew] = _geometryOf.try_emplace(&geometry, 0);
+    if (isNew) known->second = newIndex(geometries, _freeGeometries);
+    entry.item = known->second;
+    WatchedGeometry& watched = geometries[entry.item];
+    ++watched.uses;
+    nodes.push_back(entry);
+    if (!isNew) return;
+    watched.geometry = &geometry;
+    watched.arrays = arraysPrint(geometry);
+    watched.treatment = treatmentPrint(geometry);
+    setState(watched.state, geometry.getStateSet());
+    watched.stateSet = geometry.getStateSet();
+    setBuffers(entry.item);
+}
+
+void WatchedGraph::finish()
+{
+    _known.clear();
+}
+
+void WatchedGraph::insert(uint32_t at, osg::Node& node, uint32_t parent,
+                          const ViewingConditions& conditions)
+{
+    const auto before = static_cast<uint32_t>(nodes.size());
+    const std::size_t firstPlace = places.size(), firstLight = lights.size(),
+                      firstHidden = hidden.size();
+    append(node, parent, sceneFromLocal(nodes[parent].place), pathTo(parent).size() + firstDepth,
+           conditions);
+    finish();
+    const auto count = static_cast<uint32_t>(nodes.size()) - before;
+    if (count == 0) return;
+    for (uint32_t outer = parent; outer != kNowhere; outer = nodes[outer].parent)
+        nodes[outer].end += count;
+    if (at == before) return;
+
+    // What was appended goes back by this, what it is put before goes on by count.
+    const uint32_t back = before - at;
+    for (uint32_t i = at; i < before; ++i)
+    {
+        if (nodes[i].parent != kNowhere && nodes[i].parent >= at) nodes[i].parent += count;
+        nodes[i].end += count;
+    }
+    for (uint32_t i = before; i < before + count; ++i)
+    {
+        if (nodes[i].parent >= before) nodes[i].parent -= back;
+        nodes[i].end -= back;
+    }
+    const auto shift = [&](uint32_t& index, bool isNew)
+    {
+        if (index == kNowhere) return;
+        if (index >= before)
+            index -= back;
+        else if (index >= at && !isNew)
+            index += count;
+    };
+    for (std::size_t i = 0; i < places.size(); ++i)
+        shift(places[i].node, i >= firstPlace);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        shift(lights[i].node, i >= firstLight);
+    for (std::size_t i = 0; i < hidden.size(); ++i)
+        shift(hidden[i].parent, i >= firstHidden);
+    std::rotate(nodes.begin() + at, nodes.begin() + before, nodes.end());
+}
+
+void WatchedGraph::releaseGeometry(uint32_t index)
+{
+    WatchedGeometry& watched = geometries[index];
+    if (--watched.uses > 0) return;
+    setState(watched.state, nullptr);
+    _geometryOf.erase(watched.geometry);
+    watched = WatchedGeometry();
+    _freeGeometries.push_back(index);
+}
+
+void WatchedGraph::erase(uint32_t at)
+{
+    const uint32_t end = nodes[at].end, count = end - at;
+    const std::size_t freeGeometries = _freeGeometries.size();
+    const auto isIn = [at, end](uint32_t index) { return index >= at && index < end; };
+    for (uint32_t i = at; i < end; ++i)
+    {
+        WatchedNode& gone = nodes[i];
+        if (gone.kind == NodeKind::Geometry) releaseGeometry(gone.item);
+        setState(gone.state, nullptr);
+        repeats -= gone.repeated;
+        if (!isTransform(gone.kind)) continue;
+        places[gone.place].node = kNowhere;
+        ++_gonePlaces;
+    }
+    if (_freeGeometries.size() > freeGeometries)
+        buffers.erase(std::remove_if(buffers.begin(), buffers.end(), [this](const WatchedBuffer& b)
+                                     { return !geometries[b.geometry].geometry; }),
+                      buffers.end());
+    for (uint32_t outer = nodes[at].parent; outer != kNowhere; outer = nodes[outer].parent)
+        nodes[outer].end -= count;
+    lights.erase(std::remove_if(lights.begin(), lights.end(),
+                                [&](const WatchedLight& light) { return isIn(light.node); }),
+                 lights.end());
+    hidden.erase(std::remove_if(hidden.begin(), hidden.end(),
+                                [&](const HiddenNode& node) { return isIn(node.parent); }),
+                 hidden.end());
+    const auto shift = [end, count](uint32_t& index)
+    {
+        if (index != kNowhere && index >= end) index -= count;
+    };
+    for (uint32_t i = end; i < nodes.size(); ++i)
+    {
+        shift(nodes[i].parent);
+        nodes[i].end -= count;
+    }
+    for (WatchedPlace& place : places)
+        shift(place.node);
+    for (WatchedLight& light : lights)
+        shift(light.node);
+    for (HiddenNode& node : hidden)
+        shift(node.parent);
+    nodes.erase(nodes.begin() + at, nodes.begin() + end);
+    if (2 * _gonePlaces > places.size()) dropGonePlaces();
+}
+
+void WatchedGraph::dropGonePlaces()
+{
+    std::vector<uint32_t> now(places.size(), kNowhere);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < places.size(); ++i)
+    {
+        if (places[i].node == kNowhere) continue;
+        now[i] = count;
+        places[count] = places[i];
+        if (places[count].outer != kNowhere) places[count].outer = now[places[count].outer];
+        ++count;
+    }
+    places.resize(count);
+    for (WatchedNode& node : nodes)
+        if (node.place != kNowhere) node.place = now[node.place];
+    _gonePlaces = 0;
+}
+
+bool WatchedGraph::isRepeated(const osg::Node& node) const
+{
+    return repeats > 0 && std::count_if(nodes.begin(), nodes.end(), [&node](const WatchedNode& n)
+                                        { return n.node == &node; }) > 1;
+}
+
+bool WatchedGraph::isRepeatedElsewhere(uint32_t at) const
+{
+    if (repeats == 0) return false;
+    const uint32_t end = nodes[at].end;
+    std::unordered_map<const osg::Node*, bool> inside;
+    for (uint32_t i = at; i < end; ++i)
+        if (nodes[i].kind != NodeKind::Geometry) inside[nodes[i].node] = true;
+    for (uint32_t i = 0; i < nodes.size(); ++i)
+        if ((i < at || i >= end) && nodes[i].kind != NodeKind::Geometry && inside.count(nodes[i].node))
+            return true;
+    return false;
+}
+
+osg::Matrixd WatchedGraph::sceneFromLocal(uint32_t place) const
+{
+    std::vector<const osg::Transform*> transforms;
+    for (; place != kNowhere; place = places[place].outer)
+        transforms.push_back(static_cast<const osg::Transform*>(nodes[places[place].node].node));
+    osg::Matrixd matrix;
+    for (auto transform = transforms.rbegin(); transform != transforms.rend(); ++transform)
+        (*transform)->computeLocalToWorldMatrix(matrix, nullptr);
+    return matrix;
+}
+
+osg::NodePath WatchedGraph::pathTo(uint32_t node) const
+{
+    osg::NodePath path;
+    for (; node != kNowhere; node = nodes[node].parent)
+        path.push_back(nodes[node].node);
+    std::reverse(path.begin(), path.end());
+    return path;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,154 @@
+// WatchedGraph.h - the visible nodes of a graph in one array, with what they were. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/NodePrints.h"
+#include "osgRayTrace/bridge/ViewingConditions.h"
+
+#include <osg/Geometry>
+#include <osg/Matrixd>
+#include <osg/Node>
+#include <osg/StateSet>
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+constexpr uint32_t kNowhere = 0xffffffffu;
+
+/// A node on one path, see WatchedGraph::nodes.
+struct WatchedNode
+{
+    osg::Node* node = nullptr;
+    const void* list = nullptr; ///< that is read with it: see listOf. A name, not followed
+    uint64_t print = 0;
+    uint32_t parent = kNowhere; ///< in nodes
+    uint32_t end = 0;           ///< in nodes: behind all that is below it
+    uint32_t state = kNowhere;  ///< in states; a geometry's is with it
+    uint32_t place = kNowhere;  ///< that it is in; a transform: its own
+    uint32_t item = kNowhere;   ///< Geometry: in geometries; Opaque: in opaqueMatrices
+    NodeKind kind = NodeKind::Group;
+    uint8_t hint = 0;
+    bool repeated = false; ///< the same node came before: looked at there
+    bool restated = false; ///< while a look runs: state at it has changed
+};
+
+/// A transform on a path.
+struct WatchedPlace
+{
+    uint64_t print = 0;        ///< of its matrix
+    uint32_t node = kNowhere;  ///< kNowhere: gone
+    uint32_t outer = kNowhere; ///< place around it
+    bool fixed = false;        ///< there is more in it than plain nodes and geometry
+    bool moved = false;        ///< while a look runs
+};
+
+/// Once, on however many paths it is.
+struct WatchedGeometry
+{
+    osg::Geometry* geometry = nullptr; ///< null: gone
+    uint64_t arrays = 0;               ///< print of them
+    uint64_t treatment = 0;            ///< likewise
+    uint32_t uses = 0;                 ///< in nodes
+    uint32_t state = kNowhere;
+    const osg::StateSet* stateSet = nullptr;
+    // While a look runs:
+    uint64_t looked = 0;
+    uint32_t counted = 0;
+    bool restated = false; ///< it has other state or arrays
+};
+
+struct WatchedBuffer
+{
+    const osg::BufferData* data = nullptr;
+    uint64_t print = 0;
+    uint32_t geometry = 0;
+    BufferKind kind = BufferKind::Other;
+    bool shape = false; ///< positions, normals or primitives
+};
+
+struct WatchedState
+{
+    const osg::StateSet* stateSet = nullptr; ///< null: gone
+    uint64_t print = 0;
+    uint32_t uses = 0;    ///< by nodes and geometries
+    bool changed = false; ///< while a look runs
+};
+
+struct WatchedLight
+{
+    uint32_t node = 0;
+    uint64_t print = 0;
+};
+
+/// A child that a mask hides.
+struct HiddenNode
+{
+    osg::Node* node = nullptr;
+    uint32_t parent = 0;
+};
+
+/// All nodes that a traversal would visit, in its order, each on every path. A node may be read only after its
+/// parent was found to have it still, so nothing here keeps nodes alive; and what belongs to nodes
+/// only after all nodes were found to be there. Subtrees can be taken out and put in.
+struct WatchedGraph
+{
+    std::vector<WatchedNode> nodes;
+    std::vector<WatchedPlace> places; ///< outer ones before those in them
+    std::vector<WatchedGeometry> geometries;
+    std::vector<WatchedBuffer> buffers;
+    std::vector<WatchedState> states;
+    std::vector<WatchedLight> lights;
+    std::vector<HiddenNode> hidden;
+    std::vector<osg::Matrixd> opaqueMatrices;
+    std::size_t repeats = 0; ///< nodes with repeated set
+    unsigned int traversalMask = 0xffffffffu;
+    std::size_t firstDepth = 1; ///< nodes on the path to the first one, with it
+
+    bool isVisible(const osg::Node& node) const
+    {
+        return (traversalMask & node.getNodeMask()) != 0;
+    }
+
+    /// Appends what is visible at a node that lies below so many others.
+    void append(osg::Node& node, uint32_t parent, const osg::Matrixd& sceneFromParent,
+                std::size_t depth, const ViewingConditions& conditions);
+
+    /// The same, before the node at this index, which is a child of parent or behind its last.
+    void insert(uint32_t at, osg::Node& node, uint32_t parent, const ViewingConditions& conditions);
+
+    /// Takes out a node with all below it; nothing of it is read.
+    void erase(uint32_t at);
+
+    /// Whether it is on several paths, and looked at on one of them alone.
+    bool isRepeated(const osg::Node& node) const;
+
+    /// Whether that is so for something in there that is elsewhere, too.
+    bool isRepeatedElsewhere(uint32_t at) const;
+
+    void setState(uint32_t& state, const osg::StateSet* stateSet);
+    void setBuffers(uint32_t geometry);
+    void removeBuffers(uint32_t geometry);
+
+    osg::Matrixd sceneFromLocal(uint32_t place) const;
+    osg::NodePath pathTo(uint32_t node) const;
+
+    /// Forgets what only append() needs: which nodes came before.
+    void finish();
+
+private:
+    void appendGeometry(osg::Geometry& geometry, WatchedNode entry);
+    void fix(uint32_t place);
+    void releaseGeometry(uint32_t index);
+    void dropGonePlaces();
+
+    std::unordered_map<const void*, uint32_t> _stateOf, _geometryOf;
+    std::unordered_map<const osg::Node*, bool> _known; ///< while a whole graph is appended
+    std::vector<uint32_t> _freeStates, _freeGeometries;
+    std::size_t _gonePlaces = 0;
+};
+
+} // namespace osgRayTrace::engine
