@@ -104,7 +104,9 @@ bool ScenePatcher::restate(const std::vector<RestatedUse>& uses)
         Instance& instance = _scene->instances[index];
         const uint32_t before = instance.material;
         instance.material = _made.materials.add(material);
-        if (instance.material != before) instance.changed = _now;
+        if (instance.material == before) continue;
+        instance.changed = _now;
+        _changed = true;
     }
     return true;
 }
@@ -164,6 +166,7 @@ bool ScenePatcher::relightLamps()
         _made.materials.release(instance.material);
         instance.material = _made.materials.add(lamp);
         instance.changed = _now;
+        _changed = true;
     }
     return true;
 }

@@ -132,8 +132,9 @@ TEST_CASE("random edits: a thousand, and the picture is always that of a fresh c
     }
     INFO("most pixels that rounding changed: " << worst);
     const Statistics done = view.statistics();
-    CHECK(done.patches > 150); // the short way was taken, and the other ones, too
-    CHECK(done.conversions > 200);
+    CHECK(done.patches > 800); // nearly all; some repaint or hide nothing, and are none
+    CHECK(done.conversions < 50);
+    CHECK(done.conversions > 5); // a tile of the flat BVH that is shared now
     CHECK(done.refitMeshes > 10);
 }
 
