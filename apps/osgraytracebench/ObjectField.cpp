@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/ObjectField.h"
 
+#include <osg/Texture2D>
+
 #include <cmath>
 #include <cstring>
 
@@ -64,6 +66,11 @@ ObjectField::ObjectField(bool shared, unsigned int count)
         states.push_back(new osg::StateSet);
         states.back()->setAttributeAndModes(material);
     }
+    image->allocateImage(64, 64, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    std::memset(image->data(), 200, image->getTotalSizeInBytes());
+    states[3]->setTextureAttributeAndModes(0, new osg::Texture2D(image));
+    root->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::ON);
+    root->addChild(light);
     osg::ref_ptr<osg::Geometry> tile = newTile();
     transforms.resize(count);
     for (unsigned int i = 0; i < count; ++i)
@@ -75,6 +82,14 @@ ObjectField::ObjectField(bool shared, unsigned int count)
         root->addChild(transforms[i]);
         geometries.push_back(tile);
     }
+}
+
+osg::ref_ptr<osg::MatrixTransform> ObjectField::newObject() const
+{
+    osg::ref_ptr<osg::MatrixTransform> object = new osg::MatrixTransform(place(5000, 1.0));
+    object->setStateSet(transforms.front()->getStateSet());
+    object->addChild(newTile());
+    return object;
 }
 
 osg::Matrixd ObjectField::place(unsigned int object, double height) const
@@ -136,6 +151,27 @@ BareField::~BareField()
     }
     rtcReleaseScene(_top);
     rtcReleaseDevice(_device);
+}
+
+void BareField::build(const ObjectField& field, unsigned int object)
+{
+    const osg::Geometry& geometry = *field.geometries[object];
+    const auto& vertices = static_cast<const osg::Vec3Array&>(*geometry.getVertexArray());
+    const auto& indices = static_cast<const osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+    RTCScene scene = rtcNewScene(_device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry mesh = rtcNewGeometry(_device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    std::memcpy(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
+                                        vertices.size()),
+                vertices.getDataPointer(), vertices.getTotalDataSize());
+    std::memcpy(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12,
+                                        indices.size() / 3),
+                indices.getDataPointer(), indices.getTotalDataSize());
+    rtcCommitGeometry(mesh);
+    rtcAttachGeometry(scene, mesh);
+    rtcCommitScene(scene);
+    rtcReleaseGeometry(mesh);
+    rtcReleaseScene(scene);
 }
 
 void BareField::setTransform(unsigned int object, const osg::Matrixd& m)

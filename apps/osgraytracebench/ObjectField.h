@@ -5,6 +5,8 @@
 #include <embree3/rtcore.h>
 
 #include <osg/Geometry>
+#include <osg/Image>
+#include <osg/LightSource>
 #include <osg/Material>
 #include <osg/MatrixTransform>
 
@@ -21,14 +23,19 @@ struct ObjectField
 {
     explicit ObjectField(bool shared, unsigned int count = kFieldObjects);
 
-    unsigned int nodes() const { return 1 + 2 * count(); }
+    unsigned int nodes() const { return 2 + 2 * count(); }
     unsigned int count() const { return static_cast<unsigned int>(transforms.size()); }
     osg::Matrixd place(unsigned int object, double height) const;
 
     /// Moves every vertex up or down, as an application does: in place, with dirty().
     void deform(unsigned int object, double phase);
 
+    /// One more, with the first state and a mesh of its own; nothing is added to the graph.
+    osg::ref_ptr<osg::MatrixTransform> newObject() const;
+
     osg::ref_ptr<osg::Group> root = new osg::Group;
+    osg::ref_ptr<osg::LightSource> light = new osg::LightSource;
+    osg::ref_ptr<osg::Image> image = new osg::Image; ///< of one of the states
     std::vector<osg::ref_ptr<osg::MatrixTransform>> transforms;
     std::vector<osg::ref_ptr<osg::Geometry>> geometries; ///< of each object
     std::vector<osg::ref_ptr<osg::Material>> materials;
@@ -42,6 +49,9 @@ public:
     ~BareField();
     BareField(const BareField&) = delete;
     BareField& operator=(const BareField&) = delete;
+
+    /// Builds the BVH of one object, as that of a new one is.
+    void build(const ObjectField& field, unsigned int object);
 
     /// Sets one transform and commits the top level.
     void move(unsigned int object, const osg::Matrixd& matrix);

@@ -140,7 +140,8 @@ struct TracedScene::Implementation
 {
     std::shared_ptr<PartPool> pool;
     std::shared_ptr<const Scene> scene;
-    std::vector<std::shared_ptr<const Prototype>> prototypes; ///< by mesh; null: not needed
+    using Prototypes = std::vector<std::shared_ptr<const Prototype>>;
+    std::shared_ptr<const Prototypes> prototypes; ///< by mesh; null: not needed
     std::size_t prototypeCount = 0;
     std::shared_ptr<const FlatPart> flat;                     ///< null: there is none
     std::shared_ptr<const RootPart> root;                     ///< null: the flat part is all
@@ -152,21 +153,23 @@ struct TracedScene::Implementation
     SceneTraits traits;
     std::unique_ptr<HitFilter> filter;
     std::vector<bool> filtered; ///< by mesh: a partial material is on it
+    std::vector<bool> attached; ///< by instance: Embree gets it
     BuildStatistics statistics;
 
     bool sameMeshes = false; ///< as in the previous one, with the same instances of them
+    bool samePlaces = false; ///< and these where they were
     bool sameMaterials = false;
 
     void fillStates(const Implementation* old);
-    std::vector<bool> attached();
-    void makePrototypes(const std::vector<bool>& attached, const Implementation* old,
-                        const Workers& workers, BuildCounts& counts);
+    void findAttached();
+    bool takeStructures(const Implementation* old);
+    void makePrototypes(const Implementation* old, const Workers& workers, BuildCounts& counts);
     void forgetGone();
-    void makeFlat(const std::vector<bool>& attached, const Implementation* old, BuildCounts& counts);
-    void makeRoot(const std::vector<bool>& attached, const Implementation* old, BuildCounts& counts);
+    void makeFlat(const Implementation* old, BuildCounts& counts);
+    void makeRoot(const Implementation* old, BuildCounts& counts);
     void makeTables(const Implementation* old);
     void findFiltered();
-    float reach(const std::vector<bool>& attached) const;
+    float reach() const;
 };
 
 /// States and surfaces of the instances: those of the previous scene where mesh and place are the same.
@@ -175,7 +178,7 @@ void TracedScene::Implementation::fillStates(const Implementation* old)
     const std::vector<Instance>& instances = scene->instances;
     states.resize(instances.size());
     surfaces.resize(instances.size());
-    sameMeshes = old && old->scene->instances.size() == instances.size();
+    sameMeshes = samePlaces = old && old->scene->instances.size() == instances.size();
     for (std::size_t i = 0; i < instances.size(); ++i)
     {
         const Instance& instance = instances[i];
@@ -194,7 +197,9 @@ void TracedScene::Implementation::fillStates(const Implementation* old)
             states[i].empty = mesh->triangles.empty();
         }
         sameMeshes = sameMeshes && sameMesh && before->placed == instance.placed;
-        if (instance.placed && !(sameMesh && samePlace(instance, *before)))
+        const bool stays = sameMesh && samePlace(instance, *before);
+        samePlaces = samePlaces && stays && before->mesh == instance.mesh;
+        if (instance.placed && !stays)
             states[i].reach = static_cast<float>(reachOf(instance.engineFromLocal));
         surfaces[i].placed = instance.placed ? &instance : nullptr;
         surfaces[i].material = instance.material;
@@ -203,12 +208,12 @@ void TracedScene::Implementation::fillStates(const Implementation* old)
 }
 
 /// Which instances Embree gets.
-std::vector<bool> TracedScene::Implementation::attached()
+void TracedScene::Implementation::findAttached()
 {
     std::vector<bool> invisible(scene->materials.size());
     for (std::size_t i = 0; i < invisible.size(); ++i)
         invisible[i] = isInvisible(scene->materials[i]);
-    std::vector<bool> attached(scene->instances.size());
+    attached.resize(scene->instances.size());
     for (std::size_t i = 0; i < attached.size(); ++i)
     {
         const Instance& instance = scene->instances[i];
@@ -217,11 +222,24 @@ std::vector<bool> TracedScene::Implementation::attached()
         if (invalid) ++statistics.invalidInstances;
         attached[i] = !invalid;
     }
-    return attached;
 }
 
-void TracedScene::Implementation::makePrototypes(const std::vector<bool>& attached,
-                                                 const Implementation* old, const Workers& workers,
+/// All BVHs of the previous scene, if they do as they are: edits of materials and lights get away with less
+/// than a look at each instance. What asks the filter in vain does no harm.
+bool TracedScene::Implementation::takeStructures(const Implementation* old)
+{
+    if (!samePlaces || attached != old->attached) return false;
+    if (filtered.size() != old->filtered.size()) return false;
+    for (std::size_t i = 0; i < filtered.size(); ++i)
+        if (filtered[i] && !old->filtered[i]) return false;
+    prototypes = old->prototypes;
+    prototypeCount = old->prototypeCount;
+    flat = old->flat;
+    root = old->root;
+    return true;
+}
+
+void TracedScene::Implementation::makePrototypes(const Implementation* old, const Workers& workers,
                                                  BuildCounts& counts)
 {
     const auto& meshes = scene->meshes;
@@ -238,7 +256,7 @@ void TracedScene::Implementation::makePrototypes(const std::vector<bool>& attach
     const auto knownPrototype = [&](std::size_t i) -> std::shared_ptr<const Prototype>
     {
         if (!old) return nullptr;
-        const auto& before = old->prototypes;
+        const Prototypes& before = *old->prototypes;
         if (i < before.size() && before[i])
         {
             const Mesh& mesh = *before[i]->mesh;
@@ -255,24 +273,25 @@ void TracedScene::Implementation::makePrototypes(const std::vector<bool>& attach
         const auto found = known.find(meshes[i].get());
         return found == known.end() || !fits(**found->second, i) ? nullptr : *found->second;
     };
-    prototypes.resize(meshes.size());
+    const auto made = std::make_shared<Prototypes>(meshes.size());
     std::vector<std::size_t> missing;
     for (std::size_t i = 0; i < meshes.size(); ++i)
     {
         if (!needed[i]) continue;
-        prototypes[i] = knownPrototype(i);
+        (*made)[i] = knownPrototype(i);
         ++prototypeCount;
-        if (prototypes[i])
+        if ((*made)[i])
             ++kept;
         else
             missing.push_back(i);
     }
     const auto make = [&](std::size_t i)
-    { prototypes[missing[i]] = pool->prototype(meshes[missing[i]], filtered[missing[i]], counts); };
+    { (*made)[missing[i]] = pool->prototype(meshes[missing[i]], filtered[missing[i]], counts); };
     if (missing.size() == 1)
         workers.run([&] { make(0); }); // Embree's own threads for a large one
     else
         workers.forEach(missing.size(), make);
+    prototypes = made;
     if (old && kept + deformed < old->prototypeCount) forgetGone();
 }
 
@@ -285,8 +304,7 @@ void TracedScene::Implementation::forgetGone()
     pool->keepOnly(refittable);
 }
 
-void TracedScene::Implementation::makeFlat(const std::vector<bool>& attached,
-                                           const Implementation* old, BuildCounts& counts)
+void TracedScene::Implementation::makeFlat(const Implementation* old, BuildCounts& counts)
 {
     FlatPart::Members members;
     for (std::size_t i = 0; i < attached.size(); ++i)
@@ -308,8 +326,7 @@ void TracedScene::Implementation::makeFlat(const std::vector<bool>& attached,
     flat = pool->flat(std::move(members), std::move(owners), counts);
 }
 
-void TracedScene::Implementation::makeRoot(const std::vector<bool>& attached,
-                                           const Implementation* old, BuildCounts& counts)
+void TracedScene::Implementation::makeRoot(const Implementation* old, BuildCounts& counts)
 {
     const std::size_t count = scene->instances.size();
     std::vector<Placement> placements(count + 1);
@@ -324,7 +341,7 @@ void TracedScene::Implementation::makeRoot(const std::vector<bool>& attached,
     {
         const Instance& instance = scene->instances[i];
         if (!attached[i] || !instance.placed) continue;
-        const Prototype& prototype = *prototypes[instance.mesh];
+        const Prototype& prototype = *(*prototypes)[instance.mesh];
         place(i, prototype.scene.get(), prototype.serial, instance.engineFromLocal);
         any = true;
     }
@@ -345,10 +362,10 @@ void TracedScene::Implementation::makeTables(const Implementation* old)
                             sameParts(scene->lights, old->scene->lights, stamp);
     materials = sameMaterials ? old->materials : std::make_shared<const MaterialPart>(*scene);
     lights = std::make_unique<LightTable>(*scene, old ? old->lights.get() : nullptr);
-    traits = sameTraits ? old->traits : sceneTraits(*scene);
+    traits = sameTraits ? old->traits : sceneTraits(*scene, sameMeshes ? &old->traits : nullptr);
 }
 
-float TracedScene::Implementation::reach(const std::vector<bool>& attached) const
+float TracedScene::Implementation::reach() const
 {
     float reach = static_cast<float>(kLargestCoordinate);
     for (std::size_t i = 0; i < attached.size(); ++i)
@@ -382,14 +399,17 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     built.fillStates(old);
     built.makeTables(old);
     built.findFiltered();
-    const std::vector<bool> attached = built.attached();
-    built.makePrototypes(attached, old, *workers, counts);
-    workers->run(
-        [&]
-        {
-            built.makeFlat(attached, old, counts);
-            built.makeRoot(attached, old, counts);
-        });
+    built.findAttached();
+    if (!built.takeStructures(old))
+    {
+        built.makePrototypes(old, *workers, counts);
+        workers->run(
+            [&]
+            {
+                built.makeFlat(old, counts);
+                built.makeRoot(old, counts);
+            });
+    }
     EmbreeDevice& device = *built.pool->device();
     RTCScene top = (built.root ? built.root->scene : built.flat->scene).get();
     const bool hasFlat = built.root && built.flat;
@@ -398,7 +418,7 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     built.filter =
         std::make_unique<HitFilter>(built.surfaces, built.materials->table, flatInstance);
     built.intersector = std::make_unique<Intersector>(
-        top, device.nativeWidth(), built.reach(attached), flatInstance, built.filter.get());
+        top, device.nativeWidth(), built.reach(), flatInstance, built.filter.get());
 
     BuildStatistics& statistics = built.statistics;
     statistics.builtMeshes = counts.built;

@@ -34,16 +34,23 @@ void addMaterial(const Material& material, SceneTraits& traits)
 
 } // namespace
 
-SceneTraits sceneTraits(const Scene& scene)
+SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
 {
     SceneTraits traits;
-    for (const Instance& instance : scene.instances)
+    if (alike)
     {
-        const Mesh& mesh = *scene.meshes[instance.mesh];
-        traits.instances |= instance.placed;
-        traits.smoothNormals |= !mesh.normals.empty();
-        traits.triangles += mesh.triangles.size();
+        traits.instances = alike->instances;
+        traits.smoothNormals = alike->smoothNormals;
+        traits.triangles = alike->triangles;
     }
+    else
+        for (const Instance& instance : scene.instances)
+        {
+            const Mesh& mesh = *scene.meshes[instance.mesh];
+            traits.instances |= instance.placed;
+            traits.smoothNormals |= !mesh.normals.empty();
+            traits.triangles += mesh.triangles.size();
+        }
     for (const Material& material : scene.materials)
         addMaterial(material, traits);
     for (const Light& light : scene.lights)

@@ -24,6 +24,7 @@ struct SceneTraits
     size_t triangles = 0;          ///< counted once for each instance
 };
 
-SceneTraits sceneTraits(const Scene& scene);
+/// alike: of a scene with the same instances of the same meshes; null: none is known.
+SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike = nullptr);
 
 } // namespace osgRayTrace::engine

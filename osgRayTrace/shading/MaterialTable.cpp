@@ -98,8 +98,9 @@ Bsdf MaterialTable::bsdf(uint32_t material, const MaterialPoint& point) const
 
 MaterialTable::Coat MaterialTable::coatOf(const Material& m, float eta) const
 {
+    if (m.model != MaterialModel::Physical) return {0.0f, {}}; // it has none
     Coat coat{fresnelDielectricAverage(eta), {}};
-    const bool base = m.model == MaterialModel::Physical && eta != 1.0f && m.metallic < 1.0f &&
+    const bool base = eta != 1.0f && m.metallic < 1.0f &&
                       m.baseColor != Vec3(0.0f) &&
                       (m.transmission < 1.0f || m.transmissionTexture != kInvalid);
     const float roughness = std::clamp(m.roughness, 0.0f, 1.0f);
