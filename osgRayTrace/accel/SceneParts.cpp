@@ -51,6 +51,17 @@ void place(RTCGeometry instance, const Placement& placement)
     rtcCommitGeometry(instance);
 }
 
+/// Takes out what is not placed like this; the next commit is that of the next use.
+void detachOthers(RootPart& root, const std::vector<uint64_t>& prints)
+{
+    for (std::size_t i = 0; i < root.prints.size(); ++i)
+    {
+        if (root.prints[i] == 0 || (i < prints.size() && prints[i] == root.prints[i])) continue;
+        rtcDetachGeometry(root.scene.get(), static_cast<unsigned int>(i));
+        root.prints[i] = 0;
+    }
+}
+
 } // namespace
 
 template <class Part> std::shared_ptr<Part> PartPool::shared(std::unique_ptr<Part> part)
@@ -211,7 +222,6 @@ std::shared_ptr<const RootPart> PartPool::root(const std::vector<Placement>& pla
 void PartPool::keepOnly(const std::unordered_set<const UVec3*>& triangles)
 {
     std::vector<std::unique_ptr<Prototype>> gone; // freed after the lock
-    std::vector<std::unique_ptr<RootPart>> roots;
     std::lock_guard<std::mutex> lock(_mutex);
     _wanted = triangles;
     for (auto spare = _prototypes.begin(); spare != _prototypes.end();)
@@ -224,8 +234,18 @@ void PartPool::keepOnly(const std::unordered_set<const UVec3*>& triangles)
         gone.push_back(std::move(spare->second));
         spare = _prototypes.erase(spare);
     }
+}
+
+void PartPool::keepPlacements(std::shared_ptr<const RootPart> newest)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    _kept = newest ? newest->prints : std::vector<uint64_t>();
     ++_generation;
-    roots.swap(_roots);
+    for (const std::unique_ptr<RootPart>& root : _roots)
+    {
+        detachOthers(*root, _kept);
+        root->generation = _generation;
+    }
 }
 
 void PartPool::giveBack(std::unique_ptr<Prototype> prototype)
@@ -247,7 +267,9 @@ void PartPool::giveBack(std::unique_ptr<RootPart> root)
 {
     if (!root->sound) return;
     std::lock_guard<std::mutex> lock(_mutex);
-    if (root->generation != _generation || _roots.size() >= kSpareRoots) return;
+    if (_roots.size() >= kSpareRoots) return;
+    if (root->generation != _generation) detachOthers(*root, _kept);
+    root->generation = _generation;
     try
     {
         _roots.push_back(std::move(root));

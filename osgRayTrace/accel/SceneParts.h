@@ -109,8 +109,12 @@ public:
                                          const std::vector<uint64_t>& prints, BuildCounts& counts);
 
     /// Something was removed. Forgets spare prototypes of other meshes than those with these
-    /// triangles, and all roots that exist, spare or not: they hold what is gone.
+    /// triangles.
     void keepOnly(const std::unordered_set<const UVec3*>& triangles);
+
+    /// Likewise: from all other roots, spare or given back later, what is not in the newest one is taken
+    /// out, which may be gone.
+    void keepPlacements(std::shared_ptr<const RootPart> newest);
 
     /// Takes a part back, or deletes it. Any thread.
     void giveBack(std::unique_ptr<Prototype> prototype);
@@ -132,6 +136,7 @@ private:
     std::unordered_multimap<const UVec3*, std::unique_ptr<Prototype>> _prototypes;
     std::vector<std::unique_ptr<RootPart>> _roots;
     uint64_t _generation = 0;
+    std::vector<uint64_t> _kept; ///< prints of the newest root of this generation
 };
 
 } // namespace osgRayTrace::engine

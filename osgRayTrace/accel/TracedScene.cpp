@@ -158,6 +158,7 @@ struct TracedScene::Implementation
 
     bool sameMeshes = false; ///< as in the previous one, with the same instances of them
     bool samePlaces = false; ///< and these where they were
+    bool anyGone = false;    ///< the previous one had prototypes that this one has not
     bool sameMaterials = false;
 
     void fillStates(const Implementation* old);
@@ -292,7 +293,8 @@ void TracedScene::Implementation::makePrototypes(const Implementation* old, cons
     else
         workers.forEach(missing.size(), make);
     prototypes = made;
-    if (old && kept + deformed < old->prototypeCount) forgetGone();
+    anyGone = old && kept + deformed < old->prototypeCount;
+    if (anyGone) forgetGone();
 }
 
 /// What the previous scene had and this one has not is not kept for later ones.
@@ -408,6 +410,7 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
             {
                 built.makeFlat(old, counts);
                 built.makeRoot(old, counts);
+                if (built.anyGone) built.pool->keepPlacements(built.root);
             });
     }
     EmbreeDevice& device = *built.pool->device();
