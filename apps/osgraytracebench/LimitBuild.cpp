@@ -2,18 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/BenchScenes.h"
 #include "apps/osgraytracebench/LimitMode.h"
+#include "apps/osgraytracebench/ResidentBytes.h"
 #include "apps/osgraytracebench/Timing.h"
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 
 #include <embree3/rtcore.h>
-#include <malloc.h>
 #include <osg/Geode>
 #include <osg/MatrixTransform>
-#include <unistd.h>
 
-#include <cstdio>
 #include <cstring>
 #include <string>
 
@@ -44,19 +42,6 @@ void buildBare(RTCDevice device, const osg::Vec3Array& vertices, const osg::Draw
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene);
     rtcReleaseScene(scene);
-}
-
-/// Memory that the process holds [bytes].
-double residentBytes()
-{
-    malloc_trim(0);
-    long total = 0, resident = 0;
-    if (std::FILE* file = std::fopen("/proc/self/statm", "r"))
-    {
-        if (std::fscanf(file, "%ld %ld", &total, &resident) != 2) resident = 0;
-        std::fclose(file);
-    }
-    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
 struct Built
