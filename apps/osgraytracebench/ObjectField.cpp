@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/ObjectField.h"
 
+#include "apps/osgraytracebench/BareTriangles.h"
+
 #include <osg/Texture2D>
 
 #include <cmath>
@@ -122,14 +124,9 @@ BareField::BareField(const ObjectField& field) : _device(rtcNewDevice(nullptr))
         rtcSetSceneFlags(object.scene,
                          RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
         rtcSetSceneBuildQuality(object.scene, RTC_BUILD_QUALITY_LOW); // else nothing is refit
-        object.mesh = rtcNewGeometry(_device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        object.mesh = newBareTriangles(_device, vertices, indices);
+        object.vertices = rtcGetGeometryBufferData(object.mesh, RTC_BUFFER_TYPE_VERTEX, 0);
         rtcSetGeometryBuildQuality(object.mesh, RTC_BUILD_QUALITY_REFIT);
-        object.vertices = rtcSetNewGeometryBuffer(object.mesh, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                  RTC_FORMAT_FLOAT3, 12, vertices.size());
-        void* const triangles = rtcSetNewGeometryBuffer(object.mesh, RTC_BUFFER_TYPE_INDEX, 0,
-                                                        RTC_FORMAT_UINT3, 12, indices.size() / 3);
-        std::memcpy(object.vertices, vertices.getDataPointer(), vertices.getTotalDataSize());
-        std::memcpy(triangles, indices.getDataPointer(), indices.getTotalDataSize());
         rtcCommitGeometry(object.mesh);
         rtcAttachGeometry(object.scene, object.mesh);
         rtcCommitScene(object.scene);
@@ -160,13 +157,7 @@ void BareField::build(const ObjectField& field, unsigned int object)
     const auto& indices = static_cast<const osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
     RTCScene scene = rtcNewScene(_device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry mesh = rtcNewGeometry(_device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    std::memcpy(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
-                                        vertices.size()),
-                vertices.getDataPointer(), vertices.getTotalDataSize());
-    std::memcpy(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12,
-                                        indices.size() / 3),
-                indices.getDataPointer(), indices.getTotalDataSize());
+    RTCGeometry mesh = newBareTriangles(_device, vertices, indices);
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(scene, mesh);
     rtcCommitScene(scene);

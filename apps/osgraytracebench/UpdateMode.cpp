@@ -3,13 +3,10 @@
 #include "apps/osgraytracebench/UpdateMode.h"
 
 #include "apps/osgraytracebench/ObjectField.h"
+#include "apps/osgraytracebench/ResidentBytes.h"
 #include "apps/osgraytracebench/Timing.h"
 #include "osgRayTrace/bridge/SceneUpdater.h"
 
-#include <malloc.h>
-#include <unistd.h>
-
-#include <cstdio>
 #include <string>
 
 namespace osgRayTrace::bench
@@ -43,19 +40,6 @@ private:
     osg::ref_ptr<RayTraceSettings> _settings = new RayTraceSettings;
     SceneUpdater _updater;
 };
-
-/// Memory that the process holds [bytes].
-double residentBytes()
-{
-    malloc_trim(0);
-    long total = 0, resident = 0;
-    if (std::FILE* file = std::fopen("/proc/self/statm", "r"))
-    {
-        if (std::fscanf(file, "%ld %ld", &total, &resident) != 2) resident = 0;
-        std::fclose(file);
-    }
-    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
 
 double medianSeconds(const std::function<void()>& body)
 {

@@ -124,7 +124,7 @@ TEST_CASE("threading: 50 frames of a moving scene in three contexts", "[gl]")
     }
     const Statistics statistics = scene->getDrawable()->getStatistics();
     CHECK(statistics.passes >= 1);
-    CHECK(statistics.patches > 5);
-    CHECK(statistics.conversions > 5);
+    CHECK(statistics.patches > 10); // what comes and goes, too
+    CHECK(statistics.conversions >= 1);
     CHECK(statistics.refitMeshes > 5);
 }
