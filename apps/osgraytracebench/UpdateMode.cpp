@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/UpdateMode.h"
 
+#include "apps/osgraytracebench/InstanceRays.h"
 #include "apps/osgraytracebench/ObjectField.h"
 #include "apps/osgraytracebench/Timing.h"
 #include "osgRayTrace/bridge/SceneUpdater.h"
@@ -174,6 +175,7 @@ Rows measureUpdate()
 {
     Rows rows;
     measureInstances(rows);
+    measureInstanceRays(rows);
     measureEdits(rows);
     return rows;
 }

@@ -167,7 +167,7 @@ void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
     _inheritedPrint = inherited.value();
     _first = firstNode(root);
     if (_first) recordNode(*_first, kNone, osg::Matrixd(), _first == &root ? 1 : 2);
-    _known.clear();
+    _known = {}; // its buckets, too
     _recorded = true;
 }
 
