@@ -42,7 +42,7 @@ bool contains(const Box& box, const Vec3& p)
 std::vector<Box> boxesOf(const Mesh& mesh, const Box& bounds)
 {
     const std::size_t n = cellsAlongAxis(mesh);
-    if (n == 1) return {bounds};
+    if (n == 1) return {};
     std::array<Box, kMostAlongAxis * kMostAlongAxis * kMostAlongAxis> cells;
     Vec3 scale(0.0f);
     for (int axis = 0; axis < 3; ++axis)
@@ -68,35 +68,29 @@ std::vector<Box> boxesOf(const Mesh& mesh, const Box& bounds)
     return boxes;
 }
 
-/// Extends the range of one coordinate of placed boxes, lane by lane: x, y, z and shift are the
-/// row of their transform.
-OSGRAYTRACE_KERNEL
-void extendRange(const Vec3Lanes& centre, const Vec3Lanes& half, float x, float y, float z,
-                 float shift, FloatLanes& low, FloatLanes& high)
+/// Along axes, mirrored or not: parts are then not bounded more closely than the whole.
+bool keepsAxes(const Mat3& linear)
 {
-    const float sizeX = std::fabs(x), sizeY = std::fabs(y), sizeZ = std::fabs(z);
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < kLanes; ++i)
+    for (int row = 0; row < 3; ++row)
     {
-        const float middle = x * centre.x[i] + y * centre.y[i] + z * centre.z[i] + shift;
-        const float reach = sizeX * half.x[i] + sizeY * half.y[i] + sizeZ * half.z[i];
-        const float from = middle - reach, to = middle + reach;
-        low[i] = from < low[i] ? from : low[i];
-        high[i] = to > high[i] ? to : high[i];
+        const int zeros =
+            (linear[0][row] == 0.0f) + (linear[1][row] == 0.0f) + (linear[2][row] == 0.0f);
+        if (zeros < 2) return false;
     }
+    return true;
 }
 
 } // namespace
 
-Outline::Outline(const Mesh& mesh, const Box& bounds)
+Outline::Outline(const Mesh& mesh, const Box& bounds) : _whole(bounds)
 {
     const std::vector<Box> boxes = boxesOf(mesh, bounds);
-    _boxes.resize((boxes.size() + kLanes - 1) / kLanes);
-    for (std::size_t i = 0; i < _boxes.size() * kLanes; ++i)
+    _parts.resize((boxes.size() + kLanes - 1) / kLanes);
+    for (std::size_t i = 0; i < _parts.size() * kLanes; ++i)
     {
         const Box& box = boxes[std::min(i, boxes.size() - 1)];
         const Vec3 half = 0.5f * box.high - 0.5f * box.low, centre = box.low + half;
-        Boxes& lanes = _boxes[i / kLanes];
+        Boxes& lanes = _parts[i / kLanes];
         const int lane = static_cast<int>(i % kLanes);
         lanes.centre.x[lane] = centre.x;
         lanes.centre.y[lane] = centre.y;
@@ -105,29 +99,61 @@ Outline::Outline(const Mesh& mesh, const Box& bounds)
         lanes.half.y[lane] = half.y;
         lanes.half.z[lane] = half.z;
     }
-    _farthest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
 }
 
-Outline::Outline(const Box& bounds) : Outline(Mesh(), bounds) {}
+Outline::Outline(const Box& bounds) : _whole(bounds) {}
 
-Box Outline::placedBounds(const Affine& m) const
+/// Lane by lane: what low to high held, and the placed parts.
+OSGRAYTRACE_KERNEL
+void Outline::extend(const std::vector<Boxes>& parts, const Affine& m, Vec3Lanes& low,
+                     Vec3Lanes& high)
 {
-    Box placed;
     for (int row = 0; row < 3; ++row)
     {
         const float x = m.linear[0][row], y = m.linear[1][row], z = m.linear[2][row];
-        FloatLanes low, high;
-        std::fill_n(low.v, kLanes, kInfinity);
-        std::fill_n(high.v, kLanes, -kInfinity);
-        for (const Boxes& boxes : _boxes)
-            extendRange(boxes.centre, boxes.half, x, y, z, m.translation[row], low, high);
-        const float rounding =
-            kRounding * (std::fabs(x) * _farthest.x + std::fabs(y) * _farthest.y +
-                         std::fabs(z) * _farthest.z + std::fabs(m.translation[row]));
-        placed.low[row] = *std::min_element(low.v, low.v + kLanes) - rounding;
-        placed.high[row] = *std::max_element(high.v, high.v + kLanes) + rounding;
+        const float sizeX = std::fabs(x), sizeY = std::fabs(y), sizeZ = std::fabs(z);
+        const float shift = m.translation[row];
+        FloatLanes& from = row == 0 ? low.x : row == 1 ? low.y : low.z;
+        FloatLanes& to = row == 0 ? high.x : row == 1 ? high.y : high.z;
+        for (const Boxes& b : parts)
+        {
+            OSGRAYTRACE_SIMD
+            for (int i = 0; i < kLanes; ++i)
+            {
+                const float middle =
+                    x * b.centre.x[i] + y * b.centre.y[i] + z * b.centre.z[i] + shift;
+                const float reach = sizeX * b.half.x[i] + sizeY * b.half.y[i] + sizeZ * b.half.z[i];
+                from[i] = middle - reach < from[i] ? middle - reach : from[i];
+                to[i] = middle + reach > to[i] ? middle + reach : to[i];
+            }
+        }
     }
-    return placed;
+}
+
+Box Outline::placedBounds(const Affine& m) const
+{
+    const auto absolute = [&m](const Vec3& v) {
+        return glm::abs(m.linear[0]) * v.x + glm::abs(m.linear[1]) * v.y +
+               glm::abs(m.linear[2]) * v.z;
+    };
+    const Vec3 farthest = glm::max(glm::abs(_whole.low), glm::abs(_whole.high));
+    const Vec3 rounding = kRounding * (absolute(farthest) + glm::abs(m.translation));
+    if (_parts.empty() || keepsAxes(m.linear))
+    {
+        const Vec3 half = 0.5f * _whole.high - 0.5f * _whole.low;
+        const Vec3 middle = transformPoint(m, _whole.low + half), reach = absolute(half);
+        return {middle - reach - rounding, middle + reach + rounding};
+    }
+    Vec3Lanes low, high;
+    for (FloatLanes* lanes : {&low.x, &low.y, &low.z})
+        std::fill_n(lanes->v, kLanes, kInfinity);
+    for (FloatLanes* lanes : {&high.x, &high.y, &high.z})
+        std::fill_n(lanes->v, kLanes, -kInfinity);
+    extend(_parts, m, low, high);
+    const auto least = [](const FloatLanes& l) { return *std::min_element(l.v, l.v + kLanes); };
+    const auto most = [](const FloatLanes& l) { return *std::max_element(l.v, l.v + kLanes); };
+    return {Vec3(least(low.x), least(low.y), least(low.z)) - rounding,
+            Vec3(most(high.x), most(high.y), most(high.z)) + rounding};
 }
 
 } // namespace osgRayTrace::engine

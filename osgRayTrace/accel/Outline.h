@@ -36,8 +36,11 @@ private:
         Vec3Lanes centre, half;
     };
 
-    std::vector<Boxes> _boxes; ///< the last lanes may repeat one
-    Vec3 _farthest{0.0f};      ///< largest magnitude of coordinates
+    static void extend(const std::vector<Boxes>& parts, const Affine& m, Vec3Lanes& low,
+                       Vec3Lanes& high);
+
+    Box _whole;
+    std::vector<Boxes> _parts; ///< the last lanes may repeat one; empty: there is the whole alone
 };
 
 } // namespace osgRayTrace::engine

@@ -13,7 +13,7 @@ namespace
 void giveBounds(const RTCBoundsFunctionArguments* args)
 {
     const auto& placed = *static_cast<const PlacedScenes*>(args->geometryUserPtr);
-    const Box& box = placed.bounds(args->primID);
+    const Box box = placed.bounds(args->primID);
     RTCBounds& bounds = *args->bounds_o;
     bounds.lower_x = box.low.x;
     bounds.lower_y = box.low.y;
@@ -63,8 +63,6 @@ bool PlacedScenes::set(const std::vector<Placement>& placements)
     {
         _scenes.reserve(count); // no more than that
         _scenes.resize(count);
-        _bounds.reserve(count);
-        _bounds.resize(count);
         _prints.reserve(count);
         _prints.resize(count);
     }
@@ -75,9 +73,18 @@ bool PlacedScenes::set(const std::vector<Placement>& placements)
         changed = true;
     }
     if (!changed) return false;
+    _placements = placements.data();
     rtcSetGeometryUserPrimitiveCount(_geometry.get(), static_cast<unsigned int>(count));
     rtcCommitGeometry(_geometry.get());
     return true;
+}
+
+Box PlacedScenes::bounds(std::size_t i) const
+{
+    const Placement& placement = _placements[i];
+    if (!placement.engineFromLocal) return boundsOf(placement.scene);
+    if (placement.outline) return placement.outline->placedBounds(*placement.engineFromLocal);
+    return Outline(boundsOf(placement.scene)).placedBounds(*placement.engineFromLocal);
 }
 
 void PlacedScenes::put(std::size_t i, const Placement& placement)
@@ -88,12 +95,6 @@ void PlacedScenes::put(std::size_t i, const Placement& placement)
     const Affine m = placement.engineFromLocal ? inverse(*placement.engineFromLocal) : Affine();
     std::memcpy(placed.localFromEngine, &m.linear, 9 * sizeof(float));
     std::memcpy(placed.localFromEngine + 9, &m.translation, 3 * sizeof(float));
-    if (placement.engineFromLocal && placement.outline)
-        _bounds[i] = placement.outline->placedBounds(*placement.engineFromLocal);
-    else if (placement.engineFromLocal)
-        _bounds[i] = Outline(boundsOf(placement.scene)).placedBounds(*placement.engineFromLocal);
-    else
-        _bounds[i] = boundsOf(placement.scene);
     _prints[i] = placement.print;
 }
 

@@ -49,19 +49,22 @@ public:
 
     bool holds(const std::vector<Placement>& placements) const;
 
-    /// Redoes what differs and commits the geometry, unless nothing differs: then false.
+    /// Redoes what differs and commits the geometry, unless nothing differs: then false. The
+    /// placements are read once more when the scene is committed that has the geometry.
     bool set(const std::vector<Placement>& placements);
 
     const PlacedScene& operator[](std::size_t i) const { return _scenes[i]; }
-    const Box& bounds(std::size_t i) const { return _bounds[i]; }
+
+    /// While placements are there.
+    Box bounds(std::size_t i) const;
 
 private:
     void put(std::size_t i, const Placement& placement);
 
     GeometryHandle _geometry;
+    const Placement* _placements = nullptr;
     // By primitive:
     std::vector<PlacedScene> _scenes;
-    std::vector<Box> _bounds;
     std::vector<uint64_t> _prints;
 };
 

@@ -167,7 +167,10 @@ void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
     _inheritedPrint = inherited.value();
     _first = firstNode(root);
     if (_first) recordNode(*_first, kNone, osg::Matrixd(), _first == &root ? 1 : 2);
-    _known = {}; // its buckets, too
+    std::unordered_map<const void*, uint32_t>().swap(_known); // its buckets, too
+    _slots.shrink_to_fit();
+    _places.shrink_to_fit();
+    _visits.shrink_to_fit();
     _recorded = true;
 }
 

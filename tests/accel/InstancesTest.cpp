@@ -361,7 +361,7 @@ TEST_CASE("instances: bounds hold a mesh wherever it is placed, and a turned bal
         CAPTURE(mesh->positions.size(), widest);
         CHECK(outside == 0);
         if (mesh == ball || mesh == stray)
-            CHECK(widest < 1.25f * 2.0f); // its box: up to 1.73 times
+            CHECK(widest < 1.3f * 2.0f); // its box: up to 1.73 times
     }
 }
 
