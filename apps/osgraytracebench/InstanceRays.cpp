@@ -213,6 +213,39 @@ void traceOurs(const Intersector& intersector, const Packets& packets, Coherence
     }
 }
 
+void traceBareSingly(RTCScene scene, const Packets& packets)
+{
+    QueryArguments query(false, nullptr);
+    for (const RayBlock& rays : packets)
+        for (int i = 0; i < kLanes; ++i)
+        {
+            RTCRayHit ray = {};
+            ray.ray = {rays.originX[i],
+                       rays.originY[i],
+                       rays.originZ[i],
+                       rays.tNear[i],
+                       rays.directionX[i],
+                       rays.directionY[i],
+                       rays.directionZ[i],
+                       0.0f,
+                       rays.tFar[i],
+                       0xffffffffu,
+                       0,
+                       0};
+            ray.hit.geomID = ray.hit.instID[0] = kInvalid;
+            query.intersect1(scene, &ray);
+        }
+}
+
+void traceOursSingly(const Intersector& intersector, const Packets& packets)
+{
+    for (const RayBlock& rays : packets)
+        for (int i = 0; i < kLanes; ++i)
+            intersector.closestHit({rays.originX[i], rays.originY[i], rays.originZ[i]},
+                                   {rays.directionX[i], rays.directionY[i], rays.directionZ[i]},
+                                   rays.tNear[i], rays.tFar[i]);
+}
+
 void shadowBare(RTCScene scene, const Packets& packets)
 {
     QueryArguments query(false, nullptr);
@@ -248,6 +281,9 @@ void measure(const std::string& name, bool turned, Rows& rows)
     add(
         "scattered rays", [&] { traceOurs(ours, scattered, Coherence::Incoherent); },
         [&] { traceBare(bare.top(), scattered, false); });
+    add(
+        "scattered rays singly", [&] { traceOursSingly(ours, scattered); },
+        [&] { traceBareSingly(bare.top(), scattered); });
     add(
         "shadow rays", [&] { shadowOurs(ours, scattered); },
         [&] { shadowBare(bare.top(), scattered); });

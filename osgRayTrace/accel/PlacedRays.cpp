@@ -75,38 +75,6 @@ OSGRAYTRACE_INLINE void occludeIn(const RTCOccludedFunctionNArguments* args,
     takeOut<N>(outside, rays);
 }
 
-OSGRAYTRACE_KERNEL
-void intersectAll(const RTCIntersectFunctionNArguments* args, const PlacedScene& placed)
-{
-    switch (args->N)
-    {
-    case 1:
-        return intersectIn<1>(args, placed);
-    case 4:
-        return intersectIn<4>(args, placed);
-    case 8:
-        return intersectIn<8>(args, placed);
-    case 16:
-        return intersectIn<16>(args, placed);
-    }
-}
-
-OSGRAYTRACE_KERNEL
-void occludeAll(const RTCOccludedFunctionNArguments* args, const PlacedScene& placed)
-{
-    switch (args->N)
-    {
-    case 1:
-        return occludeIn<1>(args, placed);
-    case 4:
-        return occludeIn<4>(args, placed);
-    case 8:
-        return occludeIn<8>(args, placed);
-    case 16:
-        return occludeIn<16>(args, placed);
-    }
-}
-
 void intersectInPlace(const RTCIntersectFunctionNArguments* args, RTCScene scene)
 {
     switch (args->N)
@@ -142,21 +110,51 @@ template <class Arguments> const PlacedScene& placedScene(const Arguments* args)
     return (*static_cast<const PlacedScenes*>(args->geometryUserPtr))[args->primID];
 }
 
+OSGRAYTRACE_KERNEL
 void intersect(const RTCIntersectFunctionNArguments* args)
 {
     const PlacedScene& placed = placedScene(args);
     if (placed.instance == kInvalid) return intersectInPlace(args, placed.scene);
     args->context->instID[0] = placed.instance;
-    intersectAll(args, placed);
+    switch (args->N)
+    {
+    case 1:
+        intersectIn<1>(args, placed);
+        break;
+    case 4:
+        intersectIn<4>(args, placed);
+        break;
+    case 8:
+        intersectIn<8>(args, placed);
+        break;
+    case 16:
+        intersectIn<16>(args, placed);
+        break;
+    }
     args->context->instID[0] = kInvalid;
 }
 
+OSGRAYTRACE_KERNEL
 void occlude(const RTCOccludedFunctionNArguments* args)
 {
     const PlacedScene& placed = placedScene(args);
     if (placed.instance == kInvalid) return occludeInPlace(args, placed.scene);
     args->context->instID[0] = placed.instance;
-    occludeAll(args, placed);
+    switch (args->N)
+    {
+    case 1:
+        occludeIn<1>(args, placed);
+        break;
+    case 4:
+        occludeIn<4>(args, placed);
+        break;
+    case 8:
+        occludeIn<8>(args, placed);
+        break;
+    case 16:
+        occludeIn<16>(args, placed);
+        break;
+    }
     args->context->instID[0] = kInvalid;
 }
 

@@ -168,6 +168,11 @@ std::shared_ptr<const RootPart> PartPool::root(const std::vector<Placement>& pla
         root->device = _device;
         root->placed = std::make_unique<PlacedScenes>(_device->handle());
         root->scene = newScene(_device->handle());
+        // Narrow nodes: a third of the top level's memory less. Packets go through them faster, by
+        // a tenth at best, single rays slower by some percent.
+        if (_device->nativeWidth() == 16)
+            rtcSetSceneFlags(root->scene.get(),
+                             RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
         rtcAttachGeometry(root->scene.get(), root->placed->geometry());
     }
     root->sound = false;
