@@ -201,7 +201,7 @@ void Renderer::Implementation::convertScene()
     const engine::ReferenceView view{viewMatrix, projectionMatrix, double(width), double(height)};
     const ConversionKey key{eye, view, clearColor, headlight, settings->getColorRule(),
                             engine::lightSizesOf(*settings),
-                            materialFile.library(settings->getMaterials(), sceneDirty)};
+                            materialFile.materials(settings->getMaterials(), sceneDirty)};
     if (traced && !sceneDirty && key == convertedFor) return;
 
     const std::lock_guard<std::mutex> lock(graphMutex());
