@@ -7,6 +7,16 @@ namespace
 
 osgRayTrace::bench::RecordedRays* recording = nullptr;
 
+/// While Embree traces: what the engine asks of it then, for parts of the scene, are the same rays.
+thread_local bool tracing = false;
+
+struct Tracing
+{
+    Tracing() { tracing = true; }
+    ~Tracing() { tracing = before; }
+    const bool before = tracing;
+};
+
 template <class Packet> RTCRay rayOf(const Packet& packet, int i)
 {
     RTCRay ray = {};
@@ -51,37 +61,43 @@ void __real_rtcOccluded1(RTCScene, RTCIntersectContext*, RTCRay*);
 
 void __wrap_rtcIntersect16(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRayHit16* rays)
 {
-    if (recording) takeDown(valid, 16, scene, rays->ray, closestHitList(context));
+    if (!tracing && recording) takeDown(valid, 16, scene, rays->ray, closestHitList(context));
+    const Tracing now;
     __real_rtcIntersect16(valid, scene, context, rays);
 }
 
 void __wrap_rtcIntersect8(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRayHit8* rays)
 {
-    if (recording) takeDown(valid, 8, scene, rays->ray, closestHitList(context));
+    if (!tracing && recording) takeDown(valid, 8, scene, rays->ray, closestHitList(context));
+    const Tracing now;
     __real_rtcIntersect8(valid, scene, context, rays);
 }
 
 void __wrap_rtcIntersect1(RTCScene scene, RTCIntersectContext* context, RTCRayHit* ray)
 {
-    if (recording) closestHitList(context).push_back(ray->ray);
+    if (!tracing && recording) closestHitList(context).push_back(ray->ray);
+    const Tracing now;
     __real_rtcIntersect1(scene, context, ray);
 }
 
 void __wrap_rtcOccluded16(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* rays)
 {
-    if (recording) takeDown(valid, 16, scene, *rays, recording->shadow);
+    if (!tracing && recording) takeDown(valid, 16, scene, *rays, recording->shadow);
+    const Tracing now;
     __real_rtcOccluded16(valid, scene, context, rays);
 }
 
 void __wrap_rtcOccluded8(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay8* rays)
 {
-    if (recording) takeDown(valid, 8, scene, *rays, recording->shadow);
+    if (!tracing && recording) takeDown(valid, 8, scene, *rays, recording->shadow);
+    const Tracing now;
     __real_rtcOccluded8(valid, scene, context, rays);
 }
 
 void __wrap_rtcOccluded1(RTCScene scene, RTCIntersectContext* context, RTCRay* ray)
 {
-    if (recording) recording->shadow.push_back(*ray);
+    if (!tracing && recording) recording->shadow.push_back(*ray);
+    const Tracing now;
     __real_rtcOccluded1(scene, context, ray);
 }
 

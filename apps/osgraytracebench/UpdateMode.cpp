@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/UpdateMode.h"
 
+#include "apps/osgraytracebench/InstanceRays.h"
 #include "apps/osgraytracebench/ObjectField.h"
 #include "apps/osgraytracebench/ResidentBytes.h"
 #include "apps/osgraytracebench/Timing.h"
@@ -233,6 +234,7 @@ Rows measureUpdate()
 {
     Rows rows;
     measureInstances(rows);
+    measureInstanceRays(rows);
     measureEdits(rows);
     return rows;
 }

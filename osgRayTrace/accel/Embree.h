@@ -34,7 +34,55 @@ struct FilterContext : RayQueryContext
 {
     const HitFilter* filter = nullptr;
     HitRule rule;
+    bool coherent = false;
 };
+
+/// Traces a part of the scene within a callback that was asked to: the query goes on with the rays
+/// as they are now.
+template <int N> void intersectPart(const RTCIntersectFunctionNArguments* args, RTCScene scene)
+{
+    void* const rays = args->rayhit;
+#if OSGRAYTRACE_EMBREE == 4
+    RTCIntersectArguments part;
+    rtcInitIntersectArguments(&part);
+    part.context = args->context;
+    if (static_cast<const FilterContext*>(args->context)->coherent)
+        part.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    if constexpr (N == 1) rtcIntersect1(scene, static_cast<RTCRayHit*>(rays), &part);
+    if constexpr (N == 4) rtcIntersect4(args->valid, scene, static_cast<RTCRayHit4*>(rays), &part);
+    if constexpr (N == 8) rtcIntersect8(args->valid, scene, static_cast<RTCRayHit8*>(rays), &part);
+    if constexpr (N == 16)
+        rtcIntersect16(args->valid, scene, static_cast<RTCRayHit16*>(rays), &part);
+#else
+    RTCIntersectContext* const query = args->context;
+    if constexpr (N == 1) rtcIntersect1(scene, query, static_cast<RTCRayHit*>(rays));
+    if constexpr (N == 4) rtcIntersect4(args->valid, scene, query, static_cast<RTCRayHit4*>(rays));
+    if constexpr (N == 8) rtcIntersect8(args->valid, scene, query, static_cast<RTCRayHit8*>(rays));
+    if constexpr (N == 16)
+        rtcIntersect16(args->valid, scene, query, static_cast<RTCRayHit16*>(rays));
+#endif
+}
+
+/// The same for occlusion, which has no coherent queries.
+template <int N> void occludePart(const RTCOccludedFunctionNArguments* args, RTCScene scene)
+{
+    void* const rays = args->ray;
+#if OSGRAYTRACE_EMBREE == 4
+    RTCOccludedArguments part;
+    rtcInitOccludedArguments(&part);
+    part.context = args->context;
+    if constexpr (N == 1) rtcOccluded1(scene, static_cast<RTCRay*>(rays), &part);
+    if constexpr (N == 4) rtcOccluded4(args->valid, scene, static_cast<RTCRay4*>(rays), &part);
+    if constexpr (N == 8) rtcOccluded8(args->valid, scene, static_cast<RTCRay8*>(rays), &part);
+    if constexpr (N == 16) rtcOccluded16(args->valid, scene, static_cast<RTCRay16*>(rays), &part);
+#else
+    RTCIntersectContext* const query = args->context;
+    if constexpr (N == 1) rtcOccluded1(scene, query, static_cast<RTCRay*>(rays));
+    if constexpr (N == 4) rtcOccluded4(args->valid, scene, query, static_cast<RTCRay4*>(rays));
+    if constexpr (N == 8) rtcOccluded8(args->valid, scene, query, static_cast<RTCRay8*>(rays));
+    if constexpr (N == 16) rtcOccluded16(args->valid, scene, query, static_cast<RTCRay16*>(rays));
+#endif
+}
 
 /// The per-query arguments of either version, with the coherence flag.
 class QueryArguments
@@ -44,6 +92,7 @@ public:
     {
         _context.filter = filter;
         _context.rule = rule;
+        _context.coherent = coherent;
 #if OSGRAYTRACE_EMBREE == 4
         rtcInitRayQueryContext(&_context);
         rtcInitIntersectArguments(&_intersect);

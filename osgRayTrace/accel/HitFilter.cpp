@@ -53,9 +53,8 @@ void filter(const RTCFilterFunctionNArguments* args)
     {
         if (args->valid[i] == 0) continue;
         HitFilter::Candidate c;
-        c.instance =
-            context.filter->instanceOf(RTCHitN_geomID(args->hit, n, i),
-                                       RTCHitN_instID(args->hit, n, i, 0));
+        c.instance = hitInstance(RTCHitN_geomID(args->hit, n, i),
+                                 RTCHitN_instID(args->hit, n, i, 0));
         c.primitive = RTCHitN_primID(args->hit, n, i);
         c.u = RTCHitN_u(args->hit, n, i);
         c.v = RTCHitN_v(args->hit, n, i);

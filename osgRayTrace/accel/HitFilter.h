@@ -17,9 +17,9 @@ namespace osgRayTrace::engine
 class HitFilter
 {
 public:
-    /// Both are kept. flatInstance: see Intersector.
-    HitFilter(const SurfaceTable& surfaces, const MaterialTable& materials, uint32_t flatInstance)
-        : _surfaces(surfaces), _materials(materials), _flatInstance(flatInstance)
+    /// Both are kept.
+    HitFilter(const SurfaceTable& surfaces, const MaterialTable& materials)
+        : _surfaces(surfaces), _materials(materials)
     {
     }
 
@@ -33,17 +33,9 @@ public:
 
     bool stops(const Candidate& candidate, HitRule rule) const;
 
-    /// Of Embree's two indices.
-    uint32_t instanceOf(uint32_t embreeGeometry, uint32_t embreeInstance) const
-    {
-        return hitInstance(embreeGeometry,
-                           embreeInstance == _flatInstance ? kInvalid : embreeInstance);
-    }
-
 private:
     const SurfaceTable& _surfaces;
     const MaterialTable& _materials;
-    uint32_t _flatInstance;
 };
 
 /// Has HitFilter asked for hits on the geometry, an RTCGeometry.

@@ -117,24 +117,10 @@ RTCRay singleRay(const RayBlock& block, int lane)
         block.tNear[lane], block.tFar[lane]);
 }
 
-/// Geometry of the flat part is known by its own index.
-OSGRAYTRACE_KERNEL
-void forgetInstance(UintLanes& instances, uint32_t flat)
-{
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < kLanes; ++i)
-        instances[i] = instances[i] == flat ? kInvalid : instances[i];
-}
-
 } // namespace
 
-Intersector::Intersector(void* embreeScene, int nativeWidth, float reach, uint32_t flatInstance,
-                         const HitFilter* filter)
-    : _scene(embreeScene),
-      _nativeWidth(nativeWidth),
-      _reach(reach),
-      _filter(filter),
-      _flatInstance(flatInstance)
+Intersector::Intersector(void* embreeScene, int nativeWidth, float reach, const HitFilter* filter)
+    : _scene(embreeScene), _nativeWidth(nativeWidth), _reach(reach), _filter(filter)
 {
 }
 
@@ -146,7 +132,6 @@ LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence
     std::memset(&block.geometry, 0xff, sizeof(block.geometry));
     std::memset(&block.instance, 0xff, sizeof(block.instance));
     query(block, valid, active, coherence, rule);
-    if (_flatInstance != kInvalid) forgetInstance(block.instance, _flatInstance);
     return refused;
 }
 
@@ -259,8 +244,7 @@ std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tN
     query.intersect1(static_cast<RTCScene>(_scene), &single);
     if (single.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     Hit hit;
-    const uint32_t instance = single.hit.instID[0] == _flatInstance ? kInvalid : single.hit.instID[0];
-    hit.instance = hitInstance(single.hit.geomID, instance);
+    hit.instance = hitInstance(single.hit.geomID, single.hit.instID[0]);
     hit.primitive = single.hit.primID;
     hit.u = single.hit.u;
     hit.v = single.hit.v;

@@ -41,10 +41,8 @@ class Intersector
 {
 public:
     /// Opaque handle of an RTCScene; used by TracedScene. Rays whose origin is farther than reach from the
-    /// scene's are refused. flatInstance: the Embree instance, if any, whose geometry is not placed.
-    /// filter is kept; null: no geometry asks it.
-    Intersector(void* embreeScene, int nativeWidth, float reach, uint32_t flatInstance = kInvalid,
-                const HitFilter* filter = nullptr);
+    /// scene's are refused. filter is kept; null: no geometry asks it.
+    Intersector(void* embreeScene, int nativeWidth, float reach, const HitFilter* filter = nullptr);
 
     /// Closest hits of the active lanes; geometry is kInvalid in the others. Returns the lanes whose ray was
     /// refused (geometry is kInvalid there, too).
@@ -65,7 +63,6 @@ private:
     int _nativeWidth;
     float _reach;
     const HitFilter* _filter;
-    uint32_t _flatInstance;
 };
 
 } // namespace osgRayTrace::engine

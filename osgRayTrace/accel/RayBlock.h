@@ -33,7 +33,7 @@ struct RayHitBlock
 };
 
 /// Index into Scene::instances of the surface hit: instances are attached by their own index, those that
-/// are placed by a transform as Embree instances.
+/// are placed by a transform as instances.
 OSGRAYTRACE_INLINE uint32_t hitInstance(uint32_t embreeGeometry, uint32_t embreeInstance)
 {
     return embreeInstance != kInvalid ? embreeInstance : embreeGeometry;

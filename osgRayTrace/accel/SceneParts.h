@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/accel/BvhQuality.h"
 #include "osgRayTrace/accel/EmbreeDevice.h"
+#include "osgRayTrace/accel/PlacedScenes.h"
 #include "osgRayTrace/scene/Mesh.h"
 
 #include <atomic>
@@ -22,12 +23,7 @@ struct SceneRelease
 {
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
-struct GeometryRelease
-{
-    void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
 using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease>;
-using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, GeometryRelease>;
 
 /// Counted while a scene is built, by several threads.
 struct BuildCounts
@@ -42,6 +38,7 @@ struct Prototype
     std::shared_ptr<const Mesh> mesh;     ///< owns the buffers that Embree reads
     bool filtered = false;                ///< rays may pass what they meet: see HitFilter
     SceneHandle scene;
+    std::optional<Outline> outline;    ///< null: it deforms
     RTCGeometry triangles = nullptr;   ///< the scene's own; set if it can be refitted
     std::optional<BvhQuality> quality; ///< likewise
     uint64_t serial = 0;               ///< a new one for each build and refit
@@ -66,20 +63,12 @@ struct FlatPart
     uint64_t serial = 0;
 };
 
-/// What a root holds at an index: an instance of a scene.
-struct Placement
-{
-    RTCScene scene = nullptr; ///< null: nothing
-    uint64_t serial = 0;      ///< of the prototype
-    const Affine* engineFromLocal = nullptr;
-};
-
 /// The BVH over instances.
 struct RootPart
 {
     std::shared_ptr<EmbreeDevice> device;
+    std::unique_ptr<PlacedScenes> placed;
     SceneHandle scene;
-    std::vector<uint64_t> prints; ///< of the placements; 0: nothing there
     uint64_t generation = 0;
     bool sound = true; ///< false while it is changed
 };
@@ -104,17 +93,13 @@ public:
                                          std::vector<std::shared_ptr<const Mesh>> owners,
                                          BuildCounts& counts);
 
-    /// A root with these placements, by index; a spare one is changed where it differs.
+    /// A root with these placements; a spare one is changed where it differs.
     std::shared_ptr<const RootPart> root(const std::vector<Placement>& placements,
-                                         const std::vector<uint64_t>& prints, BuildCounts& counts);
+                                         BuildCounts& counts);
 
     /// Something was removed. Forgets spare prototypes of other meshes than those with these
-    /// triangles.
+    /// triangles, and all roots that exist, spare or not: they have room for what is gone.
     void keepOnly(const std::unordered_set<const UVec3*>& triangles);
-
-    /// Likewise: from all other roots, spare or given back later, what is not in the newest one is taken
-    /// out, which may be gone.
-    void keepPlacements(std::shared_ptr<const RootPart> newest);
 
     /// Takes a part back, or deletes it. Any thread.
     void giveBack(std::unique_ptr<Prototype> prototype);
@@ -136,7 +121,6 @@ private:
     std::unordered_multimap<const UVec3*, std::unique_ptr<Prototype>> _prototypes;
     std::vector<std::unique_ptr<RootPart>> _roots;
     uint64_t _generation = 0;
-    std::vector<uint64_t> _kept; ///< prints of the newest root of this generation
 };
 
 } // namespace osgRayTrace::engine

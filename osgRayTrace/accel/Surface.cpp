@@ -76,7 +76,7 @@ OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primi
     Vec3 nc = record.normals[t.z];
     if (record.placed)
     {
-        const Mat3& normalFromLocal = record.placed->normalFromLocal;
+        const Mat3 normalFromLocal = normalMatrix(record.placed->engineFromLocal.linear);
         // Interpolation comes after normalisation in OpenGL, so vertex normals keep equal weights here.
         na = glm::normalize(normalFromLocal * na);
         nb = glm::normalize(normalFromLocal * nb);

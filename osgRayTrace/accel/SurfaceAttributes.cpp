@@ -26,11 +26,14 @@ void setGenerated(const SurfaceRecord& record, uint32_t primitive, float u, floa
     const float w = 1.0f - u - v;
     const Vec3 a = record.positions[t.x], b = record.positions[t.y], c = record.positions[t.z];
     point.position = a * w + b * u + c * v;
+    Mat3 normalFromLocal(1.0f);
     if (record.placed)
+    {
         point.position = transformPoint(record.placed->engineFromLocal, point.position);
-
-    const auto toEngine = [&record](Vec3 n) // vertex normals keep equal weights, as in surfacesOf
-    { return record.placed ? glm::normalize(record.placed->normalFromLocal * n) : n; };
+        normalFromLocal = normalMatrix(record.placed->engineFromLocal.linear);
+    }
+    const auto toEngine = [&](Vec3 n) // vertex normals keep equal weights, as in surfacesOf
+    { return record.placed ? glm::normalize(normalFromLocal * n) : n; };
     const Vec3 normal =
         record.normals
             ? toEngine(record.normals[t.x]) * w + toEngine(record.normals[t.y]) * u +

@@ -1,16 +1,16 @@
-// SurfaceTable.h - what shading needs of each instance, one cache line or two. Layer: accel.
+// SurfaceTable.h - what shading needs of each instance, and nothing twice. Layer: accel.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/scene/Mesh.h"
+#include "osgRayTrace/scene/Scene.h"
 
 #include <vector>
 
 namespace osgRayTrace::engine
 {
 
-/// Pointers into the Scene's meshes; null where a mesh lacks the attribute.
-struct SurfaceRecord
+/// Pointers into a mesh; null where it lacks the attribute.
+struct MeshArrays
 {
     const UVec3* triangles = nullptr;
     const Vec3* positions = nullptr;
@@ -18,12 +18,39 @@ struct SurfaceRecord
     const Vec2* uvs = nullptr;
     const Vec2* uvs1 = nullptr;
     const Vec4* colors = nullptr;
-    const Instance* placed = nullptr; ///< its transforms; null: positions are in engine space
+};
+
+/// The mesh of an instance, and what the instance makes of it.
+struct SurfaceRecord : MeshArrays
+{
+    const Instance* placed = nullptr; ///< its transform; null: positions are in engine space
     uint32_t material = 0;
     uint32_t light = kInvalid;
 };
 
-/// Indexed by instance.
-using SurfaceTable = std::vector<SurfaceRecord>;
+/// Indexed by instance. Put together when asked for: instances of one mesh are many.
+class SurfaceTable
+{
+public:
+    SurfaceTable() = default;
+
+    /// The scene is kept by pointers into it. Takes over from a previous table, of the previous
+    /// scene, if there is one.
+    SurfaceTable(const Scene& scene, const SurfaceTable* previous, const Scene* previousScene);
+
+    std::size_t size() const { return _size; }
+    bool isEmpty(uint32_t mesh) const { return !_meshes[mesh].triangles; }
+
+    SurfaceRecord operator[](std::size_t instance) const
+    {
+        const Instance& use = _instances[instance];
+        return {_meshes[use.mesh], use.placed ? &use : nullptr, use.material, use.light};
+    }
+
+private:
+    const Instance* _instances = nullptr;
+    std::size_t _size = 0;
+    std::vector<MeshArrays> _meshes;
+};
 
 } // namespace osgRayTrace::engine

@@ -51,22 +51,13 @@ double reachOf(const Affine& m)
     return reach - distance;
 }
 
-/// What an instance needs of Embree.
-struct InstanceState
-{
-    float reach = 0.0f; ///< of reachOf(), if it is placed
-    bool empty = false; ///< its mesh has no triangles
-};
-
-constexpr Affine kInPlace{};
-
-/// Of a placement: two alike are hardly ever different ones. Not 0.
-uint64_t printOf(uint64_t serial, const Affine& m)
+/// Of a placement: two alike are hardly ever different ones.
+uint64_t printOf(uint64_t serial, uint32_t instance, const Affine& m)
 {
     float values[12];
     std::memcpy(values, &m.linear, 9 * sizeof(float));
     std::memcpy(values + 9, &m.translation, 3 * sizeof(float));
-    uint64_t print = serial * 0x9e3779b97f4a7c15u;
+    uint64_t print = (serial * 0x9e3779b97f4a7c15u) ^ (uint64_t(instance) << 32);
     for (int i = 0; i < 12; i += 2)
     {
         uint64_t bits;
@@ -74,7 +65,7 @@ uint64_t printOf(uint64_t serial, const Affine& m)
         print = (print ^ bits) * 0xbf58476d1ce4e5b9u;
         print ^= print >> 29;
     }
-    return print | 1u;
+    return print;
 }
 
 bool samePlace(const Instance& a, const Instance& b)
@@ -122,18 +113,6 @@ bool serves(const FlatPart::Members& has, const FlatPart::Members& wanted)
                       });
 }
 
-SurfaceRecord surfaceOf(const Mesh& mesh)
-{
-    SurfaceRecord record;
-    record.triangles = mesh.triangles.data();
-    record.positions = mesh.positions.data();
-    record.normals = mesh.normals.empty() ? nullptr : mesh.normals.data();
-    record.uvs = mesh.uvs.empty() ? nullptr : mesh.uvs.data();
-    record.uvs1 = mesh.uvs1.empty() ? nullptr : mesh.uvs1.data();
-    record.colors = mesh.colors.empty() ? nullptr : mesh.colors.data();
-    return record;
-}
-
 } // namespace
 
 struct TracedScene::Implementation
@@ -145,7 +124,7 @@ struct TracedScene::Implementation
     std::size_t prototypeCount = 0;
     std::shared_ptr<const FlatPart> flat;                     ///< null: there is none
     std::shared_ptr<const RootPart> root;                     ///< null: the flat part is all
-    std::vector<InstanceState> states;                        ///< by instance
+    std::vector<float> reaches; ///< by instance: of reachOf(), if it is placed
     std::unique_ptr<Intersector> intersector;
     SurfaceTable surfaces;
     std::shared_ptr<const MaterialPart> materials;
@@ -158,10 +137,9 @@ struct TracedScene::Implementation
 
     bool sameMeshes = false; ///< as in the previous one, with the same instances of them
     bool samePlaces = false; ///< and these where they were
-    bool anyGone = false;    ///< the previous one had prototypes that this one has not
     bool sameMaterials = false;
 
-    void fillStates(const Implementation* old);
+    void compareInstances(const Implementation* old);
     void findAttached();
     bool takeStructures(const Implementation* old);
     void makePrototypes(const Implementation* old, const Workers& workers, BuildCounts& counts);
@@ -173,38 +151,28 @@ struct TracedScene::Implementation
     float reach() const;
 };
 
-/// States and surfaces of the instances: those of the previous scene where mesh and place are the same.
-void TracedScene::Implementation::fillStates(const Implementation* old)
+/// Reaches are those of the previous scene where places are the same.
+void TracedScene::Implementation::compareInstances(const Implementation* old)
 {
+    surfaces =
+        SurfaceTable(*scene, old ? &old->surfaces : nullptr, old ? old->scene.get() : nullptr);
     const std::vector<Instance>& instances = scene->instances;
-    states.resize(instances.size());
-    surfaces.resize(instances.size());
+    reaches.resize(instances.size(), 0.0f);
     sameMeshes = samePlaces = old && old->scene->instances.size() == instances.size();
     for (std::size_t i = 0; i < instances.size(); ++i)
     {
         const Instance& instance = instances[i];
-        const std::shared_ptr<const Mesh>& mesh = scene->meshes[instance.mesh];
         const Instance* before =
             old && i < old->scene->instances.size() ? &old->scene->instances[i] : nullptr;
-        const bool sameMesh = before && old->scene->meshes[before->mesh] == mesh;
-        if (sameMesh)
-        {
-            states[i] = old->states[i];
-            surfaces[i] = old->surfaces[i];
-        }
-        else
-        {
-            surfaces[i] = surfaceOf(*mesh);
-            states[i].empty = mesh->triangles.empty();
-        }
-        sameMeshes = sameMeshes && sameMesh && before->placed == instance.placed;
+        const bool sameMesh =
+            before && old->scene->meshes[before->mesh] == scene->meshes[instance.mesh];
         const bool stays = sameMesh && samePlace(instance, *before);
+        sameMeshes = sameMeshes && sameMesh && before->placed == instance.placed;
         samePlaces = samePlaces && stays && before->mesh == instance.mesh;
-        if (instance.placed && !stays)
-            states[i].reach = static_cast<float>(reachOf(instance.engineFromLocal));
-        surfaces[i].placed = instance.placed ? &instance : nullptr;
-        surfaces[i].material = instance.material;
-        surfaces[i].light = instance.light;
+        if (!instance.placed) continue;
+        reaches[i] = before && samePlace(instance, *before)
+                         ? old->reaches[i]
+                         : static_cast<float>(reachOf(instance.engineFromLocal));
     }
 }
 
@@ -218,8 +186,8 @@ void TracedScene::Implementation::findAttached()
     for (std::size_t i = 0; i < attached.size(); ++i)
     {
         const Instance& instance = scene->instances[i];
-        if (states[i].empty || invisible[instance.material]) continue;
-        const bool invalid = instance.placed && states[i].reach == 0.0f;
+        if (surfaces.isEmpty(instance.mesh) || invisible[instance.material]) continue;
+        const bool invalid = instance.placed && reaches[i] == 0.0f;
         if (invalid) ++statistics.invalidInstances;
         attached[i] = !invalid;
     }
@@ -293,8 +261,7 @@ void TracedScene::Implementation::makePrototypes(const Implementation* old, cons
     else
         workers.forEach(missing.size(), make);
     prototypes = made;
-    anyGone = old && kept + deformed < old->prototypeCount;
-    if (anyGone) forgetGone();
+    if (old && kept + deformed < old->prototypeCount) forgetGone();
 }
 
 /// What the previous scene had and this one has not is not kept for later ones.
@@ -330,27 +297,32 @@ void TracedScene::Implementation::makeFlat(const Implementation* old, BuildCount
 
 void TracedScene::Implementation::makeRoot(const Implementation* old, BuildCounts& counts)
 {
-    const std::size_t count = scene->instances.size();
-    std::vector<Placement> placements(count + 1);
-    std::vector<uint64_t> prints(count + 1, 0);
-    const auto place = [&](std::size_t i, RTCScene prototype, uint64_t serial, const Affine& m)
-    {
-        placements[i] = {prototype, serial, &m};
-        prints[i] = printOf(serial, m);
-    };
-    bool any = false;
-    for (std::size_t i = 0; i < count; ++i)
+    std::vector<Placement> placements;
+    for (std::size_t i = 0; i < attached.size(); ++i)
     {
         const Instance& instance = scene->instances[i];
         if (!attached[i] || !instance.placed) continue;
         const Prototype& prototype = *(*prototypes)[instance.mesh];
-        place(i, prototype.scene.get(), prototype.serial, instance.engineFromLocal);
-        any = true;
+        Placement placement;
+        placement.scene = prototype.scene.get();
+        placement.outline = prototype.outline ? &*prototype.outline : nullptr;
+        placement.engineFromLocal = &instance.engineFromLocal;
+        placement.instance = static_cast<uint32_t>(i);
+        placement.print =
+            printOf(prototype.serial, placement.instance, instance.engineFromLocal);
+        placements.push_back(placement);
     }
-    if (!any && flat) return;
-    if (flat) place(count, flat->scene.get(), flat->serial, kInPlace);
-    root = old && old->root && old->root->prints == prints ? old->root
-                                                           : pool->root(placements, prints, counts);
+    if (placements.empty() && flat) return;
+    if (flat)
+    {
+        Placement placement;
+        placement.scene = flat->scene.get();
+        placement.print = printOf(flat->serial, kInvalid, Affine());
+        placements.push_back(placement);
+    }
+    root = old && old->root && old->root->placed->holds(placements)
+               ? old->root
+               : pool->root(placements, counts);
 }
 
 /// Shared with the previous one where nothing that they are made of has changed.
@@ -371,7 +343,7 @@ float TracedScene::Implementation::reach() const
 {
     float reach = static_cast<float>(kLargestCoordinate);
     for (std::size_t i = 0; i < attached.size(); ++i)
-        if (attached[i] && scene->instances[i].placed) reach = std::min(reach, states[i].reach);
+        if (attached[i] && scene->instances[i].placed) reach = std::min(reach, reaches[i]);
     return reach;
 }
 
@@ -398,7 +370,7 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     built.scene = std::move(scene);
 
     BuildCounts counts;
-    built.fillStates(old);
+    built.compareInstances(old);
     built.makeTables(old);
     built.findFiltered();
     built.findAttached();
@@ -410,18 +382,13 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
             {
                 built.makeFlat(old, counts);
                 built.makeRoot(old, counts);
-                if (built.anyGone) built.pool->keepPlacements(built.root);
             });
     }
     EmbreeDevice& device = *built.pool->device();
     RTCScene top = (built.root ? built.root->scene : built.flat->scene).get();
-    const bool hasFlat = built.root && built.flat;
-    const uint32_t flatInstance =
-        hasFlat ? static_cast<uint32_t>(built.scene->instances.size()) : kInvalid;
-    built.filter =
-        std::make_unique<HitFilter>(built.surfaces, built.materials->table, flatInstance);
-    built.intersector = std::make_unique<Intersector>(
-        top, device.nativeWidth(), built.reach(), flatInstance, built.filter.get());
+    built.filter = std::make_unique<HitFilter>(built.surfaces, built.materials->table);
+    built.intersector = std::make_unique<Intersector>(top, device.nativeWidth(), built.reach(),
+                                                      built.filter.get());
 
     BuildStatistics& statistics = built.statistics;
     statistics.builtMeshes = counts.built;

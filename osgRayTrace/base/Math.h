@@ -35,6 +35,13 @@ struct Affine
 
 inline Vec3 transformPoint(const Affine& m, Vec3 p) { return m.linear * p + m.translation; }
 
+/// Takes normals where linear takes points: its inverse transpose. In double, since shears and
+/// uneven scales cancel. Not normalised.
+inline Mat3 normalMatrix(const Mat3& linear)
+{
+    return Mat3(glm::transpose(glm::inverse(glm::dmat3(linear))));
+}
+
 /// Rec. 709 luminance of a linear RGB radiance.
 inline float luminance(Vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 

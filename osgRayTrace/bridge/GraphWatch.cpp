@@ -97,6 +97,8 @@ void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
         _graph.append(*_first, kNowhere, osg::Matrixd(), _graph.firstDepth, _plain);
     }
     _graph.finish();
+    _graph.nodes.shrink_to_fit();
+    _graph.places.shrink_to_fit();
     _recorded = true;
 }
 

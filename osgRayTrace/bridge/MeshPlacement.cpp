@@ -62,9 +62,7 @@ bool placeInstance(Instance& instance, const osg::Matrixd& engineFromMesh)
     if (!isPlaceable(affine)) return false;
     instance.placed = true;
     instance.engineFromLocal = affine;
-    const glm::dmat3 linear(affine.linear);
-    instance.normalFromLocal = Mat3(glm::transpose(glm::inverse(linear)));
-    instance.mirrored = glm::determinant(linear) < 0.0;
+    instance.mirrored = glm::determinant(glm::dmat3(affine.linear)) < 0.0;
     return true;
 }
 

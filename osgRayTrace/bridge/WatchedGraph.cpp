@@ -162,7 +162,7 @@ void WatchedGraph::appendGeometry(osg::Geometry& geometry, WatchedNode entry)
 
 void WatchedGraph::finish()
 {
-    _known.clear();
+    std::unordered_map<const osg::Node*, bool>().swap(_known); // its buckets, too
 }
 
 void WatchedGraph::insert(uint32_t at, osg::Node& node, uint32_t parent,

@@ -30,16 +30,15 @@ struct Mesh
     Stamp changed = 0;
 };
 
-/// A mesh placed in the scene with a material.
+/// A mesh placed in the scene with a material. There may be very many: no more here than is needed.
 struct Instance
 {
     uint32_t mesh = 0;            ///< index into Scene::meshes
     uint32_t material = 0;        ///< index into Scene::materials
     uint32_t light = kInvalid;    ///< index into Scene::lights if it emits, else kInvalid
     bool placed = false;          ///< false: positions are in engine space already, transform unused
-    Affine engineFromLocal;       ///< used if placed; invertible and finite (the converter checks)
-    Mat3 normalFromLocal{1.0f};   ///< inverse transpose of the linear part, not normalised
     bool mirrored = false;        ///< determinant < 0: the winding is reversed
+    Affine engineFromLocal;       ///< used if placed; invertible and finite (the converter checks)
     Stamp changed = 0;
 };
 

@@ -28,7 +28,6 @@ SceneBuilder placedBox(const Affine& transform)
     Instance& instance = builder.scene->instances[index];
     instance.placed = true;
     instance.engineFromLocal = transform;
-    instance.normalFromLocal = glm::transpose(glm::inverse(transform.linear));
     return builder;
 }
 

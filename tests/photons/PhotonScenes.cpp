@@ -40,7 +40,6 @@ void place(SceneBuilder& builder, uint32_t instance, const Mat3& linear, Vec3 tr
     placed.placed = true;
     placed.engineFromLocal.linear = linear;
     placed.engineFromLocal.translation = translation;
-    placed.normalFromLocal = glm::transpose(glm::inverse(linear));
     placed.mirrored = glm::determinant(linear) < 0.0f;
 }
 

@@ -127,7 +127,6 @@ TEST_CASE("agreement: a placed and mirrored scene shows what the scene moved bef
             instance.placed = instance.mirrored = placed;
             if (!placed) return;
             instance.engineFromLocal = transform;
-            instance.normalFromLocal = glm::transpose(glm::inverse(transform.linear));
         };
         add(quadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), lambert(Vec3(0.7f, 0.5f, 0.3f)), false);
         add(sphereMesh({0, 0, 0.5f}, 0.4f, 16), glass(1.5f), false);

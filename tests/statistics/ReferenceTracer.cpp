@@ -50,7 +50,7 @@ SurfacePoint surfaceAt(const Scene& scene, const Hit& hit, Vec3d direction)
         if (!instance.placed) continue;
         p[k] = glm::dmat3(instance.engineFromLocal.linear) * p[k] +
                Vec3d(instance.engineFromLocal.translation);
-        n[k] = glm::dmat3(instance.normalFromLocal) * n[k];
+        n[k] = glm::transpose(glm::inverse(glm::dmat3(instance.engineFromLocal.linear))) * n[k];
     }
     const double u = hit.u, v = hit.v, w = 1.0 - u - v;
     SurfacePoint point;

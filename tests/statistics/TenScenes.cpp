@@ -129,7 +129,6 @@ SceneBuilder instances()
                                           Mat3(k == 1 ? -1.0f : 1.0f, 0, 0, 0, 1, 0, 0, 0, 1);
         instance.engineFromLocal.translation =
             Vec3(1.0f * float(k) - 1.0f, 0.3f * float(k) - 0.4f, 0);
-        instance.normalFromLocal = glm::transpose(glm::inverse(instance.engineFromLocal.linear));
     }
     const uint32_t light =
         builder.addEmissive(quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), lamp(Vec3(2.5f)));
@@ -137,7 +136,6 @@ SceneBuilder instances()
     instance.placed = true;
     instance.engineFromLocal.linear = Mat3(1.6f, 0, 0, 0, 1.2f, 0.3f, 0, 0, 1);
     instance.engineFromLocal.translation = Vec3(-0.8f, -0.8f, 2.0f);
-    instance.normalFromLocal = glm::transpose(glm::inverse(instance.engineFromLocal.linear));
     return builder;
 }
 
