@@ -8,6 +8,7 @@
 #include "osgRayTrace/bridge/LightConverter.h"
 #include "osgRayTrace/bridge/MaterialConverter.h"
 #include "osgRayTrace/bridge/MeshPlacement.h"
+#include "osgRayTrace/bridge/PickIndex.h"
 #include "osgRayTrace/bridge/SceneExtent.h"
 #include "osgRayTrace/bridge/ScenePatcher.h"
 #include "osgRayTrace/bridge/SnapshotStamps.h"
@@ -608,6 +609,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     result.counts = report.counts();
     result.paths = report.paths();
     warnOnceAReason(report, input.rasterizesRest);
+    if (input.picks) result.pickIndex = std::make_shared<PickIndex>(graph, state.index.instances);
     addUntraced(graph.rasterized, state.index);
     const auto draws = [](const RasterizedPart& part) { return part.kind == RasterizedPart::Draw; };
     if (std::any_of(graph.rasterized.begin(), graph.rasterized.end(), draws))
