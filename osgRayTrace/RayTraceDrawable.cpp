@@ -396,12 +396,17 @@ bool RayTraceDrawable::pick(RayIntersector& ray, osgUtil::IntersectionVisitor& v
         rule.solid = !ray.getVisibleOnly();
         rule.culls = rule.keepsBlended = ray.getVisibleOnly();
         engine::ScenePicker picker(*version.scene, *version.pickIndex, visitor, rule);
-        const auto traced = picker.pick(local.getStart(), local.getEnd(), bound,
-                                        ray.getIntersectionLimit());
-        const auto rasterized = engine::pickRasterized(*version.pickIndex, visitor, ray);
-        for (const auto* hits : {&traced, &rasterized})
-            for (const auto& hit : *hits)
-                ray.insertIntersection(hit);
+        const osgUtil::Intersector::IntersectionLimit limit = ray.getIntersectionLimit();
+        auto hits = picker.pick(local.getStart(), local.getEnd(), bound, limit);
+        for (auto& hit : engine::pickRasterized(*version.pickIndex, visitor, ray))
+            hits.push_back(std::move(hit));
+        if (limit == osgUtil::Intersector::LIMIT_ONE || limit == osgUtil::Intersector::LIMIT_NEAREST)
+        {
+            std::sort(hits.begin(), hits.end());
+            if (hits.size() > 1) hits.resize(1);
+        }
+        for (const auto& hit : hits)
+            ray.insertIntersection(hit);
         return true;
     }
     catch (const std::exception& error)

@@ -394,7 +394,7 @@ bool GraphCollector::collectLeaf(osg::Node& node)
 {
     if (const auto* light = dynamic_cast<const AreaLight*>(&node))
     {
-        _graph.areaLights.push_back({light, engineFromLocal(), path()});
+        _graph.areaLights.push_back({light, engineFromLocal(), path(), pickPath()});
         return true;
     }
     if (const auto* light = dynamic_cast<const EnvironmentLight*>(&node))

@@ -65,6 +65,7 @@ struct CollectedAreaLight
     const AreaLight* light = nullptr;
     osg::Matrixd engineFromLocal;
     std::string path;
+    uint32_t pickPath = NodeTree::kNone; ///< as GeometryUse::path
 };
 
 struct CollectedEnvironment

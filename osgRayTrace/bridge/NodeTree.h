@@ -10,9 +10,9 @@
 namespace osgRayTrace::engine
 {
 
-/// Paths from below the decorator, each as one number: what paths have in common at their beginnings is
-/// there once. A node of the tree takes 24 bytes and holds a reference to its osg::Node, so that a path
-/// outlives what it leads to.
+/// Paths from below the decorator, each as one number: what paths have in common at their
+/// beginnings is there once. A node of the tree takes 24 bytes and holds a reference to its
+/// osg::Node, so that a path outlives what it leads to.
 class NodeTree
 {
 public:
@@ -25,8 +25,8 @@ public:
     osg::Node& node(uint32_t entry) const { return *_entries[entry].node; }
     uint32_t parent(uint32_t entry) const { return _entries[entry].parent; }
 
-    /// The first node on the way whose place or whose children's depends on who looks at them: billboards
-    /// and the like, cameras, absolute transforms. kNone: all keep their places.
+    /// The first node on the way whose place or whose children's depends on who looks at them:
+    /// billboards and the like, cameras, absolute transforms. kNone: all keep their places.
     uint32_t placedByView(uint32_t entry) const { return _entries[entry].placedByView; }
 
     /// The entries on the way to this one, the outermost first.

@@ -54,6 +54,8 @@ PickIndex::PickIndex(CollectedGraph& graph, const std::vector<uint32_t>& instanc
         if (part.kind == RasterizedPart::Draw && path != NodeTree::kNone)
             addPart(path, part.inPlace.get());
     }
+    for (const CollectedAreaLight& light : graph.areaLights)
+        if (light.pickPath != NodeTree::kNone) addPart(light.pickPath, nullptr);
     const auto before = [](const Part& a, const Part& b) { return a.path < b.path; };
     const auto same = [](const Part& a, const Part& b) { return a.path == b.path; };
     std::stable_sort(_parts.begin(), _parts.end(), before);

@@ -17,23 +17,23 @@ namespace osgRayTrace::engine
 
 struct CollectedGraph;
 
-/// Of one conversion and those that patch it: instances keep their numbers. Takes 8 bytes an instance, 16 a
-/// geometry and the tree of paths. Any thread.
+/// Of one conversion and those that patch it: instances keep their numbers. Takes 8 bytes an
+/// instance, 16 a geometry and the tree of paths. Any thread.
 class PickIndex
 {
 public:
-    /// instances: of all uses of the graph's geometries in turn, kInvalid for what is not traced. Takes the
-    /// graph's paths.
+    /// instances: of all uses of the graph's geometries in turn, kInvalid for what is not traced.
+    /// Takes the graph's paths.
     PickIndex(CollectedGraph& graph, const std::vector<uint32_t>& instances);
 
     /// What an instance is in the graph.
     struct Use
     {
-        uint32_t path = NodeTree::kNone; ///< kNone: no drawable of the graph, or one of a part
+        uint32_t path = NodeTree::kNone; ///< kNone: it is in a part
         uint32_t geometry = kInvalid;
     };
 
-    /// What is left to osgUtil: drawn by OSG, or placed by the view.
+    /// What is left to osgUtil: drawn by OSG, placed by the view, or a lamp.
     struct Part
     {
         uint32_t path = NodeTree::kNone;
@@ -45,7 +45,10 @@ public:
     Use use(uint32_t instance) const;
 
     /// Whose arrays the use's mesh was made of: of posed figures not the node of the graph.
-    const osg::Geometry& geometry(const Use& use) const { return *_geometries[use.geometry].geometry; }
+    const osg::Geometry& geometry(const Use& use) const
+    {
+        return *_geometries[use.geometry].geometry;
+    }
 
     /// Made when the geometry is hit for the first time, which takes a walk through its primitives.
     GeometryTriangle triangle(const Use& use, const Mesh& mesh, uint32_t triangle) const;

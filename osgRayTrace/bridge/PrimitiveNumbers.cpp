@@ -34,11 +34,12 @@ bool isPlainList(const osg::Geometry& geometry, const PrimitiveRestart& restart,
 /// Mirrored meshes have them turned.
 bool isSame(const UVec3& mesh, const UVec3& geometry)
 {
-    return mesh == geometry || (mesh.x == geometry.x && mesh.y == geometry.z && mesh.z == geometry.y);
+    return mesh == geometry ||
+           (mesh.x == geometry.x && mesh.y == geometry.z && mesh.z == geometry.y);
 }
 
-/// The triangles of a mesh are those of its geometry in their order, without those that were dropped; some
-/// may have been cut. Gives the place of each among the geometry's.
+/// The triangles of a mesh are those of its geometry in their order, without those that were
+/// dropped; some may have been cut. Gives the place of each among the geometry's.
 class Finder
 {
 public:

@@ -9,8 +9,8 @@
 namespace osgRayTrace::engine
 {
 
-/// The segment against the parts of the index that the visitor, which is at the decorator, may visit: with
-/// its masks, matrices and choices. Throws std::bad_alloc.
+/// The segment against the parts of the index that the visitor, which is at the decorator, may
+/// visit: with its masks, matrices and choices. Throws std::bad_alloc.
 std::vector<osgUtil::LineSegmentIntersector::Intersection>
 pickRasterized(const PickIndex& index, osgUtil::IntersectionVisitor& visitor,
                const osgUtil::LineSegmentIntersector& segment);

@@ -54,18 +54,20 @@ std::vector<ScenePicker::Hit> ScenePicker::pick(const osg::Vec3d& start, const o
     std::vector<Hit> hits;
     const std::optional<EngineRay> ray = engineRay(bound);
     if (!ray) return hits;
-    const bool one = limit == osgUtil::Intersector::LIMIT_ONE ||
-                     limit == osgUtil::Intersector::LIMIT_NEAREST;
+    const bool one =
+        limit == osgUtil::Intersector::LIMIT_ONE || limit == osgUtil::Intersector::LIMIT_NEAREST;
     const bool onePerDrawable = limit == osgUtil::Intersector::LIMIT_ONE_PER_DRAWABLE;
     float tNear = ray->tNear;
     while (const std::optional<engine::Hit> found = _scene.intersector().closestHit(
                ray->origin, ray->direction, tNear, ray->tFar, _rule))
     {
         std::optional<Hit> hit = hitOf(*found, ray->first + double(found->t) * ray->perLength);
-        const bool again =
-            hit && onePerDrawable &&
-            std::any_of(hits.begin(), hits.end(), [&hit](const Hit& other)
-                        { return other.nodePath == hit->nodePath && other.drawable == hit->drawable; });
+        const bool again = hit && onePerDrawable &&
+                           std::any_of(hits.begin(), hits.end(),
+                                       [&hit](const Hit& other) {
+                                           return other.nodePath == hit->nodePath &&
+                                                  other.drawable == hit->drawable;
+                                       });
         if (hit && !again) hits.push_back(std::move(*hit));
         if (one && !hits.empty()) break;
         // The same ray finds the same distances: the next float is past what it has hit.
@@ -74,10 +76,9 @@ std::vector<ScenePicker::Hit> ScenePicker::pick(const osg::Vec3d& start, const o
     return hits;
 }
 
-/// Cut to the bound of the scene: a segment may begin at a near plane far outside, where floats are coarse.
-/// A little longer than the segment at both ends; what is too far is refused in double.
-std::optional<ScenePicker::EngineRay>
-ScenePicker::engineRay(const osg::BoundingSphere& bound) const
+/// Cut to the bound of the scene: a segment may begin at a near plane far outside, where floats are
+/// coarse. A little longer than the segment at both ends; what is too far is refused in double.
+std::optional<ScenePicker::EngineRay> ScenePicker::engineRay(const osg::BoundingSphere& bound) const
 {
     if (!isFinite(_start) || !isFinite(_end)) return std::nullopt;
     const osg::Vec3d along = _end - _start;
@@ -122,21 +123,22 @@ std::optional<ScenePicker::Hit> ScenePicker::hitOf(const engine::Hit& found, dou
     GeometryTriangle triangle = _index.triangle(use, mesh, found.primitive);
     // Mirrored where they are, triangles were turned: see GeometryConverter.
     const osg::Matrixd& m = _sceneFromLocal;
-    const bool mirrored = osg::Vec3d(m(0, 0), m(0, 1), m(0, 2)) *
-                              (osg::Vec3d(m(1, 0), m(1, 1), m(1, 2)) ^
-                               osg::Vec3d(m(2, 0), m(2, 1), m(2, 2))) < 0.0;
+    const bool mirrored =
+        osg::Vec3d(m(0, 0), m(0, 1), m(0, 2)) *
+            (osg::Vec3d(m(1, 0), m(1, 1), m(1, 2)) ^ osg::Vec3d(m(2, 0), m(2, 1), m(2, 2))) <
+        0.0;
     if (mirrored && !scene.instances[found.instance].placed)
         std::swap(triangle.rows.y, triangle.rows.z);
     if (!placeOnTriangle(_index.geometry(use), triangle.rows, ratio, hit))
         placeOnSurface(found, ratio, hit);
     if (!(hit.ratio >= 0.0 && hit.ratio <= 1.0)) return std::nullopt;
-    hit.primitiveIndex = triangle.primitive != kInvalid ? triangle.primitive
-                                                        : primitiveByOsg(*hit.drawable, hit);
+    hit.primitiveIndex =
+        triangle.primitive != kInvalid ? triangle.primitive : primitiveByOsg(*hit.drawable, hit);
     return hit;
 }
 
-/// Sets what is known from the path alone, and the drawable's coordinates as they are now. False if the
-/// visitor's mask hides it.
+/// Sets what is known from the path alone, and the drawable's coordinates as they are now. False if
+/// the visitor's mask hides it.
 bool ScenePicker::leadTo(uint32_t path, Hit& hit)
 {
     const NodeTree& paths = _index.paths();
@@ -162,8 +164,8 @@ bool ScenePicker::leadTo(uint32_t path, Hit& hit)
     if (!_localFromScene.invert(_sceneFromLocal)) return false;
     hit.matrix = _visitor.getModelMatrix();
     if (moved)
-        hit.matrix = new osg::RefMatrix(
-            hit.matrix ? _sceneFromLocal * *hit.matrix : _sceneFromLocal);
+        hit.matrix =
+            new osg::RefMatrix(hit.matrix ? _sceneFromLocal * *hit.matrix : _sceneFromLocal);
     _localStart = _start * _localFromScene;
     _localEnd = _end * _localFromScene;
     return hit.drawable.valid();
@@ -211,8 +213,8 @@ void ScenePicker::placeOnSurface(const engine::Hit& found, double ratio, Hit& hi
     if (instance.placed) normal = glm::dmat3(instance.normalFromLocal) * normal;
     hit.ratio = ratio;
     hit.localIntersectionPoint = _localStart + (_localEnd - _localStart) * ratio;
-    hit.localIntersectionNormal = osg::Matrixd::transform3x3(
-        _sceneFromLocal, osg::Vec3d(normal.x, normal.y, normal.z));
+    hit.localIntersectionNormal =
+        osg::Matrixd::transform3x3(_sceneFromLocal, osg::Vec3d(normal.x, normal.y, normal.z));
     hit.localIntersectionNormal.normalize();
 }
 

@@ -14,9 +14,9 @@
 namespace osgRayTrace::engine
 {
 
-/// Looks for hits with the surfaces of one traced scene. Rays find the triangles in float; where on them,
-/// and how far, is then computed in double from the geometry's own vertices and the transforms as they are
-/// now, as osgUtil does. Used by one thread; throws std::bad_alloc.
+/// Looks for hits with the surfaces of one traced scene. Rays find the triangles in float; where on
+/// them, and how far, is then computed in double from the geometry's own vertices and the
+/// transforms as they are now, as osgUtil does. Used by one thread; throws std::bad_alloc.
 class ScenePicker
 {
 public:
@@ -29,8 +29,9 @@ public:
     {
     }
 
-    /// From start to end, in the scene's coordinates: the first, or all of them, of a drawable the first or
-    /// all. bound: of the scene; what is outside of it is not looked at, which keeps floats exact.
+    /// From start to end, in the scene's coordinates: the first, or all of them, of a drawable the
+    /// first or all. bound: of the scene; what is outside of it is not looked at, which keeps
+    /// floats exact.
     std::vector<Hit> pick(const osg::Vec3d& start, const osg::Vec3d& end,
                           const osg::BoundingSphere& bound,
                           osgUtil::Intersector::IntersectionLimit limit);
@@ -56,7 +57,7 @@ private:
     const PickIndex& _index;
     osgUtil::IntersectionVisitor& _visitor;
     HitRule _rule;
-    osg::Vec3d _start, _end;                     ///< in the scene
+    osg::Vec3d _start, _end;                       ///< in the scene
     osg::Matrixd _sceneFromLocal, _localFromScene; ///< of the drawable last led to
     osg::Vec3d _localStart, _localEnd;
     std::vector<uint32_t> _way;

@@ -1,5 +1,5 @@
-// Picks.h - the same segment by osgUtil's intersector and by ours, and how the two agree. Layer: tests.
-// SPDX-License-Identifier: MIT
+// Picks.h - the same segment by osgUtil's intersector and by ours, and how the two agree. Layer:
+// tests. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osgRayTrace/RayIntersector>
@@ -35,9 +35,9 @@ inline Picks picksOfOsg(osg::Node& root, const Line& line)
     return picksOf(root, *segment);
 }
 
-inline Picks picksByRay(osg::Node& root, const Line& line,
-                        osgUtil::Intersector::IntersectionLimit limit =
-                            osgUtil::Intersector::LIMIT_NEAREST)
+inline Picks
+picksByRay(osg::Node& root, const Line& line,
+           osgUtil::Intersector::IntersectionLimit limit = osgUtil::Intersector::LIMIT_NEAREST)
 {
     const osg::ref_ptr<RayIntersector> ray = new RayIntersector(line.start, line.end);
     ray->setIntersectionLimit(limit);
@@ -47,8 +47,8 @@ inline Picks picksByRay(osg::Node& root, const Line& line,
 /// Of one ray: our nearest hit and all of osgUtil's.
 enum class Relation
 {
-    Same,  ///< its nearest, or both have none
-    Tie,   ///< another one as near, within rounding
+    Same, ///< its nearest, or both have none
+    Tie,  ///< another one as near, within rounding
     Other,
 };
 
@@ -83,8 +83,8 @@ inline std::string describe(const Picks& picks)
     return text.str();
 }
 
-/// Whether a ray that is moved by less than rounding in float has our hit by osgUtil's reckoning: it runs
-/// along an edge, a seam or the rim of the model.
+/// Whether a ray that is moved by less than rounding in float has our hit by osgUtil's reckoning:
+/// it runs along an edge, a seam or the rim of the model.
 inline bool isAtAnEdge(osg::Node& root, const Line& line, const Picks& ours, const Picks&,
                        double tolerance)
 {
