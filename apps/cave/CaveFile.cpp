@@ -131,10 +131,10 @@ CaveFile::CaveFile(const std::string& file, const std::string& host)
 void CaveFile::load(const std::string& file, const std::string& host)
 {
     std::ifstream stream(file, std::ios::binary);
-    std::stringstream text;
-    if (!stream || std::filesystem::is_directory(file) || !(text << stream.rdbuf()))
+    if (!stream || std::filesystem::is_directory(file))
         throw Failure(kCannotLoad, "cannot read " + file);
-    CaveElement root = parseCave(text.str(), file);
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    CaveElement root = parseCave(text, file);
     unwrap(root, "COCONFIG", [](const CaveElement&) { return true; });
     unwrap(root, "GLOBAL", [](const CaveElement&) { return true; });
     unwrap(root, "LOCAL",
