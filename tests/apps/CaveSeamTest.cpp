@@ -144,9 +144,9 @@ TEST_CASE("four walls stitched together are one panorama, without a seam")
     }
     INFO("largest " << largest * 255 << ", mean " << sum / count * 255 << ", at edges "
                     << edges / edgeCount * 255);
-    CHECK(largest < 3.5 / 255.0);
-    CHECK(sum / count < 0.8 / 255.0);
-    CHECK(edges / edgeCount < 0.8 / 255.0);
+    CHECK(largest < 1.5 / 255.0);
+    CHECK(sum / count < 0.6 / 255.0);
+    CHECK(edges / edgeCount < 0.6 / 255.0);
 }
 
 TEST_CASE("the viewer refuses what is no CAVE")
