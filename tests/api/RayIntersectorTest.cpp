@@ -83,6 +83,32 @@ TEST_CASE("a pick tells all that osgUtil tells, of all hits of a segment")
         CHECK((weighted(pick) - pick.getLocalIntersectPoint()).length() < 1e-6);
 }
 
+TEST_CASE("primitives are counted with those that are not traced")
+{
+    const osg::ref_ptr<osg::Geometry> geometry = carpet(0.0f);
+    const osg::ref_ptr<osg::PrimitiveSet> triangles = geometry->getPrimitiveSet(0);
+    geometry->setPrimitiveSetList({triangles}); // every third of them has no area
+    const osg::ref_ptr<RayTracedScene> scene = sceneOf(geometry);
+    CHECK(checkLines(*scene, 200) > 30);
+}
+
+TEST_CASE("vertices in double are picked, which osgUtil passes by")
+{
+    const osg::ref_ptr<osg::Geometry> geometry = tiles(1.0f);
+    const auto& floats = static_cast<const osg::Vec3Array&>(*geometry->getVertexArray());
+    const osg::ref_ptr<osg::Vec3dArray> vertices =
+        new osg::Vec3dArray(floats.begin(), floats.end());
+    geometry->setVertexArray(vertices);
+    const osg::ref_ptr<RayTracedScene> scene = sceneOf(geometry);
+    const Line line{{0.3, -0.3, 5.0}, {0.3, -0.3, -5.0}};
+    CHECK(picksOfOsg(*scene, line).empty());
+    const Picks picks = picksByRay(*scene, line);
+    REQUIRE(picks.size() == 1);
+    CHECK(picks.front().ratio == Approx(0.4).epsilon(1e-12));
+    CHECK(picks.front().primitiveIndex == 2);
+    CHECK((picks.front().localIntersectionNormal - osg::Vec3(0, 0, 1)).length() < 1e-6f);
+}
+
 TEST_CASE("a pick is right far from the origin and below transforms above the scene")
 {
     const osg::Matrixd far = osg::Matrixd::rotate(1.0, osg::Vec3d(0.3, -1, 2)) *
