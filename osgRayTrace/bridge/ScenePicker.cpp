@@ -221,6 +221,10 @@ void ScenePicker::placeOnSurface(const engine::Hit& found, double ratio, Hit& hi
 /// The primitive of the drawable that osgUtil meets nearest to the hit; 0 if it meets none.
 uint32_t ScenePicker::primitiveByOsg(osg::Drawable& drawable, const Hit& hit) const
 {
+    const osg::Geometry* geometry = drawable.asGeometry();
+    const osg::Array* vertices = geometry ? geometry->getVertexArray() : nullptr;
+    if (!vertices || vertices->getType() != osg::Array::Vec3ArrayType)
+        return 0; // osgUtil would read nothing, at a null pointer
     osg::ref_ptr<osgUtil::LineSegmentIntersector> segment =
         new osgUtil::LineSegmentIntersector(_localStart, _localEnd);
     osgUtil::IntersectionVisitor visitor(segment.get());

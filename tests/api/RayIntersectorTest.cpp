@@ -92,7 +92,7 @@ TEST_CASE("primitives are counted with those that are not traced")
     CHECK(checkLines(*scene, 200) > 30);
 }
 
-TEST_CASE("vertices in double are picked, which osgUtil passes by")
+TEST_CASE("vertices in double are picked, which osgUtil cannot read")
 {
     const osg::ref_ptr<osg::Geometry> geometry = tiles(1.0f);
     const auto& floats = static_cast<const osg::Vec3Array&>(*geometry->getVertexArray());
@@ -101,7 +101,6 @@ TEST_CASE("vertices in double are picked, which osgUtil passes by")
     geometry->setVertexArray(vertices);
     const osg::ref_ptr<RayTracedScene> scene = sceneOf(geometry);
     const Line line{{0.3, -0.3, 5.0}, {0.3, -0.3, -5.0}};
-    CHECK(picksOfOsg(*scene, line).empty());
     const Picks picks = picksByRay(*scene, line);
     REQUIRE(picks.size() == 1);
     CHECK(picks.front().ratio == Approx(0.4).epsilon(1e-12));
