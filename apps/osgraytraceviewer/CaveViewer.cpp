@@ -89,13 +89,20 @@ void separateEyes(const WallPicture& picture, bool offscreen)
         picture.camera->setReadBuffer(left ? GL_BACK_LEFT : GL_BACK_RIGHT);
     }
     if (picture.wall->stereo == CaveStereo::Anaglyph)
-        picture.camera->setColorMask(new osg::ColorMask(left, !left, !left, true));
+    {
+        picture.camera->getOrCreateStateSet()->setAttribute(
+            new osg::ColorMask(left, !left, !left, true),
+            osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+        picture.camera->setRenderOrder(osg::Camera::POST_RENDER, left ? 0 : 1);
+        if (!left) picture.camera->setClearMask(GL_DEPTH_BUFFER_BIT);
+    }
 }
 
 osg::ref_ptr<osg::GraphicsContext> windowContext(const CaveSetup& setup, const CaveWindow& window)
 {
     osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
     traits->readDISPLAY();
+    traits->setUndefinedScreenDetailsToDefaultScreen();
     if (window.displayServer != 0 || window.displayScreen != 0)
     {
         traits->displayNum = window.displayServer;
