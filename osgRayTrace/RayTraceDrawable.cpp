@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/RayTraceDrawable>
 
+#include <osgRayTrace/RayIntersector>
+
 #include "osgRayTrace/DisplayTexture.h"
 #include "osgRayTrace/bridge/PageRequests.h"
+#include "osgRayTrace/bridge/RasterizedPicker.h"
+#include "osgRayTrace/bridge/ScenePicker.h"
 #include "osgRayTrace/bridge/SceneUpdater.h"
 #include "osgRayTrace/bridge/StatisticsFromEngine.h"
 #include "osgRayTrace/bridge/ViewFromMatrices.h"
@@ -374,6 +378,42 @@ void RayTraceDrawable::cullRasterized(osgUtil::CullVisitor& visitor) const
 void RayTraceDrawable::requestPages(osg::Group& scene, osgUtil::CullVisitor& visitor) const
 {
     if (_implementation->scene.version().paged) engine::requestPages(scene, visitor);
+}
+
+/// False: osgUtil shall look for hits in the children. bound: of them.
+bool RayTraceDrawable::pick(RayIntersector& ray, osgUtil::IntersectionVisitor& visitor,
+                            const osg::BoundingSphere& bound)
+{
+    try
+    {
+        const osg::ref_ptr<osgUtil::Intersector> clone = ray.clone(visitor);
+        const auto& local = static_cast<const osgUtil::LineSegmentIntersector&>(*clone);
+        const engine::SceneVersion version =
+            _implementation->scene.versionToPick(_scene.get(), *_settings, local.getStart());
+        if (!version.scene || !version.pickIndex) return false;
+
+        engine::HitRule rule;
+        rule.solid = !ray.getVisibleOnly();
+        rule.culls = rule.keepsBlended = ray.getVisibleOnly();
+        engine::ScenePicker picker(*version.scene, *version.pickIndex, visitor, rule);
+        const osgUtil::Intersector::IntersectionLimit limit = ray.getIntersectionLimit();
+        auto hits = picker.pick(local.getStart(), local.getEnd(), bound, limit);
+        for (auto& hit : engine::pickRasterized(*version.pickIndex, visitor, ray))
+            hits.push_back(std::move(hit));
+        if (limit == osgUtil::Intersector::LIMIT_ONE || limit == osgUtil::Intersector::LIMIT_NEAREST)
+        {
+            std::sort(hits.begin(), hits.end());
+            if (hits.size() > 1) hits.resize(1);
+        }
+        for (const auto& hit : hits)
+            ray.insertIntersection(hit);
+        return true;
+    }
+    catch (const std::exception& error)
+    {
+        _implementation->fail(engine::StatusCode::OutOfMemory, error.what());
+        return false;
+    }
 }
 
 void RayTraceDrawable::forgetFailure()

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/RayTracedScene>
 
+#include <osgRayTrace/RayIntersector>
+
 #include "osgRayTrace/bridge/DrawHint.h"
 
 #include <osg/NodeVisitor>
@@ -187,11 +189,21 @@ void RayTracedScene::traverse(osg::NodeVisitor& visitor)
     }
 
     if (_enabled && uploads(visitor)) return;
+    if (_enabled && pick(visitor)) return;
     osg::Group::traverse(visitor);
     // Before the first cull the light and the eye are not known: that cull converts.
     const bool update = visitor.getVisitorType() == osg::NodeVisitor::UPDATE_VISITOR;
     if (update && _enabled && _drawable->isViewed())
         _drawable->updateScene(visitor.getFrameStamp());
+}
+
+/// True if the visitor picks with a ray and has its hits.
+bool RayTracedScene::pick(osg::NodeVisitor& visitor)
+{
+    osgUtil::IntersectionVisitor* picks = visitor.asIntersectionVisitor();
+    if (!picks || picks->getDoDummyTraversal()) return false;
+    auto* ray = dynamic_cast<RayIntersector*>(picks->getIntersector());
+    return ray && _drawable->pick(*ray, *picks, getBound());
 }
 
 osg::BoundingSphere RayTracedScene::computeBound() const

@@ -5,6 +5,7 @@
 #include "apps/osgraytracebench/FeaturesMode.h"
 #include "apps/osgraytracebench/LimitMode.h"
 #include "apps/osgraytracebench/PhotonsMode.h"
+#include "apps/osgraytracebench/PickMode.h"
 #include "apps/osgraytracebench/UpdateMode.h"
 #include "apps/osgraytracebench/report/CompareMode.h"
 #include "apps/osgraytracebench/report/ReportMode.h"
@@ -40,7 +41,7 @@ struct CommandLine
 {
     CommandLine()
     {
-        for (CLI::App* rows : {&limit, &features, &photons, &update})
+        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick})
             rows->add_option("--json", json, "write the rows to this file as well");
 
         photons
@@ -113,6 +114,7 @@ struct CommandLine
     {
         if (limit) return runRows(measureLimit, json);
         if (features) return runRows(measureFeatures, json);
+        if (pick) return runRows(measurePicks, json);
         if (update) return runRows(measureUpdate, json);
         if (photons) return runRows([&] { return measurePhotons(photonsOptions); }, json);
         if (compare) return runCompare(before, after, falseAlarmRate);
@@ -129,6 +131,8 @@ struct CommandLine
         "photons", "photon maps against a plain grid and Embree alone; error against time");
     CLI::App& update = *application.add_subcommand(
         "update", "what edits of a large live scene cost, against Embree alone");
+    CLI::App& pick = *application.add_subcommand(
+        "pick", "what a pick costs, against osgUtil's own and one ray");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(

@@ -1,5 +1,6 @@
 // main.cpp - osgraytraceviewer: models, ray traced in a window. Layer: apps.
 // SPDX-License-Identifier: MIT
+#include "CaveViewer.h"
 #include "KeyHandler.h"
 #include "StatusLine.h"
 
@@ -62,6 +63,7 @@ void describe(osg::ApplicationUsage& usage)
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
         usage.addCommandLineOption("--" + option.name + " <" + option.range + ">", option.help,
                                    settings->get(option.name));
+    describeCave(usage);
 }
 
 /// Names and values of the settings on the command line; nothing if a value is none of its option's.
@@ -123,26 +125,38 @@ void showAsStored(osgViewer::Viewer& viewer, osg::Node& scene)
     camera->setProjectionMatrixAsPerspective(placement->fovyDegrees, 1.25, 1.0, 10000.0);
 }
 
-int show(osgViewer::Viewer& viewer, const std::vector<std::string>& models,
-         const Assignments& assignments, osg::ApplicationUsage* usage)
+/// Models with the ray traced scene that they are in.
+struct Models
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->addChild(readScene(models).get());
+    osg::ref_ptr<RayTracedScene> scene;
+};
 
+/// Throws Failure(kCannotLoad).
+Models readModels(const std::vector<std::string>& names, const Assignments& assignments)
+{
+    Models models;
+    models.root->addChild(readScene(names).get());
     FindTracedScene brought;
-    root->accept(brought);
-    osg::ref_ptr<RayTracedScene> scene = brought.found;
-    if (!scene)
+    models.root->accept(brought);
+    models.scene = brought.found;
+    if (!models.scene)
     {
-        scene = new RayTracedScene;
-        scene->addChild(root.get());
-        root = new osg::Group;
-        root->addChild(scene.get());
+        models.scene = new RayTracedScene;
+        models.scene->addChild(models.root.get());
+        models.root = new osg::Group;
+        models.root->addChild(models.scene.get());
     }
     for (const auto& [name, value] : assignments)
-        scene->getSettings()->set(name, value);
-    const std::string materialsError = scene->getSettings()->getMaterialsError();
-    if (!materialsError.empty()) return fail(kCannotLoad, "--materials " + materialsError);
+        models.scene->getSettings()->set(name, value);
+    const std::string materialsError = models.scene->getSettings()->getMaterialsError();
+    if (!materialsError.empty()) throw Failure(kCannotLoad, "--materials " + materialsError);
+    return models;
+}
+
+int show(osgViewer::Viewer& viewer, const Models& models, osg::ApplicationUsage* usage)
+{
+    const auto& [root, scene] = models;
     osg::ref_ptr<StatusLine> statusLine = new StatusLine(scene.get());
     root->addChild(statusLine->camera());
 
@@ -167,6 +181,7 @@ int run(int argc, char** argv)
     const bool help = arguments.read("-h") || arguments.read("--help");
     const std::optional<Assignments> assignments = readSettings(arguments);
     if (!assignments) return kUsage;
+    const CaveOptions cave = readCaveOptions(arguments);
     osgViewer::Viewer viewer(arguments);
     if (help)
     {
@@ -183,9 +198,11 @@ int run(int argc, char** argv)
         arguments.writeErrorMessages(std::cerr);
         return kUsage;
     }
-    const std::vector<std::string> models = modelNames(arguments);
-    if (models.empty()) return fail(kUsage, "no MODEL given; --help shows options and keys");
-    return show(viewer, models, *assignments, &usage);
+    const std::vector<std::string> names = modelNames(arguments);
+    if (names.empty()) return fail(kUsage, "no MODEL given; --help shows options and keys");
+    const Models models = readModels(names, *assignments);
+    if (!cave.file.empty()) return runCave(cave, models.root.get(), models.scene.get());
+    return show(viewer, models, &usage);
 }
 
 } // namespace

@@ -73,6 +73,7 @@ void filter(const RTCFilterFunctionNArguments* args)
 
 bool HitFilter::stops(const Candidate& c, HitRule rule) const
 {
+    if (rule.solid) return true;
     const SurfaceRecord& surface = _surfaces[c.instance];
     const MaterialRecord& record = _materials[surface.material];
     if (!record.partial) return true;

@@ -232,7 +232,8 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
     return refused;
 }
 
-std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar) const
+std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar,
+                                           HitRule rule) const
 {
     if (!traceable(_reach, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tNear, tFar))
         return std::nullopt;
@@ -240,7 +241,7 @@ std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tN
     single.ray = singleRay(origin, direction, tNear, tFar);
     single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    QueryArguments query(false, _filter);
+    QueryArguments query(false, _filter, rule);
     query.intersect1(static_cast<RTCScene>(_scene), &single);
     if (single.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     Hit hit;

@@ -22,6 +22,7 @@ struct HitRule
 {
     bool culls = false;        ///< a camera ray: culled faces are not there
     bool keepsBlended = false; ///< blended surfaces are hit whatever their alpha; else by chance
+    bool solid = false;        ///< every surface is hit, wherever it is transparent or culled
 };
 constexpr HitRule kCameraRays{true, false};
 
@@ -52,7 +53,8 @@ public:
     /// Sets tFar to -infinity in the active lanes that are occluded. Refused rays count as occluded.
     LaneMask occlusion(RayBlock& block, LaneMask active) const;
 
-    std::optional<Hit> closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar) const;
+    std::optional<Hit> closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar,
+                                  HitRule rule = {}) const;
     bool occluded(Vec3 origin, Vec3 direction, float tNear, float tFar) const;
 
 private:

@@ -150,53 +150,6 @@ SharedArray<UVec3> checkedTriangles(TriangleList& list, const osg::Geometry& geo
     return triangles;
 }
 
-/// Gives a vertex that is used by several primitive sets one copy for each, and renumbers the
-/// triangles. Those with indices out of range are left as they are: they are dropped later.
-VertexMap splitByPrimitiveSet(TriangleList& list, std::size_t vertexCount)
-{
-    if (list.source)
-    {
-        list.triangles.assign(list.data(), list.data() + list.size());
-        list.source = nullptr;
-    }
-    constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-    std::vector<uint32_t> newIndex(vertexCount, kNone);
-    std::vector<uint32_t> lastSet(vertexCount, kNone);
-    VertexMap map;
-    std::size_t begin = 0;
-    for (uint32_t set = 0; set < list.setEnds.size(); ++set)
-    {
-        for (std::size_t i = begin; i < list.setEnds[set]; ++i)
-            for (int corner = 0; corner < 3; ++corner)
-            {
-                uint32_t& index = list.triangles[i][corner];
-                if (index >= vertexCount)
-                {
-                    index = kNone;
-                    continue;
-                }
-                if (lastSet[index] != set)
-                {
-                    lastSet[index] = set;
-                    newIndex[index] = static_cast<uint32_t>(map.rows.size());
-                    map.rows.push_back(index);
-                    map.primitiveSets.push_back(set);
-                }
-                index = newIndex[index];
-            }
-        begin = list.setEnds[set];
-    }
-    map.vertexCount = map.rows.size();
-    return map;
-}
-
-bool hasValuesBySet(const osg::Geometry& geometry)
-{
-    const auto perSet = osg::Array::BIND_PER_PRIMITIVE_SET;
-    return bindingOf(geometry.getNormalArray()) == perSet ||
-           bindingOf(geometry.getColorArray()) == perSet;
-}
-
 Vec3 faceNormal(const Vec3& a, const Vec3& b, const Vec3& c)
 {
     return Vec3(glm::normalize(glm::cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a))));
@@ -284,6 +237,51 @@ SharedArray<Vec3> lifted(const Mesh& mesh, float layers)
 }
 
 } // namespace
+
+bool hasValuesBySet(const osg::Geometry& geometry)
+{
+    const auto perSet = osg::Array::BIND_PER_PRIMITIVE_SET;
+    return bindingOf(geometry.getNormalArray()) == perSet ||
+           bindingOf(geometry.getColorArray()) == perSet;
+}
+
+VertexMap splitByPrimitiveSet(TriangleList& list, std::size_t vertexCount)
+{
+    if (list.source)
+    {
+        list.triangles.assign(list.data(), list.data() + list.size());
+        list.source = nullptr;
+    }
+    constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+    std::vector<uint32_t> newIndex(vertexCount, kNone);
+    std::vector<uint32_t> lastSet(vertexCount, kNone);
+    VertexMap map;
+    std::size_t begin = 0;
+    for (uint32_t set = 0; set < list.setEnds.size(); ++set)
+    {
+        for (std::size_t i = begin; i < list.setEnds[set]; ++i)
+            for (int corner = 0; corner < 3; ++corner)
+            {
+                uint32_t& index = list.triangles[i][corner];
+                if (index >= vertexCount)
+                {
+                    index = kNone;
+                    continue;
+                }
+                if (lastSet[index] != set)
+                {
+                    lastSet[index] = set;
+                    newIndex[index] = static_cast<uint32_t>(map.rows.size());
+                    map.rows.push_back(index);
+                    map.primitiveSets.push_back(set);
+                }
+                index = newIndex[index];
+            }
+        begin = list.setEnds[set];
+    }
+    map.vertexCount = map.rows.size();
+    return map;
+}
 
 ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request,
                               const KeptArrays& kept)

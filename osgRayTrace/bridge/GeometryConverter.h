@@ -37,6 +37,16 @@ struct MeshRequest
     }
 };
 
+/// Which rows of the OSG arrays the mesh's vertices are. Needed when an array has one value for
+/// each primitive set, so that a vertex of two sets becomes two.
+struct VertexMap
+{
+    std::size_t vertexCount = 0;
+    std::vector<uint32_t> rows; ///< of per-vertex arrays; empty: vertex i is row i
+    std::vector<uint32_t>
+        primitiveSets; ///< row of arrays that are bound per primitive set; may be empty
+};
+
 struct ConvertedMesh
 {
     std::shared_ptr<Mesh> mesh; ///< null if nothing is left to trace; then counts tell why
@@ -59,5 +69,12 @@ struct KeptArrays
 /// and keeps them alive; nobody may then write to them while a Scene holds the mesh.
 ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request,
                               const KeptArrays& kept = {});
+
+/// Values differ from primitive set to primitive set: then vertices are split.
+bool hasValuesBySet(const osg::Geometry& geometry);
+
+/// Gives a vertex that is used by several primitive sets one copy for each, and renumbers the
+/// triangles. Those with indices out of range are left as they are: they are dropped later.
+VertexMap splitByPrimitiveSet(TriangleList& list, std::size_t vertexCount);
 
 } // namespace osgRayTrace::engine

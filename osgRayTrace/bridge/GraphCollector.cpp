@@ -274,7 +274,7 @@ void GraphCollector::apply(osg::Geometry& geometry)
     const auto [found, isNew] =
         _indexOf.try_emplace({&posed, restart.key()}, _graph.geometries.size());
     if (isNew) _graph.geometries.push_back({&posed, path(), {}, restart, nullptr});
-    _graph.geometries[found->second].uses.push_back({engineFromLocal(), state});
+    _graph.geometries[found->second].uses.push_back({engineFromLocal(), state, pickPath()});
 }
 
 osg::Vec3 GraphCollector::getEyePoint() const
@@ -345,7 +345,7 @@ bool GraphCollector::collectLeaf(osg::Node& node)
 {
     if (const auto* light = dynamic_cast<const AreaLight*>(&node))
     {
-        _graph.lights.areaLights.push_back({light, engineFromLocal(), path()});
+        _graph.lights.areaLights.push_back({light, engineFromLocal(), path(), pickPath()});
         return true;
     }
     if (const auto* light = dynamic_cast<const EnvironmentLight*>(&node))
@@ -393,6 +393,7 @@ void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
     if (!_input.rasterizesRest) return;
     _graph.rasterized.push_back(rasterizedPart(kind, getNodePath()));
     _graph.rasterized.back().inPlace = inPlace;
+    _graph.rasterizedPaths.push_back(pickPath());
 }
 
 /// Leaves to OSG what it draws better. True if nothing is left to trace.
@@ -439,6 +440,11 @@ osg::Matrixd GraphCollector::worldFromEye() const
 osg::Matrixd GraphCollector::engineFromLocal() const
 {
     return _worldFromLocal.back() * osg::Matrixd::translate(-_input.origin);
+}
+
+uint32_t GraphCollector::pickPath()
+{
+    return _input.picks ? _graph.paths.add(getNodePath()) : NodeTree::kNone;
 }
 
 std::string GraphCollector::path() const

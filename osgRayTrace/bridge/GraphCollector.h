@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/ClipPlanes.h"
 #include "osgRayTrace/bridge/MaterialAssignment.h"
+#include "osgRayTrace/bridge/NodeTree.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/SceneExtent.h"
 #include "osgRayTrace/bridge/SoftwareVertices.h"
@@ -39,6 +40,7 @@ struct GeometryUse
 {
     osg::Matrixd engineFromLocal; ///< affine, finite, invertible; see applyUnit
     uint32_t state = 0;           ///< index into CollectedGraph::states
+    uint32_t path = NodeTree::kNone; ///< in CollectedGraph::paths, if ConversionInput::picks
 };
 
 struct CollectedGeometry
@@ -63,6 +65,7 @@ struct CollectedAreaLight
     const AreaLight* light = nullptr;
     osg::Matrixd engineFromLocal;
     std::string path;
+    uint32_t pickPath = NodeTree::kNone; ///< as GeometryUse::path
 };
 
 struct CollectedEnvironment
@@ -90,6 +93,8 @@ struct CollectedGraph
     ClipPlanes clipPlanes;
     bool paged = false; ///< see ConversionResult
     RasterizedParts rasterized; ///< if ConversionInput::rasterizesRest
+    NodeTree paths;             ///< if ConversionInput::picks
+    std::vector<uint32_t> rasterizedPaths; ///< of rasterized, likewise
 };
 
 /// The collector knows the origin of engine space, but not its unit yet: it leaves lengths as they are
@@ -152,6 +157,7 @@ private:
     void warnIfForced(const char* what);
     osg::Matrixd worldFromEye() const;
     osg::Matrixd engineFromLocal() const;
+    uint32_t pickPath();
     std::string path() const;
 
     const ConversionInput& _input;

@@ -194,6 +194,8 @@ void SceneBuilder::putFlatFirst()
     for (auto& [geometry, traced] : _made.index.geometries)
         for (TracedUse& use : traced.uses)
             renumber(use.instance);
+    for (uint32_t& instance : _instances)
+        renumber(instance);
     for (ConversionCaches::Quad& quad : _caches.areaLights)
         renumber(quad.instance);
 }
@@ -246,6 +248,7 @@ void SceneBuilder::addNothing(const CollectedGeometry& geometry, const GeometryU
 {
     _made.index.geometries[geometry.geometry].uses.push_back(
         {kInvalid, treatment(use.state, ConversionCounts())});
+    _instances.push_back(kInvalid);
 }
 
 void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
@@ -323,7 +326,9 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
 void SceneBuilder::addInstance(const CollectedGeometry& geometry, const GeometryUse& use,
                                Instance instance)
 {
-    _made.index.geometries[geometry.geometry].uses.push_back(newInstance(geometry, use, instance));
+    const TracedUse made = newInstance(geometry, use, instance);
+    _made.index.geometries[geometry.geometry].uses.push_back(made);
+    _instances.push_back(made.instance);
 }
 
 TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const GeometryUse& use,

@@ -31,6 +31,9 @@ public:
     /// A new scene, all of it.
     void build();
 
+    /// Of all uses of the graph's geometries in turn, kInvalid for what is not traced. After build().
+    const std::vector<uint32_t>& instances() const { return _instances; }
+
     /// One more geometry, which gets a BVH of its own.
     void add(const CollectedGeometry& geometry);
 
@@ -71,6 +74,7 @@ private:
     ConversionReport _materialReport;
     MaterialConverter _materials;
     std::vector<std::optional<Treatment>> _treatments; ///< by state
+    std::vector<uint32_t> _instances;
     const osg::LightModel* _lightModel = nullptr;      // the first one met
 };
 

@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/SceneConverter.h"
 
 #include "osgRayTrace/bridge/ConversionState.h"
+#include "osgRayTrace/bridge/PickIndex.h"
 #include "osgRayTrace/bridge/SceneBuilder.h"
 #include "osgRayTrace/bridge/SceneExtent.h"
 #include "osgRayTrace/bridge/SceneLights.h"
@@ -143,7 +144,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
                        state.last->origin == origin && state.last->unit == rules.unit &&
                        state.last->displayReferred == !rules.linear;
     const auto scene = std::make_shared<Scene>();
-    SceneBuilder(input, graph, rules, state.caches, state.made, *scene, report).build();
+    SceneBuilder builder(input, graph, rules, state.caches, state.made, *scene, report);
+    builder.build();
     state.made.materials.takeChanged();
     ConversionReport lightReport;
     setLights(*scene, input, graph.lights, state.caches, lightReport);
@@ -151,6 +153,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     report.count("converted.light", scene->lights.size());
     state.last = stampChanges(scene, state.last, rules.now);
     state.caches.geometries.end();
+    ConversionResult result;
+    if (input.picks) result.pickIndex = std::make_shared<PickIndex>(graph, builder.instances());
     state.ordinary = rules.unit == 1.0 && lengths.areOrdinary() && !hasClipping(graph.states);
     state.made.lights = std::move(graph.lights);
     state.made.lightCounts = lightReport.counts();
@@ -158,7 +162,6 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     addUntraced(graph.rasterized, state.made.index);
     state.caches.vertices.end();
 
-    ConversionResult result;
     result.scene = state.last;
     result.paged = graph.paged;
     result.counts = report.counts();
@@ -187,6 +190,7 @@ std::optional<ConversionResult> SceneConverter::patch(const GraphChanges& change
     if (state.caches.dissolved && !state.caches.flat.empty()) return std::nullopt;
     ConversionResult& result = state.lastResult;
     result.scene = state.last;
+    if (patcher.spliced()) result.pickIndex.reset();
     addToCount(result.counts, "converted.geometry", patcher.geometriesMore());
     addToCount(result.counts, "converted.instance", patcher.instancesMore());
     result.counts["converted.light"] = state.last->lights.size();

@@ -24,6 +24,8 @@
 namespace osgRayTrace::engine
 {
 
+class PickIndex;
+
 /// What to convert a graph for.
 struct ConversionInput
 {
@@ -44,6 +46,7 @@ struct ConversionInput
     /// What OpenGL draws better goes on being drawn by it, see ConversionResult::rasterized. Else there is
     /// no OpenGL, and everything with triangles is traced.
     bool rasterizesRest = false;
+    bool picks = false; ///< what rays hit is looked up: see ConversionResult::pickIndex
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as shown
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
     LightSizes lightSizes;
@@ -57,6 +60,7 @@ struct ConversionResult
     ConversionPaths paths; ///< of what is counted, the first few
     /// For OSG to draw; null if nothing is, or ConversionInput::rasterizesRest is not set.
     std::shared_ptr<const RasterizedParts> rasterized;
+    std::shared_ptr<const PickIndex> pickIndex; ///< null unless ConversionInput::picks
     bool paged = false; ///< parts of the graph are files that are read when they are seen
     /// Of those in the scene: what was removed left them, and they hold nothing.
     std::size_t emptyInstances = 0, emptyMeshes = 0;

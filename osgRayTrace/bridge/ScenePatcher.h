@@ -28,6 +28,9 @@ public:
     /// patch() has changed something.
     bool changed() const { return _changed; }
 
+    /// Instances came or went.
+    bool spliced() const { return _spliced; }
+
     /// Some mesh left the flat BVH.
     bool leftFlat() const { return _leftFlat; }
 
@@ -64,7 +67,7 @@ private:
     int64_t _geometries = 0, _instances = 0;
     bool _changed = false;
     bool _leftFlat = false;
-    bool _spliced = false; ///< instances came or went
+    bool _spliced = false;
 };
 
 } // namespace osgRayTrace::engine

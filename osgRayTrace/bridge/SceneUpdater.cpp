@@ -71,6 +71,23 @@ void SceneUpdater::setDirty()
     _noted.dirty = true;
 }
 
+SceneVersion SceneUpdater::versionToPick(osg::Node* root, const RayTraceSettings& settings,
+                                         const osg::Vec3d& start)
+{
+    SceneVersion now = version();
+    const bool viewed = isViewed(); // then frames keep it up to date
+    if (viewed && now.pickIndex) return now;
+    _picks = true;
+    if (!now.pickIndex) setDirty();
+    if (!viewed && !now.scene)
+    {
+        std::lock_guard<std::mutex> lock(_notedMutex);
+        _noted.origin = start;
+    }
+    update(root, settings, nullptr);
+    return version();
+}
+
 SceneVersion SceneUpdater::version() const
 {
     std::lock_guard<std::mutex> lock(_versionMutex);
@@ -206,6 +223,7 @@ ConversionResult SceneUpdater::convert(osg::Node& root, const ViewingConditions&
     input.lightSizes = _lightSizes;
     input.materials = _materials;
     input.rasterizesRest = true;
+    input.picks = _picks;
 
     return _converter.convert(input);
 }
@@ -236,6 +254,7 @@ void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene,
     // The old ones are freed after the lock, unless a view still draws them.
     _version.scene.swap(scene);
     _version.rasterized.swap(rasterized);
+    _version.pickIndex = conversion.pickIndex;
     _version.paged = conversion.paged;
     _statistics = statistics;
 }

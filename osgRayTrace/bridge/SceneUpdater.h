@@ -14,6 +14,7 @@
 
 #include <osg/FrameStamp>
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -30,6 +31,7 @@ struct SceneVersion
     std::shared_ptr<PhotonPasses> photons; ///< of all views
     osg::ref_ptr<const RayTraceSettings> settings;
     std::shared_ptr<const RasterizedParts> rasterized; ///< for OSG to draw; null: as scene
+    std::shared_ptr<const PickIndex> pickIndex; ///< null: nobody has picked since something came or went
     bool paged = false; ///< see ConversionResult
 };
 
@@ -59,6 +61,11 @@ public:
 
     /// The next update converts, whatever it sees. Any thread.
     void setDirty();
+
+    /// The version as of the last frame with its pickIndex, which is made from now on; as of now if no view
+    /// was noted. start: of the ray, in the scene. Threads that may look at the graph.
+    SceneVersion versionToPick(osg::Node* root, const RayTraceSettings& settings,
+                               const osg::Vec3d& start);
 
     /// Any thread.
     SceneVersion version() const;
@@ -97,6 +104,8 @@ private:
     mutable std::mutex _versionMutex; // update and cull threads write, draw reads
     SceneVersion _version;
     Statistics _statistics;
+
+    std::atomic<bool> _picks{false}; ///< somebody has picked; never taken back
 
     std::mutex _updateMutex; // all below; one update or cull thread at a time
     SceneConverter _converter;

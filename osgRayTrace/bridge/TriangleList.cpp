@@ -102,12 +102,66 @@ const char* untracedMode(GLenum mode)
     }
 }
 
+/// Counts what osg::TemplatePrimitiveFunctor calls: a quad is one primitive, as is each triangle of a fan.
+class PrimitiveCounter : public osg::PrimitiveIndexFunctor
+{
+public:
+    explicit PrimitiveCounter(const osg::PrimitiveSet& set) { set.accept(*this); }
+
+    uint32_t count() const { return static_cast<uint32_t>(_count); }
+
+    static std::size_t countOf(GLenum mode, std::size_t vertices)
+    {
+        switch (mode)
+        {
+        case GL_POINTS:
+            return vertices;
+        case GL_LINES:
+            return vertices / 2;
+        case GL_LINE_STRIP:
+            return vertices < 2 ? 0 : vertices - 1;
+        case GL_LINE_LOOP:
+            return vertices;
+        case GL_LINE_STRIP_ADJACENCY:
+            return vertices < 4 ? 0 : vertices - 3;
+        case GL_TRIANGLES:
+            return (vertices + 2) / 3;
+        case GL_QUADS:
+        case GL_QUAD_STRIP:
+            return triangleCount(mode, vertices) / 2;
+        default:
+            return triangleCount(mode, vertices);
+        }
+    }
+
+    void drawArrays(GLenum mode, GLint, GLsizei count) override { add(mode, count); }
+    void drawElements(GLenum mode, GLsizei count, const GLubyte*) override { add(mode, count); }
+    void drawElements(GLenum mode, GLsizei count, const GLushort*) override { add(mode, count); }
+    void drawElements(GLenum mode, GLsizei count, const GLuint*) override { add(mode, count); }
+
+    void setVertexArray(unsigned int, const osg::Vec2*) override {}
+    void setVertexArray(unsigned int, const osg::Vec3*) override {}
+    void setVertexArray(unsigned int, const osg::Vec4*) override {}
+    void setVertexArray(unsigned int, const osg::Vec2d*) override {}
+    void setVertexArray(unsigned int, const osg::Vec3d*) override {}
+    void setVertexArray(unsigned int, const osg::Vec4d*) override {}
+
+private:
+    void add(GLenum mode, GLsizei count) { _count += countOf(mode, std::max(count, 0)); }
+
+    std::size_t _count = 0;
+};
+
 class TriangleCollector
 {
 public:
     TriangleCollector(TriangleList& list, const osg::Geometry& geometry, std::size_t vertexCount,
-                      const PrimitiveRestart& restart)
-        : _list(list), _geometry(geometry), _vertexCount(vertexCount), _restart(restart)
+                      const PrimitiveRestart& restart, bool numbered)
+        : _list(list),
+          _geometry(geometry),
+          _vertexCount(vertexCount),
+          _restart(restart),
+          _numbered(numbered)
     {
     }
 
@@ -116,10 +170,13 @@ public:
         if (const char* reason = untracedMode(set.getMode()))
         {
             ++_list.counts[reason];
+            if (_numbered) _primitives += PrimitiveCounter(set).count();
             return;
         }
         if (set.getNumInstances() > 1) ++_list.counts["approximated.instanced-draw"];
-        if (!appendArrays(set) && !appendElements(set)) ++_list.counts["not-traced.indirect-draw"];
+        if (appendArrays(set) || appendElements(set)) return;
+        ++_list.counts["not-traced.indirect-draw"];
+        if (_numbered) _primitives += PrimitiveCounter(set).count();
     }
 
 private:
@@ -200,6 +257,16 @@ private:
         grow(triangleCount(mode, count));
         if (mode != GL_POLYGON || !appendConcave(count, index))
             appendTriangles(mode, count, index, _list.triangles);
+        if (_numbered) number(mode, count);
+    }
+
+    /// The triangles that were appended last: all of count vertices.
+    void number(GLenum mode, std::size_t count)
+    {
+        const uint32_t triangles = mode == GL_QUADS || mode == GL_QUAD_STRIP ? 2 : 1;
+        for (uint32_t i = 0; _list.primitives.size() < _list.triangles.size(); ++i)
+            _list.primitives.push_back(_primitives + i / triangles);
+        _primitives += static_cast<uint32_t>(PrimitiveCounter::countOf(mode, count));
     }
 
     /// False if the fan is right.
@@ -240,6 +307,8 @@ private:
     const osg::Geometry& _geometry;
     std::size_t _vertexCount;
     const PrimitiveRestart& _restart;
+    const bool _numbered;
+    uint32_t _primitives = 0; // so far
     std::vector<Vec3d> _positions; // if there are polygons
 };
 
@@ -292,16 +361,16 @@ std::size_t TriangleList::size() const
 }
 
 TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount,
-                         const PrimitiveRestart& restart)
+                         const PrimitiveRestart& restart, bool numbered)
 {
     TriangleList list;
-    list.source = soleTriangleList(geometry, restart);
+    if (!numbered) list.source = soleTriangleList(geometry, restart);
     if (list.source)
     {
         list.setEnds = {list.size()};
         return list;
     }
-    TriangleCollector collector(list, geometry, vertexCount, restart);
+    TriangleCollector collector(list, geometry, vertexCount, restart, numbered);
     for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i)
     {
         if (const osg::PrimitiveSet* set = geometry.getPrimitiveSet(i)) collector.append(*set);

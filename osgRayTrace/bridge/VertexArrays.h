@@ -14,16 +14,6 @@
 namespace osgRayTrace::engine
 {
 
-/// Which rows of the OSG arrays the mesh's vertices are. Needed when an array has one value for
-/// each primitive set, so that a vertex of two sets becomes two.
-struct VertexMap
-{
-    std::size_t vertexCount = 0;
-    std::vector<uint32_t> rows; ///< of per-vertex arrays; empty: vertex i is row i
-    std::vector<uint32_t>
-        primitiveSets; ///< row of arrays that are bound per primitive set; may be empty
-};
-
 struct Positions
 {
     SharedArray<Vec3> values;     ///< finite: what was not is 0 here

@@ -1,0 +1,213 @@
+// CaveFile.cpp - blocks for hosts, included files, and the look-up. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "apps/cave/CaveFile.h"
+
+#include "apps/common/Failure.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+constexpr std::size_t kMostFiles = 64;
+
+[[noreturn]] void failAt(const CaveElement& element, const std::string& message)
+{
+    throw Failure(kCannotLoad, element.file + ":" + std::to_string(element.line) + ": <" +
+                                   element.name + ">" + message);
+}
+
+bool hasHost(const std::string& hosts, const std::string& host)
+{
+    std::istringstream list(hosts);
+    for (std::string one; std::getline(list, one, ',');)
+        if (one == host) return true;
+    return false;
+}
+
+/// Children of blocks with this name go to the end of what is around the block, if kept.
+template <class Keeps> void unwrap(CaveElement& parent, const char* name, const Keeps& keeps)
+{
+    std::deque<CaveElement>& children = parent.children;
+    for (std::size_t i = 0; i < children.size();)
+    {
+        if (children[i].name != name)
+        {
+            unwrap(children[i], name, keeps);
+            ++i;
+            continue;
+        }
+        CaveElement block = std::move(children[i]);
+        children.erase(children.begin() + static_cast<std::ptrdiff_t>(i));
+        if (keeps(block))
+            std::move(block.children.begin(), block.children.end(), std::back_inserter(children));
+    }
+}
+
+/// In the order of the file.
+void takeIncludes(CaveElement& parent, std::vector<CaveElement>& includes)
+{
+    for (auto child = parent.children.begin(); child != parent.children.end();)
+    {
+        if (child->name != "INCLUDE")
+        {
+            takeIncludes(*child++, includes);
+            continue;
+        }
+        includes.push_back(std::move(*child));
+        child = parent.children.erase(child);
+    }
+}
+
+std::string trimmed(const std::string& text)
+{
+    const auto first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos) return "";
+    return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+std::string includedFile(const CaveElement& include)
+{
+    const std::string name = trimmed(include.text);
+    if (name.empty()) failAt(include, " names no file");
+    const std::filesystem::path beside = std::filesystem::path(include.file).parent_path() / name;
+    if (std::filesystem::exists(beside)) return beside.string();
+    const char* folder = std::getenv("CALVR_CONFIG_DIR");
+    const std::filesystem::path other = std::filesystem::path(folder ? folder : "") / name;
+    if (folder && std::filesystem::exists(other)) return other.string();
+    failAt(include, ": there is no file " + name);
+}
+
+/// "Name" or "Name:suffix", which asks for name="suffix".
+bool matches(const CaveElement& element, const std::string& step)
+{
+    const std::size_t colon = step.find(':');
+    if (colon == std::string::npos) return element.name == step;
+    const std::string* name = element.attribute("name");
+    return element.name == step.substr(0, colon) && name && *name == step.substr(colon + 1);
+}
+
+/// Depth first, with other ways tried where one leads to nothing.
+const CaveElement* findBelow(const CaveElement& parent, const std::vector<std::string>& steps,
+                             std::size_t step, const std::string& attribute)
+{
+    for (const CaveElement& child : parent.children)
+    {
+        if (!matches(child, steps[step])) continue;
+        if (step + 1 == steps.size())
+        {
+            if (child.attribute(attribute)) return &child;
+            continue;
+        }
+        if (const CaveElement* found = findBelow(child, steps, step + 1, attribute)) return found;
+    }
+    return nullptr;
+}
+
+} // namespace
+
+const std::string* CaveElement::attribute(const std::string& attributeName) const
+{
+    for (const auto& [key, value] : attributes)
+        if (key == attributeName) return &value;
+    return nullptr;
+}
+
+CaveFile::CaveFile(const std::string& file, const std::string& host)
+{
+    load(file, host);
+}
+
+void CaveFile::load(const std::string& file, const std::string& host)
+{
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream || std::filesystem::is_directory(file))
+        throw Failure(kCannotLoad, "cannot read " + file);
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    CaveElement root = parseCave(text, file);
+    unwrap(root, "COCONFIG", [](const CaveElement&) { return true; });
+    unwrap(root, "GLOBAL", [](const CaveElement&) { return true; });
+    unwrap(root, "LOCAL",
+           [&host](const CaveElement& block)
+           {
+               const std::string* hosts = block.attribute("host");
+               return hosts && hasHost(*hosts, host);
+           });
+    std::vector<CaveElement> includes;
+    takeIncludes(root, includes);
+    _roots.push_back(std::move(root));
+    for (const CaveElement& include : includes)
+    {
+        const std::string name = includedFile(include);
+        if (_roots.size() >= kMostFiles)
+            failAt(include, ": too many files, or one that includes itself");
+        load(name, host);
+    }
+}
+
+std::optional<CaveFile::Value> CaveFile::find(const std::string& path,
+                                              const std::string& attribute) const
+{
+    std::vector<std::string> steps;
+    std::istringstream names(path);
+    for (std::string step; std::getline(names, step, '.');)
+        steps.push_back(step);
+    for (const CaveElement& root : _roots)
+        if (const CaveElement* element = findBelow(root, steps, 0, attribute))
+            return Value{*element->attribute(attribute), element};
+    return std::nullopt;
+}
+
+double CaveFile::number(const std::string& path, const std::string& attribute,
+                        double otherwise) const
+{
+    const auto value = find(path, attribute);
+    if (!value) return otherwise;
+    const std::string text = trimmed(value->text);
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !std::isfinite(number))
+        failAt(*value->element, ": " + attribute + "=\"" + value->text + "\" is no number");
+    return number;
+}
+
+int CaveFile::integer(const std::string& path, const std::string& attribute, int otherwise,
+                      int least, int most) const
+{
+    const double value = number(path, attribute, otherwise);
+    if (value == std::floor(value) && value >= least && value <= most)
+        return static_cast<int>(value);
+    const auto found = find(path, attribute);
+    if (!found) return otherwise;
+    failAt(*found->element, ": " + attribute + "=\"" + found->text + "\" is not from " +
+                                std::to_string(least) + " to " + std::to_string(most));
+}
+
+bool CaveFile::flag(const std::string& path, const std::string& attribute, bool otherwise) const
+{
+    const auto value = find(path, attribute);
+    if (!value) return otherwise;
+    std::string text = trimmed(value->text);
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text == "on" || text == "true";
+}
+
+std::string CaveFile::text(const std::string& path, const std::string& attribute,
+                           const std::string& otherwise) const
+{
+    const auto value = find(path, attribute);
+    return value ? value->text : otherwise;
+}
+
+} // namespace osgRayTrace::app

@@ -1,0 +1,343 @@
+// CaveTest.cpp - CalVR's configurations: what is read of them, and the eye's frusta. Layer: tests.
+// SPDX-License-Identifier: MIT
+#include "apps/cave/CaveView.h"
+#include "apps/cave/HeadPath.h"
+#include "apps/common/Failure.h"
+#include "tests/Catch.h"
+#include "tests/plugins/TemporaryFolder.h"
+
+#include <cmath>
+#include <fstream>
+#include <random>
+
+using namespace osgRayTrace::app;
+
+namespace
+{
+
+std::string written(const TemporaryFolder& folder, const std::string& name, const std::string& text)
+{
+    const std::string file = folder / name;
+    std::ofstream(file) << text;
+    return file;
+}
+
+/// What reading the text throws; empty: nothing.
+std::string errorOf(const std::string& text)
+{
+    const TemporaryFolder folder;
+    try
+    {
+        caveSetup(CaveFile(written(folder, "c.xml", text), "me"));
+    }
+    catch (const Failure& failure)
+    {
+        CHECK(failure.code() == kCannotLoad);
+        return failure.what();
+    }
+    return "";
+}
+
+bool contains(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+const char* const kOne = "<WindowConfig><Window name=\"0\"/></WindowConfig>\n"
+                         "<ChannelConfig><Channel name=\"0\"/></ChannelConfig>\n"
+                         "<ScreenConfig><Screen name=\"0\"/></ScreenConfig>\n";
+
+CaveSetup setupOf(const std::string& text, const std::string& host = "me")
+{
+    const TemporaryFolder folder;
+    return caveSetup(CaveFile(written(folder, "c.xml", text), host));
+}
+
+osg::Vec3d clipOf(const CaveView& view, const osg::Vec3d& world)
+{
+    return world * view.view * view.projection;
+}
+
+} // namespace
+
+TEST_CASE("a configuration without values has CalVR's defaults")
+{
+    const CaveSetup setup = setupOf(kOne);
+    REQUIRE(setup.windows.size() == 1);
+    REQUIRE(setup.walls.size() == 1);
+    CHECK(setup.windows[0].width == 600);
+    CHECK(setup.windows[0].height == 400);
+    CHECK(setup.walls[0].width == 600);
+    CHECK(setup.walls[0].screenHeight == 400.0);
+    CHECK(setup.walls[0].stereo == CaveStereo::None);
+    CHECK(setup.separation == 64.0);
+    CHECK(setup.nearPlane == 10.0);
+    CHECK(setup.farPlane == 1e7);
+}
+
+TEST_CASE("what is no well-formed XML is read as CalVR reads it")
+{
+    const CaveSetup setup =
+        setupOf("<?xml version=\"1.0\"?><!-- a < b -->\n"
+                "<Near value='20'/><Near value=\"30\"/>\n"
+                "<WindowConfig><Window name=\"0\"width=\"700\"left=\"5\"/></WindowConfig>\n"
+                "<WindowConfig><Window name=\"0\" height=\"300\" width=\"1\"/></WindowConfig>\n" +
+                std::string(kOne));
+    CHECK(setup.nearPlane == 20.0); // the first counts
+    CHECK(setup.windows[0].width == 700);
+    CHECK(setup.windows[0].left == 5);
+    CHECK(setup.windows[0].height == 300); // from the first that has it
+}
+
+TEST_CASE("blocks for hosts go to the end of what is around them")
+{
+    const std::string text =
+        "<LOCAL host=\"you,me,her\"><Near value=\"1\"/><Far value=\"100\"/></LOCAL>\n"
+        "<LOCAL host=\"mel\"><Far value=\"5\"/></LOCAL>\n"
+        "<GLOBAL><Near value=\"2\"/><LOCAL host=\"me\"><Stereo "
+        "separation=\"60\"/></LOCAL></GLOBAL>\n" +
+        std::string(kOne) + "<Far value=\"50\"/>";
+    CHECK(setupOf(text).nearPlane == 2.0); // GLOBAL is unwrapped first
+    CHECK(setupOf(text).farPlane == 50.0); // plain elements win
+    CHECK(setupOf(text).separation == 60.0);
+    CHECK(setupOf(text, "m").separation == 64.0);
+    CHECK(setupOf(text, "me,her").separation == 64.0);
+}
+
+TEST_CASE("included files come after the one that names them")
+{
+    const TemporaryFolder folder;
+    written(folder, "more.xml", "<Near value=\"7\"/><Far value=\"70\"/>");
+    const std::string file = written(
+        folder, "c.xml", std::string(kOne) + "<INCLUDE> more.xml\n</INCLUDE><Near value=\"9\"/>");
+    const CaveSetup setup = caveSetup(CaveFile(file, "me"));
+    CHECK(setup.nearPlane == 9.0);
+    CHECK(setup.farPlane == 70.0);
+    written(folder, "more.xml", "<INCLUDE>more.xml</INCLUDE>");
+    CHECK_THROWS_AS(CaveFile(file, "me"), Failure);
+}
+
+TEST_CASE("lists end at the first gap and at their cap")
+{
+    const std::string windows =
+        "<WindowConfig><Window name=\"0\"/><Window name=\"1\"/><Window name=\"3\"/></WindowConfig>"
+        "<ChannelConfig><Channel name=\"0\"/><Channel name=\"1\" "
+        "windowIndex=\"1\"/></ChannelConfig>"
+        "<ScreenConfig><Screen name=\"0\" channelIndex=\"1\"/><Screen name=\"1\"/></ScreenConfig>";
+    CHECK(setupOf(windows).windows.size() == 2);
+    CHECK(setupOf(windows).walls[0].window == 1);
+    CHECK(setupOf("<NumScreens value=\"1\"/>" + windows).walls.size() == 1);
+}
+
+TEST_CASE("what is wrong is named with its line")
+{
+    const auto check = [](const std::string& text, const std::string& line, const std::string& what)
+    {
+        const std::string error = errorOf(text);
+        INFO(text << "\ngives: " << error);
+        CHECK(contains(error, line));
+        CHECK(contains(error, what));
+    };
+    const std::string one = kOne;
+    check(one + "<Near value=\"ten\"/>", ":4:", "<Near>: value=\"ten\" is no number");
+    check(one + "<Near value=\"1e999\"/>", ":4:", "is no number");
+    check(one + "\n<Near value=\"1\"", ":5:", "<Near has no >");
+    check(one + "<A>\n<B>\n</A>", ":6:", "</A> ends <B> of line 5");
+    check(one + "<A>\n", ":4:", "<A> has no end");
+    check(one + "</A>", ":4:", "</A> has no beginning");
+    check(one + "<Near value=\"1>\n<Far/>", ":4:", "the value of value has no end");
+    check(one + "<Near value=1/>", ":4:", "value is not quoted");
+    check(one + "<Near value/>", ":4:", "value has no value");
+    check(one + "<!-- ", ":4:", "comment has no end");
+    check(one + "<>", ":4:", "without a name");
+    check(one + "<INCLUDE>none.xml</INCLUDE>", ":4:", "there is no file none.xml");
+    check("<ChannelConfig><Channel name=\"0\" stereoMode=\"LENTICULAR\"/></ChannelConfig>" + one,
+          ":1:", "stereoMode=\"LENTICULAR\" is not supported");
+    check("<ChannelConfig><Channel name=\"0\" width=\"0\"/></ChannelConfig>" + one,
+          ":1:", "<Channel>: width=\"0\" is not from 1 to");
+    check("<ChannelConfig><Channel name=\"0\" windowIndex=\"4\"/></ChannelConfig>" + one, "c.xml",
+          "channel 0 is in window 4, which does not exist");
+    check("<Near value=\"5\"/><Far value=\"5\"/>" + one, "c.xml", "no depth range");
+    check("", "c.xml", "there is no WindowConfig.Window");
+    check("<ScreenConfig><Screen name=\"0\" width=\"-1\"/></ScreenConfig>" + one, "c.xml",
+          "screen 0 has no area");
+    std::string deep;
+    for (int i = 0; i < 100000; ++i)
+        deep += "<A>";
+    check(deep, ":1:", "too deep");
+    CHECK_THROWS_AS(CaveFile("/nowhere/c.xml", "me"), Failure);
+}
+
+TEST_CASE("a configuration with any bytes damaged is read or refused")
+{
+    const std::string whole =
+        setupOf(kOne).walls.empty() ? "" : kOne + std::string("<Near value=\"5\"/>");
+    std::mt19937 random(1);
+    int refused = 0;
+    for (int i = 0; i < 2000; ++i)
+    {
+        std::string text = whole;
+        for (int k = 0; k < 3; ++k)
+            text[random() % text.size()] = "<>/\"= \0A9-"[random() % 10];
+        refused += !errorOf(text.substr(0, random() % (text.size() + 1))).empty();
+    }
+    CHECK(refused > 1000);
+}
+
+TEST_CASE("the frustum of a wall is that of its edges, seen from the eye")
+{
+    CaveSetup setup;
+    CaveWall wall; // 3 m by 2 m, 1.5 m to the front
+    wall.screenWidth = 3000.0;
+    wall.screenHeight = 2000.0;
+    wall.screen.position = {0, 1500, 0};
+    setup.nearPlane = 10.0;
+    const CavePose head{
+        {200, -300, 100}, 30.0, 10.0, 5.0}; // the middle eye does not care for angles
+    const auto view = caveView(setup, wall, CaveEye::Centre, head.matrix());
+    REQUIRE(view);
+    double left, right, bottom, top, zNear, zFar;
+    REQUIRE(view->projection.getFrustum(left, right, bottom, top, zNear, zFar));
+    CHECK(left == Approx(10.0 * (-1500.0 - 200.0) / 1800.0));
+    CHECK(right == Approx(10.0 * (1500.0 - 200.0) / 1800.0));
+    CHECK(bottom == Approx(10.0 * (-1000.0 - 100.0) / 1800.0));
+    CHECK(top == Approx(10.0 * (1000.0 - 100.0) / 1800.0));
+    CHECK(zNear == Approx(10.0));
+    CHECK(zFar == Approx(1e7).epsilon(1e-4));
+
+    CHECK_FALSE(caveView(setup, wall, CaveEye::Centre, osg::Matrixd::translate(0, 1500, 0)));
+    CHECK_FALSE(caveView(setup, wall, CaveEye::Centre, osg::Matrixd::translate(0, 1600, 0)));
+}
+
+TEST_CASE("corners of any wall are corners of its picture, from any place before it")
+{
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (int i = 0; i < 200; ++i)
+    {
+        CaveSetup setup;
+        CaveWall wall;
+        wall.screenWidth = 1000.0 + 900.0 * unit(random);
+        wall.screenHeight = 1000.0 + 900.0 * unit(random);
+        wall.screen = {{2000 * unit(random), 2000 * unit(random), 2000 * unit(random)},
+                       180 * unit(random),
+                       80 * unit(random),
+                       180 * unit(random)};
+        wall.followsHead = i % 2 == 1;
+        const CaveEye eye =
+            std::vector<CaveEye>{CaveEye::Centre, CaveEye::Left, CaveEye::Right}[i % 3];
+        const CavePose place{{unit(random), unit(random), unit(random)},
+                             180 * unit(random),
+                             60 * unit(random),
+                             60 * unit(random)};
+        // The screen faces -y of its own frame: the head is put there.
+        osg::Matrixd head = place.matrix();
+        const osg::Matrixd world = wall.screen.matrix();
+        if (!wall.followsHead)
+            head.setTrans(
+                osg::Vec3d(700 * unit(random), -500 + 300 * unit(random), 700 * unit(random)) *
+                world);
+        const osg::Matrixd worldFromScreen = wall.followsHead ? world * head : world;
+        const auto view = caveView(setup, wall, eye, head);
+        const osg::Vec3d at = eyePosition(setup, wall, eye, head);
+        const double before = -(at * osg::Matrixd::inverse(worldFromScreen)).y();
+        REQUIRE(view.has_value() == (before > 1e-6 * (wall.screenWidth + wall.screenHeight)));
+        if (!view) continue;
+        for (const double x : {-1.0, 1.0})
+            for (const double z : {-1.0, 1.0})
+            {
+                const osg::Vec3d corner =
+                    osg::Vec3d(0.5 * x * wall.screenWidth, 0.0, 0.5 * z * wall.screenHeight) *
+                    worldFromScreen;
+                const osg::Vec3d clip = clipOf(*view, corner);
+                CHECK(std::fabs(clip.x() - x) < 1e-9);
+                CHECK(std::fabs(clip.y() - z) < 1e-9);
+            }
+        CHECK((osg::Matrixd::inverse(view->view).getTrans() - at).length() < 1e-8);
+    }
+}
+
+TEST_CASE("angles are heading about z, pitch about x, roll about y")
+{
+    const auto axis = [](double h, double p, double r, const osg::Vec3d& v) {
+        return osg::Matrixd::transform3x3(v, CavePose{{}, h, p, r}.matrix());
+    };
+    const osg::Vec3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    CHECK((axis(90, 0, 0, y) + x).length() < 1e-12); // to the left
+    CHECK((axis(0, 90, 0, y) - z).length() < 1e-12); // up
+    CHECK((axis(0, 0, 90, z) - x).length() < 1e-12); // to the right
+    CHECK((axis(90, 90, 0, y) - z).length() < 1e-12);
+    CHECK((axis(90, 0, 90, z) - y).length() < 1e-12);
+}
+
+TEST_CASE("eyes are beside each other across the head, or across the way to the wall")
+{
+    CaveSetup setup;
+    CaveWall wall;
+    wall.screen.position = {-1500, 0, 0};
+    wall.screen.h = 90.0;
+    const osg::Matrixd head = CavePose{{10, 20, 30}, 0.0, 0.0, 0.0}.matrix();
+    const auto at = [&](CaveEye eye)
+    { return eyePosition(setup, wall, eye, head) - osg::Vec3d(10, 20, 30); };
+    CHECK((at(CaveEye::Left) - osg::Vec3d(-32, 0, 0)).length() < 1e-9);
+    CHECK((at(CaveEye::Right) - osg::Vec3d(32, 0, 0)).length() < 1e-9);
+    CHECK(at(CaveEye::Centre).length() < 1e-9);
+    wall.swapsEyes = true;
+    CHECK((at(CaveEye::Left) - osg::Vec3d(32, 0, 0)).length() < 1e-9);
+    wall.swapsEyes = false;
+    setup.omniStereo = true; // the wall is on the left: its right is to the front
+    CHECK(at(CaveEye::Right).y() == Approx(32.0).epsilon(1e-3));
+    wall.fixedViewer = true;
+    wall.viewer = {1, 2, 3};
+    CHECK((eyePosition(setup, wall, CaveEye::Left, head) - osg::Vec3d(1, 2, 3)).length() < 1e-9);
+}
+
+TEST_CASE("our configurations are a cube around the head and a pair of eyes")
+{
+    const CaveSetup cube = caveSetup(CaveFile(OSGRAYTRACE_TEST_SOURCE "/data/cave_cube.xml", "me"));
+    REQUIRE(cube.walls.size() == 4);
+    for (const CaveWall& wall : cube.walls)
+    {
+        CHECK(wall.screen.position.length() == Approx(1500.0));
+        // Each faces the middle of the cube.
+        const osg::Vec3d forward =
+            osg::Matrixd::transform3x3(osg::Vec3d(0, 1, 0), wall.screen.matrix());
+        CHECK((forward * 1500.0 - wall.screen.position).length() < 1e-9);
+        CHECK(caveView(cube, wall, CaveEye::Centre, cube.head.matrix()));
+    }
+    const CaveSetup pair = caveSetup(CaveFile(OSGRAYTRACE_TEST_SOURCE "/data/cave_hmd.xml", "me"));
+    REQUIRE(pair.walls.size() == 2);
+    CHECK(pair.walls[0].eye == CaveEye::Left);
+    CHECK(pair.walls[1].eye == CaveEye::Right);
+    // Turning the head turns the picture, and the frustum stays.
+    const osg::Matrixd head = CavePose{{1, 2, 3}, 40.0, 20.0, -10.0}.matrix();
+    for (const CaveWall& wall : pair.walls)
+    {
+        const auto before = caveView(pair, wall, wall.eye, pair.head.matrix());
+        const auto after = caveView(pair, wall, wall.eye, head);
+        REQUIRE(before);
+        REQUIRE(after);
+        for (int i = 0; i < 16; ++i)
+            CHECK(after->projection.ptr()[i] == Approx(before->projection.ptr()[i]).margin(1e-9));
+        const osg::Vec3d ahead = osg::Vec3d(0, 5000, 0) * head;
+        CHECK((after->view.preMult(ahead) -
+               osg::Vec3d(wall.eye == CaveEye::Left ? 32 : -32, 0, -5000))
+                  .length() < 1e-6);
+    }
+}
+
+TEST_CASE("a head path is read, mixed linearly, and refused by line")
+{
+    const TemporaryFolder folder;
+    const HeadPath path = HeadPath::read(written(
+        folder, "p", "# seconds x y z h p r\n0 0 0 0 0 0 0\n\n2 10 20 30 90 0 -4 # there\n"));
+    CHECK(path.end() == 2.0);
+    CHECK((path.at(1.0).position - osg::Vec3d(5, 10, 15)).length() < 1e-12);
+    CHECK(path.at(0.5).h == Approx(22.5));
+    CHECK(path.at(-1.0).position.length() == 0.0);
+    CHECK(path.at(9.0).r == -4.0);
+    for (const char* bad : {"0 1 2 3 4 5\n", "0 0 0 0 0 0 0 0\n", "\n\n", "0 a 0 0 0 0 0\n",
+                            "word\n", "1 0 0 0 0 0 0\n1 0 0 0 0 0 0\n"})
+        CHECK_THROWS_AS(HeadPath::read(written(folder, "q", bad)), Failure);
+    CHECK_THROWS_AS(HeadPath::read(folder / "none"), Failure);
+}
