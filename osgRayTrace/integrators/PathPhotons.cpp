@@ -87,8 +87,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
         else
         {
             point.bsdf = &bounce.bsdfs[i];
-            point.wo = -Vec3(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
-                             block.rays.ray.directionZ[i]);
+            point.wo = -directionOf(block.rays.ray, i);
             point.directOnly = !((bounce.rough >> i) & 1u);
             sum = gatherBsdf(map, point);
         }
