@@ -94,9 +94,9 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
         if (sum.count == 0) continue;
         const Vec3 flux = laneOf(block.throughput, i) * sum.power;
         const float discArea = kPi * point.query.radius * point.query.radius;
-        if (gathered.seen && (pixel + gathered.seenFirst) % gathered.seenStride == 0 &&
+        if (gathered.seenStride && (pixel + gathered.seenFirst) % gathered.seenStride == 0 &&
             sum.count <= kMostNotedPhotons)
-            noteSeen(map, point.query, luminance(flux) / discArea, *gathered.seen);
+            noteSeen(map, point.query, luminance(flux) / discArea, gathered.seen);
         if (gathered.separate)
         {
             gathered.count[pixel] += sum.count;
