@@ -1,5 +1,5 @@
-// WhittedLights.cpp - light that surfaces get from lights of all kinds, sample by sample. Layer: integrators.
-// SPDX-License-Identifier: MIT
+// WhittedLights.cpp - light that surfaces get from lights of all kinds, sample by sample. Layer:
+// integrators. SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/EnvironmentLanes.h"
 #include "osgRayTrace/integrators/WhittedTile.h"
 
@@ -24,16 +24,17 @@ namespace
 
 /// Adds f cos L V / pdfW of Lambert lanes: vector code.
 OSGRAYTRACE_KERNEL
-void addDiffuse(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLanes& light, LaneMask visible,
-                float scale, Vec3Lanes& sum)
+void addDiffuse(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLanes& light,
+                LaneMask visible, float scale, Vec3Lanes& sum)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        const float cosine = normal.x[i] * light.wi.x[i] + normal.y[i] * light.wi.y[i] +
-                             normal.z[i] * light.wi.z[i];
+        const float cosine =
+            normal.x[i] * light.wi.x[i] + normal.y[i] * light.wi.y[i] + normal.z[i] * light.wi.z[i];
         const uint32_t use = laneBit(visible, i) & maskOf(cosine > 0.0f);
-        // Lanes that are not used may hold anything: selected last, so that nothing of it gets through.
+        // Lanes that are not used may hold anything: selected last, so that nothing of it gets
+        // through.
         const float weight = cosine * light.weight[i] * (scale * kInvPi);
         const float r = albedo.x[i] * light.radiance[0][i] * weight;
         const float g = albedo.y[i] * light.radiance[1][i] * weight;
@@ -63,7 +64,8 @@ void addGeneral(ShadingBlock& block, LaneMask visible, float scale)
     }
 }
 
-/// Takes one light sample through its stages for all blocks. draw sets block.light for the lanes of a mask.
+/// Takes one light sample through its stages for all blocks. draw sets block.light for the lanes of
+/// a mask.
 template <class Draw>
 void addSample(WhittedTile& tile, ShadingBlock* blocks, int count, float scale, const Draw& draw)
 {
@@ -82,7 +84,8 @@ void addSample(WhittedTile& tile, ShadingBlock* blocks, int count, float scale, 
         const LaneMaterials& m = block->materials;
         const LaneMask visible = block->light.lit;
         if (visible & m.diffuse)
-            addDiffuse(m.normal, m.albedo, block->light, visible & m.diffuse, scale, block->radiance);
+            addDiffuse(m.normal, m.albedo, block->light, visible & m.diffuse, scale,
+                       block->radiance);
         if (visible & ~m.diffuse) addGeneral(*block, visible & ~m.diffuse, scale);
     }
 }
@@ -118,8 +121,7 @@ void addEnvironment(WhittedTile& tile, ShadingBlock* blocks, int count)
     {
         for (const EnvironmentStratum& stratum : *context.strata)
             addSample(tile, blocks, count, 1.0f,
-                      [&](ShadingBlock& block, LaneMask lanes)
-                      {
+                      [&](ShadingBlock& block, LaneMask lanes) {
                           stratumLanes(stratum, 1.0f, block.surface, lanes, block.materials.through,
                                        block.light);
                       });
@@ -139,15 +141,15 @@ void addEnvironment(WhittedTile& tile, ShadingBlock* blocks, int count)
 }
 
 /// One sample of one of them. share: of all its samples.
-void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float share, const FloatLanes& u,
-                   const FloatLanes& v)
+void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float share,
+                   const FloatLanes& u, const FloatLanes& v)
 {
     const PassContext& context = tile.context;
     const Light& light = (*context.lights)[index];
     const LaneMaterials& m = block.materials;
     LightLanes& samples = block.light;
-    deltaLightLanes(context, index, block.surface, m.diffuse | m.physical | m.fixedFunction, m.through, u, v,
-                    samples);
+    deltaLightLanes(context, index, block.surface, m.diffuse | m.physical | m.fixedFunction,
+                    m.through, u, v, samples);
     // Fixed-function lanes that face away get the light's ambient term only: no ray for them.
     const LaneMask reached = samples.lit;
     for (LaneMask lanes = samples.lit & m.fixedFunction; lanes; lanes &= lanes - 1)
@@ -168,7 +170,8 @@ void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float
     if (visible & m.physical) addGeneral(block, visible & m.physical, share);
 }
 
-/// Lights with a size take as many samples as area lights do; their points follow on those and the environment's.
+/// Lights with a size take as many samples as area lights do; their points follow on those and the
+/// environment's.
 void addDeltaLights(WhittedTile& tile, ShadingBlock& block)
 {
     const LightTable& table = tile.context.traced->lights();

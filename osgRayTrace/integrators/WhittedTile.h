@@ -1,5 +1,5 @@
-// WhittedTile.h - what the parts of Whitted's integrator share: a tile at work, blocks of rays. Layer: integrators.
-// SPDX-License-Identifier: MIT
+// WhittedTile.h - what the parts of Whitted's integrator share: a tile at work, blocks of rays.
+// Layer: integrators. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/integrators/FixedFunctionLighting.h"
@@ -25,8 +25,8 @@ struct SecondaryRay
     int layers = 0;          ///< blended surfaces that it has passed one after the other
 };
 
-/// Blocks of camera rays that are taken through the stages together: independent work for the CPU to
-/// overlap, small enough for the first-level cache.
+/// Blocks of camera rays that are taken through the stages together: independent work for the CPU
+/// to overlap, small enough for the first-level cache.
 constexpr int kGroup = 4;
 
 /// What the lanes of a block are made of.
@@ -51,15 +51,16 @@ struct ShadingBlock
     UintLanes seed;
     UintLanes pixel;
     Vec3Lanes weight;
-    FloatLanes etaScale;       ///< weight outside of glass over weight
-    FloatLanes firstU, firstV; ///< first sample on the first area light: drawn early, see drawFirstPoints
+    FloatLanes etaScale; ///< weight outside of glass over weight
+    FloatLanes firstU,
+        firstV; ///< first sample on the first area light: drawn early, see drawFirstPoints
     int depth[kLanes];
-    int layers[kLanes]; ///< see SecondaryRay
-    LaneMask fromCamera = 0;   ///< camera rays, and those that go on
+    int layers[kLanes];      ///< see SecondaryRay
+    LaneMask fromCamera = 0; ///< camera rays, and those that go on
 
     LaneMaterials materials;
-    LightLanes light;          ///< the sample at work
-    Vec3Lanes radiance;        ///< so far
+    LightLanes light;   ///< the sample at work
+    Vec3Lanes radiance; ///< so far
 };
 
 struct WhittedTile
@@ -86,18 +87,19 @@ struct WhittedTile
     LightGrid grid;
     std::vector<SecondaryRay> stack;
     ShadingBlock group[kGroup];
-    std::vector<Bsdf> bsdfs;               ///< kLanes for each block of the group; empty until needed
+    std::vector<Bsdf> bsdfs; ///< kLanes for each block of the group; empty until needed
     std::vector<FixedFunctionPoint> points; ///< the same
 };
 
 /// Adds to the count of the lanes' pixels, if it is wanted.
 void countRays(WhittedTile& tile, const ShadingBlock& block, LaneMask lanes);
 
-/// The first points of a block on area lights, ahead of use: they are a long chain of operations, which
-/// overlaps with those of other blocks here and with nothing where it is needed.
+/// The first points of a block on area lights, ahead of use: they are a long chain of operations,
+/// which overlaps with those of other blocks here and with nothing where it is needed.
 void drawFirstPoints(const WhittedTile& tile, ShadingBlock& block);
 
-/// Adds what the lights send to some blocks of the group; fixed-function lanes keep theirs in their points.
+/// Adds what the lights send to some blocks of the group; fixed-function lanes keep theirs in their
+/// points.
 void addDirectLight(WhittedTile& tile, ShadingBlock* blocks, int count);
 
 inline void addLane(Vec3Lanes& sum, int i, Vec3 value)
