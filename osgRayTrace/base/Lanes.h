@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/Math.h"
+
 #include <cstdint>
 #include <cstring>
 
@@ -87,5 +89,14 @@ struct Vec3Lanes
 {
     FloatLanes x, y, z;
 };
+
+inline Vec3 laneOf(const Vec3Lanes& lanes, int i) { return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]); }
+
+inline void setLane(Vec3Lanes& lanes, int i, Vec3 value)
+{
+    lanes.x[i] = value.x;
+    lanes.y[i] = value.y;
+    lanes.z[i] = value.z;
+}
 
 } // namespace osgRayTrace::engine

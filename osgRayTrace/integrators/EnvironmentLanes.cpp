@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/EnvironmentLanes.h"
 
-#include "osgRayTrace/integrators/HitShading.h"
-
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -33,31 +31,9 @@ bool setLane(const SurfaceLanes& surface, int i, Vec3 wi, bool through, Vec3 rad
              LightLanes& samples)
 {
     if (!through && glm::dot(laneOf(surface.geometricNormal, i), wi) <= 0.0f) return false;
-    const RayBegin begin = leave(surface, i, wi);
-    samples.wi.x[i] = wi.x;
-    samples.wi.y[i] = wi.y;
-    samples.wi.z[i] = wi.z;
-    for (int c = 0; c < 3; ++c)
-        samples.radiance[c][i] = radiance[c];
-    samples.weight[i] = weight;
-    RayBlock& ray = samples.shadow;
-    ray.originX[i] = begin.origin.x;
-    ray.originY[i] = begin.origin.y;
-    ray.originZ[i] = begin.origin.z;
-    ray.directionX[i] = wi.x;
-    ray.directionY[i] = wi.y;
-    ray.directionZ[i] = wi.z;
-    ray.tNear[i] = begin.tNear;
-    ray.time[i] = 0.0f;
-    ray.tFar[i] = kInfinity;
-    ray.mask[i] = 0xffffffffu;
-    ray.id[i] = ray.flags[i] = 0;
+    setSample(samples, i, wi, radiance, weight);
+    setRay(samples.shadow, i, leave(surface, i, wi), wi, kInfinity);
     return true;
-}
-
-Vec3 directionOf(const RayBlock& ray, int i)
-{
-    return Vec3(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
 }
 
 } // namespace

@@ -20,7 +20,7 @@ FixedFunctionPoint fixedFunctionPoint(const PassContext& context, const RayHitBl
     if (material.twoSidedLighting && !front) p.normal = -p.normal;
     p.halfAxis = context.towardsViewer;
     if (material.localViewer)
-        p.halfAxis = -Vec3(rays.ray.directionX[i], rays.ray.directionY[i], rays.ray.directionZ[i]);
+        p.halfAxis = -directionOf(rays.ray, i);
     p.separateSpecular = material.separateSpecular;
     p.textures = materials.textures(material, point);
     return p;

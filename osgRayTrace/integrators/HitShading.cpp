@@ -20,7 +20,7 @@ MaterialPoint materialPoint(const PassContext& context, const RayHitBlock& rays,
         point.front = front;
         return point;
     }
-    const Vec3 direction(rays.ray.directionX[i], rays.ray.directionY[i], rays.ray.directionZ[i]);
+    const Vec3 direction = directionOf(rays.ray, i);
     MaterialPoint point =
         materialPointOf(context.traced->surfaces()[surface.instance[i]], material,
                         rays.primitive[i], rays.u[i], rays.v[i], front, direction);
@@ -33,7 +33,7 @@ Vec3 facingNormal(const RayHitBlock& rays, const SurfaceLanes& surface, int i)
     const Vec3 geometric = laneOf(surface.geometricNormal, i);
     Vec3 shading = laneOf(surface.shadingNormal, i);
     if (glm::dot(shading, geometric) < 0.0f) shading = -shading;
-    const Vec3 direction(rays.ray.directionX[i], rays.ray.directionY[i], rays.ray.directionZ[i]);
+    const Vec3 direction = directionOf(rays.ray, i);
     return glm::dot(shading, direction) < -1e-4f ? shading : geometric;
 }
 

@@ -10,13 +10,9 @@
 namespace osgRayTrace::engine
 {
 
-inline Vec3 laneOf(const Vec3Lanes& lanes, int i) { return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]); }
-
-inline void setLane(Vec3Lanes& lanes, int i, Vec3 value)
+inline Vec3 directionOf(const RayBlock& ray, int i)
 {
-    lanes.x[i] = value.x;
-    lanes.y[i] = value.y;
-    lanes.z[i] = value.z;
+    return Vec3(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
 }
 
 /// Orthonormal frame around a shading normal.
@@ -47,6 +43,30 @@ struct RayBegin
     Vec3 origin;
     float tNear;
 };
+
+OSGRAYTRACE_INLINE void setRay(RayBlock& ray, int i, float ox, float oy, float oz, float dx,
+                               float dy, float dz, float tFar)
+{
+    ray.originX[i] = ox;
+    ray.originY[i] = oy;
+    ray.originZ[i] = oz;
+    ray.directionX[i] = dx;
+    ray.directionY[i] = dy;
+    ray.directionZ[i] = dz;
+    ray.tNear[i] = 0.0f;
+    ray.tFar[i] = tFar;
+    ray.time[i] = 0.0f;
+    ray.mask[i] = 0xffffffffu;
+    ray.id[i] = 0;
+    ray.flags[i] = 0;
+}
+
+inline void setRay(RayBlock& ray, int i, const RayBegin& begin, Vec3 direction, float tFar)
+{
+    setRay(ray, i, begin.origin.x, begin.origin.y, begin.origin.z, direction.x, direction.y,
+           direction.z, tFar);
+    ray.tNear[i] = begin.tNear;
+}
 
 /// Of a ray that leaves the surface towards wi: of the point itself, from where it is clear of the surface, if
 /// it is steep; else of the point above. Off a large plane that one sees 0.002 % more of a light.

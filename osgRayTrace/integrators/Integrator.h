@@ -72,9 +72,9 @@ struct GatheredPhotons
     uint32_t count[kTilePixels] = {};
     Vec3 flux[kTilePixels] = {};     ///< times the path's throughput [W/sr]
 
-    /// If not null: photons are noted here of the pixels that, and seenFirst, are a multiple of seenStride.
-    std::vector<SeenPhoton>* seen = nullptr;
-    uint32_t seenFirst = 0, seenStride = 1;
+    /// Photons of the pixels that, and seenFirst, are a multiple of seenStride; 0: they are not wanted.
+    std::vector<SeenPhoton> seen;
+    uint32_t seenFirst = 0, seenStride = 0;
 };
 
 struct HitPoints;

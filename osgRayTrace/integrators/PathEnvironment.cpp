@@ -101,8 +101,7 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
         if (use == PhotonUse::Caustics && (block.pixel[i] & kCausticChain)) continue; // of photons
         const bool sampled = block.pdfW[i] < kInfinity;
         if (sampled && tile.context.strata) continue; // they hold all of it
-        const Vec3 direction(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
-                             block.rays.ray.directionZ[i]);
+        const Vec3 direction = directionOf(block.rays.ray, i);
         const float weight =
             sampled ? powerHeuristic(block.pdfW[i],
                                      environmentPdfW(tile.context, *environment, direction))

@@ -71,8 +71,7 @@ void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits
         point.start = laneOf(surface.position, i);
         point.geometricNormal = laneOf(surface.geometricNormal, i);
         point.normal = laneOf(bounce.normal, i);
-        point.direction = Vec3(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
-                               block.rays.ray.directionZ[i]);
+        point.direction = directionOf(block.rays.ray, i);
         point.throughput = laneOf(block.throughput, i);
         point.diffuse = bitOf(bounce.diffuse, i);
         point.albedo = point.diffuse ? laneOf(bounce.albedo, i) : Vec3(0.0f);

@@ -44,8 +44,7 @@ void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface
         {
             if (use == PhotonUse::Caustics && (block.pixel[i] & kCausticChain))
                 continue; // of photons
-            const Vec3 direction(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
-                                 block.rays.ray.directionZ[i]);
+            const Vec3 direction = directionOf(block.rays.ray, i);
             const float cosThetaL =
                 std::fabs(glm::dot(direction, laneOf(surface.geometricNormal, i)));
             const float pdfLight =
@@ -103,8 +102,7 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
         const int i = __builtin_ctz(lanes);
         const ShadingFrame frame(laneOf(bounce.normal, i));
         const Vec3 wo =
-            frame.toLocal(-Vec3(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
-                                block.rays.ray.directionZ[i]));
+            frame.toLocal(-directionOf(block.rays.ray, i));
         const Vec3 wiWorld = laneOf(light.wi, i);
         const Vec3 wi = frame.toLocal(wiWorld);
         // Light and shading normal must agree on the side, or light leaks through smooth surfaces.

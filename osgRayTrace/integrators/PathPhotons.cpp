@@ -87,17 +87,16 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
         else
         {
             point.bsdf = &bounce.bsdfs[i];
-            point.wo = -Vec3(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
-                             block.rays.ray.directionZ[i]);
+            point.wo = -directionOf(block.rays.ray, i);
             point.directOnly = !((bounce.rough >> i) & 1u);
             sum = gatherBsdf(map, point);
         }
         if (sum.count == 0) continue;
         const Vec3 flux = laneOf(block.throughput, i) * sum.power;
         const float discArea = kPi * point.query.radius * point.query.radius;
-        if (gathered.seen && (pixel + gathered.seenFirst) % gathered.seenStride == 0 &&
+        if (gathered.seenStride && (pixel + gathered.seenFirst) % gathered.seenStride == 0 &&
             sum.count <= kMostNotedPhotons)
-            noteSeen(map, point.query, luminance(flux) / discArea, *gathered.seen);
+            noteSeen(map, point.query, luminance(flux) / discArea, gathered.seen);
         if (gathered.separate)
         {
             gathered.count[pixel] += sum.count;

@@ -199,8 +199,7 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         const int i = __builtin_ctz(lanes);
         const ShadingFrame frame(laneOf(bounce.normal, i));
         const Vec3 wo =
-            frame.toLocal(-Vec3(block.rays.ray.directionX[i], block.rays.ray.directionY[i],
-                                block.rays.ray.directionZ[i]));
+            frame.toLocal(-directionOf(block.rays.ray, i));
         const std::optional<BsdfSample> sample =
             sampleBsdf(bounce.bsdfs[i], wo, lobe[i], u[i], v[i]);
         if (!sample || (!sample->delta && ((bounce.ending >> i) & 1u))) continue;

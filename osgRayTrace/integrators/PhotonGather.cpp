@@ -18,6 +18,10 @@ namespace
 /// the radius takes in its rim, and where the next larger one still does after it has shrunk.
 constexpr int kRadiusSteps = 4;
 
+/// Where the largest radius holds no more photons than this all radii are counted from one look-up. Where
+/// it holds more each radius takes a look-up of its own, which need not read those of a crowd.
+constexpr std::size_t kMostReaches = 4096;
+
 void addPhotons(const PhotonMap& map, const GatherPoint& point, const PhotonQuery& query,
                 const ShadingFrame& frame, Vec3 wo, bool behind, PhotonSum& sum)
 {
@@ -42,8 +46,14 @@ void addPhotons(const PhotonMap& map, const GatherPoint& point, const PhotonQuer
 
 float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float largest)
 {
+    if (!(least < largest)) return largest;
+    static thread_local PhotonReaches reaches;
+    query.radius = largest;
+    const bool known = map.findReaches(query, kMostReaches, reaches);
+    if (known && reaches.size() < kRadiusPhotons) return largest;
     const auto holdsEnough = [&](float radius)
     {
+        if (known) return reaches.countWithin(radius) >= kRadiusPhotons;
         query.radius = radius;
         return map.gather(query).count >= kRadiusPhotons;
     };

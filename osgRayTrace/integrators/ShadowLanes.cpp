@@ -3,7 +3,6 @@
 #include "osgRayTrace/integrators/ShadowLanes.h"
 
 #include "osgRayTrace/accel/Intersector.h"
-#include "osgRayTrace/integrators/HitShading.h"
 #include "osgRayTrace/shading/SoftLight.h"
 
 #include <algorithm>
@@ -33,23 +32,6 @@ Quad quadOf(const Light& light, const LightTable& table, uint32_t index)
     return {light.corner,       light.edgeU,        light.edgeV,
             table.normal(index), table.area(index),  table.pointOffset(index),
             light.twoSided,     light.radiance};
-}
-
-OSGRAYTRACE_INLINE void setShadowRay(RayBlock& ray, int i, float ox, float oy, float oz, float dx,
-                                     float dy, float dz, float tFar)
-{
-    ray.originX[i] = ox;
-    ray.originY[i] = oy;
-    ray.originZ[i] = oz;
-    ray.directionX[i] = dx;
-    ray.directionY[i] = dy;
-    ray.directionZ[i] = dz;
-    ray.tNear[i] = 0.0f;
-    ray.tFar[i] = tFar;
-    ray.time[i] = 0.0f;
-    ray.mask[i] = 0xffffffffu;
-    ray.id[i] = 0;
-    ray.flags[i] = 0;
 }
 
 OSGRAYTRACE_KERNEL
@@ -102,33 +84,10 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
         samples.radiance[0][i] = q.radiance.x;
         samples.radiance[1][i] = q.radiance.y;
         samples.radiance[2][i] = q.radiance.z;
-        setShadowRay(samples.shadow, i, ox, oy, oz, dx * perDistance, dy * perDistance, dz * perDistance,
+        setRay(samples.shadow, i, ox, oy, oz, dx * perDistance, dy * perDistance, dz * perDistance,
                      distance);
     }
     return lit & active;
-}
-
-void setShadowRay(RayBlock& ray, int i, const RayBegin& begin, Vec3 direction, float tFar)
-{
-    setShadowRay(ray, i, begin.origin.x, begin.origin.y, begin.origin.z, direction.x, direction.y, direction.z,
-                 tFar);
-    ray.tNear[i] = begin.tNear;
-}
-
-void setRadiance(LightLanes& samples, int i, Vec3 radiance)
-{
-    samples.radiance[0][i] = radiance.x;
-    samples.radiance[1][i] = radiance.y;
-    samples.radiance[2][i] = radiance.z;
-}
-
-Vec3 at(const Vec3Lanes& lanes, int i) { return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]); }
-
-void setWi(LightLanes& samples, int i, Vec3 wi)
-{
-    samples.wi.x[i] = wi.x;
-    samples.wi.y[i] = wi.y;
-    samples.wi.z[i] = wi.z;
 }
 
 /// A lane whose light sample is on an emissive mesh.
@@ -136,10 +95,10 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf, const Surfa
               float u, float v, bool through, LightLanes& samples)
 {
     const LightTable& table = context.traced->lights();
-    const Vec3 p = at(surface.position, i);
+    const Vec3 p = laneOf(surface.position, i);
     const std::optional<AreaLightSample> sample = table.sampleArea(light, p, u, v);
     if (!sample) return false;
-    const Vec3 n = at(surface.geometricNormal, i);
+    const Vec3 n = laneOf(surface.geometricNormal, i);
     if (!through && glm::dot(n, sample->wi) <= 0.0f) return false;
 
     // Measured from where the ray starts, as the path tracer does when it meets the light by chance: far from
@@ -153,13 +112,12 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf, const Surfa
     const float pdfW = table.pdfArea(light, distance, cosThetaL);
     if (!(cosThetaL > 0.0f) || !(pdfW > 0.0f) || !(pdfW < 1e30f)) return false;
     const float clear = std::max(begin.tNear, distance - sample->offset / cosThetaL);
-    setWi(samples, i, wi);
-    setShadowRay(samples.shadow, i, begin, wi, clear);
-    samples.weight[i] = 1.0f / (pmf * pdfW);
+    setRay(samples.shadow, i, begin, wi, clear);
     const Instance& instance = context.traced->scene().instances[(*context.lights)[light].instance];
     MaterialPoint point;
     point.uv = sample->uv;
-    setRadiance(samples, i, context.traced->materials().emission(instance.material, point));
+    const Vec3 radiance = context.traced->materials().emission(instance.material, point);
+    setSample(samples, i, wi, radiance, 1.0f / (pmf * pdfW));
     return true;
 }
 
@@ -199,11 +157,11 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
         const int i = __builtin_ctz(lanes);
         const Material& material = context.traced->scene().materials[surface.material[i]];
         if (light.number < 32 && !((material.lightMask >> light.number) & 1u)) continue;
-        const Vec3 point = at(trianglePoints(surface), i);
+        const Vec3 point = laneOf(trianglePoints(surface), i);
         const SoftLightSample sample =
             sampleSoft(light, point, soft ? Vec2(u[i], v[i]) : Vec2(0.0f));
         if (!(sample.attenuation > 0.0f)) continue;
-        if (!((through >> i) & 1u) && glm::dot(at(surface.geometricNormal, i), sample.wi) <= 0.0f)
+        if (!((through >> i) & 1u) && glm::dot(laneOf(surface.geometricNormal, i), sample.wi) <= 0.0f)
             continue;
         const RayBegin begin = leave(surface, i, sample.wi);
         Vec3 towards = sample.wi;
@@ -216,11 +174,9 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
             if (!(distance > 0.0f)) continue;
             towards /= distance;
         }
-        setWi(samples, i, sample.wi);
-        setShadowRay(samples.shadow, i, begin, towards, std::max(begin.tNear, distance));
-        setRadiance(samples, i, light.diffuse * (kPi * sample.attenuation));
+        setRay(samples.shadow, i, begin, towards, std::max(begin.tNear, distance));
+        setSample(samples, i, sample.wi, light.diffuse * (kPi * sample.attenuation), sample.weight);
         samples.attenuation[i] = sample.attenuation;
-        samples.weight[i] = sample.weight;
         samples.lit |= 1u << i;
     }
 }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/accel/Surface.h"
-#include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/integrators/HitShading.h"
 #include "osgRayTrace/shading/LightTable.h"
 
 namespace osgRayTrace::engine
@@ -20,6 +19,14 @@ struct LightLanes
     LaneMask lit = 0;     ///< lanes that can get light from it; others are undefined
     RayBlock shadow;      ///< from the surface to the light, both ends clear of their own geometry
 };
+
+inline void setSample(LightLanes& samples, int i, Vec3 wi, Vec3 radiance, float weight)
+{
+    setLane(samples.wi, i, wi);
+    for (int c = 0; c < 3; ++c)
+        samples.radiance[c][i] = radiance[c];
+    samples.weight[i] = weight;
+}
 
 /// Point (u, v) of area light number light for the lanes of active. Lanes whose geometric normal faces
 /// away from the light are left out unless throughSurface has them: these get light from behind, too.

@@ -14,12 +14,8 @@
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/CameraLanes.h"
 #include "osgRayTrace/integrators/EnvironmentLanes.h"
-#include "osgRayTrace/integrators/FixedFunctionLighting.h"
-#include "osgRayTrace/integrators/HitShading.h"
-#include "osgRayTrace/integrators/LightGrid.h"
-#include "osgRayTrace/integrators/ShadowLanes.h"
+#include "osgRayTrace/integrators/WhittedTile.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -31,95 +27,6 @@ namespace
 /// A mirror or refracted ray weighing less than this cannot be seen in 8 bits. What counts is its weight
 /// outside of all glass: in it weights are 1/eta^2 of what comes out again.
 constexpr float kSmallestWeight = 1.0f / 1024.0f;
-
-struct SecondaryRay
-{
-    RayBegin begin;
-    Vec3 direction, weight;
-    float etaScale;
-    uint32_t pixel;
-    uint32_t seed;
-    int depth;
-    bool fromCamera = false; ///< a camera ray that goes on behind blended surfaces
-    int layers = 0;          ///< blended surfaces that it has passed one after the other
-};
-
-/// Blocks of camera rays that are taken through the stages together: independent work for the CPU to
-/// overlap, small enough for the first-level cache.
-constexpr int kGroup = 4;
-
-/// What the lanes of a block are made of.
-struct LaneMaterials
-{
-    LaneMask diffuse = 0;       ///< physical, constant, Lambert only
-    LaneMask fixedFunction = 0; ///< lit by OpenGL's equations
-    LaneMask physical = 0;      ///< the other ones that scatter
-    LaneMask through = 0;       ///< lit from behind as well
-    LaneMask own = 0;           ///< with a colour of their own: emission, fixed-function lanes
-    Vec3Lanes normal;           ///< shading, towards the ray
-    Vec3Lanes albedo;           ///< of diffuse lanes
-    Bsdf* bsdfs = nullptr;      ///< of physical lanes, and of fixed-function ones below area lights
-    FixedFunctionPoint* points = nullptr; ///< of fixed-function lanes
-};
-
-/// Sixteen rays to be shaded, with what they count for in which pixel.
-struct ShadingBlock
-{
-    RayHitBlock rays;
-    SurfaceLanes surface;
-    UintLanes seed;
-    UintLanes pixel;
-    Vec3Lanes weight;
-    FloatLanes etaScale;       ///< weight outside of glass over weight
-    FloatLanes firstU, firstV; ///< first sample on the first area light: drawn early, see drawFirst
-    int depth[kLanes];
-    int layers[kLanes]; ///< see SecondaryRay
-    LaneMask fromCamera = 0;   ///< camera rays, and those that go on
-
-    LaneMaterials materials;
-    LightLanes light;          ///< the sample at work
-    Vec3Lanes radiance;        ///< so far
-};
-
-/// The first points of a block, ahead of use: they are a long chain of operations, which overlaps with
-/// those of other blocks here and with nothing where it is needed.
-void drawFirst(const LightGrid& grid, ShadingBlock& block)
-{
-    grid.draw(0, 0, block.seed, block.firstU, block.firstV);
-}
-
-struct Tile
-{
-    Tile(const PassContext& c, TileResult& r) : context(c), result(r), grid(c) {}
-
-    void add(uint32_t pixel, Vec3 radiance)
-    {
-        RgbaLanes& block = result.rgba[pixel / kLanes];
-        block.r[pixel % kLanes] += radiance.x;
-        block.g[pixel % kLanes] += radiance.y;
-        block.b[pixel % kLanes] += radiance.z;
-    }
-
-    /// What is behind shows through by so much.
-    void uncover(uint32_t pixel, float share)
-    {
-        float& alpha = result.rgba[pixel / kLanes].a[pixel % kLanes];
-        alpha = std::max(0.0f, alpha - share);
-    }
-
-    const PassContext& context;
-    TileResult& result;
-    LightGrid grid;
-    std::vector<SecondaryRay> stack;
-    ShadingBlock group[kGroup];
-    std::vector<Bsdf> bsdfs;               ///< kLanes for each block of the group; empty until needed
-    std::vector<FixedFunctionPoint> points; ///< the same
-};
-
-Vec3 rayDirection(const RayBlock& ray, int i)
-{
-    return Vec3(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
-}
 
 OSGRAYTRACE_KERNEL
 bool isOneMaterial(const UintLanes& material, LaneMask hits, uint32_t first)
@@ -150,7 +57,7 @@ bool lightsArea(const PassContext& context)
     return context.traced->traits().areaLights || context.traced->traits().environment;
 }
 
-void classify(Tile& tile, ShadingBlock& block)
+void classify(WhittedTile& tile, ShadingBlock& block)
 {
     LaneMaterials& m = block.materials;
     m.diffuse = m.fixedFunction = m.physical = m.through = m.own = 0;
@@ -211,190 +118,7 @@ void classify(Tile& tile, ShadingBlock& block)
     }
 }
 
-/// Adds f cos L V / pdfW of Lambert lanes: vector code.
-OSGRAYTRACE_KERNEL
-void addDiffuse(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLanes& light, LaneMask visible,
-                float scale, Vec3Lanes& sum)
-{
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < kLanes; ++i)
-    {
-        const float cosine = normal.x[i] * light.wi.x[i] + normal.y[i] * light.wi.y[i] +
-                             normal.z[i] * light.wi.z[i];
-        const uint32_t use = laneBit(visible, i) & maskOf(cosine > 0.0f);
-        // Lanes that are not used may hold anything: selected last, so that nothing of it gets through.
-        const float weight = cosine * light.weight[i] * (scale * kInvPi);
-        const float r = albedo.x[i] * light.radiance[0][i] * weight;
-        const float g = albedo.y[i] * light.radiance[1][i] * weight;
-        const float b = albedo.z[i] * light.radiance[2][i] * weight;
-        sum.x[i] += select(use, r, 0.0f);
-        sum.y[i] += select(use, g, 0.0f);
-        sum.z[i] += select(use, b, 0.0f);
-    }
-}
-
-void addLane(Vec3Lanes& sum, int i, Vec3 value)
-{
-    sum.x[i] += value.x;
-    sum.y[i] += value.y;
-    sum.z[i] += value.z;
-}
-
-/// The same for lanes with any other Bsdf.
-void addGeneral(ShadingBlock& block, LaneMask visible, float scale)
-{
-    const LaneMaterials& m = block.materials;
-    const LightLanes& light = block.light;
-    for (LaneMask lanes = visible; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
-        const ShadingFrame frame(laneOf(m.normal, i));
-        const Vec3 wo = frame.toLocal(-rayDirection(block.rays.ray, i));
-        const Vec3 wiWorld = laneOf(light.wi, i);
-        const Vec3 wi = frame.toLocal(wiWorld);
-        if ((wi.z > 0.0f) != isAbove(block.surface, i, wiWorld)) continue;
-        const BsdfValue value = evalBsdf(m.bsdfs[i], wo, wi);
-        const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
-        addLane(block.radiance, i, value.fCos * radiance * (light.weight[i] * scale));
-    }
-}
-
-void countRays(Tile& tile, const ShadingBlock& block, LaneMask lanes)
-{
-    if (!tile.result.diagnostics) return;
-    for (; lanes; lanes &= lanes - 1)
-        tile.result.diagnostics->rays[block.pixel[__builtin_ctz(lanes)]] += 1.0f;
-}
-
-/// Takes one light sample through its stages for all blocks. draw sets block.light for the lanes of a mask.
-template <class Draw>
-void addSample(Tile& tile, ShadingBlock* blocks, int count, float scale, const Draw& draw)
-{
-    for (ShadingBlock* block = blocks; block != blocks + count; ++block)
-    {
-        const LaneMaterials& m = block->materials;
-        draw(*block, m.diffuse | m.physical | m.fixedFunction);
-    }
-    for (ShadingBlock* block = blocks; block != blocks + count; ++block)
-    {
-        countRays(tile, *block, block->light.lit);
-        block->light.lit = visibleLanes(tile.context, block->light, tile.result.counts);
-    }
-    for (ShadingBlock* block = blocks; block != blocks + count; ++block)
-    {
-        const LaneMaterials& m = block->materials;
-        const LaneMask visible = block->light.lit;
-        if (visible & m.diffuse)
-            addDiffuse(m.normal, m.albedo, block->light, visible & m.diffuse, scale, block->radiance);
-        if (visible & ~m.diffuse) addGeneral(*block, visible & ~m.diffuse, scale);
-    }
-}
-
-/// Direct light from all area lights, sample by sample.
-void addAreaLights(Tile& tile, ShadingBlock* blocks, int count)
-{
-    const PassContext& context = tile.context;
-    const std::vector<uint32_t>& lights = context.traced->lights().areaLights();
-    const LightGrid& grid = tile.grid;
-    const float scale = 1.0f / static_cast<float>(grid.samples());
-    for (std::size_t k = 0; k < lights.size(); ++k)
-    {
-        for (uint32_t j = 0; j < grid.samples(); ++j)
-        {
-            addSample(tile, blocks, count, scale,
-                      [&](ShadingBlock& block, LaneMask lanes)
-                      {
-                          FloatLanes u = block.firstU, v = block.firstV;
-                          if (k + j > 0) grid.draw(k, j, block.seed, u, v);
-                          areaLightLanes(context, lights[k], 1.0f, block.surface, lanes,
-                                         block.materials.through, u, v, block.light);
-                      });
-        }
-    }
-}
-
-/// Direct light from the environment: samples as many as of an area light, or one of each stratum.
-void addEnvironment(Tile& tile, ShadingBlock* blocks, int count)
-{
-    const PassContext& context = tile.context;
-    if (context.strata)
-    {
-        for (const EnvironmentStratum& stratum : *context.strata)
-            addSample(tile, blocks, count, 1.0f,
-                      [&](ShadingBlock& block, LaneMask lanes)
-                      {
-                          stratumLanes(stratum, 1.0f, block.surface, lanes, block.materials.through,
-                                       block.light);
-                      });
-        return;
-    }
-    const LightGrid& grid = tile.grid;
-    const std::size_t behindAreaLights = context.traced->lights().areaLights().size();
-    for (uint32_t j = 0; j < grid.samples(); ++j)
-        addSample(tile, blocks, count, 1.0f / static_cast<float>(grid.samples()),
-                  [&](ShadingBlock& block, LaneMask lanes)
-                  {
-                      FloatLanes u, v;
-                      grid.draw(behindAreaLights, j, block.seed, u, v);
-                      environmentLanes(context, block.surface, lanes, block.materials.through, u, v,
-                                       block.light);
-                  });
-}
-
-/// One sample of one of them. share: of all its samples.
-void addDeltaLight(Tile& tile, ShadingBlock& block, uint32_t index, float share, const FloatLanes& u,
-                   const FloatLanes& v)
-{
-    const PassContext& context = tile.context;
-    const Light& light = (*context.lights)[index];
-    const LaneMaterials& m = block.materials;
-    LightLanes& samples = block.light;
-    deltaLightLanes(context, index, block.surface, m.diffuse | m.physical | m.fixedFunction, m.through, u, v,
-                    samples);
-    // Fixed-function lanes that face away get the light's ambient term only: no ray for them.
-    const LaneMask reached = samples.lit;
-    for (LaneMask lanes = samples.lit & m.fixedFunction; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
-        if (glm::dot(m.points[i].normal, laneOf(samples.wi, i)) <= 0.0f) samples.lit &= ~(1u << i);
-    }
-    countRays(tile, block, samples.lit);
-    const LaneMask visible = visibleLanes(context, samples, tile.result.counts);
-    for (LaneMask lanes = reached & m.fixedFunction; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
-        addLight(m.points[i], light, laneOf(samples.wi, i), samples.attenuation[i] * share,
-                 (visible >> i) & 1u ? samples.weight[i] : 0.0f);
-    }
-    if (visible & m.diffuse)
-        addDiffuse(m.normal, m.albedo, samples, visible & m.diffuse, share, block.radiance);
-    if (visible & m.physical) addGeneral(block, visible & m.physical, share);
-}
-
-/// Lights with a size take as many samples as area lights do; their points follow on those and the environment's.
-void addDeltaLights(Tile& tile, ShadingBlock& block)
-{
-    const LightTable& table = tile.context.traced->lights();
-    std::size_t number = table.areaLights().size() + (table.shiningEnvironment() ? 1 : 0);
-    FloatLanes u, v;
-    for (const uint32_t index : table.deltaLights())
-    {
-        if (!isSoft((*tile.context.lights)[index]))
-        {
-            addDeltaLight(tile, block, index, 1.0f, u, v);
-            continue;
-        }
-        const uint32_t count = tile.grid.samples();
-        for (uint32_t j = 0; j < count; ++j)
-        {
-            tile.grid.draw(number, j, block.seed, u, v);
-            addDeltaLight(tile, block, index, 1.0f / static_cast<float>(count), u, v);
-        }
-        ++number;
-    }
-}
-
-void push(Tile& tile, const ShadingBlock& block, int i, Vec3 direction, Vec3 weight, float etaScale)
+void push(WhittedTile& tile, const ShadingBlock& block, int i, Vec3 direction, Vec3 weight, float etaScale)
 {
     const float largest = std::max(weight.x, std::max(weight.y, weight.z));
     if (!(largest * etaScale >= kSmallestWeight)) return;
@@ -402,7 +126,7 @@ void push(Tile& tile, const ShadingBlock& block, int i, Vec3 direction, Vec3 wei
                           hash(block.seed[i] + 0x9e3779b9u), block.depth[i] + 1});
 }
 
-void spawn(Tile& tile, const ShadingBlock& block)
+void spawn(WhittedTile& tile, const ShadingBlock& block)
 {
     const LaneMaterials& m = block.materials;
     for (LaneMask lanes = m.physical; lanes; lanes &= lanes - 1)
@@ -410,7 +134,7 @@ void spawn(Tile& tile, const ShadingBlock& block)
         const int i = __builtin_ctz(lanes);
         if (block.depth[i] >= tile.context.options.maxBounces) continue;
         const ShadingFrame frame(laneOf(m.normal, i));
-        const Vec3 wo = frame.toLocal(-rayDirection(block.rays.ray, i));
+        const Vec3 wo = frame.toLocal(-directionOf(block.rays.ray, i));
         const SpecularLobes lobes = specularLobes(m.bsdfs[i], wo);
         const Vec3 weight = laneOf(block.weight, i);
         const float etaScale = block.etaScale[i];
@@ -431,7 +155,7 @@ void spawn(Tile& tile, const ShadingBlock& block)
 constexpr int kMostLayers = 256;
 
 /// Sends the rays of blended lanes on with what the surfaces let through, and leaves them the rest.
-void passThrough(Tile& tile, ShadingBlock& block)
+void passThrough(WhittedTile& tile, ShadingBlock& block)
 {
     const MaterialTable& materials = tile.context.traced->materials();
     for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
@@ -445,7 +169,7 @@ void passThrough(Tile& tile, ShadingBlock& block)
         const Vec3 weight = laneOf(block.weight, i);
         setLane(block.weight, i, weight * opacity);
         if (opacity >= 1.0f) continue;
-        const Vec3 direction = rayDirection(block.rays.ray, i);
+        const Vec3 direction = directionOf(block.rays.ray, i);
         const Vec3 normal = laneOf(block.surface.geometricNormal, i);
         const Vec3 origin =
             laneOf(trianglePoints(block.surface), i) - normal * block.surface.offset[i];
@@ -461,7 +185,7 @@ void passThrough(Tile& tile, ShadingBlock& block)
 }
 
 /// Adds what surfaces send by themselves, and the finished colour of fixed-function ones.
-void addOwnLight(const Tile& tile, ShadingBlock& block)
+void addOwnLight(const WhittedTile& tile, ShadingBlock& block)
 {
     const LaneMaterials& m = block.materials;
     for (LaneMask lanes = m.own; lanes; lanes &= lanes - 1)
@@ -477,27 +201,24 @@ void addOwnLight(const Tile& tile, ShadingBlock& block)
 
 /// Sets the radiance of all hits of some blocks of the group, anything elsewhere; pushes the rays that
 /// go on.
-void shade(Tile& tile, ShadingBlock* blocks, int count)
+void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
 {
-    const LightTable& lights = tile.context.traced->lights();
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
     {
         classify(tile, *block);
         fill(Vec3(0.0f), block->radiance);
         if (tile.context.traced->traits().blended) passThrough(tile, *block);
     }
-    addAreaLights(tile, blocks, count);
-    if (lights.shiningEnvironment()) addEnvironment(tile, blocks, count);
+    addDirectLight(tile, blocks, count);
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
     {
-        if (!lights.deltaLights().empty()) addDeltaLights(tile, *block);
         if (block->materials.own) addOwnLight(tile, *block);
         if (block->materials.physical) spawn(tile, *block);
     }
 }
 
 /// Traces up to sixteen rays from the top of the stack.
-void traceSecondary(Tile& tile)
+void traceSecondary(WhittedTile& tile)
 {
     const TracedScene& traced = *tile.context.traced;
     ShadingBlock& block = tile.group[0];
@@ -510,18 +231,7 @@ void traceSecondary(Tile& tile)
          ++i)
     {
         const SecondaryRay& from = tile.stack.back();
-        RayBlock& ray = block.rays.ray;
-        ray.originX[i] = from.begin.origin.x;
-        ray.originY[i] = from.begin.origin.y;
-        ray.originZ[i] = from.begin.origin.z;
-        ray.directionX[i] = from.direction.x;
-        ray.directionY[i] = from.direction.y;
-        ray.directionZ[i] = from.direction.z;
-        ray.tNear[i] = from.begin.tNear;
-        ray.time[i] = 0.0f;
-        ray.tFar[i] = kInfinity;
-        ray.mask[i] = 0xffffffffu;
-        ray.id[i] = ray.flags[i] = 0;
+        setRay(block.rays.ray, i, from.begin, from.direction, kInfinity);
         setLane(block.weight, i, from.weight);
         block.etaScale[i] = from.etaScale;
         block.pixel[i] = from.pixel;
@@ -547,7 +257,7 @@ void traceSecondary(Tile& tile)
                      laneOf(block.weight, i) * radianceBehind(tile.context, block.rays.ray, i));
     }
     if (!block.surface.hits) return;
-    if (!traced.lights().areaLights().empty()) drawFirst(tile.grid, block);
+    drawFirstPoints(tile, block);
     shade(tile, &block, 1);
     for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
     {
@@ -583,11 +293,10 @@ void setPixels(const Vec3Lanes& radiance, LaneMask hits, RgbaLanes& rgba)
 }
 
 /// Camera rays of blocks first to first + kGroup - 1, stage by stage.
-void traceCamera(Tile& tile, int left, int bottom, int first)
+void traceCamera(WhittedTile& tile, int left, int bottom, int first)
 {
     const PassContext& context = tile.context;
     const TracedScene& traced = *context.traced;
-    const bool lit = !traced.lights().areaLights().empty();
     const bool seen = visibleEnvironment(context) != nullptr;
     for (int k = 0; k < kGroup; ++k)
     {
@@ -601,7 +310,7 @@ void traceCamera(Tile& tile, int left, int bottom, int first)
             block.depth[i] = block.layers[i] = 0;
         }
         block.fromCamera = kAllLanes;
-        if (lit) drawFirst(tile.grid, block);
+        drawFirstPoints(tile, block);
     }
     for (ShadingBlock& block : tile.group)
         traced.intersector().closestHits(block.rays, kAllLanes, Coherence::Coherent, {true, true});
@@ -633,7 +342,7 @@ void traceCamera(Tile& tile, int left, int bottom, int first)
 void WhittedIntegrator::renderTile(const PassContext& context, int left, int bottom,
                                    TileResult& result) const
 {
-    Tile tile(context, result);
+    WhittedTile tile(context, result);
     for (int first = 0; first < kTileBlocks; first += kGroup)
     {
         traceCamera(tile, left, bottom, first);

@@ -52,19 +52,21 @@ struct PhotonColumns
     }
 };
 
-/// Bit mask of photon i in the disc, all bits or none.
+/// Bit mask of photon i in the disc, all bits or none. Also how far it is from the disc's centre and
+/// from its plane.
 OSGRAYTRACE_INLINE uint32_t insideDisc(const PhotonColumns& p, int i, const PhotonQuery& q,
-                                       float radius2, float planeDistance)
+                                       float radius2, float planeDistance, float& distance2,
+                                       float& off)
 {
     const float dx = p.x[i] - q.position.x, dy = p.y[i] - q.position.y, dz = p.z[i] - q.position.z;
-    const float distance2 = dx * dx + dy * dy + dz * dz;
-    const float off = dx * q.normal.x + dy * q.normal.y + dz * q.normal.z;
+    distance2 = dx * dx + dy * dy + dz * dz;
+    off = std::fabs(dx * q.normal.x + dy * q.normal.y + dz * q.normal.z);
     const float side = p.wiX[i] * q.normal.x + p.wiY[i] * q.normal.y + p.wiZ[i] * q.normal.z;
     const uint32_t packed = p.normal[i];
     const float turned = byteOf(packed, 0) * q.normal.x + byteOf(packed, 8) * q.normal.y +
                          byteOf(packed, 16) * q.normal.z;
     const uint32_t shortEnough = maskOf(edgesOf(packed) <= static_cast<int32_t>(q.mostEdges));
-    return maskOf(distance2 <= radius2) & maskOf(std::fabs(off) <= planeDistance) &
+    return maskOf(distance2 <= radius2) & maskOf(off <= planeDistance) &
            maskOf(side > 0.0f) & maskOf(turned >= kLeastNormalCosine) & shortEnough;
 }
 

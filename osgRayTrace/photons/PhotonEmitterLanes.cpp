@@ -184,8 +184,7 @@ void addWeightsInside(const PhotonAim& weights, uint32_t target, const AimLanes&
 {
     for (int i = 0; i < kLanes; ++i)
     {
-        const Vec3 direction(starts.direction.x[i], starts.direction.y[i], starts.direction.z[i]);
-        const Vec3 axis(aim.axis.x[i], aim.axis.y[i], aim.axis.z[i]);
+        const Vec3 direction = laneOf(starts.direction, i), axis = laneOf(aim.axis, i);
         const Vec3 off = direction - axis;
         const float cone = aim.oneMinusCosine[i], height = 0.5f * glm::dot(off, off);
         if (height <= cone && cone > 0.0f)
@@ -291,15 +290,9 @@ LaneMask PhotonEmitter::emitSingly(const EmissionLanes& points, StartLanes& star
                   Vec2(points.directionU[i], points.directionV[i])},
                  aim);
         if (!start) continue;
-        starts.origin.x[i] = start->origin.x;
-        starts.origin.y[i] = start->origin.y;
-        starts.origin.z[i] = start->origin.z;
-        starts.direction.x[i] = start->direction.x;
-        starts.direction.y[i] = start->direction.y;
-        starts.direction.z[i] = start->direction.z;
-        starts.power.x[i] = start->power.x;
-        starts.power.y[i] = start->power.y;
-        starts.power.z[i] = start->power.z;
+        setLane(starts.origin, i, start->origin);
+        setLane(starts.direction, i, start->direction);
+        setLane(starts.power, i, start->power);
         starts.light[i] = start->light;
         starts.bin[i] = start->bin;
         alive |= 1u << i;

@@ -30,15 +30,9 @@ void FlightQueue::append(const FlightBlock& flights, LaneMask lanes)
         FlightBlock& block = _blocks[_count / kLanes];
         const int to = static_cast<int>(_count % kLanes);
         ++_count;
-        block.origin.x[to] = flights.origin.x[from];
-        block.origin.y[to] = flights.origin.y[from];
-        block.origin.z[to] = flights.origin.z[from];
-        block.direction.x[to] = flights.direction.x[from];
-        block.direction.y[to] = flights.direction.y[from];
-        block.direction.z[to] = flights.direction.z[from];
-        block.power.x[to] = flights.power.x[from];
-        block.power.y[to] = flights.power.y[from];
-        block.power.z[to] = flights.power.z[from];
+        setLane(block.origin, to, laneOf(flights.origin, from));
+        setLane(block.direction, to, laneOf(flights.direction, from));
+        setLane(block.power, to, laneOf(flights.power, from));
         block.photon[to] = flights.photon[from];
         block.light[to] = flights.light[from];
         block.direct[to] = flights.direct[from];

@@ -33,7 +33,9 @@ OSGRAYTRACE_INLINE void addBlocks(const PhotonColumns& columns, uint32_t begin, 
         OSGRAYTRACE_SIMD
         for (int i = 0; i < kLanes; ++i)
         {
-            const uint32_t in = insideDisc(p, i, q, radius2, planeDistance) & maskOf(i < left);
+            float distance2, off;
+            const uint32_t in =
+                insideDisc(p, i, q, radius2, planeDistance, distance2, off) & maskOf(i < left);
             float weight = select(in, 1.0f, 0.0f);
             if (!kFlat)
             {
@@ -62,9 +64,11 @@ void addRange(const PhotonColumns& columns, uint32_t begin, uint32_t end, const 
         addBlocks<false>(columns, begin, end, query, radius2, planeDistance, sums);
 }
 
+/// Also the distances of the lanes: see insideDisc.
 OSGRAYTRACE_KERNEL
 LaneMask insideLanes(const PhotonColumns& columns, uint32_t block, uint32_t end,
-                     const PhotonQuery& query, float radius2, float planeDistance)
+                     const PhotonQuery& query, float radius2, float planeDistance,
+                     FloatLanes& distance2, FloatLanes& off)
 {
     const PhotonColumns p = columns.from(block);
     const PhotonQuery q = query;
@@ -72,8 +76,24 @@ LaneMask insideLanes(const PhotonColumns& columns, uint32_t block, uint32_t end,
     LaneMask inside = 0;
     OSGRAYTRACE_SIMD_OR(inside)
     for (int i = 0; i < kLanes; ++i)
-        inside |= bitOfLane(insideDisc(p, i, q, radius2, planeDistance) & maskOf(i < left), i);
+    {
+        float d2, o;
+        const uint32_t in = insideDisc(p, i, q, radius2, planeDistance, d2, o);
+        distance2[i] = d2;
+        off[i] = o;
+        inside |= bitOfLane(in & maskOf(i < left), i);
+    }
     return inside;
+}
+
+OSGRAYTRACE_KERNEL
+uint32_t countBelow(const float* distance2, const float* off, std::size_t size, float radius2,
+                    float planeDistance)
+{
+    uint32_t count = 0;
+    for (std::size_t k = 0; k < size; ++k)
+        count += (maskOf(distance2[k] <= radius2) & maskOf(off[k] <= planeDistance)) & 1u;
+    return count;
 }
 
 float sumOf(const FloatLanes& lanes)
@@ -207,30 +227,69 @@ PhotonSum PhotonMap::gather(const PhotonQuery& query) const
     return sum;
 }
 
-void PhotonMap::find(const PhotonQuery& query, std::vector<uint32_t>& found) const
+/// Calls add(block, lanes, distance2, off) for the photons of the disc, until it returns false.
+template <class Add> void PhotonMap::forEachFound(const PhotonQuery& query, const Add& add) const
 {
     Range ranges[kMaxRanges];
     const int count = rangesOf(query, ranges);
     const PhotonColumns all = columns();
+    const float radius2 = query.radius * query.radius, plane = query.radius * kPlaneShare;
+    FloatLanes distance2, off;
     const auto read = [&](Range range)
     {
         for (uint32_t block = range.begin; block < range.end; block += kLanes)
-            for (LaneMask lanes =
-                     insideLanes(all, block, range.end, query, query.radius * query.radius,
-                                 query.radius * kPlaneShare);
-                 lanes; lanes &= lanes - 1)
-                found.push_back(block + static_cast<uint32_t>(__builtin_ctz(lanes)));
+        {
+            const LaneMask lanes =
+                insideLanes(all, block, range.end, query, radius2, plane, distance2, off);
+            if (lanes && !add(block, lanes, distance2, off)) return false;
+        }
+        return true;
     };
     PhotonCrowds::Visit crowded;
     for (int i = 0; i < count; ++i)
     {
         if (isCrowded(ranges[i]))
             _crowds.visit(query, ranges[i], false, crowded);
-        else
-            read(ranges[i]);
+        else if (!read(ranges[i]))
+            return;
     }
     for (const Range& range : crowded.read)
-        read(range);
+        if (!read(range)) return;
+}
+
+void PhotonMap::find(const PhotonQuery& query, std::vector<uint32_t>& found) const
+{
+    forEachFound(query,
+                 [&](uint32_t block, LaneMask lanes, const FloatLanes&, const FloatLanes&)
+                 {
+                     for (; lanes; lanes &= lanes - 1)
+                         found.push_back(block + static_cast<uint32_t>(__builtin_ctz(lanes)));
+                     return true;
+                 });
+}
+
+bool PhotonMap::findReaches(const PhotonQuery& query, std::size_t most, PhotonReaches& reaches) const
+{
+    std::vector<float>&distances = reaches._distance2, &offs = reaches._off;
+    distances.clear();
+    offs.clear();
+    forEachFound(
+        query,
+        [&](uint32_t, LaneMask lanes, const FloatLanes& distance2, const FloatLanes& off)
+        {
+            for (; lanes; lanes &= lanes - 1)
+            {
+                distances.push_back(distance2[__builtin_ctz(lanes)]);
+                offs.push_back(off[__builtin_ctz(lanes)]);
+            }
+            return distances.size() <= most;
+        });
+    return distances.size() <= most;
+}
+
+uint32_t PhotonReaches::countWithin(float radius) const
+{
+    return countBelow(_distance2.data(), _off.data(), size(), radius * radius, radius * kPlaneShare);
 }
 
 std::size_t PhotonMap::work(const PhotonQuery& query) const

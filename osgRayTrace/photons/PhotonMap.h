@@ -47,6 +47,21 @@ struct PhotonSum
     uint32_t count = 0;
 };
 
+/// How large discs around one place have to be to hold its photons: for counts by many radii from
+/// one look-up.
+class PhotonReaches
+{
+public:
+    std::size_t size() const { return _distance2.size(); }
+
+    /// Photons that the disc of a look-up with this radius would hold; radius: that of the query at most.
+    uint32_t countWithin(float radius) const;
+
+private:
+    friend class PhotonMap;
+    std::vector<float> _distance2, _off; ///< from the place, and from its plane
+};
+
 /// Photons near a corner or behind a thin wall do not belong to a surface although they are within
 /// the radius: those farther off its plane than this share of the radius are left out, as are those
 /// whose own surface is turned away by more than 60 degrees.
@@ -76,6 +91,10 @@ public:
 
     /// The photons of the disc, by index for photon(): appended to found.
     void find(const PhotonQuery& query, std::vector<uint32_t>& found) const;
+
+    /// The same photons, by what they are away from the place; what was in reaches is replaced. False
+    /// if there are more than most: only some of them are there then.
+    bool findReaches(const PhotonQuery& query, std::size_t most, PhotonReaches& reaches) const;
 
     Photon photon(uint32_t index) const;
 
@@ -112,6 +131,7 @@ private:
 
     void sort(const std::vector<Photon>& photons, const Workers& workers, bool keepBins);
     int rangesOf(const PhotonQuery& query, Range* ranges) const;
+    template <class Add> void forEachFound(const PhotonQuery& query, const Add& add) const;
     uint32_t bucketOf(int64_t x, int64_t y, int64_t z) const
     {
         const uint64_t line = static_cast<uint64_t>(y) * 0x9e3779b97f4a7c15ull ^

@@ -29,28 +29,65 @@ bool samePlaces(const std::vector<Light>& a, const std::vector<Light>& b)
     return true;
 }
 
+/// Apart from all else that is known of photons: a search through all of them reads a fifth.
+struct Positions
+{
+    explicit Positions(const std::vector<Photon>& photons)
+        : x(photons.size()), y(photons.size()), z(photons.size())
+    {
+        for (std::size_t k = 0; k < photons.size(); ++k)
+        {
+            x[k] = photons[k].position.x;
+            y[k] = photons[k].position.y;
+            z[k] = photons[k].position.z;
+        }
+    }
+    std::vector<float> x, y, z;
+};
+
+/// From a photon to the nearest others, of which the last counts; squared.
+float distance2ToNeighbour(const Positions& p, std::size_t chosen, std::size_t neighbours)
+{
+    constexpr std::size_t kBlock = 64;
+    float distances[kBlock];
+    const float x = p.x[chosen], y = p.y[chosen], z = p.z[chosen];
+    std::vector<float> nearest(neighbours + 1, kInfinity); // a heap, the farthest first; and itself
+    for (std::size_t begin = 0; begin < p.x.size(); begin += kBlock)
+    {
+        const std::size_t count = std::min(kBlock, p.x.size() - begin);
+        float least = kInfinity;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const float dx = p.x[begin + i] - x, dy = p.y[begin + i] - y, dz = p.z[begin + i] - z;
+            distances[i] = dx * dx + dy * dy + dz * dz;
+            least = distances[i] < least ? distances[i] : least;
+        }
+        if (!(least < nearest.front())) continue;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            if (!(distances[i] < nearest.front())) continue;
+            std::pop_heap(nearest.begin(), nearest.end());
+            nearest.back() = distances[i];
+            std::push_heap(nearest.begin(), nearest.end());
+        }
+    }
+    return nearest.front();
+}
+
 float densityRadius(const std::vector<Photon>& photons, const Workers& workers)
 {
     if (photons.size() < 2) return 0.0f;
     constexpr std::size_t kSamples = 128;
     const std::size_t neighbours = std::min<std::size_t>(kDensityPhotons, photons.size() - 1);
+    const Positions positions(photons);
     std::vector<float> radii(kSamples);
-    workers.forEach(kSamples,
-                    [&](std::size_t s)
-                    {
-                        const std::size_t chosen = hash(static_cast<uint32_t>(s)) % photons.size();
-                        const Vec3 centre = photons[chosen].position;
-                        std::vector<float> distances(photons.size());
-                        for (std::size_t k = 0; k < photons.size(); ++k)
-                        {
-                            const Vec3 d = photons[k].position - centre;
-                            distances[k] = glm::dot(d, d);
-                        }
-                        const auto nth =
-                            distances.begin() + static_cast<std::ptrdiff_t>(neighbours);
-                        std::nth_element(distances.begin(), nth, distances.end());
-                        radii[s] = std::sqrt(*nth);
-                    });
+    workers.forEach(
+        kSamples,
+        [&](std::size_t s)
+        {
+            const std::size_t chosen = hash(static_cast<uint32_t>(s)) % photons.size();
+            radii[s] = std::sqrt(distance2ToNeighbour(positions, chosen, neighbours));
+        });
     std::nth_element(radii.begin(), radii.begin() + kSamples / 2, radii.end());
     return radii[kSamples / 2];
 }

@@ -100,18 +100,6 @@ private:
     Scattered _scattered;
 };
 
-Vec3 laneOf(const Vec3Lanes& lanes, int i)
-{
-    return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]);
-}
-
-void setLane(Vec3Lanes& lanes, int i, Vec3 value)
-{
-    lanes.x[i] = value.x;
-    lanes.y[i] = value.y;
-    lanes.z[i] = value.z;
-}
-
 bool storesPhotons(const Bsdf& bsdf)
 {
     if (bsdf.diffuse != Vec3(0.0f)) return true;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace osgRayTrace::engine
 {
@@ -40,19 +41,32 @@ float pixelWidth(const PassContext& context, int width, int height)
     return widths[widths.size() / 2];
 }
 
-constexpr std::size_t kNotedPixels = 16384; ///< about as many of a pass are learnt from
+constexpr std::size_t kNotedPixels = 16384; ///< about as many of a pass are learnt from,
+constexpr std::size_t kMostNotedStride = 16; ///< and no fewer than one of these
 
-/// Squares relative to the radiance of the tile, as in RenderProgress::relativeError: dim places
-/// matter, too.
-void weighSeen(const RgbaLanes* rgba, std::vector<SeenPhoton>& seen)
+/// Sums by bin of the squares of what single photons added, relative to the radiance of the tile as in
+/// RenderProgress::relativeError: dim places matter, too. There may be thousands of photons for each bin.
+std::vector<SeenSquares> squaresOf(const std::vector<SeenPhoton>& seen, const RgbaLanes* rgba,
+                                   std::size_t bins)
 {
     float sum = 0.0f;
     for (int b = 0; b < kTileBlocks; ++b)
         for (int i = 0; i < kLanes; ++i)
             sum += luminance(Vec3(rgba[b].r[i], rgba[b].g[i], rgba[b].b[i]));
     const float mean = sum / kTilePixels;
-    for (SeenPhoton& photon : seen)
-        photon.radiance *= photon.radiance / (mean * mean + 0.01f);
+
+    static thread_local std::vector<double> sums; // 0 but for those of result
+    if (sums.size() < bins) sums.resize(bins);
+    std::vector<SeenSquares> result;
+    for (const SeenPhoton& photon : seen)
+    {
+        double& squares = sums[photon.bin];
+        if (squares == 0.0) result.push_back({photon.bin, 0.0});
+        squares += static_cast<double>(photon.radiance * (photon.radiance / (mean * mean + 0.01f)));
+    }
+    for (SeenSquares& bin : result)
+        bin.squares = std::exchange(sums[bin.bin], 0.0);
+    return result;
 }
 
 PhotonPassOptions passOptions(const RenderOptions& options)
@@ -78,7 +92,7 @@ void PhotonState::reset(int tileCount)
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
     std::vector<HitPoints>().swap(_hitPoints);
-    std::vector<std::vector<SeenPhoton>>().swap(_seen);
+    std::vector<std::vector<SeenSquares>>().swap(_seen);
     std::vector<double>().swap(_seenSquares);
     _passes->forgetSeen(this);
 }
@@ -150,7 +164,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     {
         _aims = true;
         _passes->noteSeen(traced, *context.lights, options, this, std::move(_seenSquares));
-        std::vector<std::vector<SeenPhoton>>().swap(_seen);
+        std::vector<std::vector<SeenSquares>>().swap(_seen);
         _seenSquares.clear();
     }
     const float cell = 2.0f * std::max(_floor, _cellRadius * _shrink);
@@ -162,10 +176,10 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
 /// In the order of the tiles, so that no thread's luck is in the sums.
 void PhotonState::sumUpSeen()
 {
-    for (std::vector<SeenPhoton>& tile : _seen)
+    for (std::vector<SeenSquares>& tile : _seen)
     {
-        for (const SeenPhoton& photon : tile)
-            _seenSquares[photon.bin] += static_cast<double>(photon.radiance);
+        for (const SeenSquares& bin : tile)
+            _seenSquares[bin.bin] += bin.squares;
         tile.clear();
     }
 }
@@ -197,10 +211,9 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
     if (!_seen.empty())
     {
-        gathered.seen = &_seen[static_cast<std::size_t>(tile)];
         gathered.seenFirst = static_cast<uint32_t>(pass);
-        gathered.seenStride =
-            static_cast<uint32_t>(std::clamp<std::size_t>(_pixels / kNotedPixels, 1, 16));
+        gathered.seenStride = static_cast<uint32_t>(
+            std::clamp<std::size_t>(_pixels / kNotedPixels, 1, kMostNotedStride));
     }
     gathered.separate = _local;
     for (std::size_t p = 0; p < kTilePixels; ++p)
@@ -216,7 +229,8 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
                       RgbaLanes* rgba)
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
-    if (gathered.seen) weighSeen(rgba, *gathered.seen);
+    if (gathered.seenStride)
+        _seen[static_cast<std::size_t>(tile)] = squaresOf(gathered.seen, rgba, _seenSquares.size());
     // By tile, so that no thread's luck decides which are kept.
     if (HitPoints* hits = hitPoints(tile);
         hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())

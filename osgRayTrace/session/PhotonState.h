@@ -16,6 +16,13 @@ namespace osgRayTrace::engine
 
 class Workers;
 
+/// What a tile saw of the photons that were aimed at a bin of PhotonAim.
+struct SeenSquares
+{
+    uint32_t bin;
+    double squares; ///< sum of the squares of what each of them added
+};
+
 /// Chooses radii, holds the photons of the pass at work and, for the local schedule, the statistics
 /// of each pixel. Each pixel's first radius is the given one, or the smallest with kRadiusPhotons
 /// photons (radiusOf) from the width of a pixel up to the radius that holds kDensityPhotons photons
@@ -83,7 +90,7 @@ private:
     std::vector<float> _firstRadii;           ///< tile, pixel; 0: not known; empty if local
     std::vector<LocalStatistics> _statistics; ///< half, tile, pixel; empty unless local
     std::vector<HitPoints> _hitPoints; ///< tile; empty unless paths are the same in each pass
-    std::vector<std::vector<SeenPhoton>>
+    std::vector<std::vector<SeenSquares>>
         _seen;                        ///< tile; of the pass at work; empty unless it is learnt from
     std::vector<double> _seenSquares; ///< of all those passes: see PhotonPasses::noteSeen
 };

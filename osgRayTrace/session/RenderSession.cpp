@@ -6,8 +6,8 @@
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/film/Resolve.h"
-#include "osgRayTrace/integrators/FirstHit.h"
 #include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/session/ChannelImage.h"
 #include "osgRayTrace/session/PhotonState.h"
 
 #include <algorithm>
@@ -362,84 +362,11 @@ void RenderSession::resolveDisplay(const ToneMap& toneMap, uint8_t* rgba, float*
     _implementation->resolve({toneMap, rgba, depth});
 }
 
-int channelSize(Channel channel)
-{
-    switch (channel)
-    {
-    case Channel::Depth:
-    case Channel::Distance:
-    case Channel::Id: return 1;
-    case Channel::Normal:
-    case Channel::Albedo:
-    case Channel::Position:
-    case Channel::Error: return 3;
-    }
-    return 0;
-}
-
-namespace
-{
-
-void writeChannel(Channel channel, const FirstHit& hit, const Scene& scene, float* out)
-{
-    switch (channel)
-    {
-    case Channel::Distance: out[0] = static_cast<float>(hit.distance * scene.unit); return;
-    case Channel::Id: out[0] = hit.hit ? static_cast<float>(hit.instance + 1u) : 0.0f; return;
-    case Channel::Normal: std::copy_n(&hit.normal.x, 3, out); return;
-    case Channel::Albedo: std::copy_n(&hit.albedo.x, 3, out); return;
-    case Channel::Position:
-    {
-        const Vec3 world = hit.hit ? Vec3(scene.origin + scene.unit * Vec3d(hit.position)) : Vec3(0.0f);
-        std::copy_n(&world.x, 3, out);
-        return;
-    }
-    case Channel::Depth:
-    case Channel::Error: return; // of the film
-    }
-}
-
-} // namespace
-
 std::vector<float> RenderSession::resolveChannel(Channel channel) const
 {
     const Implementation& session = *_implementation;
-    const Film& film = session.film;
-    const auto size = static_cast<std::size_t>(channelSize(channel));
-    const auto width = static_cast<std::size_t>(film.width());
-    std::vector<float> image(size * width * static_cast<std::size_t>(film.height()));
-    if (image.empty() || !session.filmScene) return image;
-
-    const Scene& scene = session.filmScene->scene();
-    const PassContext context = session.contextOfPass(0);
-    session.workers->forEach(
-        static_cast<std::size_t>(film.tileCount()),
-        [&](std::size_t index)
-        {
-            const int tile = static_cast<int>(index);
-            const int left = film.tileX(tile), bottom = film.tileY(tile);
-            if (channel == Channel::Error)
-            {
-                resolveTileError(film, tile, scene.displayReferred, image.data());
-                return;
-            }
-            if (channel == Channel::Depth)
-            {
-                resolveTileDepth(film, tile, image.data());
-                return;
-            }
-            FirstHit hits[kTilePixels];
-            firstHits(context, left, bottom, hits);
-            for (int b = 0; b < kTileBlocks; ++b)
-                for (int i = 0; i < kLanes; ++i)
-                {
-                    const int x = left + laneX(b, i), y = bottom + laneY(b, i);
-                    if (x >= film.width() || y >= film.height()) continue;
-                    const std::size_t pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-                    writeChannel(channel, hits[b * kLanes + i], scene, &image[size * pixel]);
-                }
-        });
-    return image;
+    if (!session.filmScene) return {}; // nor was there ever an image
+    return channelImage(channel, session.film, session.contextOfPass(0), *session.workers);
 }
 
 } // namespace osgRayTrace::engine

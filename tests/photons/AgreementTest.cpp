@@ -1,7 +1,7 @@
 // AgreementTest.cpp - photon mapping and path tracing show the same light on every kind of scene.
 // SPDX-License-Identifier: MIT
-#include "tests/Catch.h"
 #include "tests/PValues.h"
+#include "tests/photons/PhotonMeans.h"
 #include "tests/photons/PhotonScenes.h"
 
 using namespace osgRayTrace::engine;
@@ -11,23 +11,7 @@ namespace
 {
 
 constexpr int kSize = 24;
-constexpr int kRuns = 16;
 constexpr int kBounces = 24; ///< what is cut off there is nothing
-
-/// Mean over the image, one value for each run.
-Estimate meanOf(const ComparedScene& scene, RenderOptions options, int passes)
-{
-    Estimate estimate;
-    for (uint32_t run = 0; run < kRuns; ++run)
-    {
-        options.seed = 1000 * (1 + static_cast<uint32_t>(options.integrator)) + run;
-        const Picture picture = render(scene.traced, scene.view, options, passes);
-        REQUIRE(picture.progress.droppedSamples == 0);
-        REQUIRE(picture.progress.integrator == options.integrator);
-        estimate.add(double(luminance(picture.mean())));
-    }
-    return estimate;
-}
 
 /// All comparisons of a list of scenes together raise a false alarm with a probability of 1 %.
 void checkAgreement(const std::vector<ComparedScene>& scenes)
@@ -36,7 +20,7 @@ void checkAgreement(const std::vector<ComparedScene>& scenes)
     for (const ComparedScene& scene : scenes)
     {
         RenderOptions options = optionsOf(IntegratorKind::Path, kBounces);
-        const Estimate path = meanOf(scene, options, 32);
+        const Estimate path = meanOf(scene.traced, scene.view, options, 32);
         REQUIRE(path.mean() > 0.02);
         CHECK(path.standardError() < 6e-3 * path.mean());
         for (const IntegratorKind kind :
@@ -49,7 +33,7 @@ void checkAgreement(const std::vector<ComparedScene>& scenes)
             // brightly.
             const bool caustics = kind == IntegratorKind::PhotonCaustics;
             options.photonRadius = static_cast<float>((caustics ? 0.01 : 0.004) * scene.size);
-            const Estimate photons = meanOf(scene, options, 12);
+            const Estimate photons = meanOf(scene.traced, scene.view, options, 12);
             const double p = welchTest(path, kRuns, photons, kRuns);
             CAPTURE(scene.name, int(kind), path.mean(), path.standardError(), photons.mean(),
                     photons.standardError(), p, threshold);

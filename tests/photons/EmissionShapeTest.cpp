@@ -1,8 +1,6 @@
 // EmissionShapeTest.cpp - where photons leave lights, which way, and that all of their power
 // arrives. SPDX-License-Identifier: MIT
-#include "tests/Catch.h"
-#include "tests/EngineScenes.h"
-#include "tests/Statistics.h"
+#include "tests/photons/PhotonMeans.h"
 
 #include "osgRayTrace/photons/PhotonTracer.h"
 
@@ -34,12 +32,7 @@ template <class CellOf> double chiSquareOf(const SceneBuilder& builder, int cell
     double total = 0.0;
     for (int k = 0; k < kPhotons; ++k)
     {
-        EmissionPoint point;
-        point.light = uniform();
-        point.aim = uniform();
-        point.position = Vec2(uniform(), uniform());
-        point.direction = Vec2(uniform(), uniform());
-        const auto start = emitter.emit(point);
+        const auto start = emitter.emit(randomPoint(uniform));
         if (!start) continue;
         weights[static_cast<std::size_t>(std::clamp(cellOf(*start), 0, cells - 1))] += 1.0;
         total += 1.0;

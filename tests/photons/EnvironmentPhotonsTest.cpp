@@ -1,20 +1,14 @@
 // EnvironmentPhotonsTest.cpp - photons from environments against formulas and against paths.
 // SPDX-License-Identifier: MIT
-#include "tests/Catch.h"
-#include "tests/EngineScenes.h"
 #include "tests/Environments.h"
 #include "tests/PValues.h"
-#include "tests/Statistics.h"
-
-#include "osgRayTrace/photons/PhotonEmitter.h"
+#include "tests/photons/PhotonMeans.h"
 
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
 
 namespace
 {
-
-constexpr int kRuns = 16;
 
 SceneBuilder glassOnFloor(const std::shared_ptr<const EnvironmentImage>& image)
 {
@@ -26,19 +20,9 @@ SceneBuilder glassOnFloor(const std::shared_ptr<const EnvironmentImage>& image)
     return builder;
 }
 
-Estimate meanOf(const std::shared_ptr<const TracedScene>& traced, RenderOptions options, int passes)
+View glassView()
 {
-    const View view = perspectiveView({0, -5, 3}, {0, 0, 0.4}, {0, 0, 1}, 36.0, 24, 24);
-    Estimate estimate;
-    for (uint32_t run = 0; run < kRuns; ++run)
-    {
-        options.seed = 1000 * (1 + static_cast<uint32_t>(options.integrator)) + run;
-        const Picture picture = render(traced, view, options, passes);
-        REQUIRE(picture.progress.droppedSamples == 0);
-        REQUIRE(picture.progress.integrator == options.integrator);
-        estimate.add(double(luminance(picture.mean())));
-    }
-    return estimate;
+    return perspectiveView({0, -5, 3}, {0, 0, 0.4}, {0, 0, 1}, 36.0, 24, 24);
 }
 
 } // namespace
@@ -48,7 +32,7 @@ TEST_CASE("photons and paths agree: glass under a sky with a sun", "[photons][st
     const auto traced = glassOnFloor(sunnySky(16, 8)).build();
     RenderOptions options = optionsOf(IntegratorKind::Path, 12);
     options.terminatorCorrection = false; // as in AgreementTest
-    const Estimate path = meanOf(traced, options, 96);
+    const Estimate path = meanOf(traced, glassView(), options, 96);
     CHECK(path.standardError() < 6e-3 * path.mean());
     const double threshold = sidak(0.01, 2);
     for (const IntegratorKind kind : {IntegratorKind::Sppm, IntegratorKind::PhotonCaustics})
@@ -56,7 +40,7 @@ TEST_CASE("photons and paths agree: glass under a sky with a sun", "[photons][st
         options.integrator = kind;
         options.photons = 10000;
         options.photonRadius = kind == IntegratorKind::Sppm ? 0.02f : 0.03f;
-        const Estimate photons = meanOf(traced, options, 12);
+        const Estimate photons = meanOf(traced, glassView(), options, 12);
         const double p = welchTest(path, kRuns, photons, kRuns);
         CAPTURE(int(kind), path.mean(), path.standardError(), photons.mean(),
                 photons.standardError(), p);

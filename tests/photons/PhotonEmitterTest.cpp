@@ -1,10 +1,6 @@
 // PhotonEmitterTest.cpp - lights send what their formulas say, however photons are aimed.
 // SPDX-License-Identifier: MIT
-#include "tests/Catch.h"
-#include "tests/EngineScenes.h"
-#include "tests/Statistics.h"
-
-#include "osgRayTrace/photons/PhotonEmitter.h"
+#include "tests/photons/PhotonMeans.h"
 
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
@@ -17,16 +13,10 @@ SceneBuilder stage()
 {
     SceneBuilder builder;
     builder.add(quadMesh({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}), lambert(Vec3(0.5f)));
-    builder.add(sphereMesh({0.5f, 0.2f, 0.6f}, 0.4f, 16), glass(1.5f));
+    builder.add(sphereMesh(kBall, kBallRadius, 16), glass(1.5f));
     builder.add(quadMesh({-1, -1, 0.3f}, {0, 0.7f, 0}, {0, 0, 0.6f}), mirror(Vec3(1.0f)));
     return builder;
 }
-
-struct Flux
-{
-    Estimate total; ///< all that leaves
-    Estimate ball;  ///< that meets the ball's sphere
-};
 
 /// Lights and bins whose weights differ as far as they can.
 std::shared_ptr<const PhotonAim> anyAim(const PhotonEmitter& emitter)
@@ -46,28 +36,7 @@ Flux emitted(const SceneBuilder& builder, float aimedShare, bool learnt = false)
     REQUIRE(emitter.emits());
     REQUIRE(emitter.hasTargets());
     const auto aim = learnt ? anyAim(emitter) : nullptr;
-    Uniform uniform(23);
-    Flux flux;
-    for (int k = 0; k < 300000; ++k)
-    {
-        EmissionPoint point;
-        point.light = uniform();
-        point.aim = uniform();
-        point.position = Vec2(uniform(), uniform());
-        point.direction = Vec2(uniform(), uniform());
-        const auto start = emitter.emit(point, aim.get());
-        bool meets = false;
-        if (start)
-        {
-            REQUIRE(std::fabs(glm::length(start->direction) - 1.0f) < 1e-5f);
-            const Vec3 d = Vec3(0.5f, 0.2f, 0.6f) - start->origin;
-            const float along = glm::dot(d, start->direction);
-            meets = along > 0.0f && glm::dot(d, d) - along * along < 0.16f;
-        }
-        flux.total.add(start ? double(start->power.y) : 0.0);
-        flux.ball.add(meets ? double(start->power.y) : 0.0);
-    }
-    return flux;
+    return emittedFlux(emitter, 23, aim.get());
 }
 
 /// Demands the analytic flux without aiming, with two shares of it and with weights, and that the ball gets

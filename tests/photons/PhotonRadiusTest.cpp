@@ -1,11 +1,16 @@
 // PhotonRadiusTest.cpp - the radius that a lookup begins with. Layer: test.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/Statistics.h"
 
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/integrators/PhotonGather.h"
 
+#include <algorithm>
+#include <cmath>
+
 using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
 
 namespace
 {
@@ -37,7 +42,74 @@ PhotonQuery queryAt(float x)
     return query;
 }
 
+/// Anywhere in a cube, looking anywhere; count of them, all but a few in one corner of it.
+std::vector<Photon> cloud(int count)
+{
+    Uniform uniform(12);
+    const auto anywhere = [&] { return Vec3(uniform(), uniform(), uniform()) - Vec3(0.5f); };
+    std::vector<Photon> photons(static_cast<std::size_t>(count));
+    for (Photon& photon : photons)
+    {
+        photon.position = anywhere() * (uniform() < 0.1f ? 1.0f : 0.2f);
+        photon.normal = glm::normalize(anywhere());
+        photon.wi = glm::normalize(anywhere());
+        photon.power = Vec3(1.0f);
+        photon.edges = uniform() < 0.5f ? 2 : 5;
+    }
+    return photons;
+}
+
+/// The definition, by a look-up for each radius.
+float radiusByLookups(const PhotonMap& map, PhotonQuery query, float least, float largest)
+{
+    const auto enough = [&](float radius)
+    {
+        query.radius = radius;
+        return map.gather(query).count >= kRadiusPhotons;
+    };
+    if (enough(least)) return least;
+    float low = least, high = std::min(2.0f * least, largest);
+    while (high < largest && !enough(high))
+    {
+        low = high;
+        high = std::min(2.0f * high, largest);
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+        const float middle = std::sqrt(low * high);
+        (enough(middle) ? high : low) = middle;
+    }
+    return high;
+}
+
 } // namespace
+
+TEST_CASE("photon radius: the same as by a look-up for each", "[photons]")
+{
+    const std::vector<Photon> photons = cloud(100000);
+    const PhotonMap map(photons, 0.05f, Workers(1));
+    int atLeast = 0, between = 0, atLargest = 0, many = 0;
+    for (std::size_t k = 0; k < 2000; ++k)
+    {
+        PhotonQuery query = queryAt(0.0f);
+        query.position = photons[k].position;
+        query.normal = query.shadingNormal = photons[k].normal;
+        query.mostEdges = k % 3 ? kMostEdges : 4;
+        const float least = k % 5 ? 0.001f : 0.02f, largest = k % 7 ? 0.05f : 0.3f;
+        const float radius = radiusOf(map, query, least, largest);
+        REQUIRE(radius == radiusByLookups(map, query, least, largest));
+        atLeast += radius == least;
+        atLargest += radius == largest;
+        between += radius > least && radius < largest;
+        query.radius = largest;
+        many += map.gather(query).count > 4096;
+    }
+    CAPTURE(atLeast, between, atLargest, many);
+    CHECK(atLeast > 50);
+    CHECK(between > 500);
+    CHECK(atLargest > 50);
+    CHECK(many > 50);
+}
 
 TEST_CASE("photon radius: holds the photons asked for, and hardly more", "[photons]")
 {

@@ -1,11 +1,8 @@
 // SoftLightTest.cpp - photons of lights with a size: power, aim, and the light that paths see.
 // SPDX-License-Identifier: MIT
-#include "tests/Catch.h"
-#include "tests/EngineScenes.h"
 #include "tests/PValues.h"
-#include "tests/Statistics.h"
+#include "tests/photons/PhotonMeans.h"
 
-#include "osgRayTrace/photons/PhotonEmitter.h"
 #include "osgRayTrace/shading/SoftLight.h"
 
 using namespace osgRayTrace::engine;
@@ -15,7 +12,6 @@ namespace
 {
 
 constexpr double kPiD = glm::pi<double>();
-constexpr Vec3 kBall(0.5f, 0.2f, 0.6f);
 
 Light softSpot(Vec3 position, Vec3 direction)
 {
@@ -39,42 +35,17 @@ Light softSun(Vec3 direction)
     return light;
 }
 
-struct Flux
-{
-    Estimate total, ball; ///< all that leaves, and what meets the ball's sphere
-};
-
 /// A floor, and a glass ball to aim at.
 Flux emitted(const Light& light, float aimedShare, double& sceneRadius)
 {
     SceneBuilder builder;
     builder.add(quadMesh({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}), lambert(Vec3(0.5f)));
-    builder.add(sphereMesh(kBall, 0.4f, 16), glass(1.5f));
+    builder.add(sphereMesh(kBall, kBallRadius, 16), glass(1.5f));
     builder.addLight(light);
     const auto traced = builder.build(1);
     const PhotonEmitter emitter(*traced, traced->scene().lights, aimedShare);
     sceneRadius = emitter.scene().radius;
-    Uniform uniform(29);
-    Flux flux;
-    for (int k = 0; k < 300000; ++k)
-    {
-        EmissionPoint point;
-        point.light = uniform();
-        point.aim = uniform();
-        point.position = Vec2(uniform(), uniform());
-        point.direction = Vec2(uniform(), uniform());
-        const auto start = emitter.emit(point);
-        bool meets = false;
-        if (start)
-        {
-            const Vec3 d = kBall - start->origin;
-            const float along = glm::dot(d, start->direction);
-            meets = along > 0.0f && glm::dot(d, d) - along * along < 0.16f;
-        }
-        flux.total.add(start ? double(start->power.y) : 0.0);
-        flux.ball.add(meets ? double(start->power.y) : 0.0);
-    }
-    return flux;
+    return emittedFlux(emitter, 29);
 }
 
 /// A closed room with a block and a rough block of metal.
@@ -105,20 +76,9 @@ SceneBuilder yard()
     return builder;
 }
 
-constexpr int kRuns = 16;
-
-Estimate meanOf(const std::shared_ptr<const TracedScene>& traced, RenderOptions options, int passes)
+View insideView()
 {
-    const View view = perspectiveView({0.3, -1.9, 1.6}, {0, 0.4, 0.6}, {0, 0, 1}, 70, 24, 24);
-    Estimate estimate;
-    for (uint32_t run = 0; run < kRuns; ++run)
-    {
-        options.seed = 1000 * (1 + static_cast<uint32_t>(options.integrator)) + run;
-        const Picture picture = render(traced, view, options, passes);
-        REQUIRE(picture.progress.droppedSamples == 0);
-        estimate.add(double(luminance(picture.mean())));
-    }
-    return estimate;
+    return perspectiveView({0.3, -1.9, 1.6}, {0, 0.4, 0.6}, {0, 0, 1}, 70, 24, 24);
 }
 
 /// Six comparisons, of which one in a hundred runs raises a false alarm.
@@ -126,7 +86,7 @@ void checkAgreement(const std::shared_ptr<const TracedScene>& traced)
 {
     const double threshold = sidak(0.01, 6);
     RenderOptions options = optionsOf(IntegratorKind::Path, 12);
-    const Estimate path = meanOf(traced, options, 32);
+    const Estimate path = meanOf(traced, insideView(), options, 32);
     REQUIRE(path.mean() > 0.02);
     for (const IntegratorKind kind :
          {IntegratorKind::Sppm, IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
@@ -134,7 +94,7 @@ void checkAgreement(const std::shared_ptr<const TracedScene>& traced)
         options.integrator = kind;
         options.photons = 8000;
         options.photonRadius = 0.03f;
-        const Estimate photons = meanOf(traced, options, 12);
+        const Estimate photons = meanOf(traced, insideView(), options, 12);
         const double p = welchTest(path, kRuns, photons, kRuns);
         CAPTURE(int(kind), path.mean(), path.standardError(), photons.mean(),
                 photons.standardError(), p);

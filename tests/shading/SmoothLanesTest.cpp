@@ -45,18 +45,6 @@ float number(uint32_t i)
     return static_cast<float>(hash(i) >> 8) * 0x1p-24f;
 }
 
-Vec3 laneOf(const Vec3Lanes& lanes, int i)
-{
-    return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]);
-}
-
-void setLane(Vec3Lanes& lanes, int i, Vec3 value)
-{
-    lanes.x[i] = value.x;
-    lanes.y[i] = value.y;
-    lanes.z[i] = value.z;
-}
-
 /// Sixteen rays, each at a surface of its own.
 struct Block
 {

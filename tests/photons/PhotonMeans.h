@@ -1,0 +1,74 @@
+// PhotonMeans.h - what tests of photons estimate: the mean of pictures, and the flux that leaves
+// lights. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+#include "tests/Statistics.h"
+
+#include "osgRayTrace/photons/PhotonEmitter.h"
+
+namespace osgRayTrace::engine::test
+{
+
+constexpr int kRuns = 16;
+
+/// Mean luminance of the picture, one value for each of kRuns seeds, which are others for each
+/// integrator. Demands that no sample was dropped.
+inline Estimate meanOf(const std::shared_ptr<const TracedScene>& traced, const View& view,
+                       RenderOptions options, int passes)
+{
+    Estimate estimate;
+    for (uint32_t run = 0; run < kRuns; ++run)
+    {
+        options.seed = 1000 * (1 + static_cast<uint32_t>(options.integrator)) + run;
+        const Picture picture = render(traced, view, options, passes);
+        REQUIRE(picture.progress.droppedSamples == 0);
+        REQUIRE(picture.progress.integrator == options.integrator);
+        estimate.add(double(luminance(picture.mean())));
+    }
+    return estimate;
+}
+
+inline EmissionPoint randomPoint(Uniform& uniform)
+{
+    EmissionPoint point;
+    point.light = uniform();
+    point.aim = uniform();
+    point.position = Vec2(uniform(), uniform());
+    point.direction = Vec2(uniform(), uniform());
+    return point;
+}
+
+/// A ball to aim at.
+const Vec3 kBall(0.5f, 0.2f, 0.6f);
+constexpr float kBallRadius = 0.4f;
+
+struct Flux
+{
+    Estimate total; ///< all that leaves
+    Estimate ball;  ///< that meets the ball's sphere
+};
+
+inline Flux emittedFlux(const PhotonEmitter& emitter, uint32_t seed, const PhotonAim* aim = nullptr)
+{
+    Uniform uniform(seed);
+    Flux flux;
+    for (int k = 0; k < 300000; ++k)
+    {
+        const auto start = emitter.emit(randomPoint(uniform), aim);
+        bool meets = false;
+        if (start)
+        {
+            REQUIRE(std::fabs(glm::length(start->direction) - 1.0f) < 1e-5f);
+            const Vec3 d = kBall - start->origin;
+            const float along = glm::dot(d, start->direction);
+            meets = along > 0.0f && glm::dot(d, d) - along * along < kBallRadius * kBallRadius;
+        }
+        flux.total.add(start ? double(start->power.y) : 0.0);
+        flux.ball.add(meets ? double(start->power.y) : 0.0);
+    }
+    return flux;
+}
+
+} // namespace osgRayTrace::engine::test
