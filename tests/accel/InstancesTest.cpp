@@ -398,11 +398,9 @@ TEST_CASE("instances: each takes less than 300 bytes, Embree's share included", 
     const double embree = (many.embree - few.embree) / (kMany - kFew);
     const double heap = (many.heap - few.heap) / (kMany - kFew);
     CAPTURE(embree, heap);
-    CHECK(embree < 140.0);
-    if (kCountsMemory)
-    {
-        CHECK(heap > sizeof(Instance));
-        CHECK(heap < 300.0); // with the scene's 72; Embree's own instances take 415 without it
-    }
-    WARN("bytes an instance: Embree's device " << embree << ", heap " << heap);
+    CHECK(embree < 140.0); // its BVH; 67 where nodes are narrow
+    if (!kCountsMemory) return;
+    // 72 of the scene, 64 for rays, 12 to find changes. Embree's own instances are in here, too.
+    CHECK(heap - embree > sizeof(Instance));
+    CHECK(heap - embree < 160.0);
 }
