@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -56,11 +57,15 @@ public:
     const ConversionCounts& counts() const { return _counts; }
     const ConversionPaths& paths() const { return _paths; }
 
+    /// True if warn has said it, with a line of each object.
+    bool isNamed(const std::string& what) const { return _named.count(what) > 0; }
+
 private:
     void notePath(const std::string& what, const std::string& path);
 
     ConversionCounts _counts;
     ConversionPaths _paths;
+    std::set<std::string> _named;
     Place _place;
 };
 

@@ -232,7 +232,12 @@ TEST_CASE("environment light: without a usable image it is named and skipped", "
     osg::ref_ptr<osg::Image> empty = new osg::Image;
     osg::ref_ptr<osg::Image> unreadable = new osg::Image;
     unreadable->allocateImage(4, 2, 1, GL_RGB, GL_DOUBLE);
-    for (osg::Image* image : {static_cast<osg::Image*>(nullptr), empty.get(), unreadable.get()})
+    osg::ref_ptr<osg::Image> fewBlocks = new osg::Image; // whose data type means nothing
+    std::vector<unsigned char> block(8);
+    fewBlocks->setImage(4, 4, 1, GL_COMPRESSED_RGBA_BPTC_UNORM_ARB, GL_COMPRESSED_RGBA_BPTC_UNORM_ARB,
+                        GL_FLOAT, block.data(), osg::Image::NO_DELETE);
+    for (osg::Image* image :
+         {static_cast<osg::Image*>(nullptr), empty.get(), unreadable.get(), fewBlocks.get()})
     {
         SkyScene scene(image);
         const ConversionResult result = scene.convert();

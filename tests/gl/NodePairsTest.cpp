@@ -6,6 +6,7 @@
 
 #include <osg/AutoTransform>
 #include <osg/Billboard>
+#include <osg/BlendFunc>
 #include <osg/ClipNode>
 #include <osg/LOD>
 #include <osg/MatrixTransform>
@@ -186,6 +187,22 @@ TEST_CASE("pairs: billboards turn to the view", "[gl]")
     checkSame("billboard-axial", make(osg::Billboard::AXIAL_ROT, z, back));
     checkSame("billboard-eye", make(osg::Billboard::POINT_ROT_EYE, z, back));
     checkSame("billboard-world", make(osg::Billboard::POINT_ROT_WORLD, z, back));
+}
+
+// What OSG draws of them is where they put it.
+TEST_CASE("pairs: billboards of which OSG draws a part", "[gl]")
+{
+    checkSame("billboard-rasterized",
+              []
+              {
+                  osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
+                  osg::ref_ptr<osg::Geometry> bright = sign(kGreen);
+                  bright->getOrCreateStateSet()->setAttributeAndModes(
+                      new osg::BlendFunc(GL_ONE, GL_ONE));
+                  billboard->addDrawable(sign(kRed), osg::Vec3(-1.2f, 0.0f, 0.0f));
+                  billboard->addDrawable(bright.get(), osg::Vec3(0.6f, 0.8f, 0.3f));
+                  return group({billboard});
+              });
 }
 
 // The view of the picture is not the first one that the scene was converted for.
