@@ -22,8 +22,10 @@ struct HitRule
 {
     bool culls = false;        ///< a camera ray: culled faces are not there
     bool keepsBlended = false; ///< blended surfaces are hit whatever their alpha; else by chance
+    bool fromLight = false;    ///< goes the way that light does: other rays meet the side that it leaves
 };
-constexpr HitRule kCameraRays{true, false};
+constexpr HitRule kCameraRays{true, false, false};
+constexpr HitRule kPhotonRays{false, false, true};
 
 class HitFilter;
 

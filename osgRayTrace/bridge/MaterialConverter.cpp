@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/MaterialConverter.h"
 
+#include "osgRayTrace/bridge/MaterialValues.h"
+#include "osgRayTrace/bridge/MeshPlacement.h"
 #include "osgRayTrace/bridge/VertexArrays.h"
 #include "osgRayTrace/film/ToneMap.h"
 
@@ -20,7 +22,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace osgRayTrace::engine
 {
@@ -112,11 +113,6 @@ void replaceColor(FaceColors& face, VertexColorUse use, const Vec4& color)
     }
 }
 
-FaceColors frontOf(const Material& m)
-{
-    return {m.ambient, m.diffuse, m.specular, m.emission, m.shininess, m.alpha};
-}
-
 void setFront(Material& m, const FaceColors& face)
 {
     m.ambient = face.ambient;
@@ -125,72 +121,6 @@ void setFront(Material& m, const FaceColors& face)
     m.emission = face.emission;
     m.shininess = face.shininess;
     m.alpha = face.alpha;
-}
-
-/// The values that decide on the picture, for comparison.
-class MaterialValues
-{
-public:
-    explicit MaterialValues(const Material& m)
-    {
-        _values.reserve(64);
-        add(frontOf(m));
-        add(m.baseColor);
-        for (const float value : {m.metallic, m.roughness, m.transmission, m.ior, m.alphaReference})
-            add(value);
-        _values.insert(_values.end(),
-                       {static_cast<uint32_t>(m.model), uint32_t(m.lit),
-                        uint32_t(m.twoSidedLighting), m.lightMask,
-                        static_cast<uint32_t>(m.vertexColorUse), m.baseColorTexture,
-                        m.metallicRoughnessTexture, m.transmissionTexture, m.emissionTexture,
-                        uint32_t(m.separateSpecular), uint32_t(m.localViewer), uint32_t(m.blended),
-                        static_cast<uint32_t>(m.alphaTest), static_cast<uint32_t>(m.culling),
-                        uint32_t(m.clockwise), m.second.texture, uint32_t(m.hasBack)});
-        if (m.baseColorTexture != kInvalid)
-            add(m.textureEnvironment, m.environmentColor, m.mapping);
-        if (m.second.texture != kInvalid)
-            add(m.second.environment, m.second.environmentColor, m.second.mapping);
-        if (m.hasBack) add(m.back);
-    }
-
-    std::vector<uint32_t> take() { return std::move(_values); }
-
-private:
-    void add(float value)
-    {
-        uint32_t bits;
-        std::memcpy(&bits, &value, sizeof bits);
-        _values.push_back(bits);
-    }
-    void add(const Vec3& v)
-    {
-        for (int c = 0; c < 3; ++c)
-            add(v[c]);
-    }
-    void add(const FaceColors& face)
-    {
-        for (const Vec3& color : {face.ambient, face.diffuse, face.specular, face.emission})
-            add(color);
-        add(face.shininess);
-        add(face.alpha);
-    }
-    void add(TextureEnvironment environment, const Vec4& color, const TextureMapping& mapping)
-    {
-        _values.push_back(static_cast<uint32_t>(environment));
-        for (int c = 0; c < 4; ++c)
-            add(color[c]);
-        _values.push_back(static_cast<uint32_t>(mapping.coordinates));
-        for (int column = 0; column < 4 && mapping.transformed; ++column)
-            for (int row = 0; row < 4; ++row)
-                add(mapping.matrix[column][row]);
-    }
-
-    std::vector<uint32_t> _values;
-};
-
-std::vector<uint32_t> valuesOf(const Material& m)
-{
-    return MaterialValues(m).take();
 }
 
 AlphaTest comparisonOf(osg::AlphaFunc::ComparisonFunction function)
@@ -233,11 +163,6 @@ FaceCulling cullingOf(const GraphState& state)
 }
 
 } // namespace
-
-bool sameMaterial(const Material& a, const Material& b)
-{
-    return valuesOf(a) == valuesOf(b);
-}
 
 SurfaceInputs surfaceInputs(const osg::Geometry& geometry)
 {
@@ -290,7 +215,7 @@ uint32_t MaterialConverter::index(const GraphState& state, const SurfaceInputs& 
     if (!isPhysical)
     {
         applyTextureUnits(material, state, placement, _textures, _report);
-        if (_linear) decode(material);
+        if (_rules.linear) decode(material);
     }
     return merged(material);
 }
@@ -314,9 +239,8 @@ Material MaterialConverter::fixedFunction(const GraphState& state,
     material.lit = state.isOn(kLightingBit);
     material.lightMask = material.lit ? static_cast<uint32_t>(state.modesOn) : 0xffffffffu;
     if (const auto* model = state.attribute<osg::LightModel>(kLightModelSlot))
-        material.twoSidedLighting = material.lit && model->getTwoSided();
-    if (const auto* model = state.attribute<osg::LightModel>(kLightModelSlot))
     {
+        material.twoSidedLighting = material.lit && model->getTwoSided();
         material.localViewer = material.lit && model->getLocalViewer();
         material.separateSpecular =
             material.lit && model->getColorControl() == osg::LightModel::SEPARATE_SPECULAR_COLOR;
@@ -396,6 +320,9 @@ void MaterialConverter::applyFaces(Material& material, const GraphState& state,
     const auto* front = state.attribute<osg::FrontFace>(kFrontFaceSlot);
     const bool clockwise = front && front->getMode() == osg::FrontFace::CLOCKWISE;
     material.clockwise = clockwise != isMirrored(placement.engineFromLocal);
+    // Lamps are sampled on both sides: rays that meet them by chance must find both, too.
+    const bool isLamp = material.model == MaterialModel::Physical && material.emission != Vec3(0.0f);
+    material.cullsAllRays = _rules.cullAllRays && material.culling != FaceCulling::None && !isLamp;
 }
 
 Material MaterialConverter::physical(const GraphState& state, const SurfaceInputs& inputs)
@@ -455,14 +382,19 @@ void MaterialConverter::countApproximations(const GraphState& state)
         _report.count("approximated.clip-plane-attribute");
     if (state.usesHigherTextures()) _report.count("approximated.texture-unit");
     if (const auto* mode = state.attribute<osg::PolygonMode>(kPolygonModeSlot))
-        if (mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
+        if (mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL ||
+            mode->getMode(osg::PolygonMode::BACK) != osg::PolygonMode::FILL)
             _report.count("approximated.polygon-mode");
+    const FaceCulling culling = cullingOf(state);
+    const bool backIsSeen = culling == FaceCulling::None || culling == FaceCulling::Front;
+    if (polygonLift(state) != 0.0f && backIsSeen)
+        _report.count("approximated.polygon-offset"); // right from the front only
 }
 
 uint32_t MaterialConverter::merged(const Material& material)
 {
     const auto [known, isNew] =
-        _known.try_emplace(valuesOf(material), static_cast<uint32_t>(_materials.size()));
+        _known.try_emplace(materialValues(material), static_cast<uint32_t>(_materials.size()));
     if (isNew) _materials.push_back(material);
     return known->second;
 }

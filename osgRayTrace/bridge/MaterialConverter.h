@@ -39,13 +39,21 @@ Blending blendingOf(const GraphState& state);
 /// or its factor if it has none.
 float polygonLift(const GraphState& state);
 
+/// What all materials of a snapshot have in common.
+struct MaterialRules
+{
+    bool linear = false;      ///< fixed-function colours are decoded from sRGB
+    bool cullAllRays = false; ///< see RayTraceSettings
+};
+
 /// One snapshot's materials.
 class MaterialConverter
 {
 public:
-    /// linear: fixed-function colours are decoded from sRGB. textures has begun its snapshot.
-    MaterialConverter(bool linear, TextureConverter& textures, ConversionReport& report)
-        : _linear(linear), _textures(textures), _report(report)
+    /// textures has begun its snapshot.
+    MaterialConverter(const MaterialRules& rules, TextureConverter& textures,
+                      ConversionReport& report)
+        : _rules(rules), _textures(textures), _report(report)
     {
     }
 
@@ -71,14 +79,11 @@ private:
     void countApproximations(const GraphState& state);
     uint32_t merged(const Material& material);
 
-    bool _linear;
+    MaterialRules _rules;
     TextureConverter& _textures;
     ConversionReport& _report;
     std::vector<Material> _materials;
-    std::map<std::vector<uint32_t>, uint32_t> _known; // by all values
+    std::map<std::vector<uint32_t>, uint32_t> _known; // by materialValues
 };
-
-/// Equal in all that affects the picture: name and stamp do not.
-bool sameMaterial(const Material& a, const Material& b);
 
 } // namespace osgRayTrace::engine

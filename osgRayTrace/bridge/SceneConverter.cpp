@@ -155,7 +155,7 @@ public:
           _now(now),
           _caches(caches),
           _report(report),
-          _materials(linear, caches.textures, report),
+          _materials({linear, input.cullAllRays}, caches.textures, report),
           _scene(std::make_shared<Scene>())
     {
     }

@@ -19,13 +19,36 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace osgRayTrace::engine
 {
 
+/// Settings that a conversion depends on.
+struct ConversionSettings
+{
+    RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
+    bool cullAllRays = false;
+    LightSizes lightSizes;
+    std::shared_ptr<const MaterialLibrary> materials; ///< null: those of the graph only
+
+    bool operator==(const ConversionSettings& other) const
+    {
+        return colorRule == other.colorRule && cullAllRays == other.cullAllRays &&
+               lightSizes == other.lightSizes && materials == other.materials;
+    }
+};
+
+inline ConversionSettings conversionSettings(const RayTraceSettings& settings,
+                                             std::shared_ptr<const MaterialLibrary> materials)
+{
+    return {settings.getColorRule(), settings.getCullAllRays(), lightSizesOf(settings),
+            std::move(materials)};
+}
+
 /// What to convert a graph for.
-struct ConversionInput
+struct ConversionInput : ConversionSettings
 {
     osg::Node* root = nullptr;
     osg::Vec3d eye; ///< world space: levels of detail
@@ -45,9 +68,6 @@ struct ConversionInput
     /// no OpenGL, and everything with triangles is traced.
     bool rasterizesRest = false;
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as shown
-    RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
-    LightSizes lightSizes;
-    std::shared_ptr<const MaterialLibrary> materials; ///< null: those of the graph only
 };
 
 struct ConversionResult
