@@ -15,7 +15,7 @@ namespace osgRayTrace::engine
 /// Counts by "<class>.<reason>" as Statistics::conversion shows them:
 /// converted    what became part of the Scene: geometry (drawables), instance, material, texture, light
 /// repaired     values that were replaced: normal, texture-coordinate, color (each a vertex),
-///              environment-not-finite, -negative, -too-bright (each a pixel)
+///              environment-not-finite, -negative, -too-bright (each a pixel), environment-scale
 /// skipped      bad data left out: index-out-of-range, not-finite, degenerate (each a triangle);
 ///              everything else an object
 /// warned       things that are traced as they are, but look wrong: far-vertices (a drawable),

@@ -49,6 +49,27 @@ Mat3 engineFromMap(const osg::Quat& rotation, const osg::Matrixd& engineFromLoca
                 Vec3(z.x(), z.y(), z.z()));
 }
 
+Vec3 brightestOf(const EnvironmentImage& image)
+{
+    Vec3 brightest(0.0f);
+    for (const Vec3& pixel : image.radiance)
+        brightest = glm::max(brightest, pixel);
+    return brightest;
+}
+
+/// True if it had to be made smaller.
+bool limitScale(const Vec3& brightest, Vec3& scale)
+{
+    bool limited = false;
+    for (int c = 0; c < 3; ++c)
+    {
+        if (double(brightest[c]) * scale[c] <= kBrightestSky) continue;
+        scale[c] = kBrightestSky / brightest[c];
+        limited = true;
+    }
+    return limited;
+}
+
 } // namespace
 
 std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& source,
@@ -79,6 +100,7 @@ std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& sourc
              " pixels are negative, taken as 0");
         note("repaired.environment-too-bright", replaced.tooBright,
              " pixels are above 1e30, taken as that");
+        _brightest = _image ? brightestOf(*_image) : Vec3(0.0f);
         remember(images, linear);
     }
     if (!_image)
@@ -96,6 +118,9 @@ std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& sourc
     light.name = source.getName().empty() ? path : source.getName();
     light.kind = LightKind::Environment;
     light.radiance = {source.getScale().x(), source.getScale().y(), source.getScale().z()};
+    if (limitScale(_brightest, light.radiance))
+        report.warn("repaired.environment-scale", name,
+                    "its scale makes pixels brighter than 1e30, taken as what makes the brightest that");
     light.environment.image = _image;
     light.environment.visible = source.getVisible();
     bool plain = true;

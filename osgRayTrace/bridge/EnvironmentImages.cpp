@@ -16,7 +16,6 @@ namespace
 {
 
 constexpr int64_t kMostPixels = int64_t(1) << 28;
-constexpr float kBrightest = 1e30f;
 
 struct Pixels
 {
@@ -31,7 +30,7 @@ void repair(Vec3& pixel, ReplacedPixels& replaced)
         ++replaced.notFinite;
         pixel = Vec3(0.0f);
     }
-    const Vec3 clamped = glm::clamp(pixel, Vec3(0.0f), Vec3(kBrightest));
+    const Vec3 clamped = glm::clamp(pixel, Vec3(0.0f), Vec3(kBrightestSky));
     if (clamped == pixel) return;
     ++(pixel.x < 0.0f || pixel.y < 0.0f || pixel.z < 0.0f ? replaced.negative : replaced.tooBright);
     pixel = clamped;

@@ -13,6 +13,9 @@
 namespace osgRayTrace::engine
 {
 
+/// Radiance that is not surpassed, by a pixel or by what its scale makes of it.
+constexpr float kBrightestSky = 1e30f;
+
 /// What was replaced in pixels: each a pixel.
 struct ReplacedPixels
 {
