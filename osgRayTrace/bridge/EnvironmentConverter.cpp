@@ -41,8 +41,11 @@ Mat3 engineFromMap(const osg::Quat& rotation, const osg::Matrixd& engineFromLoca
             std::fabs(x * y) + std::fabs(y * z) + std::fabs(z * x) < 1e-4 * scale * scale;
     z.normalize();
     y.normalize();
-    y -= z * (y * z);
-    y.normalize();
+    for (int round = 0; round < 2; ++round) // of nearly parallel axes the first leaves rounding
+    {
+        y -= z * (y * z);
+        y.normalize();
+    }
     const osg::Vec3d right = y ^ z;
     const osg::Vec3d across = right * (x * right >= 0.0 ? 1.0 : -1.0);
     return Mat3(Vec3(across.x(), across.y(), across.z()), Vec3(y.x(), y.y(), y.z()),

@@ -21,7 +21,7 @@ PicturePair checkSame(const std::string& name, const SceneMaker& makeScene, int 
 
 osg::ref_ptr<osg::MatrixTransform> at(double x, double y, osg::Node* node)
 {
-    return at(osg::Matrix::translate(x, y, 0.0), node);
+    return test::at(osg::Matrix::translate(x, y, 0.0), node);
 }
 
 /// Alternating points of a band along an arc, each of its own colour.
@@ -60,7 +60,7 @@ template <class Positions> osg::ref_ptr<osg::Node> bandOfType(double scale)
 {
     const auto geometry = band<Positions>(12, scale);
     geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, 12));
-    return at(osg::Matrix::scale(1.0 / scale, 1.0 / scale, 1.0 / scale), geometry.get());
+    return test::at(osg::Matrix::scale(1.0 / scale, 1.0 / scale, 1.0 / scale), geometry.get());
 }
 
 } // namespace

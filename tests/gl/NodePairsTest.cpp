@@ -46,7 +46,7 @@ void lookAskew(TestViewer& view)
 
 osg::ref_ptr<osg::MatrixTransform> at(double x, double y, double z, osg::Node* node)
 {
-    return at(osg::Matrix::translate(x, y, z), node);
+    return test::at(osg::Matrix::translate(x, y, z), node);
 }
 
 osg::ref_ptr<osg::ShapeDrawable> box(const osg::Vec4& color, float size = 1.0f)
