@@ -196,7 +196,7 @@ void Renderer::Implementation::convertScene()
         throw EngineError(StatusCode::InvalidView, "the view matrix cannot be inverted");
 
     const engine::ReferenceView view{viewMatrix, projectionMatrix, double(width), double(height)};
-    const auto materials = materialFile.library(settings->getMaterials(), sceneDirty);
+    const auto materials = materialFile.materials(settings->getMaterials(), sceneDirty);
     const ConversionKey key{eye, view, clearColor, headlight,
                             engine::conversionSettings(*settings, materials)};
     if (traced && !sceneDirty && key == convertedFor) return;

@@ -172,18 +172,16 @@ void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
     if (raw.context == "egl") options.context = Context::Egl;
 }
 
-/// The default of 64 passes holds unless something else says when to stop. A report alone needs no
-/// picture.
+/// The default of 64 passes holds unless something else says when to stop; of 1 where no picture is
+/// wanted, but a report.
 void applyPasses(const CLI::App& app, Options& options)
 {
-    if (options.outputs.empty() && options.report)
-    {
-        options.settings->setMaxPasses(1);
-        return;
-    }
     if (app.count("--passes") || std::getenv("OSGRAYTRACE_MAX_PASSES")) return;
     const bool otherwiseLimited = options.seconds > 0.0 || options.relativeError > 0.0;
-    options.settings->setMaxPasses(otherwiseLimited ? 1 << 24 : kDefaultPasses);
+    const bool reportAlone = options.report && options.outputs.empty();
+    options.settings->setMaxPasses(otherwiseLimited ? 1 << 24
+                                   : reportAlone    ? 1
+                                                    : kDefaultPasses);
 }
 
 void check(const Options& options)

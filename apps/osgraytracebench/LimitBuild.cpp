@@ -1,20 +1,17 @@
 // LimitBuild.cpp - graph to ready BVH against Embree's own build. Layer: apps.
 // SPDX-License-Identifier: MIT
+#include "apps/osgraytracebench/BareTriangles.h"
 #include "apps/osgraytracebench/BenchScenes.h"
 #include "apps/osgraytracebench/LimitMode.h"
+#include "apps/osgraytracebench/ResidentBytes.h"
 #include "apps/osgraytracebench/Timing.h"
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 
-#include <embree3/rtcore.h>
-#include <malloc.h>
 #include <osg/Geode>
 #include <osg/MatrixTransform>
-#include <unistd.h>
 
-#include <cstdio>
-#include <cstring>
 #include <string>
 
 namespace osgRayTrace::bench
@@ -32,31 +29,12 @@ void buildBare(RTCDevice device, const osg::Vec3Array& vertices, const osg::Draw
 {
     RTCScene scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* v = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
-                                      vertices.size());
-    void* i = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12,
-                                      indices.size() / 3);
-    std::memcpy(v, vertices.getDataPointer(), vertices.getTotalDataSize());
-    std::memcpy(i, indices.getDataPointer(), indices.getTotalDataSize());
+    RTCGeometry geometry = newBareTriangles(device, vertices, indices);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene);
     rtcReleaseScene(scene);
-}
-
-/// Memory that the process holds [bytes].
-double residentBytes()
-{
-    malloc_trim(0);
-    long total = 0, resident = 0;
-    if (std::FILE* file = std::fopen("/proc/self/statm", "r"))
-    {
-        if (std::fscanf(file, "%ld %ld", &total, &resident) != 2) resident = 0;
-        std::fclose(file);
-    }
-    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
 struct Built

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/ObjectField.h"
 
+#include "apps/osgraytracebench/BareTriangles.h"
+
 #include <cmath>
 #include <cstring>
 
@@ -107,14 +109,9 @@ BareField::BareField(const ObjectField& field) : _device(rtcNewDevice(nullptr))
         rtcSetSceneFlags(object.scene,
                          RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
         rtcSetSceneBuildQuality(object.scene, RTC_BUILD_QUALITY_LOW); // else nothing is refit
-        object.mesh = rtcNewGeometry(_device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        object.mesh = newBareTriangles(_device, vertices, indices);
+        object.vertices = rtcGetGeometryBufferData(object.mesh, RTC_BUFFER_TYPE_VERTEX, 0);
         rtcSetGeometryBuildQuality(object.mesh, RTC_BUILD_QUALITY_REFIT);
-        object.vertices = rtcSetNewGeometryBuffer(object.mesh, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                  RTC_FORMAT_FLOAT3, 12, vertices.size());
-        void* const triangles = rtcSetNewGeometryBuffer(object.mesh, RTC_BUFFER_TYPE_INDEX, 0,
-                                                        RTC_FORMAT_UINT3, 12, indices.size() / 3);
-        std::memcpy(object.vertices, vertices.getDataPointer(), vertices.getTotalDataSize());
-        std::memcpy(triangles, indices.getDataPointer(), indices.getTotalDataSize());
         rtcCommitGeometry(object.mesh);
         rtcAttachGeometry(object.scene, object.mesh);
         rtcCommitScene(object.scene);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/PhotonsMode.h"
 
+#include "apps/common/Failure.h"
+
 namespace osgRayTrace::bench
 {
 
@@ -9,6 +11,8 @@ Rows measurePhotons(const PhotonsOptions& options)
 {
     const auto wanted = [&](const std::string& part)
     { return part.find(options.only) != std::string::npos; };
+    if (!wanted("lookup") && !wanted("tracing") && !wanted("error"))
+        throw app::Failure(app::kUsage, "--only " + options.only + ": no part has this name");
     Rows rows;
     if (wanted("lookup")) measurePhotonLookups(options, rows);
     if (wanted("tracing")) measurePhotonRays(options, rows);

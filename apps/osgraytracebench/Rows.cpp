@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 namespace osgRayTrace::bench
@@ -31,6 +32,13 @@ void printRows(const Rows& rows)
                         row.meets() ? "yes" : "NO");
         std::printf("\n");
     }
+}
+
+bool canWriteRows(const std::string& file)
+{
+    const std::string part = file + ".part";
+    if (std::filesystem::is_directory(file) || !std::ofstream(part)) return false;
+    return std::remove(part.c_str()) == 0;
 }
 
 bool writeRows(const Rows& rows, const std::string& file)

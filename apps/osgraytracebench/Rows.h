@@ -31,6 +31,9 @@ using Rows = std::vector<Row>;
 /// A table on standard output.
 void printRows(const Rows& rows);
 
+/// Whether writeRows will be able to: to be asked before minutes of measuring.
+bool canWriteRows(const std::string& file);
+
 /// {"rows":[{"name","value","unit","goal","meets"}, ...]}; goal is null for rows without one. False if the
 /// file cannot be written; then there is none.
 bool writeRows(const Rows& rows, const std::string& file);

@@ -3,13 +3,10 @@
 #include "apps/osgraytracebench/UpdateMode.h"
 
 #include "apps/osgraytracebench/ObjectField.h"
+#include "apps/osgraytracebench/ResidentBytes.h"
 #include "apps/osgraytracebench/Timing.h"
 #include "osgRayTrace/bridge/SceneUpdater.h"
 
-#include <malloc.h>
-#include <unistd.h>
-
-#include <cstdio>
 #include <string>
 
 namespace osgRayTrace::bench
@@ -43,19 +40,6 @@ private:
     SceneUpdater _updater;
 };
 
-/// Memory that the process holds [bytes].
-double residentBytes()
-{
-    malloc_trim(0);
-    long total = 0, resident = 0;
-    if (std::FILE* file = std::fopen("/proc/self/statm", "r"))
-    {
-        if (std::fscanf(file, "%ld %ld", &total, &resident) != 2) resident = 0;
-        std::fclose(file);
-    }
-    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
 double medianSeconds(const std::function<void()>& body)
 {
     body();
@@ -76,8 +60,6 @@ void addPair(Rows& rows, const std::string& what, const std::string& yardstick,
 void measureEdits(Rows& rows)
 {
     ObjectField field(false);
-    const double first = secondsOf([] {});
-    (void)first;
     LiveScene live(field.root.get());
     rows.push_back({"first conversion", live.statistics().convertSeconds * 1e3, "ms"});
     rows.push_back({"first build", live.statistics().buildSeconds * 1e3, "ms"});

@@ -13,6 +13,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <string>
 
 using namespace osgRayTrace;
@@ -23,12 +24,14 @@ namespace
 
 constexpr int kCompareUsage = 2;
 
-/// A mode that makes rows.
-int runRows(const Rows& rows, const std::string& json)
+/// A mode that makes rows. What can fail without measuring fails first.
+int runRows(const std::function<Rows()>& measure, const std::string& json)
 {
+    const app::Failure cannotWrite(app::kCannotWrite, "cannot write " + json);
+    if (!json.empty() && !canWriteRows(json)) throw cannotWrite;
+    const Rows rows = measure();
     printRows(rows);
-    if (!json.empty() && !writeRows(rows, json))
-        throw app::Failure(app::kCannotWrite, "cannot write " + json);
+    if (!json.empty() && !writeRows(rows, json)) throw cannotWrite;
     return app::kDone;
 }
 
@@ -108,10 +111,10 @@ struct CommandLine
 
     int run()
     {
-        if (limit) return runRows(measureLimit(), json);
-        if (features) return runRows(measureFeatures(), json);
-        if (update) return runRows(measureUpdate(), json);
-        if (photons) return runRows(measurePhotons(photonsOptions), json);
+        if (limit) return runRows(measureLimit, json);
+        if (features) return runRows(measureFeatures, json);
+        if (update) return runRows(measureUpdate, json);
+        if (photons) return runRows([&] { return measurePhotons(photonsOptions); }, json);
         if (compare) return runCompare(before, after, falseAlarmRate);
         app::addPluginPath();
         return runReport(options);

@@ -3,6 +3,7 @@
 #include "osgRayTrace/accel/BvhQuality.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace osgRayTrace::engine
@@ -98,7 +99,9 @@ double BvhQuality::groupArea(const Mesh& mesh) const
 
 double BvhQuality::degradation(const Mesh& mesh) const
 {
-    return _areaWhenBuilt > 0.0 ? groupArea(mesh) / _areaWhenBuilt : 1.0;
+    const double area = groupArea(mesh);
+    if (_areaWhenBuilt > 0.0) return area / _areaWhenBuilt;
+    return area > 0.0 ? std::numeric_limits<double>::infinity() : 1.0;
 }
 
 } // namespace osgRayTrace::engine

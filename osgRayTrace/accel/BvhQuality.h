@@ -19,7 +19,8 @@ public:
     explicit BvhQuality(const Mesh& mesh);
 
     /// Area of the groups' boxes by that of the mesh's box, relative to what it was: 1 for a mesh
-    /// that only moved, turned by right angles or was scaled. mesh has the same triangles.
+    /// that only moved, turned by right angles or was scaled; infinity for one that was a point or a
+    /// line, whose order says nothing, and is no more. mesh has the same triangles.
     double degradation(const Mesh& mesh) const;
 
 private:

@@ -3,7 +3,7 @@
 #include "osgRayTrace/accel/HitFilter.h"
 
 #include "osgRayTrace/accel/Embree.h"
-#include "osgRayTrace/accel/Surface.h"
+#include "osgRayTrace/accel/SurfaceAttributes.h"
 #include "osgRayTrace/sampling/Hash.h"
 
 #include <cstring>

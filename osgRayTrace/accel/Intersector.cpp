@@ -91,33 +91,6 @@ template <class Packet, int Width> void clearHits(Packet& packet)
     std::memset(packet.hit.instID[0], 0xff, Width * sizeof(unsigned));
 }
 
-RTCRay singleRay(const RayBlock& block, int lane)
-{
-    RTCRay ray;
-    ray.org_x = block.originX[lane];
-    ray.org_y = block.originY[lane];
-    ray.org_z = block.originZ[lane];
-    ray.tnear = block.tNear[lane];
-    ray.dir_x = block.directionX[lane];
-    ray.dir_y = block.directionY[lane];
-    ray.dir_z = block.directionZ[lane];
-    ray.time = 0.0f;
-    ray.tfar = block.tFar[lane];
-    ray.mask = 0xffffffffu;
-    ray.id = 0;
-    ray.flags = 0;
-    return ray;
-}
-
-/// Geometry of the flat part is known by its own index.
-OSGRAYTRACE_KERNEL
-void forgetInstance(UintLanes& instances, uint32_t flat)
-{
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < kLanes; ++i)
-        instances[i] = instances[i] == flat ? kInvalid : instances[i];
-}
-
 RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar)
 {
     RTCRay ray;
@@ -134,6 +107,23 @@ RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar)
     ray.id = 0;
     ray.flags = 0;
     return ray;
+}
+
+RTCRay singleRay(const RayBlock& block, int lane)
+{
+    return singleRay(
+        Vec3(block.originX[lane], block.originY[lane], block.originZ[lane]),
+        Vec3(block.directionX[lane], block.directionY[lane], block.directionZ[lane]),
+        block.tNear[lane], block.tFar[lane]);
+}
+
+/// Geometry of the flat part is known by its own index.
+OSGRAYTRACE_KERNEL
+void forgetInstance(UintLanes& instances, uint32_t flat)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+        instances[i] = instances[i] == flat ? kInvalid : instances[i];
 }
 
 } // namespace

@@ -5,7 +5,6 @@
 #include "osgRayTrace/accel/RayBlock.h"
 #include "osgRayTrace/accel/SurfaceTable.h"
 #include "osgRayTrace/base/Lanes.h"
-#include "osgRayTrace/shading/MaterialTable.h"
 
 namespace osgRayTrace::engine
 {
@@ -67,18 +66,5 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
 /// The shading normal turned to the side that the ray comes from; the geometric normal where the two
 /// disagree so much that the ray would come from behind. Of all lanes, those without a hit included.
 void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lanes& normal);
-
-/// Texture coordinates of unit 0 at a hit; zero if the mesh has none.
-Vec2 interpolateUv(const SurfaceRecord& record, uint32_t primitive, float u, float v);
-
-/// The same of unit 1.
-Vec2 interpolateUv1(const SurfaceRecord& record, uint32_t primitive, float u, float v);
-
-/// Where the material is at a hit. ray: its direction, unit. The eye's axes are left to the caller.
-MaterialPoint materialPointOf(const SurfaceRecord& record, const MaterialRecord& material,
-                              uint32_t primitive, float u, float v, bool front, Vec3 direction);
-
-/// RGBA vertex colour at a hit; white if the mesh has none.
-Vec4 interpolateColor(const SurfaceRecord& record, uint32_t primitive, float u, float v);
 
 } // namespace osgRayTrace::engine

@@ -110,7 +110,7 @@ public:
     }
 
     const std::string& error() const { return _error; }
-    std::shared_ptr<MaterialLibrary> library() { return _library; }
+    std::shared_ptr<MaterialLibrary> materials() { return _library; }
 
     bool null() override { return wrongType("null"); }
     bool boolean(bool) override { return wrongType("true or false"); }
@@ -303,7 +303,7 @@ MaterialLibraryResult parseMaterialLibrary(const std::string& text, const std::s
     int line = 1;
     LibraryReader reader(fileName, line);
     const LineIterator begin{text.data(), &line}, end{text.data() + text.size(), &line};
-    if (Json::sax_parse(begin, end, &reader)) return {reader.library(), {}};
+    if (Json::sax_parse(begin, end, &reader)) return {reader.materials(), {}};
     return {nullptr, reader.error()};
 }
 
@@ -322,8 +322,8 @@ MaterialLibraryResult readMaterialLibrary(const std::string& fileName)
     return parseMaterialLibrary(text, fileName);
 }
 
-std::shared_ptr<const MaterialLibrary> MaterialLibraryFile::library(const std::string& fileName,
-                                                                    bool again)
+std::shared_ptr<const MaterialLibrary> MaterialLibraryFile::materials(const std::string& fileName,
+                                                                      bool again)
 {
     if (fileName == _fileName && !again) return _library;
     _fileName = fileName;

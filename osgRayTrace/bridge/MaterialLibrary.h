@@ -60,7 +60,7 @@ MaterialLibraryResult readMaterialLibrary(const std::string& fileName);
 class MaterialLibraryFile
 {
 public:
-    std::shared_ptr<const MaterialLibrary> library(const std::string& fileName, bool again);
+    std::shared_ptr<const MaterialLibrary> materials(const std::string& fileName, bool again);
 
 private:
     std::string _fileName = "none";

@@ -136,7 +136,7 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
     const ViewingConditions conditions = noted.conditions.value_or(ViewingConditions());
     const bool seen = frameStamp && _frameNumber == frameStamp->getFrameNumber();
     const ConversionSettings settings = conversionSettings(
-        *_settings, _materialFile.library(_settings->getMaterials(), noted.dirty));
+        *_settings, _materialFile.materials(_settings->getMaterials(), noted.dirty));
     const bool same = !noted.dirty && !noted.origin && root == _root && _conditions &&
                       convertAlike(*_conditions, conditions) && settings == _conversionSettings;
     if (seen && same) return;

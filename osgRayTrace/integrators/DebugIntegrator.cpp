@@ -3,6 +3,7 @@
 #include "osgRayTrace/integrators/DebugIntegrator.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/SurfaceAttributes.h"
 #include "osgRayTrace/integrators/CameraLanes.h"
 #include "osgRayTrace/integrators/HitShading.h"
 

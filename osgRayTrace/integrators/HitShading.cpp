@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/HitShading.h"
 
+#include "osgRayTrace/accel/SurfaceAttributes.h"
+
 #include <cmath>
 
 namespace osgRayTrace::engine

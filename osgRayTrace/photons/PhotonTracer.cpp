@@ -3,6 +3,7 @@
 #include "osgRayTrace/photons/PhotonTracer.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/SurfaceAttributes.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/photons/PhotonFlights.h"
 #include "osgRayTrace/sampling/Sampler.h"

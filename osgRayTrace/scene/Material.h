@@ -152,6 +152,13 @@ struct Material
     Stamp changed = 0;
 };
 
+inline bool isTextured(const Material& m)
+{
+    return m.baseColorTexture != kInvalid || m.metallicRoughnessTexture != kInvalid ||
+           m.transmissionTexture != kInvalid || m.emissionTexture != kInvalid ||
+           m.second.texture != kInvalid;
+}
+
 /// An index this close to 1 cannot be seen, and its microfacet normals drown in rounding: taken for 1.
 inline float usableIor(float ior) { return ior > 1.0f - 1e-4f && ior < 1.0f + 1e-4f ? 1.0f : ior; }
 

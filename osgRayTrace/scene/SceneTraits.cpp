@@ -14,11 +14,7 @@ constexpr float kMirrorRoughness = 0.0316f;
 void addMaterial(const Material& material, SceneTraits& traits)
 {
     if (isInvisible(material)) return;
-    traits.textures |= material.baseColorTexture != kInvalid ||
-                       material.metallicRoughnessTexture != kInvalid ||
-                       material.transmissionTexture != kInvalid ||
-                       material.emissionTexture != kInvalid ||
-                       material.second.texture != kInvalid;
+    traits.textures |= isTextured(material);
     traits.blended |= material.blended;
     traits.vertexColors |= material.vertexColorUse != VertexColorUse::None;
     if (material.model == MaterialModel::FixedFunction)

@@ -23,7 +23,9 @@ OSGRAYTRACE_INLINE float fresnelDielectric(float cosThetaI, float eta)
     const float gMinusC = (eta - 1.0f) * (eta + 1.0f) / (g + c);
     const float a = gMinusC / (g + c);
     const float b = (c * (g + c) - 1.0f) / (c * gMinusC + 1.0f);
-    const float partial = select(g2 > 0.0f, 0.5f * a * a * (1.0f + b * b), 1.0f);
+    // Next to grazing incidence it rounds to more than 1, and what is left below would be negative.
+    const float mean = 0.5f * a * a * (1.0f + b * b);
+    const float partial = select(g2 > 0.0f, select(mean < 1.0f, mean, 1.0f), 1.0f);
     return select(eta == 1.0f, 0.0f, partial);
 }
 

@@ -14,13 +14,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-bool isTextured(const Material& material)
-{
-    return material.baseColorTexture != kInvalid || material.metallicRoughnessTexture != kInvalid ||
-           material.transmissionTexture != kInvalid || material.emissionTexture != kInvalid ||
-           material.second.texture != kInvalid;
-}
-
 bool passes(AlphaTest test, float value, float reference)
 {
     switch (test)
@@ -189,15 +182,20 @@ TextureTerms MaterialTable::textures(const Material& m, const MaterialPoint& poi
     return terms;
 }
 
+float MaterialTable::fixedFunctionAlpha(const Material& m, const MaterialPoint& point) const
+{
+    const FaceColors colors =
+        fixedFunctionColors(m, point.vertexColor, isFrontFace(m, point.front));
+    return applyTextures(textures(m, point), Vec4(Vec3(0.0f), colors.alpha)).w;
+}
+
 float MaterialTable::opacity(uint32_t material, const MaterialPoint& point) const
 {
     const Material& m = _scene->materials[material];
-    const FaceColors colors =
-        fixedFunctionColors(m, point.vertexColor, isFrontFace(m, point.front));
-    float alpha = m.alpha * baseTexture(m, point).w;
-    if (m.model == MaterialModel::FixedFunction)
-        alpha = applyTextures(textures(m, point), Vec4(Vec3(0.0f), colors.alpha)).w;
-    alpha = std::clamp(alpha, 0.0f, 1.0f);
+    const float alpha =
+        std::clamp(m.model == MaterialModel::Physical ? m.alpha * baseTexture(m, point).w
+                                                      : fixedFunctionAlpha(m, point),
+                   0.0f, 1.0f);
     if (!passes(m.alphaTest, alpha, m.alphaReference)) return 0.0f;
     return m.blended ? alpha : 1.0f;
 }

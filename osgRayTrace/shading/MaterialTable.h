@@ -70,6 +70,7 @@ public:
 
 private:
     bool isPartial(const Material& material) const;
+    float fixedFunctionAlpha(const Material& material, const MaterialPoint& point) const;
     Vec4 baseTexture(const Material& material, const MaterialPoint& point) const;
     Vec4 textureOr(uint32_t texture, Vec2 uv, Vec4 otherwise) const;
     Bsdf physical(const Material& material, const MaterialPoint& point) const;

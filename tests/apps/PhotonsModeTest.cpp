@@ -101,7 +101,14 @@ TEST_CASE("bench photons: error against time of all methods", "[apps]")
 TEST_CASE("bench photons: wrong usage is refused", "[apps]")
 {
     const TemporaryFolder folder;
-    for (const std::string arguments : {"--runs 0", "--photons 10", "--width -1", "--unknown"})
+    for (const std::string arguments :
+         {"--runs 0", "--photons 10", "--width -1", "--unknown", "--only nothing"})
         CHECK(osgraytrace(folder, "photons " + arguments).exitCode == 1);
+    CHECK(osgraytrace(folder, "report --quick --only nothing").exitCode == 1);
+    // Before it measures for minutes.
+    const Outcome unwritable = osgraytrace(folder, "limit --json nowhere/rows.json");
+    CHECK(unwritable.exitCode == 4);
+    CHECK(unwritable.errors == "osgraytracebench: cannot write nowhere/rows.json\n");
+    CHECK(osgraytrace(folder, "limit --json .").exitCode == 4);
     CHECK(folder.fileNames().empty());
 }

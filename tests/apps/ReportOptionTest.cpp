@@ -56,6 +56,10 @@ TEST_CASE("osgraytrace --report: what became of a scene, without a picture", "[a
     CHECK(stored.exitCode == 0);
     const auto json = nlohmann::json::parse(contents(folder / "s.json"));
     CHECK(json["conversionPaths"]["approximated.fog"] == nlohmann::json{"town/roof"});
+    CHECK(json["passes"] == 1);
+    CHECK(osgraytrace(folder, town + " --report --size 8 8 --passes 3 --stats s.json").exitCode ==
+          0);
+    CHECK(nlohmann::json::parse(contents(folder / "s.json"))["passes"] == 3);
 }
 
 TEST_CASE("osgraytrace --report: also of a scene that cannot be rendered", "[apps]")

@@ -154,7 +154,7 @@ TEST_CASE("stability 44: under a wall a strip leaks, in proportion to the radius
 // 2 comparisons at 4 standard errors of 10 values each: a false alarm of all has a probability of
 // 0.006.
 TEST_CASE("stability 44: the leak of a picture falls with its passes as the radius does",
-          "[photons][statistics][stability 44]")
+          "[photons][statistics][long][stability 44]")
 {
     // A lit room behind a wall, closed; a dark floor before it.
     SceneBuilder builder;

@@ -93,7 +93,7 @@ TEST_CASE("radius schedule: the global radii follow their recurrence", "[photons
 // The standard error of the mean is 0.4 % of the bias, that of the variance 1.1 %: a false alarm of
 // the tightest bound, at 4.5 standard errors, has a probability below 1e-4.
 TEST_CASE("radius schedule: bias and variance of the global schedule on a curved density",
-          "[photons][statistics]")
+          "[photons][statistics][long]")
 {
     for (const double alpha : {0.5, 2.0 / 3.0, 0.8})
     {

@@ -47,12 +47,12 @@ void checkDensities(const std::vector<BsdfKind>& kinds, const std::vector<Vec3>&
 } // namespace
 
 TEST_CASE("bsdf: samples follow the density of evalBsdf, for every rough kind and angle",
-          "[shading][statistics]")
+          "[shading][statistics][long]")
 {
     checkDensities(roughKinds(), outgoingDirections(), 200000);
 }
 
-TEST_CASE("bsdf: and at the ends of what a material can be", "[shading][statistics]")
+TEST_CASE("bsdf: and at the ends of what a material can be", "[shading][statistics][long]")
 {
     checkDensities(extremeKinds(), grazingDirections(), 200000);
 }

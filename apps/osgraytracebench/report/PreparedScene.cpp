@@ -59,6 +59,44 @@ private:
     uint64_t _value = 0xcbf29ce484222325ull;
 };
 
+void hashMapping(Hasher& hasher, const TextureMapping& mapping)
+{
+    hasher.add(mapping.coordinates);
+    hasher.add(mapping.transformed);
+    hasher.add(mapping.matrix);
+}
+
+/// Of fixed-function materials, and what lets rays pass.
+void hashState(Hasher& hasher, const Material& material)
+{
+    hasher.add(material.lit);
+    hasher.add(material.twoSidedLighting);
+    hasher.add(material.vertexColorUse);
+    hasher.add(material.separateSpecular);
+    hasher.add(material.localViewer);
+    hasher.add(material.hasBack);
+    const FaceColors& back = material.back;
+    for (const Vec3& color : {back.ambient, back.diffuse, back.specular, back.emission})
+        hasher.add(color);
+    hasher.add(back.shininess);
+    hasher.add(back.alpha);
+
+    hasher.add(material.textureEnvironment);
+    hasher.add(material.environmentColor);
+    hashMapping(hasher, material.mapping);
+    hasher.add(material.second.texture);
+    hasher.add(material.second.environment);
+    hasher.add(material.second.environmentColor);
+    hashMapping(hasher, material.second.mapping);
+
+    hasher.add(material.blended);
+    hasher.add(material.alphaTest);
+    hasher.add(material.alphaReference);
+    hasher.add(material.culling);
+    hasher.add(material.cullsAllRays);
+    hasher.add(material.clockwise);
+}
+
 void hashMaterial(Hasher& hasher, const Material& material)
 {
     for (const Vec3& color : {material.ambient, material.diffuse, material.specular,
@@ -72,10 +110,21 @@ void hashMaterial(Hasher& hasher, const Material& material)
           material.transmissionTexture, material.emissionTexture})
         hasher.add(index);
     hasher.add(material.model);
-    hasher.add(material.lit);
-    hasher.add(material.twoSidedLighting);
-    hasher.add(material.vertexColorUse);
-    hasher.add(material.textureEnvironment);
+    hashState(hasher, material);
+}
+
+void hashTexture(Hasher& hasher, const Texture& texture)
+{
+    for (const int value : {texture.width, texture.height})
+        hasher.add(value);
+    for (const bool flag : {texture.cube, texture.hasColor, texture.hasAlpha, texture.decodeSrgb,
+                            texture.linearFilter})
+        hasher.add(flag);
+    hasher.add(texture.wrapS);
+    hasher.add(texture.wrapT);
+    hasher.add(texture.border);
+    hasher.addAll(texture.bytes);
+    hasher.addAll(texture.floats);
 }
 
 void hashLight(Hasher& hasher, const Light& light)
@@ -92,7 +141,9 @@ void hashLight(Hasher& hasher, const Light& light)
     hasher.add(light.twoSided);
     hasher.add(light.environment.visible);
     hasher.add(light.environment.mapFromEngine);
-    if (light.environment.image) hasher.addAll(light.environment.image->radiance);
+    if (!light.environment.image) return;
+    hasher.add(light.environment.image->width);
+    hasher.addAll(light.environment.image->radiance);
 }
 
 void hashScene(Hasher& hasher, const Scene& scene)
@@ -103,6 +154,7 @@ void hashScene(Hasher& hasher, const Scene& scene)
         hasher.addAll(mesh->triangles);
         hasher.addAll(mesh->normals);
         hasher.addAll(mesh->uvs);
+        hasher.addAll(mesh->uvs1);
         hasher.addAll(mesh->colors);
     }
     for (const Instance& instance : scene.instances)
@@ -116,10 +168,7 @@ void hashScene(Hasher& hasher, const Scene& scene)
     for (const Material& material : scene.materials)
         hashMaterial(hasher, material);
     for (const auto& texture : scene.textures)
-    {
-        hasher.addAll(texture->bytes);
-        hasher.addAll(texture->floats);
-    }
+        hashTexture(hasher, *texture);
     for (const Light& light : scene.lights)
         hashLight(hasher, light);
     hasher.add(scene.ambient);

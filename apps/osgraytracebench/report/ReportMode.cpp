@@ -65,6 +65,16 @@ std::vector<ReportScene> scenesOf(const Run& run)
     return {scene};
 }
 
+std::vector<ReportScene> wantedScenes(const Run& run)
+{
+    std::vector<ReportScene> scenes;
+    for (ReportScene& scene : scenesOf(run))
+        if ((scene.quick || !run.options.quick) &&
+            scene.name.find(run.options.only) != std::string::npos)
+            scenes.push_back(std::move(scene));
+    return scenes;
+}
+
 /// As many for a pixel whatever the width, so that a quick report looks at the same estimate.
 int photonsFor(const Run& run, const ReportScene& scene)
 {
@@ -191,23 +201,26 @@ int printVerdicts(const std::vector<Verdict>& verdicts)
 
 int runReport(const ReportOptions& options)
 {
-    std::error_code error;
-    std::filesystem::create_directories(options.folder, error);
-    if (error) throw app::Failure(app::kCannotWrite, "cannot make the folder " + options.folder);
-
     const int width = options.width > 0 ? options.width : options.quick ? kQuickWidth : kFullWidth;
     Run run{options, width, std::make_shared<engine::Workers>(), {}, {}};
     run.report.machine = describeMachine(run.workers->threads());
     run.report.timed = !options.quick;
     run.report.width = width;
-    for (const ReportScene& scene : scenesOf(run))
-    {
-        if (options.quick && !scene.quick) continue;
-        if (scene.name.find(options.only) != std::string::npos) measureScene(run, scene);
-    }
+    const std::vector<ReportScene> scenes = wantedScenes(run);
+    const bool samplers = wanted(options, "samplers"), schedules = wanted(options, "schedules");
+    if (scenes.empty() && !samplers && !schedules)
+        throw app::Failure(app::kUsage, "--only " + options.only + ": no scene of " +
+                                            (options.quick ? "a quick" : "the") +
+                                            " report has this in its name");
+    std::error_code error;
+    std::filesystem::create_directories(options.folder, error);
+    if (error) throw app::Failure(app::kCannotWrite, "cannot make the folder " + options.folder);
+
+    for (const ReportScene& scene : scenes)
+        measureScene(run, scene);
     const bool whole = options.models.empty() && options.only.empty();
-    if (wanted(options, "samplers")) measureSamplers(run);
-    if (wanted(options, "schedules")) measureSchedules(run);
+    if (samplers) measureSamplers(run);
+    if (schedules) measureSchedules(run);
 
     writeJson(run.report, options.folder + "/report.json");
     writeCsv(run.report, options.folder + "/report.csv");

@@ -1,0 +1,68 @@
+// SurfaceAttributes.cpp - interpolates what meshes have at their vertices. Layer: accel.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/accel/SurfaceAttributes.h"
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// values: one a position; null: the mesh has none.
+template <class Value>
+Value interpolate(const SurfaceRecord& record, const Value* values, uint32_t primitive, float u,
+                  float v, Value otherwise)
+{
+    if (!values) return otherwise;
+    const UVec3 t = record.triangles[primitive];
+    return values[t.x] * (1.0f - u - v) + values[t.y] * u + values[t.z] * v;
+}
+
+/// Position and normal in engine space, as texture generation needs them.
+void setGenerated(const SurfaceRecord& record, uint32_t primitive, float u, float v,
+                  MaterialPoint& point)
+{
+    const UVec3 t = record.triangles[primitive];
+    const float w = 1.0f - u - v;
+    const Vec3 a = record.positions[t.x], b = record.positions[t.y], c = record.positions[t.z];
+    point.position = a * w + b * u + c * v;
+    if (record.placed)
+        point.position = transformPoint(record.placed->engineFromLocal, point.position);
+
+    const auto toEngine = [&record](Vec3 n) // vertex normals keep equal weights, as in surfacesOf
+    { return record.placed ? glm::normalize(record.placed->normalFromLocal * n) : n; };
+    const Vec3 normal =
+        record.normals
+            ? toEngine(record.normals[t.x]) * w + toEngine(record.normals[t.y]) * u +
+                  toEngine(record.normals[t.z]) * v
+            : toEngine(glm::cross((b - a) / glm::length(b - a), (c - a) / glm::length(c - a)));
+    const float length = glm::length(normal);
+    if (length > 0.0f && length < kInfinity) point.normal = normal / length;
+}
+
+} // namespace
+
+Vec2 interpolateUv(const SurfaceRecord& record, uint32_t primitive, float u, float v)
+{
+    return interpolate(record, record.uvs, primitive, u, v, Vec2(0.0f));
+}
+
+Vec4 interpolateColor(const SurfaceRecord& record, uint32_t primitive, float u, float v)
+{
+    return interpolate(record, record.colors, primitive, u, v, Vec4(1.0f));
+}
+
+MaterialPoint materialPointOf(const SurfaceRecord& record, const MaterialRecord& material,
+                              uint32_t primitive, float u, float v, bool front, Vec3 direction)
+{
+    MaterialPoint point;
+    point.front = front;
+    point.uv = interpolateUv(record, primitive, u, v);
+    point.uv1 = interpolate(record, record.uvs1, primitive, u, v, Vec2(0.0f));
+    point.vertexColor = interpolateColor(record, primitive, u, v);
+    point.direction = direction;
+    if (material.generated) setGenerated(record, primitive, u, v, point);
+    return point;
+}
+
+} // namespace osgRayTrace::engine
