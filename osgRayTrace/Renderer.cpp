@@ -48,15 +48,12 @@ struct ConversionKey
     engine::ReferenceView view;
     osg::Vec4 clearColor;
     bool headlight = true;
-    RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
-    engine::LightSizes lightSizes;
-    std::shared_ptr<const engine::MaterialLibrary> materials;
+    engine::ConversionSettings settings;
 
     bool operator==(const ConversionKey& other) const
     {
-        return eye == other.eye && view == other.view && clearColor == other.clearColor && headlight == other.headlight &&
-               colorRule == other.colorRule && lightSizes == other.lightSizes &&
-               materials == other.materials;
+        return eye == other.eye && view == other.view && clearColor == other.clearColor &&
+               headlight == other.headlight && settings == other.settings;
     }
 };
 
@@ -199,9 +196,9 @@ void Renderer::Implementation::convertScene()
         throw EngineError(StatusCode::InvalidView, "the view matrix cannot be inverted");
 
     const engine::ReferenceView view{viewMatrix, projectionMatrix, double(width), double(height)};
-    const ConversionKey key{eye, view, clearColor, headlight, settings->getColorRule(),
-                            engine::lightSizesOf(*settings),
-                            materialFile.materials(settings->getMaterials(), sceneDirty)};
+    const auto materials = materialFile.materials(settings->getMaterials(), sceneDirty);
+    const ConversionKey key{eye, view, clearColor, headlight,
+                            engine::conversionSettings(*settings, materials)};
     if (traced && !sceneDirty && key == convertedFor) return;
 
     const std::lock_guard<std::mutex> lock(graphMutex());
@@ -217,15 +214,13 @@ void Renderer::Implementation::convertScene()
 engine::ConversionInput Renderer::Implementation::conversionInput(const ConversionKey& key) const
 {
     engine::ConversionInput input;
+    static_cast<engine::ConversionSettings&>(input) = key.settings;
     input.root = scene.get();
     input.eye = key.eye;
     input.view = key.view;
     input.origin = key.eye;
     if (key.headlight) input.viewLight = viewerHeadlight();
     input.clearColor = key.clearColor;
-    input.colorRule = key.colorRule;
-    input.lightSizes = key.lightSizes;
-    input.materials = key.materials;
     return input;
 }
 

@@ -73,6 +73,16 @@ int toggleKey()
     return osgGA::GUIEventAdapter::KEY_F9;
 }
 
+void addToggleKey(osgViewer::View& view, RayTracedScene* scene)
+{
+    for (const osg::ref_ptr<osgGA::EventHandler>& handler : view.getEventHandlers())
+    {
+        const auto* known = dynamic_cast<const ToggleKey*>(handler.get());
+        if (known && known->isFor(scene)) return;
+    }
+    view.addEventHandler(new ToggleKey(scene, toggleKey()));
+}
+
 /// What the view is to show; the node itself if it cannot be ray traced.
 osg::ref_ptr<osg::Node> shownFor(osgViewer::View& view, osg::Node* node)
 {
@@ -80,7 +90,7 @@ osg::ref_ptr<osg::Node> shownFor(osgViewer::View& view, osg::Node* node)
     try
     {
         const osg::ref_ptr<RayTracedScene> scene = tracedScene(*node);
-        view.addEventHandler(new ToggleKey(scene.get(), toggleKey()));
+        addToggleKey(view, scene.get());
         return scene;
     }
     catch (const std::exception& error)

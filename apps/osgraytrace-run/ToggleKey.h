@@ -21,6 +21,9 @@ class ToggleKey : public osgGA::GUIEventHandler
 public:
     ToggleKey(RayTracedScene* scene, int key) : _scene(scene), _key(key) {}
 
+    /// Two for one scene in a view would undo each other.
+    bool isFor(const RayTracedScene* scene) const { return _scene.get() == scene; }
+
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
 
 private:

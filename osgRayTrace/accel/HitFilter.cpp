@@ -78,7 +78,8 @@ bool HitFilter::stops(const Candidate& c, HitRule rule) const
     const MaterialRecord& record = _materials[surface.material];
     if (!record.partial) return true;
     const Material& material = *record.material;
-    if (rule.culls && isCulled(material, isFrontFace(material, c.front))) return false;
+    const bool culls = rule.culls || material.cullsAllRays;
+    if (culls && isCulled(material, isFrontFace(material, c.front) != rule.fromLight)) return false;
     if (!material.blended && material.alphaTest == AlphaTest::Always) return true;
 
     Vec3 direction = c.direction;

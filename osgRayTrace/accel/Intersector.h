@@ -22,9 +22,11 @@ struct HitRule
 {
     bool culls = false;        ///< a camera ray: culled faces are not there
     bool keepsBlended = false; ///< blended surfaces are hit whatever their alpha; else by chance
+    bool fromLight = false;    ///< goes the way that light does: other rays meet the side that it leaves
     bool solid = false;        ///< every surface is hit, wherever it is transparent or culled
 };
-constexpr HitRule kCameraRays{true, false};
+constexpr HitRule kCameraRays{true, false, false, false};
+constexpr HitRule kPhotonRays{false, false, true, false};
 
 class HitFilter;
 

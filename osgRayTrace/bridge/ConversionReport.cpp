@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
 
 namespace osgRayTrace::engine
 {
@@ -33,16 +32,11 @@ constexpr Wording kGeometryWordings[] = {
      "texture coordinates that are missing or not finite, replaced by 0"},
 };
 
-/// Reasons of ConversionReport::warn: the object's own line says more.
-bool isNamedByObject(const std::string& what)
+/// Said for each geometry by warnAboutGeometry.
+bool isNamedByGeometry(const std::string& what)
 {
-    static const std::set<std::string> others{
-        "skipped.too-deep",           "skipped.not-finite-transform", "skipped.projective-transform",
-        "skipped.singular-transform", "skipped.area-light",           "skipped.light",
-        "approximated.texture-size",  "approximated.pixel-format"};
-    const auto isIt = [&what](const Wording& wording) { return what == wording.what; };
-    return others.count(what) > 0 ||
-           std::any_of(std::begin(kGeometryWordings), std::end(kGeometryWordings), isIt);
+    return std::any_of(std::begin(kGeometryWordings), std::end(kGeometryWordings),
+                       [&what](const Wording& wording) { return what == wording.what; });
 }
 
 bool begins(const std::string& text, const char* with)
@@ -86,6 +80,7 @@ void ConversionReport::warn(const std::string& what, const std::string& object,
                             const std::string& message)
 {
     count(what);
+    _named.insert(what);
     if (!_place) notePath(what, object);
     warnOnce(object + ": " + message);
 }
@@ -107,7 +102,7 @@ void warnOnceAReason(const ConversionReport& report, bool rasterizesRest)
     {
         const bool differs = begins(what, "approximated.") || begins(what, "skipped.") ||
                              (begins(what, "not-traced.") && !rasterizesRest);
-        if (!differs || isNamedByObject(what)) continue;
+        if (!differs || isNamedByGeometry(what) || report.isNamed(what)) continue;
         const auto paths = report.paths().find(what);
         const bool placed = paths != report.paths().end() && !paths->second.empty();
         warnOnceFor(what, what + ": " + std::to_string(number) +

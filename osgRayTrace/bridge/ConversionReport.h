@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace osgRayTrace::engine
 /// Counts by "<class>.<reason>" as Statistics::conversion shows them:
 /// converted    what became part of the Scene: geometry (drawables), instance, material, texture, light
 /// repaired     values that were replaced: normal, texture-coordinate, color (each a vertex),
-///              environment-not-finite, -negative, -too-bright (each a pixel)
+///              environment-not-finite, -negative, -too-bright (each a pixel), environment-scale
 /// skipped      bad data left out: index-out-of-range, not-finite, degenerate (each a triangle);
 ///              everything else an object
 /// warned       things that are traced as they are, but look wrong: far-vertices (a drawable),
@@ -60,12 +61,16 @@ public:
     uint64_t remarks() const { return _remarks; }
     const ConversionPaths& paths() const { return _paths; }
 
+    /// True if warn has said it, with a line of each object.
+    bool isNamed(const std::string& what) const { return _named.count(what) > 0; }
+
 private:
     void notePath(const std::string& what, const std::string& path);
 
     ConversionCounts _counts;
     ConversionPaths _paths;
     uint64_t _remarks = 0;
+    std::set<std::string> _named;
     Place _place;
 };
 

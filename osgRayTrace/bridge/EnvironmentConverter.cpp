@@ -41,12 +41,36 @@ Mat3 engineFromMap(const osg::Quat& rotation, const osg::Matrixd& engineFromLoca
             std::fabs(x * y) + std::fabs(y * z) + std::fabs(z * x) < 1e-4 * scale * scale;
     z.normalize();
     y.normalize();
-    y -= z * (y * z);
-    y.normalize();
+    for (int round = 0; round < 2; ++round) // of nearly parallel axes the first leaves rounding
+    {
+        y -= z * (y * z);
+        y.normalize();
+    }
     const osg::Vec3d right = y ^ z;
     const osg::Vec3d across = right * (x * right >= 0.0 ? 1.0 : -1.0);
     return Mat3(Vec3(across.x(), across.y(), across.z()), Vec3(y.x(), y.y(), y.z()),
                 Vec3(z.x(), z.y(), z.z()));
+}
+
+Vec3 brightestOf(const EnvironmentImage& image)
+{
+    Vec3 brightest(0.0f);
+    for (const Vec3& pixel : image.radiance)
+        brightest = glm::max(brightest, pixel);
+    return brightest;
+}
+
+/// True if it had to be made smaller.
+bool limitScale(const Vec3& brightest, Vec3& scale)
+{
+    bool limited = false;
+    for (int c = 0; c < 3; ++c)
+    {
+        if (double(brightest[c]) * scale[c] <= kBrightestSky) continue;
+        scale[c] = kBrightestSky / brightest[c];
+        limited = true;
+    }
+    return limited;
 }
 
 } // namespace
@@ -79,6 +103,7 @@ std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& sourc
              " pixels are negative, taken as 0");
         note("repaired.environment-too-bright", replaced.tooBright,
              " pixels are above 1e30, taken as that");
+        _brightest = _image ? brightestOf(*_image) : Vec3(0.0f);
         remember(images, linear);
     }
     if (!_image)
@@ -96,6 +121,9 @@ std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& sourc
     light.name = source.getName().empty() ? path : source.getName();
     light.kind = LightKind::Environment;
     light.radiance = {source.getScale().x(), source.getScale().y(), source.getScale().z()};
+    if (limitScale(_brightest, light.radiance))
+        report.warn("repaired.environment-scale", name,
+                    "its scale makes pixels brighter than 1e30, taken as what makes the brightest that");
     light.environment.image = _image;
     light.environment.visible = source.getVisible();
     bool plain = true;

@@ -47,6 +47,7 @@ private:
     std::vector<Source> _sources;
     bool _linear = false;
     std::shared_ptr<const EnvironmentImage> _image;
+    Vec3 _brightest{0.0f};    ///< of its pixels, in each channel
     ConversionCounts _counts; ///< of the image: they are told again with each snapshot
 };
 

@@ -16,7 +16,6 @@ namespace
 {
 
 constexpr int64_t kMostPixels = int64_t(1) << 28;
-constexpr float kBrightest = 1e30f;
 
 struct Pixels
 {
@@ -31,7 +30,7 @@ void repair(Vec3& pixel, ReplacedPixels& replaced)
         ++replaced.notFinite;
         pixel = Vec3(0.0f);
     }
-    const Vec3 clamped = glm::clamp(pixel, Vec3(0.0f), Vec3(kBrightest));
+    const Vec3 clamped = glm::clamp(pixel, Vec3(0.0f), Vec3(kBrightestSky));
     if (clamped == pixel) return;
     ++(pixel.x < 0.0f || pixel.y < 0.0f || pixel.z < 0.0f ? replaced.negative : replaced.tooBright);
     pixel = clamped;
@@ -79,7 +78,8 @@ bool readOthers(const osg::Image& image, bool decodeSrgb, ReplacedPixels& replac
 {
     Texture texture;
     if (!decodePixels(image, texture)) return false;
-    if (image.getDataType() == GL_FLOAT || image.getDataType() == GL_HALF_FLOAT)
+    const bool mayNotBeFinite = image.getDataType() == GL_FLOAT || image.getDataType() == GL_HALF_FLOAT;
+    if (mayNotBeFinite && !image.isCompressed()) // whose data type says nothing
         replaced.notFinite += countNotFinite(image);
     for (std::size_t i = 0; i < pixels.radiance.size(); ++i)
     {
@@ -99,10 +99,11 @@ bool readOthers(const osg::Image& image, bool decodeSrgb, ReplacedPixels& replac
     return true;
 }
 
-bool read(const osg::Image& image, bool decodeSrgb, ReplacedPixels& replaced, Pixels& pixels)
+bool read(const osg::Image& image, bool decodeSrgb, int64_t mostPixels, ReplacedPixels& replaced,
+          Pixels& pixels)
 {
     if (!image.data() || image.s() < 1 || image.t() < 1 ||
-        int64_t(image.s()) * image.t() > kMostPixels)
+        int64_t(image.s()) * image.t() > mostPixels)
         return false;
     pixels.width = image.s();
     pixels.height = image.t();
@@ -161,7 +162,7 @@ std::shared_ptr<const EnvironmentImage>
 environmentFromImage(const osg::Image& image, bool decodeSrgb, ReplacedPixels& replaced)
 {
     Pixels pixels;
-    if (!read(image, decodeSrgb, replaced, pixels)) return nullptr;
+    if (!read(image, decodeSrgb, kMostPixels, replaced, pixels)) return nullptr;
     auto environment = std::make_shared<EnvironmentImage>();
     environment->width = pixels.width;
     environment->height = pixels.height;
@@ -181,10 +182,11 @@ environmentFromCube(const std::vector<const osg::Image*>& images, bool decodeSrg
                     ReplacedPixels& replaced)
 {
     if (images.size() != 6) return nullptr;
+    constexpr int64_t kMostOfFace = kMostPixels / 8; // of which two by four are resampled
     std::array<Pixels, 6> faces;
     for (std::size_t f = 0; f < 6; ++f)
     {
-        if (!images[f] || !read(*images[f], decodeSrgb, replaced, faces[f])) return nullptr;
+        if (!images[f] || !read(*images[f], decodeSrgb, kMostOfFace, replaced, faces[f])) return nullptr;
         if (faces[f].width != faces[f].height || faces[f].width != faces[0].width) return nullptr;
     }
     constexpr int kPoints = 4; // a side of a pixel

@@ -13,6 +13,9 @@
 namespace osgRayTrace::engine
 {
 
+/// Radiance that is not surpassed, by a pixel or by what its scale makes of it.
+constexpr float kBrightestSky = 1e30f;
+
 /// What was replaced in pixels: each a pixel.
 struct ReplacedPixels
 {
@@ -26,7 +29,7 @@ struct ReplacedPixels
 std::shared_ptr<const EnvironmentImage>
 environmentFromImage(const osg::Image& image, bool decodeSrgb, ReplacedPixels& replaced);
 
-/// Six square faces of one size in the order of osg::TextureCubeMap::Face; else null.
+/// Six square faces of one size in the order of osg::TextureCubeMap::Face, of 2^25 pixels at most; else null.
 std::shared_ptr<const EnvironmentImage>
 environmentFromCube(const std::vector<const osg::Image*>& faces, bool decodeSrgb,
                     ReplacedPixels& replaced);

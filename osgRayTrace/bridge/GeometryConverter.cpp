@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/GeometryConverter.h"
 
 #include "osgRayTrace/bridge/MeshClipper.h"
+#include "osgRayTrace/bridge/MeshPlacement.h"
 #include "osgRayTrace/bridge/VertexArrays.h"
 
 #include <algorithm>
@@ -114,17 +115,6 @@ SharedArray<UVec3> shareIndices(const osg::DrawElementsUInt& elements)
     return {reinterpret_cast<const UVec3*>(&elements.front()), elements.size() / 3, owner};
 }
 
-/// A transform that mirrors turns the winding; turned back, the front of a triangle stays its
-/// front.
-bool isMirrored(const MeshRequest& request)
-{
-    if (!request.transform) return false;
-    const osg::Matrixd& m = *request.transform;
-    const Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
-        z(m(2, 0), m(2, 1), m(2, 2));
-    return glm::dot(glm::cross(x, y), z) < 0.0;
-}
-
 SharedArray<UVec3> checkedTriangles(TriangleList& list, const osg::Geometry& geometry,
                                     const Positions& positions, const MeshRequest& request,
                                     ConversionCounts& counts)
@@ -132,7 +122,8 @@ SharedArray<UVec3> checkedTriangles(TriangleList& list, const osg::Geometry& geo
     if (list.size() == 0) return {};
     const TriangleJudge judge(positions);
     const bool sound = judge.allSound(list.data(), list.size());
-    const bool mirrored = isMirrored(request);
+    // Turned back, the front of a triangle stays its front.
+    const bool mirrored = request.transform && isMirrored(*request.transform);
     if (sound && list.source && !mirrored && !request.copies && geometry.getDataVariance() != osg::Object::DYNAMIC &&
         list.source->getDataVariance() != osg::Object::DYNAMIC)
         return shareIndices(*list.source);

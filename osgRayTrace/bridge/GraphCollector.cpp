@@ -215,14 +215,15 @@ void GraphCollector::apply(osg::TexGenNode& node)
 
 void GraphCollector::apply(osg::Billboard& node)
 {
-    if (_input.rasterizesRest && hasUntracedDrawable(node))
+    const bool pushed = pushState(node);
+    if (_input.rasterizesRest && leavesDrawable(node))
     {
         _report.count("rasterized.billboard");
-        warnIfForced("a billboard with text or the like");
+        warnIfForced("a billboard with text, lines or the like");
         rasterize();
+        if (pushed) _states.pop();
         return;
     }
-    const bool pushed = pushState(node);
     if (node.getMode() == osg::Billboard::POINT_ROT_EYE && !_input.view)
         _report.count("approximated.billboard"); // upright in the world, not in the view
     const osg::Vec3 eye = getEyePoint();
@@ -301,16 +302,19 @@ float GraphCollector::getDistanceToViewPoint(const osg::Vec3& position, bool use
 
 void GraphCollector::traverseChildren(osg::Node& node)
 {
-    if (getNodePath().size() < kDeepestPath)
-    {
-        traverse(node);
-        return;
-    }
+    if (!isTooDeep(node)) traverse(node);
+}
+
+/// True, counted and named if there is anything below it that is too deep.
+bool GraphCollector::isTooDeep(const osg::Node& node)
+{
+    if (getNodePath().size() < kDeepestPath) return false;
     const osg::Group* group = node.asGroup();
-    if (!group || group->getNumChildren() == 0) return;
-    _report.warn("skipped.too-deep", "node '" + node.getName() + "'",
-                 "lies below " + std::to_string(kDeepestPath - 1) +
-                     " others, its children are skipped");
+    if (group && group->getNumChildren() > 0)
+        _report.warn("skipped.too-deep", "node '" + node.getName() + "'",
+                     "lies below " + std::to_string(kDeepestPath - 1) +
+                         " others, its children are skipped");
+    return true;
 }
 
 bool GraphCollector::pushState(osg::Node& node)
@@ -361,13 +365,31 @@ bool GraphCollector::collectLeaf(osg::Node& node)
     return true;
 }
 
+/// True if OSG has to draw something in it: then all of it, as it is the billboard that places its drawables.
+bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
+{
+    bool leaves = false;
+    for (unsigned int i = 0; i < billboard.getNumDrawables() && !leaves; ++i)
+    {
+        osg::Drawable* drawable = billboard.getDrawable(i);
+        if (!drawable) continue;
+        const osg::Geometry* geometry = drawable->asGeometry();
+        pushOntoNodePath(drawable);
+        leaves = !geometry || rasterizedReason(*geometry, false) || withoutTriangles(*geometry);
+        popFromNodePath();
+    }
+    return leaves;
+}
+
 /// True if the group is of a kit that draws its children in a way of its own, by a cull traversal only: OSG
-/// draws it where there is OpenGL, and its children stand for it elsewhere.
+/// draws it where there is OpenGL, and its children stand for it elsewhere, or if an effect is hinted to be traced.
 bool GraphCollector::leavesGroup(osg::Node& node)
 {
     const bool effect = isFrom(node, "osgFX"), volume = isFrom(node, "osgVolume");
     if (!effect && !volume) return false;
-    if (_input.rasterizesRest)
+    if (volume) warnIfForced("a volume");
+    const bool traces = effect && hintOf(getNodePath()) == DrawHint::Trace;
+    if (_input.rasterizesRest && !traces)
     {
         _report.count(effect ? "rasterized.effect" : "rasterized.volume");
         rasterize();
@@ -381,8 +403,9 @@ bool GraphCollector::leavesGroup(osg::Node& node)
 /// Its children, whatever its own traverse does.
 void GraphCollector::traverseGroup(osg::Group& group)
 {
+    if (isTooDeep(group)) return;
     const bool pushed = pushState(group);
-    for (unsigned int i = 0; i < group.getNumChildren() && getNodePath().size() < kDeepestPath; ++i)
+    for (unsigned int i = 0; i < group.getNumChildren(); ++i)
         group.getChild(i)->accept(*this);
     if (pushed) _states.pop();
 }
@@ -396,8 +419,8 @@ void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
     _graph.rasterizedPaths.push_back(pickPath());
 }
 
-/// Leaves to OSG what it draws better. True if nothing is left to trace.
-bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
+/// Why the geometry at the end of the path is drawn by OpenGL where there is one; null: it is traced.
+const char* GraphCollector::rasterizedReason(const osg::Geometry& geometry, bool isPosed)
 {
     const osg::StateSet* stateSet = geometry.getStateSet();
     const osg::StateAttribute* poses =
@@ -406,9 +429,14 @@ bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
     const char* reason = rasterizedState(_states.states()[_states.top()], poses);
     if (stateSet) _states.pop();
     const DrawHint hint = hintOf(getNodePath());
-    if (hint == DrawHint::Rasterize) reason = "rasterized.hint";
-    if (hint == DrawHint::Trace) reason = nullptr;
-    if (reason)
+    if (hint == DrawHint::Rasterize) return "rasterized.hint";
+    return hint == DrawHint::Trace ? nullptr : reason;
+}
+
+/// Leaves to OSG what it draws better. True if nothing is left to trace.
+bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
+{
+    if (const char* reason = rasterizedReason(geometry, isPosed))
     {
         _report.count(reason);
         rasterize();

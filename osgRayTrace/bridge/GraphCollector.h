@@ -146,13 +146,16 @@ public:
 
 private:
     void traverseChildren(osg::Node& node);
+    bool isTooDeep(const osg::Node& node);
     bool pushState(osg::Node& node);
     bool pushMatrix(const osg::Matrixd& worldFromLocal);
     void traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node& node);
     bool collectLeaf(osg::Node& node);
+    bool leavesDrawable(osg::Billboard& billboard);
     bool leavesGroup(osg::Node& node);
     void traverseGroup(osg::Group& group);
     void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);
+    const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed);
     bool rasterizes(const osg::Geometry& geometry, bool isPosed);
     void warnIfForced(const char* what);
     osg::Matrixd worldFromEye() const;

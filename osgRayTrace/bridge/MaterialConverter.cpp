@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/MaterialConverter.h"
 
-#include "osgRayTrace/bridge/MaterialList.h"
+#include "osgRayTrace/bridge/MaterialValues.h"
+#include "osgRayTrace/bridge/MeshPlacement.h"
 #include "osgRayTrace/bridge/VertexArrays.h"
 #include "osgRayTrace/film/ToneMap.h"
 
@@ -214,7 +215,7 @@ Material MaterialConverter::material(const GraphState& state, const SurfaceInput
     if (!isPhysical)
     {
         applyTextureUnits(material, state, placement, _textures, _report);
-        if (_linear) decode(material);
+        if (_rules.linear) decode(material);
     }
     return material;
 }
@@ -238,9 +239,8 @@ Material MaterialConverter::fixedFunction(const GraphState& state,
     material.lit = state.isOn(kLightingBit);
     material.lightMask = material.lit ? static_cast<uint32_t>(state.modesOn) : 0xffffffffu;
     if (const auto* model = state.attribute<osg::LightModel>(kLightModelSlot))
-        material.twoSidedLighting = material.lit && model->getTwoSided();
-    if (const auto* model = state.attribute<osg::LightModel>(kLightModelSlot))
     {
+        material.twoSidedLighting = material.lit && model->getTwoSided();
         material.localViewer = material.lit && model->getLocalViewer();
         material.separateSpecular =
             material.lit && model->getColorControl() == osg::LightModel::SEPARATE_SPECULAR_COLOR;
@@ -320,6 +320,9 @@ void MaterialConverter::applyFaces(Material& material, const GraphState& state,
     const auto* front = state.attribute<osg::FrontFace>(kFrontFaceSlot);
     const bool clockwise = front && front->getMode() == osg::FrontFace::CLOCKWISE;
     material.clockwise = clockwise != isMirrored(placement.engineFromLocal);
+    // Lamps are sampled on both sides: rays that meet them by chance must find both, too.
+    const bool isLamp = material.model == MaterialModel::Physical && material.emission != Vec3(0.0f);
+    material.cullsAllRays = _rules.cullAllRays && material.culling != FaceCulling::None && !isLamp;
 }
 
 Material MaterialConverter::physical(const GraphState& state, const SurfaceInputs& inputs)
@@ -379,8 +382,13 @@ void MaterialConverter::countApproximations(const GraphState& state)
         _report.count("approximated.clip-plane-attribute");
     if (state.usesHigherTextures()) _report.count("approximated.texture-unit");
     if (const auto* mode = state.attribute<osg::PolygonMode>(kPolygonModeSlot))
-        if (mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
+        if (mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL ||
+            mode->getMode(osg::PolygonMode::BACK) != osg::PolygonMode::FILL)
             _report.count("approximated.polygon-mode");
+    const FaceCulling culling = cullingOf(state);
+    const bool backIsSeen = culling == FaceCulling::None || culling == FaceCulling::Front;
+    if (polygonLift(state) != 0.0f && backIsSeen)
+        _report.count("approximated.polygon-offset"); // right from the front only
 }
 
 } // namespace osgRayTrace::engine

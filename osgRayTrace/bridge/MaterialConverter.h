@@ -36,13 +36,21 @@ Blending blendingOf(const GraphState& state);
 /// or its factor if it has none.
 float polygonLift(const GraphState& state);
 
+/// What all materials of a scene have in common.
+struct MaterialRules
+{
+    bool linear = false;      ///< fixed-function colours are decoded from sRGB
+    bool cullAllRays = false; ///< see RayTraceSettings
+};
+
 /// From state to materials.
 class MaterialConverter
 {
 public:
-    /// linear: fixed-function colours are decoded from sRGB. textures has begun its snapshot.
-    MaterialConverter(bool linear, TextureConverter& textures, ConversionReport& report)
-        : _linear(linear), _textures(textures), _report(report)
+    /// textures has begun its snapshot.
+    MaterialConverter(const MaterialRules& rules, TextureConverter& textures,
+                      ConversionReport& report)
+        : _rules(rules), _textures(textures), _report(report)
     {
     }
 
@@ -60,7 +68,7 @@ private:
     void decode(Material& material) const;
     void countApproximations(const GraphState& state);
 
-    bool _linear;
+    MaterialRules _rules;
     TextureConverter& _textures;
     ConversionReport& _report;
 };

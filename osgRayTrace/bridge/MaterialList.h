@@ -10,12 +10,6 @@
 namespace osgRayTrace::engine
 {
 
-/// Equal in all that affects the picture: name and stamp do not.
-bool sameMaterial(const Material& a, const Material& b);
-
-/// The colours of the front.
-FaceColors frontOf(const Material& material);
-
 /// Counts the uses of each. What has no use any more leaves a gap, a material that does nothing,
 /// which the next new one fills: so indices stay what they are.
 class MaterialList
@@ -40,7 +34,7 @@ private:
     std::vector<Material> _materials;
     std::vector<uint32_t> _uses; ///< by material
     std::vector<uint32_t> _gaps, _changed;
-    std::map<std::vector<uint32_t>, uint32_t> _known; ///< by all values
+    std::map<std::vector<uint32_t>, uint32_t> _known; ///< by materialValues
 };
 
 } // namespace osgRayTrace::engine

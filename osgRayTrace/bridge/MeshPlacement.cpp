@@ -56,6 +56,13 @@ MeshFrame meshFrame(const VertexBounds& bounds)
     return frame;
 }
 
+bool isMirrored(const osg::Matrixd& m)
+{
+    const osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
+        z(m(2, 0), m(2, 1), m(2, 2));
+    return (x ^ y) * z < 0.0;
+}
+
 bool placeInstance(Instance& instance, const osg::Matrixd& engineFromMesh)
 {
     const Affine affine = toAffine(engineFromMesh);

@@ -19,6 +19,9 @@ struct MeshFrame
 
 MeshFrame meshFrame(const VertexBounds& bounds);
 
+/// True if the transform turns windings.
+bool isMirrored(const osg::Matrixd& m);
+
 /// Sets the instance's transform. False if Embree cannot invert it in float (see TracedScene): then
 /// the mesh must be made in engine coordinates.
 bool placeInstance(Instance& instance, const osg::Matrixd& engineFromMesh);

@@ -56,7 +56,7 @@ SceneBuilder::SceneBuilder(const ConversionInput& input, const CollectedGraph& g
       _made(made),
       _scene(scene),
       _report(report),
-      _materials(rules.linear, caches.textures, _materialReport),
+      _materials({rules.linear, input.cullAllRays}, caches.textures, _materialReport),
       _treatments(graph.states.size())
 {
 }

@@ -19,6 +19,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -26,8 +27,30 @@ namespace osgRayTrace::engine
 
 class PickIndex;
 
+/// Settings that a conversion depends on.
+struct ConversionSettings
+{
+    RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
+    bool cullAllRays = false;
+    LightSizes lightSizes;
+    std::shared_ptr<const MaterialLibrary> materials; ///< null: those of the graph only
+
+    bool operator==(const ConversionSettings& other) const
+    {
+        return colorRule == other.colorRule && cullAllRays == other.cullAllRays &&
+               lightSizes == other.lightSizes && materials == other.materials;
+    }
+};
+
+inline ConversionSettings conversionSettings(const RayTraceSettings& settings,
+                                             std::shared_ptr<const MaterialLibrary> materials)
+{
+    return {settings.getColorRule(), settings.getCullAllRays(), lightSizesOf(settings),
+            std::move(materials)};
+}
+
 /// What to convert a graph for.
-struct ConversionInput
+struct ConversionInput : ConversionSettings
 {
     osg::Node* root = nullptr;
     osg::Vec3d eye; ///< world space: levels of detail
@@ -48,9 +71,6 @@ struct ConversionInput
     bool rasterizesRest = false;
     bool picks = false; ///< what rays hit is looked up: see ConversionResult::pickIndex
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as shown
-    RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
-    LightSizes lightSizes;
-    std::shared_ptr<const MaterialLibrary> materials; ///< null: those of the graph only
 };
 
 struct ConversionResult

@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/ScenePatcher.h"
 
 #include "osgRayTrace/bridge/LightConverter.h"
+#include "osgRayTrace/bridge/MaterialValues.h"
 #include "osgRayTrace/bridge/PlacePatcher.h"
 #include "osgRayTrace/bridge/SceneBuilder.h"
 #include "osgRayTrace/bridge/SceneLights.h"
@@ -94,7 +95,8 @@ bool ScenePatcher::restate(const std::vector<RestatedUse>& uses)
     if (_input.materials) return false; // rules look at names
     StateStack states = statesAbove(_input);
     ConversionReport report;
-    MaterialConverter converter(!_scene->displayReferred, _caches.textures, report);
+    MaterialConverter converter({!_scene->displayReferred, _input.cullAllRays}, _caches.textures,
+                                report);
     for (const RestatedUse& use : uses)
         if (!restateUse(use, states, converter, report)) return false;
     for (const auto& [instance, material] : _restated)

@@ -152,11 +152,10 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
 {
     const ViewingConditions conditions = noted.conditions.value_or(ViewingConditions());
     const bool seen = frameStamp && _frameNumber == frameStamp->getFrameNumber();
-    const auto materials = _materialFile.materials(_settings->getMaterials(), noted.dirty);
+    const ConversionSettings settings = conversionSettings(
+        *_settings, _materialFile.materials(_settings->getMaterials(), noted.dirty));
     const bool same = !noted.dirty && !noted.origin && root == _root && _conditions &&
-                      convertAlike(*_conditions, conditions) &&
-                      _settings->getColorRule() == _colorRule &&
-                      lightSizesOf(*_settings) == _lightSizes && materials == _materials;
+                      convertAlike(*_conditions, conditions) && settings == _conversionSettings;
     if (seen && same) return;
     if (frameStamp) _frameNumber = frameStamp->getFrameNumber();
     if (!root && same) return;
@@ -164,9 +163,7 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
     const bool sameRoot = root == _root;
     _root = root;
     _conditions = conditions;
-    _colorRule = _settings->getColorRule();
-    _lightSizes = lightSizesOf(*_settings);
-    _materials = materials;
+    _conversionSettings = settings;
     if (noted.origin || !_origin) _origin = finiteOrZero(noted.origin.value_or(conditions.eye));
     if (!root)
     {
@@ -209,6 +206,7 @@ GraphChanges SceneUpdater::look(osg::Node& root, bool same, bool sameRoot,
 ConversionResult SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
 {
     ConversionInput input;
+    static_cast<ConversionSettings&>(input) = _conversionSettings;
     input.root = &root;
     input.eye = conditions.eye;
     input.view = conditions.view;
@@ -219,9 +217,6 @@ ConversionResult SceneUpdater::convert(osg::Node& root, const ViewingConditions&
     input.lighting = conditions.inheritedState.empty();
     input.inheritedState = conditions.inheritedState;
     input.clearColor = conditions.clearColor;
-    input.colorRule = _colorRule;
-    input.lightSizes = _lightSizes;
-    input.materials = _materials;
     input.rasterizesRest = true;
     input.picks = _picks;
 

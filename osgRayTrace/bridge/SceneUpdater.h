@@ -114,10 +114,8 @@ private:
     std::optional<unsigned int> _frameNumber; ///< last looked at
     // Last looked at for, and converted successfully or not:
     std::optional<ViewingConditions> _conditions;
-    RayTraceSettings::ColorRule _colorRule = RayTraceSettings::AUTOMATIC_COLOR;
-    LightSizes _lightSizes;
+    ConversionSettings _conversionSettings;
     MaterialLibraryFile _materialFile;
-    std::shared_ptr<const MaterialLibrary> _materials;
     osg::Node* _root = nullptr; ///< a name, not followed
     GraphWatch _watch;
     Statistics _done;    ///< its totals alone

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/SnapshotStamps.h"
 
-#include "osgRayTrace/bridge/MaterialList.h"
+#include "osgRayTrace/bridge/MaterialValues.h"
 
 #include <tuple>
 

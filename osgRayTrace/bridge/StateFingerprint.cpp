@@ -82,7 +82,8 @@ void addAttribute(Digest& digest, const osg::StateAttribute& attribute)
     else if (const auto* cull = dynamic_cast<const osg::CullFace*>(&attribute))
         digest.add(cull->getMode());
     else if (const auto* polygons = dynamic_cast<const osg::PolygonMode*>(&attribute))
-        digest.add(polygons->getMode(osg::PolygonMode::FRONT));
+        digest.add(polygons->getMode(osg::PolygonMode::FRONT),
+                   polygons->getMode(osg::PolygonMode::BACK));
     else if (const auto* program = dynamic_cast<const osg::Program*>(&attribute))
         digest.add(program->getNumShaders());
     else if (const auto* texGen = dynamic_cast<const osg::TexGen*>(&attribute))

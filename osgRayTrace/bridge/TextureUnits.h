@@ -30,13 +30,6 @@ struct SurfacePlacement
     const PlacedTexGens* texGens = nullptr; ///< null: none
 };
 
-inline bool isMirrored(const osg::Matrixd& m)
-{
-    const osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
-        z(m(2, 0), m(2, 1), m(2, 2));
-    return (x ^ y) * z < 0.0;
-}
-
 /// True if a unit that is enabled has a texture combiner, which we have no counterpart of.
 bool combinesTextures(const GraphState& state);
 

@@ -66,15 +66,4 @@ const char* rasterizedState(const GraphState& state, const osg::StateAttribute* 
     return nullptr;
 }
 
-bool hasUntracedDrawable(const osg::Billboard& billboard)
-{
-    for (unsigned int i = 0; i < billboard.getNumDrawables(); ++i)
-    {
-        const osg::Drawable* drawable = billboard.getDrawable(i);
-        if (drawable && !drawable->asGeometry()) return true;
-    }
-    return false;
-}
-
-
 } // namespace osgRayTrace::engine

@@ -4,7 +4,6 @@
 
 #include "osgRayTrace/bridge/StateStack.h"
 
-#include <osg/Billboard>
 #include <osg/Camera>
 #include <osg/Drawable>
 
@@ -24,8 +23,5 @@ const char* untracedCamera(const osg::Camera& camera);
 /// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced. poses: a
 /// program that only does what was done in software.
 const char* rasterizedState(const GraphState& state, const osg::StateAttribute* poses);
-
-/// Something in it is placed by the view and not traced.
-bool hasUntracedDrawable(const osg::Billboard& billboard);
 
 } // namespace osgRayTrace::engine

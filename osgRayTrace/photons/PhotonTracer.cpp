@@ -247,7 +247,7 @@ LaneMask ChunkTracer::classify(const SurfaceLanes& surface)
 void ChunkTracer::follow(FlightBlock block, LaneMask active, int bounce)
 {
     loadRays(block, _rays);
-    _traced.intersector().closestHits(_rays, active, Coherence::Incoherent);
+    _traced.intersector().closestHits(_rays, active, Coherence::Incoherent, kPhotonRays);
     _chunk.rays += static_cast<uint64_t>(__builtin_popcount(active));
     SurfaceLanes surface;
     surfacesOf(_traced.surfaces(), _rays, active, surface);

@@ -80,8 +80,8 @@ enum class AlphaTest : uint8_t
     Always,
 };
 
-/// Faces that camera rays pass by. Shadow, mirror and light rays meet them all the same: a room whose
-/// walls are culled so that one can look in stays a closed room.
+/// Faces that camera rays pass by. Shadow, mirror and light rays meet them all the same, unless
+/// Material::cullsAllRays says so: a room whose walls are culled so that one can look in stays a closed room.
 enum class FaceCulling : uint8_t
 {
     None,
@@ -140,6 +140,7 @@ struct Material
     AlphaTest alphaTest = AlphaTest::Always;
     float alphaReference = 0.0f;
     FaceCulling culling = FaceCulling::None;
+    bool cullsAllRays = false;           ///< all rays pass them, each by the side that it meets
     bool clockwise = false;              ///< what OpenGL calls the front is the mesh's clockwise side
 
     // Textures: indices into Scene::textures or kInvalid.

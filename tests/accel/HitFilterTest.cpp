@@ -86,7 +86,7 @@ Stopped stopped(const TracedScene& traced, HitRule rule = {})
             const bool hit = closest.geometry[i] != kInvalid;
             result.packets += hit;
             result.packetsOccluded += shadow.tFar[i] < 0.0f;
-            if (!rule.culls && !rule.keepsBlended)
+            if (!rule.culls && !rule.keepsBlended && !rule.fromLight)
                 result.agree = result.agree && hit == single[i] && (shadow.tFar[i] < 0.0f) == hit;
         }
     }
@@ -161,25 +161,37 @@ TEST_CASE("filter: the alpha test has all of OpenGL's functions", "[accel]")
         }
 }
 
-TEST_CASE("filter: camera rays pass culled faces, other rays meet them", "[accel]")
+TEST_CASE("filter: camera rays pass culled faces, other rays meet them unless told otherwise",
+          "[accel]")
 {
-    for (const bool clockwise : {false, true})
-        for (const auto& [culling, passes] :
-             {std::pair(FaceCulling::None, false), std::pair(FaceCulling::Back, clockwise),
-              std::pair(FaceCulling::Front, !clockwise),
-              std::pair(FaceCulling::FrontAndBack, true)})
-        {
-            Material material;
-            material.culling = culling;
-            material.clockwise = clockwise;
-            SceneBuilder builder;
-            builder.add(paneAt(0.0f), material); // its counter-clockwise side looks at the rays
-            const Stopped count = stopped(*builder.build(), kCameraRays);
-            CAPTURE(int(culling), clockwise);
-            CHECK(count.packets == (passes ? 0 : kRays));
-            CHECK(count.packetsOccluded == kRays);
-            CHECK(count.single == kRays);
-        }
+    struct Case
+    {
+        FaceCulling culling;
+        bool passes, photonsPass; ///< rays, and light that comes their way
+    };
+    for (const bool forAll : {false, true})
+        for (const bool clockwise : {false, true})
+            for (const auto& [culling, passes, photonsPass] :
+                 {Case{FaceCulling::None, false, false}, Case{FaceCulling::Back, clockwise, !clockwise},
+                  Case{FaceCulling::Front, !clockwise, clockwise},
+                  Case{FaceCulling::FrontAndBack, true, true}})
+            {
+                Material material;
+                material.culling = culling;
+                material.clockwise = clockwise;
+                material.cullsAllRays = forAll;
+                SceneBuilder builder;
+                builder.add(paneAt(0.0f), material); // its counter-clockwise side looks at the rays
+                const auto traced = builder.build();
+                const Stopped count = stopped(*traced, kCameraRays);
+                CAPTURE(int(culling), clockwise, forAll);
+                const int others = passes && forAll ? 0 : kRays;
+                CHECK(count.packets == (passes ? 0 : kRays));
+                CHECK(count.packetsOccluded == others);
+                CHECK(count.single == others);
+                CHECK(count.singleOccluded == others);
+                CHECK(stopped(*traced, kPhotonRays).packets == (photonsPass && forAll ? 0 : kRays));
+            }
 }
 
 TEST_CASE("filter: rays that keep blended surfaces meet them all, but not what cannot be seen",

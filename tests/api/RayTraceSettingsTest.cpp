@@ -62,6 +62,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getLightSamples() == 4);
     CHECK(settings->getEnvironmentSampling() == RayTraceSettings::IMPORTANCE);
     CHECK(settings->getEnvironmentSamples() == 300);
+    CHECK_FALSE(settings->getCullAllRays());
     CHECK(settings->getMaxBounces() == 8);
     CHECK(settings->getShadows());
     CHECK(settings->getMaxPasses() == 1024);
@@ -75,7 +76,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getAimAtViews());
 }
 
-TEST_CASE("settings: the table names all twenty-four options once", "[api][settings]")
+TEST_CASE("settings: the table names all twenty-five options once", "[api][settings]")
 {
     std::set<std::string> names;
     std::set<std::string> variables;
@@ -84,11 +85,11 @@ TEST_CASE("settings: the table names all twenty-four options once", "[api][setti
         names.insert(option.name);
         variables.insert(option.environment);
     }
-    CHECK(names.size() == 24);
-    CHECK(variables.size() == 24);
+    CHECK(names.size() == 25);
+    CHECK(variables.size() == 25);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 24);
+    CHECK(RayTraceSettings::options().size() == 25);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")

@@ -5,8 +5,10 @@
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/Renderer>
 
+#include <osg/CullFace>
 #include <osg/Geode>
 #include <osg/Geometry>
+#include <osg/LightSource>
 #include <osg/Material>
 #include <osg/MatrixTransform>
 
@@ -392,6 +394,32 @@ TEST_CASE("renderer: what was rendered before does not show", "[api][renderer]")
         osg::Vec3d(0.0, -6.0, 3.0), osg::Vec3d(0.0, 0.0, 0.5), osg::Vec3d(0.0, 0.0, 1.0)));
     REQUIRE(travelled->render());
     CHECK(sameBytes(travelled->getColorImage(), straight->getColorImage()));
+}
+
+TEST_CASE("renderer: culled faces cast shadows, or are there for no ray", "[api][renderer]")
+{
+    // A floor, above it the eye, a roof whose back is below, and a light.
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(quad(osg::Vec3(-9, -9, 0), osg::Vec3(18, 0, 0), osg::Vec3(0, 18, 0)));
+    scene->addChild(quad(osg::Vec3(-9, -9, 8), osg::Vec3(18, 0, 0), osg::Vec3(0, 18, 0)));
+    scene->getChild(1)->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace);
+    osg::ref_ptr<osg::LightSource> sun = new osg::LightSource; // number 0, from z = infinity
+    scene->addChild(sun);
+    scene->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::ON);
+    const auto renderer = rendererOf(scene);
+    renderer->setHeadlight(false);
+    renderer->setViewMatrix(osg::Matrix::lookAt(osg::Vec3d(0, 0, 6), osg::Vec3d(), osg::Vec3d(0, 1, 0)));
+    renderer->getSettings()->setIntegrator(RayTraceSettings::WHITTED);
+    const auto shown = [&]
+    {
+        REQUIRE(renderer->render());
+        return int(renderer->getDisplayImage()->data(24, 16)[0]);
+    };
+    const int inShadow = shown();
+    renderer->getSettings()->setCullAllRays(true);
+    CHECK(shown() > inShadow + 100);
+    renderer->getSettings()->setCullAllRays(false);
+    CHECK(shown() == inShadow);
 }
 
 TEST_CASE("renderer: the headlight is osgViewer's", "[api][renderer]")

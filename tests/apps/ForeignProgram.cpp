@@ -23,6 +23,9 @@ int main()
     osgViewer::Viewer viewer;
     viewer.setSceneData(graph.get());
     print("viewer", viewer);
+    const std::size_t handlers = viewer.getEventHandlers().size();
+    viewer.setSceneData(graph.get()); // as programs do that have changed it
+    std::cout << viewer.getEventHandlers().size() - handlers << " more handlers\n";
     viewer.setSceneData(nullptr);
     print("cleared", viewer);
 

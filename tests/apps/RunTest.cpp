@@ -19,8 +19,8 @@ TEST_CASE("osgraytrace-run: the scenes of another program are ray traced", "[app
 {
     const Outcome outcome = run(kForeign);
     CHECK(outcome.exitCode == 7); // its own
-    CHECK(outcome.output == "viewer RayTracedScene\ncleared nothing\nview RayTracedScene\n"
-                            "view RayTracedScene\nshared 1\n");
+    CHECK(outcome.output == "viewer RayTracedScene\n0 more handlers\ncleared nothing\n"
+                            "view RayTracedScene\nview RayTracedScene\nshared 1\n");
     CHECK(outcome.errors.empty());
 }
 

@@ -4,6 +4,7 @@
 #include "tests/bridge/Graphs.h"
 #include "tests/bridge/Messages.h"
 
+#include <osgRayTrace/EnvironmentLight>
 #include <osgRayTrace/Statistics>
 
 #include <osg/LightSource>
@@ -107,6 +108,23 @@ TEST_CASE("conversion report: each reason is named once, with its first object",
     CHECK(messages.timesSaid("approximated.draw-callback: 2, the first is 'town/drawn'") == 1);
     CHECK(messages.timesSaid("sign") == 0);
     CHECK(messages.timesSaid("converted") == 0);
+}
+
+// What has a line of its own for each object needs none for the reason.
+TEST_CASE("conversion report: what is named object by object is not named again", "[bridge]")
+{
+    osg::ref_ptr<osg::Group> root = town();
+    root->addChild(new EnvironmentLight); // has no image
+    root->addChild(new osg::MatrixTransform(osg::Matrix::scale(0.0, 1.0, 1.0)));
+    root->getChild(1)->setName("squashed");
+    const test::Messages messages;
+    const ConversionResult result = convertGraph(root);
+    CHECK(countOf(result, "skipped.environment-light") == 1);
+    CHECK(countOf(result, "skipped.singular-transform") == 1);
+    CHECK(messages.timesSaid("environment light 'town/EnvironmentLight'") == 1);
+    CHECK(messages.timesSaid("transform 'town/squashed'") == 1);
+    CHECK(messages.timesSaid("skipped.environment-light") == 0);
+    CHECK(messages.timesSaid("skipped.singular-transform") == 0);
 }
 
 TEST_CASE("conversion report: as text", "[bridge]")

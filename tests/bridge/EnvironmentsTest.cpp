@@ -227,6 +227,33 @@ TEST_CASE("environment light: bad pixels are replaced and counted", "[bridge][st
         CHECK((isFinite(p) && p.x >= 0.0f && p.y >= 0.0f && p.z >= 0.0f));
 }
 
+TEST_CASE("environment light: a scale that no float can hold is limited and named", "[bridge]")
+{
+    SkyScene scene(floatImage(4, 2, {1e20f, 1.0f, 0.0f}));
+    scene.light->setScale(osg::Vec3(1e9f, 1e9f, 1e38f));
+    CHECK(countOf(scene.convert(), "repaired.environment-scale") == 0);
+    scene.light->setScale(osg::Vec3(1e30f, 1e9f, 1e38f));
+    const ConversionResult result = scene.convert();
+    CHECK(countOf(result, "repaired.environment-scale") == 1);
+    const Vec3 radiance = result.scene->lights.at(0).radiance;
+    CHECK(radiance.x == Approx(1e10f));
+    CHECK(radiance.y == 1e9f);
+    CHECK(radiance.z == 1e38f); // of nothing
+}
+
+// It is read as blocks: a type of floats must not have their bytes searched for such as are not finite.
+TEST_CASE("environment light: the data type of a compressed image does not matter", "[bridge]")
+{
+    std::vector<unsigned char> blocks(1024, 0xff);
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->setImage(8, 4, 1, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_FLOAT,
+                    blocks.data(), osg::Image::NO_DELETE);
+    SkyScene scene(image);
+    const ConversionResult result = scene.convert();
+    CHECK(countOf(result, "converted.environment-light") == 1);
+    CHECK(countOf(result, "repaired.environment-not-finite") == 0);
+}
+
 TEST_CASE("environment light: without a usable image it is named and skipped", "[bridge]")
 {
     osg::ref_ptr<osg::Image> empty = new osg::Image;

@@ -6,8 +6,10 @@
 
 #include <osgRayTrace/PhysicalMaterial>
 
+#include <osg/CullFace>
 #include <osg/LightModel>
 #include <osg/Material>
+#include <osg/PolygonOffset>
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::engine;
@@ -70,6 +72,49 @@ TEST_CASE("without any material: osgViewer's default, coloured by the vertices",
 
     setColor(*geometry, osg::Array::BIND_PER_VERTEX);
     CHECK(materialOf(geometry).vertexColorUse == VertexColorUse::AmbientAndDiffuse);
+}
+
+TEST_CASE("culled faces are there for other rays than the camera's, or for none; lamps always are",
+          "[bridge]")
+{
+    const auto geometry = triangleGeometry();
+    osg::StateSet* state = geometry->getOrCreateStateSet();
+    state->setAttribute(new osg::CullFace(osg::CullFace::FRONT));
+    SceneConverter converter;
+    ConversionInput input = inputFor(geometry);
+    const auto converted = [&] { return soleMaterial(converter.convert(input)); };
+    input.cullAllRays = true;
+    CHECK(!converted().cullsAllRays); // nothing is culled
+    state->setMode(GL_CULL_FACE, kOn);
+    CHECK(converted().culling == FaceCulling::Front);
+    CHECK(converted().cullsAllRays);
+    input.cullAllRays = false;
+    CHECK(converted().culling == FaceCulling::Front);
+    CHECK(!converted().cullsAllRays); // the same graph: the material must not be the one of before
+
+    osg::ref_ptr<PhysicalMaterial> lamp = new PhysicalMaterial;
+    state->setAttribute(lamp);
+    input.cullAllRays = true;
+    CHECK(converted().cullsAllRays);
+    lamp->setEmission(osg::Vec3(1.0f, 0.0f, 0.0f));
+    CHECK(!converted().cullsAllRays);
+}
+
+TEST_CASE("polygon offset is reported where its back can be seen", "[bridge]")
+{
+    const auto geometry = triangleGeometry();
+    osg::StateSet* state = geometry->getOrCreateStateSet();
+    const auto reported = [&] { return countOf(convertGraph(geometry), "approximated.polygon-offset"); };
+    state->setAttribute(new osg::PolygonOffset(1.0f, 1.0f));
+    CHECK(reported() == 0);
+    state->setMode(GL_POLYGON_OFFSET_FILL, kOn);
+    CHECK(reported() == 1);
+    state->setMode(GL_CULL_FACE, kOn); // back faces
+    CHECK(reported() == 0);
+    state->setAttribute(new osg::CullFace(osg::CullFace::FRONT));
+    CHECK(reported() == 1);
+    state->setAttribute(new osg::PolygonOffset(0.0f, 0.0f));
+    CHECK(reported() == 0);
 }
 
 TEST_CASE("osg::Material: all values, and colours by its color mode", "[bridge]")

@@ -5,6 +5,8 @@
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 
+#include <osgRayTrace/RayTracedScene>
+
 #include <osg/AutoTransform>
 #include <osg/Billboard>
 #include <osg/ClipNode>
@@ -278,6 +280,39 @@ TEST_CASE("nodes: of other kits are traced, or left to OSG and counted", "[bridg
     CHECK(countOf(viewed, "rasterized.volume") == 1);
     REQUIRE(viewed.rasterized);
     CHECK(viewed.rasterized->size() == 3);
+
+    for (unsigned int i = 0; i < root->getNumChildren(); ++i)
+        osgRayTrace::RayTracedScene::setHint(root->getChild(i), osgRayTrace::RayTracedScene::TRACE);
+    const ConversionResult hinted = convertFrom(input);
+    CHECK(hinted.scene->instances.size() == 4);
+    CHECK(countOf(hinted, "approximated.effect") == 1);
+    CHECK(countOf(hinted, "rasterized.effect") == 0);
+    CHECK(countOf(hinted, "rasterized.volume") == 1);
+    CHECK(countOf(hinted, "warned.trace-hint") == 2); // light points and volumes cannot be
+}
+
+TEST_CASE("nodes: a billboard is left to OSG as a whole if anything in it is", "[bridge]")
+{
+    osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
+    osg::ref_ptr<osg::Geometry> special = triangleGeometry();
+    billboard->addDrawable(triangleGeometry(), osg::Vec3(1.0f, 0.0f, 0.0f));
+    billboard->addDrawable(special, osg::Vec3(2.0f, 0.0f, 0.0f));
+    ConversionInput input = viewedFrom(billboard, {0.0, -5.0, 0.0});
+    input.rasterizesRest = true;
+    const auto partsLeft = [&]
+    {
+        const ConversionResult result = convertFrom(input);
+        const bool whole = countOf(result, "rasterized.billboard") == 1;
+        CHECK(result.scene->instances.size() == (whole ? 0 : 2));
+        return whole ? result.rasterized->size() : 0;
+    };
+    CHECK(partsLeft() == 0);
+    osgRayTrace::RayTracedScene::setHint(special, osgRayTrace::RayTracedScene::RASTERIZE);
+    CHECK(partsLeft() == 1);
+    osgRayTrace::RayTracedScene::setHint(special, osgRayTrace::RayTracedScene::AUTOMATIC);
+    CHECK(partsLeft() == 0);
+    special->addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, 2));
+    CHECK(partsLeft() == 1);
 }
 
 TEST_CASE("nodes: graphs with pages say so", "[bridge]")

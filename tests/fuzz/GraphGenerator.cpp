@@ -6,6 +6,7 @@
 #include "StateGenerator.h"
 
 #include <osgRayTrace/AreaLight>
+#include <osgRayTrace/EnvironmentLight>
 
 #include <osg/AutoTransform>
 #include <osg/Billboard>
@@ -101,8 +102,10 @@ private:
 
     osg::ref_ptr<osg::Node> leaf()
     {
-        switch (_dice.below(10))
+        switch (_dice.below(11))
         {
+        case 10:
+            return environment();
         case 8:
             return rig();
         case 9:
@@ -218,6 +221,56 @@ private:
         osg::ref_ptr<AreaLight> light =
             new AreaLight(vector(2.0), vector(1.0), vector(1.0), vector(10.0));
         light->setTwoSided(_dice.oneIn(2));
+        return light;
+    }
+
+    /// Texels that light, and some that no light has.
+    osg::ref_ptr<osg::Image> sky(int width, int height)
+    {
+        osg::ref_ptr<osg::Image> image = new osg::Image;
+        const int channels = _dice.oneIn(2) ? 3 : 4;
+        image->allocateImage(width, height, 1, channels == 3 ? GL_RGB : GL_RGBA, GL_FLOAT);
+        const int rarity = _dice.oneIn(2) ? 1 << 30 : 4;
+        const double size = _dice.oneIn(4) ? 1e38 : _dice.between(0.0, 10.0);
+        auto* values = reinterpret_cast<float*>(image->data());
+        for (int i = 0; i < width * height * channels; ++i)
+            values[i] = strangeFloat(_dice, size, rarity);
+        return image;
+    }
+
+    osg::ref_ptr<osg::TextureCubeMap> cubeOfSkies()
+    {
+        osg::ref_ptr<osg::TextureCubeMap> cube = new osg::TextureCubeMap;
+        const int size = 1 + _dice.below(4), faces = _dice.oneIn(6) ? _dice.below(7) : 6;
+        for (int face = 0; face < faces; ++face)
+            cube->setImage(static_cast<unsigned int>(face),
+                           _dice.oneIn(30) ? randomImage(_dice) : sky(size, size));
+        return cube;
+    }
+
+    osg::ref_ptr<osg::Node> environment()
+    {
+        osg::ref_ptr<EnvironmentLight> light = new EnvironmentLight;
+        switch (_dice.below(6))
+        {
+        case 0:
+            break;
+        case 1:
+            light->setCubeMap(cubeOfSkies());
+            break;
+        case 2:
+            light->setImage(randomImage(_dice));
+            break;
+        default:
+            light->setImage(sky(1 + _dice.below(16), 1 + _dice.below(8)));
+        }
+        const int rarity = _dice.oneIn(2) ? 1 << 30 : 4;
+        const auto strange = [&](double size) { return _dice.strange(size, rarity); };
+        light->setRotation(osg::Quat(strange(1.0), strange(1.0), strange(1.0), strange(1.0)));
+        if (_dice.oneIn(2))
+            light->setScale(osg::Vec3(strangeFloat(_dice, 2.0, rarity), strangeFloat(_dice, 2.0, rarity),
+                                      strangeFloat(_dice, 2.0, rarity)));
+        light->setVisible(_dice.oneIn(2));
         return light;
     }
 

@@ -103,6 +103,24 @@ void requireAllTrianglesCounted(const osg::Geometry& geometry)
             trianglesOfSets(geometry));
 }
 
+void requireSound(const Light& light)
+{
+    if (light.kind != LightKind::Environment) return;
+    const EnvironmentImage* image = light.environment.image.get();
+    REQUIRE(image);
+    REQUIRE(image->radiance.size() == std::size_t(image->width) * std::size_t(image->height));
+    for (const Vec3& p : image->radiance)
+    {
+        const Vec3 placed = p * light.radiance;
+        REQUIRE((p.x >= 0.0f && p.y >= 0.0f && p.z >= 0.0f));
+        REQUIRE((isFinite(p) && isFinite(placed)));
+    }
+    const Mat3 axes = light.environment.mapFromEngine * glm::transpose(light.environment.mapFromEngine);
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            REQUIRE(std::fabs(axes[i][k] - (i == k ? 1.0f : 0.0f)) < 1e-4f);
+}
+
 void requireSound(const ConversionResult& result)
 {
     const Scene& scene = *result.scene;
@@ -116,6 +134,8 @@ void requireSound(const ConversionResult& result)
         REQUIRE(instance.material < scene.materials.size());
         if (instance.light != kInvalid) REQUIRE(instance.light < scene.lights.size());
     }
+    for (const Light& light : scene.lights)
+        requireSound(light);
     for (const auto& texture : scene.textures)
     {
         const std::size_t values = 4 * std::size_t(texture->width) * std::size_t(texture->height);
@@ -149,7 +169,8 @@ ReferenceView randomView(Dice& dice, const osg::Vec3d& eye)
 
 /// True if anything is seen.
 bool requireFinitePass(const std::shared_ptr<const TracedScene>& traced,
-                       const std::shared_ptr<Workers>& workers, IntegratorKind kind)
+                       const std::shared_ptr<Workers>& workers, IntegratorKind kind,
+                       EnvironmentSampling sampling)
 {
     RenderSession session(workers);
     session.setScene(traced);
@@ -157,6 +178,8 @@ bool requireFinitePass(const std::shared_ptr<const TracedScene>& traced,
     RenderOptions options;
     options.integrator = kind;
     options.maxBounces = 4;
+    options.environmentSampling = sampling;
+    options.environmentSamples = 20;
     session.setOptions(options);
     StopRule rule;
     rule.passes = 1;
@@ -204,7 +227,7 @@ TEST_CASE("fuzz: any geometry is converted, each triangle kept or counted", "[fu
 TEST_CASE("fuzz: ten thousand scene graphs are converted for changing views", "[fuzz]")
 {
     osg::setNotifyLevel(osg::FATAL);
-    uint64_t traced = 0, cut = 0, posed = 0;
+    uint64_t traced = 0, cut = 0, posed = 0, skies = 0, noSkies = 0;
     forEachSeed(10000 * sanitizerShare(),
                 [&](uint32_t seed)
                 {
@@ -224,12 +247,16 @@ TEST_CASE("fuzz: ten thousand scene graphs are converted for changing views", "[
                         traced += !result.scene->instances.empty();
                         cut += countIn(result.counts, "not-traced.clipped-away");
                         posed += countIn(result.counts, "approximated.hardware-pose");
+                        skies += countIn(result.counts, "converted.environment-light");
+                        noSkies += countIn(result.counts, "skipped.environment-light");
                     }
                 });
     const auto count = static_cast<uint64_t>(seedCount(10000 * sanitizerShare()));
     CHECK(traced > count / 2);
     CHECK(cut > count / 50);   // clip planes are met
     CHECK(posed > count / 100); // and poses that must be refused
+    CHECK(skies > count / 20);
+    CHECK(noSkies > count / 50);
 }
 
 TEST_CASE("fuzz: any scene graph is converted, built and rendered, and stays finite", "[fuzz]")
@@ -237,6 +264,8 @@ TEST_CASE("fuzz: any scene graph is converted, built and rendered, and stays fin
     osg::setNotifyLevel(osg::FATAL);
     const auto workers = std::make_shared<Workers>(2);
     uint64_t seen = 0;
+    constexpr EnvironmentSampling kSamplings[] = {
+        EnvironmentSampling::Importance, EnvironmentSampling::Structured, EnvironmentSampling::Uniform};
     forEachSeed(kGraphs,
                 [&](uint32_t seed)
                 {
@@ -263,8 +292,9 @@ TEST_CASE("fuzz: any scene graph is converted, built and rendered, and stays fin
                     for (const Instance& instance : result.scene->instances)
                         triangles += result.scene->meshes[instance.mesh]->triangles.size();
                     REQUIRE(traced->traits().triangles == triangles);
-                    seen += requireFinitePass(traced, workers, IntegratorKind::Whitted);
-                    requireFinitePass(traced, workers, IntegratorKind::Path);
+                    seen += requireFinitePass(traced, workers, IntegratorKind::Whitted,
+                                              kSamplings[seed % 3]);
+                    requireFinitePass(traced, workers, IntegratorKind::Path, kSamplings[seed / 3 % 3]);
                 });
     CHECK(seen > static_cast<uint64_t>(seedCount(kGraphs)) / 4);
 }

@@ -77,20 +77,6 @@ constexpr GLenum kTypes[] = {GL_UNSIGNED_BYTE,
                              GL_BITMAP,
                              0u};
 
-osg::ref_ptr<osg::Image> randomImage(Dice& dice)
-{
-    osg::ref_ptr<osg::Image> image = new osg::Image;
-    if (dice.oneIn(10)) return image;
-    constexpr int kPackings[] = {1, 1, 2, 4, 8};
-    const int width = 1 + dice.below(17), height = 1 + dice.below(9);
-    image->allocateImage(width, height, dice.oneIn(8) ? 2 : 1, dice.oneOf(kFormats),
-                         dice.oneOf(kTypes), dice.oneOf(kPackings));
-    if (image->data())
-        for (unsigned int i = 0; i < image->getTotalSizeInBytes(); ++i)
-            image->data()[i] = static_cast<unsigned char>(dice.bits());
-    return image;
-}
-
 osg::ref_ptr<osg::Texture2D> randomTexture(Dice& dice)
 {
     osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
@@ -165,6 +151,20 @@ void addTextures(osg::StateSet& stateSet, Dice& dice)
 }
 
 } // namespace
+
+osg::ref_ptr<osg::Image> randomImage(Dice& dice)
+{
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    if (dice.oneIn(10)) return image;
+    constexpr int kPackings[] = {1, 1, 2, 4, 8};
+    const int width = 1 + dice.below(17), height = 1 + dice.below(9);
+    image->allocateImage(width, height, dice.oneIn(8) ? 2 : 1, dice.oneOf(kFormats),
+                         dice.oneOf(kTypes), dice.oneOf(kPackings));
+    if (image->data())
+        for (unsigned int i = 0; i < image->getTotalSizeInBytes(); ++i)
+            image->data()[i] = static_cast<unsigned char>(dice.bits());
+    return image;
+}
 
 float strangeFloat(Dice& dice, double size, int rarity)
 {

@@ -4,6 +4,7 @@
 
 #include "FuzzSeeds.h"
 
+#include <osg/Image>
 #include <osg/Light>
 #include <osg/StateSet>
 
@@ -11,6 +12,9 @@ namespace osgRayTrace::test
 {
 
 osg::ref_ptr<osg::StateSet> randomStateSet(Dice& dice);
+
+/// Of any format, also of such as there are not, sometimes without any pixels.
+osg::ref_ptr<osg::Image> randomImage(Dice& dice);
 
 osg::ref_ptr<osg::Light> randomLight(Dice& dice);
 

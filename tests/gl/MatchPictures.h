@@ -40,26 +40,17 @@ inline bool isCovered(const osg::Image& depth, int x, int y)
     return *reinterpret_cast<const float*>(depth.data(x, y)) < 1.0f;
 }
 
-/// Means of samples * samples pixels: the ray traced picture is antialiased, so this one must be.
+/// A pixel is covered if any of its samples is.
 inline Picture reduced(const osg::Image& color, const osg::Image& depth, const MatchSetup& setup)
 {
-    Picture small{new osg::Image, {}};
     const int n = setup.samples;
-    small.color->allocateImage(setup.width, setup.height, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    Picture small{reduced(color, n), {}};
     for (int y = 0; y < setup.height; ++y)
         for (int x = 0; x < setup.width; ++x)
         {
-            osg::Vec4 sum;
             bool any = false;
             for (int i = 0; i < n * n; ++i)
-            {
-                const int px = x * n + i % n, py = y * n + i / n;
-                sum += pixel(color, px, py);
-                any = any || isCovered(depth, px, py);
-            }
-            for (int c = 0; c < 4; ++c)
-                small.color->data(x, y)[c] =
-                    static_cast<unsigned char>(sum[c] / float(n * n) + 0.5f);
+                any = any || isCovered(depth, x * n + i % n, y * n + i / n);
             small.covered.push_back(any);
         }
     return small;

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "TestViewer.h"
+#include "tests/Catch.h"
 
+#include <osg/MatrixTransform>
 #include <osgDB/WriteFile>
 
 #include <cstdlib>
 #include <functional>
+#include <iostream>
 #include <string>
 
 namespace osgRayTrace::test
@@ -16,25 +19,6 @@ namespace osgRayTrace::test
 constexpr int kPairWidth = 320, kPairHeight = 240;
 constexpr int kPairSamples =
     4; ///< a pixel and axis, of the rasterized picture: the traced one is antialiased
-
-/// Means of kPairSamples * kPairSamples pixels.
-inline osg::ref_ptr<osg::Image> reduced(const osg::Image& image)
-{
-    osg::ref_ptr<osg::Image> small = new osg::Image;
-    small->allocateImage(kPairWidth, kPairHeight, 1, GL_RGBA, GL_UNSIGNED_BYTE);
-    for (int y = 0; y < kPairHeight; ++y)
-        for (int x = 0; x < kPairWidth; ++x)
-        {
-            osg::Vec4 sum;
-            for (int i = 0; i < kPairSamples * kPairSamples; ++i)
-                sum += pixel(image, x * kPairSamples + i % kPairSamples,
-                             y * kPairSamples + i / kPairSamples);
-            for (int c = 0; c < 4; ++c)
-                small->data(x, y)[c] =
-                    static_cast<unsigned char>(sum[c] / (kPairSamples * kPairSamples) + 0.5f);
-        }
-    return small;
-}
 
 struct PicturePair
 {
@@ -85,7 +69,7 @@ inline PicturePair picturePair(const std::string& name, const SceneMaker& makeSc
         setUp(view);
         for (int i = 0; i < frames; ++i)
             view.viewer.frame(0.1 * i);
-        pair.rasterized = reduced(*view.frames(0));
+        pair.rasterized = reduced(*view.frames(0), kPairSamples);
     }
     osg::ref_ptr<RayTracedScene> traced = tracedScene(makeScene().get());
     traced->getSettings()->setPassesPerFrame(1);
@@ -112,6 +96,33 @@ inline PicturePair picturePair(const std::string& name, const SceneMaker& makeSc
         osgDB::writeImageFile(*pair.traced, std::string(folder) + "/" + name + "-traced.png");
     }
     return pair;
+}
+
+/// Few pixels differ, and no 8 x 8 of them are plainly wrong: edges alone give up to 12.
+inline PicturePair checkSame(const std::string& name, const SceneMaker& makeScene,
+                             const std::function<void(TestViewer&)>& setUp, int frames = 3)
+{
+    const PicturePair pair = picturePair(name, makeScene, setUp, frames);
+    std::cout << name << ": mean difference " << pair.difference << "/255, worst tile "
+              << pair.worst << ", " << pair.covered << " pixels covered" << std::endl;
+    CHECK(pair.covered > 1000);
+    CHECK(pair.difference < 2.0);
+    CHECK(pair.worst < 24.0);
+    return pair;
+}
+
+/// The plane z = 0 from above, askew.
+inline void lookDown(TestViewer& view)
+{
+    normalize(view);
+    view.look(osg::Vec3d(1.0, -2.0, 8.0), osg::Vec3d());
+}
+
+inline osg::ref_ptr<osg::MatrixTransform> at(const osg::Matrix& matrix, osg::Node* node)
+{
+    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrix);
+    transform->addChild(node);
+    return transform;
 }
 
 } // namespace osgRayTrace::test

@@ -96,6 +96,24 @@ inline double meanDifference(const osg::Image& a, const osg::Image& b)
     return meanDifference(a, b, [](int, int) { return true; });
 }
 
+/// Means of samples * samples pixels: a traced picture is antialiased, so what it is compared with must be.
+inline osg::ref_ptr<osg::Image> reduced(const osg::Image& image, int samples)
+{
+    osg::ref_ptr<osg::Image> small = new osg::Image;
+    small->allocateImage(image.s() / samples, image.t() / samples, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    for (int y = 0; y < small->t(); ++y)
+        for (int x = 0; x < small->s(); ++x)
+        {
+            osg::Vec4 sum;
+            for (int i = 0; i < samples * samples; ++i)
+                sum += pixel(image, x * samples + i % samples, y * samples + i / samples);
+            for (int c = 0; c < 4; ++c)
+                small->data(x, y)[c] =
+                    static_cast<unsigned char>(sum[c] / float(samples * samples) + 0.5f);
+        }
+    return small;
+}
+
 /// A square of side 2*half in the plane z = 0, facing +z, of one colour and not lit.
 inline osg::ref_ptr<osg::Geometry> unlitSquare(float half, const osg::Vec4& color)
 {

@@ -277,6 +277,30 @@ TEST_CASE("environment: with a sun, importance sampling needs twenty times less"
     CHECK(uniform * uniformRays > 20.0 * importance * importanceRays);
 }
 
+TEST_CASE("environment: without one mirrors show the background, and it lights nothing", "[integrators]")
+{
+    for (const float roughness : {0.0f, 0.05f, 1.0f})
+    {
+        Material metal = mirror(Vec3(1.0f));
+        metal.roughness = roughness;
+        SceneBuilder builder;
+        builder.add(quadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), metal);
+        builder.scene->background = Vec4(0.25f, 0.5f, 1.0f, 1.0f);
+        const auto traced = builder.build();
+        for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted,
+                                          IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
+        {
+            const Picture picture =
+                render(traced, patchView({0, 0, 0}, {0, 0, 1}, 0.5, 16), optionsOf(kind), 4);
+            const float* p = &picture.rgba[(8 * 16 + 8) * 4];
+            const Vec3 wanted = roughness == 0.0f ? Vec3(0.25f, 0.5f, 1.0f) : Vec3(0.0f);
+            CAPTURE(roughness, int(kind));
+            CHECK(glm::length(Vec3(p[0], p[1], p[2]) - wanted) < 1e-4f);
+            CHECK(p[3] == 1.0f);
+        }
+    }
+}
+
 TEST_CASE("environment: visible or not to camera rays, always in mirrors", "[integrators]")
 {
     SceneBuilder builder;

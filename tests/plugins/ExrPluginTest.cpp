@@ -1,9 +1,8 @@
 // ExrPluginTest.cpp - osgdb_exr and the channels beneath it. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
+#include "ExrFiles.h"
 #include "tests/Catch.h"
 #include "tests/plugins/TemporaryFolder.h"
-
-#include "osgPlugins/exr/ExrImage.h"
 
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
@@ -16,54 +15,16 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
-#include <random>
 #include <sstream>
 #include <sys/resource.h>
 
 using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
 
 namespace
 {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-osg::ref_ptr<osgDB::Options> makeOptions(const std::string& text)
-{
-    return new osgDB::Options(text);
-}
-
-osgDB::ReaderWriter* plugin()
-{
-    osgDB::ReaderWriter* result = osgDB::Registry::instance()->getReaderWriterForExtension("exr");
-    REQUIRE(result);
-    return result;
-}
-
-osgDB::ReaderWriter::ReadResult readImage(const std::string& path, const std::string& options = "")
-{
-    return plugin()->readImage(path, makeOptions(options));
-}
-
-osgDB::ReaderWriter::WriteResult writeImage(const osg::Image& image, const std::string& path,
-                                            const std::string& options = "")
-{
-    return plugin()->writeImage(image, path, makeOptions(options));
-}
-
-/// Different values in each component of each pixel, halves all of them.
-osg::ref_ptr<osg::Image> makeImage(int width, int height, GLenum format = GL_RGBA)
-{
-    osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(width, height, 1, format, GL_FLOAT);
-    const int components = osg::Image::computeNumComponents(format);
-    for (int y = 0; y < height; ++y)
-    {
-        auto* row = reinterpret_cast<float*>(image->data(0, y));
-        for (int i = 0; i < width * components; ++i)
-            row[i] = (i - y * 3) / 16.0f;
-    }
-    return image;
-}
 
 float& valueAt(osg::Image& image, int x, int y, int component)
 {
@@ -78,37 +39,6 @@ void requireSamePixels(const osg::Image& a, const osg::Image& b)
     REQUIRE(a.getDataType() == b.getDataType());
     REQUIRE(a.getTotalSizeInBytes() == b.getTotalSizeInBytes());
     REQUIRE(std::memcmp(a.data(), b.data(), a.getTotalSizeInBytes()) == 0);
-}
-
-std::string bytesOf(const std::string& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    std::ostringstream bytes;
-    bytes << stream.rdbuf();
-    return bytes.str();
-}
-
-void writeBytes(const std::string& path, const std::string& bytes)
-{
-    std::ofstream(path, std::ios::binary) << bytes;
-}
-
-ExrImage makeExrImage(int width, int height, const std::vector<std::string>& names,
-                      bool asHalf = false)
-{
-    ExrImage image;
-    image.width = width;
-    image.height = height;
-    for (const std::string& name : names)
-    {
-        ExrChannel channel{name, asHalf, {}};
-        for (int i = 0; i < width * height; ++i)
-        {
-            channel.values.push_back(i / 4.0f + 100.0f * image.channels.size());
-        }
-        image.channels.push_back(channel);
-    }
-    return image;
 }
 
 } // namespace
@@ -351,92 +281,6 @@ TEST_CASE("exr: a missing file is not found, other files are not handled", "[exr
             osgDB::ReaderWriter::WriteResult::FILE_NOT_HANDLED);
     REQUIRE(writeImage(*image, folder / "A.EXR").success());
     REQUIRE(readImage(folder / "A.EXR").success());
-}
-
-TEST_CASE("exr: every truncated file is an error with a message", "[exr]")
-{
-    const TemporaryFolder folder;
-    for (const std::string options :
-         {"compression=zip", "compression=piz", "compression=none half"})
-    {
-        REQUIRE(writeImage(*makeImage(20, 40), folder / "a.exr", options).success());
-        const std::string bytes = bytesOf(folder / "a.exr");
-        for (std::size_t length = 0; length < bytes.size(); ++length)
-        {
-            std::istringstream stream(bytes.substr(0, length));
-            auto result = plugin()->readImage(stream, makeOptions("").get());
-            INFO(options << ", " << length << " of " << bytes.size() << " bytes");
-            REQUIRE_FALSE(result.success());
-            REQUIRE_FALSE(result.statusMessage().empty());
-        }
-        writeBytes(folder / "b.exr", bytes.substr(0, bytes.size() - 1));
-        REQUIRE(readImage(folder / "b.exr").status() ==
-                osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
-    }
-}
-
-TEST_CASE("exr: garbage is an error, and a damaged file at least no crash", "[exr]")
-{
-    std::mt19937 random(1);
-    std::string garbage(5000, '\0');
-    for (char& c : garbage)
-        c = static_cast<char>(random());
-    for (const std::string& bytes : {garbage, std::string("\x76\x2f\x31\x01", 4) + garbage})
-    {
-        std::istringstream stream(bytes);
-        REQUIRE_FALSE(plugin()->readImage(stream, makeOptions("").get()).success());
-    }
-
-    std::ostringstream whole;
-    REQUIRE(writeExr(whole, makeExrImage(20, 40, {"R", "G", "B", "A"}, true)).empty());
-    const std::string bytes = whole.str();
-    int errors = 0;
-    for (int round = 0; round < 4000; ++round)
-    {
-        std::string damaged = bytes;
-        // Half of the rounds in the header, where it hurts most.
-        const std::size_t range = round % 2 ? bytes.size() : 400;
-        for (int i = 0; i < 1 + round % 3; ++i)
-            damaged[random() % range] = static_cast<char>(random());
-        std::istringstream stream(damaged);
-        ExrImage image;
-        if (!readExr(stream, image).empty()) ++errors;
-    }
-    REQUIRE(errors > 2000);
-}
-
-TEST_CASE("exr: a size that the file cannot hold is refused before memory is taken", "[exr]")
-{
-    std::ostringstream whole;
-    REQUIRE(writeExr(whole, makeExrImage(4, 4, {"Y"})).empty());
-
-    // minX minY maxX maxY, little endian, behind the name, the type and the size.
-    const auto withWindows = [&](std::int32_t maxX, std::int32_t maxY)
-    {
-        std::string bytes = whole.str();
-        for (const std::string name : {"dataWindow", "displayWindow"})
-        {
-            const std::size_t value =
-                bytes.find(name) + name.size() + 1 + std::strlen("box2i") + 1 + 4;
-            std::memcpy(&bytes[value + 8], &maxX, 4);
-            std::memcpy(&bytes[value + 12], &maxY, 4);
-        }
-        return bytes;
-    };
-    const std::int32_t windows[][2] = {
-        {16383, 16383},           {16384, 16384}, {0x7fffffff, 3}, {3, 0x7fffffff},
-        {0x7ffffffe, 0x7ffffffe}, {-2, 3},        {3, -2},         {1 << 20, 0}};
-    for (const auto& window : windows)
-    {
-        INFO(window[0] << ", " << window[1]);
-        std::istringstream stream(withWindows(window[0], window[1]));
-        ExrImage image;
-        REQUIRE_FALSE(readExr(stream, image).empty());
-        REQUIRE(image.channels.empty());
-    }
-    std::istringstream unchanged(withWindows(3, 3));
-    ExrImage image;
-    REQUIRE(readExr(unchanged, image).empty());
 }
 
 TEST_CASE("exr: channels of any name come back, in the order of their names", "[exr]")

@@ -93,6 +93,7 @@ void hashState(Hasher& hasher, const Material& material)
     hasher.add(material.alphaTest);
     hasher.add(material.alphaReference);
     hasher.add(material.culling);
+    hasher.add(material.cullsAllRays);
     hasher.add(material.clockwise);
 }
 

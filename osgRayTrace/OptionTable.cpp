@@ -1,0 +1,217 @@
+// OptionTable.cpp - the table of options, and how they are read from text. Layer: public API.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/OptionTable.h"
+
+#include "osgRayTrace/bridge/LightSizes.h"
+
+#include <algorithm>
+
+namespace osgRayTrace
+{
+
+namespace
+{
+
+const Words kSwitchWords{"false", "true"};
+
+/// Lower case without dashes and underscores: "light-samples", "LIGHT_SAMPLES" and "lightSamples"
+/// agree.
+std::string plainName(const std::string& name)
+{
+    std::string plain;
+    for (char c : name)
+    {
+        if (c == '-' || c == '_') continue;
+        plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return plain;
+}
+
+std::string environmentName(const std::string& name)
+{
+    std::string variable = "OSGRAYTRACE_";
+    for (char c : name)
+    {
+        variable += c == '-' ? '_' : static_cast<char>(c - 'a' + 'A');
+    }
+    return variable;
+}
+
+/// False unless all of the text is one number within the range.
+template <typename T> bool parseNumber(const std::string& text, const Range<T>& range, T& value)
+{
+    const char* begin = text.data();
+    const char* end = begin + text.size();
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') ++begin;
+    const auto result = std::from_chars(begin, end, value);
+    return result.ec == std::errc() && result.ptr == end && range.contains(value);
+}
+
+RayTraceSettings::Option describe(const std::string& name, const std::string& range,
+                                  const std::string& help)
+{
+    return {name, environmentName(name), std::string(), range, help};
+}
+
+template <typename T>
+OptionRow numberRow(const std::string& name, const Range<T>& range,
+                    T (RayTraceSettings::*get)() const, void (RayTraceSettings::*set)(T),
+                    const std::string& help)
+{
+    OptionRow row;
+    row.option = describe(name, textOf(range.minimum) + " .. " + textOf(range.maximum), help);
+    row.get = [get](const RayTraceSettings& settings) { return textOf((settings.*get)()); };
+    row.set = [range, set](RayTraceSettings& settings, const std::string& text)
+    {
+        T value{};
+        if (!parseNumber(text, range, value)) return false;
+        (settings.*set)(value);
+        return true;
+    };
+    return row;
+}
+
+template <typename T>
+OptionRow choiceRow(const std::string& name, const Words& words, T (RayTraceSettings::*get)() const,
+                    void (RayTraceSettings::*set)(T), const std::string& help)
+{
+    std::string range;
+    for (const std::string& word : words)
+    {
+        range += (range.empty() ? "" : "|") + word;
+    }
+
+    OptionRow row;
+    row.option = describe(name, range, help);
+    row.get = [&words, get](const RayTraceSettings& settings)
+    { return words[static_cast<size_t>((settings.*get)())]; };
+    row.set = [&words, set](RayTraceSettings& settings, const std::string& text)
+    {
+        const auto isMeant = [&text](const std::string& word)
+        { return plainName(word) == plainName(text); };
+        const auto found = std::find_if(words.begin(), words.end(), isMeant);
+        if (found == words.end()) return false;
+        (settings.*set)(static_cast<T>(found - words.begin()));
+        return true;
+    };
+    return row;
+}
+
+/// As a choice; 0 and 1, off and on, no and yes are understood too.
+OptionRow switchRow(const std::string& name, bool (RayTraceSettings::*get)() const,
+                    void (RayTraceSettings::*set)(bool), const std::string& help)
+{
+    OptionRow row = choiceRow(name, kSwitchWords, get, set, help);
+    row.set = [choose = row.set](RayTraceSettings& settings, const std::string& text)
+    {
+        const std::string word = plainName(text);
+        if (word == "1" || word == "on" || word == "yes") return choose(settings, "true");
+        if (word == "0" || word == "off" || word == "no") return choose(settings, "false");
+        return choose(settings, text);
+    };
+    return row;
+}
+
+/// Any text that isGood takes.
+OptionRow textRow(const std::string& name, const std::string& range,
+                  const std::string& (RayTraceSettings::*get)() const,
+                  void (RayTraceSettings::*set)(const std::string&),
+                  bool (*isGood)(const std::string&), const std::string& help)
+{
+    OptionRow row;
+    row.option = describe(name, range, help);
+    row.get = [get](const RayTraceSettings& settings) { return (settings.*get)(); };
+    row.set = [set, isGood](RayTraceSettings& settings, const std::string& text)
+    {
+        if (!isGood(text)) return false;
+        (settings.*set)(text);
+        return true;
+    };
+    return row;
+}
+
+bool isAnything(const std::string&)
+{
+    return true;
+}
+
+} // namespace
+
+bool areLightSizes(const std::string& text)
+{
+    return engine::parseLightSizes(text).has_value();
+}
+
+const std::vector<OptionRow>& optionTable()
+{
+    using S = RayTraceSettings;
+    static const std::vector<OptionRow> table{
+        choiceRow("integrator", kIntegratorWords, &S::getIntegrator, &S::setIntegrator,
+                  "How light is computed; auto: whitted for fixed-function scenes, path for "
+                  "physical ones, photon-caustics for those with mirrors or glass"),
+        choiceRow("light-sampling", kLightSamplingWords, &S::getLightSampling, &S::setLightSampling,
+                  "How points on area lights are chosen"),
+        numberRow("light-samples", kLightSamplesRange, &S::getLightSamples, &S::setLightSamples,
+                  "Samples a hit and area light, and light with a size"),
+        choiceRow("environment-sampling", kEnvironmentSamplingWords, &S::getEnvironmentSampling,
+                  &S::setEnvironmentSampling, "How directions towards the environment are chosen"),
+        numberRow("environment-samples", kEnvironmentSamplesRange, &S::getEnvironmentSamples,
+                  &S::setEnvironmentSamples,
+                  "Lights that structured sampling makes of the environment, at most"),
+        numberRow("light-radius", kLightRadiusRange, &S::getLightRadius, &S::setLightRadius,
+                  "Radius of the spheres that point and spot lights become [length]"),
+        numberRow("light-angle", kLightAngleRange, &S::getLightAngle, &S::setLightAngle,
+                  "Angular diameter of directional lights [degrees]; the sun: 0.53"),
+        textRow("light-sizes", "none|NAME=0.2", &S::getLightSizes, &S::setLightSizes, areLightSizes,
+                "Radius or angle of single lights, by their names"),
+        switchRow("shadows", &S::getShadows, &S::setShadows, "Shadows of all lights"),
+        switchRow("terminator-correction", &S::getTerminatorCorrection, &S::setTerminatorCorrection,
+                  "No step where light ends on smooth-shaded facets"),
+        switchRow("cull-all-rays", &S::getCullAllRays, &S::setCullAllRays,
+                  "All rays pass faces that they meet on the culled side; else camera rays alone"),
+        numberRow("max-bounces", kMaxBouncesRange, &S::getMaxBounces, &S::setMaxBounces,
+                  "Edges of a path after the camera ray"),
+        numberRow("max-passes", kMaxPassesRange, &S::getMaxPasses, &S::setMaxPasses,
+                  "Passes after which an unchanged image is done"),
+        numberRow("passes-per-frame", kPassesPerFrameRange, &S::getPassesPerFrame,
+                  &S::setPassesPerFrame, "Passes traced in each frame of a viewer"),
+        numberRow("threads", kThreadsRange, &S::getThreads, &S::setThreads,
+                  "Threads, the calling one included; 0: all of the machine"),
+        numberRow("seed", kSeedRange, &S::getSeed, &S::setSeed, "Equal seeds give equal images"),
+        numberRow("exposure", kExposureRange, &S::getExposure, &S::setExposure,
+                  "Exposure [EV]: radiance times 2^value before display"),
+        choiceRow(
+            "color-rule", kColorRuleWords, &S::getColorRule, &S::setColorRule,
+            "Whether colours are used as they are or decoded from sRGB; auto: by the materials"),
+        numberRow("photons", kPhotonsRange, &S::getPhotons, &S::setPhotons,
+                  "Photons emitted a pass by ppm, sppm and photon-caustics"),
+        numberRow("photon-radius", kPhotonRadiusRange, &S::getPhotonRadius, &S::setPhotonRadius,
+                  "Radius of photon lookups in the first pass [length]; 0: by their density"),
+        numberRow("photon-alpha", kPhotonAlphaRange, &S::getPhotonAlpha, &S::setPhotonAlpha,
+                  "Share of new photons that a pass keeps: how fast the radius shrinks"),
+        choiceRow("radius-schedule", kRadiusScheduleWords, &S::getRadiusSchedule,
+                  &S::setRadiusSchedule,
+                  "Radii shrink by the number of the pass, or by the photons of each pixel"),
+        switchRow("aim-at-views", &S::getAimAtViews, &S::setAimAtViews,
+                  "Photons for mirrors and glass go where the views see their light"),
+        textRow("materials", "none|FILE", &S::getMaterials, &S::setMaterials, isAnything,
+                "JSON file of physical materials by names in the model"),
+        choiceRow("debug-channel", kDebugChannelWords, &S::getDebugChannel, &S::setDebugChannel,
+                  "What the debug integrator shows"),
+    };
+    return table;
+}
+
+/// Null if there is no such option.
+const OptionRow* findRow(const std::string& name)
+{
+    const std::string plain = plainName(name);
+    const std::string wanted = plain == "passes" ? "maxpasses" : plain;
+    for (const OptionRow& row : optionTable())
+    {
+        if (plainName(row.option.name) == wanted) return &row;
+    }
+    return nullptr;
+}
+
+} // namespace osgRayTrace

@@ -1,0 +1,75 @@
+// OptionTable.h - what options there are, by their names, ranges and words. Layer: public API.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgRayTrace/RayTraceSettings>
+
+#include <charconv>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace osgRayTrace
+{
+
+template <typename T> struct Range
+{
+    T minimum;
+    T maximum;
+
+    /// False for NaN.
+    bool contains(T value) const { return value >= minimum && value <= maximum; }
+};
+
+constexpr Range<int> kLightSamplesRange{1, 4096};
+constexpr Range<int> kEnvironmentSamplesRange{1, 4096};
+constexpr Range<float> kLightRadiusRange{0.0f, 1e30f};
+constexpr Range<float> kLightAngleRange{0.0f, 180.0f};
+constexpr Range<int> kMaxBouncesRange{0, 1024};
+constexpr Range<int> kMaxPassesRange{1, 1 << 24};
+constexpr Range<int> kPassesPerFrameRange{1, 1024};
+constexpr Range<int> kThreadsRange{0, 1024};
+constexpr Range<unsigned int> kSeedRange{0, std::numeric_limits<unsigned int>::max()};
+constexpr Range<float> kExposureRange{-32.0f, 32.0f};
+constexpr Range<int> kPhotonsRange{0, 1 << 24};
+constexpr Range<float> kPhotonRadiusRange{0.0f, 1e30f};
+constexpr Range<float> kPhotonAlphaRange{0.1f, 0.99f};
+
+using Words = std::vector<std::string>;
+
+// The words of a choice stand in the order of its enumerators.
+
+inline const Words kIntegratorWords{"auto", "whitted",         "path", "ppm",
+                                    "sppm", "photon-caustics", "debug"};
+inline const Words kRadiusScheduleWords{"global", "local"};
+inline const Words kLightSamplingWords{"random", "uniform-jitter", "stratified", "sobol"};
+inline const Words kEnvironmentSamplingWords{"importance", "structured", "uniform"};
+inline const Words kDebugChannelWords{"normal", "uv", "id", "albedo", "depth", "dropped", "cost"};
+inline const Words kColorRuleWords{"auto", "display-referred", "linear"};
+
+/// Shortest text that reads back as the same value, in any locale.
+template <typename T> std::string textOf(T value)
+{
+    char buffer[64];
+    const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
+    return std::string(buffer, result.ptr);
+}
+
+/// One row of the table.
+struct OptionRow
+{
+    RayTraceSettings::Option option; ///< but for the default value
+    std::function<bool(RayTraceSettings&, const std::string&)> set;
+    std::function<std::string(const RayTraceSettings&)> get;
+};
+
+/// In the order of the README's table.
+const std::vector<OptionRow>& optionTable();
+
+/// By any spelling of the name. Null if there is no such option.
+const OptionRow* findRow(const std::string& name);
+
+bool areLightSizes(const std::string& text);
+
+} // namespace osgRayTrace
