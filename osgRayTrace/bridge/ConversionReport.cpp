@@ -74,6 +74,7 @@ void ConversionReport::add(const ConversionReport& other)
     for (const auto& [what, paths] : other._paths)
         for (const std::string& path : paths)
             notePath(what, path);
+    _named.insert(other._named.begin(), other._named.end());
 }
 
 void ConversionReport::warn(const std::string& what, const std::string& object,

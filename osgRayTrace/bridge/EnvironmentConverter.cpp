@@ -27,6 +27,16 @@ std::vector<const osg::Image*> imagesOf(const EnvironmentLight& source)
     return images;
 }
 
+/// Also of what is too long or too short to be squared. Zero stays zero.
+osg::Vec3d unitOf(const osg::Vec3d& v)
+{
+    const double largest = std::max({std::fabs(v.x()), std::fabs(v.y()), std::fabs(v.z())});
+    if (!(largest > 0.0)) return v;
+    osg::Vec3d unit = v / largest;
+    unit.normalize();
+    return unit;
+}
+
 /// The axes of the image in engine space, made unit and perpendicular: the zenith first, then the
 /// middle.
 Mat3 engineFromMap(const osg::Quat& rotation, const osg::Matrixd& engineFromLocal, bool& plain)
@@ -39,13 +49,12 @@ Mat3 engineFromMap(const osg::Quat& rotation, const osg::Matrixd& engineFromLoca
     plain = std::fabs(x.length() - scale) < 1e-4 * scale &&
             std::fabs(y.length() - scale) < 1e-4 * scale &&
             std::fabs(x * y) + std::fabs(y * z) + std::fabs(z * x) < 1e-4 * scale * scale;
-    z.normalize();
-    y.normalize();
+    z = unitOf(z);
+    y = unitOf(y);
     for (int round = 0; round < 2; ++round) // of nearly parallel axes the first leaves rounding
-    {
-        y -= z * (y * z);
-        y.normalize();
-    }
+        y = unitOf(y - z * (y * z));
+    if (y.length2() < 0.5) // parallel in double: any that is perpendicular
+        y = unitOf(z ^ (std::fabs(z.x()) < 0.5 ? osg::X_AXIS : osg::Y_AXIS));
     const osg::Vec3d right = y ^ z;
     const osg::Vec3d across = right * (x * right >= 0.0 ? 1.0 : -1.0);
     return Mat3(Vec3(across.x(), across.y(), across.z()), Vec3(y.x(), y.y(), y.z()),

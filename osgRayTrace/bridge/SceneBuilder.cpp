@@ -159,10 +159,12 @@ bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
     const osg::Geometry& geometry = *collected.geometry;
     GeometryCache& cache = _caches.geometries;
     const MeshRequest* last = cache.lastRequest(geometry);
+    // One that is here twice, under other primitive restart, has the last request of the other.
+    const bool own = last && last->restart == collected.restart;
     const bool once = collected.uses.size() == 1;
     if (_rules.comparable && last && !cache.hasSameArrays(geometry))
         cache.noteLiveness(geometry, Liveness::Deforms);
-    else if (_rules.comparable && once && last &&
+    else if (_rules.comparable && once && own &&
              last->transform != requestFor(collected, collected.uses.front().engineFromLocal).transform)
         cache.noteLiveness(geometry, Liveness::Moves);
     else if (once && (_caches.dissolved || (_rules.comparable && !last && !_newJoinFlat)))
