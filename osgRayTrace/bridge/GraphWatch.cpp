@@ -36,7 +36,6 @@ inline void fetch(const WatchedNode& node)
         fetch(node.node, kGeometryBytes);
     else
         fetch(node.node, kGroupBytes);
-    __builtin_prefetch(node.list);
 }
 
 /// What stands for the decorator has it below itself without being its parent.
@@ -191,7 +190,6 @@ bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
     known |= changes.splices.size() > splices;
     WatchedNode& now = _graph.nodes[index];
     now.print = nodePrint(now.kind, *now.node);
-    now.list = listOf(now.kind, *now.node);
     return known;
 }
 
@@ -373,7 +371,7 @@ void GraphWatch::findChanged(GraphChanges& changes)
     for (WatchedPlace& place : _graph.places) // the outer ones come first
     {
         if (place.node == kNowhere) continue;
-        place.moved |= place.outer != kNowhere && _graph.places[place.outer].moved;
+        place.moved |= place.outer != kOutermost && _graph.places[place.outer].moved;
         if (place.moved && place.fixed) changes.convert = changes.record = true;
     }
     std::unordered_map<uint32_t, osg::Matrixd> matrices; // few move

@@ -146,14 +146,6 @@ const osg::NodeList& childrenOf(const osg::Group& group)
     return GroupChildren::of(group);
 }
 
-const void* listOf(NodeKind kind, const osg::Node& node)
-{
-    if (kind == NodeKind::Geometry)
-        return static_cast<const osg::Geometry&>(node).getPrimitiveSetList().data();
-    return kind <= NodeKind::Light ? childrenOf(static_cast<const osg::Group&>(node)).data()
-                                   : nullptr;
-}
-
 bool isOn(NodeKind kind, const osg::Group& group, unsigned int child)
 {
     return kind != NodeKind::Switch || static_cast<const osg::Switch&>(group).getValue(child);

@@ -41,9 +41,6 @@ inline bool isLight(NodeKind kind)
 /// osg::Group shows them one by one only, by virtual calls.
 const osg::NodeList& childrenOf(const osg::Group& group);
 
-/// The memory that is read beside that of the node itself: its children, or its primitive sets.
-const void* listOf(NodeKind kind, const osg::Node& node);
-
 /// Whether a group has this child active; masks apart.
 bool isOn(NodeKind kind, const osg::Group& group, unsigned int child);
 

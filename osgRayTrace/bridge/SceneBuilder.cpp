@@ -227,6 +227,7 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
     // One that is here twice has other primitive restart: only one of both is in the index.
     traced.patchable = traced.uses.empty();
     traced.uses.clear();
+    traced.uses.reserve(geometry.uses.size());
     for (const GeometryUse& use : geometry.uses)
         traced.patchable &= polygonLift(_graph.states[use.state]) == 0.0f;
     if (isPlaced(geometry))

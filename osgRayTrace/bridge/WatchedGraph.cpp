@@ -35,7 +35,7 @@ template <class Item> uint32_t newIndex(std::vector<Item>& items, std::vector<ui
 /// Of all transforms around it: what is here is not only a matter of matrices.
 void WatchedGraph::fix(uint32_t place)
 {
-    for (; place != kNowhere && !places[place].fixed; place = places[place].outer)
+    for (; place != kNowhere && !places[place].fixed; place = outerPlace(place))
         places[place].fixed = true;
 }
 
@@ -97,7 +97,6 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
     entry.parent = parent;
     entry.place = parent == kNowhere ? kNowhere : nodes[parent].place;
     entry.hint = hintPrint(node);
-    entry.list = listOf(entry.kind, node);
     const auto index = static_cast<uint32_t>(nodes.size());
     entry.end = index + 1;
     if (entry.kind == NodeKind::Geometry)
@@ -120,10 +119,10 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
     osg::Matrixd inner = sceneFromParent;
     if (isTransform(entry.kind))
     {
-        WatchedPlace here;
+        WatchedPlace here{};
         here.node = index;
         here.print = matrixPrint(entry.kind, node);
-        here.outer = entry.place;
+        here.outer = entry.place & kOutermost;
         entry.place = static_cast<uint32_t>(places.size());
         places.push_back(here);
         static_cast<osg::Transform&>(node).computeLocalToWorldMatrix(inner, nullptr);
@@ -274,7 +273,8 @@ void WatchedGraph::dropGonePlaces()
         if (places[i].node == kNowhere) continue;
         now[i] = count;
         places[count] = places[i];
-        if (places[count].outer != kNowhere) places[count].outer = now[places[count].outer];
+        if (places[count].outer != kOutermost)
+            places[count].outer = now[places[count].outer] & kOutermost;
         ++count;
     }
     places.resize(count);
@@ -305,7 +305,7 @@ bool WatchedGraph::isRepeatedElsewhere(uint32_t at) const
 osg::Matrixd WatchedGraph::sceneFromLocal(uint32_t place) const
 {
     std::vector<const osg::Transform*> transforms;
-    for (; place != kNowhere; place = places[place].outer)
+    for (; place != kNowhere; place = outerPlace(place))
         transforms.push_back(static_cast<const osg::Transform*>(nodes[places[place].node].node));
     osg::Matrixd matrix;
     for (auto transform = transforms.rbegin(); transform != transforms.rend(); ++transform)

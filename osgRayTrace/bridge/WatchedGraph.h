@@ -18,12 +18,12 @@ namespace osgRayTrace::engine
 {
 
 constexpr uint32_t kNowhere = 0xffffffffu;
+constexpr uint32_t kOutermost = kNowhere >> 2; ///< of WatchedPlace::outer
 
 /// A node on one path, see WatchedGraph::nodes.
 struct WatchedNode
 {
     osg::Node* node = nullptr;
-    const void* list = nullptr; ///< that is read with it: see listOf. A name, not followed
     uint64_t print = 0;
     uint32_t parent = kNowhere; ///< in nodes
     uint32_t end = 0;           ///< in nodes: behind all that is below it
@@ -39,11 +39,11 @@ struct WatchedNode
 /// A transform on a path.
 struct WatchedPlace
 {
-    uint64_t print = 0;        ///< of its matrix
-    uint32_t node = kNowhere;  ///< kNowhere: gone
-    uint32_t outer = kNowhere; ///< place around it
-    bool fixed = false;        ///< there is more in it than plain nodes and geometry
-    bool moved = false;        ///< while a look runs
+    uint64_t print = 0;       ///< of its matrix
+    uint32_t node = kNowhere; ///< kNowhere: gone
+    uint32_t outer : 30;      ///< place around it; kOutermost: none
+    uint32_t fixed : 1;       ///< there is more in it than plain nodes and geometry
+    uint32_t moved : 1;       ///< while a look runs
 };
 
 /// Once, on however many paths it is.
@@ -91,9 +91,10 @@ struct HiddenNode
     uint32_t parent = 0;
 };
 
-/// All nodes that a traversal would visit, in its order, each on every path. A node may be read only after its
-/// parent was found to have it still, so nothing here keeps nodes alive; and what belongs to nodes
-/// only after all nodes were found to be there. Subtrees can be taken out and put in.
+/// All nodes that a traversal would visit, in its order, each on every path. A node may be read
+/// only after its parent was found to have it still, so nothing here keeps nodes alive; and what
+/// belongs to nodes only after all nodes were found to be there. Subtrees can be taken out and put
+/// in.
 struct WatchedGraph
 {
     std::vector<WatchedNode> nodes;
@@ -141,6 +142,11 @@ struct WatchedGraph
 
 private:
     void appendGeometry(osg::Geometry& geometry, WatchedNode entry);
+    uint32_t outerPlace(uint32_t place) const
+    {
+        const uint32_t outer = places[place].outer;
+        return outer == kOutermost ? kNowhere : outer;
+    }
     void fix(uint32_t place);
     void releaseGeometry(uint32_t index);
     void dropGonePlaces();
