@@ -125,6 +125,7 @@ float EnvironmentMap::pdfW(Vec3 direction) const
 
 std::size_t EnvironmentMap::pixelOf(Vec3 direction) const
 {
+    if (!isFinite(direction)) return 0;
     const Vec2 at = imagePoint(*_image, direction);
     const int x = std::clamp(static_cast<int>(at.x), 0, _image->width - 1);
     const int y = std::clamp(static_cast<int>(at.y), 0, _image->height - 1);
@@ -148,6 +149,7 @@ Vec3 EnvironmentMap::pixelAt(int x, int y) const
 
 Vec3 EnvironmentMap::interpolatedRadiance(Vec3 direction) const
 {
+    if (!isFinite(direction)) return Vec3(NAN); // the sample is dropped and counted
     const Vec2 at = imagePoint(*_image, direction) - 0.5f;
     const Vec2 low(std::floor(at.x), std::floor(at.y));
     const Vec2 part = at - low;

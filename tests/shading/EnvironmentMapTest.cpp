@@ -4,6 +4,8 @@
 #include "tests/Environments.h"
 #include "tests/Statistics.h"
 
+#include <cmath>
+
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
 
@@ -189,6 +191,8 @@ TEST_CASE("environment map: black has nothing to sample, one pixel is a sphere",
     CHECK(std::fabs(sphere.integral().x - 3.0 * kFourPi) < 1e-6);
     CHECK(std::fabs(sphere.pdfW(Vec3(0, 0, 1)) * kFourPi - 1.0) < 1e-6);
     CHECK(sphere.interpolatedRadiance(glm::normalize(Vec3(1, 2, 3))) == Vec3(3.0f));
+    // Of what is no direction a sample is dropped, not taken from memory beside the image.
+    CHECK(!isFinite(sphere.interpolatedRadiance(Vec3(NAN, 0.0f, 1.0f))));
     for (const float u : {0.0f, 0.5f, kOneMinusEpsilon})
         for (const float v : {0.0f, 0.5f, kOneMinusEpsilon})
             CHECK(isFinite(sphere.sample(u, v).direction));
