@@ -56,6 +56,17 @@ private:
 #endif
 };
 
+/// A body of a loop while it lives, whether it ends or throws.
+class OrderedBody
+{
+public:
+    explicit OrderedBody(LoopOrder& order) : _order(order) { _order.enterBody(); }
+    ~OrderedBody() { _order.leaveBody(); }
+
+private:
+    LoopOrder& _order;
+};
+
 } // namespace
 
 struct Workers::Implementation
@@ -93,10 +104,9 @@ void Workers::forEach(std::size_t count, const std::function<void(std::size_t)>&
                 [&](const tbb::blocked_range<std::size_t>& range)
                 {
                     FlushDenormals flush;
-                    order.enterBody();
+                    const OrderedBody inOrder(order);
                     for (std::size_t i = range.begin(); i != range.end(); ++i)
                         body(i);
-                    order.leaveBody();
                 },
                 tbb::simple_partitioner());
         });
@@ -109,9 +119,8 @@ void Workers::run(const std::function<void()>& body) const
         [&]
         {
             FlushDenormals flush;
-            order.enterBody();
+            const OrderedBody inOrder(order);
             body();
-            order.leaveBody();
         });
 }
 
