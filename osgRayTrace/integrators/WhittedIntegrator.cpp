@@ -154,11 +154,17 @@ void spawn(WhittedTile& tile, const ShadingBlock& block)
 /// offset clears a surface, a ray would meet the same one without end.
 constexpr int kMostLayers = 256;
 
-/// Sends the rays of blended lanes on with what the surfaces let through, and leaves them the rest.
-void passThrough(WhittedTile& tile, ShadingBlock& block)
+/// Sends the rays of blended lanes on with what the surfaces let through, and leaves them the rest. Returns
+/// the lanes that are left less than they were.
+LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
 {
     const MaterialTable& materials = tile.context.traced->materials();
-    for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
+    const LaneMask hits = block.surface.hits;
+    if (!hits) return 0;
+    const uint32_t first = block.surface.material[__builtin_ctz(hits)];
+    if (!materials[first].partial && isOneMaterial(block.surface.material, hits, first)) return 0;
+    LaneMask passed = 0;
+    for (LaneMask lanes = hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         const uint32_t material = block.surface.material[i];
@@ -169,6 +175,7 @@ void passThrough(WhittedTile& tile, ShadingBlock& block)
         const Vec3 weight = laneOf(block.weight, i);
         setLane(block.weight, i, weight * opacity);
         if (opacity >= 1.0f) continue;
+        passed |= 1u << i;
         const Vec3 direction = directionOf(block.rays.ray, i);
         const Vec3 normal = laneOf(block.surface.geometricNormal, i);
         const Vec3 origin =
@@ -182,6 +189,7 @@ void passThrough(WhittedTile& tile, ShadingBlock& block)
                               hash(block.seed[i] + 0x85ebca6bu), block.depth[i], fromCamera,
                               block.layers[i] + 1});
     }
+    return passed;
 }
 
 /// Adds what surfaces send by themselves, and the finished colour of fixed-function ones.
@@ -207,7 +215,7 @@ void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
     {
         classify(tile, *block);
         fill(Vec3(0.0f), block->radiance);
-        if (tile.context.traced->traits().blended) passThrough(tile, *block);
+        block->passed = tile.context.traced->traits().blended ? passThrough(tile, *block) : 0;
     }
     addDirectLight(tile, blocks, count);
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
@@ -322,7 +330,7 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
     {
         ShadingBlock& block = tile.group[k];
         countRays(tile, block, kAllLanes);
-        if (traced.traits().blended) weigh(block.weight, block.radiance);
+        if (block.passed) weigh(block.weight, block.radiance);
         if (context.wantsDepth)
             depthLanes(context.camera, left, bottom, first + k, block.surface,
                        tile.result.depth + (first + k) * kLanes);

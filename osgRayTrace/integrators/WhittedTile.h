@@ -57,6 +57,7 @@ struct ShadingBlock
     int depth[kLanes];
     int layers[kLanes];      ///< see SecondaryRay
     LaneMask fromCamera = 0; ///< camera rays, and those that go on
+    LaneMask passed = 0;     ///< a part of the weight has gone on through a blended surface
 
     LaneMaterials materials;
     LightLanes light;   ///< the sample at work
