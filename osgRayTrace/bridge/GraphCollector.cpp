@@ -357,105 +357,12 @@ bool GraphCollector::collectLeaf(osg::Node& node)
         _graph.lights.environments.push_back({light, engineFromLocal(), path()});
         return true;
     }
-    if (isFrom(node, "osg")) return false;
+    if (isFrom(&node, "osg")) return false;
     _report.count(std::strcmp(node.className(), "LightPointNode") == 0 ? "not-traced.light-points"
                                                                        : "not-traced.custom-node");
     warnIfForced(node.className());
     rasterize();
     return true;
-}
-
-/// True if OSG has to draw something in it: then all of it, as it is the billboard that places its drawables.
-bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
-{
-    bool leaves = false;
-    for (unsigned int i = 0; i < billboard.getNumDrawables() && !leaves; ++i)
-    {
-        osg::Drawable* drawable = billboard.getDrawable(i);
-        if (!drawable) continue;
-        const osg::Geometry* geometry = drawable->asGeometry();
-        pushOntoNodePath(drawable);
-        leaves = !geometry || rasterizedReason(*geometry, false) || withoutTriangles(*geometry);
-        popFromNodePath();
-    }
-    return leaves;
-}
-
-/// True if the group is of a kit that draws its children in a way of its own, by a cull traversal only: OSG
-/// draws it where there is OpenGL, and its children stand for it elsewhere, or if an effect is hinted to be traced.
-bool GraphCollector::leavesGroup(osg::Node& node)
-{
-    const bool effect = isFrom(node, "osgFX"), volume = isFrom(node, "osgVolume");
-    if (!effect && !volume) return false;
-    if (volume) warnIfForced("a volume");
-    const bool traces = effect && hintOf(getNodePath()) == DrawHint::Trace;
-    if (_input.rasterizesRest && !traces)
-    {
-        _report.count(effect ? "rasterized.effect" : "rasterized.volume");
-        rasterize();
-        return true;
-    }
-    _report.count(effect ? "approximated.effect" : "not-traced.volume");
-    if (effect) traverseGroup(*node.asGroup());
-    return true;
-}
-
-/// Its children, whatever its own traverse does.
-void GraphCollector::traverseGroup(osg::Group& group)
-{
-    if (isTooDeep(group)) return;
-    const bool pushed = pushState(group);
-    for (unsigned int i = 0; i < group.getNumChildren(); ++i)
-        group.getChild(i)->accept(*this);
-    if (pushed) _states.pop();
-}
-
-/// Leaves the node that is visited to OSG.
-void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
-{
-    if (!_input.rasterizesRest) return;
-    _graph.rasterized.push_back(rasterizedPart(kind, getNodePath()));
-    _graph.rasterized.back().inPlace = inPlace;
-    _graph.rasterizedPaths.push_back(pickPath());
-}
-
-/// Why the geometry at the end of the path is drawn by OpenGL where there is one; null: it is traced.
-const char* GraphCollector::rasterizedReason(const osg::Geometry& geometry, bool isPosed)
-{
-    const osg::StateSet* stateSet = geometry.getStateSet();
-    const osg::StateAttribute* poses =
-        isPosed && stateSet ? stateSet->getAttribute(osg::StateAttribute::PROGRAM) : nullptr;
-    if (stateSet) _states.push(*stateSet);
-    const char* reason = rasterizedState(_states.states()[_states.top()], poses);
-    if (stateSet) _states.pop();
-    const DrawHint hint = hintOf(getNodePath());
-    if (hint == DrawHint::Rasterize) return "rasterized.hint";
-    return hint == DrawHint::Trace ? nullptr : reason;
-}
-
-/// Leaves to OSG what it draws better. True if nothing is left to trace.
-bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
-{
-    if (const char* reason = rasterizedReason(geometry, isPosed))
-    {
-        _report.count(reason);
-        rasterize();
-        return true;
-    }
-    const osg::ref_ptr<osg::Geometry> rest = withoutTriangles(geometry);
-    if (!rest) return false;
-    warnIfForced("lines, points or instanced primitives");
-    const bool all = rest->getNumPrimitiveSets() == geometry.getNumPrimitiveSets();
-    rasterize(RasterizedPart::Draw, all ? nullptr : rest.get());
-    return false; // those without triangles are counted where triangles are made
-}
-
-/// Names what is hinted to be traced and cannot be.
-void GraphCollector::warnIfForced(const char* what)
-{
-    if (hintOf(getNodePath()) != DrawHint::Trace) return;
-    _report.warn("warned.trace-hint", "node '" + path() + "'",
-                 std::string("is hinted to be ray traced, but cannot be: ") + what);
 }
 
 /// Without a view the eye looks along the world's axes.

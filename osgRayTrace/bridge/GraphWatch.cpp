@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/GraphFingerprint.h"
 #include "osgRayTrace/bridge/StateFingerprint.h"
+#include "osgRayTrace/bridge/UntracedParts.h"
 
 #include <osg/NodeVisitor>
 
@@ -77,8 +78,8 @@ void GraphWatch::forget()
 osg::Node* GraphWatch::firstNode(osg::Node& root) const
 {
     if (!_graph.isVisible(root)) return nullptr;
-    const bool stands = std::strcmp(root.className(), "SceneRoot") == 0 &&
-                        std::strcmp(root.libraryName(), "osgRayTrace") == 0;
+    const bool stands =
+        std::strcmp(root.className(), "SceneRoot") == 0 && isFrom(&root, "osgRayTrace");
     return stands ? soleNodeBelow(root, _graph.traversalMask) : &root;
 }
 

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/DrawHint.h"
 #include "osgRayTrace/bridge/StateFingerprint.h"
 #include "osgRayTrace/bridge/TriangleList.h"
+#include "osgRayTrace/bridge/UntracedParts.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
@@ -56,8 +57,7 @@ inline uint64_t printOfDoubles(const double* values, int count)
 /// The library's own decorator: a plain group for this traversal.
 bool isDecorator(const osg::Node& node)
 {
-    return std::strcmp(node.libraryName(), "osgRayTrace") == 0 &&
-           std::strcmp(node.className(), "RayTracedScene") == 0;
+    return isFrom(&node, "osgRayTrace") && std::strcmp(node.className(), "RayTracedScene") == 0;
 }
 
 struct GroupChildren : osg::Group

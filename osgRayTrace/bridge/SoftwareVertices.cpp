@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/SoftwareVertices.h"
 
+#include "osgRayTrace/bridge/UntracedParts.h"
+
 #include <osg/Transform>
 #include <osgAnimation/BoneMapVisitor>
 #include <osgAnimation/MorphGeometry>
@@ -28,7 +30,7 @@ using osgAnimation::RigGeometry;
 /// The common case of any other geometry costs no cast.
 bool isAnimated(const osg::Geometry& geometry)
 {
-    return std::strcmp(geometry.libraryName(), "osgAnimation") == 0;
+    return isFrom(&geometry, "osgAnimation");
 }
 
 bool isHardware(const RigGeometry& rig)

@@ -15,16 +15,16 @@
 namespace osgRayTrace::engine
 {
 
-bool isFrom(const osg::Object& object, const char* library)
+bool isFrom(const osg::Object* object, const char* library)
 {
-    return std::strcmp(object.libraryName(), library) == 0;
+    return std::strcmp(object->libraryName(), library) == 0;
 }
 
 const char* untracedDrawable(const osg::Drawable& drawable)
 {
     if (dynamic_cast<const osgText::TextBase*>(&drawable)) return "not-traced.text";
-    if (isFrom(drawable, "osgParticle")) return "not-traced.particles";
-    if (isFrom(drawable, "osgRayTrace")) return nullptr;
+    if (isFrom(&drawable, "osgParticle")) return "not-traced.particles";
+    if (isFrom(&drawable, "osgRayTrace")) return nullptr;
     return "not-traced.custom-drawable";
 }
 

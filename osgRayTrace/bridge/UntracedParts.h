@@ -10,9 +10,10 @@
 namespace osgRayTrace::engine
 {
 
-/// Reasons are keys of ConversionCounts.
+/// Whether its class is one of this library.
+bool isFrom(const osg::Object* object, const char* library);
 
-bool isFrom(const osg::Object& object, const char* library);
+/// Reasons are keys of ConversionCounts.
 
 /// Why a drawable that is no osg::Geometry is not traced; null: it is our own.
 const char* untracedDrawable(const osg::Drawable& drawable);
