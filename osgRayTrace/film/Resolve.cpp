@@ -191,6 +191,28 @@ void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint
     if (depth) copyRows(film, tile, film.depth(tile), depth);
 }
 
+void displayPixels(const float* rgba, std::size_t count, float exposureEv, uint8_t* image)
+{
+    TileRgba values = {};
+    UintLanes packed[kTileBlocks];
+    for (std::size_t first = 0; first < count; first += kTilePixels)
+    {
+        const std::size_t pixels = std::min<std::size_t>(kTilePixels, count - first);
+        for (std::size_t i = 0; i < pixels; ++i)
+        {
+            const float* in = rgba + 4 * (first + i);
+            RgbaLanes& block = values[i / kLanes];
+            const std::size_t lane = i % kLanes;
+            block.r[lane] = in[0];
+            block.g[lane] = in[1];
+            block.b[lane] = in[2];
+            block.a[lane] = in[3];
+        }
+        packEncoded(values, std::exp2(exposureEv), packed);
+        std::memcpy(image + 4 * first, packed, 4 * pixels);
+    }
+}
+
 void resolveTileDepth(const Film& film, int tile, float* depth)
 {
     copyRows(film, tile, film.depth(tile), depth);

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/integrators/Integrator.h"
 #include "osgRayTrace/session/RenderSession.h"
+#include "osgRayTrace/session/ShownImage.h"
 
 namespace osgRayTrace::engine
 {
@@ -11,5 +12,8 @@ namespace osgRayTrace::engine
 /// See RenderSession::resolveChannel. context: of the first pass of the film's image.
 std::vector<float> channelImage(Channel channel, const Film& film, const PassContext& context,
                                 const Workers& workers);
+
+/// See RenderSession::surfaceSamples.
+std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Workers& workers);
 
 } // namespace osgRayTrace::engine

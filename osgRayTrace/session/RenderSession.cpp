@@ -369,4 +369,24 @@ std::vector<float> RenderSession::resolveChannel(Channel channel) const
     return channelImage(channel, session.film, session.contextOfPass(0), *session.workers);
 }
 
+ShownImage RenderSession::shownImage() const
+{
+    const Implementation& session = *_implementation;
+    ShownImage image;
+    if (!session.filmScene || session.film.passes() < 1) return image;
+    image.width = width();
+    image.height = height();
+    image.radiance = resolveRadiance();
+    image.depth = resolveChannel(Channel::Depth);
+    if (session.film.passes() > 1) image.error = resolveChannel(Channel::Error);
+    return image;
+}
+
+std::vector<SurfaceSample> RenderSession::surfaceSamples() const
+{
+    const Implementation& session = *_implementation;
+    if (!session.filmScene || session.film.passes() < 1) return {};
+    return engine::surfaceSamples(session.contextOfPass(0), *session.workers);
+}
+
 } // namespace osgRayTrace::engine

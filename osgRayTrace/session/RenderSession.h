@@ -6,6 +6,7 @@
 #include "osgRayTrace/film/ToneMap.h"
 #include "osgRayTrace/integrators/RenderOptions.h"
 #include "osgRayTrace/scene/View.h"
+#include "osgRayTrace/session/ShownImage.h"
 
 #include <cstdint>
 #include <functional>
@@ -135,6 +136,13 @@ public:
 
     /// Channel values, row 0 at the bottom, width*height*channelSize(channel) floats.
     std::vector<float> resolveChannel(Channel channel) const;
+
+    /// The image with what more than a tone map needs. Empty without an image.
+    ShownImage shownImage() const;
+
+    /// What is seen through the middle of each pixel, row 0 at the bottom; traces a ray for each. Empty
+    /// without an image.
+    std::vector<SurfaceSample> surfaceSamples() const;
 
 private:
     struct Implementation;

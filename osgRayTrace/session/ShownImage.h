@@ -1,0 +1,39 @@
+// ShownImage.h - a view's image on its way to the display, where more is done to it than a tone map. Layer: session.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/film/ToneMap.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+class Workers;
+
+/// Pixels in rows, row 0 at the bottom.
+struct ShownImage
+{
+    int width = 0;
+    int height = 0;
+    std::vector<float> radiance; ///< linear RGBA, premultiplied
+    std::vector<float> error;    ///< standard error of the mean, linear RGB; empty below two passes
+    std::vector<float> depth;    ///< window depth
+};
+
+/// What the camera ray through the middle of a pixel meets first.
+struct SurfaceSample
+{
+    Vec3 normal;     ///< world space, unit, towards the viewer; 0 where nothing is hit
+    float distance;  ///< along the ray [length]; infinity: nothing is hit
+    Vec3 albedo;     ///< linear
+    uint32_t object; ///< instance + 1; 0 where nothing is hit
+};
+
+/// Display values of the image, 4 bytes a pixel, and its depths, which may be null.
+void showImage(const ShownImage& image, const ToneMap& toneMap, const Workers& workers, uint8_t* rgba,
+               float* depth);
+
+} // namespace osgRayTrace::engine
