@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/DepthSlices.h"
+
 #include <osg/Geometry>
 #include <osg/Image>
 #include <osg/Program>
@@ -40,8 +42,9 @@ public:
     float* depth() { return reinterpret_cast<float*>(_depth->data()); }
     void modified();
 
-    /// Fills the current viewport. False, and nothing drawn, if the context has no usable GLSL.
-    bool draw(osg::RenderInfo& renderInfo) const;
+    /// Fills the current viewport, with depths as the map makes them. False, and nothing drawn, if the
+    /// context has no usable GLSL.
+    bool draw(osg::RenderInfo& renderInfo, const engine::DepthMap& depthMap) const;
 
     /// Any thread that OSG calls it from; null: all contexts.
     void releaseGLObjects(osg::State* state) const;
@@ -58,6 +61,7 @@ private:
     osg::ref_ptr<osg::Texture2D> _depthTexture;
     osg::ref_ptr<osg::Uniform> _colorUnit;
     osg::ref_ptr<osg::Uniform> _depthUnit;
+    osg::ref_ptr<osg::Uniform> _depthMap;
     osg::ref_ptr<osg::Program> _program;     ///< GLSL 1.20
     osg::ref_ptr<osg::Program> _coreProgram; ///< GLSL 3.30, for contexts that take no older one
     osg::ref_ptr<osg::Geometry> _triangle;
