@@ -113,6 +113,10 @@ public:
                                            { return entry.pass.contextId != contextId; });
         std::move(others, _entries.end(), std::back_inserter(gone));
         _entries.erase(others, _entries.end());
+        const auto ofFrame = [&](const CameraFrame& f) { return f.pass.contextId == contextId; };
+        _frames.erase(std::remove_if(_frames.begin(), _frames.end(), ofFrame), _frames.end());
+        const auto ofNote = [&](const PassIdentity& n) { return n.contextId == contextId; };
+        _noted.erase(std::remove_if(_noted.begin(), _noted.end(), ofNote), _noted.end());
     }
 
     /// All states there are now. Any thread.

@@ -149,6 +149,66 @@ TEST_CASE("four walls stitched together are one panorama, without a seam")
     CHECK(edges / edgeCount < 0.6 / 255.0);
 }
 
+TEST_CASE("processes that show a wall each have the pixels of one that shows all, by photons, too")
+{
+    // Left and front, one process each, as the nodes of a cluster; then one process for both.
+    const TemporaryFolder folder;
+    const auto wall = [](const std::string& name, const std::string& screen)
+    {
+        return "<WindowConfig><Window name=\"" + name + "\" width=\"48\" height=\"48\"/></WindowConfig>"
+               "<ChannelConfig><Channel name=\"" + name + "\" width=\"48\" height=\"48\" windowIndex=\"" +
+               name + "\"/></ChannelConfig><ScreenConfig><Screen name=\"" + name +
+               "\" width=\"3000\" height=\"3000\" " + screen + "/></ScreenConfig>";
+    };
+    const std::string left = "originX=\"-1500\" originY=\"0\" originZ=\"0\" h=\"90\"";
+    const std::string front = "originX=\"0\" originY=\"1500\" originZ=\"0\" h=\"0\"";
+    const std::string rest = "<Near value=\"50\"/><Far value=\"100000\"/><SceneSize value=\"9000\"/>";
+    std::ofstream(folder / "left.xml") << wall("0", left) << rest;
+    std::ofstream(folder / "front.xml") << wall("0", front) << rest;
+    std::ofstream(folder / "both.xml") << wall("0", left) << wall("1", front) << rest;
+    const std::string options = " --head 100 -200 50 0 0 0 --integrator ppm --photons 20000 --seed 7"
+                                " --aim-at-views false --max-passes 6 --output ";
+    const std::string model = " " + dataFile("cornell_box_glass.osgt");
+    for (const char* name : {"left", "front", "both"})
+    {
+        const Outcome outcome = osgraytrace(
+            folder, std::string("--cave ") + name + ".xml" + options + name + ".png" + model);
+        INFO(name << ": " << outcome.errors);
+        REQUIRE(outcome.exitCode == 0);
+    }
+    const osg::ref_ptr<osg::Image> alone[] = {osgDB::readRefImageFile(folder / "left-0.png"),
+                                             osgDB::readRefImageFile(folder / "front-0.png")};
+    const osg::ref_ptr<osg::Image> together[] = {osgDB::readRefImageFile(folder / "both-0.png"),
+                                                osgDB::readRefImageFile(folder / "both-1.png")};
+    constexpr int n = 48;
+    for (int w = 0; w < 2; ++w)
+    {
+        REQUIRE((alone[w] && together[w]));
+        REQUIRE((alone[w]->s() == n && together[w]->s() == n && together[w]->t() == n));
+        int different = 0, lit = 0;
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x)
+            {
+                different += alone[w]->getColor(x, y) != together[w]->getColor(x, y);
+                lit += pixel(*together[w], x, y).length() > 0.2;
+            }
+        CAPTURE(w, lit);
+        CHECK(different == 0);
+        CHECK(lit > n * n / 4);
+    }
+    // The step at the edge, where the left wall's last column meets the front one's first, is one like
+    // those on its two sides; photons that were not the same would raise it, all along it.
+    double atEdge = 0.0, beside = 0.0;
+    for (int y = 0; y < n; ++y)
+    {
+        atEdge += (pixel(*alone[0], n - 1, y) - pixel(*alone[1], 0, y)).length();
+        beside += 0.5 * ((pixel(*alone[0], n - 2, y) - pixel(*alone[0], n - 1, y)).length() +
+                         (pixel(*alone[1], 0, y) - pixel(*alone[1], 1, y)).length());
+    }
+    CAPTURE(atEdge, beside);
+    CHECK(atEdge < 1.5 * beside + 0.02);
+}
+
 TEST_CASE("the viewer refuses what is no CAVE")
 {
     const TemporaryFolder folder;

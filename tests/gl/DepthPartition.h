@@ -6,30 +6,18 @@
 #include <osg/Group>
 #include <osgUtil/CullVisitor>
 
+#include <map>
 #include <vector>
 
 namespace osgRayTrace::test
 {
 
 /// A camera for each slice, the last one first; each clears depth and draws all children with the
-/// matrices of the pass, but for its own near and far planes. Of an eye of a stereo viewer the same
-/// cameras again.
+/// matrices of the pass, but for its own near and far planes. Each eye has cameras of its own.
 class DepthPartition : public osg::Group
 {
 public:
-    explicit DepthPartition(const std::vector<double>& planes) : _planes(planes)
-    {
-        for (std::size_t i = 0; i + 1 < planes.size(); ++i)
-        {
-            osg::ref_ptr<osg::Camera> camera = new osg::Camera;
-            camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-            camera->setRenderOrder(osg::Camera::POST_RENDER, -int(i));
-            camera->setClearMask(GL_DEPTH_BUFFER_BIT);
-            camera->setCullingActive(false);
-            camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-            _cameras.push_back(camera);
-        }
-    }
+    explicit DepthPartition(const std::vector<double>& planes) : _planes(planes) {}
 
     void setPlanes(const std::vector<double>& planes) { _planes = planes; }
 
@@ -37,9 +25,9 @@ public:
     {
         osgUtil::CullVisitor* cull = visitor.asCullVisitor();
         if (!cull) return osg::Group::traverse(visitor);
-        for (std::size_t i = _cameras.size(); i-- > 0;)
+        for (std::size_t i = _planes.size() - 1; i-- > 0;)
         {
-            osg::Camera& camera = *_cameras[i];
+            osg::Camera& camera = cameraOf(*cull, i);
             camera.removeChildren(0, camera.getNumChildren());
             for (unsigned int child = 0; child < getNumChildren(); ++child)
                 camera.addChild(getChild(child));
@@ -51,6 +39,24 @@ public:
     }
 
 private:
+    using Cameras = std::vector<osg::ref_ptr<osg::Camera>>;
+
+    osg::Camera& cameraOf(osgUtil::CullVisitor& visitor, std::size_t slice)
+    {
+        Cameras& cameras = _cameras[&visitor];
+        while (cameras.size() <= slice)
+        {
+            osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+            camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+            camera->setRenderOrder(osg::Camera::POST_RENDER, -int(cameras.size()));
+            camera->setClearMask(GL_DEPTH_BUFFER_BIT);
+            camera->setCullingActive(false);
+            camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+            cameras.push_back(camera);
+        }
+        return *cameras[slice];
+    }
+
     static osg::Matrixd slice(osg::Matrixd projection, double zNear, double zFar)
     {
         if (projection(2, 3) == 0.0)
@@ -65,7 +71,7 @@ private:
     }
 
     std::vector<double> _planes;
-    std::vector<osg::ref_ptr<osg::Camera>> _cameras;
+    std::map<osgUtil::CullVisitor*, Cameras> _cameras; ///< an eye has a visitor of its own
 };
 
 } // namespace osgRayTrace::test

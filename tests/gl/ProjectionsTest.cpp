@@ -107,8 +107,10 @@ osg::Vec3d seenAt(const osg::Matrixd& projection, double x, double y, double dis
     return {(e * d - b * f) / determinant, (a * f - e * c) / determinant, z};
 }
 
-/// Triangles that fill a part of the picture each, tilted so that they reach through each other.
-osg::ref_ptr<osg::Geometry> triangles(const Projection& p, const osg::Matrixd& worldFromView, int index)
+/// Triangles that fill a part of the picture each: tilted so that they reach through each other, or
+/// each at one distance.
+osg::ref_ptr<osg::Geometry> triangles(const Projection& p, const osg::Matrixd& worldFromView, int index,
+                                      bool tilted)
 {
     std::mt19937 random(2000u + static_cast<unsigned int>(index));
     const auto uniform = [&](double from, double to)
@@ -118,10 +120,11 @@ osg::ref_ptr<osg::Geometry> triangles(const Projection& p, const osg::Matrixd& w
     for (const osg::Vec4& color : kColors)
     {
         const double x = uniform(-0.4, 0.4), y = uniform(-0.4, 0.4), turn = uniform(0.0, 6.0);
+        double distance = 0.0;
         for (int corner = 0; corner < 3; ++corner)
         {
             const double angle = turn + corner * 2.0 * osg::PI / 3.0;
-            const double distance = uniform(p.nearest, p.farthest);
+            if (tilted || corner == 0) distance = uniform(p.nearest, p.farthest);
             vertices->push_back(seenAt(p.matrix, x + 0.7 * std::cos(angle), y + 0.7 * std::sin(angle),
                                        distance) *
                                 worldFromView);
@@ -174,18 +177,35 @@ double depthAt(const Shot& shot, int x, int y)
 }
 
 /// Window depth, by double, where a triangle is in the middle of a pixel.
-double exactDepth(const osg::Geometry& geometry, int triangle, const osg::Matrixd& clipFromWorld, int x,
-                  int y)
+struct ExactDepth
+{
+    double depth;
+    double tolerance; ///< what vertices and matrices that are floats are worth, for OpenGL as for rays
+};
+
+ExactDepth exactDepth(const osg::Geometry& geometry, int triangle, const osg::Matrixd& viewFromWorld,
+                      const osg::Matrixd& projection, int x, int y)
 {
     // The plane through the corners' window coordinates: depth is linear there in any projection.
     const auto& vertices = static_cast<const osg::Vec3Array&>(*geometry.getVertexArray());
     osg::Vec3d corners[3];
     for (int i = 0; i < 3; ++i)
-        corners[i] = osg::Vec3d(vertices[3 * static_cast<std::size_t>(triangle) + i]) * clipFromWorld;
+        corners[i] = osg::Vec3d(vertices[static_cast<std::size_t>(3 * triangle + i)]) *
+                     (viewFromWorld * projection);
     const osg::Vec3d normal = (corners[1] - corners[0]) ^ (corners[2] - corners[0]);
     const osg::Vec3d at((2.0 * x + 1.0) / kSize - 1.0, (2.0 * y + 1.0) / kSize - 1.0, 0.0);
     const osg::Vec3d offset = corners[0] - at;
-    return 0.5 + 0.5 * (normal * offset) / normal.z();
+    const double clip = (normal * offset) / normal.z();
+    const double slope = (std::fabs(normal.x()) + std::fabs(normal.y())) / std::fabs(normal.z()) / kSize;
+
+    // Along the slope 5e-5 of a pixel; and the spacing of floats at the point's coordinates, in depth.
+    const double a = projection(2, 2), b = projection(3, 2), c = projection(2, 3), d = projection(3, 3);
+    const double z = (b - clip * d) / (clip * c - a);
+    const osg::Vec3d point =
+        seenAt(projection, at.x(), at.y(), -z) * osg::Matrixd::inverse(viewFromWorld);
+    const double moved = z + point.length() * 0x1p-23;
+    const double spacing = 0.5 * std::fabs((a * moved + b) / (c * moved + d) - clip);
+    return {0.5 + 0.5 * clip, 5e-5 * slope + spacing};
 }
 
 struct Agreement
@@ -194,14 +214,14 @@ struct Agreement
     int edges = 0;        ///< pixels with an edge
     int inner = 0;        ///< pixels whose depth can be compared
     double shift = 0.0;   ///< mean signed displacement of edges [pixels]
-    double depthUnits = 0.0; ///< largest difference
-    double tracedUnits = 0.0, drawnUnits = 0.0; ///< from the truth
+    double units = 0.0; ///< largest difference of depth
+    double both = 0.0, traced = 0.0, drawn = 0.0; ///< less the tolerance; of each from the truth
 };
 
 /// A pixel whose middle OpenGL finds covered shows something of it, and one that shows nothing else is
 /// covered in the middle: otherwise an edge is half a pixel away.
 Agreement agreement(const Shot& traced, const Shot& drawn, const osg::Geometry& geometry,
-                    const osg::Matrixd& clipFromWorld)
+                    const osg::Matrixd& viewFromWorld, const osg::Matrixd& projection)
 {
     Agreement result;
     double shift = 0.0;
@@ -218,11 +238,14 @@ Agreement agreement(const Shot& traced, const Shot& drawn, const osg::Geometry& 
             shift += (covered - (expected == 3 ? 0.0 : 255.0)) / 255.0;
             if (all < 0 || all == 3 || all != expected) continue;
             ++result.inner;
-            const double exact = exactDepth(geometry, all, clipFromWorld, x, y);
+            const ExactDepth exact = exactDepth(geometry, all, viewFromWorld, projection, x, y);
             const double t = depthAt(traced, x, y), d = depthAt(drawn, x, y);
-            result.depthUnits = std::max(result.depthUnits, std::fabs(t - d) / kDepthUnit);
-            result.tracedUnits = std::max(result.tracedUnits, std::fabs(t - exact) / kDepthUnit);
-            result.drawnUnits = std::max(result.drawnUnits, std::fabs(d - exact) / kDepthUnit);
+            const auto units = [&](double a, double b)
+            { return (std::fabs(a - b) - exact.tolerance) / kDepthUnit; };
+            result.units = std::max(result.units, std::fabs(t - d) / kDepthUnit);
+            result.both = std::max(result.both, units(t, d));
+            result.traced = std::max(result.traced, units(t, exact.depth));
+            result.drawn = std::max(result.drawn, units(d, exact.depth));
         }
     result.shift = shift / std::max(1, result.edges);
     return result;
@@ -233,14 +256,15 @@ Agreement agreement(const Shot& traced, const Shot& drawn, const osg::Geometry& 
 TEST_CASE("projections: edges and depths of twenty kinds are those of the rasterizer", "[gl]")
 {
     const osg::Matrixd viewFromWorld =
-        osg::Matrixd::lookAt(osg::Vec3d(3, -5, 2), osg::Vec3d(0.5, 0.25, 0.125), osg::Vec3d(0, 0, 1));
+        osg::Matrixd::lookAt(osg::Vec3d(0.375, -0.625, 0.25), osg::Vec3d(1.5, 2.0, 0.5), osg::Vec3d(0, 0, 1));
     const osg::Matrixd worldFromView = osg::Matrixd::inverse(viewFromWorld);
-    double worstDepth = 0.0, worstShift = 0.0;
+    const bool tilted = GENERATE(true, false);
+    Agreement worst;
     for (int index = 0; index < 20; ++index)
     {
         const Projection p = randomProjection(index);
-        CAPTURE(index, p.name);
-        const osg::ref_ptr<osg::Geometry> geometry = triangles(p, worldFromView, index);
+        CAPTURE(index, p.name, tilted);
+        const osg::ref_ptr<osg::Geometry> geometry = triangles(p, worldFromView, index, tilted);
         const Shot drawn = shot(geometry.get(), p, viewFromWorld);
         const osg::ref_ptr<RayTracedScene> scene = tracedScene(geometry.get());
         scene->getSettings()->setPassesPerFrame(64);
@@ -248,23 +272,27 @@ TEST_CASE("projections: edges and depths of twenty kinds are those of the raster
         REQUIRE(scene->getDrawable()->getStatistics().passes == 64);
         if (const char* folder = std::getenv("OSGRAYTRACE_TEST_PICTURES"))
         {
-            const std::string name = std::string(folder) + "/projection-" + std::to_string(index);
+            const std::string name = std::string(folder) + "/projection-" + std::to_string(index) +
+                                     (tilted ? "-tilted" : "-facing");
             osgDB::writeImageFile(*drawn.color, name + "-osg.png");
             osgDB::writeImageFile(*traced.color, name + "-traced.png");
         }
-        const Agreement same = agreement(traced, drawn, *geometry, viewFromWorld * p.matrix);
-        std::cout << p.name << ": edges " << same.edges << ", shifted by " << same.shift
-                  << " pixels; " << same.inner << " depths within " << same.depthUnits << " units; from the truth traced "
-                  << same.tracedUnits << ", drawn " << same.drawnUnits
-                  << std::endl;
+        const Agreement same = agreement(traced, drawn, *geometry, viewFromWorld, p.matrix);
         CHECK(same.wrong == 0);
         CHECK(std::fabs(same.shift) < 0.05);
-        CHECK(same.depthUnits <= 1.0);
+        CHECK(same.both <= 1.0);
+        CHECK(same.traced <= 1.0);
         CHECK(same.edges > 50);
         CHECK(same.inner > 800);
-        worstDepth = std::max(worstDepth, same.depthUnits);
-        worstShift = std::max(worstShift, std::fabs(same.shift));
+        worst.shift = std::max(worst.shift, std::fabs(same.shift));
+        worst.units = std::max(worst.units, same.units);
+        worst.both = std::max(worst.both, same.both);
+        worst.traced = std::max(worst.traced, same.traced);
+        worst.drawn = std::max(worst.drawn, same.drawn);
     }
-    std::cout << "twenty projections: edges shifted by up to " << worstShift << " pixels, depths by up to "
-              << worstDepth << " units" << std::endl;
+    std::cout << "twenty projections, " << (tilted ? "tilted" : "facing")
+              << ": edges shifted by up to " << worst.shift << " pixels; depths differ by "
+              << worst.units << " units, by " << worst.both
+              << " more than floats are worth; from the truth traced " << worst.traced << ", drawn "
+              << worst.drawn << std::endl;
 }
