@@ -52,7 +52,8 @@ bool isReversed(const View& view)
 
 bool sameRays(const View& a, const View& b)
 {
-    if (a.width != b.width || a.height != b.height || a.viewFromWorld != b.viewFromWorld) return false;
+    if (a.width != b.width || a.height != b.height || a.viewFromWorld != b.viewFromWorld)
+        return false;
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
             if (row != kDepthRow && a.clipFromView[column][row] != b.clipFromView[column][row])

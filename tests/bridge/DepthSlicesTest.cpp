@@ -1,5 +1,5 @@
-// DepthSlicesTest.cpp - one picture for slices of depth: planes and depths against matrices. Layer: tests.
-// SPDX-License-Identifier: MIT
+// DepthSlicesTest.cpp - one picture for slices of depth: planes and depths against matrices. Layer:
+// tests. SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/DepthSlices.h"
 
 #include "tests/Catch.h"
@@ -56,10 +56,11 @@ TEST_CASE("depth slices: planes of a view from its matrix", "[bridge]")
     const Mat4d perspective = glm::frustum(-1.0, 2.0, -1.0, 1.0, 0.5, 20.0);
     const Mat4d parallel = glm::ortho(-1.0, 2.0, -1.0, 1.0, 0.5, 20.0);
     const double unbounded = std::numeric_limits<double>::infinity();
-    for (const Case& c : {Case{"perspective", perspective}, Case{"scaled", 3.0 * perspective},
-                          Case{"reversed", reversed(perspective)}, Case{"infinite", infinite, unbounded},
-                          Case{"reversed infinite", reversed(infinite), unbounded},
-                          Case{"orthographic", parallel}, Case{"reversed orthographic", reversed(parallel)}})
+    for (const Case& c :
+         {Case{"perspective", perspective}, Case{"scaled", 3.0 * perspective},
+          Case{"reversed", reversed(perspective)}, Case{"infinite", infinite, unbounded},
+          Case{"reversed infinite", reversed(infinite), unbounded}, Case{"orthographic", parallel},
+          Case{"reversed orthographic", reversed(parallel)}})
     {
         CAPTURE(c.name);
         const std::optional<DepthPlanes> planes = depthPlanes(viewOf(c.matrix));
@@ -104,10 +105,14 @@ TEST_CASE("depth slices: depths of the traced view become those of each slice", 
             const float stored = static_cast<float>(depth);
             const float shown = map.scale * stored + map.offset;
             if (!orthographic) CHECK((depth > 0.0 && depth <= 1.0 + 1e-12));
-            const bool inside = distance > kPlanes[2 - i] * 1.001 && distance < kPlanes[3 - i] * 0.999;
-            const bool outside = distance < kPlanes[2 - i] * 0.999 || distance > kPlanes[3 - i] * 1.001;
-            // Three units of a buffer of 24 bits; all slices of a parallel view share the floats of one.
-            const double tolerance = orthographic ? 6e-8 * kFar / (kPlanes[3 - i] - kPlanes[2 - i]) : 1.8e-7;
+            const bool inside =
+                distance > kPlanes[2 - i] * 1.001 && distance < kPlanes[3 - i] * 0.999;
+            const bool outside =
+                distance < kPlanes[2 - i] * 0.999 || distance > kPlanes[3 - i] * 1.001;
+            // Three units of a buffer of 24 bits; all slices of a parallel view share the floats of
+            // one.
+            const double tolerance =
+                orthographic ? 6e-8 * kFar / (kPlanes[3 - i] - kPlanes[2 - i]) : 1.8e-7;
             if (inside) CHECK(std::fabs(shown - expected) < tolerance);
             if (outside) CHECK((shown < 0.0f || shown > 1.0f));
         }

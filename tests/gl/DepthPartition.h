@@ -33,7 +33,8 @@ public:
                 camera.addChild(getChild(child));
             camera.setViewMatrix(*cull->getModelViewMatrix());
             camera.setViewport(cull->getViewport());
-            camera.setProjectionMatrix(slice(*cull->getProjectionMatrix(), _planes[i], _planes[i + 1]));
+            camera.setProjectionMatrix(
+                slice(*cull->getProjectionMatrix(), _planes[i], _planes[i + 1]));
             camera.accept(visitor);
         }
     }

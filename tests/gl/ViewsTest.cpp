@@ -1,5 +1,5 @@
-// ViewsTest.cpp - several views at once: eyes, viewports, nested cameras, slices of depth. Layer: tests.
-// SPDX-License-Identifier: MIT
+// ViewsTest.cpp - several views at once: eyes, viewports, nested cameras, slices of depth. Layer:
+// tests. SPDX-License-Identifier: MIT
 #include "DepthPartition.h"
 #include "TestViewer.h"
 #include "tests/Catch.h"
@@ -39,8 +39,9 @@ osg::ref_ptr<osg::Group> squares()
     for (const auto& square : all)
     {
         // Tilted, so that slices cut them.
-        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(
-            osg::Matrixd::rotate(0.7, osg::Vec3d(0.3, 1.0, 0.0)) * osg::Matrixd::translate(square.at));
+        osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrixd::rotate(0.7, osg::Vec3d(0.3, 1.0, 0.0)) *
+                                     osg::Matrixd::translate(square.at));
         place->addChild(unlitSquare(square.half, square.color));
         group->addChild(place);
     }
@@ -79,15 +80,16 @@ osg::ref_ptr<osg::DisplaySettings> stereo(osg::DisplaySettings::StereoMode mode)
 }
 
 /// The picture of a scene set up by setUp after so many frames.
-template <class SetUp> osg::ref_ptr<osg::Image> picture(osg::Node* scene, const SetUp& setUp, int frames = 1)
+template <class SetUp>
+osg::ref_ptr<osg::Image> picture(osg::Node* scene, const SetUp& setUp, int frames = 1)
 {
     TestViewer view(kSize, kSize, scene);
     setUp(view);
     return view.frames(frames);
 }
 
-/// Of the pixels that have one colour, the share that OpenGL has another one for: where matrices or eyes
-/// are not the same ones.
+/// Of the pixels that have one colour, the share that OpenGL has another one for: where matrices or
+/// eyes are not the same ones.
 double differenceInside(const std::string& name, const osg::Image& drawn, const osg::Image& traced)
 {
     keep(name + "-osg", drawn);
@@ -118,7 +120,10 @@ template <class SetUp> double differenceFromOpenGl(const std::string& name, cons
     return differenceInside(name, *drawn, *traced);
 }
 
-double cpuSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
+double cpuSeconds()
+{
+    return double(std::clock()) / CLOCKS_PER_SEC;
+}
 
 } // namespace
 
@@ -159,12 +164,14 @@ TEST_CASE("views: viewports and slave cameras in one window", "[gl]")
 {
     const auto setUp = [](TestViewer& view)
     {
-        // Four cameras in quarters of a window: from the side, through another lens, off-axis, parallel.
-        const osg::Matrixd projections[] = {
-            osg::Matrixd(), osg::Matrixd::scale(1.5, 1.5, 1.0), osg::Matrixd::translate(0.4, 0.2, 0.0),
-            osg::Matrixd::rotate(0.2, osg::Vec3d(0, 0, 1))};
-        const osg::Matrixd views[] = {osg::Matrixd::rotate(0.1, osg::Vec3d(0, 1, 0)), osg::Matrixd(),
-                                      osg::Matrixd(), osg::Matrixd::translate(0.0, 0.3, -2.0)};
+        // Four cameras in quarters of a window: from the side, through another lens, off-axis,
+        // parallel.
+        const osg::Matrixd projections[] = {osg::Matrixd(), osg::Matrixd::scale(1.5, 1.5, 1.0),
+                                            osg::Matrixd::translate(0.4, 0.2, 0.0),
+                                            osg::Matrixd::rotate(0.2, osg::Vec3d(0, 0, 1))};
+        const osg::Matrixd views[] = {osg::Matrixd::rotate(0.1, osg::Vec3d(0, 1, 0)),
+                                      osg::Matrixd(), osg::Matrixd(),
+                                      osg::Matrixd::translate(0.0, 0.3, -2.0)};
         osg::GraphicsContext* window = view.camera().getGraphicsContext();
         for (int i = 0; i < 4; ++i)
         {
@@ -193,14 +200,15 @@ TEST_CASE("views: viewports and slave cameras in one window", "[gl]")
     CHECK(differenceInside("slaves", *drawn, *traced) == 0.0);
 }
 
-TEST_CASE("views: a scene that a pass shows twice has an image for each, nested cameras too", "[gl]")
+TEST_CASE("views: a scene that a pass shows twice has an image for each, nested cameras too",
+          "[gl]")
 {
     const auto twice = [](osg::Node* scene)
     {
         osg::ref_ptr<osg::Group> root = new osg::Group;
         root->addChild(scene);
-        osg::ref_ptr<osg::MatrixTransform> beside =
-            new osg::MatrixTransform(osg::Matrixd::scale(0.5, 0.5, 0.5) * osg::Matrixd::translate(-1.5, -1.5, 7.0));
+        osg::ref_ptr<osg::MatrixTransform> beside = new osg::MatrixTransform(
+            osg::Matrixd::scale(0.5, 0.5, 0.5) * osg::Matrixd::translate(-1.5, -1.5, 7.0));
         beside->addChild(scene);
         root->addChild(beside);
         // Below a camera of its own, turned, in the same stage.
@@ -221,7 +229,8 @@ TEST_CASE("views: a scene that a pass shows twice has an image for each, nested 
     }
     scene->getSettings()->setPassesPerFrame(60);
     const osg::ref_ptr<osg::Image> traced = view.frames();
-    const osg::ref_ptr<osg::Image> drawn = picture(twice(squares().get()).get(), [](TestViewer&) {});
+    const osg::ref_ptr<osg::Image> drawn =
+        picture(twice(squares().get()).get(), [](TestViewer&) {});
     // Pixels at the edges of what is in front hide what is drawn behind them later.
     CHECK(differenceInside("twice", *drawn, *traced) < 0.003);
 }
@@ -263,9 +272,11 @@ TEST_CASE("views: slices of depth are traced once an eye, and each writes its ow
     }
     scene->getSettings()->setPassesPerFrame(60);
     const osg::ref_ptr<osg::Image> sliced = view.frames();
-    const osg::ref_ptr<osg::Image> whole = picture(content(tracedSquares(64).get(), false).get(), setUp);
+    const osg::ref_ptr<osg::Image> whole =
+        picture(content(tracedSquares(64).get(), false).get(), setUp);
     const osg::ref_ptr<osg::Image> drawn = picture(content(squares().get(), true).get(), setUp);
-    const std::string name = std::string("slices") + (inStereo ? "-stereo" : "") + (orthographic ? "-ortho" : "");
+    const std::string name =
+        std::string("slices") + (inStereo ? "-stereo" : "") + (orthographic ? "-ortho" : "");
     keep(name + "-whole", *whole);
     CHECK(meanDifference(*sliced, *whole) < 0.1);
     CHECK(differenceInside(name, *drawn, *sliced) < 0.004); // as there, and where slices end
@@ -277,7 +288,8 @@ TEST_CASE("views: slices of depth are traced once an eye, and each writes its ow
     setUp(other);
     for (const double shift : {0.3, 0.2, 0.1, 0.0})
     {
-        static_cast<DepthPartition&>(*root).setPlanes({0.5 + shift, 6.0 - shift, 15.0 + shift, 200.0});
+        static_cast<DepthPartition&>(*root).setPlanes(
+            {0.5 + shift, 6.0 - shift, 15.0 + shift, 200.0});
         other.look(osg::Vec3d(shift, 0.0, 10.0));
         const osg::ref_ptr<osg::Image> now = other.frames();
         if (shift == 0.0) CHECK(meanDifference(*now, *whole) < 0.1);
@@ -286,14 +298,16 @@ TEST_CASE("views: slices of depth are traced once an eye, and each writes its ow
 
 TEST_CASE("views: what a second eye costs with photons", "[.][second-eye]")
 {
-    // Lines to read, run by hand; that photons are traced once for both is in photons/PhotonPassTest.
+    // Lines to read, run by hand; that photons are traced once for both is in
+    // photons/PhotonPassTest.
     const int size = GENERATE(256, 512, 1024);
     osg::ref_ptr<PhysicalMaterial> glass = new PhysicalMaterial;
     glass->setTransmission(1.0f);
     glass->setRoughness(0.0f);
     osg::ref_ptr<PhysicalMaterial> chalk = new PhysicalMaterial;
     chalk->setRoughness(1.0f);
-    const osg::ref_ptr<osg::Node> ball = sphere(osg::Vec3(0.0f, 0.0f, 1.5f), 1.0f, osg::Vec4(1, 1, 1, 1));
+    const osg::ref_ptr<osg::Node> ball =
+        sphere(osg::Vec3(0.0f, 0.0f, 1.5f), 1.0f, osg::Vec4(1, 1, 1, 1));
     ball->getOrCreateStateSet()->setAttribute(glass);
     const osg::ref_ptr<osg::Geometry> floor = unlitSquare(4.0f, osg::Vec4(1, 1, 1, 1));
     floor->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
@@ -324,6 +338,6 @@ TEST_CASE("views: what a second eye costs with photons", "[.][second-eye]")
         mono += secondsOf(false);
         both += secondsOf(true);
     }
-    std::cout << "stereo with photons at " << size << " x " << size << ": " << both / mono << " times the CPU time of mono"
-              << std::endl;
+    std::cout << "stereo with photons at " << size << " x " << size << ": " << both / mono
+              << " times the CPU time of mono" << std::endl;
 }

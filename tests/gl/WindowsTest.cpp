@@ -48,8 +48,8 @@ osg::ref_ptr<osg::Camera> windowCamera(osg::GraphicsContext* context, FrameCaptu
     return camera;
 }
 
-/// A camera in the scene graph that draws the scene once more, comes and goes between frames, and is not
-/// kept by anyone else: what a frame that is still being drawn keeps of it is its name.
+/// A camera in the scene graph that draws the scene once more, comes and goes between frames, and
+/// is not kept by anyone else: what a frame that is still being drawn keeps of it is its name.
 class NestedCameras : public osg::NodeCallback
 {
 public:
@@ -64,7 +64,8 @@ public:
         {
             osg::ref_ptr<osg::Camera> camera = new osg::Camera;
             camera->setDataVariance(osg::Object::DYNAMIC);
-            camera->setRenderOrder(frame % 2 ? osg::Camera::NESTED_RENDER : osg::Camera::POST_RENDER);
+            camera->setRenderOrder(frame % 2 ? osg::Camera::NESTED_RENDER
+                                             : osg::Camera::POST_RENDER);
             camera->setClearMask(0);
             camera->setViewMatrix(osg::Matrixd::translate(0.01 * frame, 0.0, -1.0));
             camera->addChild(_scene);
@@ -151,9 +152,10 @@ TEST_CASE("windows: resized and closed, cameras made and deleted, in all threadi
 
     osgViewer::Viewer viewer;
     viewer.getCamera()->setProjectionMatrixAsPerspective(40.0, 1.0, 1.0, 100.0);
-    viewer.getCamera()->setViewMatrixAsLookAt(osg::Vec3d(0, 0, 10), osg::Vec3d(), osg::Vec3d(0, 1, 0));
+    viewer.getCamera()->setViewMatrixAsLookAt(osg::Vec3d(0, 0, 10), osg::Vec3d(),
+                                              osg::Vec3d(0, 1, 0));
     const osg::ref_ptr<osg::GraphicsContext> windows[] = {createOSMesaContext(kSize, kSize),
-                                                         createOSMesaContext(kSize, kSize)};
+                                                          createOSMesaContext(kSize, kSize)};
     const osg::ref_ptr<FrameCapture> captures[] = {new FrameCapture, new FrameCapture};
     for (int i = 0; i < 2; ++i)
         viewer.addSlave(windowCamera(windows[i].get(), captures[i].get()).get(), osg::Matrixd(),
@@ -170,7 +172,8 @@ TEST_CASE("windows: resized and closed, cameras made and deleted, in all threadi
         if (frame % 3 == 0)
             for (unsigned int i = 0; i < 2; ++i)
             {
-                const int width = kSize / 2 + frame * 7 % (kSize / 2), height = kSize - frame * 5 % 20;
+                const int width = kSize / 2 + frame * 7 % (kSize / 2),
+                          height = kSize - frame * 5 % 20;
                 viewer.getSlave(i)._camera->setViewport(new osg::Viewport(0, 0, width, height));
             }
         if (frame % 20 == 9)
