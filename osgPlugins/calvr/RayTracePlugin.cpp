@@ -27,25 +27,21 @@ void warn(const std::string& sentence)
     OSG_WARN << "RayTrace: " << sentence << std::endl;
 }
 
-/// False if there was an exception.
-template <typename Function> bool guarded(const char* what, Function function) noexcept
+/// An exception ends the function alone, with a warning.
+template <typename Function> void guarded(const char* what, Function function) noexcept
 {
-    const char* reason = "unknown reason";
     try
     {
         function();
-        return true;
     }
     catch (const std::exception& error)
     {
-        reason = error.what();
-        OSG_WARN << "RayTrace: " << what << ": " << reason << std::endl;
+        OSG_WARN << "RayTrace: " << what << ": " << error.what() << std::endl;
     }
     catch (...)
     {
-        OSG_WARN << "RayTrace: " << what << ": " << reason << std::endl;
+        OSG_WARN << "RayTrace: " << what << " failed" << std::endl;
     }
-    return false;
 }
 
 } // namespace

@@ -4,13 +4,11 @@
 
 #include "osgPlugins/calvr/Cluster.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
-#include <cstring>
 #include <deque>
 #include <limits>
-#include <map>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -37,8 +35,9 @@ public:
     {
         std::unique_lock<std::mutex> lock(_mutex);
         const auto isThere = [&] { return _cut || _bytes.size() >= bytes; };
-        if (!_changed.wait_for(lock, std::chrono::seconds(60), isThere) || _bytes.size() < bytes)
-            return false;
+        _changed.wait_for(lock, std::chrono::seconds(20), isThere);
+        if (_bytes.size() < bytes) _cut = true; // out of step: nobody else shall wait as long
+        if (_bytes.size() < bytes) return false;
         std::copy_n(_bytes.begin(), bytes, static_cast<char*>(data));
         _bytes.erase(_bytes.begin(), _bytes.begin() + static_cast<std::ptrdiff_t>(bytes));
         return true;
