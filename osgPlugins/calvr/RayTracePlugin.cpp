@@ -123,8 +123,7 @@ int RayTracePlugin::offer() const
 {
     if (!_agreement || !_root || !_root->isOn()) return kNoSay;
     const Statistics statistics = _root->scene().getDrawable()->getStatistics();
-    if (!statistics.ok) return kNoSay;
-    if (statistics.passes < 1) return 1;
+    if (!statistics.ok || statistics.passes < 1) return kNoSay; // as on a master that draws nothing
     return affordablePasses(statistics.renderSeconds / statistics.passes,
                             1e-3 * _config.clusterBudget);
 }
