@@ -26,12 +26,22 @@ RayTraceMenu::RayTraceMenu(cvr::MenuCallback& callback, osg::ref_ptr<RayTraceSet
     cvr::MenuSystem::instance()->addMenuItem(_menu.get());
 }
 
+/// CalVR's board menu reads past an element of a map that it has just erased when an item is
+/// deleted which it has drawn. It deletes plugins at its own end alone, so the items are left to
+/// that of the process; nothing calls back any more.
 RayTraceMenu::~RayTraceMenu()
 {
     cvr::MenuSystem::instance()->removeMenuItem(_menu.get());
-    _menu.reset();
     for (Lines& lines : _lines)
-        lines.menu.reset();
+    {
+        for (auto& box : lines.boxes)
+            box.release()->setCallback(nullptr);
+        lines.menu.release();
+    }
+    _report.release()->setCallback(nullptr);
+    _freeze.release()->setCallback(nullptr);
+    _on.release()->setCallback(nullptr);
+    _menu.release();
 }
 
 void RayTraceMenu::addChoice(const MenuChoice& choice, cvr::MenuCallback& callback)

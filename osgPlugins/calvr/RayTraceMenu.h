@@ -45,7 +45,6 @@ private:
     void showChosen(const Lines& lines);
 
     osg::ref_ptr<RayTraceSettings> _settings;
-    // A menu takes leave of its items, so it goes before them: see the destructor.
     std::unique_ptr<cvr::SubMenu> _menu;
     std::unique_ptr<cvr::MenuCheckbox> _on;
     std::unique_ptr<cvr::MenuCheckbox> _freeze;
