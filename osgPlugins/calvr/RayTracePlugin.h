@@ -28,6 +28,10 @@ public:
     bool init() override;
     void preFrame() override;
     void menuCallback(cvr::MenuItem* item) override;
+    int getPriority() override
+    {
+        return -1000;
+    } ///< last: where others have moved the objects to counts
 
 private:
     void readSettings();
