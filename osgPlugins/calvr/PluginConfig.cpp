@@ -69,9 +69,9 @@ PluginConfig readConfig(const std::vector<std::string>& names,
     return config;
 }
 
-std::string sharedSettings(const RayTraceSettings& settings)
+std::string sharedSettings(const RayTraceSettings& settings, const PluginConfig& config)
 {
-    std::string lines;
+    std::string lines = std::string("trace=") + (config.trace ? "on" : "off") + "\n";
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
     {
         if (isOfOneNode(option.name)) continue;
@@ -80,7 +80,8 @@ std::string sharedSettings(const RayTraceSettings& settings)
     return lines;
 }
 
-std::vector<std::string> takeSharedSettings(const std::string& lines, RayTraceSettings& settings)
+std::vector<std::string> takeSharedSettings(const std::string& lines, RayTraceSettings& settings,
+                                            PluginConfig& config)
 {
     std::vector<std::string> complaints;
     std::istringstream stream(lines);
@@ -89,9 +90,11 @@ std::vector<std::string> takeSharedSettings(const std::string& lines, RayTraceSe
     {
         const auto equals = line.find('=');
         const std::string name = line.substr(0, equals);
-        const bool shared = equals != std::string::npos && !isOfOneNode(name);
-        if (!shared || !settings.set(name, line.substr(equals + 1)))
-            complaints.push_back("the master's '" + line + "' is no setting here");
+        const std::string value =
+            equals == std::string::npos ? std::string() : line.substr(equals + 1);
+        const bool taken = name == "trace" ? readSwitch(value, config.trace)
+                                           : !isOfOneNode(name) && settings.set(name, value);
+        if (!taken) complaints.push_back("the master's '" + line + "' is no setting here");
     }
     return complaints;
 }

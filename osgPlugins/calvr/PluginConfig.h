@@ -28,13 +28,14 @@ PluginConfig readConfig(const std::vector<std::string>& names,
                         const std::function<std::string(const std::string& name)>& valueOf,
                         RayTraceSettings& settings);
 
-/// All that the nodes of a cluster must have in common, as lines "option=value"; so all but the
-/// number of threads.
-std::string sharedSettings(const RayTraceSettings& settings);
+/// All that the nodes of a cluster must have in common, as lines "option=value": all but the number
+/// of threads, and "trace", for a click in the menu switches every node to what it was not.
+std::string sharedSettings(const RayTraceSettings& settings, const PluginConfig& config);
 
 /// Takes such lines over; what fits no option is left out (another version of us on that node) and
 /// returned, as sentences.
-std::vector<std::string> takeSharedSettings(const std::string& lines, RayTraceSettings& settings);
+std::vector<std::string> takeSharedSettings(const std::string& lines, RayTraceSettings& settings,
+                                            PluginConfig& config);
 
 /// Switches off what would make photons depend on what one node sees: aim-at-views. With it off,
 /// pass k has the same photons on all nodes, for its random numbers depend on seed and k alone.

@@ -79,9 +79,9 @@ void RayTracePlugin::shareSettings()
     _agreement.emplace(_connections); // whatever else fails, this node goes on making the calls
     if (_settings) makeEqualOnAllNodes(*_settings);
     const std::string lines =
-        mastersText(_connections, _settings ? sharedSettings(*_settings) : "");
+        mastersText(_connections, _settings ? sharedSettings(*_settings, _config) : "");
     if (!_settings) return;
-    for (const std::string& complaint : takeSharedSettings(lines, *_settings))
+    for (const std::string& complaint : takeSharedSettings(lines, *_settings, _config))
         warn(complaint);
 }
 

@@ -128,7 +128,12 @@ TEST_CASE("cluster settings: all nodes have the master's, each its own threads",
     slave->setExposure(3.0f);
     makeEqualOnAllNodes(*master);
 
-    CHECK(takeSharedSettings(sharedSettings(*master), *slave).empty());
+    PluginConfig ofMaster, ofSlave;
+    ofMaster.trace = false;
+    ofMaster.clusterBudget = 16.0;
+    CHECK(takeSharedSettings(sharedSettings(*master, ofMaster), *slave, ofSlave).empty());
+    CHECK_FALSE(ofSlave.trace);
+    CHECK(ofSlave.clusterBudget == 33.0); // each node's own
     CHECK(slave->getThreads() == 64);
     CHECK_FALSE(slave->getAimAtViews());
     slave->setThreads(2);
@@ -138,9 +143,11 @@ TEST_CASE("cluster settings: all nodes have the master's, each its own threads",
 TEST_CASE("cluster settings: what another version says is left out and told", "[calvr]")
 {
     const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
-    const auto complaints =
-        takeSharedSettings("seed=9\nwarp=1\nphotons=-4\nrubbish\nthreads=7\n", *settings);
-    CHECK(complaints.size() == 4);
+    PluginConfig config;
+    const auto complaints = takeSharedSettings(
+        "trace=perhaps\nseed=9\nwarp=1\nphotons=-4\nrubbish\nthreads=7\n", *settings, config);
+    CHECK(config.trace);
+    CHECK(complaints.size() == 5);
     CHECK(settings->getSeed() == 9u);
     CHECK(settings->getThreads() == 0);
 }
