@@ -102,6 +102,7 @@ std::vector<std::string> takeSharedSettings(const std::string& lines, RayTraceSe
 void makeEqualOnAllNodes(RayTraceSettings& settings)
 {
     settings.setAimAtViews(false);
+    settings.set("frame-budget", "0");
 }
 
 } // namespace osgRayTrace::calvr

@@ -37,8 +37,9 @@ std::string sharedSettings(const RayTraceSettings& settings, const PluginConfig&
 std::vector<std::string> takeSharedSettings(const std::string& lines, RayTraceSettings& settings,
                                             PluginConfig& config);
 
-/// Switches off what would make photons depend on what one node sees: aim-at-views. With it off,
-/// pass k has the same photons on all nodes, for its random numbers depend on seed and k alone.
+/// Switches off what would make photons depend on what one node sees, aim-at-views: without it pass
+/// k has the same photons on all nodes, for its random numbers depend on seed and k alone. And a
+/// budget of time that each view keeps by its own clock, if there is one: nodes agree on passes.
 void makeEqualOnAllNodes(RayTraceSettings& settings);
 
 } // namespace osgRayTrace::calvr

@@ -136,6 +136,7 @@ TEST_CASE("cluster settings: all nodes have the master's, each its own threads",
     CHECK(ofSlave.clusterBudget == 33.0); // each node's own
     CHECK(slave->getThreads() == 64);
     CHECK_FALSE(slave->getAimAtViews());
+    CHECK((slave->get("frame-budget").empty() || slave->get("frame-budget") == "0"));
     slave->setThreads(2);
     CHECK(allOf(*slave) == allOf(*master));
 }
