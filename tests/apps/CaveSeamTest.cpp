@@ -232,6 +232,8 @@ TEST_CASE("processes that show a wall each have the pixels of one that shows all
         CHECK(std::fabs(mean) <= 4.0 * standardError);
         CHECK(standardError < 2.0 / 255.0);
     }
+}
+
 TEST_CASE("a wall that the head is behind has no picture, and is named")
 {
     const TemporaryFolder folder;
