@@ -80,9 +80,8 @@ void addUntraced(const RasterizedParts& parts, SceneIndex& index)
 /// Where planes clip depends on where a geometry is.
 bool hasClipping(const std::vector<GraphState>& states)
 {
-    constexpr uint64_t kAllPlanes = ((uint64_t(1) << kClipPlanes) - 1) << kClipPlaneBit;
     return std::any_of(states.begin(), states.end(),
-                       [](const GraphState& s) { return (s.modesOn & kAllPlanes) != 0; });
+                       [](const GraphState& state) { return clipPlanesOn(state) != 0; });
 }
 
 void addToCount(ConversionCounts& counts, const char* what, int64_t more)
