@@ -98,6 +98,7 @@ struct SceneConverter::Implementation
     ConversionInput input; ///< of last
     std::shared_ptr<const Scene> last;
     ConversionResult lastResult;
+    uint64_t forgotten = 0; ///< meshes that were made before the caches were emptied
     bool ordinary = false; ///< unit is 1, and stays so as long as lengths are ordinary
     Stamp stamp = 0;
 };
@@ -108,12 +109,13 @@ SceneConverter::~SceneConverter() = default;
 
 void SceneConverter::forget()
 {
+    _implementation->forgotten = convertedMeshes();
     _implementation->caches = ConversionCaches();
 }
 
 uint64_t SceneConverter::convertedMeshes() const
 {
-    return _implementation->caches.geometries.converted();
+    return _implementation->forgotten + _implementation->caches.geometries.converted();
 }
 
 ConversionResult SceneConverter::convert(const ConversionInput& input)
