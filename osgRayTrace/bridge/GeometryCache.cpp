@@ -190,7 +190,7 @@ const VertexBounds& GeometryCache::bounds(const osg::Geometry& geometry)
     return entry.bounds;
 }
 
-/// Of an array that was exchanged: whoever has it, too, gets them again. In use now: they are asked for.
+/// Of an array that was exchanged; others that have it get them again. Not if somebody looks at them.
 void GeometryCache::dropBounds(const BufferPrint& positions)
 {
     if (!positions.buffer) return;

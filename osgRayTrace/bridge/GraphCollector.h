@@ -49,7 +49,7 @@ struct CollectedGeometry
     std::string path; ///< of the first use: "root/child/geometry"
     std::vector<GeometryUse> uses;
     PrimitiveRestart restart; ///< of all uses
-    bool watched = true; ///< GraphWatch knows all its paths, and not only that something below a node changed
+    bool watched = true;      ///< no path is below a node that GraphWatch does not look into
     const VertexBounds* bounds = nullptr; ///< not the collector's: see SceneConverter
 };
 

@@ -41,7 +41,7 @@ struct TracedUse
 struct TracedGeometry
 {
     std::vector<TracedUse> uses; ///< in the order of the traversal
-    bool patchable = true; ///< false: it is made where it is, as raised faces are, or not all paths are watched
+    bool patchable = true;       ///< false: made where it is, as raised faces are, or not watched
     bool plain = true;           ///< nothing of it is counted but that it was converted
 };
 

@@ -59,7 +59,7 @@ public:
     void update(osg::Node* root, const RayTraceSettings& settings,
                 const osg::FrameStamp* frameStamp);
 
-    /// The next update converts, whatever it sees, and reads all arrays and images again. Any thread.
+    /// The next update converts, whatever it sees, with all arrays and images read again. Any thread.
     void setDirty();
 
     /// The version as of the last frame with its pickIndex, which is made from now on; as of now if no view
