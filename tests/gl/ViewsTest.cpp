@@ -300,6 +300,7 @@ TEST_CASE("views: what a second eye costs with photons", "[.][second-eye]")
 {
     // Lines to read, run by hand; that photons are traced once for both is in
     // photons/PhotonPassTest.
+    const auto integrator = GENERATE(RayTraceSettings::PPM, RayTraceSettings::PHOTON_CAUSTICS);
     const int size = GENERATE(256, 512, 1024);
     osg::ref_ptr<PhysicalMaterial> glass = new PhysicalMaterial;
     glass->setTransmission(1.0f);
@@ -320,7 +321,7 @@ TEST_CASE("views: what a second eye costs with photons", "[.][second-eye]")
     const auto secondsOf = [&](bool two)
     {
         const osg::ref_ptr<RayTracedScene> scene = tracedScene(box.get());
-        scene->getSettings()->setIntegrator(RayTraceSettings::PHOTON_CAUSTICS);
+        scene->getSettings()->setIntegrator(integrator);
         TestViewer view(size, size, scene.get());
         view.viewer.setLightingMode(osg::View::NO_LIGHT);
         view.look(osg::Vec3d(0.0, -9.0, 7.0));
@@ -338,6 +339,7 @@ TEST_CASE("views: what a second eye costs with photons", "[.][second-eye]")
         mono += secondsOf(false);
         both += secondsOf(true);
     }
-    std::cout << "stereo with photons at " << size << " x " << size << ": " << both / mono
-              << " times the CPU time of mono" << std::endl;
+    std::cout << (integrator == RayTraceSettings::PPM ? "ppm" : "photon-caustics") << ", stereo at "
+              << size << " x " << size << ": " << both / mono << " times the CPU time of mono"
+              << std::endl;
 }
