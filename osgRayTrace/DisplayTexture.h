@@ -40,7 +40,8 @@ public:
     float* depth() { return reinterpret_cast<float*>(_depth->data()); }
     void modified();
 
-    /// Fills the current viewport. False, and nothing drawn, if the context has no usable GLSL.
+    /// Fills the current viewport, whose size may be another: colours are smooth then, depths are not, as those
+    /// between two things are of neither. False, and nothing drawn, if the context has no usable GLSL.
     bool draw(osg::RenderInfo& renderInfo) const;
 
     /// Any thread that OSG calls it from; null: all contexts.
@@ -49,6 +50,7 @@ public:
 
 private:
     bool useProgram(osg::State& state) const;
+    void chooseFilter(const osg::State& state) const;
 
     int _width = 0;
     int _height = 0;

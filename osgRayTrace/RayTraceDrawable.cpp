@@ -18,15 +18,18 @@
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/LOD>
+#include <osg/ValueObject>
 #include <osg/Viewport>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -96,6 +99,29 @@ double nearDistance(const osg::Matrixd& projection)
     return (osg::Vec3d(0.0, 1.0, -1.0) * viewFromClip - centre).length();
 }
 
+/// A number of any type that the user set.
+std::optional<double> userNumber(const osg::Camera& camera, const char* name)
+{
+    float single = 0.0f;
+    double number = 0.0;
+    int whole = 0;
+    if (camera.getUserValue(name, number)) return number;
+    if (camera.getUserValue(name, single)) return double(single);
+    if (camera.getUserValue(name, whole)) return double(whole);
+    return {};
+}
+
+/// The camera's own, or that of the settings.
+engine::FrameBudget frameBudget(const osg::Camera* camera, const RayTraceSettings& settings)
+{
+    engine::FrameBudget budget;
+    budget.degrade = settings.getDegradeWhileMoving();
+    double milliseconds = double(settings.getFrameBudget());
+    if (camera) milliseconds = userNumber(*camera, "osgRayTrace.frameBudget").value_or(milliseconds);
+    budget.seconds = std::isfinite(milliseconds) ? 1e-3 * std::max(0.0, milliseconds) : 0.0;
+    return budget;
+}
+
 } // namespace
 
 struct RayTraceDrawable::Implementation
@@ -106,6 +132,7 @@ struct RayTraceDrawable::Implementation
 
     mutable std::mutex mutex;        // draw threads write, any thread reads
     engine::RenderProgress progress; ///< of the view drawn last
+    engine::FrameReport frame;       ///< the same
     std::shared_ptr<ViewState> lastView;
     std::weak_ptr<const engine::TracedScene> untraceable; ///< failed before it gave any image
 
@@ -130,7 +157,8 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
 
     const osg::Matrixd& viewMatrix = state.getModelViewMatrix();
     const osg::Matrixd& projection = state.getProjectionMatrix();
-    if (!paused || !view->tracer.hasImage())
+    const bool traces = !paused || !view->tracer.hasImage();
+    if (traces)
     {
         // Traced into the display at once, unless its size changes: then it shows the last image until
         // there is a new one.
@@ -139,19 +167,21 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
         if (view->tracer.trace(version,
                                engine::viewFromMatrices(viewMatrix, projection, viewport.width,
                                                         viewport.height),
-                               fits ? display.rgba() : nullptr, fits ? display.depth() : nullptr))
+                               frameBudget(renderInfo.getCurrentCamera(), *version.settings), fits ? display.rgba() : nullptr, fits ? display.depth() : nullptr))
             display.modified();
     }
     if (view->tracer.needsResolve(version))
     {
-        view->display.resize(view->tracer.width(), view->tracer.height());
+        view->display.resize(view->tracer.shownWidth(), view->tracer.shownHeight());
         view->tracer.resolve(view->display.rgba(), view->display.depth());
         view->display.modified();
     }
     scene.noteDrawn(renderInfo.getCurrentCamera(), osg::Matrixd::inverse(viewMatrix).getTrans(),
                     nearDistance(projection));
+    const bool drawn = view->display.width() == 0 || view->display.draw(renderInfo);
+    if (traces) view->tracer.noteShown();
     noteProgress(view, version);
-    if (view->display.width() > 0 && !view->display.draw(renderInfo))
+    if (!drawn)
         fail(engine::StatusCode::DeviceFailure, "OpenGL cannot compile the display's shaders");
 }
 
@@ -167,6 +197,7 @@ void RayTraceDrawable::Implementation::noteProgress(const std::shared_ptr<ViewSt
 
     std::lock_guard<std::mutex> lock(mutex);
     progress = made;
+    frame = view->tracer.frame();
     lastView = view;
     if (failed && made.passes == 0) untraceable = version.scene;
 }
@@ -251,6 +282,9 @@ Statistics RayTraceDrawable::getStatistics() const
     {
         std::lock_guard<std::mutex> lock(self.mutex);
         engine::setImageStatistics(statistics, self.progress);
+        statistics.resolutionDivider = self.frame.divider;
+        statistics.frameSeconds = self.frame.seconds;
+        statistics.traceSeconds = self.frame.traceSeconds;
     }
     if (!converted)
     {

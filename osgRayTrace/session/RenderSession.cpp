@@ -228,7 +228,6 @@ void RenderSession::Implementation::preparePhotons(PassContext& context, int pas
 bool RenderSession::Implementation::renderPass(const PassContext& context, const Integrator& integrator,
                                                const StopRule& rule, const DisplayTarget* display)
 {
-    const Clock::time_point start = Clock::now();
     const int pass = film.passes();
     const auto tiles = static_cast<std::size_t>(film.tileCount());
     const std::size_t stride = evenStride(tiles);
@@ -267,7 +266,6 @@ bool RenderSession::Implementation::renderPass(const PassContext& context, const
         progress.droppedSamples += counts.droppedSamples;
     }
     progress.newTiles = begun;
-    progress.tileSeconds += secondsSince(start);
     return film.passes() > pass;
 }
 
@@ -294,7 +292,7 @@ RenderProgress RenderSession::Implementation::run(
 {
     cancelled = false;
     progress.newTiles = 0;
-    progress.tileSeconds = progress.photonSeconds = progress.firstPhotonSeconds = 0.0;
+    progress.photonSeconds = progress.firstPhotonSeconds = 0.0;
     if (!begin()) return progress;
     const std::unique_ptr<Integrator> integrator = newIntegrator(progress.integrator);
     const Clock::time_point start = Clock::now();

@@ -80,7 +80,6 @@ struct RenderProgress
     uint64_t droppedSamples = 0;  ///< not finite, or above 1e30: left out of the image and counted
     bool restarted = false;       ///< this call began a new image
     int newTiles = 0;             ///< of this call, summed over its passes
-    double tileSeconds = 0.0;     ///< that they took, on the clock
     double photonSeconds = 0.0;   ///< that photons took in this call, traced or waited for
     double firstPhotonSeconds = 0.0; ///< of these, those of its first pass
     float photonRadius = 0.0f;    ///< of the last pass [length]; 0 without photons
