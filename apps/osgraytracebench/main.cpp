@@ -91,6 +91,9 @@ struct CommandLine
                         "threads to trace with; 0: all of the machine")
             ->check(CLI::Range(0, 1024))
             ->capture_default_str();
+        interactive.add_flag("--cpu-clock", interactiveOptions.cpuClock,
+                             "time by what the process takes of its cores, over its threads: as "
+                             "on a machine of its own");
         interactive.add_option("--only", interactiveOptions.only,
                                "scenes whose name holds this: Cornell box, triangles, instances");
 

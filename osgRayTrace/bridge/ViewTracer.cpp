@@ -139,7 +139,7 @@ void ViewTracer::setDeadline(double budget, bool moved)
                                                        : Showing::Whole;
     double& after = _afterSeconds[static_cast<int>(showing)];
     const double pixels = double(_view.width) * _view.height;
-    if (after == 0.0 && showing != Showing::Reduced) after = pixels * 1.5e-9; // a guess
+    if (after == 0.0 && showing != Showing::Reduced) after = pixels * 2e-9; // a guess
     double seconds = budget - after;
     // Each thread ends the tile that it is at.
     seconds -= _planner.tileSeconds(reduced ? 2 : 1) * _workers->threads();
@@ -289,7 +289,9 @@ void ViewTracer::resolve(uint8_t* rgba, float* depth)
         _session->resolveDisplay(_toneMap, rgba, depth);
         break;
     case Shown::Reduced:
-        _reduced->resolveDisplay(_toneMap, rgba, depth); // DisplayTexture enlarges it
+        // As it is: OpenGL enlarges it. What makes more of it shows it in full size, and says so in
+        // shownWidth.
+        _reduced->resolveDisplay(_toneMap, rgba, depth);
         break;
     case Shown::Mixed:
         enlargeReduced(rgba, depth);
@@ -311,8 +313,7 @@ void ViewTracer::enlargeReduced(uint8_t* rgba, float* depth) const
     _reduced->resolveDisplay(_toneMap, smallRgba.data(), smallDepth.data());
     const DisplayPixels small{width, height, smallRgba.data(), smallDepth.data()};
     const DisplayPixels large{_view.width, _view.height, rgba, depth};
-    _workers->forEach(static_cast<std::size_t>(large.height),
-                      [&](std::size_t row) { enlargeRow(small, large, static_cast<int>(row)); });
+    enlarge(small, large, *_workers);
 }
 
 void ViewTracer::noteShown()

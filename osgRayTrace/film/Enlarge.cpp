@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/Enlarge.h"
 
+#include "osgRayTrace/base/Parallel.h"
+
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -11,56 +15,80 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Where a pixel's middle lies between the middles of those of a line of size pixels.
-struct Between
+/// A pixel's place in a line of other pixels.
+struct Place
 {
-    Between(int pixel, float scale, int size)
-    {
-        const float at = std::clamp((static_cast<float>(pixel) + 0.5f) * scale - 0.5f, 0.0f,
-                                    static_cast<float>(size - 1));
-        first = static_cast<int>(at);
-        second = std::min(first + 1, size - 1);
-        weight = at - static_cast<float>(first);
-    }
-    int first, second;
+    std::size_t first, second; ///< whose middles it is between
+    std::size_t nearest;
     float weight; ///< of the second
 };
 
-int nearest(int pixel, int from, int to)
+std::vector<Place> placesOf(int from, int to)
 {
-    return static_cast<int>((2 * int64_t(pixel) + 1) * from / (2 * int64_t(to)));
+    std::vector<Place> places;
+    places.reserve(static_cast<std::size_t>(to));
+    const float scale = static_cast<float>(from) / static_cast<float>(to);
+    const auto last = static_cast<std::size_t>(from - 1);
+    for (int i = 0; i < to; ++i)
+    {
+        const float middle = (static_cast<float>(i) + 0.5f) * scale - 0.5f;
+        const float at = std::clamp(middle, 0.0f, static_cast<float>(from - 1));
+        Place place;
+        place.first = static_cast<std::size_t>(at);
+        place.second = std::min(place.first + 1, last);
+        place.nearest = static_cast<std::size_t>((2 * int64_t(i) + 1) * from / (2 * int64_t(to)));
+        place.weight = at - static_cast<float>(place.first);
+        places.push_back(place);
+    }
+    return places;
+}
+
+/// Rounds at the end: adds 1/2.
+void blendRows(const uint8_t* below, const uint8_t* above, float weight, std::vector<float>& row)
+{
+    for (std::size_t i = 0; i < row.size(); ++i)
+    {
+        const float low = static_cast<float>(below[i]), high = static_cast<float>(above[i]);
+        row[i] = low + (high - low) * weight + 0.5f;
+    }
+}
+
+void enlargeColors(const std::vector<float>& row, const std::vector<Place>& columns, uint8_t* rgba)
+{
+    for (std::size_t x = 0; x < columns.size(); ++x)
+    {
+        const Place& place = columns[x];
+        const float* left = &row[4 * place.first];
+        const float* right = &row[4 * place.second];
+        uint32_t values[4];
+        for (std::size_t c = 0; c < 4; ++c)
+            values[c] = static_cast<uint32_t>(
+                static_cast<int>(left[c] + (right[c] - left[c]) * place.weight));
+        const uint32_t packed = values[0] | values[1] << 8 | values[2] << 16 | values[3] << 24;
+        std::memcpy(rgba + 4 * x, &packed, 4);
+    }
 }
 
 } // namespace
 
-void enlargeRow(const DisplayPixels& small, const DisplayPixels& large, int row)
+void enlarge(const DisplayPixels& small, const DisplayPixels& large, const Workers& workers)
 {
-    const Between y(row, static_cast<float>(small.height) / static_cast<float>(large.height),
-                    small.height);
-    const float scale = static_cast<float>(small.width) / static_cast<float>(large.width);
-    const auto stride = static_cast<std::size_t>(small.width);
-    const uint8_t* below = small.rgba + 4 * stride * static_cast<std::size_t>(y.first);
-    const uint8_t* above = small.rgba + 4 * stride * static_cast<std::size_t>(y.second);
-    const float* depths =
-        small.depth + stride * static_cast<std::size_t>(nearest(row, small.height, large.height));
-    const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(large.width);
-    for (int column = 0; column < large.width; ++column)
-    {
-        const Between x(column, scale, small.width);
-        const std::size_t a = 4 * static_cast<std::size_t>(x.first),
-                          b = 4 * static_cast<std::size_t>(x.second);
-        const std::size_t pixel = start + static_cast<std::size_t>(column);
-        for (std::size_t c = 0; c < 4; ++c)
-        {
-            const float low = static_cast<float>(below[a + c]) * (1.0f - x.weight) +
-                              static_cast<float>(below[b + c]) * x.weight;
-            const float high = static_cast<float>(above[a + c]) * (1.0f - x.weight) +
-                               static_cast<float>(above[b + c]) * x.weight;
-            large.rgba[4 * pixel + c] =
-                static_cast<uint8_t>(low * (1.0f - y.weight) + high * y.weight + 0.5f);
-        }
-        large.depth[pixel] = depths[nearest(column, small.width, large.width)];
-    }
+    const std::vector<Place> columns = placesOf(small.width, large.width);
+    const std::vector<Place> rows = placesOf(small.height, large.height);
+    const auto from = static_cast<std::size_t>(small.width);
+    const auto to = static_cast<std::size_t>(large.width);
+    workers.forEach(rows.size(),
+                    [&](std::size_t y)
+                    {
+                        const Place& place = rows[y];
+                        std::vector<float> row(4 * from);
+                        blendRows(small.rgba + 4 * from * place.first,
+                                  small.rgba + 4 * from * place.second, place.weight, row);
+                        enlargeColors(row, columns, large.rgba + 4 * to * y);
+                        const float* depths = small.depth + from * place.nearest;
+                        for (std::size_t x = 0; x < to; ++x)
+                            large.depth[to * y + x] = depths[columns[x].nearest];
+                    });
 }
 
 } // namespace osgRayTrace::engine

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 namespace osgRayTrace::engine
 {
+
+class Workers;
 
 /// Pixels in rows, row 0 at the bottom: 4 bytes, premultiplied, and a window depth each.
 struct DisplayPixels
@@ -17,9 +18,9 @@ struct DisplayPixels
     float* depth = nullptr;
 };
 
-/// Writes a row of the large image, from the small one of the same view: colours between the four
-/// nearest pixels as OpenGL's linear filter has them, depths of the nearest, as any others would be
-/// of nothing there is.
-void enlargeRow(const DisplayPixels& small, const DisplayPixels& large, int row);
+/// Writes the large image from the small one of the same view: colours between the four nearest
+/// pixels as OpenGL's linear filter has them, depths of the nearest, as any others would be of
+/// nothing there is.
+void enlarge(const DisplayPixels& small, const DisplayPixels& large, const Workers& workers);
 
 } // namespace osgRayTrace::engine

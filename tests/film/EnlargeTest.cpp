@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
+#include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/film/Enlarge.h"
 
 #include <algorithm>
@@ -41,8 +42,7 @@ Picture noise(int width, int height)
 Picture enlarged(Picture small, int width, int height)
 {
     Picture large(width, height);
-    for (int row = 0; row < height; ++row)
-        enlargeRow(small.pixels(), large.pixels(), row);
+    enlarge(small.pixels(), large.pixels(), Workers(2));
     return large;
 }
 
