@@ -6,6 +6,7 @@
 #include <osg/GLExtensions>
 #include <osg/PolygonMode>
 #include <osg/State>
+#include <osg/Viewport>
 
 #include <string>
 
@@ -190,12 +191,25 @@ bool DisplayTexture::draw(osg::RenderInfo& renderInfo, const engine::DepthMap& d
     _depthMap->get(last);
     if (map != last) _depthMap->set(map);
     if (!useProgram(state)) return false;
+    chooseFilter(state);
     applyTexture(state, kColorUnit, *_colorTexture);
     applyTexture(state, kDepthUnit, *_depthTexture);
     _triangle->draw(renderInfo);
     if (!state.useVertexArrayObject(_triangle->getUseVertexArrayObject()))
         forgetVertexArrays(state);
     return true;
+}
+
+/// Pixel by pixel where sizes agree: a linear filter rounds, and takes longer.
+void DisplayTexture::chooseFilter(const osg::State& state) const
+{
+    const osg::Viewport* viewport = state.getCurrentViewport();
+    const bool fits = viewport && static_cast<int>(viewport->width()) == _width &&
+                      static_cast<int>(viewport->height()) == _height;
+    const auto filter = fits ? osg::Texture::NEAREST : osg::Texture::LINEAR;
+    if (_colorTexture->getFilter(osg::Texture::MAG_FILTER) == filter) return;
+    _colorTexture->setFilter(osg::Texture::MIN_FILTER, filter);
+    _colorTexture->setFilter(osg::Texture::MAG_FILTER, filter);
 }
 
 bool DisplayTexture::useProgram(osg::State& state) const

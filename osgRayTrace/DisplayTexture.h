@@ -42,7 +42,8 @@ public:
     float* depth() { return reinterpret_cast<float*>(_depth->data()); }
     void modified();
 
-    /// Fills the current viewport, with depths as the map makes them. False, and nothing drawn, if the
+    /// Fills the current viewport, whose size may be another: colours are smooth then, depths are not, as those
+    /// between two things are of neither. Depths are as the map makes them. False, and nothing drawn, if the
     /// context has no usable GLSL.
     bool draw(osg::RenderInfo& renderInfo, const engine::DepthMap& depthMap) const;
 
@@ -52,6 +53,7 @@ public:
 
 private:
     bool useProgram(osg::State& state) const;
+    void chooseFilter(const osg::State& state) const;
 
     int _width = 0;
     int _height = 0;

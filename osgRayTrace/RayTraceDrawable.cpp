@@ -19,12 +19,14 @@
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/LOD>
+#include <osg/ValueObject>
 #include <osg/Viewport>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <new>
@@ -139,6 +141,29 @@ double nearDistance(const osg::Matrixd& projection)
     return (osg::Vec3d(0.0, 1.0, -1.0) * viewFromClip - centre).length();
 }
 
+/// A number of any type that the user set.
+std::optional<double> userNumber(const osg::Camera& camera, const char* name)
+{
+    float single = 0.0f;
+    double number = 0.0;
+    int whole = 0;
+    if (camera.getUserValue(name, number)) return number;
+    if (camera.getUserValue(name, single)) return double(single);
+    if (camera.getUserValue(name, whole)) return double(whole);
+    return {};
+}
+
+/// The camera's own, or that of the settings.
+engine::FrameBudget frameBudget(const osg::Camera* camera, const RayTraceSettings& settings)
+{
+    engine::FrameBudget budget;
+    budget.degrade = settings.getDegradeWhileMoving();
+    double milliseconds = double(settings.getFrameBudget());
+    if (camera) milliseconds = userNumber(*camera, "osgRayTrace.frameBudget").value_or(milliseconds);
+    budget.seconds = std::isfinite(milliseconds) ? 1e-3 * std::max(0.0, milliseconds) : 0.0;
+    return budget;
+}
+
 } // namespace
 
 struct RayTraceDrawable::Implementation
@@ -149,6 +174,7 @@ struct RayTraceDrawable::Implementation
 
     mutable std::mutex mutex;        // draw threads write, any thread reads
     engine::RenderProgress progress; ///< of the view drawn last
+    engine::FrameReport frame;       ///< the same
     std::shared_ptr<ViewState> lastView;
     std::weak_ptr<const engine::TracedScene> untraceable; ///< failed before it gave any image
 
@@ -182,23 +208,26 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
         // there is a new one.
         DisplayTexture& display = view->display;
         const bool fits = display.width() == viewport.width && display.height() == viewport.height;
-        if (view->tracer.trace(version, *wanted, fits ? display.rgba() : nullptr,
-                               fits ? display.depth() : nullptr))
+        if (view->tracer.trace(version, *wanted,
+                               frameBudget(renderInfo.getCurrentCamera(), *version.settings),
+                               fits ? display.rgba() : nullptr, fits ? display.depth() : nullptr))
             display.modified();
     }
     if (view->tracer.needsResolve(version))
     {
-        view->display.resize(view->tracer.width(), view->tracer.height());
+        view->display.resize(view->tracer.shownWidth(), view->tracer.shownHeight());
         view->tracer.resolve(view->display.rgba(), view->display.depth());
         view->display.modified();
     }
     scene.noteDrawn(renderInfo.getCurrentCamera(), osg::Matrixd::inverse(viewMatrix).getTrans(),
                     nearDistance(projection));
-    noteProgress(view, version);
     const engine::DepthMap depths = view->slices.size() > 1
                                         ? engine::depthMap(pass.view, view->slices)
                                         : engine::depthMap(pass.view);
-    if (view->display.width() > 0 && !view->display.draw(renderInfo, depths))
+    const bool drawn = view->display.width() == 0 || view->display.draw(renderInfo, depths);
+    if (wanted) view->tracer.noteShown();
+    noteProgress(view, version);
+    if (!drawn)
         fail(engine::StatusCode::DeviceFailure, "OpenGL cannot compile the display's shaders");
 }
 
@@ -214,6 +243,7 @@ void RayTraceDrawable::Implementation::noteProgress(const std::shared_ptr<ViewSt
 
     std::lock_guard<std::mutex> lock(mutex);
     progress = made;
+    frame = view->tracer.frame();
     lastView = view;
     if (failed && made.passes == 0) untraceable = version.scene;
 }
@@ -298,6 +328,9 @@ Statistics RayTraceDrawable::getStatistics() const
     {
         std::lock_guard<std::mutex> lock(self.mutex);
         engine::setImageStatistics(statistics, self.progress);
+        statistics.resolutionDivider = self.frame.divider;
+        statistics.frameSeconds = self.frame.seconds;
+        statistics.traceSeconds = self.frame.traceSeconds;
     }
     if (!converted)
     {

@@ -3,6 +3,7 @@
 #include "apps/common/Failure.h"
 #include "apps/common/PluginPath.h"
 #include "apps/osgraytracebench/FeaturesMode.h"
+#include "apps/osgraytracebench/InteractiveMode.h"
 #include "apps/osgraytracebench/LimitMode.h"
 #include "apps/osgraytracebench/PhotonsMode.h"
 #include "apps/osgraytracebench/PickMode.h"
@@ -41,7 +42,7 @@ struct CommandLine
 {
     CommandLine()
     {
-        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick})
+        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick, &interactive})
             rows->add_option("--json", json, "write the rows to this file as well");
 
         photons
@@ -76,6 +77,25 @@ struct CommandLine
             ->capture_default_str();
         photons.add_option("--only", photonsOptions.only,
                            "parts whose name holds this: lookup, tracing, error");
+
+        interactive
+            .add_option("--width", interactiveOptions.width, "width of the view [pixels]")
+            ->check(CLI::Range(16, 8192))
+            ->capture_default_str();
+        interactive
+            .add_option("--height", interactiveOptions.height, "height of the view [pixels]")
+            ->check(CLI::Range(16, 8192))
+            ->capture_default_str();
+        interactive
+            .add_option("--threads", interactiveOptions.threads,
+                        "threads to trace with; 0: all of the machine")
+            ->check(CLI::Range(0, 1024))
+            ->capture_default_str();
+        interactive.add_flag("--cpu-clock", interactiveOptions.cpuClock,
+                             "time by what the process takes of its cores, over its threads: as "
+                             "on a machine of its own");
+        interactive.add_option("--only", interactiveOptions.only,
+                               "scenes whose name holds this: Cornell box, triangles, instances");
 
         report.add_option("-o,--output", options.folder, "folder of report.html, .csv and .json")
             ->capture_default_str();
@@ -115,6 +135,8 @@ struct CommandLine
         if (limit) return runRows(measureLimit, json);
         if (features) return runRows(measureFeatures, json);
         if (pick) return runRows(measurePicks, json);
+        if (interactive)
+            return runRows([&] { return measureInteractive(interactiveOptions); }, json);
         if (update) return runRows(measureUpdate, json);
         if (photons) return runRows([&] { return measurePhotons(photonsOptions); }, json);
         if (compare) return runCompare(before, after, falseAlarmRate);
@@ -133,6 +155,8 @@ struct CommandLine
         "update", "what edits of a large live scene cost, against Embree alone");
     CLI::App& pick = *application.add_subcommand(
         "pick", "what a pick costs, against osgUtil's own and one ray");
+    CLI::App& interactive = *application.add_subcommand(
+        "interactive", "whether the frames of a moving camera keep to their budgets");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(
@@ -141,6 +165,7 @@ struct CommandLine
     double falseAlarmRate = 0.01;
     ReportOptions options;
     PhotonsOptions photonsOptions;
+    InteractiveOptions interactiveOptions;
 };
 
 } // namespace
