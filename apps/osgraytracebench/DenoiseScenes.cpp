@@ -81,15 +81,22 @@ BenchScene texturedBox(int width, int height)
 {
     BenchScene box = cornellBox(width, height);
     auto scene = std::make_shared<Scene>(*box.scene);
-    const uint32_t tiles = addTexture(*scene, 64, [](int x, int y)
-                                      { return ((x / 8 + y / 8) & 1) ? Vec3(0.9f, 0.85f, 0.7f) : Vec3(0.05f, 0.1f, 0.2f); });
-    const uint32_t stripes = addTexture(*scene, 64, [](int x, int)
-                                        { return (x & 16) ? Vec3(0.8f, 0.1f, 0.1f) : Vec3(0.9f); });
-    const uint32_t grains = addTexture(*scene, 256, [](int x, int y)
-                                       {
-                                           const uint32_t bits = hash(static_cast<uint32_t>(256 * y + x));
-                                           return Vec3(0.1f) + 0.8f / 255.0f * Vec3(float(bits & 255), float((bits >> 8) & 255), float((bits >> 16) & 255));
-                                       });
+    const uint32_t tiles = addTexture(*scene, 64,
+                                      [](int x, int y) {
+                                          return ((x / 8 + y / 8) & 1) ? Vec3(0.9f, 0.85f, 0.7f)
+                                                                       : Vec3(0.05f, 0.1f, 0.2f);
+                                      });
+    const uint32_t stripes = addTexture(
+        *scene, 64, [](int x, int) { return (x & 16) ? Vec3(0.8f, 0.1f, 0.1f) : Vec3(0.9f); });
+    const uint32_t grains =
+        addTexture(*scene, 256,
+                   [](int x, int y)
+                   {
+                       const uint32_t bits = hash(static_cast<uint32_t>(256 * y + x));
+                       return Vec3(0.1f) + 0.8f / 255.0f *
+                                               Vec3(float(bits & 255), float((bits >> 8) & 255),
+                                                    float((bits >> 16) & 255));
+                   });
     cover(*scene, kFloor, tiles, 2.0f);
     cover(*scene, kBackWall, grains, 1.0f);
     cover(*scene, kLeftWall, stripes, 2.0f);

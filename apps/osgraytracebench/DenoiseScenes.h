@@ -10,7 +10,8 @@ namespace osgRayTrace::bench
 /// The Cornell box with a floor of rough metal, glossy blocks and lacquered walls.
 BenchScene glossyBox(int width, int height);
 
-/// The Cornell box with pictures of tiles, of stripes and of fine noise on its walls, floor and blocks.
+/// The Cornell box with pictures of tiles, of stripes and of fine noise on its walls, floor and
+/// blocks.
 BenchScene texturedBox(int width, int height);
 
 } // namespace osgRayTrace::bench

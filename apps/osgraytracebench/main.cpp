@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/common/Failure.h"
 #include "apps/common/PluginPath.h"
+#include "apps/osgraytracebench/DenoiseMode.h"
 #include "apps/osgraytracebench/FeaturesMode.h"
 #include "apps/osgraytracebench/LimitMode.h"
 #include "apps/osgraytracebench/PhotonsMode.h"
@@ -41,7 +42,7 @@ struct CommandLine
 {
     CommandLine()
     {
-        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick})
+        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick, &denoise})
             rows->add_option("--json", json, "write the rows to this file as well");
 
         photons
@@ -115,6 +116,7 @@ struct CommandLine
         if (limit) return runRows(measureLimit, json);
         if (features) return runRows(measureFeatures, json);
         if (pick) return runRows(measurePicks, json);
+        if (denoise) return runRows(measureDenoise, json);
         if (update) return runRows(measureUpdate, json);
         if (photons) return runRows([&] { return measurePhotons(photonsOptions); }, json);
         if (compare) return runCompare(before, after, falseAlarmRate);
@@ -133,6 +135,8 @@ struct CommandLine
         "update", "what edits of a large live scene cost, against Embree alone");
     CLI::App& pick = *application.add_subcommand(
         "pick", "what a pick costs, against osgUtil's own and one ray");
+    CLI::App& denoise = *application.add_subcommand(
+        "denoise", "how much error the denoiser takes from one and four passes, and how long it takes");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(

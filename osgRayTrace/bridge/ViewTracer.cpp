@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/RenderOptionsFromSettings.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -47,17 +48,25 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, uint8_t* r
     _session->setView(_view);
     _session->setOptions(renderOptionsFromSettings(*version.settings));
 
+    _denoises = denoises(*version.settings);
+    if (_denoises) rgba = nullptr; // that takes the whole image: resolve() does it
+
     const int passesBefore = _session->progress().passes;
     StopRule rule;
     rule.passes = version.settings->getMaxPasses();
     rule.newPasses = version.settings->getPassesPerFrame();
     const DisplayTarget display{toneMapFromSettings(*version.settings, version.scene->scene()), rgba, depth};
     const RenderProgress made = _session->render(rule, {}, rgba ? &display : nullptr);
+    if (made.restarted) _surfacesKnown = false;
     if (!made.status.ok() || (!made.restarted && made.passes == passesBefore)) return false;
 
     estimateError(rule.passes, made.restarted);
     _imageChanged = !rgba;
-    if (rgba) _resolved = display.toneMap;
+    if (rgba)
+    {
+        _resolved = display.toneMap;
+        _resolvedDenoised = false;
+    }
     return rgba != nullptr;
 }
 
@@ -77,14 +86,38 @@ void ViewTracer::estimateError(int maxPasses, bool restarted)
 bool ViewTracer::needsResolve(const SceneVersion& version)
 {
     _toneMap = toneMapFromSettings(*version.settings, version.scene->scene());
-    return hasImage() && (_imageChanged || !_resolved || !same(_toneMap, *_resolved));
+    _denoises = denoises(*version.settings);
+    return hasImage() && (_imageChanged || !_resolved || !same(_toneMap, *_resolved) ||
+                          _denoises != _resolvedDenoised);
 }
 
 void ViewTracer::resolve(uint8_t* rgba, float* depth)
 {
-    _session->resolveDisplay(_toneMap, rgba, depth);
+    if (_denoises)
+        showImage(denoisedImage(), _toneMap, *_workers, rgba, depth);
+    else
+        _session->resolveDisplay(_toneMap, rgba, depth);
     _resolved = _toneMap;
+    _resolvedDenoised = _denoises;
     _imageChanged = false;
+}
+
+std::vector<float> ViewTracer::radiance()
+{
+    return _denoises ? denoisedImage().radiance : _session->resolveRadiance();
+}
+
+ShownImage ViewTracer::denoisedImage()
+{
+    ShownImage image = _session->shownImage();
+    const auto begin = std::chrono::steady_clock::now();
+    if (!_denoise) _denoise = std::make_unique<DenoiseFilter>();
+    if (!_surfacesKnown)
+        _denoise->setSurfaces(_session->surfaceSamples(), image.width, image.height, *_workers);
+    _surfacesKnown = true;
+    _denoise->filter(image, *_workers);
+    _denoiseSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return image;
 }
 
 RenderProgress ViewTracer::progress() const
@@ -92,6 +125,7 @@ RenderProgress ViewTracer::progress() const
     if (!_session) return {};
     RenderProgress progress = _session->progress();
     progress.relativeError = _relativeError;
+    progress.denoiseSeconds = _denoiseSeconds;
     return progress;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/SceneUpdater.h"
+#include "osgRayTrace/session/DenoiseFilter.h"
 #include "osgRayTrace/session/RenderSession.h"
 
 #include <cstdint>
@@ -39,7 +40,7 @@ public:
     }
     int width() const { return _session->width(); }
     int height() const { return _session->height(); }
-    std::vector<float> radiance() const { return _session->resolveRadiance(); }
+    std::vector<float> radiance();
 
     /// Of the image. The error estimate is renewed when the passes have grown by an eighth: it
     /// costs as much as a resolve.
@@ -47,6 +48,7 @@ public:
 
 private:
     void estimateError(int maxPasses, bool restarted);
+    ShownImage denoisedImage();
 
     std::shared_ptr<Workers> _workers;
     std::unique_ptr<RenderSession> _session;
@@ -57,6 +59,12 @@ private:
     ToneMap _toneMap;
     bool _imageChanged = false; ///< since it was resolved
     std::optional<ToneMap> _resolved;
+
+    bool _denoises = false;
+    bool _resolvedDenoised = false;
+    std::unique_ptr<DenoiseFilter> _denoise; ///< null until it is needed
+    bool _surfacesKnown = false;             ///< to it, of the present view and scene
+    double _denoiseSeconds = 0.0;
 };
 
 } // namespace osgRayTrace::engine

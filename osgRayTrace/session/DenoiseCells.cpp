@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/DenoiseCells.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -19,6 +20,12 @@ constexpr float kOutlier = 4.0f;
 /// or, as its own errors have it, so many of these.
 constexpr float kCertain = 3.0f;
 
+/// Errors and what they have to explain are summed over 7 x 7 cells: an error of two halves is one
+/// random number, so those of fewer pixels are no measure. They count for a little more, as detail
+/// that is kept where there is none is seen more easily than detail that is lost.
+constexpr int kReach = 3;
+constexpr float kDoubt = 1.25f;
+
 struct GuideTap
 {
     const float *normalX, *normalY, *normalZ, *distance;
@@ -32,7 +39,8 @@ struct LightTap
 GuideTap guideTap(const DenoiseGuides& guides, int y)
 {
     const CellGuides& cells = guides.cells;
-    return {cells.normalX.row(y), cells.normalY.row(y), cells.normalZ.row(y), cells.distance.row(y)};
+    return {cells.normalX.row(y), cells.normalY.row(y), cells.normalZ.row(y),
+            cells.distance.row(y)};
 }
 
 LightTap lightTap(const CellLight& light, int y)
@@ -46,14 +54,15 @@ struct Centre
     float normalX, normalY, normalZ, distance, slopeX, slopeY, sharpness;
 };
 
-/// What parts the surface at a tap from that in the middle, as fallOff's argument [Schied17, eq. 3, 4]; depth
-/// is compared with the plane through the middle's. dx, dy: in cells.
-OSGRAYTRACE_INLINE float surfaceDistance(const Centre& centre, const GuideTap& tap, int i, float dx, float dy)
+/// What parts the surface at a tap from that in the middle, as fallOff's argument [Schied17, eq. 3,
+/// 4]; depth is compared with the plane through the middle's. dx, dy: in cells.
+OSGRAYTRACE_INLINE float surfaceDistance(const Centre& centre, const GuideTap& tap, int i, float dx,
+                                         float dy)
 {
     const float plane = centre.distance + dx * centre.slopeX + dy * centre.slopeY;
     return std::fabs(tap.distance[i] - plane) * centre.sharpness +
-           normalDistance(centre.normalX, centre.normalY, centre.normalZ, tap.normalX[i], tap.normalY[i],
-                          tap.normalZ[i]);
+           normalDistance(centre.normalX, centre.normalY, centre.normalZ, tap.normalX[i],
+                          tap.normalY[i], tap.normalZ[i]);
 }
 
 struct LevelSums
@@ -62,9 +71,9 @@ struct LevelSums
 };
 
 /// A tap of a level: light is summed as what it differs by, so that an even surface stays as it is.
-OSGRAYTRACE_INLINE void addTap(const Centre& centre, float r, float g, float b, float luminance, float perDeviation,
-                               const GuideTap& surface, const LightTap& light, int i, float dx, float dy,
-                               float kernel, LevelSums& sums)
+OSGRAYTRACE_INLINE void addTap(const Centre& centre, float r, float g, float b, float luminance,
+                               float perDeviation, const GuideTap& surface, const LightTap& light,
+                               int i, float dx, float dy, float kernel, LevelSums& sums)
 {
     const float tapR = light.r[i], tapG = light.g[i], tapB = light.b[i];
     const float contrast = std::fabs(luminanceOf(tapR, tapG, tapB) - luminance) * perDeviation;
@@ -86,8 +95,8 @@ struct OutRow
 
 /// out = sum(w c) / sum(w), variance = sum(w^2 v) / sum(w)^2 [Schied17, eq. 1, 2], over 3 x 3 taps.
 OSGRAYTRACE_KERNEL
-void filterRow(const GuideTap (&guides)[3], const float* slopeX, const float* slopeY, const float* sharpness,
-               const LightTap (&light)[3], int step, int count, OutRow out)
+void filterRow(const GuideTap (&guides)[3], const float* slopeX, const float* slopeY,
+               const float* sharpness, const LightTap (&light)[3], int step, int count, OutRow out)
 {
     const GuideTap g0 = guides[0], g1 = guides[1], g2 = guides[2];
     const LightTap l0 = light[0], l1 = light[1], l2 = light[2];
@@ -123,8 +132,9 @@ struct Moments
 };
 
 /// Without the middle itself; luminance relative to its own, as squares would lose what is small.
-OSGRAYTRACE_INLINE void addMoments(const Centre& centre, float mean, const GuideTap& surface, const float* means,
-                                   const float* variances, int i, float dx, float dy, Moments& m)
+OSGRAYTRACE_INLINE void addMoments(const Centre& centre, float mean, const GuideTap& surface,
+                                   const float* means, const float* variances, int i, float dx,
+                                   float dy, Moments& m)
 {
     const uint32_t known = maskOf(means[i] < 0.5f * kNoLight);
     const float weight = select(known, fallOff(surfaceDistance(centre, surface, i, dx, dy)), 0.0f);
@@ -135,8 +145,9 @@ OSGRAYTRACE_INLINE void addMoments(const Centre& centre, float mean, const Guide
     m.variance += weight * variances[i];
 }
 
-OSGRAYTRACE_INLINE void addMomentsOfRow(const Centre& centre, float mean, const GuideTap& surface, const float* means,
-                                        const float* variances, int i, float dy, Moments& m)
+OSGRAYTRACE_INLINE void addMomentsOfRow(const Centre& centre, float mean, const GuideTap& surface,
+                                        const float* means, const float* variances, int i, float dy,
+                                        Moments& m)
 {
     addMoments(centre, mean, surface, means, variances, i - 2, -2.0f, dy, m);
     addMoments(centre, mean, surface, means, variances, i - 1, -1.0f, dy, m);
@@ -146,9 +157,10 @@ OSGRAYTRACE_INLINE void addMomentsOfRow(const Centre& centre, float mean, const 
 
 /// Over 5 x 5 cells.
 OSGRAYTRACE_KERNEL
-void boundRow(const GuideTap (&guides)[5], const float* slopeX, const float* slopeY, const float* sharpness,
-              const float* const (&means)[5], const float* const (&variances)[5], LightTap light, bool hasErrors,
-              int count, OutRow out)
+void boundRow(const GuideTap (&guides)[5], const float* slopeX, const float* slopeY,
+              const float* sharpness, const float* const (&means)[5],
+              const float* const (&variances)[5], LightTap light, bool hasErrors, int count,
+              OutRow out)
 {
     const GuideTap g0 = guides[0], g1 = guides[1], g2 = guides[2], g3 = guides[3], g4 = guides[4];
     const float *m0 = means[0], *m1 = means[1], *m2 = means[2], *m3 = means[3], *m4 = means[4];
@@ -187,48 +199,78 @@ void boundRow(const GuideTap (&guides)[5], const float* slopeX, const float* slo
     }
 }
 
-/// Over 3 x 3 cells, whatever they show: all of them add what they know of errors to both sums.
-OSGRAYTRACE_INLINE void addResidual(const float* means, const float* spreads, const float* errors, const LightTap& f,
-                                    int i, float& residual, float& error)
+/// What is left of the light where it is not known does not count.
+OSGRAYTRACE_KERNEL
+void residualRow(const float* means, LightTap light, int count, float* __restrict spread)
 {
-    const float difference = luminanceOf(f.r[i], f.g[i], f.b[i]) - means[i];
-    const uint32_t known = maskOf(means[i] < 0.5f * kNoLight);
-    residual += select(known, difference * difference + spreads[i], 0.0f);
-    error += select(known, errors[i], 0.0f);
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < count; ++i)
+    {
+        const float difference = luminanceOf(light.r[i], light.g[i], light.b[i]) - means[i];
+        const uint32_t known = maskOf(means[i] < 0.5f * kNoLight);
+        spread[i] = select(known, difference * difference + spread[i], 0.0f);
+    }
+}
+
+constexpr int kSegment = 256; ///< cells that are worked on while they are in the cache
+
+struct Column
+{
+    float residual[kSegment + 2 * kReach], error[kSegment + 2 * kReach];
+};
+
+/// Sums over the columns of the neighbourhood, from kReach cells before the first one on.
+OSGRAYTRACE_KERNEL
+void sumColumns(const float* const (&residuals)[2 * kReach + 1],
+                const float* const (&errors)[2 * kReach + 1], int count, Column& column)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < count + 2 * kReach; ++i)
+    {
+        float residual = 0.0f, error = 0.0f;
+        for (int row = 0; row < 2 * kReach + 1; ++row)
+        {
+            residual += residuals[row][i];
+            error += errors[row][i];
+        }
+        column.residual[i] = residual;
+        column.error[i] = error;
+    }
 }
 
 OSGRAYTRACE_KERNEL
-void keepRow(const float* const (&means)[3], const float* const (&spreads)[3], const float* const (&errors)[3],
-             const LightTap (&light)[3], int count, float* __restrict kept)
+void keepRow(const Column& column, int count, float* __restrict kept)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < count; ++i)
     {
         float residual = 0.0f, error = 0.0f;
-        for (int row = 0; row < 3; ++row)
+        for (int j = 0; j < 2 * kReach + 1; ++j)
         {
-            addResidual(means[row], spreads[row], errors[row], light[row], i - 1, residual, error);
-            addResidual(means[row], spreads[row], errors[row], light[row], i, residual, error);
-            addResidual(means[row], spreads[row], errors[row], light[row], i + 1, residual, error);
+            residual += column.residual[i + j];
+            error += column.error[i + j];
         }
-        const float k = 1.0f - error / (residual + 1e-30f);
+        const float k = 1.0f - kDoubt * error / (residual + 1e-30f);
         kept[i] = k > 0.0f ? k : 0.0f;
     }
 }
 
 } // namespace
 
-void filterCells(const DenoiseGuides& guides, const CellLight& light, int step, int y, CellLight& filtered)
+void filterCells(const DenoiseGuides& guides, const CellLight& light, int step, int y,
+                 CellLight& filtered)
 {
-    const GuideTap surfaces[3] = {guideTap(guides, y - step), guideTap(guides, y), guideTap(guides, y + step)};
-    const LightTap lights[3] = {lightTap(light, y - step), lightTap(light, y), lightTap(light, y + step)};
-    filterRow(surfaces, guides.cells.slopeX.row(y), guides.cells.slopeY.row(y), guides.cells.sharpness.row(y), lights,
-              step, guides.cellsX,
+    const GuideTap surfaces[3] = {guideTap(guides, y - step), guideTap(guides, y),
+                                  guideTap(guides, y + step)};
+    const LightTap lights[3] = {lightTap(light, y - step), lightTap(light, y),
+                                lightTap(light, y + step)};
+    filterRow(surfaces, guides.cells.slopeX.row(y), guides.cells.slopeY.row(y),
+              guides.cells.sharpness.row(y), lights, step, guides.cellsX,
               {filtered.r.row(y), filtered.g.row(y), filtered.b.row(y), filtered.variance.row(y)});
 }
 
-void boundCells(const DenoiseGuides& guides, const CellStatistics& statistics, const CellLight& light,
-                bool hasErrors, int y, CellLight& bounded)
+void boundCells(const DenoiseGuides& guides, const CellStatistics& statistics,
+                const CellLight& light, bool hasErrors, int y, CellLight& bounded)
 {
     GuideTap surfaces[5];
     const float *means[5], *variances[5];
@@ -238,24 +280,35 @@ void boundCells(const DenoiseGuides& guides, const CellStatistics& statistics, c
         means[i] = statistics.mean.row(y + i - 2);
         variances[i] = statistics.variance.row(y + i - 2);
     }
-    boundRow(surfaces, guides.cells.slopeX.row(y), guides.cells.slopeY.row(y), guides.cells.sharpness.row(y), means,
-             variances, lightTap(light, y), hasErrors, guides.cellsX,
+    boundRow(surfaces, guides.cells.slopeX.row(y), guides.cells.slopeY.row(y),
+             guides.cells.sharpness.row(y), means, variances, lightTap(light, y), hasErrors,
+             guides.cellsX,
              {bounded.r.row(y), bounded.g.row(y), bounded.b.row(y), bounded.variance.row(y)});
 }
 
-void keepDetail(const DenoiseGuides& guides, const CellStatistics& statistics, const CellLight& filtered,
-                int y, CellPlane& kept)
+void compareCells(const DenoiseGuides& guides, const CellLight& filtered, int y,
+                  CellStatistics& statistics)
 {
-    const float *means[3], *spreads[3], *errors[3];
-    LightTap lights[3];
-    for (int i = 0; i < 3; ++i)
+    residualRow(statistics.mean.row(y), lightTap(filtered, y), guides.cellsX,
+                statistics.spread.row(y));
+}
+
+void keepDetail(const DenoiseGuides& guides, const CellStatistics& statistics, int y,
+                CellPlane& kept)
+{
+    Column column;
+    for (int x = 0; x < guides.cellsX; x += kSegment)
     {
-        means[i] = statistics.mean.row(y + i - 1);
-        spreads[i] = statistics.spread.row(y + i - 1);
-        errors[i] = statistics.error.row(y + i - 1);
-        lights[i] = lightTap(filtered, y + i - 1);
+        const float *residuals[2 * kReach + 1], *errors[2 * kReach + 1];
+        for (int i = 0; i < 2 * kReach + 1; ++i)
+        {
+            residuals[i] = statistics.spread.row(y + i - kReach) + x - kReach;
+            errors[i] = statistics.error.row(y + i - kReach) + x - kReach;
+        }
+        const int count = std::min(kSegment, guides.cellsX - x);
+        sumColumns(residuals, errors, count, column);
+        keepRow(column, count, kept.row(y) + x);
     }
-    keepRow(means, spreads, errors, lights, guides.cellsX, kept.row(y));
 }
 
 } // namespace osgRayTrace::engine

@@ -28,18 +28,24 @@ void gatherCells(const ShownImage& image, const DenoiseGuides& guides, int y, Ce
 
 /// Row y with its variance, and single bright cells brought down to what their neighbours bear.
 /// hasErrors: variance is that of the statistics, smoothed; else that of the neighbours.
-void boundCells(const DenoiseGuides& guides, const CellStatistics& statistics, const CellLight& light,
-                bool hasErrors, int y, CellLight& bounded);
+void boundCells(const DenoiseGuides& guides, const CellStatistics& statistics,
+                const CellLight& light, bool hasErrors, int y, CellLight& bounded);
 
 /// Row y of a level of the filter, its taps step cells apart.
-void filterCells(const DenoiseGuides& guides, const CellLight& light, int step, int y, CellLight& filtered);
+void filterCells(const DenoiseGuides& guides, const CellLight& light, int step, int y,
+                 CellLight& filtered);
+
+/// Row y: to spread is added how far the filtered light is from the mean; 0 where there is no
+/// light. So it is the mean square of what the filter takes away.
+void compareCells(const DenoiseGuides& guides, const CellLight& filtered, int y,
+                  CellStatistics& statistics);
 
 /// Row y of how much of the image's own light is kept: k in DenoiseFilter.h, into kept.
-void keepDetail(const DenoiseGuides& guides, const CellStatistics& statistics, const CellLight& filtered,
-                int y, CellPlane& kept);
+void keepDetail(const DenoiseGuides& guides, const CellStatistics& statistics, int y,
+                CellPlane& kept);
 
 /// Row y of the pixels, from the filtered cells.
-void spreadCells(const DenoiseGuides& guides, const CellLight& filtered, const CellPlane& kept, int y,
-                 ShownImage& image);
+void spreadCells(const DenoiseGuides& guides, const CellLight& filtered, const CellPlane& kept,
+                 int y, ShownImage& image);
 
 } // namespace osgRayTrace::engine

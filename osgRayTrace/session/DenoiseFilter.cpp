@@ -5,6 +5,7 @@
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/session/DenoiseCells.h"
 
+#include <algorithm>
 #include <functional>
 
 namespace osgRayTrace::engine
@@ -13,7 +14,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr int kLevels = 5;
+constexpr int kLevels = 4;
 static_assert(1 << (kLevels - 1) <= CellPlane::kMargin, "taps stay within the margin");
 
 } // namespace
@@ -35,10 +36,11 @@ void DenoiseFilter::Implementation::allocate()
 {
     if (width == guides.width && height == guides.height) return;
     width = height = 0; // if memory runs out below
-    for (CellPlane* plane : {&light.r, &light.g, &light.b, &other.r, &other.g, &other.b, &statistics.mean})
+    for (CellPlane* plane :
+         {&light.r, &light.g, &light.b, &other.r, &other.g, &other.b, &statistics.mean})
         plane->allocate(guides.cellsX, guides.cellsY, kNoLight);
-    for (CellPlane* plane : {&light.variance, &other.variance, &statistics.spread, &statistics.error,
-                             &statistics.variance})
+    for (CellPlane* plane : {&light.variance, &other.variance, &statistics.spread,
+                             &statistics.error, &statistics.variance})
         plane->allocate(guides.cellsX, guides.cellsY, 0.0f);
     width = guides.width;
     height = guides.height;
@@ -60,12 +62,14 @@ void DenoiseFilter::filter(ShownImage& image, const Workers& workers)
 
     const auto forRows = [&](int count, const std::function<void(int)>& row)
     {
-        workers.forEach(static_cast<std::size_t>(count), [&](std::size_t y) { row(static_cast<int>(y)); });
+        workers.forEach(static_cast<std::size_t>(count),
+                        [&](std::size_t y) { row(static_cast<int>(y)); });
     };
     const bool hasErrors = !image.error.empty();
     CellLight *from = &self.light, *to = &self.other;
     forRows(guides.cellsY, [&](int y) { gatherCells(image, guides, y, *from, self.statistics); });
-    forRows(guides.cellsY, [&](int y) { boundCells(guides, self.statistics, *from, hasErrors, y, *to); });
+    forRows(guides.cellsY,
+            [&](int y) { boundCells(guides, self.statistics, *from, hasErrors, y, *to); });
     std::swap(from, to);
     for (int level = 0; level < kLevels; ++level)
     {
@@ -73,7 +77,16 @@ void DenoiseFilter::filter(ShownImage& image, const Workers& workers)
         std::swap(from, to);
     }
     CellPlane& kept = to->variance;
-    forRows(guides.cellsY, [&](int y) { keepDetail(guides, self.statistics, *from, y, kept); });
+    if (hasErrors)
+        forRows(guides.cellsY, [&](int y) { compareCells(guides, *from, y, self.statistics); });
+    forRows(guides.cellsY,
+            [&](int y)
+            {
+                if (hasErrors)
+                    keepDetail(guides, self.statistics, y, kept);
+                else
+                    std::fill_n(kept.row(y), guides.cellsX, 0.0f);
+            });
     forRows(guides.height, [&](int y) { spreadCells(guides, *from, kept, y, image); });
 }
 

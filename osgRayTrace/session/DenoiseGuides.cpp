@@ -17,8 +17,8 @@ constexpr int kSegment = 256; ///< pixels of two rows that are worked on while t
 /// Below this, light over albedo would be more noise than light.
 constexpr float kLeastAlbedo = 0.02f;
 
-/// How far distances on one surface may be from those on a plane: this much of the distance, and of what the
-/// plane changes from cell to cell.
+/// How far distances on one surface may be from those on a plane: this much of the distance, and of
+/// what the plane changes from cell to cell.
 constexpr float kDistanceTolerance = 0.01f;
 constexpr float kSlopeTolerance = 0.5f;
 
@@ -29,20 +29,39 @@ struct Surfaces
     float distance[2][kSegment];
 };
 
-/// Of one row; pixels past its end have no surface.
+/// 1 for pixels whose surface scatters the light that is seen there, and is finite.
 OSGRAYTRACE_KERNEL
-void unpack(const SurfaceSample* samples, int count, float* __restrict normalX,
-            float* __restrict normalY, float* __restrict normalZ, float* __restrict distance)
+void findScattering(const SurfaceSample* samples, int count, uint8_t* __restrict scatters)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < count; ++i)
     {
         const SurfaceSample& s = samples[i];
-        const uint32_t opaque = maskOf(s.kind == SurfaceKind::Scattering) & maskOf(s.distance < kNoSurface);
-        // One that is not finite has no surface.
-        const float length = s.normal.x * s.normal.x + s.normal.y * s.normal.y + s.normal.z * s.normal.z;
-        const uint32_t known = opaque & maskOf(length > 0.5f) & maskOf(length < 2.0f) &
+        const float length =
+            s.normal.x * s.normal.x + s.normal.y * s.normal.y + s.normal.z * s.normal.z;
+        const uint32_t known = maskOf(s.kind == SurfaceKind::Scattering) &
+                               maskOf(s.distance < kNoSurface) & maskOf(length > 0.5f) &
+                               maskOf(length < 2.0f) &
                                maskOf(s.albedo.x + s.albedo.y + s.albedo.z < kNoSurface);
+        scatters[i] = static_cast<uint8_t>(known & 1u);
+    }
+}
+
+/// Of one row; pixels past its end have no surface. Nor has one beside a pixel that does not
+/// scatter: it may show some of a lamp or of the sky. below, here, above: the rows of
+/// findScattering, of which the pixels before the first and past the last are looked at.
+OSGRAYTRACE_KERNEL
+void unpack(const SurfaceSample* samples, const uint8_t* below, const uint8_t* here,
+            const uint8_t* above, int count, float* __restrict normalX, float* __restrict normalY,
+            float* __restrict normalZ, float* __restrict distance)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < count; ++i)
+    {
+        const SurfaceSample& s = samples[i];
+        const int scattering = below[i - 1] & below[i] & below[i + 1] & here[i - 1] & here[i] &
+                               here[i + 1] & above[i - 1] & above[i] & above[i + 1];
+        const uint32_t known = maskOf(scattering != 0);
         normalX[i] = select(known, s.normal.x, 0.0f);
         normalY[i] = select(known, s.normal.y, 0.0f);
         normalZ[i] = select(known, s.normal.z, 0.0f);
@@ -56,8 +75,8 @@ void unpack(const SurfaceSample* samples, int count, float* __restrict normalX,
 }
 
 OSGRAYTRACE_KERNEL
-void unpackAlbedo(const SurfaceSample* samples, const float* distance, int count, float* __restrict r,
-                  float* __restrict g, float* __restrict b)
+void unpackAlbedo(const SurfaceSample* samples, const float* distance, int count,
+                  float* __restrict r, float* __restrict g, float* __restrict b)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < count; ++i)
@@ -140,8 +159,8 @@ OSGRAYTRACE_INLINE float slopeOf(float before, float here, float after)
 }
 
 OSGRAYTRACE_KERNEL
-void makeSlopes(const float* above, const float* here, const float* below, int count, float* __restrict slopeX,
-                float* __restrict slopeY, float* __restrict sharpness)
+void makeSlopes(const float* above, const float* here, const float* below, int count,
+                float* __restrict slopeX, float* __restrict slopeY, float* __restrict sharpness)
 {
     OSGRAYTRACE_SIMD
     for (int c = 0; c < count; ++c)
@@ -163,42 +182,61 @@ struct GuideRow
 
 GuideRow guideRow(const CellGuides& cells, int y)
 {
-    return {cells.normalX.row(y), cells.normalY.row(y), cells.normalZ.row(y), cells.distance.row(y),
-            cells.slopeX.row(y),  cells.slopeY.row(y),  cells.sharpness.row(y)};
+    return {cells.normalX.row(y),  cells.normalY.row(y), cells.normalZ.row(y),
+            cells.distance.row(y), cells.slopeX.row(y),  cells.slopeY.row(y),
+            cells.sharpness.row(y)};
 }
 
-/// c: a cell at most one off the picture, where none has a surface.
-OSGRAYTRACE_INLINE float likeness(const GuideRow& cells, int c, float offsetX, float offsetY, float nx, float ny,
-                                  float nz, float distance)
+/// What is at a pixel.
+struct PixelSurface
+{
+    float normalX, normalY, normalZ, distance;
+};
+
+/// c: a cell at most one off the picture, where none has a surface. offsetX, offsetY: of the pixel
+/// from its middle, in cells. As a number of 28 * most at most.
+OSGRAYTRACE_INLINE uint8_t likeness(const PixelSurface& p, const GuideRow& cells, int c,
+                                    float offsetX, float offsetY, float most)
 {
     const float plane = cells.distance[c] + offsetX * cells.slopeX[c] + offsetY * cells.slopeY[c];
-    return fallOff(std::fabs(distance - plane) * cells.sharpness[c] +
-                   normalDistance(nx, ny, nz, cells.normalX[c], cells.normalY[c], cells.normalZ[c]));
+    const float alike = fallOff(std::fabs(p.distance - plane) * cells.sharpness[c] +
+                                normalDistance(p.normalX, p.normalY, p.normalZ, cells.normalX[c],
+                                               cells.normalY[c], cells.normalZ[c]));
+    const float known = p.distance < kNoSurface ? 28.0f : 0.0f;
+    return static_cast<uint8_t>(static_cast<int>(known * most * alike + 0.5f));
 }
 
-/// For pixels of one row; cells, across: the row of cells that it is in, and the one that is next.
-/// offsetY: of the pixel from the middle of its cell.
+struct WeightRow
+{
+    uint8_t* __restrict near;
+    uint8_t* __restrict acrossX;
+    uint8_t* __restrict acrossY;
+    uint8_t* __restrict acrossBoth;
+};
+
+/// For pixels of one row, count cells of them from firstCell on; cells, across: the row of cells
+/// that they are in, and the one that is next. offsetY: of the pixels from the middle of their
+/// cells. even, odd: of the columns.
 OSGRAYTRACE_KERNEL
-void weighCells(const float* nx, const float* ny, const float* nz, const float* distance, int firstCell, int count,
-                float offsetY, GuideRow cells, GuideRow across, uint8_t* __restrict near,
-                uint8_t* __restrict acrossX, uint8_t* __restrict acrossY, uint8_t* __restrict acrossBoth)
+void weighCells(const float* nx, const float* ny, const float* nz, const float* distance,
+                int firstCell, int count, float offsetY, GuideRow cells, GuideRow across,
+                WeightRow even, WeightRow odd)
 {
     const float far = offsetY > 0.0f ? offsetY - 1.0f : offsetY + 1.0f;
     OSGRAYTRACE_SIMD
     for (int i = 0; i < count; ++i)
     {
-        const int c = firstCell + i / 2;
-        const int side = 2 * (i & 1) - 1;
-        const float x = 0.25f * static_cast<float>(side), farX = -3.0f * x;
-        const float n = likeness(cells, c, x, offsetY, nx[i], ny[i], nz[i], distance[i]);
-        const float nX = likeness(cells, c + side, farX, offsetY, nx[i], ny[i], nz[i], distance[i]);
-        const float nY = likeness(across, c, x, far, nx[i], ny[i], nz[i], distance[i]);
-        const float nB = likeness(across, c + side, farX, far, nx[i], ny[i], nz[i], distance[i]);
-        const float known = distance[i] < kNoSurface ? 28.0f : 0.0f; // 28 * 9 fits into a byte
-        near[i] = static_cast<uint8_t>(static_cast<int>(known * 9.0f * n + 0.5f));
-        acrossX[i] = static_cast<uint8_t>(static_cast<int>(known * 3.0f * nX + 0.5f));
-        acrossY[i] = static_cast<uint8_t>(static_cast<int>(known * 3.0f * nY + 0.5f));
-        acrossBoth[i] = static_cast<uint8_t>(static_cast<int>(known * nB + 0.5f));
+        const int c = firstCell + i;
+        const PixelSurface a{nx[2 * i], ny[2 * i], nz[2 * i], distance[2 * i]};
+        const PixelSurface b{nx[2 * i + 1], ny[2 * i + 1], nz[2 * i + 1], distance[2 * i + 1]};
+        even.near[i] = likeness(a, cells, c, -0.25f, offsetY, 9.0f); // 28 * 9 fits into a byte
+        even.acrossX[i] = likeness(a, cells, c - 1, 0.75f, offsetY, 3.0f);
+        even.acrossY[i] = likeness(a, across, c, -0.25f, far, 3.0f);
+        even.acrossBoth[i] = likeness(a, across, c - 1, 0.75f, far, 1.0f);
+        odd.near[i] = likeness(b, cells, c, 0.25f, offsetY, 9.0f);
+        odd.acrossX[i] = likeness(b, cells, c + 1, -0.75f, offsetY, 3.0f);
+        odd.acrossY[i] = likeness(b, across, c, 0.25f, far, 3.0f);
+        odd.acrossBoth[i] = likeness(b, across, c + 1, -0.75f, far, 1.0f);
     }
 }
 
@@ -215,8 +253,12 @@ void DenoiseGuides::allocate(int pixelsX, int pixelsY)
     // Rows of whole cells.
     for (PixelPlane<uint8_t>* plane : {&inCell, &near, &acrossX, &acrossY, &acrossBoth})
         plane->allocate(2 * cellsX, 2 * cellsY);
-    for (CellPlane* plane : {&cells.normalX, &cells.normalY, &cells.normalZ, &cells.slopeX, &cells.slopeY,
-                             &cells.sharpness})
+    // A margin of pixels of which nothing is known and that hide nothing.
+    scatters.allocate(pixelsX + 2, pixelsY + 2);
+    for (int y = 0; y < pixelsY + 2; ++y)
+        std::fill_n(scatters.row(y), pixelsX + 2, uint8_t(1));
+    for (CellPlane* plane : {&cells.normalX, &cells.normalY, &cells.normalZ, &cells.slopeX,
+                             &cells.slopeY, &cells.sharpness})
         plane->allocate(cellsX, cellsY, 0.0f);
     cells.distance.allocate(cellsX, cellsY, kNoSurface);
     width = pixelsX;
@@ -228,14 +270,25 @@ void DenoiseGuides::set(const std::vector<SurfaceSample>& surfaces, int pixelsX,
 {
     allocate(pixelsX, pixelsY);
     const auto samplesAt = [&](int x, int y)
-    { return &surfaces[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; };
+    {
+        return &surfaces[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                         static_cast<std::size_t>(x)];
+    };
     const auto unpackAt = [&](Surfaces& s, int row, int x, int y)
     {
         const int count = y < height ? std::min(kSegment, width - x) : 0;
-        unpack(count ? samplesAt(x, y) : nullptr, count, s.normalX[row], s.normalY[row], s.normalZ[row],
-               s.distance[row]);
+        const int inside = std::min(y, height - 1);
+        unpack(samplesAt(x, inside), scatters.row(inside) + x + 1, scatters.row(inside + 1) + x + 1,
+               scatters.row(inside + 2) + x + 1, count, s.normalX[row], s.normalY[row],
+               s.normalZ[row], s.distance[row]);
         return count;
     };
+    workers.forEach(static_cast<std::size_t>(height),
+                    [&](std::size_t y)
+                    {
+                        const int row = static_cast<int>(y);
+                        findScattering(samplesAt(0, row), width, scatters.row(row + 1) + 1);
+                    });
     const auto rows = static_cast<std::size_t>(cellsY);
     workers.forEach(rows,
                     [&](std::size_t index)
@@ -248,8 +301,9 @@ void DenoiseGuides::set(const std::vector<SurfaceSample>& surfaces, int pixelsX,
                             {
                                 const int y = 2 * row + i, count = unpackAt(s, i, x, y);
                                 if (count)
-                                    unpackAlbedo(samplesAt(x, y), s.distance[i], count, albedoR.row(y) + x,
-                                                 albedoG.row(y) + x, albedoB.row(y) + x);
+                                    unpackAlbedo(samplesAt(x, y), s.distance[i], count,
+                                                 albedoR.row(y) + x, albedoG.row(y) + x,
+                                                 albedoB.row(y) + x);
                             }
                             const int c = x / 2;
                             makeCells(s, std::min(kSegment / 2, cellsX - c),
@@ -262,8 +316,9 @@ void DenoiseGuides::set(const std::vector<SurfaceSample>& surfaces, int pixelsX,
                     [&](std::size_t index)
                     {
                         const int y = static_cast<int>(index);
-                        makeSlopes(cells.distance.row(y + 1), cells.distance.row(y), cells.distance.row(y - 1),
-                                   cellsX, cells.slopeX.row(y), cells.slopeY.row(y), cells.sharpness.row(y));
+                        makeSlopes(cells.distance.row(y + 1), cells.distance.row(y),
+                                   cells.distance.row(y - 1), cellsX, cells.slopeX.row(y),
+                                   cells.slopeY.row(y), cells.sharpness.row(y));
                     });
     workers.forEach(static_cast<std::size_t>(height),
                     [&](std::size_t index)
@@ -272,11 +327,18 @@ void DenoiseGuides::set(const std::vector<SurfaceSample>& surfaces, int pixelsX,
                         Surfaces s;
                         for (int x = 0; x < width; x += kSegment)
                         {
-                            const int count = unpackAt(s, 0, x, y);
-                            weighCells(s.normalX[0], s.normalY[0], s.normalZ[0], s.distance[0], x / 2, count,
+                            unpackAt(s, 0, x, y);
+                            const int c = x / 2;
+                            const auto weights = [&](int first)
+                            {
+                                return WeightRow{near.row(y) + first, acrossX.row(y) + first,
+                                                 acrossY.row(y) + first, acrossBoth.row(y) + first};
+                            };
+                            weighCells(s.normalX[0], s.normalY[0], s.normalZ[0], s.distance[0], c,
+                                       std::min(kSegment / 2, cellsX - c),
                                        0.25f * static_cast<float>(side), guideRow(cells, y / 2),
-                                       guideRow(cells, y / 2 + side), near.row(y) + x, acrossX.row(y) + x,
-                                       acrossY.row(y) + x, acrossBoth.row(y) + x);
+                                       guideRow(cells, y / 2 + side), weights(c),
+                                       weights(cellsX + c));
                         }
                     });
 }

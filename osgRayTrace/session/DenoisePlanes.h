@@ -1,9 +1,9 @@
-// DenoisePlanes.h - the arrays that the denoiser works on: pixels, and cells of two by two of them. Layer: session.
-// SPDX-License-Identifier: MIT
+// DenoisePlanes.h - the arrays that the denoiser works on: pixels, and cells of two by two of them.
+// Layer: session. SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/base/LargeArray.h"
 #include "osgRayTrace/base/Lanes.h"
+#include "osgRayTrace/base/LargeArray.h"
 
 #include <cmath>
 #include <cstdint>
@@ -12,8 +12,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Rows of cells with a margin that holds one value, so that who looks at neighbours need not ask whether
-/// there are any.
+/// Rows of cells with a margin that holds one value, so that who looks at neighbours need not ask
+/// whether there are any.
 class CellPlane
 {
 public:
@@ -59,8 +59,8 @@ private:
     std::vector<T> _values;
 };
 
-/// Where no light is known: so far from all that is that nothing is mixed with it, and small enough to be
-/// calculated with.
+/// Where no light is known: so far from all that is that nothing is mixed with it, and small enough
+/// to be calculated with.
 constexpr float kNoLight = 1e30f;
 
 /// About exp(-x), and 0 from 8 on: (1 - x/8)^8.

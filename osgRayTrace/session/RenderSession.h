@@ -69,6 +69,7 @@ struct RenderProgress
     double relativeError = std::numeric_limits<double>::infinity();
     RayCounts rays;
     uint64_t droppedSamples = 0;  ///< not finite, or above 1e30: left out of the image and counted
+    double denoiseSeconds = 0.0;  ///< of the last filter, noted by who calls it: see DenoiseFilter
     bool restarted = false;       ///< this call began a new image
     float photonRadius = 0.0f;    ///< of the last pass [length]; 0 without photons
     PhotonNote photonNote = PhotonNote::None; ///< of all passes together
