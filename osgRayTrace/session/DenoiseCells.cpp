@@ -131,28 +131,29 @@ struct Moments
     float weight, sum, squares, variance;
 };
 
-/// Without the middle itself; luminance relative to its own, as squares would lose what is small.
-OSGRAYTRACE_INLINE void addMoments(const Centre& centre, float mean, const GuideTap& surface,
+/// Without the middle itself; luminance from that of a cell nearby, as squares would lose what is
+/// small.
+OSGRAYTRACE_INLINE void addMoments(const Centre& centre, float reference, const GuideTap& surface,
                                    const float* means, const float* variances, int i, float dx,
                                    float dy, Moments& m)
 {
     const uint32_t known = maskOf(means[i] < 0.5f * kNoLight);
     const float weight = select(known, fallOff(surfaceDistance(centre, surface, i, dx, dy)), 0.0f);
-    const float difference = select(known, means[i] - mean, 0.0f);
+    const float difference = select(known, means[i] - reference, 0.0f);
     m.weight += weight;
     m.sum += weight * difference;
     m.squares += weight * difference * difference;
     m.variance += weight * variances[i];
 }
 
-OSGRAYTRACE_INLINE void addMomentsOfRow(const Centre& centre, float mean, const GuideTap& surface,
-                                        const float* means, const float* variances, int i, float dy,
-                                        Moments& m)
+OSGRAYTRACE_INLINE void addMomentsOfRow(const Centre& centre, float reference,
+                                        const GuideTap& surface, const float* means,
+                                        const float* variances, int i, float dy, Moments& m)
 {
-    addMoments(centre, mean, surface, means, variances, i - 2, -2.0f, dy, m);
-    addMoments(centre, mean, surface, means, variances, i - 1, -1.0f, dy, m);
-    addMoments(centre, mean, surface, means, variances, i + 1, 1.0f, dy, m);
-    addMoments(centre, mean, surface, means, variances, i + 2, 2.0f, dy, m);
+    addMoments(centre, reference, surface, means, variances, i - 2, -2.0f, dy, m);
+    addMoments(centre, reference, surface, means, variances, i - 1, -1.0f, dy, m);
+    addMoments(centre, reference, surface, means, variances, i + 1, 1.0f, dy, m);
+    addMoments(centre, reference, surface, means, variances, i + 2, 2.0f, dy, m);
 }
 
 /// Over 5 x 5 cells.
@@ -173,23 +174,28 @@ void boundRow(const GuideTap (&guides)[5], const float* slopeX, const float* slo
         const Centre c{g2.normalX[i], g2.normalY[i], g2.normalZ[i], g2.distance[i],
                        slopeX[i],     slopeY[i],     sharpness[i]};
         const float mean = m2[i], own = v2[i];
+        // The darkest around, as the middle may be brighter by orders of magnitude.
+        const float besides = m2[i - 1] < m2[i + 1] ? m2[i - 1] : m2[i + 1];
+        const float above = m1[i] < m3[i] ? m1[i] : m3[i];
+        const float around = besides < above ? besides : above;
+        const float reference = mean < around ? mean : around;
         Moments m{0.0f, 0.0f, 0.0f, 0.0f};
-        addMomentsOfRow(c, mean, g0, m0, v0, i, -2.0f, m);
-        addMoments(c, mean, g0, m0, v0, i, 0.0f, -2.0f, m);
-        addMomentsOfRow(c, mean, g1, m1, v1, i, -1.0f, m);
-        addMoments(c, mean, g1, m1, v1, i, 0.0f, -1.0f, m);
-        addMomentsOfRow(c, mean, g2, m2, v2, i, 0.0f, m);
-        addMomentsOfRow(c, mean, g3, m3, v3, i, 1.0f, m);
-        addMoments(c, mean, g3, m3, v3, i, 0.0f, 1.0f, m);
-        addMomentsOfRow(c, mean, g4, m4, v4, i, 2.0f, m);
-        addMoments(c, mean, g4, m4, v4, i, 0.0f, 2.0f, m);
+        addMomentsOfRow(c, reference, g0, m0, v0, i, -2.0f, m);
+        addMoments(c, reference, g0, m0, v0, i, 0.0f, -2.0f, m);
+        addMomentsOfRow(c, reference, g1, m1, v1, i, -1.0f, m);
+        addMoments(c, reference, g1, m1, v1, i, 0.0f, -1.0f, m);
+        addMomentsOfRow(c, reference, g2, m2, v2, i, 0.0f, m);
+        addMomentsOfRow(c, reference, g3, m3, v3, i, 1.0f, m);
+        addMoments(c, reference, g3, m3, v3, i, 0.0f, 1.0f, m);
+        addMomentsOfRow(c, reference, g4, m4, v4, i, 2.0f, m);
+        addMoments(c, reference, g4, m4, v4, i, 0.0f, 2.0f, m);
 
         const float scale = m.weight > 1e-6f ? 1.0f / m.weight : 0.0f;
-        const float towards = scale * m.sum; // the neighbours' mean, from the cell's
+        const float towards = scale * m.sum; // the neighbours' mean, from the reference
         const float excess = scale * m.squares - towards * towards;
         const float spread = excess > 0.0f ? excess : 0.0f;
         const float certain = mean - select(errors, kCertain * std::sqrt(own), mean);
-        const float usual = mean + towards + kOutlier * std::sqrt(spread);
+        const float usual = reference + towards + kOutlier * std::sqrt(spread);
         const float most = m.weight > 1.0f ? (usual > certain ? usual : certain) : mean;
         const float bound = mean > most && mean < 0.5f * kNoLight ? most / mean : 1.0f;
         out.r[i] = bound * light.r[i];

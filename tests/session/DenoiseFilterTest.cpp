@@ -122,8 +122,7 @@ TEST_CASE("denoise: an even image is left as it is", "[session][denoise]")
     }
 }
 
-TEST_CASE("denoise: noise on a plane falls to a thirtieth, square to the view or along it",
-          "[session][denoise]")
+TEST_CASE("denoise: noise on a wall falls to a 300th, on a floor to a 120th", "[session][denoise]")
 {
     // Square to the view, and a floor whose distance grows from row to row up to 10 times what it
     // was.
@@ -141,7 +140,7 @@ TEST_CASE("denoise: noise on a plane falls to a thirtieth, square to the view or
             const double before = meanSquare(t.image.radiance, right);
             t.filter();
             INFO("floor " << floor << ", errors " << withErrors);
-            CHECK(meanSquare(t.image.radiance, right) < before / 30.0);
+            CHECK(meanSquare(t.image.radiance, right) < before / (floor ? 120.0 : 300.0));
         }
     }
 }
@@ -173,13 +172,17 @@ TEST_CASE(
     "denoise: a shadow's edge, which no guide shows, keeps its contrast once errors are known",
     "[session][denoise]")
 {
-    TestImage t(
-        96, 64, [](int, int) { return wall(); },
-        [](int x, int) { return Vec3(x < 45 ? 0.8f : 0.1f); });
-    t.addNoise(0.1, true, 3);
-    t.filter();
-    CHECK(meanOfColumns(t, 44, 45) == Approx(0.8).epsilon(0.1));
-    CHECK(meanOfColumns(t, 45, 46) == Approx(0.1).epsilon(0.2));
+    for (const double sigma : {0.1, 0.03, 0.01})
+    {
+        TestImage t(
+            96, 64, [](int, int) { return wall(); },
+            [](int x, int) { return Vec3(x < 45 ? 0.8f : 0.1f); });
+        t.addNoise(sigma, true, 3);
+        t.filter();
+        INFO("sigma " << sigma);
+        const double contrast = (meanOfColumns(t, 44, 45) - meanOfColumns(t, 45, 46)) / 0.7;
+        CHECK(contrast > 1.0 - 2.0 * sigma);
+    }
 }
 
 TEST_CASE("denoise: lamps, mirrors and the background stay as they are and lend nothing",
@@ -241,7 +244,7 @@ TEST_CASE("denoise: one bright pixel does not become a bright spot", "[session][
     TestImage t(
         64, 64, [](int, int) { return wall(); }, [](int, int) { return Vec3(0.2f); });
     t.addNoise(0.3, false, 2);
-    t.image.radiance[4 * (32 * 64 + 32)] = t.image.radiance[4 * (32 * 64 + 32) + 1] = 1e4f;
+    t.image.radiance[4 * (32 * 64 + 32)] = t.image.radiance[4 * (32 * 64 + 32) + 1] = 1e6f;
     t.filter();
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x)
