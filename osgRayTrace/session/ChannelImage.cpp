@@ -134,8 +134,12 @@ std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Work
                 const FirstHit& hit = hits[i];
                 samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(context.width) +
                         static_cast<std::size_t>(x)] = {
-                    hit.normal, static_cast<float>(hit.distance * scene.unit), hit.albedo,
-                    hit.hit ? hit.instance + 1u : 0u};
+                    hit.normal, static_cast<float>(hit.distance * scene.unit),
+                    scene.displayReferred ? nearlyLinear(hit.albedo) : hit.albedo,
+                    hit.hit ? hit.instance + 1u : 0u,
+                    hit.emits    ? SurfaceKind::Emitting
+                    : hit.smooth ? SurfaceKind::Smooth
+                                 : SurfaceKind::Scattering};
             }
         });
     return samples;
