@@ -286,7 +286,7 @@ TEST_CASE("settings: documented defaults do not depend on the environment", "[ap
     settings->setEnvironmentSampling(RayTraceSettings::STRUCTURED);
     settings->setEnvironmentSamples(50);
     const osg::ref_ptr<RayTraceSettings> copy = new RayTraceSettings(*settings);
-    CHECK(copy->getLightSamples() == 26);
+    CHECK(copy->getLightSamples() == 25);
     CHECK(copy->getEnvironmentSampling() == RayTraceSettings::STRUCTURED);
     CHECK(copy->getEnvironmentSamples() == 50);
 }

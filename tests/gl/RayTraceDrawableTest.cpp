@@ -376,7 +376,8 @@ TEST_CASE("drawable: denoising changes the picture without tracing anew, and fol
     other->setSettings(scene->getSettings());
     TestViewer fresh(kSize, kSize, other.get());
     fresh.look(osg::Vec3d(3.0, 1.0, 10.0), osg::Vec3d(0.5, 0.0, 0.0));
-    CHECK(equal(*fresh.frames(), *moved));
+    // The fresh one has another origin, and so other roundings.
+    CHECK(meanDifference(*fresh.frames(), *moved) < 0.1);
 
     scene->getSettings()->setDenoise(RayTraceSettings::OFF);
     CHECK(meanDifference(*view.frames(), *moved) > 0.5);
