@@ -198,6 +198,8 @@ const std::vector<OptionRow>& optionTable()
                   "Radii shrink by the number of the pass, or by the photons of each pixel"),
         switchRow("aim-at-views", &S::getAimAtViews, &S::setAimAtViews,
                   "Photons for mirrors and glass go where the views see their light"),
+        choiceRow("denoise", kDenoiseWords, &S::getDenoise, &S::setDenoise,
+                  "Smooths the noise of few passes along the edges of surfaces"),
         textRow("materials", "none|FILE", &S::getMaterials, &S::setMaterials, isAnything,
                 "JSON file of physical materials by names in the model"),
         choiceRow("debug-channel", kDebugChannelWords, &S::getDebugChannel, &S::setDebugChannel,

@@ -96,6 +96,7 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _photonAlpha(other._photonAlpha),
       _radiusSchedule(other._radiusSchedule),
       _aimAtViews(other._aimAtViews),
+      _denoise(other._denoise),
       _materials(other._materials)
 {
 }
@@ -180,6 +181,11 @@ void RayTraceSettings::setTerminatorCorrection(bool value)
 void RayTraceSettings::setAimAtViews(bool value)
 {
     change(_aimAtViews, value, _modifiedCount);
+}
+
+void RayTraceSettings::setDenoise(Denoise value)
+{
+    changeChoice("denoise", kDenoiseWords, _denoise, value, _modifiedCount);
 }
 
 void RayTraceSettings::setMaxPasses(int value)

@@ -11,11 +11,13 @@
 #include "osgRayTrace/bridge/StatisticsFromEngine.h"
 #include "osgRayTrace/bridge/ViewFromMatrices.h"
 #include "osgRayTrace/bridge/WarnOnce.h"
+#include "osgRayTrace/session/DenoiseFilter.h"
 #include "osgRayTrace/session/RenderSession.h"
 
 #include <osg/Light>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <new>
@@ -137,6 +139,7 @@ struct Renderer::Implementation
     void convertScene();
     engine::ConversionInput conversionInput(const ConversionKey& key) const;
     bool hasImage() const { return session && session->progress().passes > 0; }
+    engine::ShownImage denoisedImage();
 };
 
 void Renderer::Implementation::render(const engine::StopRule& rule, const Progress& progress)
@@ -161,6 +164,19 @@ void Renderer::Implementation::render(const engine::StopRule& rule, const Progre
         return progress(statistics);
     };
     engine::setImageStatistics(statistics, session->render(rule, keepGoing));
+}
+
+/// Notes how long it took.
+engine::ShownImage Renderer::Implementation::denoisedImage()
+{
+    engine::ShownImage image = session->shownImage();
+    const auto begin = std::chrono::steady_clock::now();
+    engine::DenoiseFilter denoise;
+    denoise.setSurfaces(session->surfaceSamples(), image.width, image.height, *workers);
+    denoise.filter(image, *workers);
+    statistics.denoiseMilliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    return image;
 }
 
 /// Does nothing if matrices were set, or if there is nothing to look at yet.
@@ -346,20 +362,21 @@ void Renderer::cancel()
 
 osg::ref_ptr<osg::Image> Renderer::getColorImage() const
 {
-    const Implementation& self = *_implementation;
+    Implementation& self = *_implementation;
     if (!self.hasImage()) return nullptr;
     return withinMemory(
         [&self]
         {
             const engine::RenderSession& session = *self.session;
-            return engine::pixelImage(session.resolveRadiance(), session.width(), session.height(),
-                                      GL_RGBA);
+            return engine::pixelImage(engine::denoises(*self.settings) ? self.denoisedImage().radiance
+                                                                       : session.resolveRadiance(),
+                                      session.width(), session.height(), GL_RGBA);
         });
 }
 
 osg::ref_ptr<osg::Image> Renderer::getDisplayImage() const
 {
-    const Implementation& self = *_implementation;
+    Implementation& self = *_implementation;
     if (!self.hasImage()) return nullptr;
     return withinMemory(
         [&self]
@@ -369,7 +386,10 @@ osg::ref_ptr<osg::Image> Renderer::getDisplayImage() const
             const osg::ref_ptr<osg::Image> image = engine::newPixelImage(
                 self.session->width(), self.session->height(), GL_RGBA, GL_UNSIGNED_BYTE);
             if (!image) return image;
-            self.session->resolveDisplay(toneMap, image->data(), nullptr);
+            if (engine::denoises(*self.settings))
+                engine::showImage(self.denoisedImage(), toneMap, *self.workers, image->data(), nullptr);
+            else
+                self.session->resolveDisplay(toneMap, image->data(), nullptr);
             engine::blendOver(*image, self.clearColor);
             return image;
         });

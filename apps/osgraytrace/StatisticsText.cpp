@@ -50,6 +50,7 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
                            {"radius", statistics.photonRadius},
                            {"note", statistics.photonNote}};
     json["relativeError"] = statistics.relativeError;
+    if (statistics.denoiseMilliseconds > 0.0) json["denoiseMilliseconds"] = statistics.denoiseMilliseconds;
     json["droppedSamples"] = statistics.droppedSamples;
     json["conversion"] = statistics.conversion;
     json["conversionPaths"] = statistics.conversionPaths;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/common/Failure.h"
 #include "apps/common/PluginPath.h"
+#include "apps/osgraytracebench/DenoiseMode.h"
 #include "apps/osgraytracebench/FeaturesMode.h"
 #include "apps/osgraytracebench/InteractiveMode.h"
 #include "apps/osgraytracebench/LimitMode.h"
@@ -42,7 +43,7 @@ struct CommandLine
 {
     CommandLine()
     {
-        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick, &interactive})
+        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick, &interactive, &denoise})
             rows->add_option("--json", json, "write the rows to this file as well");
 
         photons
@@ -137,6 +138,7 @@ struct CommandLine
         if (pick) return runRows(measurePicks, json);
         if (interactive)
             return runRows([&] { return measureInteractive(interactiveOptions); }, json);
+        if (denoise) return runRows(measureDenoise, json);
         if (update) return runRows(measureUpdate, json);
         if (photons) return runRows([&] { return measurePhotons(photonsOptions); }, json);
         if (compare) return runCompare(before, after, falseAlarmRate);
@@ -157,6 +159,8 @@ struct CommandLine
         "pick", "what a pick costs, against osgUtil's own and one ray");
     CLI::App& interactive = *application.add_subcommand(
         "interactive", "whether the frames of a moving camera keep to their budgets");
+    CLI::App& denoise = *application.add_subcommand(
+        "denoise", "how much error the denoiser takes from one and four passes, and how long it takes");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(

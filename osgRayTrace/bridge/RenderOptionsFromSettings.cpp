@@ -115,4 +115,10 @@ ToneMap toneMapFromSettings(const RayTraceSettings& settings, const Scene& scene
     return toneMap;
 }
 
+bool denoises(const RayTraceSettings& settings)
+{
+    return settings.getDenoise() != RayTraceSettings::OFF &&
+           settings.getIntegrator() != RayTraceSettings::DEBUG;
+}
+
 } // namespace osgRayTrace::engine

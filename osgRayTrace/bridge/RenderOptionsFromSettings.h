@@ -17,4 +17,7 @@ RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings);
 /// How an image of the scene is shown: the settings' exposure, the scene's colour rule.
 ToneMap toneMapFromSettings(const RayTraceSettings& settings, const Scene& scene);
 
+/// Whether images are denoised before they are shown. Debug channels are not.
+bool denoises(const RayTraceSettings& settings);
+
 } // namespace osgRayTrace::engine

@@ -89,6 +89,7 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     statistics.photonNote = noteText(progress.photonNote);
     if (!statistics.photonNote.empty()) warnOnce(statistics.photonNote);
     statistics.photonRadius = static_cast<double>(progress.photonRadius);
+    statistics.denoiseMilliseconds = 1e3 * progress.denoiseSeconds;
     statistics.droppedSamples = progress.droppedSamples;
 }
 

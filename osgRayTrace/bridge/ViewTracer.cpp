@@ -69,6 +69,7 @@ bool ViewTracer::takeInputs(const SceneVersion& version, const View& pass)
         _workers = version.workers;
         _session = std::make_unique<RenderSession>(version.workers, version.photons);
         _reduced = std::make_unique<RenderSession>(version.workers, version.photons);
+        _surfacesOf = nullptr;
         _shown = Shown::Whole;
         moved = true;
     }
@@ -99,6 +100,8 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
     _begin = _now();
     const bool moved = takeInputs(version, pass);
     _stillFrames = moved ? 0 : _stillFrames + 1;
+    _denoises = denoises(*version.settings);
+    if (isStaged()) rgba = nullptr; // that takes the whole image: resolve() does it
     _holdsFull = _holdsFull && rgba;
     _display = {toneMapFromSettings(*version.settings, version.scene->scene()), rgba, depth};
     _written = false;
@@ -245,6 +248,7 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     const RenderProgress made = session.render(rule, {}, writes ? display : nullptr);
     _status = made.status;
     _newTiles += made.newTiles;
+    if (made.restarted && _surfacesOf == &session) _surfacesOf = nullptr;
     const double seconds = _now() - start;
     _frame.traceSeconds += seconds;
     _planner.noteTiles(divider, made.newTiles, seconds - made.photonSeconds);
@@ -261,7 +265,11 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     _written = writes && complete;
     _holdsFull = _written;
     _imageChanged = !_written;
-    if (_written) _resolved = display->toneMap;
+    if (_written)
+    {
+        _resolved = display->toneMap;
+        _resolvedDenoised = false;
+    }
     return made;
 }
 
@@ -278,7 +286,9 @@ void ViewTracer::estimateError()
 bool ViewTracer::needsResolve(const SceneVersion& version)
 {
     _toneMap = toneMapFromSettings(*version.settings, version.scene->scene());
-    return hasImage() && (_imageChanged || !_resolved || !same(_toneMap, *_resolved));
+    _denoises = denoises(*version.settings);
+    return hasImage() && (_imageChanged || !_resolved || !same(_toneMap, *_resolved) ||
+                          _denoises != _resolvedDenoised);
 }
 
 void ViewTracer::resolve(uint8_t* rgba, float* depth)
@@ -286,31 +296,60 @@ void ViewTracer::resolve(uint8_t* rgba, float* depth)
     switch (_shown)
     {
     case Shown::Whole:
-        _session->resolveDisplay(_toneMap, rgba, depth);
+        resolveImage(*_session, rgba, depth);
         break;
     case Shown::Reduced:
         // As it is: OpenGL enlarges it. What makes more of it shows it in full size, and says so in
         // shownWidth.
-        _reduced->resolveDisplay(_toneMap, rgba, depth);
+        resolveImage(*_reduced, rgba, depth);
         break;
     case Shown::Mixed:
+        // Single tiles cannot be denoised: those of full resolution wait for all of them then.
         enlargeReduced(rgba, depth);
-        _session->resolveOver(_toneMap, rgba, depth);
+        if (!_denoises) _session->resolveOver(_toneMap, rgba, depth);
         break;
     }
-    _holdsFull = _shown != Shown::Reduced;
+    _holdsFull = _shown != Shown::Reduced && !isStaged();
     _resolved = _toneMap;
+    _resolvedDenoised = _denoises;
     _imageChanged = false;
 }
 
+/// With what is done to images after they are accumulated.
+void ViewTracer::resolveImage(const RenderSession& session, uint8_t* rgba, float* depth)
+{
+    if (isStaged())
+        showImage(stagedImage(session), _toneMap, *_workers, rgba, depth);
+    else
+        session.resolveDisplay(_toneMap, rgba, depth);
+}
+
+ShownImage ViewTracer::stagedImage(const RenderSession& session)
+{
+    ShownImage image = session.shownImage();
+    const double begin = _now();
+    if (!_denoise) _denoise = std::make_unique<DenoiseFilter>();
+    if (_surfacesOf != &session)
+        _denoise->setSurfaces(session.surfaceSamples(), image.width, image.height, *_workers);
+    _surfacesOf = &session;
+    _denoise->filter(image, *_workers);
+    _denoiseSeconds = _now() - begin;
+    return image;
+}
+
+std::vector<float> ViewTracer::radiance()
+{
+    return isStaged() ? stagedImage(image()).radiance : image().resolveRadiance();
+}
+
 /// To full resolution, with nothing but what its pixels hold.
-void ViewTracer::enlargeReduced(uint8_t* rgba, float* depth) const
+void ViewTracer::enlargeReduced(uint8_t* rgba, float* depth)
 {
     const int width = _reduced->width(), height = _reduced->height();
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     std::vector<uint8_t> smallRgba(4 * pixels);
     std::vector<float> smallDepth(pixels);
-    _reduced->resolveDisplay(_toneMap, smallRgba.data(), smallDepth.data());
+    resolveImage(*_reduced, smallRgba.data(), smallDepth.data());
     const DisplayPixels small{width, height, smallRgba.data(), smallDepth.data()};
     const DisplayPixels large{_view.width, _view.height, rgba, depth};
     enlarge(small, large, *_workers);
@@ -334,6 +373,7 @@ RenderProgress ViewTracer::progress() const
     progress.status = _status;
     progress.relativeError =
         _shown == Shown::Whole ? _relativeError : std::numeric_limits<double>::infinity();
+    progress.denoiseSeconds = _denoiseSeconds;
     return progress;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/SceneUpdater.h"
+#include "osgRayTrace/session/DenoiseFilter.h"
 #include "osgRayTrace/session/FramePlan.h"
 #include "osgRayTrace/session/RenderSession.h"
 
@@ -71,8 +72,8 @@ public:
         return _session && image().width() > 0 && image().progress().passes > 0;
     }
 
-    /// Linear RGBA of the last whole image, width() * height() pixels.
-    std::vector<float> radiance() const { return image().resolveRadiance(); }
+    /// Linear RGBA of the last whole image as it is shown, width() * height() pixels.
+    std::vector<float> radiance();
     int width() const { return image().width(); }
     int height() const { return image().height(); }
 
@@ -108,8 +109,11 @@ private:
     RenderProgress render(RenderSession& session, int divider, StopRule& rule,
                           const DisplayTarget* display);
     void estimateError();
-    void enlargeReduced(uint8_t* rgba, float* depth) const;
+    void resolveImage(const RenderSession& session, uint8_t* rgba, float* depth);
+    ShownImage stagedImage(const RenderSession& session);
+    void enlargeReduced(uint8_t* rgba, float* depth);
 
+    bool isStaged() const { return _denoises; } ///< display values need more than the tile's pass
     bool shownIsReduced() const { return _shown == Shown::Reduced; }
     const RenderSession& image() const { return _shown == Shown::Whole ? *_session : *_reduced; }
 
@@ -149,6 +153,12 @@ private:
     bool _holdsFull = false;    ///< what resolve() would write, and that is of full size
     bool _imageChanged = false; ///< since it was resolved
     std::optional<ToneMap> _resolved;
+
+    bool _denoises = false;
+    bool _resolvedDenoised = false;
+    std::unique_ptr<DenoiseFilter> _denoise;      ///< null until it is needed
+    const RenderSession* _surfacesOf = nullptr;   ///< whose image's it knows
+    double _denoiseSeconds = 0.0;
 };
 
 } // namespace osgRayTrace::engine

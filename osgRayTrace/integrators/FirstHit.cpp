@@ -29,7 +29,10 @@ void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits
             hit.normal = facingNormal(rays, surface, i);
             const MaterialPoint point = materialPoint(context, rays, surface, i);
             const MaterialTable& materials = context.traced->materials();
-            hit.albedo = bsdfAlbedo(materials.bsdf(surface.material[i], point));
+            const Bsdf bsdf = materials.bsdf(surface.material[i], point);
+            hit.albedo = bsdfAlbedo(bsdf);
+            hit.smooth = bsdf.isSmooth() && !bsdf.isDiffuse() && bsdf.diffuse == Vec3(0.0f);
+            hit.emits = emissionTowardsRay(context, rays, surface, i) != Vec3(0.0f);
             hit.position = laneOf(surface.position, i);
             hit.instance = surface.instance[i];
         }

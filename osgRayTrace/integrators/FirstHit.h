@@ -16,6 +16,8 @@ struct FirstHit
     Vec3 albedo{0.0f};
     Vec3 position{0.0f};        ///< engine space
     uint32_t instance = kInvalid;
+    bool emits = false;         ///< towards the camera
+    bool smooth = false;        ///< nothing but a mirror or clear glass
 };
 
 /// First hits of a tile, index block * kLanes + lane.

@@ -100,6 +100,17 @@ std::vector<float> channelImage(Channel channel, const Film& film, const PassCon
     return image;
 }
 
+namespace
+{
+
+/// linearFromSrgb within 0.002 for [0,1], for less: there is one for each pixel of each frame.
+Vec3 nearlyLinear(Vec3 encoded)
+{
+    return encoded * (encoded * (encoded * 0.305306f + 0.682171f) + 0.012523f);
+}
+
+} // namespace
+
 std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Workers& workers)
 {
     const int tilesX = (context.width + kTileSize - 1) / kTileSize;
@@ -123,8 +134,12 @@ std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Work
                 const FirstHit& hit = hits[i];
                 samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(context.width) +
                         static_cast<std::size_t>(x)] = {
-                    hit.normal, static_cast<float>(hit.distance * scene.unit), hit.albedo,
-                    hit.hit ? hit.instance + 1u : 0u};
+                    hit.normal, static_cast<float>(hit.distance * scene.unit),
+                    scene.displayReferred ? nearlyLinear(hit.albedo) : hit.albedo,
+                    hit.hit ? hit.instance + 1u : 0u,
+                    hit.emits    ? SurfaceKind::Emitting
+                    : hit.smooth ? SurfaceKind::Smooth
+                                 : SurfaceKind::Scattering};
             }
         });
     return samples;

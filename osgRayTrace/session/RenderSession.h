@@ -78,6 +78,7 @@ struct RenderProgress
     double relativeError = std::numeric_limits<double>::infinity();
     RayCounts rays;
     uint64_t droppedSamples = 0;  ///< not finite, or above 1e30: left out of the image and counted
+    double denoiseSeconds = 0.0;  ///< of the last filter, noted by who calls it: see DenoiseFilter
     bool restarted = false;       ///< this call began a new image
     int newTiles = 0;             ///< of this call, summed over its passes
     double photonSeconds = 0.0;   ///< that photons took in this call, traced or waited for

@@ -23,6 +23,14 @@ struct ShownImage
     std::vector<float> depth;    ///< window depth
 };
 
+/// What of the light that is seen in a pixel its surface tells about.
+enum class SurfaceKind : uint32_t
+{
+    Scattering,
+    Smooth,   ///< a mirror or clear glass and nothing else: one sees other surfaces in it
+    Emitting, ///< a lamp, or unlit
+};
+
 /// What the camera ray through the middle of a pixel meets first.
 struct SurfaceSample
 {
@@ -30,6 +38,7 @@ struct SurfaceSample
     float distance;  ///< along the ray [length]; infinity: nothing is hit
     Vec3 albedo;     ///< linear
     uint32_t object; ///< instance + 1; 0 where nothing is hit
+    SurfaceKind kind = SurfaceKind::Scattering;
 };
 
 /// Display values of the image, 4 bytes a pixel, and its depths, which may be null.

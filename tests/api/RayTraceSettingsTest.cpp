@@ -76,9 +76,10 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getPhotonAlpha() == Approx(2.0f / 3.0f));
     CHECK(settings->getRadiusSchedule() == RayTraceSettings::GLOBAL);
     CHECK(settings->getAimAtViews());
+    CHECK(settings->getDenoise() == RayTraceSettings::OFF);
 }
 
-TEST_CASE("settings: the table names all twenty-seven options once", "[api][settings]")
+TEST_CASE("settings: the table names all twenty-eight options once", "[api][settings]")
 {
     std::set<std::string> names;
     std::set<std::string> variables;
@@ -87,11 +88,11 @@ TEST_CASE("settings: the table names all twenty-seven options once", "[api][sett
         names.insert(option.name);
         variables.insert(option.environment);
     }
-    CHECK(names.size() == 27);
-    CHECK(variables.size() == 27);
+    CHECK(names.size() == 28);
+    CHECK(variables.size() == 28);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 27);
+    CHECK(RayTraceSettings::options().size() == 28);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")

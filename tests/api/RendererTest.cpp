@@ -439,3 +439,32 @@ TEST_CASE("renderer: the headlight is osgViewer's", "[api][renderer]")
     const int unlit = renderer->getDisplayImage()->data(24, 16)[0];
     CHECK(lit - unlit == Approx(0.64 * 255.0).margin(1.0));
 }
+
+TEST_CASE("renderer: denoised images are smoother, and what was accumulated stays", "[api][renderer][denoise]")
+{
+    const osg::ref_ptr<osg::Group> scene = room();
+    const osg::ref_ptr<Renderer> renderer = rendererOf(scene.get());
+    renderer->getSettings()->setMaxPasses(1);
+    REQUIRE(renderer->render());
+    const osg::ref_ptr<osg::Image> color = renderer->getColorImage(), display = renderer->getDisplayImage();
+    CHECK(renderer->getStatistics().denoiseMilliseconds == 0.0);
+
+    renderer->getSettings()->setDenoise(RayTraceSettings::FILTER);
+    const osg::ref_ptr<osg::Image> filtered = renderer->getColorImage();
+    CHECK_FALSE(sameBytes(renderer->getDisplayImage(), display));
+    CHECK(renderer->getStatistics().denoiseMilliseconds > 0.0);
+    // Differences of neighbours on the floor, below the roof.
+    const auto roughness = [](const osg::Image& image)
+    {
+        double sum = 0.0;
+        for (int y = 4; y < 12; ++y)
+            for (int x = 12; x < 36; ++x)
+                sum += std::abs(floats(image)[4 * (48 * y + x)] - floats(image)[4 * (48 * y + x + 1)]);
+        return sum;
+    };
+    CHECK(roughness(*filtered) < 0.5 * roughness(*color));
+
+    renderer->getSettings()->setDenoise(RayTraceSettings::OFF);
+    CHECK(sameBytes(renderer->getColorImage(), color));
+    CHECK(sameBytes(renderer->getDisplayImage(), display));
+}

@@ -3,6 +3,8 @@
 #include "TestViewer.h"
 #include "tests/Catch.h"
 
+#include <osgRayTrace/AreaLight>
+
 #include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osg/Switch>
@@ -344,6 +346,41 @@ TEST_CASE("drawable: exposure changes the picture without tracing anew", "[gl]")
     CHECK(pixel(*view.frames(), kMiddle, kMiddle).r() == 51.0f);
     scene->getSettings()->setExposure(1.0f);
     CHECK(pixel(*view.frames(), kMiddle, kMiddle).r() > 60.0f);
+    CHECK(passes(*scene) == 1);
+}
+
+TEST_CASE("drawable: denoising changes the picture without tracing anew, and follows the view", "[gl][denoise]")
+{
+    osg::ref_ptr<osg::Group> room = new osg::Group;
+    room->addChild(sphere(osg::Vec3(), 2.0f, osg::Vec4(0.7f, 0.5f, 0.3f, 1.0f)));
+    room->addChild(sphere(osg::Vec3(1.0f, 2.0f, 2.0f), 0.7f, osg::Vec4(0.2f, 0.5f, 0.8f, 1.0f)));
+    room->addChild(new AreaLight(osg::Vec3(-1.0f, 4.0f, 3.0f), osg::Vec3(2.0f, 0.0f, 0.0f),
+                                 osg::Vec3(0.0f, 0.0f, 2.0f), osg::Vec3(9.0f, 9.0f, 9.0f)));
+    osg::ref_ptr<RayTracedScene> scene = tracedScene(room.get());
+    scene->getSettings()->setIntegrator(RayTraceSettings::PATH);
+    scene->getSettings()->setMaxPasses(1);
+    TestViewer view(kSize, kSize, scene.get());
+    const osg::ref_ptr<osg::Image> plain = view.frames();
+    CHECK(scene->getDrawable()->getStatistics().denoiseMilliseconds == 0.0);
+
+    scene->getSettings()->setDenoise(RayTraceSettings::FILTER);
+    const osg::ref_ptr<osg::Image> denoised = view.frames();
+    CHECK(meanDifference(*denoised, *plain) > 0.5);
+    CHECK(passes(*scene) == 1);
+    CHECK(scene->getDrawable()->getStatistics().cameraRays == unsigned(kSize * kSize));
+    CHECK(scene->getDrawable()->getStatistics().denoiseMilliseconds > 0.0);
+
+    view.look(osg::Vec3d(3.0, 1.0, 10.0), osg::Vec3d(0.5, 0.0, 0.0));
+    const osg::ref_ptr<osg::Image> moved = view.frames();
+    osg::ref_ptr<RayTracedScene> other = tracedScene(room.get());
+    other->setSettings(scene->getSettings());
+    TestViewer fresh(kSize, kSize, other.get());
+    fresh.look(osg::Vec3d(3.0, 1.0, 10.0), osg::Vec3d(0.5, 0.0, 0.0));
+    // The fresh one has another origin, and so other roundings.
+    CHECK(meanDifference(*fresh.frames(), *moved) < 0.1);
+
+    scene->getSettings()->setDenoise(RayTraceSettings::OFF);
+    CHECK(meanDifference(*view.frames(), *moved) > 0.5);
     CHECK(passes(*scene) == 1);
 }
 

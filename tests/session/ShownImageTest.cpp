@@ -1,5 +1,7 @@
 // ShownImageTest.cpp - images that take the long way to the display are those that take the short one.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/film/ToneMap.h"
+
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
@@ -92,4 +94,43 @@ TEST_CASE("shown image: samples of surfaces are the channels of the first hit", 
     }
     CHECK(hits > 100);
     CHECK(hits < kWidth * kHeight - 100);
+}
+
+TEST_CASE("shown image: surfaces' albedo is linear where the film is not", "[session]")
+{
+    RenderSession session(std::make_shared<Workers>(2));
+    session.setScene(litPlane(true));
+    session.setView(perspectiveView({0, 0, 6}, {0, 0, 0}, {0, 1, 0}, 50.0, kWidth, kHeight));
+    session.setOptions(optionsOf(IntegratorKind::Whitted));
+    StopRule rule;
+    rule.passes = 1;
+    REQUIRE(session.render(rule).status.ok());
+    int hits = 0;
+    for (const SurfaceSample& sample : session.surfaceSamples())
+    {
+        if (sample.object == 0) continue;
+        ++hits;
+        REQUIRE(std::abs(sample.albedo.x - linearFromSrgb(0.2f)) < 0.002f);
+        REQUIRE(std::abs(sample.albedo.z - linearFromSrgb(0.6f)) < 0.002f);
+    }
+    CHECK(hits > 100);
+}
+
+TEST_CASE("shown image: samples tell lamps and mirrors from what scatters light", "[session]")
+{
+    SceneBuilder builder;
+    builder.add(quadMesh({-4, -4, 0}, {4, 0, 0}, {0, 8, 0}), lambert(Vec3(0.5f)));
+    builder.add(quadMesh({0, -4, 0}, {4, 0, 0}, {0, 4, 0}), mirror(Vec3(0.9f)));
+    builder.addQuadLight({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, Vec3(2.0f));
+    RenderSession session(std::make_shared<Workers>(2));
+    session.setScene(builder.build());
+    session.setView(perspectiveView({0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 50.0, 8, 8));
+    session.setOptions(optionsOf(IntegratorKind::Whitted));
+    StopRule rule;
+    rule.passes = 1;
+    REQUIRE(session.render(rule).status.ok());
+    const std::vector<SurfaceSample> samples = session.surfaceSamples();
+    CHECK(samples[1 * 8 + 1].kind == SurfaceKind::Scattering);
+    CHECK(samples[1 * 8 + 6].kind == SurfaceKind::Smooth);
+    CHECK(samples[6 * 8 + 6].kind == SurfaceKind::Emitting);
 }
