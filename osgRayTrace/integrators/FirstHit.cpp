@@ -9,6 +9,19 @@
 namespace osgRayTrace::engine
 {
 
+namespace
+{
+
+/// GGX of width alpha falls to a quarter at tan(angle) = alpha [Walter07, eq. 33].
+float lobeWidth(const MaterialRecord& record, const Bsdf& bsdf)
+{
+    if (record.material->blended) return 0.0f; // what is behind moves otherwise
+    if (bsdf.isDiffuse()) return kInfinity;
+    return bsdf.isSmooth() ? 0.0f : bsdf.alpha;
+}
+
+} // namespace
+
 void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels])
 {
     for (int b = 0; b < kTileBlocks; ++b)
@@ -29,7 +42,9 @@ void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits
             hit.normal = facingNormal(rays, surface, i);
             const MaterialPoint point = materialPoint(context, rays, surface, i);
             const MaterialTable& materials = context.traced->materials();
-            hit.albedo = bsdfAlbedo(materials.bsdf(surface.material[i], point));
+            const Bsdf bsdf = materials.bsdf(surface.material[i], point);
+            hit.albedo = bsdfAlbedo(bsdf);
+            hit.lobe = lobeWidth(materials[surface.material[i]], bsdf);
             hit.position = laneOf(surface.position, i);
             hit.instance = surface.instance[i];
         }

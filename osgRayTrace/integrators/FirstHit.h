@@ -16,6 +16,7 @@ struct FirstHit
     Vec3 albedo{0.0f};
     Vec3 position{0.0f};        ///< engine space
     uint32_t instance = kInvalid;
+    float lobe = kInfinity;     ///< width of its narrowest lobe [radians]; see SurfaceSample
 };
 
 /// First hits of a tile, index block * kLanes + lane.

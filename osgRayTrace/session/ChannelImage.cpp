@@ -123,7 +123,7 @@ std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Work
                             samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(context.width) +
                                     static_cast<std::size_t>(x)] = {
                                 hit.normal, static_cast<float>(hit.distance * scene.unit), hit.albedo,
-                                hit.hit ? hit.instance + 1u : 0u};
+                                hit.hit ? hit.instance + 1u : 0u, hit.lobe};
                         }
                     });
     return samples;
