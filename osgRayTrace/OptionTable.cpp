@@ -175,6 +175,8 @@ const std::vector<OptionRow>& optionTable()
                   "Passes after which an unchanged image is done"),
         numberRow("passes-per-frame", kPassesPerFrameRange, &S::getPassesPerFrame,
                   &S::setPassesPerFrame, "Passes traced in each frame of a viewer"),
+        switchRow("reproject", &S::getReproject, &S::setReproject,
+                  "A view that moves takes along what its image has accumulated"),
         numberRow("threads", kThreadsRange, &S::getThreads, &S::setThreads,
                   "Threads, the calling one included; 0: all of the machine"),
         numberRow("seed", kSeedRange, &S::getSeed, &S::setSeed, "Equal seeds give equal images"),

@@ -86,6 +86,7 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _terminatorCorrection(other._terminatorCorrection),
       _maxPasses(other._maxPasses),
       _passesPerFrame(other._passesPerFrame),
+      _reproject(other._reproject),
       _threads(other._threads),
       _seed(other._seed),
       _exposure(other._exposure),
@@ -173,6 +174,11 @@ void RayTraceSettings::setShadows(bool value)
 void RayTraceSettings::setTerminatorCorrection(bool value)
 {
     change(_terminatorCorrection, value, _modifiedCount);
+}
+
+void RayTraceSettings::setReproject(bool value)
+{
+    change(_reproject, value, _modifiedCount);
 }
 
 void RayTraceSettings::setAimAtViews(bool value)

@@ -6,6 +6,7 @@
 #include "apps/osgraytracebench/LimitMode.h"
 #include "apps/osgraytracebench/PhotonsMode.h"
 #include "apps/osgraytracebench/PickMode.h"
+#include "apps/osgraytracebench/ReprojectMode.h"
 #include "apps/osgraytracebench/UpdateMode.h"
 #include "apps/osgraytracebench/report/CompareMode.h"
 #include "apps/osgraytracebench/report/ReportMode.h"
@@ -41,7 +42,7 @@ struct CommandLine
 {
     CommandLine()
     {
-        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick})
+        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick, &reproject})
             rows->add_option("--json", json, "write the rows to this file as well");
 
         photons
@@ -76,6 +77,21 @@ struct CommandLine
             ->capture_default_str();
         photons.add_option("--only", photonsOptions.only,
                            "parts whose name holds this: lookup, tracing, error");
+
+        reproject
+            .add_option("--width", reprojectOptions.width,
+                        "width of the pictures whose error is measured [pixels]")
+            ->check(CLI::Range(16, 4096))
+            ->capture_default_str();
+        reproject
+            .add_option("--references", reprojectOptions.references,
+                        "passes of the pictures that they are compared with")
+            ->check(CLI::Range(1, 1 << 20))
+            ->capture_default_str();
+        reproject.add_option("--pictures", reprojectOptions.pictures,
+                             "write the last frames to this folder");
+        reproject.add_flag("!--no-costs", reprojectOptions.costs,
+                           "leave the frames of 1920 x 1080 out");
 
         report.add_option("-o,--output", options.folder, "folder of report.html, .csv and .json")
             ->capture_default_str();
@@ -117,6 +133,7 @@ struct CommandLine
         if (pick) return runRows(measurePicks, json);
         if (update) return runRows(measureUpdate, json);
         if (photons) return runRows([&] { return measurePhotons(photonsOptions); }, json);
+        if (reproject) return runRows([&] { return measureReprojection(reprojectOptions); }, json);
         if (compare) return runCompare(before, after, falseAlarmRate);
         app::addPluginPath();
         return runReport(options);
@@ -133,6 +150,8 @@ struct CommandLine
         "update", "what edits of a large live scene cost, against Embree alone");
     CLI::App& pick = *application.add_subcommand(
         "pick", "what a pick costs, against osgUtil's own and one ray");
+    CLI::App& reproject = *application.add_subcommand(
+        "reproject", "what a moving view gains from its earlier frames, and what they cost");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(
@@ -141,6 +160,7 @@ struct CommandLine
     double falseAlarmRate = 0.01;
     ReportOptions options;
     PhotonsOptions photonsOptions;
+    ReprojectOptions reprojectOptions;
 };
 
 } // namespace

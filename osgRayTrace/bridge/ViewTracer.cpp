@@ -41,24 +41,73 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, uint8_t* r
     {
         _session = std::make_unique<RenderSession>(version.workers, version.photons);
         _workers = version.workers;
+        _history.drop();
     }
     if (!sameButForRounding(pass, _view)) _view = pass;
     _session->setScene(version.scene);
     _session->setView(_view);
-    _session->setOptions(renderOptionsFromSettings(*version.settings));
+    const RenderOptions options = renderOptionsFromSettings(*version.settings);
+    _session->setOptions(options);
+    leaveView(version, options);
 
     const int passesBefore = _session->progress().passes;
     StopRule rule;
     rule.passes = version.settings->getMaxPasses();
     rule.newPasses = version.settings->getPassesPerFrame();
     const DisplayTarget display{toneMapFromSettings(*version.settings, version.scene->scene()), rgba, depth};
+    if (_history.leaving() || historyCounts()) rgba = nullptr; // display values need more than the tile's pass
     const RenderProgress made = _session->render(rule, {}, rgba ? &display : nullptr);
+    enterView(version, options, made);
     if (!made.status.ok() || (!made.restarted && made.passes == passesBefore)) return false;
 
     estimateError(rule.passes, made.restarted);
     _imageChanged = !rgba;
     if (rgba) _resolved = display.toneMap;
     return rgba != nullptr;
+}
+
+/// Takes what the session's image is worth to the next one, if nothing but the view changes.
+void ViewTracer::leaveView(const SceneVersion& version, const RenderOptions& options)
+{
+    const bool sameScene = _imageScene.lock() == version.scene;
+    const bool sameSize = _view.width == _imageView.width && _view.height == _imageView.height;
+    if (!sameScene) _viewDependence = viewDependence(version.scene->scene());
+    const bool keeps = version.settings->getReproject() && sameScene && sameSize &&
+                       !options.needsRestart(_imageOptions) && !_viewDependence.everywhere &&
+                       _session->progress().integrator != IntegratorKind::Debug;
+    if (!keeps) _history.drop();
+    if (keeps && hasImage() && _view != _imageView) _history.leave(*_session, _imageView, *_workers);
+
+    constexpr int kWrap = 1 << 24;
+    const int next = (_imageFirstPass + _session->progress().passes + 1) / 2 * 2 % kWrap; // of the first half
+    _nextFirstPass = _history.leaving() ? next : 0;
+    _session->setFirstPass(_nextFirstPass);
+}
+
+void ViewTracer::enterView(const SceneVersion& version, const RenderOptions& options,
+                           const RenderProgress& made)
+{
+    if (made.restarted && made.status.code != StatusCode::InvalidView)
+    {
+        _imageScene = version.scene;
+        _imageView = _view;
+        _imageOptions = options;
+        _imageFirstPass = _nextFirstPass;
+    }
+    if (_history.leaving() && made.passes > 0 && _imageView == _view)
+        _history.enter(*_session, _view, _viewDependence, *_workers);
+}
+
+ShownImage ViewTracer::blendedImage() const
+{
+    ShownImage image = _session->shownImage();
+    _history.blend(image, _session->progress().passes, *_workers);
+    return image;
+}
+
+std::vector<float> ViewTracer::radiance() const
+{
+    return historyCounts() ? blendedImage().radiance : _session->resolveRadiance();
 }
 
 void ViewTracer::estimateError(int maxPasses, bool restarted)
@@ -82,7 +131,10 @@ bool ViewTracer::needsResolve(const SceneVersion& version)
 
 void ViewTracer::resolve(uint8_t* rgba, float* depth)
 {
-    _session->resolveDisplay(_toneMap, rgba, depth);
+    if (historyCounts())
+        showImage(blendedImage(), _toneMap, *_workers, rgba, depth);
+    else
+        _session->resolveDisplay(_toneMap, rgba, depth);
     _resolved = _toneMap;
     _imageChanged = false;
 }
@@ -92,6 +144,8 @@ RenderProgress ViewTracer::progress() const
     if (!_session) return {};
     RenderProgress progress = _session->progress();
     progress.relativeError = _relativeError;
+    progress.reprojectedShare = historyCounts() ? _history.share() : 0.0;
+    progress.reprojectSeconds = _history.seconds();
     return progress;
 }
 

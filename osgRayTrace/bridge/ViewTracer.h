@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/SceneUpdater.h"
 #include "osgRayTrace/session/RenderSession.h"
+#include "osgRayTrace/session/ViewHistory.h"
 
 #include <cstdint>
 #include <limits>
@@ -39,14 +40,19 @@ public:
     }
     int width() const { return _session->width(); }
     int height() const { return _session->height(); }
-    std::vector<float> radiance() const { return _session->resolveRadiance(); }
+    /// Linear RGBA of what is shown.
+    std::vector<float> radiance() const;
 
     /// Of the image. The error estimate is renewed when the passes have grown by an eighth: it
-    /// costs as much as a resolve.
+    /// costs as much as a resolve, and is that of the session's film alone.
     RenderProgress progress() const;
 
 private:
     void estimateError(int maxPasses, bool restarted);
+    void leaveView(const SceneVersion& version, const RenderOptions& options);
+    void enterView(const SceneVersion& version, const RenderOptions& options, const RenderProgress& made);
+    ShownImage blendedImage() const;
+    bool historyCounts() const { return _history.counts(_session->progress().passes); }
 
     std::shared_ptr<Workers> _workers;
     std::unique_ptr<RenderSession> _session;
@@ -55,6 +61,15 @@ private:
     int _nextEstimate = 2; ///< passes
 
     ToneMap _toneMap;
+    // What the session's image is of, and what is left of its earlier views.
+    std::weak_ptr<const TracedScene> _imageScene;
+    View _imageView;
+    RenderOptions _imageOptions;
+    int _imageFirstPass = 0;
+    int _nextFirstPass = 0;
+    ViewDependence _viewDependence;
+    ViewHistory _history;
+
     bool _imageChanged = false; ///< since it was resolved
     std::optional<ToneMap> _resolved;
 };

@@ -20,6 +20,19 @@ float lobeWidth(const MaterialRecord& record, const Bsdf& bsdf)
     return bsdf.isSmooth() ? 0.0f : bsdf.alpha;
 }
 
+void setMaterial(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface, int i,
+                 FirstHit& hit)
+{
+    const MaterialRecord& record = context.traced->materials()[surface.material[i]];
+    const auto set = [&](const Bsdf& bsdf)
+    {
+        hit.albedo = bsdfAlbedo(bsdf);
+        hit.lobe = lobeWidth(record, bsdf);
+    };
+    if (record.constant) return set((surface.front >> i) & 1u ? record.front : record.back);
+    set(context.traced->materials().bsdf(surface.material[i], materialPoint(context, rays, surface, i)));
+}
+
 } // namespace
 
 void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels])
@@ -32,6 +45,8 @@ void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits
         cameraRayLanes(context.camera, context.key, left, bottom, b, true, rays, seeds);
         context.traced->intersector().closestHits(rays, kAllLanes, Coherence::Coherent, kCameraRays);
         surfacesOf(context.traced->surfaces(), rays, kAllLanes, surface);
+        Vec3Lanes normals;
+        facingNormalLanes(rays.ray, surface, normals);
         for (int i = 0; i < kLanes; ++i)
         {
             FirstHit& hit = hits[b * kLanes + i];
@@ -39,12 +54,8 @@ void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits
             if (!((surface.hits >> i) & 1u)) continue;
             hit.hit = true;
             hit.distance = rays.ray.tFar[i];
-            hit.normal = facingNormal(rays, surface, i);
-            const MaterialPoint point = materialPoint(context, rays, surface, i);
-            const MaterialTable& materials = context.traced->materials();
-            const Bsdf bsdf = materials.bsdf(surface.material[i], point);
-            hit.albedo = bsdfAlbedo(bsdf);
-            hit.lobe = lobeWidth(materials[surface.material[i]], bsdf);
+            hit.normal = laneOf(normals, i);
+            setMaterial(context, rays, surface, i, hit);
             hit.position = laneOf(surface.position, i);
             hit.instance = surface.instance[i];
         }

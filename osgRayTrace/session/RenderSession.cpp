@@ -98,11 +98,13 @@ struct RenderSession::Implementation
     std::shared_ptr<const TracedScene> scene;
     View view;
     RenderOptions options;
+    int firstPass = 0;
 
     // What the film holds.
     std::shared_ptr<const TracedScene> filmScene;
     View filmView;
     RenderOptions filmOptions;
+    int filmFirstPass = 0;
     CameraRays camera;
     std::vector<Light> placedLights; // empty: those of the scene
     std::vector<EnvironmentStratum> strata;
@@ -148,6 +150,7 @@ bool RenderSession::Implementation::begin()
     filmScene = scene;
     filmView = view;
     filmOptions = options;
+    filmFirstPass = firstPass;
     placedLights = std::move(placed);
     strata = std::move(made);
     progress = RenderProgress();
@@ -169,8 +172,8 @@ PassContext RenderSession::Implementation::contextOfPass(int pass) const
     context.towardsViewer = glm::transpose(context.eyeFromEngine)[2];
     context.options = filmOptions;
     context.options.integrator = progress.integrator;
-    context.key = passKey(filmOptions.seed, pass);
-    context.pathKey = progress.integrator == IntegratorKind::Ppm ? passKey(filmOptions.seed, 0) : context.key;
+    context.key = passKey(filmOptions.seed, filmFirstPass + pass);
+    context.pathKey = progress.integrator == IntegratorKind::Ppm ? passKey(filmOptions.seed, filmFirstPass) : context.key;
     context.wantsDepth = pass == 0;
     return context;
 }
@@ -313,6 +316,8 @@ void RenderSession::setScene(std::shared_ptr<const TracedScene> scene)
 void RenderSession::setView(const View& view) { _implementation->view = view; }
 
 void RenderSession::setOptions(const RenderOptions& options) { _implementation->options = options; }
+
+void RenderSession::setFirstPass(int pass) { _implementation->firstPass = pass; }
 
 RenderProgress RenderSession::render(const StopRule& rule,
                                      const std::function<bool(const RenderProgress&)>& keepGoing,

@@ -74,6 +74,8 @@ struct RenderProgress
     PhotonNote photonNote = PhotonNote::None; ///< of all passes together
     uint64_t storedPhotons = 0;   ///< in the map of the last pass
     uint64_t photonBytes = 0;     ///< of the maps that are kept, for all views
+    double reprojectedShare = 0.0; ///< of the pixels: those that earlier views add to; by ViewTracer
+    double reprojectSeconds = 0.0; ///< to carry those into this view
     uint64_t hitPointBytes = 0;   ///< that this view keeps for photons: hit points, radii, statistics of pixels
 };
 
@@ -105,6 +107,10 @@ public:
     void setScene(std::shared_ptr<const TracedScene> scene);
     void setView(const View& view);
     void setOptions(const RenderOptions& options);
+
+    /// The next image that is begun takes the random numbers of passes from this one on. Images that are averaged
+    /// need different ones. Photons are those of the first passes all the same.
+    void setFirstPass(int pass);
 
     /// Adds passes to the image until the rule says stop, cancel() is called or keepGoing, called after
     /// each pass on this thread, returns false. The tiles of a pass that cancel() cut short keep it, and the

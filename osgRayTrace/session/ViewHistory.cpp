@@ -111,8 +111,9 @@ float ViewHistory::weightOf(int passes)
 void ViewHistory::leave(const RenderSession& session, const View& view, const Workers& workers)
 {
     const Clock::time_point begin = Clock::now();
-    _taken = false;
     const int passes = session.progress().passes;
+    if (_taken && passes == 0) return; // what the view before left is still on its way
+    _taken = false;
     if (session.width() != view.width || session.height() != view.height) return drop();
     const bool mapped = _here.view == view && !_here.object.empty();
     if (!mapped)

@@ -39,7 +39,10 @@ public:
     /// it.
     void leave(const RenderSession& session, const View& view, const Workers& workers);
 
-    /// After the first pass of the other view, right after leave: carries what that took into it.
+    /// True if what leave took waits for enter.
+    bool leaving() const { return _taken; }
+
+    /// After the first pass of the other view: carries what leave took into it.
     void enter(const RenderSession& session, const View& view, const ViewDependence& dependence,
                const Workers& workers);
 

@@ -74,9 +74,10 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getPhotonAlpha() == Approx(2.0f / 3.0f));
     CHECK(settings->getRadiusSchedule() == RayTraceSettings::GLOBAL);
     CHECK(settings->getAimAtViews());
+    CHECK(settings->getReproject());
 }
 
-TEST_CASE("settings: the table names all twenty-five options once", "[api][settings]")
+TEST_CASE("settings: the table names all twenty-six options once", "[api][settings]")
 {
     std::set<std::string> names;
     std::set<std::string> variables;
@@ -85,11 +86,11 @@ TEST_CASE("settings: the table names all twenty-five options once", "[api][setti
         names.insert(option.name);
         variables.insert(option.environment);
     }
-    CHECK(names.size() == 25);
-    CHECK(variables.size() == 25);
+    CHECK(names.size() == 26);
+    CHECK(variables.size() == 26);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 25);
+    CHECK(RayTraceSettings::options().size() == 26);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")
