@@ -56,9 +56,10 @@ View viewAt(int frame, int width)
 }
 
 /// Sixteen cells a side, of two grays, with finer ones in them.
-Texture cells()
+std::shared_ptr<const Texture> cells()
 {
-    Texture texture;
+    auto made = std::make_shared<Texture>();
+    Texture& texture = *made;
     texture.width = texture.height = 256;
     texture.opaque = true;
     for (int y = 0; y < 256; ++y)
@@ -69,7 +70,7 @@ Texture cells()
             texture.bytes.insert(texture.bytes.end(),
                                  {value, value, static_cast<uint8_t>(value / 2 + 100), 255});
         }
-    return texture;
+    return made;
 }
 
 enum class Look

@@ -78,10 +78,8 @@ void ViewTracer::leaveView(const SceneVersion& version, const RenderOptions& opt
     if (!keeps) _history.drop();
     if (keeps && hasImage() && _view != _imageView) _history.leave(*_session, _imageView, *_workers);
 
-    constexpr int kWrap = 1 << 24;
-    const int next = (_imageFirstPass + _session->progress().passes + 1) / 2 * 2 % kWrap; // of the first half
-    _nextFirstPass = _history.leaving() ? next : 0;
-    _session->setFirstPass(_nextFirstPass);
+    if (!keeps) _sequence = 0;
+    _session->setSequence(_history.leaving() ? _sequence + 1 : 0);
 }
 
 void ViewTracer::enterView(const SceneVersion& version, const RenderOptions& options,
@@ -92,7 +90,7 @@ void ViewTracer::enterView(const SceneVersion& version, const RenderOptions& opt
         _imageScene = version.scene;
         _imageView = _view;
         _imageOptions = options;
-        _imageFirstPass = _nextFirstPass;
+        if (_history.leaving()) ++_sequence;
     }
     if (_history.leaving() && made.passes > 0 && _imageView == _view)
         _history.enter(*_session, _view, _viewDependence, *_workers);

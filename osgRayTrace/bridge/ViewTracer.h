@@ -65,8 +65,7 @@ private:
     std::weak_ptr<const TracedScene> _imageScene;
     View _imageView;
     RenderOptions _imageOptions;
-    int _imageFirstPass = 0;
-    int _nextFirstPass = 0;
+    uint32_t _sequence = 0; ///< of random numbers, which is another one for each view that is left
     ViewDependence _viewDependence;
     ViewHistory _history;
 

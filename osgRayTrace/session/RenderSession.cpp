@@ -98,13 +98,13 @@ struct RenderSession::Implementation
     std::shared_ptr<const TracedScene> scene;
     View view;
     RenderOptions options;
-    int firstPass = 0;
+    uint32_t sequence = 0;
 
     // What the film holds.
     std::shared_ptr<const TracedScene> filmScene;
     View filmView;
     RenderOptions filmOptions;
-    int filmFirstPass = 0;
+    uint32_t filmSeed = 0; // of the options and the sequence
     CameraRays camera;
     std::vector<Light> placedLights; // empty: those of the scene
     std::vector<EnvironmentStratum> strata;
@@ -150,7 +150,7 @@ bool RenderSession::Implementation::begin()
     filmScene = scene;
     filmView = view;
     filmOptions = options;
-    filmFirstPass = firstPass;
+    filmSeed = sequence == 0 ? options.seed : hash(options.seed, sequence + 1); // 0 and 1: halves
     placedLights = std::move(placed);
     strata = std::move(made);
     progress = RenderProgress();
@@ -172,8 +172,8 @@ PassContext RenderSession::Implementation::contextOfPass(int pass) const
     context.towardsViewer = glm::transpose(context.eyeFromEngine)[2];
     context.options = filmOptions;
     context.options.integrator = progress.integrator;
-    context.key = passKey(filmOptions.seed, filmFirstPass + pass);
-    context.pathKey = progress.integrator == IntegratorKind::Ppm ? passKey(filmOptions.seed, filmFirstPass) : context.key;
+    context.key = passKey(filmSeed, pass);
+    context.pathKey = progress.integrator == IntegratorKind::Ppm ? passKey(filmSeed, 0) : context.key;
     context.wantsDepth = pass == 0;
     return context;
 }
@@ -317,7 +317,7 @@ void RenderSession::setView(const View& view) { _implementation->view = view; }
 
 void RenderSession::setOptions(const RenderOptions& options) { _implementation->options = options; }
 
-void RenderSession::setFirstPass(int pass) { _implementation->firstPass = pass; }
+void RenderSession::setSequence(uint32_t sequence) { _implementation->sequence = sequence; }
 
 RenderProgress RenderSession::render(const StopRule& rule,
                                      const std::function<bool(const RenderProgress&)>& keepGoing,

@@ -108,9 +108,9 @@ public:
     void setView(const View& view);
     void setOptions(const RenderOptions& options);
 
-    /// The next image that is begun takes the random numbers of passes from this one on. Images that are averaged
-    /// need different ones. Photons are those of the first passes all the same.
-    void setFirstPass(int pass);
+    /// Which of many independent sequences of random numbers the next image that is begun takes: those that are
+    /// averaged need different ones. 0: that of the options' seed. Photons are the same for all.
+    void setSequence(uint32_t sequence);
 
     /// Adds passes to the image until the rule says stop, cancel() is called or keepGoing, called after
     /// each pass on this thread, returns false. The tiles of a pass that cancel() cut short keep it, and the

@@ -40,46 +40,52 @@ float turnOf(const View& a, const View& b)
     return static_cast<float>(std::acos(std::min(1.0, std::max(-1.0, cosine))));
 }
 
-/// radiance = (h radiance_h + n radiance) / (h + n), h = weight * count.
-OSGRAYTRACE_KERNEL
-void blendRow(const float* __restrict history, const float* __restrict count, float weight,
-              float passes, std::size_t width, float* __restrict radiance)
+/// Samples that the history still stands for.
+OSGRAYTRACE_INLINE float fadedCount(float count, float passes)
 {
-    for (std::size_t x = 0; x < width; ++x)
+    const float faded = count - 0.5f * passes;
+    return faded > 0.0f ? faded : 0.0f;
+}
+
+/// radiance = (h history + n radiance) / (h + n)
+OSGRAYTRACE_KERNEL
+void blendPixels(const float* __restrict history, const float* __restrict count, float passes,
+                 std::size_t pixels, float* __restrict radiance)
+{
+    for (std::size_t i = 0; i < pixels; ++i)
     {
-        const float h = weight * count[x];
-        const float sum = h + passes;
+        const float h = fadedCount(count[i], passes), sum = h + passes;
         const float share = sum > 0.0f ? h / sum : 0.0f;
-        for (int c = 0; c < 4; ++c)
-            radiance[4 * x + c] += share * (history[4 * x + c] - radiance[4 * x + c]);
+        for (std::size_t c = 4 * i; c < 4 * i + 4; ++c)
+            radiance[c] += share * (history[c] - radiance[c]);
     }
 }
 
 /// Of the mean of all samples, as those of the film vary: e sqrt(n / (h + n)).
-void scaleErrors(const float* count, float weight, float passes, std::size_t width, float* error)
+void scaleErrors(const float* count, float passes, std::size_t pixels, float* error)
 {
-    for (std::size_t x = 0; x < width; ++x)
+    for (std::size_t i = 0; i < pixels; ++i)
     {
-        const float scale = std::sqrt(passes / (passes + weight * count[x]));
-        for (std::size_t c = 0; c < 3; ++c)
-            error[3 * x + c] *= scale;
+        const float scale = std::sqrt(passes / (passes + fadedCount(count[i], passes)));
+        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
+            error[c] *= scale;
     }
 }
 
 /// Two independent means a of h and b of n samples differ by (a - b)^2 = v (1/h + 1/n), v the
 /// variance of one, and that of the mean of all is v / (h + n): |a - b| sqrt(h n) / (h + n) is its
 /// root. For h = n it is the estimate of [Rousselle12, sect. 3].
-void estimateErrors(const float* history, const float* count, float weight, float passes,
-                    const float* radiance, std::size_t width, float* error)
+void estimateErrors(const float* history, const float* count, float passes, const float* radiance,
+                    std::size_t pixels, float* error)
 {
-    for (std::size_t x = 0; x < width; ++x)
+    for (std::size_t i = 0; i < pixels; ++i)
     {
-        const float h = weight * count[x];
+        const float h = fadedCount(count[i], passes);
         const float scale = std::sqrt(h * passes) / (h + passes);
         for (std::size_t c = 0; c < 3; ++c)
         {
-            const float film = radiance[4 * x + c];
-            error[3 * x + c] = h > 0.0f ? scale * std::fabs(history[4 * x + c] - film) : film;
+            const float film = radiance[4 * i + c];
+            error[3 * i + c] = h > 0.0f ? scale * std::fabs(history[4 * i + c] - film) : film;
         }
     }
 }
@@ -103,11 +109,6 @@ ViewDependence viewDependence(const Scene& scene)
     return result;
 }
 
-float ViewHistory::weightOf(int passes)
-{
-    return std::max(0.0f, 1.0f - static_cast<float>(passes) / (4.0f * kMostCount));
-}
-
 void ViewHistory::leave(const RenderSession& session, const View& view, const Workers& workers)
 {
     const Clock::time_point begin = Clock::now();
@@ -123,20 +124,19 @@ void ViewHistory::leave(const RenderSession& session, const View& view, const Wo
     }
     const auto width = static_cast<std::size_t>(view.width);
     const float n = static_cast<float>(passes);
-    const float weight = _share > 0.0 ? weightOf(passes) : 0.0f;
     _left.width = view.width;
     _left.height = view.height;
     _left.radiance = session.resolveRadiance();
     _left.count.assign(width * static_cast<std::size_t>(view.height), n);
-    if (weight > 0.0f)
+    if (counts(passes))
         forEachRows(workers, view.height,
                     [&](std::size_t first, std::size_t end)
                     {
-                        for (std::size_t i = first * width; i < end * width; ++i)
-                            _left.count[i] += weight * _history.count[i];
-                        blendRow(&_history.radiance[4 * first * width],
-                                 &_history.count[first * width], weight, n, (end - first) * width,
-                                 &_left.radiance[4 * first * width]);
+                        const std::size_t pixel = first * width, pixels = (end - first) * width;
+                        for (std::size_t i = pixel; i < pixel + pixels; ++i)
+                            _left.count[i] += fadedCount(_history.count[i], n);
+                        blendPixels(&_history.radiance[4 * pixel], &_history.count[pixel], n,
+                                    pixels, &_left.radiance[4 * pixel]);
                     });
     _taken = true;
     _seconds = secondsSince(begin);
@@ -166,22 +166,22 @@ void ViewHistory::blend(ShownImage& image, int passes, const Workers& workers) c
 {
     if (!counts(passes) || image.width != _history.width || image.height != _history.height) return;
     const auto width = static_cast<std::size_t>(image.width);
-    const float weight = weightOf(passes), n = static_cast<float>(passes);
+    const float n = static_cast<float>(passes);
     const bool estimated = image.error.empty();
     if (estimated) image.error.resize(3 * width * static_cast<std::size_t>(image.height));
     forEachRows(workers, image.height,
                 [&](std::size_t first, std::size_t end)
                 {
-                    const std::size_t pixel = first * width, count = (end - first) * width;
+                    const std::size_t pixel = first * width, pixels = (end - first) * width;
                     const float* history = &_history.radiance[4 * pixel];
-                    const float* counts = &_history.count[pixel];
+                    const float* count = &_history.count[pixel];
                     float* radiance = &image.radiance[4 * pixel];
+                    float* error = &image.error[3 * pixel];
                     if (estimated)
-                        estimateErrors(history, counts, weight, n, radiance, count,
-                                       &image.error[3 * pixel]);
+                        estimateErrors(history, count, n, radiance, pixels, error);
                     else
-                        scaleErrors(counts, weight, n, count, &image.error[3 * pixel]);
-                    blendRow(history, counts, weight, n, count, radiance);
+                        scaleErrors(count, n, pixels, error);
+                    blendPixels(history, count, n, pixels, radiance);
                 });
 }
 

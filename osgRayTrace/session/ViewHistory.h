@@ -21,11 +21,11 @@ ViewDependence viewDependence(const Scene& scene);
 /// The part of a view's image that is not of this view alone: beside the session's film, which
 /// begins anew with each view. Shown is
 ///
-///   (h history + n film) / (h + n),   h = count max(0, 1 - n / (4 most)),
+///   (h history + n film) / (h + n),   h = max(0, count - n / 2),
 ///
-/// n the film's passes, count the history's samples of the pixel and most what a pixel may have of
-/// them. So while the view moves it is the mean of all samples; at rest the history fades, and
-/// after 4 most passes the image is the film's own.
+/// n the film's passes, count the history's samples of the pixel. So while the view moves it is the
+/// mean of all samples, and at rest each pass takes half a sample's weight from the history: after
+/// 2 kMostCount passes, and after fewer where it holds less, the image is the film's own.
 ///
 /// A history is of one scene and one set of options, and of one size: who renders calls leave and
 /// enter only where nothing but the view changes, and drop where anything else does. Not thread
@@ -49,7 +49,10 @@ public:
     void drop();
 
     /// True if the history adds to an image of so many passes.
-    bool counts(int passes) const { return _share > 0.0 && weightOf(passes) > 0.0f; }
+    bool counts(int passes) const
+    {
+        return _share > 0.0 && static_cast<float>(passes) < 2.0f * kMostCount;
+    }
 
     /// Adds the history to the image of the session's film, which has so many passes, and to its
     /// errors: those of all samples together. Below two passes the error is estimated by how film
@@ -61,8 +64,6 @@ public:
     double seconds() const { return _seconds; } ///< that the last leave and enter took
 
 private:
-    static float weightOf(int passes);
-
     SampledImage _history; ///< of the view of _here
     SampledImage _left;    ///< what leave took
     SurfaceMap _here;      ///< of the last view that was entered
