@@ -175,7 +175,7 @@ struct OldImage
     }
 
     /// True if pixel (x,y) shows the surface.
-    bool shows(const Surface& surface, int x, int y, std::size_t i) const
+    OSGRAYTRACE_INLINE bool shows(const Surface& surface, int x, int y, std::size_t i) const
     {
         if (map.object[i] != surface.object) return false;
         if (surface.object == 0) return true;
@@ -231,26 +231,26 @@ OSGRAYTRACE_INLINE Vec4 cubicWeights(float t)
                 0.5f * t + 2.0f * t2 - 1.5f * t3, -0.5f * t2 + 0.5f * t3);
 }
 
-/// Of the old pixels (x-1,y-1) to (x+2,y+2), which are all in the image.
-Gathered OldImage::cubic(int x, int y, float u, float v) const
+/// Of the old pixels (x-1,y-1) to (x+2,y+2), which are all in the image. Four channels are one
+/// vector.
+OSGRAYTRACE_INLINE Gathered OldImage::cubic(int x, int y, float u, float v) const
 {
     const Vec4 wx = cubicWeights(u), wy = cubicWeights(v);
-    Gathered sum;
+    float sum[4] = {};
     for (int j = 0; j < 4; ++j)
     {
-        const float* row = &image.radiance[4 * index(x - 1, y - 1 + j)];
-        Vec4 mean(0.0f);
-        for (int i = 0; i < 4; ++i)
-            for (int c = 0; c < 4; ++c)
-                mean[c] += wx[i] * row[4 * i + c];
+        const float* p = &image.radiance[4 * index(x - 1, y - 1 + j)];
+        OSGRAYTRACE_SIMD
         for (int c = 0; c < 4; ++c)
-            sum.radiance[c] += wy[j] * mean[c];
+            sum[c] += wy[j] * (wx.x * p[c] + wx.y * p[4 + c] + wx.z * p[8 + c] + wx.w * p[12 + c]);
     }
     const float* low = &image.count[index(x, y)];
     const float* high = &image.count[index(x, y + 1)];
-    sum.count =
+    Gathered gathered;
+    gathered.radiance = Vec4(sum[0], sum[1], sum[2], sum[3]);
+    gathered.count =
         (1.0f - v) * ((1.0f - u) * low[0] + u * low[1]) + v * ((1.0f - u) * high[0] + u * high[1]);
-    return sum;
+    return gathered;
 }
 
 class Reprojector
@@ -282,9 +282,9 @@ private:
 Gathered Reprojector::pixel(std::size_t i, std::size_t x, const ProjectedRow& projected) const
 {
     const float oldX = projected.x[x], oldY = projected.y[x];
-    const float floorX = std::floor(oldX), floorY = std::floor(oldY);
-    const int left = static_cast<int>(floorX), bottom = static_cast<int>(floorY);
-    const float u = oldX - floorX, v = oldY - floorY;
+    // The floor of what is -1/2 at least, without a call.
+    const int left = static_cast<int>(oldX + 1.0f) - 1, bottom = static_cast<int>(oldY + 1.0f) - 1;
+    const float u = oldX - static_cast<float>(left), v = oldY - static_cast<float>(bottom);
     const int nearestX =
         std::min(left + (u >= 0.5f), _old.map.view.width - 1); // of a place that was
     const int nearestY = std::min(bottom + (v >= 0.5f), _old.map.view.height - 1); // rounded up
