@@ -107,25 +107,26 @@ std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Work
     const Scene& scene = context.traced->scene();
     std::vector<SurfaceSample> samples(static_cast<std::size_t>(context.width) *
                                        static_cast<std::size_t>(context.height));
-    workers.forEach(static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY),
-                    [&](std::size_t tile)
-                    {
-                        const int left = static_cast<int>(tile) % tilesX * kTileSize;
-                        const int bottom = static_cast<int>(tile) / tilesX * kTileSize;
-                        FirstHit hits[kTilePixels];
-                        firstHits(context, left, bottom, hits);
-                        for (int i = 0; i < kTilePixels; ++i)
-                        {
-                            const int x = left + laneX(i / kLanes, i % kLanes);
-                            const int y = bottom + laneY(i / kLanes, i % kLanes);
-                            if (x >= context.width || y >= context.height) continue;
-                            const FirstHit& hit = hits[i];
-                            samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(context.width) +
-                                    static_cast<std::size_t>(x)] = {
-                                hit.normal, static_cast<float>(hit.distance * scene.unit), hit.albedo,
-                                hit.hit ? hit.instance + 1u : 0u, hit.lobe};
-                        }
-                    });
+    workers.forEach(
+        static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY),
+        [&](std::size_t tile)
+        {
+            const int left = static_cast<int>(tile) % tilesX * kTileSize;
+            const int bottom = static_cast<int>(tile) / tilesX * kTileSize;
+            FirstHit hits[kTilePixels];
+            firstHits(context, left, bottom, hits);
+            for (int i = 0; i < kTilePixels; ++i)
+            {
+                const int x = left + laneX(i / kLanes, i % kLanes);
+                const int y = bottom + laneY(i / kLanes, i % kLanes);
+                if (x >= context.width || y >= context.height) continue;
+                const FirstHit& hit = hits[i];
+                samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(context.width) +
+                        static_cast<std::size_t>(x)] = {
+                    hit.normal, static_cast<float>(hit.distance * scene.unit), hit.albedo,
+                    hit.hit ? hit.instance + 1u : 0u, hit.lobe};
+            }
+        });
     return samples;
 }
 
