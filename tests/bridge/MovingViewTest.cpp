@@ -303,6 +303,16 @@ TEST_CASE("moving view: errors are those of film and history together", "[bridge
             history.enter(session, lowViewAt(frame), {}, *workers);
         }
         ShownImage image = session.shownImage();
+        if (passes == 1)
+        {
+            // Four frames of one sample each are gone after eight passes, and not before.
+            const ShownImage film = image;
+            ShownImage early = film, late = film;
+            history.blend(early, 6, *workers);
+            history.blend(late, 8, *workers);
+            CHECK(early.radiance != film.radiance);
+            CHECK(late.radiance == film.radiance);
+        }
         history.blend(image, passes, *workers);
         const std::vector<float> reference = converged(scene, lowViewAt(4), 512);
         double estimated = 0.0;
