@@ -43,7 +43,7 @@ float turnOf(const View& a, const View& b)
 /// Samples that the history still stands for.
 OSGRAYTRACE_INLINE float fadedCount(float count, float passes)
 {
-    const float faded = count - 0.5f * passes;
+    const float faded = count - 0.5f * (passes - 1.0f);
     return faded > 0.0f ? faded : 0.0f;
 }
 

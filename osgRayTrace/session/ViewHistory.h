@@ -21,11 +21,12 @@ ViewDependence viewDependence(const Scene& scene);
 /// The part of a view's image that is not of this view alone: beside the session's film, which
 /// begins anew with each view. Shown is
 ///
-///   (h history + n film) / (h + n),   h = max(0, count - n / 2),
+///   (h history + n film) / (h + n),   h = max(0, count - (n - 1) / 2),
 ///
 /// n the film's passes, count the history's samples of the pixel. So while the view moves it is the
-/// mean of all samples, and at rest each pass takes half a sample's weight from the history: after
-/// 2 kMostCount passes, and after fewer where it holds less, the image is the film's own.
+/// mean of all samples, and at rest each further pass takes the weight of half a sample from the
+/// history: from pass 2 kMostCount + 1 on, and earlier where it holds less, the image is the film's
+/// own.
 ///
 /// A history is of one scene and one set of options, and of one size: who renders calls leave and
 /// enter only where nothing but the view changes, and drop where anything else does. Not thread
@@ -51,7 +52,7 @@ public:
     /// True if the history adds to an image of so many passes.
     bool counts(int passes) const
     {
-        return _share > 0.0 && static_cast<float>(passes) < 2.0f * kMostCount;
+        return _share > 0.0 && static_cast<float>(passes - 1) < 2.0f * kMostCount;
     }
 
     /// Adds the history to the image of the session's film, which has so many passes, and to its

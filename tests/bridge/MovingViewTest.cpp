@@ -305,11 +305,11 @@ TEST_CASE("moving view: errors are those of film and history together", "[bridge
         ShownImage image = session.shownImage();
         if (passes == 1)
         {
-            // Four frames of one sample each are gone after eight passes, and not before.
+            // Four frames of one sample each are gone with the ninth pass, and not before.
             const ShownImage film = image;
             ShownImage early = film, late = film;
-            history.blend(early, 6, *workers);
-            history.blend(late, 8, *workers);
+            history.blend(early, 8, *workers);
+            history.blend(late, 9, *workers);
             CHECK(early.radiance != film.radiance);
             CHECK(late.radiance == film.radiance);
         }
