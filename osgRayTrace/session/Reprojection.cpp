@@ -296,7 +296,12 @@ Gathered Reprojector::pixel(std::size_t i, std::size_t x, const ProjectedRow& pr
     const bool window =
         left >= 1 && bottom >= 1 && left + 2 < map.view.width && bottom + 2 < map.view.height;
     Gathered found;
-    if (window && map.interior[nearest] && _old.shows(surface, nearestX, nearestY, nearest))
+    // With these four, all sixteen are smooth: none of them is mixed.
+    const bool interior = window && map.interior[_old.index(left, bottom)] &&
+                          map.interior[_old.index(left + 1, bottom)] &&
+                          map.interior[_old.index(left, bottom + 1)] &&
+                          map.interior[_old.index(left + 1, bottom + 1)];
+    if (interior && _old.shows(surface, nearestX, nearestY, nearest))
         found = _old.cubic(left, bottom, u, v);
     else
         found = _old.bilinear(surface, _to.smooth[i], left, bottom, u, v);
