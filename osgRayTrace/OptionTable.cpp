@@ -179,6 +179,8 @@ const std::vector<OptionRow>& optionTable()
                   "The frame budget may reduce the resolution of moving views"),
         numberRow("passes-per-frame", kPassesPerFrameRange, &S::getPassesPerFrame,
                   &S::setPassesPerFrame, "Passes in each frame of a viewer without a frame budget"),
+        switchRow("reproject", &S::getReproject, &S::setReproject,
+                  "A view that moves takes along what its image has accumulated"),
         numberRow("threads", kThreadsRange, &S::getThreads, &S::setThreads,
                   "Threads, the calling one included; 0: all of the machine"),
         numberRow("seed", kSeedRange, &S::getSeed, &S::setSeed, "Equal seeds give equal images"),

@@ -8,6 +8,7 @@
 #include "apps/osgraytracebench/LimitMode.h"
 #include "apps/osgraytracebench/PhotonsMode.h"
 #include "apps/osgraytracebench/PickMode.h"
+#include "apps/osgraytracebench/ReprojectMode.h"
 #include "apps/osgraytracebench/UpdateMode.h"
 #include "apps/osgraytracebench/report/CompareMode.h"
 #include "apps/osgraytracebench/report/ReportMode.h"
@@ -43,7 +44,8 @@ struct CommandLine
 {
     CommandLine()
     {
-        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick, &interactive, &denoise})
+        for (CLI::App* rows :
+             {&limit, &features, &photons, &update, &pick, &interactive, &denoise, &reproject})
             rows->add_option("--json", json, "write the rows to this file as well");
 
         photons
@@ -97,6 +99,20 @@ struct CommandLine
                              "on a machine of its own");
         interactive.add_option("--only", interactiveOptions.only,
                                "scenes whose name holds this: Cornell box, triangles, instances");
+        reproject
+            .add_option("--width", reprojectOptions.width,
+                        "width of the pictures whose error is measured [pixels]")
+            ->check(CLI::Range(16, 4096))
+            ->capture_default_str();
+        reproject
+            .add_option("--references", reprojectOptions.references,
+                        "passes of the pictures that they are compared with")
+            ->check(CLI::Range(1, 1 << 20))
+            ->capture_default_str();
+        reproject.add_option("--pictures", reprojectOptions.pictures,
+                             "write the last frames to this folder");
+        reproject.add_flag("!--no-costs", reprojectOptions.costs,
+                           "leave the frames of 1920 x 1080 out");
 
         report.add_option("-o,--output", options.folder, "folder of report.html, .csv and .json")
             ->capture_default_str();
@@ -141,6 +157,7 @@ struct CommandLine
         if (denoise) return runRows(measureDenoise, json);
         if (update) return runRows(measureUpdate, json);
         if (photons) return runRows([&] { return measurePhotons(photonsOptions); }, json);
+        if (reproject) return runRows([&] { return measureReprojection(reprojectOptions); }, json);
         if (compare) return runCompare(before, after, falseAlarmRate);
         app::addPluginPath();
         return runReport(options);
@@ -161,6 +178,8 @@ struct CommandLine
         "interactive", "whether the frames of a moving camera keep to their budgets");
     CLI::App& denoise = *application.add_subcommand(
         "denoise", "how much error the denoiser takes from one and four passes, and how long it takes");
+    CLI::App& reproject = *application.add_subcommand(
+        "reproject", "what a moving view gains from its earlier frames, and what they cost");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(
@@ -170,6 +189,7 @@ struct CommandLine
     ReportOptions options;
     PhotonsOptions photonsOptions;
     InteractiveOptions interactiveOptions;
+    ReprojectOptions reprojectOptions;
 };
 
 } // namespace

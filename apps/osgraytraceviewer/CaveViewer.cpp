@@ -300,11 +300,12 @@ int runCave(const CaveOptions& options, osg::Node* root, RayTracedScene* scene)
         return kDone;
     }
 
-    viewer.addEventHandler(new KeyHandler(scene));
+    const osg::ref_ptr<KeyHandler> keys = new KeyHandler(scene);
+    viewer.addEventHandler(keys.get());
     viewer.addEventHandler(new osgViewer::StatsHandler);
     while (!viewer.done())
     {
-        if (path) moveHead(setup, pictures, path->at(viewer.elapsedTime()));
+        if (path && !keys->isFrozen()) moveHead(setup, pictures, path->at(viewer.elapsedTime()));
         viewer.frame();
     }
     return kDone;

@@ -47,7 +47,10 @@ std::string freeFileName()
 bool KeyHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action)
 {
     if (event.getHandled() || event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
-    if (!press(event.getKey())) return false;
+    if (event.getKey() == 'F')
+        freeze(dynamic_cast<osgViewer::View*>(&action));
+    else if (!press(event.getKey()))
+        return false;
     action.requestRedraw();
     return true;
 }
@@ -88,6 +91,21 @@ bool KeyHandler::press(int key)
     }
 }
 
+/// A view without a manipulator keeps its matrices.
+void KeyHandler::freeze(osgViewer::View* view)
+{
+    _frozen = !_frozen;
+    if (!view) return;
+    if (_frozen)
+    {
+        _manipulator = view->getCameraManipulator();
+        view->setCameraManipulator(nullptr, false);
+        return;
+    }
+    if (_manipulator) view->setCameraManipulator(_manipulator.get(), false);
+    _manipulator = nullptr;
+}
+
 void KeyHandler::writeScreenshot() const
 {
     const osg::ref_ptr<osg::Image> image = _scene->getDrawable()->getColorImage();
@@ -109,6 +127,7 @@ void KeyHandler::getUsage(osg::ApplicationUsage& usage) const
     usage.addKeyboardMouseBinding("+", "Exposure half a stop up");
     usage.addKeyboardMouseBinding("-", "Exposure half a stop down");
     usage.addKeyboardMouseBinding("p", "Pause and continue ray tracing");
+    usage.addKeyboardMouseBinding("F", "Freeze the view, so that its image converges, and let it go");
     usage.addKeyboardMouseBinding("r", "Switch between ray tracer and rasterizer");
     usage.addKeyboardMouseBinding("R", "Print what is ray traced, and what is not");
     usage.addKeyboardMouseBinding("c", "Write the picture's radiance to osgraytrace-N.exr");

@@ -5,7 +5,9 @@
 #include <osgRayTrace/RayTracedScene>
 
 #include <osg/ApplicationUsage>
+#include <osgGA/CameraManipulator>
 #include <osgGA/GUIEventHandler>
+#include <osgViewer/View>
 
 namespace osgRayTrace::app
 {
@@ -21,11 +23,18 @@ public:
     /// The keys, for the on-screen help and --help.
     void getUsage(osg::ApplicationUsage& usage) const override;
 
+    /// The view is to stay where it is, so that its image converges: the manipulator has been taken from it, and who
+    /// else moves it asks here.
+    bool isFrozen() const { return _frozen; }
+
 private:
     bool press(int key);
+    void freeze(osgViewer::View* view);
     void writeScreenshot() const;
 
     osg::ref_ptr<RayTracedScene> _scene;
+    bool _frozen = false;
+    osg::ref_ptr<osgGA::CameraManipulator> _manipulator; ///< of the view, while it is frozen
 };
 
 } // namespace osgRayTrace::app

@@ -86,6 +86,8 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     statistics.storedPhotons = progress.storedPhotons;
     statistics.photonBytes = progress.photonBytes;
     statistics.hitPointBytes = progress.hitPointBytes;
+    statistics.reprojectedShare = progress.reprojectedShare;
+    statistics.reprojectSeconds = progress.reprojectSeconds;
     statistics.photonNote = noteText(progress.photonNote);
     if (!statistics.photonNote.empty()) warnOnce(statistics.photonNote);
     statistics.photonRadius = static_cast<double>(progress.photonRadius);

@@ -70,6 +70,8 @@ bool ViewTracer::takeInputs(const SceneVersion& version, const View& pass)
         _session = std::make_unique<RenderSession>(version.workers, version.photons);
         _reduced = std::make_unique<RenderSession>(version.workers, version.photons);
         _surfacesOf = nullptr;
+        _imageOf = nullptr;
+        _history.drop();
         _shown = Shown::Whole;
         moved = true;
     }
@@ -91,6 +93,7 @@ bool ViewTracer::takeInputs(const SceneVersion& version, const View& pass)
         moved = true;
     }
     _maxPasses = version.settings->getMaxPasses();
+    _reprojects = version.settings->getReproject();
     return moved;
 }
 
@@ -101,7 +104,7 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
     const bool moved = takeInputs(version, pass);
     _stillFrames = moved ? 0 : _stillFrames + 1;
     _denoises = denoises(*version.settings);
-    if (isStaged()) rgba = nullptr; // that takes the whole image: resolve() does it
+    if (_denoises) rgba = nullptr; // that takes the whole image: resolve() does it
     _holdsFull = _holdsFull && rgba;
     _display = {toneMapFromSettings(*version.settings, version.scene->scene()), rgba, depth};
     _written = false;
@@ -239,13 +242,18 @@ void ViewTracer::traceStill(FrameSituation frame)
 RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule& rule,
                                   const DisplayTarget* display)
 {
+    const View view = reducedView(_view, divider);
     session.setScene(_scene);
-    session.setView(reducedView(_view, divider));
+    session.setView(view);
     session.setOptions(_options);
     rule.passes = _maxPasses;
-    const bool writes = display && display->rgba;
     const double start = _now();
+    leaveView(session, view);
+    // Display values need more than the tile's pass where there is a history.
+    const bool writes =
+        display && display->rgba && !_history.leaving() && !historyCounts(session);
     const RenderProgress made = session.render(rule, {}, writes ? display : nullptr);
+    enterView(session, view, made);
     _status = made.status;
     _newTiles += made.newTiles;
     if (made.restarted && _surfacesOf == &session) _surfacesOf = nullptr;
@@ -271,6 +279,37 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
         _resolvedDenoised = false;
     }
     return made;
+}
+
+/// Takes what the session's image is worth to the next one, if nothing but the view changes.
+void ViewTracer::leaveView(RenderSession& session, const View& view)
+{
+    const bool sameScene = _imageScene.lock() == _scene;
+    const bool sameSize = view.width == _imageView.width && view.height == _imageView.height;
+    if (!sameScene) _viewDependence = viewDependence(_scene->scene());
+    const bool keeps = _reprojects && &session == _imageOf && sameScene && sameSize &&
+                       !_options.needsRestart(_imageOptions) && !_viewDependence.everywhere &&
+                       session.progress().integrator != IntegratorKind::Debug;
+    if (!keeps) _history.drop();
+    if (keeps && session.progress().passes > 0 && view != _imageView)
+        _history.leave(session, _imageView, *_workers);
+
+    if (!keeps) _sequence = 0;
+    session.setSequence(_history.leaving() ? _sequence + 1 : 0);
+}
+
+void ViewTracer::enterView(const RenderSession& session, const View& view, const RenderProgress& made)
+{
+    if (made.restarted && made.status.code != StatusCode::InvalidView)
+    {
+        _imageOf = &session;
+        _imageScene = _scene;
+        _imageView = view;
+        _imageOptions = _options;
+        if (_history.leaving()) ++_sequence;
+    }
+    if (_history.leaving() && made.passes > 0 && _imageView == view)
+        _history.enter(session, view, _viewDependence, *_workers);
 }
 
 void ViewTracer::estimateError()
@@ -309,7 +348,7 @@ void ViewTracer::resolve(uint8_t* rgba, float* depth)
         if (!_denoises) _session->resolveOver(_toneMap, rgba, depth);
         break;
     }
-    _holdsFull = _shown != Shown::Reduced && !isStaged();
+    _holdsFull = _shown != Shown::Reduced && !isStaged(image());
     _resolved = _toneMap;
     _resolvedDenoised = _denoises;
     _imageChanged = false;
@@ -318,7 +357,7 @@ void ViewTracer::resolve(uint8_t* rgba, float* depth)
 /// With what is done to images after they are accumulated.
 void ViewTracer::resolveImage(const RenderSession& session, uint8_t* rgba, float* depth)
 {
-    if (isStaged())
+    if (isStaged(session))
         showImage(stagedImage(session), _toneMap, *_workers, rgba, depth);
     else
         session.resolveDisplay(_toneMap, rgba, depth);
@@ -327,6 +366,8 @@ void ViewTracer::resolveImage(const RenderSession& session, uint8_t* rgba, float
 ShownImage ViewTracer::stagedImage(const RenderSession& session)
 {
     ShownImage image = session.shownImage();
+    if (historyCounts(session)) _history.blend(image, session.progress().passes, *_workers);
+    if (!_denoises) return image;
     const double begin = _now();
     if (!_denoise) _denoise = std::make_unique<DenoiseFilter>();
     if (_surfacesOf != &session)
@@ -339,7 +380,7 @@ ShownImage ViewTracer::stagedImage(const RenderSession& session)
 
 std::vector<float> ViewTracer::radiance()
 {
-    return isStaged() ? stagedImage(image()).radiance : image().resolveRadiance();
+    return isStaged(image()) ? stagedImage(image()).radiance : image().resolveRadiance();
 }
 
 /// To full resolution, with nothing but what its pixels hold.
@@ -374,6 +415,8 @@ RenderProgress ViewTracer::progress() const
     progress.relativeError =
         _shown == Shown::Whole ? _relativeError : std::numeric_limits<double>::infinity();
     progress.denoiseSeconds = _denoiseSeconds;
+    progress.reprojectedShare = historyCounts(image()) ? _history.share() : 0.0;
+    progress.reprojectSeconds = _history.seconds();
     return progress;
 }
 

@@ -6,6 +6,7 @@
 #include "osgRayTrace/session/DenoiseFilter.h"
 #include "osgRayTrace/session/FramePlan.h"
 #include "osgRayTrace/session/RenderSession.h"
+#include "osgRayTrace/session/ViewHistory.h"
 
 #include <cstdint>
 #include <functional>
@@ -113,7 +114,14 @@ private:
     ShownImage stagedImage(const RenderSession& session);
     void enlargeReduced(uint8_t* rgba, float* depth);
 
-    bool isStaged() const { return _denoises; } ///< display values need more than the tile's pass
+    void leaveView(RenderSession& session, const View& view);
+    void enterView(const RenderSession& session, const View& view, const RenderProgress& made);
+    bool historyCounts(const RenderSession& session) const
+    {
+        return &session == _imageOf && _history.counts(session.progress().passes);
+    }
+    bool isStaged(const RenderSession& session) const { return _denoises || historyCounts(session); }
+
     bool shownIsReduced() const { return _shown == Shown::Reduced; }
     const RenderSession& image() const { return _shown == Shown::Whole ? *_session : *_reduced; }
 
@@ -153,6 +161,16 @@ private:
     bool _holdsFull = false;    ///< what resolve() would write, and that is of full size
     bool _imageChanged = false; ///< since it was resolved
     std::optional<ToneMap> _resolved;
+
+    // What the session's image is of that made the last one, and what is left of its earlier views.
+    bool _reprojects = false;
+    const RenderSession* _imageOf = nullptr;
+    std::weak_ptr<const TracedScene> _imageScene;
+    View _imageView;
+    RenderOptions _imageOptions;
+    uint32_t _sequence = 0; ///< of random numbers, which is another one for each view that is left
+    ViewDependence _viewDependence;
+    ViewHistory _history;
 
     bool _denoises = false;
     bool _resolvedDenoised = false;

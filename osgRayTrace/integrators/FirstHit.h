@@ -18,6 +18,7 @@ struct FirstHit
     uint32_t instance = kInvalid;
     bool emits = false;         ///< towards the camera
     bool smooth = false;        ///< nothing but a mirror or clear glass
+    float lobe = kInfinity;     ///< width of its narrowest lobe [radians]; see SurfaceSample
 };
 
 /// First hits of a tile, index block * kLanes + lane.

@@ -136,7 +136,7 @@ std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Work
                         static_cast<std::size_t>(x)] = {
                     hit.normal, static_cast<float>(hit.distance * scene.unit),
                     scene.displayReferred ? nearlyLinear(hit.albedo) : hit.albedo,
-                    hit.hit ? hit.instance + 1u : 0u,
+                    hit.hit ? hit.instance + 1u : 0u, hit.lobe,
                     hit.emits    ? SurfaceKind::Emitting
                     : hit.smooth ? SurfaceKind::Smooth
                                  : SurfaceKind::Scattering};

@@ -101,11 +101,13 @@ struct RenderSession::Implementation
     std::shared_ptr<const TracedScene> scene;
     View view;
     RenderOptions options;
+    uint32_t sequence = 0;
 
     // What the film holds.
     std::shared_ptr<const TracedScene> filmScene;
     View filmView;
     RenderOptions filmOptions;
+    uint32_t filmSeed = 0; // of the options and the sequence
     CameraRays camera;
     std::vector<Light> placedLights; // empty: those of the scene
     std::vector<EnvironmentStratum> strata;
@@ -152,6 +154,7 @@ bool RenderSession::Implementation::begin()
     filmScene = scene;
     filmView = view;
     filmOptions = options;
+    filmSeed = sequence == 0 ? options.seed : hash(options.seed, sequence + 1); // 0 and 1: halves
     placedLights = std::move(placed);
     strata = std::move(made);
     progress = RenderProgress();
@@ -174,8 +177,8 @@ PassContext RenderSession::Implementation::contextOfPass(int pass) const
     context.towardsViewer = glm::transpose(context.eyeFromEngine)[2];
     context.options = filmOptions;
     context.options.integrator = progress.integrator;
-    context.key = passKey(filmOptions.seed, pass);
-    context.pathKey = progress.integrator == IntegratorKind::Ppm ? passKey(filmOptions.seed, 0) : context.key;
+    context.key = passKey(filmSeed, pass);
+    context.pathKey = progress.integrator == IntegratorKind::Ppm ? passKey(filmSeed, 0) : context.key;
     context.wantsDepth = pass == 0;
     return context;
 }
@@ -353,6 +356,8 @@ void RenderSession::setScene(std::shared_ptr<const TracedScene> scene)
 void RenderSession::setView(const View& view) { _implementation->view = view; }
 
 void RenderSession::setOptions(const RenderOptions& options) { _implementation->options = options; }
+
+void RenderSession::setSequence(uint32_t sequence) { _implementation->sequence = sequence; }
 
 RenderProgress RenderSession::render(const StopRule& rule,
                                      const std::function<bool(const RenderProgress&)>& keepGoing,

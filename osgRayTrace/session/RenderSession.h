@@ -87,6 +87,8 @@ struct RenderProgress
     PhotonNote photonNote = PhotonNote::None; ///< of all passes together
     uint64_t storedPhotons = 0;   ///< in the map of the last pass
     uint64_t photonBytes = 0;     ///< of the maps that are kept, for all views
+    double reprojectedShare = 0.0; ///< of the pixels: those that earlier views add to; by ViewTracer
+    double reprojectSeconds = 0.0; ///< to carry those into this view
     uint64_t hitPointBytes = 0;   ///< that this view keeps for photons: hit points, radii, statistics of pixels
 };
 
@@ -118,6 +120,10 @@ public:
     void setScene(std::shared_ptr<const TracedScene> scene);
     void setView(const View& view);
     void setOptions(const RenderOptions& options);
+
+    /// Which of many independent sequences of random numbers the next image that is begun takes: those that are
+    /// averaged need different ones. 0: that of the options' seed. Photons are the same for all.
+    void setSequence(uint32_t sequence);
 
     /// Adds passes to the image until the rule says stop, cancel() is called or keepGoing, called after
     /// each pass on this thread, returns false. The tiles of a pass that cancel() cut short keep it, and the

@@ -38,6 +38,9 @@ struct SurfaceSample
     float distance;  ///< along the ray [length]; infinity: nothing is hit
     Vec3 albedo;     ///< linear
     uint32_t object; ///< instance + 1; 0 where nothing is hit
+    /// By about so much may the viewer move around the point before it looks otherwise [radians]. Infinity:
+    /// it looks the same from everywhere; 0: a mirror, glass, or a layer that others are seen through.
+    float lobe = kInfinity;
     SurfaceKind kind = SurfaceKind::Scattering;
 };
 

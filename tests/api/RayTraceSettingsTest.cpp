@@ -77,9 +77,10 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getRadiusSchedule() == RayTraceSettings::GLOBAL);
     CHECK(settings->getAimAtViews());
     CHECK(settings->getDenoise() == RayTraceSettings::OFF);
+    CHECK(settings->getReproject());
 }
 
-TEST_CASE("settings: the table names all twenty-eight options once", "[api][settings]")
+TEST_CASE("settings: the table names all twenty-nine options once", "[api][settings]")
 {
     std::set<std::string> names;
     std::set<std::string> variables;
@@ -88,11 +89,11 @@ TEST_CASE("settings: the table names all twenty-eight options once", "[api][sett
         names.insert(option.name);
         variables.insert(option.environment);
     }
-    CHECK(names.size() == 28);
-    CHECK(variables.size() == 28);
+    CHECK(names.size() == 29);
+    CHECK(variables.size() == 29);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 28);
+    CHECK(RayTraceSettings::options().size() == 29);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")

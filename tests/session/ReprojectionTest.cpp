@@ -1,0 +1,470 @@
+// ReprojectionTest.cpp - samples land where their surfaces are in the other view, and nowhere else.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/session/Reprojection.h"
+
+#include "osgRayTrace/base/Parallel.h"
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <string>
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+/// Part of a plane, relative to the world's point that a test chooses.
+struct Plane
+{
+    Vec3d point, normal;
+    uint32_t object = 1;
+    std::function<bool(Vec3d)> inside = [](Vec3d) { return true; };
+    float lobe = kInfinity;
+};
+
+struct Seen
+{
+    Vec3d point{0.0};
+    uint32_t object = 0;
+};
+
+/// What the pixels of a view see of some planes, worked out in double.
+struct Sight
+{
+    View view;
+    std::vector<SurfaceSample> samples;
+    std::vector<Seen> seen;
+};
+
+Sight look(const View& view, const std::vector<Plane>& planes, Vec3d origin = Vec3d(0.0))
+{
+    Sight sight{view, {}, {}};
+    const Mat4d worldFromClip = glm::inverse(view.clipFromView * view.viewFromWorld);
+    const Vec4d pole4 = worldFromClip * Vec4d(0.0, 0.0, 1.0, 0.0);
+    const bool orthographic = std::abs(pole4.w) < 1e-12 * glm::length(Vec3d(pole4));
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x)
+        {
+            const Vec4d near4 =
+                worldFromClip * Vec4d(2.0 * (x + 0.5) / view.width - 1.0,
+                                      2.0 * (y + 0.5) / view.height - 1.0, -1.0, 1.0);
+            const Vec3d near = Vec3d(near4) / near4.w;
+            const Vec3d start = orthographic ? near : Vec3d(pole4) / pole4.w;
+            const Vec3d along = orthographic ? glm::normalize(Vec3d(pole4) / near4.w)
+                                             : glm::normalize(near - start);
+            SurfaceSample sample{Vec3(0.0f), kInfinity, Vec3(0.0f), 0, kInfinity};
+            Seen seen;
+            for (const Plane& plane : planes)
+            {
+                const double t = glm::dot(plane.normal, origin + plane.point - start) /
+                                 glm::dot(plane.normal, along);
+                const Vec3d point = start + t * along - origin;
+                if (!(t > 0.0) || !(t < sample.distance) || !plane.inside(point)) continue;
+                const double side = glm::dot(plane.normal, along) < 0.0 ? 1.0 : -1.0;
+                sample = {Vec3(side * plane.normal), static_cast<float>(t), Vec3(0.5f),
+                          plane.object, plane.lobe};
+                seen = {point, plane.object};
+            }
+            sight.samples.push_back(sample);
+            sight.seen.push_back(seen);
+        }
+    return sight;
+}
+
+using Texture3 = std::function<Vec3(const Seen&)>;
+
+SampledImage imageOf(const Sight& sight, const Texture3& texture, float count)
+{
+    SampledImage image{sight.view.width, sight.view.height, {}, {}};
+    for (const Seen& seen : sight.seen)
+    {
+        const Vec3 c = texture(seen);
+        image.radiance.insert(image.radiance.end(), {c.x, c.y, c.z, 1.0f});
+        image.count.push_back(count);
+    }
+    return image;
+}
+
+SurfaceMap mapOf(const Sight& sight)
+{
+    SurfaceMap map;
+    REQUIRE(makeSurfaceMap(sight.view, sight.samples, Workers(1), map));
+    return map;
+}
+
+SampledImage carry(const SampledImage& image, const Sight& from, const Sight& to, int threads = 1,
+                   const ReprojectionLimits& limits = {})
+{
+    SampledImage result;
+    reproject(image, mapOf(from), mapOf(to), limits, Workers(threads), result);
+    return result;
+}
+
+View offAxisView(Vec3d eye, Vec3d centre, int width, int height)
+{
+    View view;
+    view.viewFromWorld = glm::lookAt(eye, centre, Vec3d(0, 1, 0));
+    view.clipFromView = glm::frustum(-0.1, 0.7, -0.5, 0.2, 1.0, 500.0);
+    view.width = width;
+    view.height = height;
+    return view;
+}
+
+View orthographicView(Vec3d eye, Vec3d centre, int width, int height)
+{
+    View view;
+    view.viewFromWorld = glm::lookAt(eye, centre, Vec3d(0, 1, 0));
+    view.clipFromView = glm::ortho(-3.0, 3.0, -2.0, 2.0, 0.1, 100.0);
+    view.width = width;
+    view.height = height;
+    return view;
+}
+
+View infiniteView(Vec3d eye, Vec3d centre, int width, int height)
+{
+    View view = offAxisView(eye, centre, width, height);
+    view.clipFromView = glm::infinitePerspective(0.8, double(width) / height, 0.01);
+    return view;
+}
+
+/// Waves of about twelve pixels.
+Vec3 waves(const Seen& seen)
+{
+    if (seen.object == 0) return Vec3(0.0f);
+    const auto wave = [](double v) { return static_cast<float>(1.0 + 0.5 * std::sin(v)); };
+    return Vec3(wave(7.0 * seen.point.x), wave(7.0 * seen.point.y),
+                wave(5.0 * (seen.point.x + seen.point.y)));
+}
+
+const Plane kWall{{0, 0, 0}, {0, 0, 1}};
+
+} // namespace
+
+TEST_CASE(
+    "reprojection: what is on a plane lands where it is in any view, to a fraction of a pixel",
+    "[session]")
+{
+    using MakeView = View (*)(Vec3d, Vec3d, int, int);
+    const MakeView perspective = [](Vec3d eye, Vec3d centre, int width, int height) {
+        return perspectiveView(eye, centre, {0, 1, 0}, 40.0, width, height);
+    };
+    struct Case
+    {
+        std::string name;
+        MakeView view;
+        Vec3d origin{0.0};
+    };
+    const double earth = 6.4e6;
+    for (const Case& c : {Case{"perspective", perspective}, Case{"off-axis", offAxisView},
+                          Case{"orthographic", orthographicView}, Case{"infinite", infiniteView},
+                          Case{"on the earth", perspective, {earth, -earth, 0.5 * earth}}})
+    {
+        INFO(c.name);
+        const auto sight = [&](Vec3d eye, Vec3d centre)
+        { return look(c.view(c.origin + eye, c.origin + centre, 101, 77), {kWall}, c.origin); };
+        const Sight from = sight({0.2, 0.3, 6}, {0, 0, 0});
+        // Moved, turned, nearer.
+        const Sight to = sight({0.237, 0.281, 5.9}, {0.1, 0.05, 0});
+        const SampledImage result = carry(imageOf(from, waves, 8.0f), from, to);
+        int taken = 0, full = 0, off = 0;
+        double largest = 0.0, unmoved = 0.0;
+        for (std::size_t i = 0; i < to.seen.size(); ++i)
+        {
+            if (result.count[i] == 0.0f) continue;
+            ++taken;
+            full += result.count[i] == Approx(8.0f).epsilon(1e-4); // not at the old image's rim
+            const Vec3 expected = waves(to.seen[i]), before = waves(from.seen[i]);
+            for (int k = 0; k < 3; ++k)
+            {
+                const float carried = result.radiance[4 * i + static_cast<std::size_t>(k)];
+                const double error = std::abs(carried - expected[k]);
+                largest = std::max(largest, error);
+                off += error > 0.03;
+                unmoved = std::max(unmoved, double(std::abs(before[k] - expected[k])));
+            }
+        }
+        // Waves are 0.26 steep a pixel; cubics lose a hundredth of them, bilinear means at the
+        // image's rim more.
+        CHECK(largest < 0.12);
+        CHECK(off < 0.03 * 3.0 * taken);
+        CHECK(unmoved > 0.2);
+        CHECK(taken > 0.8 * double(to.seen.size()));
+        CHECK(full > 0.97 * taken);
+    }
+}
+
+TEST_CASE("reprojection: a view that does not change changes nothing", "[session]")
+{
+    for (const auto& [width, height] :
+         {std::pair(1, 1), {1, 9}, {7, 1}, {17, 3}, {64, 48}, {101, 77}})
+    {
+        const Sight sight = look(
+            perspectiveView({0.2, 0.3, 6}, {0, 0, 0}, {0, 1, 0}, 40.0, width, height), {kWall});
+        const SampledImage image = imageOf(sight, waves, 3.0f);
+        const SampledImage result = carry(image, sight, sight);
+        REQUIRE(result.width == width);
+        REQUIRE(result.height == height);
+        for (std::size_t i = 0; i < image.count.size(); ++i)
+        {
+            REQUIRE(result.count[i] == Approx(3.0f).epsilon(1e-3));
+            for (std::size_t k = 4 * i; k < 4 * i + 4; ++k)
+                REQUIRE(std::abs(result.radiance[k] - image.radiance[k]) < 2e-4f);
+        }
+    }
+}
+
+TEST_CASE("reprojection: what a bar hid has no history, and none of the bar's", "[session]")
+{
+    for (const uint32_t barObject : {1u, 2u}) // of the wall's own object, too
+    {
+        const Plane bar{
+            {0, 0, 1.5}, {0, 0, 1}, barObject, [](Vec3d p) { return std::abs(p.x) < 0.4; }};
+        const auto sight = [&](double x) {
+            return look(perspectiveView({x, 0, 6}, {x, 0, 0}, {0, 1, 0}, 40.0, 160, 90),
+                        {kWall, bar});
+        };
+        const auto isBar = [](const Seen& seen) { return seen.point.z > 1.0; };
+        const Texture3 colors = [&](const Seen& seen)
+        { return isBar(seen) ? Vec3(1, 0, 0) : Vec3(0, 1, 0); };
+        const Sight from = sight(0.0);
+        for (const double move : {0.13, 0.5, -0.6})
+        {
+            INFO("object " << barObject << ", move " << move);
+            const Sight to = sight(move);
+            const SampledImage result = carry(imageOf(from, colors, 16.0f), from, to);
+            int hidden = 0, kept = 0, lost = 0;
+            for (std::size_t i = 0; i < to.seen.size(); ++i)
+            {
+                const Seen& seen = to.seen[i];
+                const float red = result.radiance[4 * i], green = result.radiance[4 * i + 1];
+                // Where the line from the point to the old eye (0, 0, 6) passes z = 1.5.
+                const double x = seen.point.x * (1.0 - 1.5 / 6.0);
+                // Both have been seen as they are; at the rim of the old image there is nothing.
+                if (!isBar(seen))
+                {
+                    REQUIRE(red == 0.0f);
+                    if (std::abs(x) < 0.4)
+                    {
+                        ++hidden;
+                        REQUIRE(result.count[i] == 0.0f);
+                        REQUIRE(green == 0.0f);
+                    }
+                    else if (std::abs(x) > 0.5 && std::abs(x) < 1.0)
+                        (result.count[i] > 0.0f ? kept : lost) += 1;
+                }
+                else
+                    REQUIRE(green == 0.0f);
+            }
+            CHECK(hidden > 200 * std::abs(move));
+            CHECK(kept > 500);
+            // But for what borders on the bar in the new view.
+            CHECK(lost < 0.05 * kept);
+        }
+    }
+}
+
+TEST_CASE("reprojection: pixels that border on other surfaces give nothing to those that do not",
+          "[session]")
+{
+    // As renders have them, the pixels beside the bar are mixed of both.
+    const Plane bar{{0, 0, 1.5}, {0, 0, 1}, 2, [](Vec3d p) { return std::abs(p.x) < 0.4; }};
+    const auto sight = [&](double x) {
+        return look(perspectiveView({x, 0, 6}, {x, 0, 0}, {0, 1, 0}, 40.0, 160, 90), {kWall, bar});
+    };
+    const Sight from = sight(0.0), to = sight(0.21);
+    SampledImage image = imageOf(
+        from, [](const Seen& seen) { return seen.object == 2 ? Vec3(1, 0, 0) : Vec3(0, 1, 0); },
+        16.0f);
+    for (std::size_t i = 1; i + 1 < from.seen.size(); ++i)
+        for (const std::size_t k : {i - 1, i + 1})
+            if (from.seen[i].object == 1 && from.seen[k].object == 2) image.radiance[4 * i] = 0.5f;
+    const SurfaceMap map = mapOf(to);
+    const SampledImage result = carry(image, from, to);
+    int smooth = 0, edges = 0;
+    for (std::size_t i = 0; i < to.seen.size(); ++i)
+    {
+        if (to.seen[i].object != 1) continue;
+        (map.smooth[i] ? smooth : edges) += 1;
+        if (map.smooth[i])
+            REQUIRE(result.radiance[4 * i] == 0.0f);
+        else
+            REQUIRE(result.count[i] <= ReprojectionLimits().edgeCount);
+    }
+    CHECK(smooth > 5000);
+    CHECK(edges >= 180);
+}
+
+TEST_CASE(
+    "reprojection: surfaces of other normals, other objects and other places are not the same",
+    "[session]")
+{
+    const View before = perspectiveView({0, 0, 6}, {0, 0, 0}, {0, 1, 0}, 40.0, 64, 48);
+    const View after = perspectiveView({0.05, 0, 6}, {0.05, 0, 0}, {0, 1, 0}, 40.0, 64, 48);
+    const Sight from = look(before, {kWall});
+    const auto shareOf = [&](const Sight& to)
+    {
+        SampledImage result;
+        return reproject(imageOf(from, waves, 8.0f), mapOf(from), mapOf(to), {}, Workers(1),
+                         result);
+    };
+    CHECK(shareOf(look(after, {kWall})) > 0.95);
+
+    Sight turned = look(after, {kWall}), slightly = turned;
+    for (SurfaceSample& sample : turned.samples)
+        sample.normal = Vec3(std::sin(0.5f), 0.0f, std::cos(0.5f)); // 0.88
+    CHECK(shareOf(turned) == 0.0);
+    for (SurfaceSample& sample : slightly.samples)
+        sample.normal = Vec3(std::sin(0.2f), 0.0f, std::cos(0.2f));
+    CHECK(shareOf(slightly) > 0.95);
+
+    Sight other = look(after, {kWall});
+    for (SurfaceSample& sample : other.samples)
+        sample.object = 2;
+    CHECK(shareOf(other) == 0.0);
+
+    // A pixel is 2 tan(20 degrees) 6 / 48 = 0.09 wide there.
+    CHECK(shareOf(look(after, {Plane{{0, 0, 0.5}, {0, 0, 1}}})) == 0.0);
+    CHECK(shareOf(look(after, {Plane{{0, 0, -0.5}, {0, 0, 1}}})) == 0.0);
+    CHECK(shareOf(look(after, {Plane{{0, 0, 0.05}, {0, 0, 1}}})) > 0.95);
+
+    // A cut: another side, or another place.
+    CHECK(shareOf(look(perspectiveView({0, 0, -6}, {0, 0, -20}, {0, 1, 0}, 40.0, 64, 48),
+                       {Plane{{0, 0, -12}, {0, 0, 1}}})) == 0.0);
+    CHECK(shareOf(look(perspectiveView({50, 0, 6}, {50, 0, 0}, {0, 1, 0}, 40.0, 64, 48),
+                       {kWall})) == 0.0);
+}
+
+TEST_CASE("reprojection: mirrors keep what was seen from the same place alone, glossy surfaces "
+          "less of it",
+          "[session]")
+{
+    const auto sight = [](Vec3d eye, float turn, float lobe)
+    {
+        Plane wall = kWall;
+        wall.lobe = lobe;
+        return look(perspectiveView(eye, eye + Vec3d(turn, 0, -6), {0, 1, 0}, 40.0, 64, 48),
+                    {wall});
+    };
+    const auto countOf = [&](const Sight& from, const Sight& to, float turn = 0.0f)
+    {
+        ReprojectionLimits limits;
+        limits.turn = turn;
+        return carry(imageOf(from, waves, 100.0f), from, to, 1, limits).count[24 * 64 + 32];
+    };
+    const float most = ReprojectionLimits().count;
+    for (const float lobe : {0.0f, 0.3f, kInfinity})
+    {
+        INFO(lobe);
+        const Sight from = sight({0, 0, 6}, 0.0f, lobe);
+        CHECK(countOf(from, from) == most);
+        CHECK(countOf(from, sight({0, 0, 6}, 0.1f, lobe)) == most); // turned
+        // The point is seen from 0.06 / 6 = 0.01 radians aside.
+        const float moved = countOf(from, sight({0.06, 0, 6}, 0.0f, lobe));
+        CHECK(moved == Approx(lobe < 1.0f ? 0.5f * lobe / 0.01f : most).epsilon(0.02));
+        CHECK(countOf(from, from, 0.02f) ==
+              Approx(lobe < 1.0f ? 0.5f * lobe / 0.02f : most).epsilon(0.02));
+    }
+}
+
+TEST_CASE("reprojection: the background is far away", "[session]")
+{
+    const auto sight = [](Vec3d eye, Vec3d towards) {
+        return look(perspectiveView(eye, eye + towards, {0, 1, 0}, 40.0, 64, 48), {});
+    };
+    const Sight from = sight({0, 0, 6}, {0, 0, -1}), to = sight({9, 4, -6}, {0.05, 0.02, -1});
+    SampledImage image{64, 48, {}, std::vector<float>(64 * 48, 5.0f)};
+    for (std::size_t i = 0; i < image.count.size(); ++i)
+        image.radiance.insert(image.radiance.end(),
+                              {static_cast<float>(i % 64), static_cast<float>(i / 64), 0.0f, 0.0f});
+    const SampledImage result = carry(image, from, to);
+    // Centre ray of the new view, in pixels of the old one: 24 / tan(20 degrees) a unit of slope.
+    const double scale = 24.0 / std::tan(20.0 * 3.14159265358979 / 180.0);
+    const std::size_t centre = 24 * 64 + 32; // half a pixel right of and above it
+    CHECK(result.count[centre] == 5.0f);
+    CHECK(result.radiance[4 * centre] == Approx(32.0 + 0.05 * scale).margin(0.1));
+    CHECK(result.radiance[4 * centre + 1] == Approx(24.0 + 0.02 * scale).margin(0.1));
+}
+
+TEST_CASE("reprojection: what is not finite does not spread", "[session]")
+{
+    Sight from = look(perspectiveView({0, 0, 6}, {0, 0, 0}, {0, 1, 0}, 40.0, 64, 48), {kWall});
+    Sight to = look(perspectiveView({0.05, 0.02, 6}, {0, 0, 0}, {0, 1, 0}, 40.0, 64, 48), {kWall});
+    SampledImage image = imageOf(from, waves, 8.0f);
+    const float nan = std::nanf("");
+    image.radiance[4 * (10 * 64 + 10)] = nan;
+    image.radiance[4 * (20 * 64 + 30) + 2] = kInfinity;
+    image.count[30 * 64 + 40] = nan;
+    from.samples[15 * 64 + 20].distance = nan;
+    from.samples[15 * 64 + 40].normal = Vec3(nan);
+    to.samples[40 * 64 + 20].distance = nan;
+    to.samples[40 * 64 + 30].distance = 0.0f;
+    const SampledImage result = carry(image, from, to);
+    int empty = 0;
+    for (std::size_t i = 0; i < result.count.size(); ++i)
+    {
+        REQUIRE(std::isfinite(result.count[i]));
+        empty += result.count[i] == 0.0f;
+        for (std::size_t k = 4 * i; k < 4 * i + 4; ++k)
+        {
+            REQUIRE(std::isfinite(result.radiance[k]));
+            if (result.count[i] == 0.0f) REQUIRE(result.radiance[k] == 0.0f);
+        }
+    }
+    CHECK(empty >= 2);
+    CHECK(empty < 64 + 48 + 100);
+}
+
+TEST_CASE("reprojection: any number of threads gives the same image", "[session]")
+{
+    const Plane bar{{0, 0, 1.5}, {0, 0, 1}, 2, [](Vec3d p) { return std::abs(p.x) < 0.4; }};
+    const auto sight = [&](double x) {
+        return look(perspectiveView({x, 0, 6}, {x, 0, 0}, {0, 1, 0}, 40.0, 133, 71), {kWall, bar});
+    };
+    const Sight from = sight(0.0), to = sight(0.3);
+    const SampledImage image = imageOf(from, waves, 8.0f);
+    const SampledImage one = carry(image, from, to, 1), four = carry(image, from, to, 4);
+    CHECK(std::memcmp(one.radiance.data(), four.radiance.data(), 4 * one.radiance.size()) == 0);
+    CHECK(one.count == four.count);
+}
+
+TEST_CASE("reprojection: frames of a moving view blur little", "[session]")
+{
+    // Half a pixel a frame is the worst; 32 frames are all that a sample lives.
+    const double pixel = 2.0 * std::tan(20.0 * 3.14159265358979 / 180.0) * 6.0 / 90.0;
+    const auto sight = [&](int frame)
+    {
+        const double x = 0.5 * pixel * frame;
+        return look(perspectiveView({x, 0, 6}, {x, 0, 0}, {0, 1, 0}, 40.0, 160, 90), {kWall});
+    };
+    const double period = 12.0 * pixel;
+    const auto stripes = [&](const Seen& seen)
+    { return Vec3(static_cast<float>(1.0 + 0.5 * std::sin(6.283185307 * seen.point.x / period))); };
+    Sight from = sight(0);
+    SampledImage image = imageOf(from, stripes, 32.0f);
+    for (int frame = 1; frame <= 32; ++frame)
+    {
+        const Sight to = sight(frame);
+        image = carry(image, from, to);
+        from = to;
+    }
+    // Of the image's own stripes, as far as it has them in its pixels.
+    const SampledImage exact = imageOf(from, stripes, 1.0f);
+    double kept = 0.0, all = 0.0;
+    for (std::size_t x = 40; x < 100; ++x)
+    {
+        const std::size_t i = 4 * (45 * 160 + x);
+        kept += (image.radiance[i] - 1.0) * (exact.radiance[i] - 1.0);
+        all += (exact.radiance[i] - 1.0) * (exact.radiance[i] - 1.0);
+    }
+    // Cubics keep (9 cos(w/2) - cos(3w/2)) / 8 a frame of what has w radians a pixel, bilinear
+    // means cos(w/2).
+    const double w = 6.283185307 / 12.0;
+    const double expected = std::pow((9.0 * std::cos(0.5 * w) - std::cos(1.5 * w)) / 8.0, 32.0);
+    CHECK(expected > 0.9);
+    CHECK(kept / all == Approx(expected).margin(0.01));
+}
