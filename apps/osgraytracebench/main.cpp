@@ -7,6 +7,7 @@
 #include "apps/osgraytracebench/PhotonsMode.h"
 #include "apps/osgraytracebench/PickMode.h"
 #include "apps/osgraytracebench/UpdateMode.h"
+#include "apps/osgraytracebench/UpsampleMode.h"
 #include "apps/osgraytracebench/report/CompareMode.h"
 #include "apps/osgraytracebench/report/ReportMode.h"
 
@@ -16,6 +17,7 @@
 #include <exception>
 #include <functional>
 #include <string>
+#include <vector>
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::bench;
@@ -41,7 +43,7 @@ struct CommandLine
 {
     CommandLine()
     {
-        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick})
+        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick, &upsample})
             rows->add_option("--json", json, "write the rows to this file as well");
 
         photons
@@ -76,6 +78,9 @@ struct CommandLine
             ->capture_default_str();
         photons.add_option("--only", photonsOptions.only,
                            "parts whose name holds this: lookup, tracing, error");
+
+        upsample.add_option("--pictures", pictures, "write the pictures to this folder as well");
+        upsample.add_option("MODEL", models, "measure these files, too");
 
         report.add_option("-o,--output", options.folder, "folder of report.html, .csv and .json")
             ->capture_default_str();
@@ -119,6 +124,7 @@ struct CommandLine
         if (photons) return runRows([&] { return measurePhotons(photonsOptions); }, json);
         if (compare) return runCompare(before, after, falseAlarmRate);
         app::addPluginPath();
+        if (upsample) return runRows([&] { return measureUpsampling(models, pictures); }, json);
         return runReport(options);
     }
 
@@ -133,11 +139,14 @@ struct CommandLine
         "update", "what edits of a large live scene cost, against Embree alone");
     CLI::App& pick = *application.add_subcommand(
         "pick", "what a pick costs, against osgUtil's own and one ray");
+    CLI::App& upsample = *application.add_subcommand(
+        "upsample", "what images of fewer pixels lose, and what it costs to show them");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(
         "compare", "which rows of two reports differ by more than their noise");
-    std::string json, before, after;
+    std::string json, before, after, pictures;
+    std::vector<std::string> models;
     double falseAlarmRate = 0.01;
     ReportOptions options;
     PhotonsOptions photonsOptions;

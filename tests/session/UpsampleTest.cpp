@@ -1,0 +1,277 @@
+// UpsampleTest.cpp - images of fewer pixels at full size: edges, depths and colours are those of a
+// full-size image. SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+
+#include <cmath>
+#include <cstdlib>
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+/// The full-size view, an image of it with fewer pixels and what is made of that.
+struct Upsampled
+{
+    ShownImage small, image;
+    std::vector<SurfaceSample> samples;
+    UpsampleCounts counts;
+    ShownImage reference; ///< of the full size, through the middles of the pixels
+};
+
+ShownImage imageOf(RenderSession& session, const std::shared_ptr<const TracedScene>& scene,
+                   const View& view)
+{
+    RenderOptions options = optionsOf(IntegratorKind::Whitted);
+    options.centredFirstPass = true;
+    session.setScene(scene);
+    session.setView(view);
+    session.setOptions(options);
+    StopRule rule;
+    rule.passes = 1;
+    REQUIRE(session.render(rule).status.ok());
+    return session.shownImage();
+}
+
+/// The image has one pixel for divider x divider, and for what is left at the sides.
+Upsampled upsampled(const std::shared_ptr<const TracedScene>& scene, const View& view, int divider,
+                    int threads = 2)
+{
+    Upsampled result;
+    View smaller = view;
+    smaller.width = (view.width + divider - 1) / divider;
+    smaller.height = (view.height + divider - 1) / divider;
+    RenderSession session(std::make_shared<Workers>(threads));
+    result.reference = imageOf(session, scene, view);
+    result.small = imageOf(session, scene, smaller);
+    result.samples = session.surfaceSamples();
+    result.counts =
+        session.upsample(result.small, result.samples, view.width, view.height, result.image);
+    REQUIRE(result.image.width == view.width);
+    REQUIRE(result.image.height == view.height);
+    REQUIRE(result.image.radiance.size() == result.reference.radiance.size());
+    REQUIRE(result.image.depth.size() == result.reference.depth.size());
+    return result;
+}
+
+Vec4 pixelOf(const ShownImage& image, int x, int y)
+{
+    const float* p = &image.radiance[4 * static_cast<std::size_t>(y * image.width + x)];
+    return Vec4(p[0], p[1], p[2], p[3]);
+}
+
+float largestDepthError(const Upsampled& u)
+{
+    float largest = 0.0f;
+    for (std::size_t i = 0; i < u.image.depth.size(); ++i)
+        largest = std::max(largest, std::abs(u.image.depth[i] - u.reference.depth[i]));
+    return largest;
+}
+
+/// Unlit: its radiance is what it emits, wherever it is seen.
+Material glowing(Vec3 radiance)
+{
+    return lamp(radiance);
+}
+
+View frontView(int width, int height)
+{
+    return perspectiveView({0, 0, 6}, {0, 0, 0}, {0, 1, 0}, 50.0, width, height);
+}
+
+} // namespace
+
+TEST_CASE("upsampling: an edge between two colours is where it is in a full-size image",
+          "[session][upsample]")
+{
+    // Two halves of different depth and colour; their edge is slanted, so that it crosses the
+    // pixels anyhow.
+    SceneBuilder builder;
+    builder.add(quadMesh({-9, -9, -1}, {18, 0, 0}, {0, 18, 0}), glowing({0.1f, 0.2f, 0.9f}));
+    builder.add(quadMesh({-9, -9, 0}, {8, 0, 0}, {3, 18, 0}), glowing({0.9f, 0.4f, 0.1f}));
+    const auto scene = builder.build();
+    for (const int divider : {2, 3, 4, 8})
+    {
+        const Upsampled u = upsampled(scene, frontView(161, 97), divider);
+        int different = 0, left = 0;
+        for (int y = 0; y < u.image.height; ++y)
+            for (int x = 0; x < u.image.width; ++x)
+            {
+                different += pixelOf(u.image, x, y) != pixelOf(u.reference, x, y);
+                left += pixelOf(u.image, x, y).x > 0.5f;
+            }
+        CAPTURE(divider, u.counts.traced);
+        CHECK(different == 0);
+        CHECK(left > 161 * 97 / 4);
+        CHECK(left < 161 * 97 * 3 / 4);
+        CHECK(largestDepthError(u) <= 1e-6f);
+        CHECK(u.counts.traced < 161 * 97 / (divider < 8 ? 2 : 1)); // the rest was interpolated
+    }
+}
+
+TEST_CASE("upsampling: depths of planes are those of a full-size image, in any projection",
+          "[session][upsample]")
+{
+    SceneBuilder builder;
+    builder.add(quadMesh({-40, -1, 4}, {80, 0, 0}, {0, 0, -80}),
+                lambert(Vec3(0.5f))); // a floor to the horizon
+    builder.add(quadMesh({-1, -1, -2}, {2, 0, 1}, {0, 2, 0}), lambert(Vec3(0.5f)));
+    builder.scene->lights.push_back(pointLight({-1, 3, 3}));
+    const auto scene = builder.build();
+    const auto check = [&](const View& view, float tolerance)
+    {
+        for (const int divider : {2, 4, 5})
+        {
+            const Upsampled u = upsampled(scene, view, divider);
+            CAPTURE(divider, u.counts.traced);
+            CHECK(largestDepthError(u) <= tolerance);
+            CHECK(u.counts.traced < static_cast<uint64_t>(view.width * view.height) * 3 / 5);
+            CHECK(u.counts.traced > 0);
+        }
+    };
+    const View perspective = frontView(203, 130);
+    check(perspective, 2e-6f);
+    View offAxis = perspective;
+    offAxis.clipFromView = glm::frustum(-0.2, 0.9, -0.6, 0.3, 1.0, 100.0);
+    check(offAxis, 2e-6f);
+    View reversed = perspective;
+    reversed.clipFromView =
+        glm::scale(Mat4d(1.0), Vec3d(1.0, 1.0, -1.0)) * perspective.clipFromView;
+    check(reversed, 2e-6f);
+    View orthographic = perspective;
+    orthographic.viewFromWorld = glm::lookAt(Vec3d(3, 4, 6), Vec3d(0, 0, 0), Vec3d(0, 1, 0));
+    orthographic.clipFromView = glm::ortho(-3.0, 4.0, -2.0, 3.0, 0.1, 100.0);
+    check(orthographic, 2e-6f);
+}
+
+TEST_CASE("upsampling: one colour stays exactly that, whatever has it", "[session][upsample]")
+{
+    SceneBuilder builder;
+    const Material same = glowing({0.3f, 0.6f, 0.1f});
+    builder.add(quadMesh({-20, -20, -5}, {40, 0, 0}, {0, 40, 0}), same);
+    builder.add(sphereMesh({-1, 0, 0}, 1.0f, 8), same);
+    builder.add(boxMesh({0.5f, -1, -1}, {1.5f, 1, 1}), same);
+    for (int i = 0; i < 5; ++i)
+        builder.add(quadMesh({-2.0f + i, -2, 1}, {0.01f, 0, 0}, {0.5f, 4, 0}), same);
+    const auto scene = builder.build();
+    for (const int divider : {1, 2, 3, 4, 7, 8})
+    {
+        const Upsampled u = upsampled(scene, frontView(131, 77), divider);
+        int different = 0;
+        for (int y = 0; y < u.image.height; ++y)
+            for (int x = 0; x < u.image.width; ++x)
+                different += pixelOf(u.image, x, y) != Vec4(0.3f, 0.6f, 0.1f, 1.0f);
+        CAPTURE(divider);
+        CHECK(different == 0);
+        CHECK(u.counts.traced > 0);
+    }
+}
+
+TEST_CASE("upsampling: where there is nothing, it stays transparent", "[session][upsample]")
+{
+    SceneBuilder builder;
+    builder.add(sphereMesh({0, 0, 0}, 1.5f, 12), lambert(Vec3(0.8f)));
+    builder.scene->lights.push_back(pointLight({3, 3, 6}));
+    for (const int divider : {2, 4, 8})
+    {
+        const Upsampled u = upsampled(builder.build(), frontView(150, 101), divider);
+        int wrong = 0, covered = 0, black = 0;
+        for (int y = 0; y < u.image.height; ++y)
+            for (int x = 0; x < u.image.width; ++x)
+            {
+                const Vec4 p = pixelOf(u.image, x, y), r = pixelOf(u.reference, x, y);
+                wrong += p.w != r.w || (r.w == 0.0f && p != Vec4(0.0f));
+                covered += p.w == 1.0f;
+                black += r.x > 0.05f && p.x == 0.0f;
+            }
+        CAPTURE(divider);
+        CHECK(wrong == 0);
+        CHECK(black == 0);
+        CHECK(covered > 2000);
+    }
+}
+
+TEST_CASE("upsampling: a bar of one pixel survives where it is found, and has its own colour",
+          "[session][upsample]")
+{
+    // One pixel of the full size wide, slanted so that it passes pixel centres of the image here
+    // and there.
+    const int width = 160, height = 160;
+    const float pixel = 2.0f * 6.0f * std::tan(glm::radians(25.0f)) / height;
+    SceneBuilder builder;
+    builder.add(quadMesh({-9, -9, -1}, {18, 0, 0}, {0, 18, 0}), glowing({0.1f, 0.1f, 0.1f}));
+    builder.add(quadMesh({-2, -1.5f, 0}, {4, 3, 0}, {0, 1.3f * pixel, 0}),
+                glowing({0.9f, 0.2f, 0.1f}));
+    const auto scene = builder.build();
+    for (const int divider : {2, 4})
+    {
+        const Upsampled u = upsampled(scene, frontView(width, height), divider);
+        int bar = 0, found = 0, wrong = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+            {
+                const bool inBar = pixelOf(u.reference, x, y).x > 0.5f;
+                bar += inBar;
+                found += inBar && pixelOf(u.image, x, y) == pixelOf(u.reference, x, y);
+                wrong += !inBar && pixelOf(u.image, x, y) != pixelOf(u.reference, x, y);
+            }
+        CAPTURE(divider, bar, found);
+        CHECK(bar > 80);
+        CHECK(wrong == 0);
+        CHECK(found >= (divider == 2 ? 95 : 60) * bar / 100);
+    }
+}
+
+TEST_CASE("upsampling: threads make no difference, nor does what the vectors held",
+          "[session][upsample]")
+{
+    const auto scene = cornellBox().build();
+    const Upsampled one = upsampled(scene, cornellView(150, 130), 3, 1);
+    const Upsampled three = upsampled(scene, cornellView(150, 130), 3, 3);
+    CHECK(one.image.radiance == three.image.radiance);
+    CHECK(one.image.depth == three.image.depth);
+    CHECK(one.counts.traced == three.counts.traced);
+    CHECK(one.counts.unlike == three.counts.unlike);
+
+    RenderSession session(std::make_shared<Workers>(2));
+    imageOf(session, scene, cornellView(50, 44));
+    ShownImage again;
+    again.radiance.assign(4 * 150 * 130, NAN);
+    again.depth.assign(150 * 130, NAN);
+    session.upsample(one.small, one.samples, 150, 130, again);
+    CHECK(again.radiance == one.image.radiance);
+    CHECK(again.depth == one.image.depth);
+
+    const ToneMap toneMap{-0.5f, false};
+    std::vector<uint8_t> expected(4 * 150 * 130), shown(4 * 150 * 130);
+    std::vector<float> depth(150 * 130);
+    showImage(again, toneMap, Workers(1), expected.data(), nullptr);
+    session.showUpsampled(one.small, one.samples, 150, 130, {toneMap, shown.data(), depth.data()});
+    CHECK(shown == expected);
+    CHECK(depth == again.depth);
+    session.showUpsampled(one.small, one.samples, 150, 130, {toneMap, shown.data(), nullptr});
+    CHECK(shown == expected);
+}
+
+TEST_CASE("upsampling: images of a pixel or a row, and sessions without any", "[session][upsample]")
+{
+    SceneBuilder builder;
+    builder.add(quadMesh({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), glowing({0.5f, 0.25f, 0.125f}));
+    const auto scene = builder.build();
+    for (const int width : {1, 2, 5, 33})
+        for (const int height : {1, 3})
+        {
+            const Upsampled u = upsampled(scene, frontView(width, height), 8);
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x)
+                    CHECK(pixelOf(u.image, x, y) == Vec4(0.5f, 0.25f, 0.125f, 1.0f));
+            CHECK(largestDepthError(u) <= 1e-6f);
+        }
+    RenderSession none(std::make_shared<Workers>(1));
+    ShownImage result;
+    result.width = 3;
+    CHECK(none.upsample({}, {}, 10, 10, result).traced == 0);
+    CHECK(result.width == 0);
+}
