@@ -6,7 +6,6 @@
 #include "apps/osgraytracebench/ObjectField.h"
 #include "apps/osgraytracebench/Timing.h"
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/bridge/HomeView.h"
 #include "osgRayTrace/bridge/PixelImage.h"
 #include "osgRayTrace/bridge/SceneUpdater.h"
 #include "osgRayTrace/bridge/ViewFromMatrices.h"
@@ -39,18 +38,21 @@ struct Subject
     View view;
 };
 
-/// As osgviewer opens it, with the light at its eye.
-Subject subjectOf(const std::string& name, osg::Node* content, double nearer)
+/// From above at a distance in radii of its bound, with osgViewer's light at the eye.
+Subject subjectOf(const std::string& name, osg::Node* content, double distance)
 {
     osg::ref_ptr<osg::Light> light = new osg::Light;
     ViewingConditions conditions;
     conditions.light = light;
-    HomeView home = homeView(*content, 30.0, double(kWidth) / kHeight);
-    osg::Vec3d eye, ahead, up;
-    home.view.getLookAt(eye, ahead, up);
-    const osg::Vec3d centre(content->getBound().center());
-    home.view = osg::Matrixd::lookAt(centre + (eye - centre) * nearer, centre, up);
-    const View view = viewFromMatrices(home.view, home.projection, kWidth, kHeight);
+    const osg::BoundingSphere& bound = content->getBound();
+    osg::Vec3d from(0.4, -1.0, 0.6);
+    from.normalize();
+    const osg::Vec3d centre(bound.center());
+    const osg::Matrixd looking = osg::Matrixd::lookAt(centre + from * (distance * bound.radius()),
+                                                      centre, osg::Vec3d(0.0, 0.0, 1.0));
+    const osg::Matrixd projection = osg::Matrixd::perspective(
+        30.0, double(kWidth) / kHeight, 0.02 * bound.radius(), 5.0 * bound.radius());
+    const View view = viewFromMatrices(looking, projection, kWidth, kHeight);
     SceneUpdater updater;
     osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
     updater.noteView(&updater, nullptr, conditions);
@@ -205,12 +207,12 @@ Rows measureUpsampling(const std::vector<std::string>& models, const std::string
     const BenchScene box = cornellBox(kWidth, kHeight);
     measure(rows, {"Cornell box", TracedScene::build(box.scene, workers), box.view}, pictures);
     const ObjectField field(true);
-    measure(rows, subjectOf("10,000 objects", field.root.get(), 0.5), pictures);
+    measure(rows, subjectOf("10,000 objects", field.root.get(), 1.2), pictures);
     for (const std::string& file : models)
     {
         const osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(file);
         if (model)
-            measure(rows, subjectOf(osgDB::getStrippedName(file), model.get(), 0.6), pictures);
+            measure(rows, subjectOf(osgDB::getStrippedName(file), model.get(), 2.0), pictures);
     }
     return rows;
 }

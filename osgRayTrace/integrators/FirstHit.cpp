@@ -43,8 +43,7 @@ void albedoLanes(const PassContext& context, const FirstHitLanes& hits, Vec3Lane
 
 void firstHitLanes(const PassContext& context, int left, int bottom, int block, FirstHitLanes& hits)
 {
-    UintLanes seeds;
-    cameraRayLanes(context.camera, context.key, left, bottom, block, true, hits.rays, seeds);
+    centreRayLanes(context.camera, left, bottom, block, hits.rays);
     context.traced->intersector().closestHits(hits.rays, kAllLanes, Coherence::Coherent, kCameraRays);
     surfacesOf(context.traced->surfaces(), hits.rays, kAllLanes, hits.surface);
     facingNormalLanes(hits.rays.ray, hits.surface, hits.normal);

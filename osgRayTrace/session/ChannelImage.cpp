@@ -100,6 +100,18 @@ std::vector<float> channelImage(Channel channel, const Film& film, const PassCon
     return image;
 }
 
+namespace
+{
+
+SurfaceSample sampleOf(const FirstHitLanes& hits, int i, double unit)
+{
+    if (!((hits.surface.hits >> i) & 1u)) return {Vec3(0.0f), kInfinity, Vec3(0.0f), 0};
+    return {laneOf(hits.normal, i), static_cast<float>(hits.rays.ray.tFar[i] * unit), laneOf(hits.albedo, i),
+            hits.surface.instance[i] + 1u};
+}
+
+} // namespace
+
 std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Workers& workers)
 {
     const int tilesX = (context.width + kTileSize - 1) / kTileSize;
@@ -112,18 +124,19 @@ std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Work
                     {
                         const int left = static_cast<int>(tile) % tilesX * kTileSize;
                         const int bottom = static_cast<int>(tile) / tilesX * kTileSize;
-                        FirstHit hits[kTilePixels];
-                        firstHits(context, left, bottom, hits);
-                        for (int i = 0; i < kTilePixels; ++i)
+                        for (int b = 0; b < kTileBlocks; ++b)
                         {
-                            const int x = left + laneX(i / kLanes, i % kLanes);
-                            const int y = bottom + laneY(i / kLanes, i % kLanes);
-                            if (x >= context.width || y >= context.height) continue;
-                            const FirstHit& hit = hits[i];
-                            samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(context.width) +
-                                    static_cast<std::size_t>(x)] = {
-                                hit.normal, static_cast<float>(hit.distance * scene.unit), hit.albedo,
-                                hit.hit ? hit.instance + 1u : 0u};
+                            if (left + laneX(b, 0) >= context.width || bottom + laneY(b, 0) >= context.height)
+                                continue;
+                            FirstHitLanes hits;
+                            firstHitLanes(context, left, bottom, b, hits);
+                            for (int i = 0; i < kLanes; ++i)
+                            {
+                                const int x = left + laneX(b, i), y = bottom + laneY(b, i);
+                                if (x >= context.width || y >= context.height) continue;
+                                samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(context.width) +
+                                        static_cast<std::size_t>(x)] = sampleOf(hits, i, scene.unit);
+                            }
                         }
                     });
     return samples;

@@ -107,6 +107,21 @@ void joinCells(const uint8_t* right, const uint8_t* rightAbove, const uint8_t* u
         smooth[i] = right[i] & rightAbove[i] & up[i] & up[i + 1];
 }
 
+/// Smooth cells with none beside them that are not; rows below and above may be the same one.
+OSGRAYTRACE_KERNEL
+void erode(const uint8_t* below, const uint8_t* row, const uint8_t* above, int count,
+           uint8_t* __restrict eroded)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 1; i < count - 1; ++i)
+        eroded[i] = (below[i - 1] & below[i] & below[i + 1]) & (row[i - 1] & row[i] & row[i + 1]) &
+                    (above[i - 1] & above[i] & above[i + 1]);
+    const int last = count - 1, second = count > 1 ? 1 : 0;
+    eroded[0] = below[0] & below[second] & row[0] & row[second] & above[0] & above[second];
+    eroded[last] = below[last] & below[last - second] & row[last] & row[last - second] &
+                   above[last] & above[last - second];
+}
+
 } // namespace
 
 UpsampleAxis::UpsampleAxis(int small, int large)
@@ -166,6 +181,8 @@ UpsampleCells upsampleCells(const std::vector<SurfaceSample>& samples, const Cam
     // own.
     constexpr std::size_t kRows = 16;
     const std::size_t cellRows = h - 1;
+    if (w < 2 || cellRows == 0) return cells; // all of them are at the image's edge
+    std::vector<uint8_t> flat(w * cellRows);
     workers.forEach(
         (cellRows + kRows - 1) / kRows,
         [&](std::size_t range)
@@ -183,11 +200,17 @@ UpsampleCells upsampleCells(const std::vector<SurfaceSample>& samples, const Cam
             {
                 pairs(row + 1, false, rightAbove);
                 pairs(row, true, up);
-                joinCells(right.data(), rightAbove.data(), up.data(), width - 1,
-                          &cells.smooth[row * w]);
+                joinCells(right.data(), rightAbove.data(), up.data(), width - 1, &flat[row * w]);
                 right.swap(rightAbove);
             }
         });
+    workers.forEach(cellRows,
+                    [&](std::size_t row)
+                    {
+                        const uint8_t* below = &flat[(row > 0 ? row - 1 : row) * w];
+                        const uint8_t* above = &flat[(row + 1 < cellRows ? row + 1 : row) * w];
+                        erode(below, &flat[row * w], above, width - 1, &cells.smooth[row * w]);
+                    });
     return cells;
 }
 

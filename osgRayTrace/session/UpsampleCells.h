@@ -31,7 +31,10 @@ struct UpsampleCells
     int width = 0, height = 0; ///< of the image
     std::vector<float>
         depth; ///< window depth in the middles of the pixels, not clamped; 1: nothing is hit
-    std::vector<uint8_t> smooth; ///< its pixels see one surface, flat enough, of one colour
+    /// Its pixels, and those of the cells around it, see one surface, flat enough, of one colour.
+    /// What is thin is missed between the pixels that see it: so cells beside an edge are not taken
+    /// for smooth either.
+    std::vector<uint8_t> smooth;
 };
 
 /// camera: of the large image.

@@ -25,9 +25,9 @@ constexpr float kLeastWeight = 0.05f;
 constexpr float kLeastShare = 0.05f;
 /// Weight of a neighbour of another object in the same plane.
 constexpr float kOtherObject = 0.02f;
-/// Distance from the plane, in widths of a pixel of the image, that makes the weight a quarter of
-/// what it is.
-constexpr float kPlane = 0.25f;
+/// Distance from the plane, in widths of a pixel of the image, from which a neighbour is of another
+/// surface.
+constexpr float kPlane = 1.0f;
 
 constexpr int kSampleFloats = sizeof(SurfaceSample) / sizeof(float);
 static_assert(kSampleFloats == 8, "samples are read as arrays of floats");
@@ -53,8 +53,9 @@ struct LaneSurfaces
 OSGRAYTRACE_INLINE float planeWeight(float offsetInPixels)
 {
     const float x = offsetInPixels * (1.0f / kPlane);
-    const float f = 1.0f / (1.0f + x * x);
-    return f * f;
+    const float f = 1.0f - x * x;
+    const float inside = select(f > 0.0f, f, 0.0f);
+    return inside * inside * inside;
 }
 
 OSGRAYTRACE_INLINE float normalWeight(float cosine)
