@@ -412,21 +412,22 @@ std::vector<SurfaceSample> RenderSession::surfaceSamples() const
 }
 
 UpsampleCounts RenderSession::upsample(const ShownImage& image, const std::vector<SurfaceSample>& samples,
-                                       int width, int height, ShownImage& result) const
+                                       int width, int height, ShownImage& result,
+                                       double mostTraced) const
 {
     const std::optional<PassContext> full = _implementation->contextOfSize(width, height);
-    if (full) return engine::upsample(image, samples, *full, *_implementation->workers, result);
+    if (full) return engine::upsample(image, samples, *full, mostTraced, *_implementation->workers, result);
     result = ShownImage();
     return {};
 }
 
 UpsampleCounts RenderSession::showUpsampled(const ShownImage& image,
                                             const std::vector<SurfaceSample>& samples, int width,
-                                            int height, const DisplayTarget& display) const
+                                            int height, const DisplayTarget& display, double mostTraced) const
 {
     const std::optional<PassContext> full = _implementation->contextOfSize(width, height);
     if (!full) return {};
-    return engine::showUpsampled(image, samples, *full, display.toneMap, *_implementation->workers,
+    return engine::showUpsampled(image, samples, *full, mostTraced, display.toneMap, *_implementation->workers,
                                  display.rgba, display.depth);
 }
 

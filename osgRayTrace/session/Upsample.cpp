@@ -169,14 +169,14 @@ UpsampleCounts traceEdges(const UpsampleSource& source, const UpsampleCells& cel
 /// radiance goes.
 template <class Place, class Finish>
 UpsampleCounts forEachStrip(const ShownImage& image, const std::vector<SurfaceSample>& samples,
-                            const PassContext& full, const Workers& workers, float* depth,
-                            const Place& place, const Finish& finish)
+                            const PassContext& full, double mostTraced, const Workers& workers,
+                            float* depth, const Place& place, const Finish& finish)
 {
     const UpsampleSource source{image, samples.data(), full, UpsampleAxis(image.width, full.width),
                                 UpsampleAxis(image.height, full.height)};
     const UpsampleCells cells =
         upsampleCells(samples, full.camera, full.traced->scene().unit, source.x, source.y,
-                      image.width, image.height, workers);
+                      image.width, image.height, mostTraced, workers);
     const auto strips = static_cast<std::size_t>((full.height + kStripRows - 1) / kStripRows);
     std::vector<UpsampleCounts> counts(strips);
     workers.forEach(strips,
@@ -205,7 +205,8 @@ UpsampleCounts forEachStrip(const ShownImage& image, const std::vector<SurfaceSa
 } // namespace
 
 UpsampleCounts upsample(const ShownImage& image, const std::vector<SurfaceSample>& samples,
-                        const PassContext& full, const Workers& workers, ShownImage& result)
+                        const PassContext& full, double mostTraced, const Workers& workers,
+                        ShownImage& result)
 {
     const auto pixels =
         static_cast<std::size_t>(full.width) * static_cast<std::size_t>(full.height);
@@ -215,18 +216,18 @@ UpsampleCounts upsample(const ShownImage& image, const std::vector<SurfaceSample
     result.depth.resize(pixels);
     result.error.clear();
     return forEachStrip(
-        image, samples, full, workers, result.depth.data(),
+        image, samples, full, mostTraced, workers, result.depth.data(),
         [&](std::size_t first) { return &result.radiance[4 * first]; },
         [](std::size_t, std::size_t, const float*) {});
 }
 
 UpsampleCounts showUpsampled(const ShownImage& image, const std::vector<SurfaceSample>& samples,
-                             const PassContext& full, const ToneMap& toneMap,
+                             const PassContext& full, double mostTraced, const ToneMap& toneMap,
                              const Workers& workers, uint8_t* rgba, float* depth)
 {
     const std::size_t values = 4 * kStripRows * static_cast<std::size_t>(full.width);
     return forEachStrip(
-        image, samples, full, workers, depth,
+        image, samples, full, mostTraced, workers, depth,
         [&](std::size_t) { return std::unique_ptr<float[]>(new float[values]); },
         [&](std::size_t first, std::size_t pixels, const float* radiance)
         { displayPixels(radiance, pixels, toneMap.exposureEv, rgba + 4 * first); });

@@ -19,18 +19,23 @@ namespace osgRayTrace::engine
 /// their albedo and times its own:
 ///     L = (a + e) * sum(w_k * L_k) / sum(w_k * (a_k + e)),
 /// a ratio of sums, so that black pixels of a texture count for little in it; e keeps it finite
-/// where all are black, and is large enough that highlights on black do not become light of a white
-/// neighbour. If there are no such pixels, more of them are looked at, farther away, and the most
-/// alike taken.
+/// where all are black. If there are no such pixels, or all are much darker than the pixel itself,
+/// more of them are looked at, farther away, and the most alike taken.
+///
+/// mostTraced: share of the image beyond which less is traced, as it would take more time than the
+/// image was to save: first only what is at edges itself, and not beside them, where something thin
+/// might be; then nothing but the image's border, and all is linear, depths included. About that:
+/// it is counted in cells.
 ///
 /// Pictures do not depend on threads. Vectors of result that have its size already are used again.
 UpsampleCounts upsample(const ShownImage& image, const std::vector<SurfaceSample>& samples,
-                        const PassContext& full, const Workers& workers, ShownImage& result);
+                        const PassContext& full, double mostTraced, const Workers& workers,
+                        ShownImage& result);
 
 /// The same as display values, 4 bytes a pixel, and window depths, which may be null: in the cache,
 /// and so for less than upsample and showImage.
 UpsampleCounts showUpsampled(const ShownImage& image, const std::vector<SurfaceSample>& samples,
-                             const PassContext& full, const ToneMap& toneMap,
+                             const PassContext& full, double mostTraced, const ToneMap& toneMap,
                              const Workers& workers, uint8_t* rgba, float* depth);
 
 } // namespace osgRayTrace::engine

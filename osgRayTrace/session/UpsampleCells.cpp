@@ -122,6 +122,17 @@ void erode(const uint8_t* below, const uint8_t* row, const uint8_t* above, int c
                    above[last] & above[last - second];
 }
 
+/// Cells that are not smooth.
+double edges(const std::vector<uint8_t>& smooth, std::size_t columns, std::size_t rows,
+             std::size_t stride)
+{
+    std::size_t count = 0;
+    for (std::size_t row = 0; row < rows; ++row)
+        count += static_cast<std::size_t>(
+            std::count(&smooth[row * stride], &smooth[row * stride] + columns, uint8_t(0)));
+    return static_cast<double>(count);
+}
+
 } // namespace
 
 UpsampleAxis::UpsampleAxis(int small, int large)
@@ -143,7 +154,7 @@ UpsampleAxis::UpsampleAxis(int small, int large)
 
 UpsampleCells upsampleCells(const std::vector<SurfaceSample>& samples, const CameraRays& camera,
                             double unit, const UpsampleAxis& x, const UpsampleAxis& y, int width,
-                            int height, const Workers& workers)
+                            int height, double mostEdges, const Workers& workers)
 {
     const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
     UpsampleCells cells;
@@ -211,6 +222,11 @@ UpsampleCells upsampleCells(const std::vector<SurfaceSample>& samples, const Cam
                         const uint8_t* above = &flat[(row + 1 < cellRows ? row + 1 : row) * w];
                         erode(below, &flat[row * w], above, width - 1, &cells.smooth[row * w]);
                     });
+    const double most = mostEdges * static_cast<double>((w - 1) * cellRows);
+    if (edges(cells.smooth, w - 1, cellRows, w) <= most) return cells;
+    std::copy(flat.begin(), flat.end(), cells.smooth.begin());
+    if (edges(cells.smooth, w - 1, cellRows, w) <= most) return cells;
+    std::fill(cells.smooth.begin(), cells.smooth.end(), uint8_t(1));
     return cells;
 }
 

@@ -37,9 +37,10 @@ struct UpsampleCells
     std::vector<uint8_t> smooth;
 };
 
-/// camera: of the large image.
+/// camera: of the large image. mostEdges: the largest share of the cells that is not to be smooth.
+/// If more are not, those beside an edge count as smooth; if there still are too many, all do.
 UpsampleCells upsampleCells(const std::vector<SurfaceSample>& samples, const CameraRays& camera,
                             double unit, const UpsampleAxis& x, const UpsampleAxis& y, int width,
-                            int height, const Workers& workers);
+                            int height, double mostEdges, const Workers& workers);
 
 } // namespace osgRayTrace::engine

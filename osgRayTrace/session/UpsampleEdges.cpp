@@ -16,7 +16,7 @@ namespace
 {
 
 /// Added to albedos before they are divided: see Upsample.h.
-constexpr float kLeastAlbedo = 0.02f;
+constexpr float kLeastAlbedo = 0.001f;
 /// Light that reflects this much more than what was seen of its neighbours is not known from them.
 constexpr float kLargestRatio = 4.0f;
 /// Of the four weights together, which are 1 on a smooth surface: below it they are not alike.

@@ -231,6 +231,131 @@ TEST_CASE("upsampling: a bar of one pixel survives where it is found, and has it
     }
 }
 
+TEST_CASE("upsampling: textures are as sharp as in a full-size image", "[session][upsample]")
+{
+    // Squares of white and black, or nearly, that are two to three pixels of the image wide.
+    for (const uint8_t dark : {40, 0})
+    {
+        SceneBuilder builder;
+        auto texture = std::make_shared<Texture>();
+        texture->width = texture->height = 2;
+        texture->linearFilter = false;
+        texture->bytes.assign(16, 255);
+        for (const std::size_t texel : {0, 1, 2, 3})
+            for (std::size_t c = 0; c < 3; ++c)
+                texture->bytes[4 * texel + c] = texel == 0 || texel == 3 ? 200 : dark;
+        builder.scene->textures.push_back(texture);
+        Material checks = lambert(Vec3(1.0f));
+        checks.baseColorTexture = 0;
+        auto mesh = quadMesh({-4, -4, 0}, {8, 0, 0}, {1, 8, 0});
+        mesh->uvs = std::vector<Vec2>{{0, 0}, {8, 0}, {8, 8}, {0, 8}};
+        builder.add(mesh, checks);
+        builder.scene->lights.push_back(pointLight({-1, 1, 6}));
+        const Upsampled u = upsampled(builder.build(), frontView(160, 120), 4);
+        int wrong = 0, bright = 0, black = 0;
+        for (int y = 0; y < 120; ++y)
+            for (int x = 0; x < 160; ++x)
+            {
+                const float value = pixelOf(u.image, x, y).x,
+                            expected = pixelOf(u.reference, x, y).x;
+                bright += expected > 0.003f;
+                black += expected < 0.003f;
+                wrong += std::abs(value - expected) > 0.1f * expected + 2e-4f;
+            }
+        CAPTURE(int(dark), wrong);
+        CHECK(bright > 7000);
+        CHECK(black > (dark ? 0 : 7000));
+        CHECK(wrong <= 160 * 120 / 200);
+    }
+}
+
+TEST_CASE("upsampling: curved surfaces are near those of a full-size image", "[session][upsample]")
+{
+    SceneBuilder builder;
+    builder.add(sphereMesh({0, 0, 0}, 2.0f, 90), lambert(Vec3(0.8f)));
+    builder.scene->lights.push_back(pointLight({3, 3, 6}));
+    const View view = frontView(320, 320);
+    const Upsampled u = upsampled(builder.build(), view, 4);
+    CHECK(u.counts.traced < 320 * 320 * 2 / 3);
+    // A pixel is 0.017 wide there; depth is a length over it of 0.1 / (z * z) about, near plane
+    // 0.1.
+    const double nearPlane = view.clipFromView[3][2] / (view.clipFromView[2][2] - 1.0);
+    CHECK(largestDepthError(u) <= 0.25 * 0.0175 * nearPlane / (4.0 * 4.0));
+}
+
+TEST_CASE("upsampling: with too many edges less is traced, and nothing is black",
+          "[session][upsample]")
+{
+    SceneBuilder builder;
+    const Material same = glowing({0.3f, 0.6f, 0.1f});
+    builder.add(quadMesh({-20, -20, -5}, {40, 0, 0}, {0, 40, 0}), same);
+    for (int i = 0; i < 40; ++i)
+        builder.add(
+            quadMesh({-4.0f + 0.2f * static_cast<float>(i), -2, 0}, {0.1f, 0, 0}, {0.5f, 4, 0}),
+            same);
+    const View view = frontView(160, 120);
+    View smaller = view;
+    smaller.width = 40;
+    smaller.height = 30;
+    RenderSession session(std::make_shared<Workers>(2));
+    const ShownImage small = imageOf(session, builder.build(), smaller);
+    const std::vector<SurfaceSample> samples = session.surfaceSamples();
+    std::vector<uint64_t> traced;
+    for (const double most : {1.0, 0.55, 0.1})
+    {
+        ShownImage image;
+        traced.push_back(session.upsample(small, samples, 160, 120, image, most).traced);
+        CHECK(image.radiance.size() == 4 * 160 * 120);
+        for (int y = 0; y < 120; ++y)
+            for (int x = 0; x < 160; ++x)
+                if (pixelOf(image, x, y) != Vec4(0.3f, 0.6f, 0.1f, 1.0f))
+                    FAIL_CHECK("at " << x << ", " << y);
+    }
+    CAPTURE(traced[0], traced[1], traced[2]);
+    CHECK(traced[0] > traced[1]);
+    CHECK(traced[1] > traced[2]);
+    CHECK(traced[2] == 16 * (2 * (40 + 30) - 4)); // blocks at the border
+}
+
+TEST_CASE("centred first pass: it sees what first hits are sampled of, later ones their own points",
+          "[session][upsample]")
+{
+    // Emission alone, of two halves with a slanted edge: a sample tells which half it was on.
+    SceneBuilder builder;
+    builder.add(quadMesh({-9, -9, -1}, {18, 0, 0}, {0, 18, 0}), glowing(Vec3(0.25f)));
+    builder.add(quadMesh({-9, -9, 0}, {8, 0, 0}, {3, 18, 0}), glowing(Vec3(1.0f)));
+    const auto scene = builder.build();
+    for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})
+        for (const bool centred : {true, false})
+        {
+            RenderSession session(std::make_shared<Workers>(2));
+            RenderOptions options = optionsOf(kind);
+            options.centredFirstPass = centred;
+            session.setScene(scene);
+            session.setView(frontView(60, 200));
+            session.setOptions(options);
+            StopRule rule;
+            rule.passes = 1;
+            session.render(rule);
+            const ShownImage first = session.shownImage();
+            const std::vector<SurfaceSample> samples = session.surfaceSamples();
+            int other = 0;
+            for (int y = 0; y < 200; ++y)
+                for (int x = 0; x < 60; ++x)
+                    other += (pixelOf(first, x, y).x > 0.5f) !=
+                             (samples[static_cast<std::size_t>(60 * y + x)].object == 2);
+            CHECK((other == 0) == centred);
+            rule.passes = 9;
+            session.render(rule);
+            const ShownImage later = session.shownImage();
+            int between = 0; // pixels of the edge see both halves
+            for (int y = 0; y < 200; ++y)
+                for (int x = 0; x < 60; ++x)
+                    between += pixelOf(later, x, y).x > 0.3f && pixelOf(later, x, y).x < 0.95f;
+            CHECK(between > 50);
+        }
+}
+
 TEST_CASE("upsampling: threads make no difference, nor does what the vectors held",
           "[session][upsample]")
 {
