@@ -29,7 +29,8 @@ namespace
 {
 
 constexpr int kWidth = 1920, kHeight = 1080;
-constexpr int kRuns = 7;
+constexpr int kRuns = 5;
+constexpr double kMostTraced = 0.25; // where it is limited
 
 struct Subject
 {
@@ -76,6 +77,23 @@ void renderTo(RenderSession& session, const Subject& subject, int divider, int p
     StopRule rule;
     rule.passes = passes;
     session.render(rule);
+}
+
+/// One pass to the display, as it is without all this.
+void renderFull(const std::shared_ptr<Workers>& workers, const Subject& subject)
+{
+    static std::vector<uint8_t> rgba(4 * std::size_t(kWidth) * kHeight);
+    static std::vector<float> depth(std::size_t(kWidth) * kHeight);
+    RenderSession session(workers);
+    session.setScene(subject.scene);
+    session.setView(subject.view);
+    RenderOptions options;
+    options.integrator = IntegratorKind::Whitted;
+    session.setOptions(options);
+    StopRule rule;
+    rule.passes = 1;
+    const DisplayTarget display{{}, rgba.data(), depth.data()};
+    session.render(rule, {}, &display);
 }
 
 /// relMSE of linear RGB.
@@ -173,6 +191,11 @@ void measure(Rows& rows, const Subject& subject, const std::string& pictures)
         rows.push_back({name + ": relMSE along edges", error, ""});
         rows.push_back({name + ": blocks / along edges", blockError / error, "times"});
         rows.push_back({name + ": linear / along edges", linearError / error, "times"});
+        ShownImage limited;
+        session.upsample(small, samples, kWidth, kHeight, limited, kMostTraced);
+        writePicture(limited, pictures,
+                     name.substr(0, name.size() - 2) + " limited " + name.back());
+        rows.push_back({name + ": relMSE along edges, limited", errorOf(limited, reference), ""});
         const double pixels = double(kWidth) * kHeight;
         rows.push_back({name + ": pixels traced", 100.0 * double(counts.traced) / pixels, "%"});
         rows.push_back(
@@ -192,6 +215,11 @@ void measure(Rows& rows, const Subject& subject, const std::string& pictures)
             {name + ": upsample alone",
              milliseconds([&] { session.upsample(small, samples, kWidth, kHeight, result); }),
              "ms"});
+        const auto limitedRun = [&]
+        { session.showUpsampled(small, samples, kWidth, kHeight, display, kMostTraced); };
+        rows.push_back({name + ": showUpsampled, limited", milliseconds(limitedRun), "ms"});
+        rows.push_back({name + ": a whole pass of the full size",
+                        milliseconds([&] { renderFull(one, subject); }), "ms"});
         rows.push_back(
             {name + ": showImage of the full size",
              milliseconds([&] { showImage(result, {}, *one, rgba.data(), depth.data()); }), "ms"});
