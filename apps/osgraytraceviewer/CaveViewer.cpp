@@ -162,6 +162,7 @@ void addSlaves(osgViewer::Viewer& viewer, const CaveSetup& setup,
         osg::Camera& camera = *picture.camera;
         camera.setName("wall " + std::to_string(picture.wall->index));
         camera.setReferenceFrame(osg::Transform::ABSOLUTE_RF); // its matrices are its own
+        camera.setNodeMask(0); // until moveHead has a view for it
         camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
         camera.setClearColor(setup.background);
         separateEyes(picture, offscreen);
@@ -169,7 +170,7 @@ void addSlaves(osgViewer::Viewer& viewer, const CaveSetup& setup,
     }
 }
 
-/// A wall that the eye is not before keeps its last picture.
+/// A wall that the eye is not before keeps its last picture, and has none before it has seen the eye.
 void moveHead(const CaveSetup& setup, const std::vector<WallPicture>& pictures,
               const CavePose& pose)
 {
@@ -180,6 +181,7 @@ void moveHead(const CaveSetup& setup, const std::vector<WallPicture>& pictures,
         if (!view) continue;
         picture.camera->setViewMatrix(view->view);
         picture.camera->setProjectionMatrix(view->projection);
+        picture.camera->setNodeMask(~0u);
     }
 }
 
@@ -220,6 +222,11 @@ void writePictures(osgViewer::Viewer& viewer, const RayTracedScene& scene,
     }
     for (const WallPicture& picture : pictures)
     {
+        if (picture.camera->getNodeMask() == 0)
+        {
+            std::cerr << "no picture of " << picture.camera->getName() << ": the head is behind it\n";
+            continue;
+        }
         const std::string file = fileOf(output, picture);
         if (!osgDB::writeImageFile(*picture.capture->getColorImage(), file))
             throw Failure(kCannotWrite, "cannot write " + file);

@@ -17,22 +17,6 @@ namespace
 /// Less than this cannot be seen in 8 bits.
 constexpr float kSmallestOpacity = 1.0f / 512.0f;
 
-bool isCulled(const Material& material, bool front)
-{
-    switch (material.culling)
-    {
-    case FaceCulling::None:
-        return false;
-    case FaceCulling::Back:
-        return !front;
-    case FaceCulling::Front:
-        return front;
-    case FaceCulling::FrontAndBack:
-        return true;
-    }
-    return false;
-}
-
 float chance(const HitFilter::Candidate& c)
 {
     uint32_t bits[6];
@@ -44,6 +28,14 @@ float chance(const HitFilter::Candidate& c)
     return unitFloat(key);
 }
 
+/// Whether the ray meets a side of the face that is culled for it.
+bool passesFace(const Material& material, bool front, HitRule rule)
+{
+    if (!rule.culls && !material.cullsAllRays) return false;
+    if (rule.fromLight) return material.culling == FaceCulling::FrontAndBack; // see PhotonTracer
+    return isCulled(material, front);
+}
+
 /// Refuses the hits that do not stop their rays.
 void filter(const RTCFilterFunctionNArguments* args)
 {
@@ -53,8 +45,8 @@ void filter(const RTCFilterFunctionNArguments* args)
     {
         if (args->valid[i] == 0) continue;
         HitFilter::Candidate c;
-        c.instance = hitInstance(RTCHitN_geomID(args->hit, n, i),
-                                 RTCHitN_instID(args->hit, n, i, 0));
+        c.instance =
+            hitInstance(RTCHitN_geomID(args->hit, n, i), RTCHitN_instID(args->hit, n, i, 0));
         c.primitive = RTCHitN_primID(args->hit, n, i);
         c.u = RTCHitN_u(args->hit, n, i);
         c.v = RTCHitN_v(args->hit, n, i);
@@ -78,8 +70,7 @@ bool HitFilter::stops(const Candidate& c, HitRule rule) const
     const MaterialRecord& record = _materials[surface.material];
     if (!record.partial) return true;
     const Material& material = *record.material;
-    const bool culls = rule.culls || material.cullsAllRays;
-    if (culls && isCulled(material, isFrontFace(material, c.front) != rule.fromLight)) return false;
+    if (passesFace(material, isFrontFace(material, c.front), rule)) return false;
     if (!material.blended && material.alphaTest == AlphaTest::Always) return true;
 
     Vec3 direction = c.direction;

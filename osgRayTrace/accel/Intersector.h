@@ -22,7 +22,7 @@ struct HitRule
 {
     bool culls = false;        ///< a camera ray: culled faces are not there
     bool keepsBlended = false; ///< blended surfaces are hit whatever their alpha; else by chance
-    bool fromLight = false;    ///< goes the way that light does: other rays meet the side that it leaves
+    bool fromLight = false;    ///< goes the way that light does: it meets faces of which one side is culled
     bool solid = false;        ///< every surface is hit, wherever it is transparent or culled
 };
 constexpr HitRule kCameraRays{true, false, false, false};

@@ -48,7 +48,8 @@ std::vector<Box> boxesOf(const Mesh& mesh, const Box& bounds)
     for (int axis = 0; axis < 3; ++axis)
     {
         const float size = bounds.high[axis] - bounds.low[axis];
-        if (size > 0.0f && size < kInfinity) scale[axis] = static_cast<float>(n) / size;
+        const float cells = static_cast<float>(n) / size;
+        if (size < kInfinity && cells < kInfinity) scale[axis] = cells;
     }
     for (const Vec3& p : mesh.positions)
     {

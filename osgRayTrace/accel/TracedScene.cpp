@@ -57,7 +57,8 @@ uint64_t printOf(uint64_t serial, uint32_t instance, const Affine& m)
     float values[12];
     std::memcpy(values, &m.linear, 9 * sizeof(float));
     std::memcpy(values + 9, &m.translation, 3 * sizeof(float));
-    uint64_t print = (serial * 0x9e3779b97f4a7c15u) ^ (uint64_t(instance) << 32);
+    uint64_t print = (serial ^ (uint64_t(instance) << 32)) * 0x9e3779b97f4a7c15u;
+    print ^= print >> 32;
     for (int i = 0; i < 12; i += 2)
     {
         uint64_t bits;

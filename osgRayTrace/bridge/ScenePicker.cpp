@@ -71,7 +71,9 @@ std::vector<ScenePicker::Hit> ScenePicker::pick(const osg::Vec3d& start, const o
         if (hit && !again) hits.push_back(std::move(*hit));
         if (one && !hits.empty()) break;
         // The same ray finds the same distances: the next float is past what it has hit.
-        tNear = std::nextafter(found->t, std::numeric_limits<float>::infinity());
+        // The application's thread may take denormals for 0.
+        tNear = std::max(std::nextafter(found->t, std::numeric_limits<float>::infinity()),
+                         std::numeric_limits<float>::min());
     }
     return hits;
 }

@@ -14,13 +14,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-Vec3 toWorld(Vec3 axis, Vec3 local)
-{
-    Vec3 tangent, bitangent;
-    frameOf(axis.x, axis.y, axis.z, tangent, bitangent);
-    return tangent * local.x + bitangent * local.y + axis * local.z;
-}
-
 std::size_t pick(const std::vector<float>& cumulative, float u)
 {
     return static_cast<std::size_t>(std::upper_bound(cumulative.begin(), cumulative.end() - 1, u) -
@@ -62,7 +55,7 @@ struct PhotonEmitter::Cones
             u = guide.aim->sample(guide.light, cone.target, u, bin);
         else
             bin = aimBinOf(u.x, u.y);
-        return toWorld(cone.axis, squareToCone(u, cone.oneMinusCosine));
+        return turnedTo(cone.axis, squareToCone(u, cone.oneMinusCosine));
     }
 
     /// [1/sr] of the aimed part of the mixture.
@@ -127,7 +120,8 @@ PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>
         {
             const PlacedEnvironment* environment = traced.lights().shiningEnvironment();
             if (environment && environment->light() == i)
-                power = double(luminance(environment->integral())) * kPi * double(_scene.radius) * _scene.radius;
+                power = double(luminance(environment->integral())) * kPi * double(_scene.radius) *
+                        _scene.radius;
             break;
         }
         }
@@ -205,8 +199,20 @@ uint32_t PhotonEmitter::binOf(Guide guide, uint32_t target, uint32_t bin) const
     return PhotonAim::index(guide.light, target, static_cast<uint32_t>(_targets.size()), bin);
 }
 
-/// Cones of the targets as seen from origin, and the sum of their solid angles over 2 pi. spread: photons
-/// start so far beside the origin.
+/// The direction of a photon that is aimed, by the first share of the numbers that choose; and its
+/// bin.
+Vec3 PhotonEmitter::aimed(const Cones& cones, float share, const EmissionPoint& point, Guide guide,
+                          uint32_t& bin) const
+{
+    const Cones::Cone& cone = cones.choose(point.aim / share);
+    uint32_t inCone;
+    const Vec3 direction = cones.sample(cone, guide, point.direction, inCone);
+    bin = binOf(guide, cone.target, inCone);
+    return direction;
+}
+
+/// Cones of the targets as seen from origin, and the sum of their solid angles over 2 pi. spread:
+/// photons start so far beside the origin.
 PhotonEmitter::Cones PhotonEmitter::conesFrom(Vec3 origin, float spread, Guide guide) const
 {
     Cones result;
@@ -253,17 +259,12 @@ std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const Emissio
     PhotonStart start;
     Vec3 direction;
     if (point.aim < share)
-    {
-        const Cones::Cone& cone = cones.choose(point.aim / share);
-        uint32_t bin;
-        direction = cones.sample(cone, guide, point.direction, bin);
-        start.bin = binOf(guide, cone.target, bin);
-    }
+        direction = aimed(cones, share, point, guide, start.bin);
     else
     {
         const float rest = (point.aim - share) / (1.0f - share);
         const Vec3 side = twoSided && rest >= 0.5f ? -from->normal : from->normal;
-        direction = toWorld(side, squareToCosineHemisphere(point.direction.x, point.direction.y));
+        direction = turnedTo(side, squareToCosineHemisphere(point.direction.x, point.direction.y));
     }
     const float signedCosine = glm::dot(direction, from->normal);
     const float cosine = std::fabs(signedCosine);
@@ -290,14 +291,9 @@ std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const Emissi
     PhotonStart start;
     Vec3 direction;
     if (point.aim < share)
-    {
-        const Cones::Cone& cone = cones.choose(point.aim / share);
-        uint32_t bin;
-        direction = cones.sample(cone, guide, point.direction, bin);
-        start.bin = binOf(guide, cone.target, bin);
-    }
+        direction = aimed(cones, share, point, guide, start.bin);
     else
-        direction = toWorld(light.direction, squareToCone(point.direction, oneMinusCutoff));
+        direction = turnedTo(light.direction, squareToCone(point.direction, oneMinusCutoff));
 
     const float cosine = glm::dot(direction, light.direction);
     const bool inSpot = light.spotCosCutoff <= -1.0f || cosine >= light.spotCosCutoff;
@@ -314,7 +310,8 @@ std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const Emissi
 }
 
 /// A direction as the environment is bright, then as from a directional light there.
-std::optional<PhotonStart> PhotonEmitter::emitEnvironment(const EmissionPoint& point, Guide guide) const
+std::optional<PhotonStart> PhotonEmitter::emitEnvironment(const EmissionPoint& point,
+                                                          Guide guide) const
 {
     const EnvironmentSample sample =
         _traced.lights().environment()->sample(point.direction.x, point.direction.y);
@@ -322,8 +319,8 @@ std::optional<PhotonStart> PhotonEmitter::emitEnvironment(const EmissionPoint& p
     return emitParallel(-sample.direction, sample.radiance / sample.pdfW, point, guide);
 }
 
-std::optional<PhotonStart> PhotonEmitter::emitDirectional(const Light& light, const EmissionPoint& point,
-                                                          Guide guide) const
+std::optional<PhotonStart>
+PhotonEmitter::emitDirectional(const Light& light, const EmissionPoint& point, Guide guide) const
 {
     const Vec3 direction = isSoft(light) ? softDirection(light, point.direction) : light.direction;
     return emitParallel(direction, light.diffuse * (kPi * softWeight(light.sine)), point, guide);
@@ -331,7 +328,8 @@ std::optional<PhotonStart> PhotonEmitter::emitDirectional(const Light& light, co
 
 /// Light that travels in one direction; irradiance: across it.
 std::optional<PhotonStart> PhotonEmitter::emitParallel(Vec3 direction, Vec3 irradiance,
-                                                       const EmissionPoint& point, Guide guide) const
+                                                       const EmissionPoint& point,
+                                                       Guide guide) const
 {
     if (!(_scene.radius > 0.0f)) return std::nullopt;
     const float sceneArea = kPi * _scene.radius * _scene.radius;
@@ -360,7 +358,7 @@ std::optional<PhotonStart> PhotonEmitter::emitParallel(Vec3 direction, Vec3 irra
     float s, c;
     sinCosTurn(at.x, s, c);
     const float radius = disc->radius * std::sqrt(at.y);
-    const Vec3 q = disc->centre + toWorld(direction, Vec3(radius * c, radius * s, 0.0f));
+    const Vec3 q = disc->centre + turnedTo(direction, Vec3(radius * c, radius * s, 0.0f));
 
     const auto acrossFrom = [&](const Sphere& sphere)
     {
@@ -378,8 +376,8 @@ std::optional<PhotonStart> PhotonEmitter::emitParallel(Vec3 direction, Vec3 irra
             const Vec3 across = acrossFrom(_targets[t]);
             if (!isIn(_targets[t], across)) continue;
             const float area = glm::dot(across, across) / (_targets[t].radius * _targets[t].radius);
-            inside += guide.aim ? guide.aim->weightAt(guide.light, t, direction, across, area)
-                                : 1.0f;
+            inside +=
+                guide.aim ? guide.aim->weightAt(guide.light, t, direction, across, area) : 1.0f;
         }
         pdf += share * inside / total;
     }

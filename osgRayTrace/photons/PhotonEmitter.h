@@ -74,9 +74,9 @@ public:
     std::shared_ptr<const PhotonAim> learn(const std::vector<uint32_t>& emitted,
                                            const std::vector<double>& seen) const;
 
-    /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives after a
-    /// free flight from the light is the power times this. distance: to the light's centre, or its radius
-    /// where that is more.
+    /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives
+    /// after a free flight from the light is the power times this. distance: to the light's centre,
+    /// or its radius where that is more.
     float falloff(uint32_t light, float distance) const;
 
     /// At most this many.
@@ -107,6 +107,8 @@ private:
                         const PhotonAim* aim) const;
     Cones conesFrom(Vec3 origin, float spread, Guide guide) const;
     uint32_t binOf(Guide guide, uint32_t target, uint32_t bin) const;
+    Vec3 aimed(const Cones& cones, float share, const EmissionPoint& point, Guide guide,
+               uint32_t& bin) const;
 
     const TracedScene& _traced;
     const std::vector<Light>& _lights;

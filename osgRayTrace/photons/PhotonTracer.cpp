@@ -43,13 +43,14 @@ class ChunkTracer
 public:
     ChunkTracer(const TracedScene& traced, const std::vector<Light>& lights,
                 const PhotonEmitter& emitter, const PhotonAim* aim,
-                const PhotonPassOptions& options, uint32_t passSeed, Chunk& chunk)
+                const PhotonPassOptions& options, uint32_t passSeed, bool culls, Chunk& chunk)
         : _traced(traced),
           _lights(lights),
           _emitter(emitter),
           _aim(aim),
           _options(options),
           _seed(passSeed),
+          _culls(culls),
           _chunk(chunk)
     {
     }
@@ -71,6 +72,8 @@ private:
 
     void emitBlock(uint32_t first, uint32_t count);
     void follow(FlightBlock block, LaneMask active, int bounce);
+    void findSurfaces(FlightBlock& block, LaneMask active, int bounce, SurfaceLanes& surface);
+    LaneMask passFaces(FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes, int bounce);
     void leaveLight(FlightBlock& block, SurfaceLanes& surface) const;
     LaneMask classify(const SurfaceLanes& surface);
     void store(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes, int bounce);
@@ -84,6 +87,7 @@ private:
     const PhotonAim* _aim;
     const PhotonPassOptions& _options;
     uint32_t _seed;
+    bool _culls; ///< there are faces of which all rays pass one side
     Chunk& _chunk;
     uint32_t _first = 0; ///< photon of the chunk
     FlightQueue _flights{kChunk};
@@ -94,7 +98,9 @@ private:
     LaneMask _diffuse = 0; ///< lanes on plain Lambert surfaces; _scattered has their albedo
     LaneMask _smooth = 0;  ///< on smooth interfaces
     InterfaceLanes _interfaces;
-    LaneMask _general = 0; ///< on all others that are not black
+    LaneMask _general = 0;  ///< on all others that are not black
+    LaneMask _oneSided = 0; ///< on faces that all rays pass from one side
+    LaneMask _seen = 0;     ///< of these, on the side that is seen
     const Bsdf* _bsdfs[kLanes] = {};
     Bsdf _textured[kLanes]; ///< where _bsdfs of surfaces that vary point to
     Scattered _scattered;
@@ -115,8 +121,8 @@ const Bsdf* ChunkTracer::bsdfAt(const SurfaceLanes& surface, int i)
     const RayBlock& ray = _rays.ray;
     const Vec3 direction(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
     _textured[i] = _traced.materials().bsdf(
-        surface.material[i], materialPointOf(where, record, _rays.primitive[i], _rays.u[i], _rays.v[i],
-                                             front, direction));
+        surface.material[i], materialPointOf(where, record, _rays.primitive[i], _rays.u[i],
+                                             _rays.v[i], front, direction));
     return &_textured[i];
 }
 
@@ -132,8 +138,9 @@ void ChunkTracer::leaveLight(FlightBlock& block, SurfaceLanes& surface) const
         if (light.number < 32 && !((material.lightMask >> light.number) & 1u))
             surface.hits &= ~(1u << i);
         const float distance =
-            isSoft(light) ? std::max(light.radius, glm::length(laneOf(surface.position, i) - light.position))
-                          : _rays.ray.tFar[i];
+            isSoft(light)
+                ? std::max(light.radius, glm::length(laneOf(surface.position, i) - light.position))
+                : _rays.ray.tFar[i];
         const float falloff = _emitter.falloff(block.light[i], distance);
         block.power.x[i] *= falloff;
         block.power.y[i] *= falloff;
@@ -207,6 +214,7 @@ void ChunkTracer::scatter(FlightBlock& block, const SurfaceLanes& surface, int b
     }
     for (LaneMask lanes = _general; lanes; lanes &= lanes - 1)
         scatterOne(block, __builtin_ctz(lanes), mustMirror);
+    _scattered.alive &= ~(_oneSided & ~(_seen ^ _scattered.transmitted));
     const LaneMask alive = leaveSurfaces(surface, _normal, _scattered, _roulette, block);
     _flights.append(block, alive);
 }
@@ -242,17 +250,64 @@ LaneMask ChunkTracer::classify(const SurfaceLanes& surface)
     return stores | _diffuse;
 }
 
+/// Half of the photons, twice as bright, go on where they meet the side that is seen of faces that
+/// all rays pass from the other: they are lit and let light through. A path from the eye meets that
+/// side only, so what it scatters to the other has come from there: such photons stay, see
+/// scatter(). Returns the lanes that go on.
+LaneMask ChunkTracer::passFaces(FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+                                int bounce)
+{
+    LaneMask passed = 0;
+    for (lanes &= surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const Material& material = *_traced.materials()[surface.material[i]].material;
+        if (!material.cullsAllRays) continue;
+        const LaneMask lane = 1u << i;
+        _oneSided |= lane;
+        if (isCulled(material, isFrontFace(material, (surface.front >> i) & 1u))) continue;
+        _seen |= lane;
+        setLane(block.power, i, 2.0f * laneOf(block.power, i));
+        const uint32_t face = hash(surface.instance[i], _rays.primitive[i]);
+        if (hash(hash(dimension(bounceNumber(bounce)), block.photon[i]), face) & 0x80000000u)
+            passed |= lane;
+    }
+    _oneSided &= ~passed;
+    _seen &= ~passed;
+    return passed;
+}
+
+void ChunkTracer::findSurfaces(FlightBlock& block, LaneMask active, int bounce,
+                               SurfaceLanes& surface)
+{
+    loadRays(block, _rays);
+    _oneSided = _seen = 0;
+    for (LaneMask lanes = active;;)
+    {
+        _traced.intersector().closestHits(_rays, active, Coherence::Incoherent, kPhotonRays);
+        _chunk.rays += static_cast<uint64_t>(__builtin_popcount(active));
+        surfacesOf(_traced.surfaces(), _rays, active, surface);
+        if (!_culls) return;
+        lanes = passFaces(block, surface, lanes, bounce);
+        if (!lanes) break;
+        for (LaneMask m = lanes; m; m &= m - 1)
+        {
+            const int i = __builtin_ctz(m);
+            _rays.ray.tNear[i] = std::nextafter(_rays.ray.tFar[i], kInfinity);
+        }
+        std::fill_n(_rays.ray.tFar.v, kLanes, kInfinity); // the others meet what they met
+    }
+    std::fill_n(_rays.ray.tNear.v, kLanes, 0.0f);
+}
+
 /// Stores the photons of a block at what they meet, and sends them on. The block is a copy: what is
 /// appended to the queue may take its place.
 void ChunkTracer::follow(FlightBlock block, LaneMask active, int bounce)
 {
-    loadRays(block, _rays);
-    _traced.intersector().closestHits(_rays, active, Coherence::Incoherent, kPhotonRays);
-    _chunk.rays += static_cast<uint64_t>(__builtin_popcount(active));
     SurfaceLanes surface;
-    surfacesOf(_traced.surfaces(), _rays, active, surface);
+    findSurfaces(block, active, bounce, surface);
     if (bounce == 0) leaveLight(block, surface);
-    const LaneMask stores = classify(surface);
+    const LaneMask stores = classify(surface) & ~(_oneSided & ~_seen);
     if (bounce > 0) store(block, surface, stores, bounce);
     if (bounce + 2 > _options.maxBounces) return; // the next surface would be too far for any eye
     scatter(block, surface, bounce);
@@ -271,7 +326,8 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
     photonPoints(block.photon, dimension(EmissionPosition), points.positionU, points.positionV);
     photonPoints(block.photon, dimension(EmissionDirection), points.directionU, points.directionV);
     StartLanes starts;
-    const LaneMask lanes = _emitter.emitLanes(points, starts, _aim) & (kAllLanes >> (kLanes - count));
+    const LaneMask lanes =
+        _emitter.emitLanes(points, starts, _aim) & (kAllLanes >> (kLanes - count));
     block.origin = starts.origin;
     block.direction = starts.direction;
     block.light = starts.light;
@@ -324,13 +380,16 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
     // Apart from the sequences of pixels, whose seeds are hashed otherwise.
     const uint32_t seed = hash(hash(options.seed, 0x70686f74u), static_cast<uint32_t>(pass));
     const uint32_t count = (options.photons + kChunk - 1) / kChunk;
+    const std::vector<Material>& materials = traced.scene().materials;
+    const bool culls = std::any_of(materials.begin(), materials.end(),
+                                   [](const Material& m) { return m.cullsAllRays; });
     std::vector<Chunk> chunks(count);
     workers.forEach(count,
                     [&](std::size_t c)
                     {
                         const uint32_t first = static_cast<uint32_t>(c) * kChunk;
                         Chunk chunk; // neighbours of the list share cache lines
-                        ChunkTracer(traced, lights, emitter, aim, options, seed, chunk)
+                        ChunkTracer(traced, lights, emitter, aim, options, seed, culls, chunk)
                             .trace(first, std::min(kChunk, options.photons - first));
                         chunks[c] = std::move(chunk);
                     });

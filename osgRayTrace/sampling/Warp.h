@@ -61,4 +61,12 @@ OSGRAYTRACE_INLINE void frameOf(float nx, float ny, float nz, Vec3& tangent, Vec
     bitangent = Vec3(b, sign + ny * ny * a, -ny);
 }
 
+/// A direction around +z turned to around the unit vector axis.
+inline Vec3 turnedTo(Vec3 axis, Vec3 direction)
+{
+    Vec3 tangent, bitangent;
+    frameOf(axis.x, axis.y, axis.z, tangent, bitangent);
+    return tangent * direction.x + bitangent * direction.y + axis * direction.z;
+}
+
 } // namespace osgRayTrace::engine

@@ -140,7 +140,7 @@ struct Material
     AlphaTest alphaTest = AlphaTest::Always;
     float alphaReference = 0.0f;
     FaceCulling culling = FaceCulling::None;
-    bool cullsAllRays = false;           ///< all rays pass them, each by the side that it meets
+    bool cullsAllRays = false;           ///< all rays from the eye pass them by the culled side; light the other way
     bool clockwise = false;              ///< what OpenGL calls the front is the mesh's clockwise side
 
     // Textures: indices into Scene::textures or kInvalid.

@@ -106,8 +106,8 @@ namespace
 SurfaceSample sampleOf(const FirstHitLanes& hits, int i, double unit)
 {
     if (!((hits.surface.hits >> i) & 1u)) return {Vec3(0.0f), kInfinity, Vec3(0.0f), 0};
-    return {laneOf(hits.normal, i), static_cast<float>(hits.rays.ray.tFar[i] * unit), laneOf(hits.albedo, i),
-            hits.surface.instance[i] + 1u};
+    return {laneOf(hits.normal, i), static_cast<float>(hits.rays.ray.tFar[i] * unit),
+            laneOf(hits.albedo, i), hits.surface.instance[i] + 1u};
 }
 
 } // namespace
@@ -119,26 +119,27 @@ std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Work
     const Scene& scene = context.traced->scene();
     std::vector<SurfaceSample> samples(static_cast<std::size_t>(context.width) *
                                        static_cast<std::size_t>(context.height));
-    workers.forEach(static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY),
-                    [&](std::size_t tile)
-                    {
-                        const int left = static_cast<int>(tile) % tilesX * kTileSize;
-                        const int bottom = static_cast<int>(tile) / tilesX * kTileSize;
-                        for (int b = 0; b < kTileBlocks; ++b)
-                        {
-                            if (left + laneX(b, 0) >= context.width || bottom + laneY(b, 0) >= context.height)
-                                continue;
-                            FirstHitLanes hits;
-                            firstHitLanes(context, left, bottom, b, hits);
-                            for (int i = 0; i < kLanes; ++i)
-                            {
-                                const int x = left + laneX(b, i), y = bottom + laneY(b, i);
-                                if (x >= context.width || y >= context.height) continue;
-                                samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(context.width) +
-                                        static_cast<std::size_t>(x)] = sampleOf(hits, i, scene.unit);
-                            }
-                        }
-                    });
+    workers.forEach(
+        static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY),
+        [&](std::size_t tile)
+        {
+            const int left = static_cast<int>(tile) % tilesX * kTileSize;
+            const int bottom = static_cast<int>(tile) / tilesX * kTileSize;
+            for (int b = 0; b < kTileBlocks; ++b)
+            {
+                if (left + laneX(b, 0) >= context.width || bottom + laneY(b, 0) >= context.height)
+                    continue;
+                FirstHitLanes hits;
+                firstHitLanes(context, left, bottom, b, hits);
+                for (int i = 0; i < kLanes; ++i)
+                {
+                    const int x = left + laneX(b, i), y = bottom + laneY(b, i);
+                    if (x >= context.width || y >= context.height) continue;
+                    samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(context.width) +
+                            static_cast<std::size_t>(x)] = sampleOf(hits, i, scene.unit);
+                }
+            }
+        });
     return samples;
 }
 

@@ -58,6 +58,7 @@ std::vector<SeenSquares> squaresOf(const std::vector<SeenPhoton>& seen, const Rg
     static thread_local std::vector<double> sums; // 0 but for those of result
     if (sums.size() < bins) sums.resize(bins);
     std::vector<SeenSquares> result;
+    result.reserve(std::min(seen.size(), bins)); // what throws later leaves sums behind
     for (const SeenPhoton& photon : seen)
     {
         double& squares = sums[photon.bin];

@@ -279,4 +279,20 @@ Vec4 applyTextures(const TextureTerms& textures, Vec4 lit)
     return lit;
 }
 
+bool isCulled(const Material& material, bool front)
+{
+    switch (material.culling)
+    {
+    case FaceCulling::None:
+        return false;
+    case FaceCulling::Back:
+        return !front;
+    case FaceCulling::Front:
+        return front;
+    case FaceCulling::FrontAndBack:
+        return true;
+    }
+    return false;
+}
+
 } // namespace osgRayTrace::engine

@@ -96,6 +96,9 @@ inline bool isFrontFace(const Material& material, bool counterClockwise)
     return counterClockwise != material.clockwise;
 }
 
+/// Whether FaceCulling takes that side of the face away.
+bool isCulled(const Material& material, bool front);
+
 /// A texture environment applied to a lit colour [OpenGL21, table 3.22 and 3.23].
 Vec4 applyTextureEnvironment(const TextureTerms::Term& texture, Vec4 lit);
 

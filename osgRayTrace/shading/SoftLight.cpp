@@ -13,13 +13,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-Vec3 around(Vec3 axis, Vec3 local)
-{
-    Vec3 tangent, bitangent;
-    frameOf(axis.x, axis.y, axis.z, tangent, bitangent);
-    return tangent * local.x + bitangent * local.y + axis * local.z;
-}
-
 SoftLightSample sampleSun(const Light& light, Vec2 u)
 {
     SoftLightSample sample;
@@ -38,7 +31,7 @@ float softWeight(float sine)
 
 Vec3 softDirection(const Light& light, Vec2 u)
 {
-    return around(light.direction, squareToCone(u, oneMinusCosine(light.sine)));
+    return turnedTo(light.direction, squareToCone(u, oneMinusCosine(light.sine)));
 }
 
 Vec3 softOrigin(const Light& light, Vec3 direction, Vec2 u)
@@ -46,7 +39,7 @@ Vec3 softOrigin(const Light& light, Vec3 direction, Vec2 u)
     float sine, cosine;
     sinCosTurn(u.x, sine, cosine);
     const float radius = light.radius * std::sqrt(u.y);
-    return light.position + around(direction, Vec3(radius * cosine, radius * sine, 0.0f));
+    return light.position + turnedTo(direction, Vec3(radius * cosine, radius * sine, 0.0f));
 }
 
 SoftLightSample sampleSoft(const Light& light, Vec3 p, Vec2 u)
@@ -68,7 +61,7 @@ SoftLightSample sampleSoft(const Light& light, Vec3 p, Vec2 u)
     if (!(distance > 0.0f)) return sample;
     const float sine = light.radius / std::max(distance, light.radius);
     const Vec3 local = squareToCone(u, oneMinusCosine(sine));
-    sample.wi = around(d / distance, local);
+    sample.wi = turnedTo(d / distance, local);
     sample.distance = distance * local.z;
     sample.attenuation =
         distanceTerm(light, std::max(distance, light.radius)) * spotTerm(light, -sample.wi);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
+#include "tests/Rays.h"
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/Outline.h"
@@ -135,20 +136,6 @@ Truth bruteForce(const Scene& scene, const Ray& ray)
     return truth;
 }
 
-void setRay(RayBlock& block, int lane, const Ray& ray)
-{
-    block.originX[lane] = ray.origin.x;
-    block.originY[lane] = ray.origin.y;
-    block.originZ[lane] = ray.origin.z;
-    block.directionX[lane] = ray.direction.x;
-    block.directionY[lane] = ray.direction.y;
-    block.directionZ[lane] = ray.direction.z;
-    block.tNear[lane] = block.time[lane] = 0.0f;
-    block.tFar[lane] = kInfinity;
-    block.mask[lane] = 0xffffffffu;
-    block.id[lane] = block.flags[lane] = 0;
-}
-
 using Query = std::function<void(const Intersector&, const Ray*, Hit*)>; ///< of sixteen rays
 
 Hit hitOf(const RayHitBlock& block, int i)
@@ -167,7 +154,7 @@ Query blocks(Coherence coherence, int lanesAtOnce)
         {
             RayHitBlock block;
             for (int i = 0; i < kLanes; ++i)
-                setRay(block.ray, i, rays[i]);
+                setRay(block.ray, i, rays[i].origin, rays[i].direction);
             const LaneMask active = ((1u << lanesAtOnce) - 1u) << first;
             CHECK(intersector.closestHits(block, active, coherence) == 0);
             for (int i = first; i < first + lanesAtOnce; ++i)
@@ -242,7 +229,7 @@ TEST_CASE("instances: rays of every kind hit what brute force in double hits", "
         }
         RayBlock shadows;
         for (int i = 0; i < kLanes; ++i)
-            setRay(shadows, i, rays[first + i]);
+            setRay(shadows, i, rays[first + i].origin, rays[first + i].direction);
         intersector.occlusion(shadows, kAllLanes);
         for (int i = 0; i < kLanes; ++i)
         {
@@ -360,8 +347,7 @@ TEST_CASE("instances: bounds hold a mesh wherever it is placed, and a turned bal
         }
         CAPTURE(mesh->positions.size(), widest);
         CHECK(outside == 0);
-        if (mesh == ball || mesh == stray)
-            CHECK(widest < 1.3f * 2.0f); // its box: up to 1.73 times
+        if (mesh == ball || mesh == stray) CHECK(widest < 1.3f * 2.0f); // its box: up to 1.73 times
     }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
+#include "tests/Rays.h"
 #include "tests/Statistics.h"
 
 #include "osgRayTrace/accel/Embree.h"
@@ -20,17 +21,7 @@ struct TestRay
 
 void setRay(RayBlock& block, int lane, const TestRay& ray)
 {
-    block.originX[lane] = ray.origin.x;
-    block.originY[lane] = ray.origin.y;
-    block.originZ[lane] = ray.origin.z;
-    block.directionX[lane] = ray.direction.x;
-    block.directionY[lane] = ray.direction.y;
-    block.directionZ[lane] = ray.direction.z;
-    block.tNear[lane] = ray.tNear;
-    block.tFar[lane] = ray.tFar;
-    block.time[lane] = 0.0f;
-    block.mask[lane] = 0xffffffffu;
-    block.id[lane] = block.flags[lane] = 0;
+    test::setRay(block, lane, ray.origin, ray.direction, ray.tNear, ray.tFar);
 }
 
 /// Every field a ray has with every value that Debian's Embree would end the process for, and more.

@@ -2,6 +2,7 @@
 // them. SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
+#include "tests/Rays.h"
 #include "tests/Statistics.h"
 
 #include "osgRayTrace/accel/Intersector.h"
@@ -19,20 +20,6 @@ namespace
 Vec3 at(const Vec3Lanes& lanes, int i)
 {
     return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]);
-}
-
-void setRay(RayBlock& block, int lane, Vec3 origin, Vec3 direction)
-{
-    block.originX[lane] = origin.x;
-    block.originY[lane] = origin.y;
-    block.originZ[lane] = origin.z;
-    block.directionX[lane] = direction.x;
-    block.directionY[lane] = direction.y;
-    block.directionZ[lane] = direction.z;
-    block.tNear[lane] = block.time[lane] = 0.0f;
-    block.tFar[lane] = kInfinity;
-    block.mask[lane] = 0xffffffffu;
-    block.id[lane] = block.flags[lane] = 0;
 }
 
 Vec3d randomDirection(Uniform& random)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
+#include "tests/Rays.h"
 #include "tests/Statistics.h"
 
 #include "osgRayTrace/accel/Intersector.h"
@@ -77,14 +78,7 @@ TEST_CASE("watertight: points on skinny triangles lie on them, however grazing t
                           -std::sin(angle));
             RayHitBlock block = {};
             const Vec3 origin(target - d * random.between(100.0, 500.0)), direction(d);
-            block.ray.originX[0] = origin.x;
-            block.ray.originY[0] = origin.y;
-            block.ray.originZ[0] = origin.z;
-            block.ray.directionX[0] = direction.x;
-            block.ray.directionY[0] = direction.y;
-            block.ray.directionZ[0] = direction.z;
-            block.ray.tFar[0] = kInfinity;
-            block.ray.mask[0] = 0xffffffffu;
+            setRay(block.ray, 0, origin, direction);
             traced->intersector().closestHits(block, 1u, Coherence::Incoherent);
             SurfaceLanes surface;
             surfacesOf(traced->surfaces(), block, 1u, surface);

@@ -122,6 +122,30 @@ TEST_CASE("lamps are hit, clip planes count, raised faces are where they are in 
     }
 }
 
+TEST_CASE("a plane that makes as many triangles as it takes leaves the numbers of the others")
+{
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    for (const float left : {-1.0f, 2.0f, -4.0f}) // cut in two, whole, taken
+        for (const osg::Vec3& corner : {osg::Vec3(0, 0, 0), osg::Vec3(2, -1, 0), osg::Vec3(2, 1, 0)})
+            vertices->push_back(corner + osg::Vec3(left, 0, 0));
+    geometry->setVertexArray(vertices);
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 9));
+    const osg::ref_ptr<osg::ClipNode> clipped = new osg::ClipNode;
+    clipped->addClipPlane(new osg::ClipPlane(0, 1.0, 0.0, 0.0, 0.0)); // x > 0 is kept
+    clipped->addChild(geometry);
+    const osg::ref_ptr<RayTracedScene> scene = sceneOf(clipped);
+    const Picks whole = down(*scene, 3.5, 0.1);
+    REQUIRE(whole.size() == 1);
+    CHECK(whole[0].primitiveIndex == 1);
+    REQUIRE(whole[0].indexList.size() == 3);
+    CHECK(whole[0].indexList[0] == 3);
+    CHECK(down(*scene, -3.0, 0.1).empty());
+    const Picks cut = down(*scene, 0.7, 0.1);
+    REQUIRE(cut.size() == 1);
+    CHECK(cut[0].primitiveIndex == 0);
+}
+
 TEST_CASE("a pick before any frame sees the graph as it is")
 {
     const osg::ref_ptr<osg::Group> root = new osg::Group;

@@ -7,6 +7,7 @@
 
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
+#include <osgDB/FileUtils>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
@@ -147,6 +148,22 @@ TEST_CASE("four walls stitched together are one panorama, without a seam")
     CHECK(largest < 1.5 / 255.0);
     CHECK(sum / count < 0.6 / 255.0);
     CHECK(edges / edgeCount < 0.6 / 255.0);
+}
+
+TEST_CASE("a wall that the head is behind has no picture, and is named")
+{
+    const TemporaryFolder folder;
+    REQUIRE(osgDB::writeNodeFile(*shell(), folder / "shell.osgt"));
+    std::ofstream(folder / "cube.xml") << configuration();
+    // Beyond the left wall, which is the first.
+    const Outcome outcome = osgraytrace(
+        folder, "--cave cube.xml --head -2000 0 0 0 0 0 --max-passes 1 --output w.png shell.osgt");
+    INFO(outcome.errors);
+    CHECK(outcome.exitCode == 0);
+    CHECK(outcome.errors.find("no picture of wall 0") != std::string::npos);
+    CHECK_FALSE(osgDB::fileExists(folder / "w-0.png"));
+    for (const char* other : {"w-1.png", "w-2.png", "w-3.png"})
+        CHECK(osgDB::fileExists(folder / other));
 }
 
 TEST_CASE("the viewer refuses what is no CAVE")

@@ -208,6 +208,28 @@ SceneBuilder polishedMetal()
     return builder;
 }
 
+/// All faces are there from one side only: a room that is looked into through its near wall, shades
+/// that hold back the light from above, or let it pass and are lit, clear and dull bodies without
+/// their far halves.
+SceneBuilder oneSided()
+{
+    SceneBuilder builder = room(false);
+    builder.add(quadMesh({-2, -2, 0}, {0, 0, 3}, {4, 0, 0}), lambert(Vec3(0.8f, 0.3f, 0.3f)));
+    builder.add(quadMesh({-1.5f, -0.9f, 1.5f}, {0, 0.8f, 0}, {0.9f, 0, 0}), lambert(Vec3(0.7f)));
+    builder.add(quadMesh({0.5f, -0.9f, 1.4f}, {0.9f, 0, 0}, {0, 0.8f, 0}),
+                lambert(Vec3(0.3f, 0.7f, 0.3f)));
+    builder.add(sphereMesh({-0.6f, 0.1f, 0.6f}, 0.5f, 24), glass(1.5f));
+    builder.add(boxMesh({0.3f, -0.1f, 0}, {0.9f, 0.5f, 0.9f}), lambert(Vec3(0.6f)));
+    builder.add(quadMesh({1.9f, 1.4f, 0.2f}, {0, 0, 1.5f}, {0, -2, 0}), mirror(Vec3(0.9f)));
+    for (Material& material : builder.scene->materials)
+    {
+        material.culling = FaceCulling::Back;
+        material.cullsAllRays = true;
+    }
+    builder.addQuadLight({-1.1f, -1.1f, 2.6f}, {0, 2.2f, 0}, {2.2f, 0, 0}, Vec3(2.0f));
+    return builder;
+}
+
 SceneBuilder tallMirrorBox()
 {
     SceneBuilder builder = cornellBox();
@@ -242,6 +264,7 @@ std::vector<ComparedScene> photonScenes(int width, int height)
             {"sun and spot", sunAndSpot().build(), inRoom},
             {"lamps in glass", lampsInGlass().build(), inRoom, true},
             {"highlights", highlights().build(), inRoom},
+            {"one-sided", oneSided().build(), inRoom, true},
             {"polished metal", polishedMetal().build(), inRoom, true}};
 }
 

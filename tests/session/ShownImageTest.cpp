@@ -18,7 +18,7 @@ std::shared_ptr<const TracedScene> litPlane(bool displayReferred)
 {
     SceneBuilder builder;
     builder.add(quadMesh({-4, -4, 0}, {4, 0, 0}, {0, 8, 0}), lambert(Vec3(0.2f, 0.4f, 0.6f)));
-    builder.scene->lights.push_back(pointLight({-1, 0, 3}));
+    builder.scene->lights.push_back(pointLight({-1, 0, 3}, Vec3(9.0f)));
     builder.scene->displayReferred = displayReferred;
     return builder.build();
 }

@@ -107,8 +107,8 @@ TEST_CASE("stability 54: normals opposite to their faces are counted", "[stabili
         CHECK(countOf(convertGraph(lit({geometry})), "warned.opposite-normals") == 1);
 
         // A transform that mirrors changes neither.
-        osg::ref_ptr<osg::MatrixTransform> mirrored = new osg::MatrixTransform(
-            osg::Matrixd::scale(-1.0, 1.0, 1.0));
+        osg::ref_ptr<osg::MatrixTransform> mirrored =
+            new osg::MatrixTransform(osg::Matrixd::scale(-1.0, 1.0, 1.0));
         mirrored->addChild(geometry);
         CHECK(countOf(convertGraph(lit({mirrored})), "warned.opposite-normals") == 1);
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
+#include "tests/Rays.h"
 #include "tests/Statistics.h"
 
 #include "osgRayTrace/accel/Intersector.h"
@@ -103,14 +104,7 @@ TEST_CASE("stability 7: grazing rays meet skinny triangles on them", "[stability
                         std::cos(angle) * (std::cos(turn) * t.along + std::sin(turn) * across) -
                         std::sin(angle) * t.normal;
                     const Vec3 origin(aim - d * length * random.between(10.0, 50.0)), direction(d);
-                    block.ray.originX[i] = origin.x;
-                    block.ray.originY[i] = origin.y;
-                    block.ray.originZ[i] = origin.z;
-                    block.ray.directionX[i] = direction.x;
-                    block.ray.directionY[i] = direction.y;
-                    block.ray.directionZ[i] = direction.z;
-                    block.ray.tFar[i] = kInfinity;
-                    block.ray.mask[i] = 0xffffffffu;
+                    setRay(block.ray, i, origin, direction);
                 }
                 traced->intersector().closestHits(block, kAllLanes, Coherence::Incoherent);
                 SurfaceLanes surface;

@@ -1,6 +1,7 @@
 // TransformTest.cpp - transforms that are singular, mirrored, uneven or many. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/Rays.h"
 #include "tests/Statistics.h"
 #include "tests/stability/geometry/Pictured.h"
 
@@ -79,14 +80,7 @@ std::optional<Point> shoot(const TracedScene& traced, const Vec3d& origin, const
 {
     RayHitBlock block = {};
     const Vec3 o(origin), d(glm::normalize(direction));
-    block.ray.originX[0] = o.x;
-    block.ray.originY[0] = o.y;
-    block.ray.originZ[0] = o.z;
-    block.ray.directionX[0] = d.x;
-    block.ray.directionY[0] = d.y;
-    block.ray.directionZ[0] = d.z;
-    block.ray.tFar[0] = kInfinity;
-    block.ray.mask[0] = 0xffffffffu;
+    setRay(block.ray, 0, o, d);
     traced.intersector().closestHits(block, 1u, Coherence::Incoherent);
     SurfaceLanes s;
     surfacesOf(traced.surfaces(), block, 1u, s);

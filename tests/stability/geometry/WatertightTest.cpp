@@ -1,5 +1,6 @@
 // WatertightTest.cpp - no ray and no light leaves a closed body. Layer: tests.
 // SPDX-License-Identifier: MIT
+#include "tests/Rays.h"
 #include "tests/integrators/Measure.h"
 
 #include "osgRayTrace/accel/Intersector.h"
@@ -57,14 +58,7 @@ int64_t escapes(const Mesh& sphere, const TracedScene& traced, const Vec3& eye, 
             for (int i = 0; i < kLanes; ++i)
             {
                 const Vec3 d(glm::normalize(target(sphere, aim, Vec3d(eye), random) - Vec3d(eye)));
-                block.ray.originX[i] = eye.x;
-                block.ray.originY[i] = eye.y;
-                block.ray.originZ[i] = eye.z;
-                block.ray.directionX[i] = d.x;
-                block.ray.directionY[i] = d.y;
-                block.ray.directionZ[i] = d.z;
-                block.ray.tFar[i] = kInfinity;
-                block.ray.mask[i] = 0xffffffffu;
+                setRay(block.ray, i, eye, d);
             }
             traced.intersector().closestHits(block, kAllLanes, Coherence::Incoherent);
             int missed = 0;
