@@ -14,6 +14,12 @@
 namespace osgRayTrace::engine
 {
 
+/// Those whose modes are on, as bits.
+inline uint64_t clipPlanesOn(const GraphState& state)
+{
+    return state.modesOn >> kClipPlaneBit & ((uint64_t(1) << kClipPlanes) - 1);
+}
+
 /// As OpenGL keeps them: by number, the last one set stays, wherever in the graph it stands; a
 /// drawable is cut by those that its state has switched on. Planes that nobody has set cut nothing.
 class ClipPlanes

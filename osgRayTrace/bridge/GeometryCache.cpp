@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GeometryCache.h"
 
+#include "osgRayTrace/bridge/NodePrints.h"
 #include "osgRayTrace/bridge/VertexArrays.h"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ bool GeometryCache::BufferPrint::operator==(const BufferPrint& other) const
 {
     const auto values = [](const BufferPrint& p) {
         return std::make_tuple(p.buffer.get(), p.modified, p.data, p.bytes, p.kind, p.count,
-                               p.first);
+                               p.ranges);
     };
     return values(*this) == values(other);
 }
@@ -73,8 +74,7 @@ GeometryCache::Fingerprint GeometryCache::fingerprintOf(const osg::Geometry& geo
         if (!set) continue;
         BufferPrint& print = add(set, set->getMode());
         if (hasTriangles(*set)) print.count = set->getNumIndices(); // others may lack what they count
-        if (const auto* arrays = dynamic_cast<const osg::DrawArrays*>(set))
-            print.first = static_cast<unsigned int>(arrays->getFirst());
+        print.ranges = rangesPrint(*set);
     }
     return prints;
 }
@@ -160,6 +160,8 @@ std::shared_ptr<const Mesh> GeometryCache::mesh(const osg::Geometry& geometry, u
             if (other && entry.mesh && request.copies && entry.request.copies)
                 shareTriangles(*converted.mesh, *entry.mesh);
         }
+        if (other && entry.fingerprint[kPositions].buffer != fingerprint[kPositions].buffer)
+            dropBounds(entry.fingerprint[kPositions]);
         ++_converted;
         warnAboutGeometry(path, converted.counts);
         entry = {&geometry, geometry.getDataVariance(), std::move(fingerprint),
@@ -186,6 +188,14 @@ const VertexBounds& GeometryCache::bounds(const osg::Geometry& geometry)
     }
     entry.used = _stamp;
     return entry.bounds;
+}
+
+/// Of an array that was exchanged; others that have it get them again. Not if somebody looks at them.
+void GeometryCache::dropBounds(const BufferPrint& positions)
+{
+    if (!positions.buffer) return;
+    const auto known = _bounds.find(positions.buffer->asArray());
+    if (known != _bounds.end() && known->second.used != _stamp) _bounds.erase(known);
 }
 
 /// Uses have no variants of their own where it is called, or they are forgotten with the next conversion.

@@ -77,7 +77,7 @@ private:
         std::size_t bytes = 0;
         unsigned int kind = 0;  // binding of an array, mode of a primitive set
         unsigned int count = 0; // vertices of a primitive set
-        unsigned int first = 0;
+        uint64_t ranges = 0;    // see rangesPrint
 
         bool operator==(const BufferPrint& other) const;
     };
@@ -114,6 +114,7 @@ private:
     static Fingerprint fingerprintOf(const osg::Geometry& geometry);
 
     const Entry* find(const osg::Geometry& geometry) const;
+    void dropBounds(const BufferPrint& positions);
     static KeptArrays keptArrays(const Entry& before, const Fingerprint& now);
 
     std::unordered_map<Key, Entry, KeyHash> _entries;

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/ClipPlanes.h"
 #include "osgRayTrace/bridge/DrawHint.h"
+#include "osgRayTrace/bridge/NodePrints.h"
 #include "osgRayTrace/bridge/UntracedParts.h"
 
 #include <osgRayTrace/AreaLight>
@@ -232,6 +233,7 @@ void GraphCollector::apply(osg::Billboard& node)
         _worldFromLocal.back() * osg::Matrixd::inverse(worldFromView);
     // Since OSG 3.6 any child can be added, and one that is no drawable has no position.
     const std::size_t positions = node.getPositionList().size();
+    ++_opaque;
     for (unsigned int i = 0; i < node.getNumDrawables(); ++i)
     {
         osg::Drawable* drawable = node.getDrawable(i);
@@ -246,6 +248,7 @@ void GraphCollector::apply(osg::Billboard& node)
         drawable->accept(*this);
         _worldFromLocal.pop_back();
     }
+    --_opaque;
     if (pushed) _states.pop();
 }
 
@@ -274,8 +277,10 @@ void GraphCollector::apply(osg::Geometry& geometry)
     const PrimitiveRestart restart = restartOf(_states.states()[state]);
     const auto [found, isNew] =
         _indexOf.try_emplace({&posed, restart.key()}, _graph.geometries.size());
-    if (isNew) _graph.geometries.push_back({&posed, path(), {}, restart, nullptr});
-    _graph.geometries[found->second].uses.push_back({engineFromLocal(), state, pickPath()});
+    if (isNew) _graph.geometries.push_back({&posed, path(), {}, restart});
+    CollectedGeometry& collected = _graph.geometries[found->second];
+    collected.watched &= _opaque == 0;
+    collected.uses.push_back({engineFromLocal(), state, pickPath()});
 }
 
 osg::Vec3 GraphCollector::getEyePoint() const
@@ -302,7 +307,11 @@ float GraphCollector::getDistanceToViewPoint(const osg::Vec3& position, bool use
 
 void GraphCollector::traverseChildren(osg::Node& node)
 {
-    if (!isTooDeep(node)) traverse(node);
+    if (isTooDeep(node)) return;
+    const bool opaque = &node != _input.root && kindOf(node) == NodeKind::Opaque;
+    _opaque += opaque;
+    traverse(node);
+    _opaque -= opaque;
 }
 
 /// True, counted and named if there is anything below it that is too deep.

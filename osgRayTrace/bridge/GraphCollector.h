@@ -49,6 +49,7 @@ struct CollectedGeometry
     std::string path; ///< of the first use: "root/child/geometry"
     std::vector<GeometryUse> uses;
     PrimitiveRestart restart; ///< of all uses
+    bool watched = true;      ///< no path is below a node that GraphWatch does not look into
     const VertexBounds* bounds = nullptr; ///< not the collector's: see SceneConverter
 };
 
@@ -168,6 +169,7 @@ private:
     ConversionReport& _report;
     std::vector<osg::Matrixd> _worldFromLocal; // the stack of transforms, never empty
     ReferenceCullStack _cullStack;
+    int _opaque = 0; // nodes around that GraphWatch does not look into
     StateStack _states;
     MaterialAssignment _materials; ///< keeps what it adds to the states
     CollectedGraph _graph;

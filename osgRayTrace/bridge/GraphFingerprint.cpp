@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/DrawHint.h"
 #include "osgRayTrace/bridge/GraphCollector.h"
+#include "osgRayTrace/bridge/NodePrints.h"
 #include "osgRayTrace/bridge/StateFingerprint.h"
 #include "osgRayTrace/bridge/SoftwareVertices.h"
 
@@ -26,22 +27,6 @@ namespace osgRayTrace::engine
 
 namespace
 {
-
-/// Its setter marks nothing as changed.
-GLint firstOf(const osg::PrimitiveSet& set)
-{
-    return set.getType() == osg::PrimitiveSet::DrawArraysPrimitiveType
-               ? static_cast<const osg::DrawArrays&>(set).getFirst()
-               : 0;
-}
-
-void addEnvironment(Digest& digest, const EnvironmentLight& light)
-{
-    const osg::Image* image = light.getImage();
-    digest.add(image, image ? image->getModifiedCount() : 0u, light.getCubeMap());
-    if (light.getCubeMap()) addTexture(digest, *light.getCubeMap());
-    digest.add(light.getRotation().asVec4(), light.getScale(), light.getVisible());
-}
 
 /// Follows the children that are active for the eye, as the conversion does.
 class FingerprintVisitor : public osg::NodeVisitor
@@ -66,8 +51,8 @@ public:
         if (const auto* light = dynamic_cast<const AreaLight*>(&node))
             _digest.add(light->getCorner(), light->getEdgeU(), light->getEdgeV(),
                         light->getRadiance(), light->getTwoSided());
-        if (const auto* light = dynamic_cast<const EnvironmentLight*>(&node))
-            addEnvironment(_digest, *light);
+        if (dynamic_cast<const EnvironmentLight*>(&node))
+            _digest.add(lightPrint(NodeKind::Environment, node));
         enter(node);
     }
 
@@ -82,7 +67,7 @@ public:
 
     void apply(osg::TexGenNode& node) override
     {
-        _digest.add(node.getReferenceFrame(), node.getTextureUnit());
+        _digest.add(node.getReferenceFrame(), node.getTextureUnit(), node.getTexGen());
         if (node.getTexGen()) addTexGen(_digest, *node.getTexGen());
         enter(node);
     }
@@ -134,7 +119,7 @@ public:
         for (const auto& primitives : geometry.getPrimitiveSetList())
             _digest.add(primitives.get(), primitives->getModifiedCount(), primitives->getMode(),
                         hasTriangles(*primitives) ? primitives->getNumIndices() : 0u,
-                        firstOf(*primitives));
+                        rangesPrint(*primitives));
         traverse(geometry);
     }
 

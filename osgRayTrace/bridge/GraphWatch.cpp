@@ -39,6 +39,9 @@ inline void fetch(const WatchedNode& node)
         fetch(node.node, kGroupBytes);
 }
 
+/// Each takes a walk over all that is watched: more than these take longer than a conversion.
+constexpr std::size_t kMostSplices = 256;
+
 /// What stands for the decorator has it below itself without being its parent.
 osg::Node* soleNodeBelow(osg::Node& node, unsigned int traversalMask)
 {
@@ -57,6 +60,12 @@ osg::Node* soleNodeBelow(osg::Node& node, unsigned int traversalMask)
     finder.setTraversalMask(traversalMask);
     node.accept(finder);
     return finder.found;
+}
+
+/// Converts the graph where it comes or goes, and what is around it is watched in another way.
+bool isOfTheWhole(const WatchedNode& node)
+{
+    return node.kind == NodeKind::Opaque || isLight(node.kind) || node.hint != 0;
 }
 
 uint64_t inheritedPrint(const ViewingConditions& conditions)
@@ -111,12 +120,14 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
     _plain.eye = conditions.eye;
     _plain.view = conditions.view;
     _anyMoved = _anyRestated = false;
+    _exchanged.clear();
     ++_looks;
     if (!comparable || !lookAtNodes(changes) || !lookAtHidden(changes))
     {
         changes.convert = changes.record = true;
         return changes;
     }
+    _graph.resetBuffers(_exchanged);
     lookAtBuffers(changes);
     lookAtStates();
     lookAtLights(changes);
@@ -220,7 +231,7 @@ bool GraphWatch::redoChildren(uint32_t index, GraphChanges& changes)
         while (at < _graph.nodes[index].end && !isThere() && !has.count(_graph.nodes[at].node))
             if (!remove(at, changes)) return false;
         if (!isThere() && had.count(child)) return false; // they are in another order
-        if (!isThere()) add(at, *child, index, changes);
+        if (!isThere() && !add(at, *child, index, changes)) return false;
         if (isThere()) at = _graph.nodes[at].end; // not if it is hidden
     }
     while (at < _graph.nodes[index].end)
@@ -239,13 +250,12 @@ uint32_t GraphWatch::usesBefore(uint32_t geometry, uint32_t node) const
 
 bool GraphWatch::remove(uint32_t index, GraphChanges& changes)
 {
-    if (_graph.isRepeatedElsewhere(index)) return false;
+    if (changes.splices.size() >= kMostSplices || _graph.isRepeatedElsewhere(index)) return false;
     GraphSplice& splice = changes.splices.emplace_back();
     for (uint32_t i = index; i < _graph.nodes[index].end; ++i)
     {
         const WatchedNode& node = _graph.nodes[i];
-        if (node.kind == NodeKind::Opaque || isLight(node.kind) || node.hint != 0)
-            changes.convert = true;
+        if (isOfTheWhole(node)) changes.convert = changes.record = true;
         if (node.kind != NodeKind::Geometry) continue;
         const WatchedGeometry& watched = _graph.geometries[node.item];
         splice.removed.push_back({watched.geometry, usesBefore(node.item, i), watched.uses});
@@ -254,23 +264,24 @@ bool GraphWatch::remove(uint32_t index, GraphChanges& changes)
     return true;
 }
 
-void GraphWatch::add(uint32_t at, osg::Node& node, uint32_t parent, GraphChanges& changes)
+bool GraphWatch::add(uint32_t at, osg::Node& node, uint32_t parent, GraphChanges& changes)
 {
+    if (changes.splices.size() >= kMostSplices) return false;
     const std::size_t before = _graph.nodes.size();
     _graph.insert(at, node, parent, _plain);
     const auto count = static_cast<uint32_t>(_graph.nodes.size() - before);
-    if (count == 0) return;
+    if (count == 0) return true;
     GraphSplice& splice = changes.splices.emplace_back();
     splice.added = _graph.pathTo(at);
     for (uint32_t i = at; i < at + count; ++i)
     {
         const WatchedNode& added = _graph.nodes[i];
-        if (added.kind == NodeKind::Opaque || isLight(added.kind) || added.hint != 0)
-            changes.convert = true;
+        if (isOfTheWhole(added)) changes.convert = changes.record = true;
         if (added.kind != NodeKind::Geometry) continue;
         const WatchedGeometry& watched = _graph.geometries[added.item];
         splice.uses.push_back({watched.geometry, usesBefore(added.item, i), watched.uses});
     }
+    return true;
 }
 
 /// A mask has hidden a node.
@@ -310,8 +321,7 @@ bool GraphWatch::lookAtGeometry(uint32_t index, GraphChanges& changes)
     watched.restated = _anyRestated = true;
     if (arrays == watched.arrays) return true;
     watched.arrays = arrays;
-    _graph.removeBuffers(index);
-    _graph.setBuffers(index);
+    _exchanged.push_back(index);
     changes.deformed.push_back(&geometry);
     return true;
 }

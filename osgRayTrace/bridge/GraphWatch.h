@@ -33,7 +33,7 @@ private:
     bool redo(uint32_t index, GraphChanges& changes);
     bool redoChildren(uint32_t index, GraphChanges& changes);
     bool remove(uint32_t index, GraphChanges& changes);
-    void add(uint32_t at, osg::Node& node, uint32_t parent, GraphChanges& changes);
+    bool add(uint32_t at, osg::Node& node, uint32_t parent, GraphChanges& changes);
     bool hide(uint32_t index, GraphChanges& changes);
     bool lookAtHidden(GraphChanges& changes);
     bool lookAtGeometry(uint32_t index, GraphChanges& changes);
@@ -52,6 +52,7 @@ private:
 
     // Of a look while it runs:
     bool _anyMoved = false, _anyRestated = false;
+    std::vector<uint32_t> _exchanged; ///< geometries that have other arrays
 };
 
 } // namespace osgRayTrace::engine

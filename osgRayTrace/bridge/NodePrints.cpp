@@ -98,6 +98,7 @@ uint64_t otherPrint(const osg::BufferData& data)
 {
     std::size_t count = 0;
     unsigned int kind = 0;
+    uint64_t ranges = 0;
     if (const osg::Array* array = data.asArray())
     {
         count = array->getNumElements();
@@ -107,15 +108,16 @@ uint64_t otherPrint(const osg::BufferData& data)
     {
         if (hasTriangles(*set)) count = set->getNumIndices(); // others may lack what they count
         kind = set->getMode();
+        ranges = rangesPrint(*set);
     }
-    return valuePrint(data.getModifiedCount(), count, data.getDataPointer(), kind);
+    return valuePrint(data.getModifiedCount(), count, data.getDataPointer(), kind) + ranges;
 }
 
 uint64_t environmentPrint(const EnvironmentLight& light)
 {
     Digest digest;
-    const osg::Image* image = light.getImage();
-    digest.add(image, image ? image->getModifiedCount() : 0u, light.getCubeMap());
+    addImage(digest, light.getImage());
+    digest.add(light.getCubeMap());
     if (light.getCubeMap()) addTexture(digest, *light.getCubeMap());
     digest.add(light.getRotation().asVec4(), light.getScale(), light.getVisible());
     return digest.value();
@@ -245,6 +247,23 @@ BufferKind bufferKindOf(const osg::BufferData& data)
     if (type == typeid(osg::DrawElementsUShort)) return BufferKind::UShortElements;
     if (type == typeid(osg::DrawArrays)) return BufferKind::Arrays;
     return BufferKind::Other;
+}
+
+uint64_t rangesPrint(const osg::PrimitiveSet& set)
+{
+    if (const auto* arrays = dynamic_cast<const osg::DrawArrays*>(&set))
+        return fold(static_cast<uint32_t>(arrays->getFirst()),
+                    static_cast<uint32_t>(arrays->getCount()));
+    if (const auto* lengths = dynamic_cast<const osg::DrawArrayLengths*>(&set))
+        return fold(static_cast<uint32_t>(lengths->getFirst()), 1);
+    const auto* several = dynamic_cast<const osg::MultiDrawArrays*>(&set);
+    uint64_t print = 0;
+    if (!several) return print;
+    for (const GLint first : several->getFirsts())
+        print = fold(print, static_cast<uint32_t>(first));
+    for (const GLsizei count : several->getCounts())
+        print = fold(print + 1, static_cast<uint32_t>(count));
+    return print;
 }
 
 uint64_t bufferPrint(BufferKind kind, const osg::BufferData& data)

@@ -80,6 +80,9 @@ BufferKind bufferKindOf(const osg::BufferData& data);
 /// Its modified count, its size and where its data is; of some kinds more.
 uint64_t bufferPrint(BufferKind kind, const osg::BufferData& data);
 
+/// Which vertices a set without indices takes, whose setters mark nothing as changed; else 0.
+uint64_t rangesPrint(const osg::PrimitiveSet& set);
+
 /// Calls f(buffer or null, whether it is of the shape) for what a mesh is made of.
 template <class F> void forEachBuffer(const osg::Geometry& geometry, const F& f)
 {

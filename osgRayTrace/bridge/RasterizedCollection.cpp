@@ -49,8 +49,10 @@ void GraphCollector::traverseGroup(osg::Group& group)
 {
     if (isTooDeep(group)) return;
     const bool pushed = pushState(group);
+    ++_opaque;
     for (unsigned int i = 0; i < group.getNumChildren(); ++i)
         group.getChild(i)->accept(*this);
+    --_opaque;
     if (pushed) _states.pop();
 }
 

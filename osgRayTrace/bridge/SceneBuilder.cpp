@@ -225,7 +225,7 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
     warnIfCoarse(geometry);
     TracedGeometry& traced = _made.index.geometries[geometry.geometry];
     // One that is here twice has other primitive restart: only one of both is in the index.
-    traced.patchable = traced.uses.empty();
+    traced.patchable = traced.uses.empty() && geometry.watched;
     traced.uses.clear();
     traced.uses.reserve(geometry.uses.size());
     for (const GeometryUse& use : geometry.uses)
@@ -281,8 +281,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
             addNothing(geometry, use);
         return;
     }
-    _report.count("converted.geometry");
-    const uint32_t meshIndex = addMesh(mesh);
+    uint32_t meshIndex = kInvalid; // in the scene once an instance has it
     uint32_t variant = kOwnVariant;
     for (const GeometryUse& use : geometry.uses)
     {
@@ -296,14 +295,22 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
             continue;
         }
         Instance instance;
-        instance.mesh = meshIndex;
-        if (clipping == Clipping::None && own.lift == 0.0f &&
-            placeInstance(instance, frame.localFromMesh * use.engineFromLocal))
-            addInstance(geometry, use, instance);
-        else
+        if (clipping != Clipping::None || own.lift != 0.0f ||
+            !placeInstance(instance, frame.localFromMesh * use.engineFromLocal))
+        {
+            _made.index.geometries[geometry.geometry].patchable = false; // not by the shared mesh
             addBaked(geometry, use,
                      _caches.geometries.mesh(*geometry.geometry, variant, own, geometry.path,
                                              _report));
+            continue;
+        }
+        if (meshIndex == kInvalid)
+        {
+            _report.count("converted.geometry");
+            meshIndex = addMesh(mesh);
+        }
+        instance.mesh = meshIndex;
+        addInstance(geometry, use, instance);
     }
 }
 

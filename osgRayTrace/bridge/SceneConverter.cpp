@@ -80,9 +80,8 @@ void addUntraced(const RasterizedParts& parts, SceneIndex& index)
 /// Where planes clip depends on where a geometry is.
 bool hasClipping(const std::vector<GraphState>& states)
 {
-    constexpr uint64_t kAllPlanes = ((uint64_t(1) << kClipPlanes) - 1) << kClipPlaneBit;
     return std::any_of(states.begin(), states.end(),
-                       [](const GraphState& s) { return (s.modesOn & kAllPlanes) != 0; });
+                       [](const GraphState& state) { return clipPlanesOn(state) != 0; });
 }
 
 void addToCount(ConversionCounts& counts, const char* what, int64_t more)
@@ -99,6 +98,7 @@ struct SceneConverter::Implementation
     ConversionInput input; ///< of last
     std::shared_ptr<const Scene> last;
     ConversionResult lastResult;
+    uint64_t forgotten = 0; ///< meshes that were made before the caches were emptied
     bool ordinary = false; ///< unit is 1, and stays so as long as lengths are ordinary
     Stamp stamp = 0;
 };
@@ -109,12 +109,13 @@ SceneConverter::~SceneConverter() = default;
 
 void SceneConverter::forget()
 {
+    _implementation->forgotten = convertedMeshes();
     _implementation->caches = ConversionCaches();
 }
 
 uint64_t SceneConverter::convertedMeshes() const
 {
-    return _implementation->caches.geometries.converted();
+    return _implementation->forgotten + _implementation->caches.geometries.converted();
 }
 
 ConversionResult SceneConverter::convert(const ConversionInput& input)

@@ -22,6 +22,7 @@ struct Treatment
     uint64_t restart = 0;
     float lift = 0.0f;
     bool physical = false;
+    uint64_t clipPlanes = 0; ///< that are on, see clipPlanesOn
     bool hasAmbient = false; ///< a light model of its own, lit
     Vec3 ambient{0.0f};
     ConversionCounts counts; ///< of its material
@@ -40,7 +41,7 @@ struct TracedUse
 struct TracedGeometry
 {
     std::vector<TracedUse> uses; ///< in the order of the traversal
-    bool patchable = true;       ///< false: it is made where it is, as raised faces are
+    bool patchable = true;       ///< false: made where it is, as raised faces are, or not watched
     bool plain = true;           ///< nothing of it is counted but that it was converted
 };
 

@@ -217,15 +217,20 @@ bool ScenePatcher::splice(const GraphSplice& splice)
 
 bool ScenePatcher::remove(const GraphSplice& splice)
 {
+    // Before any goes: those that follow shorten the lists.
+    for (const ChangedUse& gone : splice.removed)
+    {
+        const auto found = _made.index.geometries.find(gone.geometry);
+        if (found == _made.index.geometries.end()) return false;
+        const TracedGeometry& traced = found->second;
+        if (!traced.patchable || !traced.plain || traced.uses.size() != gone.uses) return false;
+    }
     // The last of each first: those before it keep their numbers.
     for (auto gone = splice.removed.rbegin(); gone != splice.removed.rend(); ++gone)
     {
         const auto found = _made.index.geometries.find(gone->geometry);
-        if (found == _made.index.geometries.end()) return false;
-        TracedGeometry& traced = found->second;
-        if (!traced.patchable || !traced.plain || gone->use >= traced.uses.size()) return false;
-        if (!removeUse(traced, gone->use)) return false;
-        if (!traced.uses.empty()) continue;
+        if (!removeUse(found->second, gone->use)) return false;
+        if (!found->second.uses.empty()) continue;
         _made.index.geometries.erase(found);
         _removed.push_back(gone->geometry);
         --_geometries;
@@ -314,6 +319,7 @@ bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeome
         const Treatment treatment = treatmentOf(graph.states[use.state]);
         if (treatment.physical && automatic && _scene->displayReferred) return false;
         if (treatment.hasAmbient && treatment.ambient != _scene->ambient) return false;
+        if (treatment.clipPlanes != 0) return false;
     }
     const auto known = _made.index.geometries.find(geometry.geometry);
     const bool isNew = known == _made.index.geometries.end();

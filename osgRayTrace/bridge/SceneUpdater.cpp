@@ -62,13 +62,13 @@ void SceneUpdater::noteDrawn(const void* camera, const osg::Vec3d& eye, double n
     if (!(nearDistance > 0.0 && distance > kOriginDistance * nearDistance)) return;
 
     std::lock_guard<std::mutex> lock(_notedMutex);
-    if (camera == _noted.camera) _noted.origin = eye;
+    if (camera == _noted.camera) _noted.asked.origin = eye;
 }
 
 void SceneUpdater::setDirty()
 {
     std::lock_guard<std::mutex> lock(_notedMutex);
-    _noted.dirty = true;
+    _noted.asked.dirty = _noted.asked.forget = true;
 }
 
 SceneVersion SceneUpdater::versionToPick(osg::Node* root, const RayTraceSettings& settings,
@@ -78,11 +78,10 @@ SceneVersion SceneUpdater::versionToPick(osg::Node* root, const RayTraceSettings
     const bool viewed = isViewed(); // then frames keep it up to date
     if (viewed && now.pickIndex) return now;
     _picks = true;
-    if (!now.pickIndex) setDirty();
-    if (!viewed && !now.scene)
     {
         std::lock_guard<std::mutex> lock(_notedMutex);
-        _noted.origin = start;
+        if (!now.pickIndex) _noted.asked.dirty = true;
+        if (!viewed && !now.scene) _noted.asked.origin = start;
     }
     update(root, settings, nullptr);
     return version();
@@ -109,7 +108,7 @@ void SceneUpdater::update(osg::Node* root, const RayTraceSettings& settings,
     try
     {
         takeSettings(settings);
-        convertIfChanged(root, takeNoted(), frameStamp);
+        convertIfChanged(root, takeNoted().value_or(ViewingConditions()), frameStamp);
     }
     catch (const std::bad_alloc&)
     {
@@ -125,13 +124,14 @@ void SceneUpdater::update(osg::Node* root, const RayTraceSettings& settings,
     }
 }
 
-SceneUpdater::Noted SceneUpdater::takeNoted()
+std::optional<ViewingConditions> SceneUpdater::takeNoted()
 {
     std::lock_guard<std::mutex> lock(_notedMutex);
-    Noted noted = _noted;
-    _noted.dirty = false;
-    _noted.origin.reset();
-    return noted;
+    const Requests more = std::exchange(_noted.asked, Requests());
+    _asked.dirty |= more.dirty;
+    _asked.forget |= more.forget;
+    if (more.origin) _asked.origin = more.origin;
+    return _noted.conditions;
 }
 
 void SceneUpdater::takeSettings(const RayTraceSettings& settings)
@@ -147,14 +147,13 @@ void SceneUpdater::takeSettings(const RayTraceSettings& settings)
     if (!_version.photons) _version.photons = std::make_shared<PhotonPasses>();
 }
 
-void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
+void SceneUpdater::convertIfChanged(osg::Node* root, const ViewingConditions& conditions,
                                     const osg::FrameStamp* frameStamp)
 {
-    const ViewingConditions conditions = noted.conditions.value_or(ViewingConditions());
     const bool seen = frameStamp && _frameNumber == frameStamp->getFrameNumber();
     const ConversionSettings settings = conversionSettings(
-        *_settings, _materialFile.materials(_settings->getMaterials(), noted.dirty));
-    const bool same = !noted.dirty && !noted.origin && root == _root && _conditions &&
+        *_settings, _materialFile.materials(_settings->getMaterials(), _asked.dirty));
+    const bool same = !_asked.dirty && !_asked.origin && root == _root && _conditions &&
                       convertAlike(*_conditions, conditions) && settings == _conversionSettings;
     if (seen && same) return;
     if (frameStamp) _frameNumber = frameStamp->getFrameNumber();
@@ -164,17 +163,20 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const Noted& noted,
     _root = root;
     _conditions = conditions;
     _conversionSettings = settings;
-    if (noted.origin || !_origin) _origin = finiteOrZero(noted.origin.value_or(conditions.eye));
+    if (_asked.origin || !_origin) _origin = finiteOrZero(_asked.origin.value_or(conditions.eye));
     if (!root)
     {
+        _asked = Requests();
         _watch.forget();
         publish(nullptr, ConversionResult(), _done);
         return;
     }
     const GraphChanges changes = look(*root, same, sameRoot, conditions);
+    const Requests asked = std::exchange(_asked, Requests());
     if (changes.none()) return;
 
     const bool wasStale = std::exchange(_stale, true);
+    if (asked.forget) _converter.forget();
     std::optional<ConversionResult> conversion;
     if (!changes.convert && !wasStale) conversion = _converter.patch(changes);
     ++(conversion ? _done.patches : _done.conversions);

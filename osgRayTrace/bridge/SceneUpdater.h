@@ -59,7 +59,7 @@ public:
     void update(osg::Node* root, const RayTraceSettings& settings,
                 const osg::FrameStamp* frameStamp);
 
-    /// The next update converts, whatever it sees. Any thread.
+    /// The next update converts, whatever it sees, with all arrays and images read again. Any thread.
     void setDirty();
 
     /// The version as of the last frame with its pickIndex, which is made from now on; as of now if no view
@@ -77,19 +77,27 @@ private:
     /// Beyond this many near distances from the eye, float coordinates are coarser than a pixel.
     static constexpr double kOriginDistance = 2048.0;
 
+    /// What the next update shall do.
+    struct Requests
+    {
+        bool dirty = false;  ///< convert, whatever there is to see
+        bool forget = false; ///< and take nothing for unchanged
+        std::optional<osg::Vec3d> origin;
+    };
+
     struct Noted
     {
         const void* camera = nullptr; ///< the reference; a name, not followed
         unsigned int frameNumber = 0; ///< it was last seen in
         unsigned int othersSince = 0; ///< passes of other cameras since then
         std::optional<ViewingConditions> conditions;
-        std::optional<osg::Vec3d> origin; ///< asked for
-        bool dirty = true;
+        Requests asked{true, false, {}};
     };
 
-    Noted takeNoted();
+    std::optional<ViewingConditions> takeNoted();
     void takeSettings(const RayTraceSettings& settings);
-    void convertIfChanged(osg::Node* root, const Noted& noted, const osg::FrameStamp* frameStamp);
+    void convertIfChanged(osg::Node* root, const ViewingConditions& conditions,
+                          const osg::FrameStamp* frameStamp);
     GraphChanges look(osg::Node& root, bool same, bool sameRoot,
                       const ViewingConditions& conditions);
     ConversionResult convert(osg::Node& root, const ViewingConditions& conditions);
@@ -109,6 +117,7 @@ private:
 
     std::mutex _updateMutex; // all below; one update or cull thread at a time
     SceneConverter _converter;
+    Requests _asked; ///< and not yet heard: what comes before may throw
     osg::ref_ptr<const RayTraceSettings> _settings; ///< as they were in the last update
     std::shared_ptr<Workers> _workers;
     std::optional<unsigned int> _frameNumber; ///< last looked at

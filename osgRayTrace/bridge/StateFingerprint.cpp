@@ -115,6 +115,12 @@ void addModes(Digest& digest, const osg::StateSet::ModeList& modes)
 
 } // namespace
 
+/// By its data, too: another one may be at the address of one that is gone.
+void addImage(Digest& digest, const osg::Image* image)
+{
+    digest.add(image, image ? image->getModifiedCount() : 0u, image ? image->data() : nullptr);
+}
+
 void addTexture(Digest& digest, const osg::Texture& texture)
 {
     digest.add(texture.getWrap(osg::Texture::WRAP_S), texture.getWrap(osg::Texture::WRAP_T),
@@ -123,10 +129,7 @@ void addTexture(Digest& digest, const osg::Texture& texture)
     for (int c = 0; c < 4; ++c)
         digest.add(texture.getBorderColor()[c]);
     for (unsigned int i = 0; i < texture.getNumImages(); ++i)
-    {
-        const osg::Image* image = texture.getImage(i);
-        digest.add(image, image ? image->getModifiedCount() : 0u);
-    }
+        addImage(digest, texture.getImage(i));
 }
 
 void addLight(Digest& digest, const osg::Light& light)

@@ -18,7 +18,10 @@ void addStateSet(Digest& digest, const osg::StateSet& stateSet);
 
 void addLight(Digest& digest, const osg::Light& light);
 
-/// Its settings, and its images with their modified counts.
+/// Its modified count and its data; null: none.
+void addImage(Digest& digest, const osg::Image* image);
+
+/// Its settings, and its images with their modified counts and data.
 void addTexture(Digest& digest, const osg::Texture& texture);
 
 void addTexGen(Digest& digest, const osg::TexGen& texGen);

@@ -73,13 +73,18 @@ void WatchedGraph::setBuffers(uint32_t index)
                   });
 }
 
-void WatchedGraph::removeBuffers(uint32_t index)
+/// Some may be gone by now.
+void WatchedGraph::resetBuffers(const std::vector<uint32_t>& exchanged)
 {
-    const auto first = std::find_if(buffers.begin(), buffers.end(),
-                                    [index](const WatchedBuffer& b) { return b.geometry == index; });
-    const auto last = std::find_if(first, buffers.end(),
-                                   [index](const WatchedBuffer& b) { return b.geometry != index; });
-    buffers.erase(first, last);
+    if (exchanged.empty()) return;
+    std::vector<bool> isExchanged(geometries.size());
+    for (const uint32_t index : exchanged)
+        isExchanged[index] = geometries[index].geometry != nullptr;
+    buffers.erase(std::remove_if(buffers.begin(), buffers.end(), [&](const WatchedBuffer& b)
+                                 { return isExchanged[b.geometry]; }),
+                  buffers.end());
+    for (uint32_t index = 0; index < geometries.size(); ++index)
+        if (isExchanged[index]) setBuffers(index);
 }
 
 void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& sceneFromParent,

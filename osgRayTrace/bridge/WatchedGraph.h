@@ -131,8 +131,9 @@ struct WatchedGraph
     bool isRepeatedElsewhere(uint32_t at) const;
 
     void setState(uint32_t& state, const osg::StateSet* stateSet);
-    void setBuffers(uint32_t geometry);
-    void removeBuffers(uint32_t geometry);
+
+    /// Of geometries that have other arrays now.
+    void resetBuffers(const std::vector<uint32_t>& exchanged);
 
     osg::Matrixd sceneFromLocal(uint32_t place) const;
     osg::NodePath pathTo(uint32_t node) const;
@@ -141,6 +142,7 @@ struct WatchedGraph
     void finish();
 
 private:
+    void setBuffers(uint32_t geometry);
     void appendGeometry(osg::Geometry& geometry, WatchedNode entry);
     uint32_t outerPlace(uint32_t place) const
     {

@@ -14,11 +14,25 @@
 #include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osg/Switch>
+#include <osg/TexGenNode>
 #include <osg/Texture2D>
 #include <osg/Viewport>
 
+#include <utility>
+
 using namespace osgRayTrace;
 using namespace osgRayTrace::engine;
+
+namespace
+{
+
+/// Has other data without a sign, as another image at the address of one that is gone.
+struct ExchangedImage : osg::Image
+{
+    void exchange(unsigned char*& data) { std::swap(_data, data); }
+};
+
+} // namespace
 
 TEST_CASE("graph fingerprint: changes with what is traced, and with nothing else", "[bridge]")
 {
@@ -30,6 +44,8 @@ TEST_CASE("graph fingerprint: changes with what is traced, and with nothing else
         osg::createTexturedQuadGeometry(osg::Vec3(), osg::Vec3(1, 0, 0), osg::Vec3(0, 1, 0));
     osg::ref_ptr<osg::LightSource> lightSource = new osg::LightSource;
     osg::ref_ptr<AreaLight> areaLight = new AreaLight;
+    osg::ref_ptr<osg::TexGenNode> texGenNode = new osg::TexGenNode;
+    root->addChild(texGenNode);
     root->addChild(transform);
     root->addChild(lightSource);
     root->addChild(areaLight);
@@ -42,7 +58,7 @@ TEST_CASE("graph fingerprint: changes with what is traced, and with nothing else
     osg::StateSet* stateSet = root->getOrCreateStateSet();
     osg::ref_ptr<osg::Material> material = new osg::Material;
     osg::ref_ptr<PhysicalMaterial> physical = new PhysicalMaterial;
-    osg::ref_ptr<osg::Image> image = new osg::Image;
+    osg::ref_ptr<ExchangedImage> image = new ExchangedImage;
     image->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
     osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
     stateSet->setAttribute(material);
@@ -95,6 +111,23 @@ TEST_CASE("graph fingerprint: changes with what is traced, and with nothing else
         geometry->dirtyBound();
         CHECK(changed());
     }
+    SECTION("primitive sets whose setters give no sign")
+    {
+        osg::ref_ptr<osg::DrawArrayLengths> lengths = new osg::DrawArrayLengths(GL_TRIANGLES, 0, 1);
+        osg::ref_ptr<osg::MultiDrawArrays> several = new osg::MultiDrawArrays(GL_TRIANGLES);
+        lengths->front() = 3;
+        several->add(0, 3);
+        several->add(0, 0);
+        geometry->addPrimitiveSet(lengths);
+        geometry->addPrimitiveSet(several);
+        (void)changed();
+        lengths->setFirst(1);
+        CHECK(changed());
+        several->setFirsts({1, 0});
+        CHECK(changed());
+        several->setCounts({0, 3}); // no more indices than before
+        CHECK(changed());
+    }
     SECTION("state")
     {
         material->setDiffuse(osg::Material::FRONT, osg::Vec4(0.1f, 0.2f, 0.3f, 1.0f));
@@ -102,6 +135,12 @@ TEST_CASE("graph fingerprint: changes with what is traced, and with nothing else
         physical->setRoughness(0.25f);
         CHECK(changed());
         image->dirty();
+        CHECK(changed());
+        unsigned char texel[3] = {1, 2, 3};
+        unsigned char* other = texel;
+        image->exchange(other);
+        CHECK(changed());
+        image->exchange(other); // its own again, which it deletes
         CHECK(changed());
         stateSet->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
         CHECK(changed());
@@ -117,6 +156,11 @@ TEST_CASE("graph fingerprint: changes with what is traced, and with nothing else
         areaLight->setRadiance(osg::Vec3(1, 2, 3));
         CHECK(changed());
         areaLight->setTwoSided(true);
+        CHECK(changed());
+    }
+    SECTION("another texture generator with the values of the one that is gone")
+    {
+        texGenNode->setTexGen(new osg::TexGen(*texGenNode->getTexGen()));
         CHECK(changed());
     }
     SECTION("levels of detail follow the eye, the rest does not")

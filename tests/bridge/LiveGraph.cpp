@@ -60,10 +60,10 @@ View viewOf()
     return view;
 }
 
-ViewingConditions conditionsOf()
+ViewingConditions conditionsOf(const osg::Vec3d& eye)
 {
     ViewingConditions conditions;
-    conditions.eye.set(1.2, -1.5, 4.0);
+    conditions.eye = eye;
     return conditions;
 }
 
@@ -155,8 +155,13 @@ LiveView::LiveView(osg::Node* root) : _root(root)
 {
     _settings->setThreads(2);
     _settings->setMaxPasses(1000);
-    _updater.noteView(this, nullptr, conditionsOf());
+    noteEye(osg::Vec3d(1.2, -1.5, 4.0));
     update();
+}
+
+void LiveView::noteEye(const osg::Vec3d& eye)
+{
+    _updater.noteView(this, nullptr, conditionsOf(eye));
 }
 
 void LiveView::update()
@@ -164,10 +169,11 @@ void LiveView::update()
     _updater.update(_root, *_settings, nullptr);
 }
 
-std::vector<float> LiveView::image()
+const std::vector<float>& LiveView::image()
 {
     _tracer.trace(_updater.version(), viewOf());
-    return _tracer.radiance();
+    _last = _tracer.radiance();
+    return _last;
 }
 
 std::vector<float> freshImage(const osg::Node& root, int passes)
@@ -192,6 +198,14 @@ int differentPixels(const std::vector<float>& a, const std::vector<float>& b)
         count += !same;
     }
     return count;
+}
+
+int wrongPixels(LiveView& view, const osg::Node& root)
+{
+    view.update();
+    const std::vector<float> image = view.image();
+    const int different = differentPixels(image, freshImage(root, view.passes()));
+    return view.statistics().ok && different >= 0 ? different : int(image.size() / 4);
 }
 
 } // namespace osgRayTrace::test

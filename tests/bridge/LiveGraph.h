@@ -54,8 +54,17 @@ public:
 
     void update();
 
+    /// As RayTracedScene::dirtyScene.
+    void setDirty() { _updater.setDirty(); }
+
+    /// Notes another eye; what is traced stays the same view.
+    void noteEye(const osg::Vec3d& eye);
+
     /// Traces a pass and resolves it: linear RGBA.
-    std::vector<float> image();
+    const std::vector<float>& image();
+
+    /// What image() gave last.
+    const std::vector<float>& lastImage() const { return _last; }
 
     int passes() const { return _tracer.progress().passes; }
     Statistics statistics() const { return _updater.statistics(); }
@@ -66,6 +75,7 @@ private:
     osg::ref_ptr<RayTraceSettings> _settings = new RayTraceSettings;
     engine::SceneUpdater _updater;
     engine::ViewTracer _tracer;
+    std::vector<float> _last;
 };
 
 /// So many passes of a scene that was converted just now.
@@ -73,6 +83,9 @@ std::vector<float> freshImage(const osg::Node& root, int passes);
 
 /// Pixels where two images of one size are apart by more than rounding.
 int differentPixels(const std::vector<float>& a, const std::vector<float>& b);
+
+/// Updates, traces a pass and compares with a fresh conversion; all pixels if the update failed.
+int wrongPixels(LiveView& view, const osg::Node& root);
 
 /// Of 96 x 96: those where rounding decides which side of an edge a ray passes.
 constexpr int kRoundedPixels = 8;

@@ -109,7 +109,7 @@ private:
 
 } // namespace
 
-TEST_CASE("random edits: a thousand, and the picture is always that of a fresh conversion",
+TEST_CASE("random edits: a thousand, and each twentieth picture is that of a fresh conversion",
           "[bridge]")
 {
     LiveGraph graph;

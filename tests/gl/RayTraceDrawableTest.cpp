@@ -141,8 +141,18 @@ TEST_CASE("traced scene: a change shows in the next frame", "[gl]")
         static_cast<osg::Vec4Array*>(square->getColorArray())->front().set(1.0f, 0.0f, 0.0f, 1.0f);
         view.frames();
         scene->dirtyScene();
-        square->getColorArray()->dirty();
         CHECK(pixel(*view.frames(), kMiddle, kMiddle) == osg::Vec4(255, 0, 0, 255));
+    }
+    SECTION("vertices without a sign, then dirtyScene")
+    {
+        auto& vertices = static_cast<osg::Vec3Array&>(*square->getVertexArray());
+        for (osg::Vec3& v : vertices)
+            v.x() = 0.5f * (v.x() + 1.0f); // the right half of what it was
+        CHECK(pixel(*view.frames(), kMiddle - 4, kMiddle) == kGreenPixel);
+        scene->dirtyScene();
+        const osg::ref_ptr<osg::Image> halved = view.frames();
+        CHECK(pixel(*halved, kMiddle - 4, kMiddle) == kBlackPixel);
+        CHECK(pixel(*halved, kMiddle + 4, kMiddle) == kGreenPixel);
     }
     SECTION("state of the decorator itself")
     {

@@ -1,0 +1,21 @@
+// CalVRConnections.h - the connections of CalVR's cluster. Layer: plugins.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "Cluster.h"
+
+namespace osgRayTrace::calvr
+{
+
+class CalVRConnections : public Connections
+{
+public:
+    bool isMaster() const override;
+    int slaveCount() const override;
+    bool sendToMaster(const int& value) override;
+    bool readFromSlaves(std::vector<int>& values) override;
+    bool sendToSlaves(const void* data, int bytes) override;
+    bool readFromMaster(void* data, int bytes) override;
+};
+
+} // namespace osgRayTrace::calvr

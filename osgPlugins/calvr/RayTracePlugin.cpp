@@ -1,0 +1,143 @@
+// RayTracePlugin.cpp - what CalVR calls, and when. Layer: plugins.
+// SPDX-License-Identifier: MIT
+#include "RayTracePlugin.h"
+
+#include <osgRayTrace/Statistics>
+
+#include <cvrConfig/ConfigManager.h>
+#include <cvrInput/TrackingManager.h>
+#include <cvrKernel/PluginHelper.h>
+
+#include <osg/Notify>
+
+#include <exception>
+
+CVRPLUGIN(osgRayTrace::calvr::RayTracePlugin)
+
+namespace osgRayTrace::calvr
+{
+
+namespace
+{
+
+const std::string kElement = "Plugin.RayTrace";
+
+void warn(const std::string& sentence)
+{
+    OSG_WARN << "RayTrace: " << sentence << std::endl;
+}
+
+/// An exception ends the function alone, with a warning.
+template <typename Function> void guarded(const char* what, Function function) noexcept
+{
+    try
+    {
+        function();
+    }
+    catch (const std::exception& error)
+    {
+        OSG_WARN << "RayTrace: " << what << ": " << error.what() << std::endl;
+    }
+    catch (...)
+    {
+        OSG_WARN << "RayTrace: " << what << " failed" << std::endl;
+    }
+}
+
+} // namespace
+
+RayTracePlugin::~RayTracePlugin()
+{
+    guarded("end", [this] { _root.reset(); });
+    guarded("end of the menu", [this] { _menu.reset(); });
+}
+
+bool RayTracePlugin::init()
+{
+    guarded("configuration", [this] { readSettings(); });
+    const bool cluster = !_connections.isMaster() || _connections.slaveCount() > 0;
+    if (cluster) guarded("cluster", [this] { shareSettings(); });
+    guarded("start", [this] { start(); });
+    return true;
+}
+
+void RayTracePlugin::readSettings()
+{
+    _settings = new RayTraceSettings;
+    std::vector<std::string> names;
+    cvr::ConfigManager::getChildren(kElement, names);
+    const auto valueOf = [](const std::string& name)
+    { return cvr::ConfigManager::getEntry(kElement + "." + name); };
+    _config = readConfig(names, valueOf, *_settings);
+    for (const std::string& complaint : _config.complaints)
+        warn("configuration: " + complaint);
+}
+
+/// The master's settings hold on all nodes: environments and LOCAL blocks may differ.
+void RayTracePlugin::shareSettings()
+{
+    _agreement.emplace(_connections); // whatever else fails, this node goes on making the calls
+    if (_settings) makeEqualOnAllNodes(*_settings);
+    const std::string lines =
+        mastersText(_connections, _settings ? sharedSettings(*_settings, _config) : "");
+    if (!_settings) return;
+    for (const std::string& complaint : takeSharedSettings(lines, *_settings, _config))
+        warn(complaint);
+}
+
+void RayTracePlugin::start()
+{
+    if (!_settings) return;
+    _root = std::make_unique<TracedRoot>(_settings.get());
+    const bool frozen = !cvr::TrackingManager::instance()->getUpdateHeadTracking();
+    _menu = std::make_unique<RayTraceMenu>(*this, _settings, _config.trace, frozen);
+}
+
+/// The scene is not looked at here: update callbacks are still to come. It is converted in cull.
+void RayTracePlugin::preFrame()
+{
+    guarded("frame", [this] { switchAndLight(); });
+    int passes = kNoSay;
+    guarded("statistics", [this, &passes] { passes = offer(); });
+    if (!_agreement) return;
+    const int agreed = _agreement->agree(passes);
+    guarded("passes",
+            [this, agreed]
+            {
+                if (_settings) _settings->setPassesPerFrame(agreed);
+            });
+}
+
+void RayTracePlugin::switchAndLight()
+{
+    if (!_root || !_menu) return;
+    if (_menu->isOn())
+        _root->switchOn(cvr::PluginHelper::getObjectsRoot());
+    else
+        _root->switchOff();
+    _root->updateLights(*cvr::PluginHelper::getScene(),
+                        cvr::PluginHelper::getWorldToObjectTransform());
+}
+
+int RayTracePlugin::offer() const
+{
+    if (!_agreement || !_root || !_root->isOn()) return kNoSay;
+    const Statistics statistics = _root->scene().getDrawable()->getStatistics();
+    if (!statistics.ok || statistics.passes < 1) return kNoSay; // as on a master that draws nothing
+    return affordablePasses(statistics.renderSeconds / statistics.passes,
+                            1e-3 * _config.clusterBudget);
+}
+
+void RayTracePlugin::menuCallback(cvr::MenuItem* item)
+{
+    guarded("menu",
+            [this, item]
+            {
+                if (!_root || !_menu) return;
+                _menu->clicked(item);
+                cvr::TrackingManager::instance()->setUpdateHeadTracking(!_menu->isFrozen());
+                if (_menu->isReport(item)) OSG_NOTICE << _root->scene().getConversionReport();
+            });
+}
+
+} // namespace osgRayTrace::calvr

@@ -1,0 +1,40 @@
+// RoomLights.h - the lights that shine from beside a traced node, in its coordinates. Layer:
+// plugins. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Group>
+#include <osg/LightSource>
+#include <osg/Matrixd>
+
+#include <utility>
+#include <vector>
+
+namespace osgRayTrace::calvr
+{
+
+/// OpenGL's lights light what is anywhere in the graph, and CalVR has its own beside the objects
+/// root, not above it; a RayTracedScene knows those alone that are below it. So each gets a copy
+/// there, which keeps its number: where OSG draws, the original is set later and wins.
+class RoomLights
+{
+public:
+    /// Keeps copies, as children of below, of the light sources that are children of room.
+    /// belowFromRoom: takes places in room to places in below. Nothing is touched if nothing has
+    /// changed. Update thread.
+    void update(const osg::Group& room, const osg::Matrixd& belowFromRoom, osg::Group& below);
+
+    /// Takes the copies away.
+    void clear(osg::Group& below);
+
+private:
+    using Pair = std::pair<osg::ref_ptr<const osg::LightSource>, osg::ref_ptr<osg::LightSource>>;
+
+    bool sameSources(const std::vector<const osg::LightSource*>& sources) const;
+
+    std::vector<Pair> _copies; ///< the original, its copy
+};
+
+/// The light as it is in other coordinates: place, direction, and how it weakens with distance.
+osg::ref_ptr<osg::Light> placedLight(const osg::Light& light, const osg::Matrixd& hereFromThere);
+
+} // namespace osgRayTrace::calvr

@@ -1,0 +1,108 @@
+// LiveLightsTest.cpp - lights of all kinds that are edited, and transforms above them. Layer:
+// tests. SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/bridge/LiveGraph.h"
+
+#include <osgRayTrace/AreaLight>
+#include <osgRayTrace/EnvironmentLight>
+
+#include <functional>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::test;
+
+namespace
+{
+
+/// Makes edits one after the other. Each must show, and as in a fresh conversion.
+class Watched
+{
+public:
+    explicit Watched(osg::Node* root) : _root(root), _view(root) { _view.image(); }
+
+    void edit(const char* what, const std::function<void()>& change)
+    {
+        INFO(what);
+        change();
+        const std::vector<float> before = _view.lastImage();
+        CHECK(wrongPixels(_view, *_root) <= kRoundedPixels);
+        CHECK(_view.passes() == 1); // as before: what differs is no noise
+        CHECK(differentPixels(_view.lastImage(), before) > kRoundedPixels);
+    }
+
+private:
+    osg::ref_ptr<osg::Node> _root;
+    LiveView _view;
+};
+
+/// With another colour in each direction.
+osg::ref_ptr<osg::Image> sky()
+{
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(8, 4, 1, GL_RGB, GL_FLOAT);
+    auto* pixel = reinterpret_cast<float*>(image->data());
+    for (int i = 0; i < 3 * 8 * 4; ++i)
+        pixel[i] = 0.1f + float(i * 29 % 23) / 23.0f;
+    return image;
+}
+
+} // namespace
+
+TEST_CASE("live lights: one that a transform moves", "[bridge]")
+{
+    LiveGraph graph;
+    osg::ref_ptr<osg::MatrixTransform> holder = new osg::MatrixTransform;
+    graph.root->removeChild(graph.light);
+    holder->addChild(graph.light);
+    graph.root->addChild(holder);
+    Watched watched(graph.root.get());
+    watched.edit("moved", [&] { holder->setMatrix(osg::Matrixd::translate(0.0, 3.0, -2.0)); });
+    watched.edit("moved on", [&] { holder->setMatrix(osg::Matrixd::translate(2.0, 0.0, -2.0)); });
+    watched.edit("in its place",
+                 [&] { graph.light->getLight()->setPosition(osg::Vec4(0.0f, 0.0f, 3.0f, 1.0f)); });
+}
+
+TEST_CASE("live lights: the places and edges of area lights", "[bridge]")
+{
+    LiveGraph graph;
+    osg::ref_ptr<osg::MatrixTransform> holder = new osg::MatrixTransform;
+    osg::ref_ptr<AreaLight> lamp = new AreaLight;
+    lamp->setCorner(osg::Vec3(0.5f, -0.7f, 0.6f)); // in the picture
+    lamp->setEdgeU(osg::Vec3(0.5f, 0.0f, 0.0f));
+    lamp->setEdgeV(osg::Vec3(0.0f, 0.4f, 0.0f));
+    lamp->setTwoSided(true);
+    holder->addChild(lamp);
+    graph.root->addChild(holder);
+    Watched watched(graph.root.get());
+    watched.edit("corner", [&] { lamp->setCorner(osg::Vec3(1.1f, -0.5f, 0.7f)); });
+    watched.edit("edge", [&] { lamp->setEdgeU(osg::Vec3(0.9f, 0.0f, 0.1f)); });
+    watched.edit("other edge", [&] { lamp->setEdgeV(osg::Vec3(0.1f, 0.7f, 0.0f)); });
+    watched.edit("radiance", [&] { lamp->setRadiance(osg::Vec3(4.0f, 2.0f, 1.0f)); });
+    watched.edit("one side", [&] { lamp->setTwoSided(false); });
+    watched.edit("moved", [&] { holder->setMatrix(osg::Matrixd::translate(-0.5, 0.5, 0.0)); });
+}
+
+TEST_CASE("live lights: a sky", "[bridge]")
+{
+    LiveGraph graph;
+    osg::ref_ptr<osg::MatrixTransform> holder = new osg::MatrixTransform;
+    osg::ref_ptr<EnvironmentLight> light = new EnvironmentLight(sky());
+    holder->addChild(light);
+    graph.root->addChild(holder);
+    Watched watched(graph.root.get());
+    watched.edit("turned", [&] { light->setRotation(osg::Quat(0.7, osg::Vec3d(0.3, 0.1, 1.0))); });
+    watched.edit("brighter", [&] { light->setScale(osg::Vec3(1.5f, 2.0f, 0.5f)); });
+    watched.edit("pixels",
+                 [&]
+                 {
+                     auto* pixel = reinterpret_cast<float*>(light->getImage()->data());
+                     for (int i = 0; i < 8 * 4; ++i)
+                         pixel[3 * i] = 0.0f;
+                     light->getImage()->dirty();
+                 });
+    watched.edit("image", [&] { light->setImage(sky()); });
+    watched.edit("turned by a transform",
+                 [&] { holder->setMatrix(osg::Matrixd::rotate(1.1, 1.0, 0.0, 0.0)); });
+    watched.edit("invisible", [&] { light->setVisible(false); });
+}

@@ -1,0 +1,189 @@
+// CalvrSettingsTest.cpp - tests of CalVR's configuration and menu as settings, without CalVR.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+
+#include "osgPlugins/calvr/MenuChoices.h"
+#include "osgPlugins/calvr/PluginConfig.h"
+
+#include <map>
+
+using namespace osgRayTrace::calvr;
+using osgRayTrace::RayTraceSettings;
+
+namespace
+{
+
+using Elements = std::vector<std::pair<std::string, std::string>>;
+
+/// As CalVR: of several elements of one name the first one's value.
+PluginConfig read(const Elements& elements, RayTraceSettings& settings)
+{
+    std::vector<std::string> names;
+    std::map<std::string, std::string> values;
+    for (const auto& [name, value] : elements)
+    {
+        names.push_back(name);
+        values.emplace(name, value);
+    }
+    return readConfig(
+        names, [&](const std::string& name) { return values.at(name); }, settings);
+}
+
+std::string allOf(const RayTraceSettings& settings)
+{
+    std::string text;
+    for (const RayTraceSettings::Option& option : RayTraceSettings::options())
+        text += option.name + "=" + settings.get(option.name) + "\n";
+    return text;
+}
+
+/// "light-samples" as an element is called.
+std::string elementName(const std::string& option)
+{
+    std::string name;
+    bool upper = true;
+    for (const char c : option)
+    {
+        if (c != '-') name += upper && c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+        upper = c == '-';
+    }
+    return name;
+}
+
+} // namespace
+
+TEST_CASE("CalVR configuration: every option is an element", "[calvr]")
+{
+    const osg::ref_ptr<RayTraceSettings> defaults = new RayTraceSettings;
+    for (const RayTraceSettings::Option& option : RayTraceSettings::options())
+    {
+        CAPTURE(option.name);
+        const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+        const PluginConfig config =
+            read({{elementName(option.name), defaults->get(option.name)}}, *settings);
+        CHECK(config.complaints.empty());
+        CHECK(allOf(*settings) == allOf(*defaults));
+    }
+
+    const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    const PluginConfig config = read({{"Integrator", "sppm"},
+                                      {"LightSamples", "9"},
+                                      {"Shadows", "off"},
+                                      {"PhotonRadius", "2.5"},
+                                      {"Seed", "77"},
+                                      {"Threads", "3"}},
+                                     *settings);
+    CHECK(config.complaints.empty());
+    CHECK(settings->getIntegrator() == RayTraceSettings::SPPM);
+    CHECK(settings->getLightSamples() == 9);
+    CHECK_FALSE(settings->getShadows());
+    CHECK(settings->getPhotonRadius() == 2.5f);
+    CHECK(settings->getSeed() == 77u);
+    CHECK(settings->getThreads() == 3);
+}
+
+TEST_CASE("CalVR configuration: the plugin's own elements", "[calvr]")
+{
+    const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    CHECK(read({}, *settings).trace);
+    CHECK(read({}, *settings).clusterBudget == 33.0);
+    CHECK_FALSE(read({{"Trace", "off"}}, *settings).trace);
+    CHECK_FALSE(read({{"Trace", "False"}}, *settings).trace);
+    CHECK(read({{"Trace", "ON"}}, *settings).trace);
+    CHECK(read({{"ClusterBudget", "16.5"}}, *settings).clusterBudget == 16.5);
+}
+
+TEST_CASE("CalVR configuration: what is no option or no value is complained of and changes nothing",
+          "[calvr]")
+{
+    const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    const std::string before = allOf(*settings);
+    const PluginConfig config = read({{"Integrater", "path"},
+                                      {"LightSamples", "many"},
+                                      {"Trace", "maybe"},
+                                      {"ClusterBudget", "0"},
+                                      {"Seed", ""},
+                                      {"MaxBounces", "-1"},
+                                      {"LightSamples", "16"}},
+                                     *settings);
+    CHECK(allOf(*settings) == before);
+    CHECK(config.trace);
+    CHECK(config.clusterBudget == 33.0);
+    REQUIRE(config.complaints.size() == 6); // of LightSamples once
+    CHECK(config.complaints[0] == "there is no option 'Integrater'");
+    CHECK(config.complaints[1] == "'LightSamples' cannot be 'many'");
+}
+
+TEST_CASE("cluster settings: all nodes have the master's, each its own threads", "[calvr]")
+{
+    const osg::ref_ptr<RayTraceSettings> master = new RayTraceSettings,
+                                         slave = new RayTraceSettings;
+    master->setIntegrator(RayTraceSettings::PPM);
+    master->setSeed(4711);
+    master->setPhotonRadius(0.1f);
+    master->setLightSizes("key=0.2,fill=1");
+    master->setThreads(2);
+    slave->setSeed(5);
+    slave->setThreads(64);
+    slave->setExposure(3.0f);
+    makeEqualOnAllNodes(*master);
+
+    PluginConfig ofMaster, ofSlave;
+    ofMaster.trace = false;
+    ofMaster.clusterBudget = 16.0;
+    CHECK(takeSharedSettings(sharedSettings(*master, ofMaster), *slave, ofSlave).empty());
+    CHECK_FALSE(ofSlave.trace);
+    CHECK(ofSlave.clusterBudget == 33.0); // each node's own
+    CHECK(slave->getThreads() == 64);
+    CHECK_FALSE(slave->getAimAtViews());
+    CHECK((slave->get("frame-budget").empty() || slave->get("frame-budget") == "0"));
+    slave->setThreads(2);
+    CHECK(allOf(*slave) == allOf(*master));
+}
+
+TEST_CASE("cluster settings: what another version says is left out and told", "[calvr]")
+{
+    const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    PluginConfig config;
+    const auto complaints = takeSharedSettings(
+        "trace=perhaps\nseed=9\nwarp=1\nphotons=-4\nrubbish\nthreads=7\n", *settings, config);
+    CHECK(config.trace);
+    CHECK(complaints.size() == 5);
+    CHECK(settings->getSeed() == 9u);
+    CHECK(settings->getThreads() == 0);
+}
+
+TEST_CASE("menu: each line sets what it says, and is then the chosen one", "[calvr]")
+{
+    const std::vector<MenuChoice> choices = menuChoices();
+    REQUIRE(choices.size() == 4);
+    for (const MenuChoice& choice : choices)
+    {
+        CAPTURE(choice.title);
+        CHECK(choice.entries.size() >= 3);
+        const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+        for (size_t i = 0; i < choice.entries.size(); ++i)
+        {
+            CAPTURE(choice.entries[i].label);
+            choose(choice.entries[i], *settings);
+            CHECK(chosenEntry(choice, *settings) == static_cast<int>(i));
+            for (const auto& [option, value] : choice.entries[i].values)
+                CHECK(settings->get(option) == value);
+        }
+    }
+}
+
+TEST_CASE("menu: the defaults are chosen lines, other values are none", "[calvr]")
+{
+    const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    for (const MenuChoice& choice : menuChoices())
+    {
+        CAPTURE(choice.title);
+        CHECK(chosenEntry(choice, *settings) >= 0);
+    }
+    settings->setPhotons(12345);
+    settings->setMaxBounces(7);
+    const std::vector<MenuChoice> choices = menuChoices();
+    CHECK(chosenEntry(choices[2], *settings) == -1);
+    CHECK(chosenEntry(choices[3], *settings) == -1);
+}
