@@ -103,6 +103,12 @@ std::vector<float> channelImage(Channel channel, const Film& film, const PassCon
 namespace
 {
 
+/// linearFromSrgb within 0.002 for [0,1], for less: there is one for each pixel of each frame.
+OSGRAYTRACE_INLINE float nearlyLinear(float encoded)
+{
+    return encoded * (encoded * (encoded * 0.305306f + 0.682171f) + 0.012523f);
+}
+
 SurfaceSample sampleOf(const FirstHitLanes& hits, int i, double unit)
 {
     if (!((hits.surface.hits >> i) & 1u)) return {Vec3(0.0f), kInfinity, Vec3(0.0f), 0};
@@ -111,6 +117,23 @@ SurfaceSample sampleOf(const FirstHitLanes& hits, int i, double unit)
 }
 
 } // namespace
+
+OSGRAYTRACE_KERNEL
+static void decodeAlbedos(Vec3Lanes& albedo)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        albedo.x[i] = nearlyLinear(albedo.x[i]);
+        albedo.y[i] = nearlyLinear(albedo.y[i]);
+        albedo.z[i] = nearlyLinear(albedo.z[i]);
+    }
+}
+
+void linearAlbedos(const Scene& scene, Vec3Lanes& albedo)
+{
+    if (scene.displayReferred) decodeAlbedos(albedo);
+}
 
 std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Workers& workers)
 {
@@ -131,6 +154,7 @@ std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Work
                     continue;
                 FirstHitLanes hits;
                 firstHitLanes(context, left, bottom, b, hits);
+                linearAlbedos(scene, hits.albedo);
                 for (int i = 0; i < kLanes; ++i)
                 {
                     const int x = left + laneX(b, i), y = bottom + laneY(b, i);

@@ -5,9 +5,11 @@
 #include "osgRayTrace/integrators/CameraLanes.h"
 #include "osgRayTrace/integrators/EnvironmentLanes.h"
 #include "osgRayTrace/integrators/FirstHit.h"
+#include "osgRayTrace/session/ChannelImage.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace osgRayTrace::engine
 {
@@ -30,7 +32,8 @@ constexpr float kOtherObject = 0.02f;
 constexpr float kPlane = 1.0f;
 
 constexpr int kSampleFloats = sizeof(SurfaceSample) / sizeof(float);
-static_assert(kSampleFloats == 8, "samples are read as arrays of floats");
+static_assert(sizeof(SurfaceSample) % sizeof(float) == 0 && offsetof(SurfaceSample, albedo) == 16,
+              "samples are read as arrays of floats");
 
 /// Which pixels of the image the lanes are between.
 struct LanePlaces
@@ -287,6 +290,7 @@ void traceUpsampled(const UpsampleSource& source, int left, int bottom, Upsample
     const PassContext& full = source.full;
     FirstHitLanes hits;
     firstHitLanes(full, left, bottom, 0, hits);
+    linearAlbedos(full.traced->scene(), hits.albedo);
     depthLanes(full.camera, left, bottom, 0, hits.surface, block.depth);
 
     const LanePlaces place = placesOf(source, left, bottom);
