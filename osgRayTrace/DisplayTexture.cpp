@@ -6,6 +6,7 @@
 #include <osg/GLExtensions>
 #include <osg/PolygonMode>
 #include <osg/State>
+#include <osg/Viewport>
 
 #include <string>
 
@@ -55,18 +56,22 @@ void main()
 
 // gl_FragDepth is not mapped by glDepthRange, so the shader does that. Edges whose first sample
 // missed have the depth of the background, but must pass the test against it: they are drawn right
-// in front of it.
+// in front of it. A pass that shows a slice of the depths leaves the rest to others.
 constexpr const char* kFragmentShader = R"(
 uniform sampler2D osgRayTrace_color;
 uniform sampler2D osgRayTrace_depth;
+uniform vec3 osgRayTrace_depthMap; // scale, offset, background
 IN vec2 position;
 void main()
 {
     vec4 color = SAMPLE(osgRayTrace_color, position);
     if (color.a == 0.0) discard;
-    float depth = min(SAMPLE(osgRayTrace_depth, position).r, 0.99999994);
+    float traced = SAMPLE(osgRayTrace_depth, position).r;
+    float depth = traced < 1.0 ? osgRayTrace_depthMap.x * traced + osgRayTrace_depthMap.y
+                               : osgRayTrace_depthMap.z;
+    if (depth < 0.0 || depth > 1.0) discard;
     FRAGMENT = color;
-    gl_FragDepth = gl_DepthRange.near + gl_DepthRange.diff * depth;
+    gl_FragDepth = gl_DepthRange.near + gl_DepthRange.diff * min(depth, 0.99999994);
 }
 )";
 
@@ -143,6 +148,7 @@ DisplayTexture::DisplayTexture()
       _depthTexture(createTexture(_depth.get(), GL_LUMINANCE32F_ARB)),
       _colorUnit(new osg::Uniform("osgRayTrace_color", static_cast<int>(kColorUnit))),
       _depthUnit(new osg::Uniform("osgRayTrace_depth", static_cast<int>(kDepthUnit))),
+      _depthMap(new osg::Uniform("osgRayTrace_depthMap", osg::Vec3(1.0f, 0.0f, 1.0f))),
       _program(createProgram(kVertexDialect, kFragmentDialect)),
       _coreProgram(createProgram(kCoreVertexDialect, kCoreFragmentDialect)),
       _triangle(createTriangle())
@@ -177,16 +183,33 @@ void DisplayTexture::modified()
     _depth->dirty();
 }
 
-bool DisplayTexture::draw(osg::RenderInfo& renderInfo) const
+bool DisplayTexture::draw(osg::RenderInfo& renderInfo, const engine::DepthMap& depthMap) const
 {
     osg::State& state = *renderInfo.getState();
+    const osg::Vec3 map(depthMap.scale, depthMap.offset, depthMap.background);
+    osg::Vec3 last;
+    _depthMap->get(last);
+    if (map != last) _depthMap->set(map);
     if (!useProgram(state)) return false;
+    chooseFilter(state);
     applyTexture(state, kColorUnit, *_colorTexture);
     applyTexture(state, kDepthUnit, *_depthTexture);
     _triangle->draw(renderInfo);
     if (!state.useVertexArrayObject(_triangle->getUseVertexArrayObject()))
         forgetVertexArrays(state);
     return true;
+}
+
+/// Pixel by pixel where sizes agree: a linear filter rounds, and takes longer.
+void DisplayTexture::chooseFilter(const osg::State& state) const
+{
+    const osg::Viewport* viewport = state.getCurrentViewport();
+    const bool fits = viewport && static_cast<int>(viewport->width()) == _width &&
+                      static_cast<int>(viewport->height()) == _height;
+    const auto filter = fits ? osg::Texture::NEAREST : osg::Texture::LINEAR;
+    if (_colorTexture->getFilter(osg::Texture::MAG_FILTER) == filter) return;
+    _colorTexture->setFilter(osg::Texture::MIN_FILTER, filter);
+    _colorTexture->setFilter(osg::Texture::MAG_FILTER, filter);
 }
 
 bool DisplayTexture::useProgram(osg::State& state) const
@@ -209,6 +232,7 @@ bool DisplayTexture::useProgram(osg::State& state) const
     if (!program || !program->isLinked()) return false;
     program->apply(*_colorUnit);
     program->apply(*_depthUnit);
+    program->apply(*_depthMap);
     return true;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/DepthSlices.h"
+
 #include <osg/Geometry>
 #include <osg/Image>
 #include <osg/Program>
@@ -40,8 +42,10 @@ public:
     float* depth() { return reinterpret_cast<float*>(_depth->data()); }
     void modified();
 
-    /// Fills the current viewport. False, and nothing drawn, if the context has no usable GLSL.
-    bool draw(osg::RenderInfo& renderInfo) const;
+    /// Fills the current viewport, whose size may be another: colours are smooth then, depths are not, as those
+    /// between two things are of neither. Depths are as the map makes them. False, and nothing drawn, if the
+    /// context has no usable GLSL.
+    bool draw(osg::RenderInfo& renderInfo, const engine::DepthMap& depthMap) const;
 
     /// Any thread that OSG calls it from; null: all contexts.
     void releaseGLObjects(osg::State* state) const;
@@ -49,6 +53,7 @@ public:
 
 private:
     bool useProgram(osg::State& state) const;
+    void chooseFilter(const osg::State& state) const;
 
     int _width = 0;
     int _height = 0;
@@ -58,6 +63,7 @@ private:
     osg::ref_ptr<osg::Texture2D> _depthTexture;
     osg::ref_ptr<osg::Uniform> _colorUnit;
     osg::ref_ptr<osg::Uniform> _depthUnit;
+    osg::ref_ptr<osg::Uniform> _depthMap;
     osg::ref_ptr<osg::Program> _program;     ///< GLSL 1.20
     osg::ref_ptr<osg::Program> _coreProgram; ///< GLSL 3.30, for contexts that take no older one
     osg::ref_ptr<osg::Geometry> _triangle;

@@ -28,6 +28,7 @@ constexpr Range<float> kLightRadiusRange{0.0f, 1e30f};
 constexpr Range<float> kLightAngleRange{0.0f, 180.0f};
 constexpr Range<int> kMaxBouncesRange{0, 1024};
 constexpr Range<int> kMaxPassesRange{1, 1 << 24};
+constexpr Range<float> kFrameBudgetRange{0.0f, 60000.0f};
 constexpr Range<int> kPassesPerFrameRange{1, 1024};
 constexpr Range<int> kThreadsRange{0, 1024};
 constexpr Range<unsigned int> kSeedRange{0, std::numeric_limits<unsigned int>::max()};

@@ -5,6 +5,7 @@
 #include <osgRayTrace/RayIntersector>
 
 #include "osgRayTrace/DisplayTexture.h"
+#include "osgRayTrace/bridge/DepthSlices.h"
 #include "osgRayTrace/bridge/PageRequests.h"
 #include "osgRayTrace/bridge/RasterizedPicker.h"
 #include "osgRayTrace/bridge/ScenePicker.h"
@@ -18,15 +19,18 @@
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/LOD>
+#include <osg/ValueObject>
 #include <osg/Viewport>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +46,7 @@ struct ViewState
     std::mutex mutex; // the view's draw thread; and any thread that asks for its image
     engine::ViewTracer tracer;
     DisplayTexture display;
+    std::vector<engine::View> slices; ///< of the passes that the image was traced for
 };
 
 struct BoundsVisitor : osg::ComputeBoundsVisitor
@@ -71,6 +76,7 @@ Rectangle currentViewport(const osg::State& state)
             static_cast<int>(viewport->width()), static_cast<int>(viewport->height())};
 }
 
+/// Of the pass that is drawn.
 engine::PassIdentity passIdentity(osg::RenderInfo& renderInfo, const Rectangle& viewport)
 {
     const osg::State& state = *renderInfo.getState();
@@ -81,7 +87,46 @@ engine::PassIdentity passIdentity(osg::RenderInfo& renderInfo, const Rectangle& 
     pass.contextId = state.getContextID();
     pass.frameNumber = state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0;
     pass.viewport = {viewport.x, viewport.y, viewport.width, viewport.height};
+    pass.view = engine::viewFromMatrices(state.getModelViewMatrix(), state.getProjectionMatrix(),
+                                         viewport.width, viewport.height);
     return pass;
+}
+
+/// Of the pass that is culled; nothing if its near and far planes are not known yet.
+std::optional<engine::PassIdentity> passIdentity(osgUtil::CullVisitor& visitor)
+{
+    const osg::Viewport* viewport = visitor.getViewport();
+    if (!viewport || !visitor.getModelViewMatrix() || !visitor.getProjectionMatrix() ||
+        visitor.getComputeNearFarMode() != osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR)
+        return std::nullopt;
+    engine::PassIdentity pass;
+    pass.camera = visitor.getCurrentCamera();
+    pass.renderStage = visitor.getCurrentRenderStage();
+    pass.contextId = visitor.getState() ? visitor.getState()->getContextID() : 0;
+    pass.frameNumber = visitor.getFrameStamp() ? visitor.getFrameStamp()->getFrameNumber() : 0;
+    pass.view = engine::viewFromMatrices(*visitor.getModelViewMatrix(), *visitor.getProjectionMatrix(),
+                                         static_cast<int>(viewport->width()),
+                                         static_cast<int>(viewport->height()));
+    return pass;
+}
+
+/// What has to be traced for a pass, if anything: not what another slice of its picture has made.
+std::optional<engine::View> viewToTrace(const engine::ViewRegistry<ViewState>::Pass& found,
+                                        const engine::View& pass)
+{
+    std::vector<engine::View>& traced = found.state->slices;
+    const bool moved = traced.empty() || !engine::sameRays(traced.front(), pass);
+    if (!found.shared || moved)
+    {
+        traced = found.slices;
+        return traced.size() == 1 ? pass : engine::viewOfSlices(traced);
+    }
+    const bool sliced = traced.size() > 1;
+    const engine::View last = sliced ? engine::viewOfSlices(traced) : traced.front();
+    traced.insert(traced.end(), found.slices.begin(), found.slices.end());
+    const engine::View needed = engine::viewOfSlices(traced);
+    if (sliced && needed == last) return std::nullopt;
+    return needed;
 }
 
 /// Distance of the near plane in the middle of the view; of orthographic views, whose near plane
@@ -96,6 +141,29 @@ double nearDistance(const osg::Matrixd& projection)
     return (osg::Vec3d(0.0, 1.0, -1.0) * viewFromClip - centre).length();
 }
 
+/// A number of any type that the user set.
+std::optional<double> userNumber(const osg::Camera& camera, const char* name)
+{
+    float single = 0.0f;
+    double number = 0.0;
+    int whole = 0;
+    if (camera.getUserValue(name, number)) return number;
+    if (camera.getUserValue(name, single)) return double(single);
+    if (camera.getUserValue(name, whole)) return double(whole);
+    return {};
+}
+
+/// The camera's own, or that of the settings.
+engine::FrameBudget frameBudget(const osg::Camera* camera, const RayTraceSettings& settings)
+{
+    engine::FrameBudget budget;
+    budget.degrade = settings.getDegradeWhileMoving();
+    double milliseconds = double(settings.getFrameBudget());
+    if (camera) milliseconds = userNumber(*camera, "osgRayTrace.frameBudget").value_or(milliseconds);
+    budget.seconds = std::isfinite(milliseconds) ? 1e-3 * std::max(0.0, milliseconds) : 0.0;
+    return budget;
+}
+
 } // namespace
 
 struct RayTraceDrawable::Implementation
@@ -106,6 +174,7 @@ struct RayTraceDrawable::Implementation
 
     mutable std::mutex mutex;        // draw threads write, any thread reads
     engine::RenderProgress progress; ///< of the view drawn last
+    engine::FrameReport frame;       ///< the same
     std::shared_ptr<ViewState> lastView;
     std::weak_ptr<const engine::TracedScene> untraceable; ///< failed before it gave any image
 
@@ -124,34 +193,41 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     if (!version.scene) return;
 
     const auto makeView = [] { return std::make_shared<ViewState>(); };
-    const std::shared_ptr<ViewState> view =
-        views.acquire(passIdentity(renderInfo, viewport), makeView);
+    const engine::PassIdentity pass = passIdentity(renderInfo, viewport);
+    const engine::ViewRegistry<ViewState>::Pass found = views.acquire(pass, makeView);
+    const std::shared_ptr<ViewState>& view = found.state;
     std::lock_guard<std::mutex> lock(view->mutex);
 
     const osg::Matrixd& viewMatrix = state.getModelViewMatrix();
     const osg::Matrixd& projection = state.getProjectionMatrix();
-    if (!paused || !view->tracer.hasImage())
+    std::optional<engine::View> wanted;
+    if (!paused || !view->tracer.hasImage()) wanted = viewToTrace(found, pass.view);
+    if (wanted)
     {
         // Traced into the display at once, unless its size changes: then it shows the last image until
         // there is a new one.
         DisplayTexture& display = view->display;
         const bool fits = display.width() == viewport.width && display.height() == viewport.height;
-        if (view->tracer.trace(version,
-                               engine::viewFromMatrices(viewMatrix, projection, viewport.width,
-                                                        viewport.height),
+        if (view->tracer.trace(version, *wanted,
+                               frameBudget(renderInfo.getCurrentCamera(), *version.settings),
                                fits ? display.rgba() : nullptr, fits ? display.depth() : nullptr))
             display.modified();
     }
     if (view->tracer.needsResolve(version))
     {
-        view->display.resize(view->tracer.width(), view->tracer.height());
+        view->display.resize(view->tracer.shownWidth(), view->tracer.shownHeight());
         view->tracer.resolve(view->display.rgba(), view->display.depth());
         view->display.modified();
     }
     scene.noteDrawn(renderInfo.getCurrentCamera(), osg::Matrixd::inverse(viewMatrix).getTrans(),
                     nearDistance(projection));
+    const engine::DepthMap depths = view->slices.size() > 1
+                                        ? engine::depthMap(pass.view, view->slices)
+                                        : engine::depthMap(pass.view);
+    const bool drawn = view->display.width() == 0 || view->display.draw(renderInfo, depths);
+    if (wanted) view->tracer.noteShown();
     noteProgress(view, version);
-    if (view->display.width() > 0 && !view->display.draw(renderInfo))
+    if (!drawn)
         fail(engine::StatusCode::DeviceFailure, "OpenGL cannot compile the display's shaders");
 }
 
@@ -167,6 +243,7 @@ void RayTraceDrawable::Implementation::noteProgress(const std::shared_ptr<ViewSt
 
     std::lock_guard<std::mutex> lock(mutex);
     progress = made;
+    frame = view->tracer.frame();
     lastView = view;
     if (failed && made.passes == 0) untraceable = version.scene;
 }
@@ -251,6 +328,9 @@ Statistics RayTraceDrawable::getStatistics() const
     {
         std::lock_guard<std::mutex> lock(self.mutex);
         engine::setImageStatistics(statistics, self.progress);
+        statistics.resolutionDivider = self.frame.divider;
+        statistics.frameSeconds = self.frame.seconds;
+        statistics.traceSeconds = self.frame.traceSeconds;
     }
     if (!converted)
     {
@@ -333,6 +413,7 @@ void RayTraceDrawable::releaseGLObjects(osg::State* state) const
 {
     for (const std::shared_ptr<ViewState>& view : _implementation->views.states())
         view->display.releaseGLObjects(state);
+    if (state) _implementation->views.forgetContext(state->getContextID());
     osg::Drawable::releaseGLObjects(state);
 }
 
@@ -350,6 +431,7 @@ void RayTraceDrawable::noteView(osgUtil::CullVisitor& visitor)
     {
         _implementation->scene.noteView(stage ? stage->getCamera() : nullptr,
                                         visitor.getFrameStamp(), engine::viewingConditions(visitor));
+        if (const auto pass = passIdentity(visitor)) _implementation->views.note(*pass);
     }
     catch (const std::exception& error)
     {

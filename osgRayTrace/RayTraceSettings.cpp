@@ -85,6 +85,8 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _shadows(other._shadows),
       _terminatorCorrection(other._terminatorCorrection),
       _maxPasses(other._maxPasses),
+      _frameBudget(other._frameBudget),
+      _degradeWhileMoving(other._degradeWhileMoving),
       _passesPerFrame(other._passesPerFrame),
       _threads(other._threads),
       _seed(other._seed),
@@ -183,6 +185,16 @@ void RayTraceSettings::setAimAtViews(bool value)
 void RayTraceSettings::setMaxPasses(int value)
 {
     changeNumber("max-passes", kMaxPassesRange, _maxPasses, value, _modifiedCount);
+}
+
+void RayTraceSettings::setFrameBudget(float value)
+{
+    changeNumber("frame-budget", kFrameBudgetRange, _frameBudget, value, _modifiedCount);
+}
+
+void RayTraceSettings::setDegradeWhileMoving(bool value)
+{
+    change(_degradeWhileMoving, value, _modifiedCount);
 }
 
 void RayTraceSettings::setPassesPerFrame(int value)

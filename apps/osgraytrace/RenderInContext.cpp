@@ -45,6 +45,7 @@ Picture renderInContext(const Options& options, osg::Node& scene, const Camera& 
 {
     osg::ref_ptr<RayTracedScene> traced = new RayTracedScene;
     traced->setSettings(options.settings.get());
+    options.settings->setFrameBudget(0.0f); // nobody waits for a frame
     traced->addChild(&scene);
 
     osgViewer::Viewer viewer;

@@ -3,6 +3,7 @@
 #include "apps/common/Failure.h"
 #include "apps/common/PluginPath.h"
 #include "apps/osgraytracebench/FeaturesMode.h"
+#include "apps/osgraytracebench/InteractiveMode.h"
 #include "apps/osgraytracebench/LimitMode.h"
 #include "apps/osgraytracebench/PhotonsMode.h"
 #include "apps/osgraytracebench/PickMode.h"
@@ -43,7 +44,8 @@ struct CommandLine
 {
     CommandLine()
     {
-        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick, &upsample})
+        for (CLI::App* rows :
+             {&limit, &features, &photons, &update, &pick, &upsample, &interactive})
             rows->add_option("--json", json, "write the rows to this file as well");
 
         photons
@@ -64,8 +66,7 @@ struct CommandLine
             ->capture_default_str();
         photons.add_option("--reference-a", photonsOptions.referenceA,
                            "linear picture of the diffuse box; rendered if not given");
-        photons.add_option("--reference-b", photonsOptions.referenceB,
-                           "of the box with a mirror");
+        photons.add_option("--reference-b", photonsOptions.referenceB, "of the box with a mirror");
         photons.add_option("--reference-c", photonsOptions.referenceC,
                            "of the box with a glass sphere");
         photons
@@ -81,6 +82,23 @@ struct CommandLine
 
         upsample.add_option("--pictures", pictures, "write the pictures to this folder as well");
         upsample.add_option("MODEL", models, "measure these files, too");
+        interactive.add_option("--width", interactiveOptions.width, "width of the view [pixels]")
+            ->check(CLI::Range(16, 8192))
+            ->capture_default_str();
+        interactive
+            .add_option("--height", interactiveOptions.height, "height of the view [pixels]")
+            ->check(CLI::Range(16, 8192))
+            ->capture_default_str();
+        interactive
+            .add_option("--threads", interactiveOptions.threads,
+                        "threads to trace with; 0: all of the machine")
+            ->check(CLI::Range(0, 1024))
+            ->capture_default_str();
+        interactive.add_flag("--cpu-clock", interactiveOptions.cpuClock,
+                             "time by what the process takes of its cores, over its threads: as "
+                             "on a machine of its own");
+        interactive.add_option("--only", interactiveOptions.only,
+                               "scenes whose name holds this: Cornell box, triangles, instances");
 
         report.add_option("-o,--output", options.folder, "folder of report.html, .csv and .json")
             ->capture_default_str();
@@ -120,6 +138,8 @@ struct CommandLine
         if (limit) return runRows(measureLimit, json);
         if (features) return runRows(measureFeatures, json);
         if (pick) return runRows(measurePicks, json);
+        if (interactive)
+            return runRows([&] { return measureInteractive(interactiveOptions); }, json);
         if (update) return runRows(measureUpdate, json);
         if (photons) return runRows([&] { return measurePhotons(photonsOptions); }, json);
         if (compare) return runCompare(before, after, falseAlarmRate);
@@ -131,16 +151,18 @@ struct CommandLine
     CLI::App application{"Speed and error of osgRayTrace."};
     CLI::App& limit = *application.add_subcommand(
         "limit", "a whole frame, a path traced one and a build against Embree alone");
-    CLI::App& features =
-        *application.add_subcommand("features", "what features cost a scene that does not use them");
+    CLI::App& features = *application.add_subcommand(
+        "features", "what features cost a scene that does not use them");
     CLI::App& photons = *application.add_subcommand(
         "photons", "photon maps against a plain grid and Embree alone; error against time");
     CLI::App& update = *application.add_subcommand(
         "update", "what edits of a large live scene cost, against Embree alone");
-    CLI::App& pick = *application.add_subcommand(
-        "pick", "what a pick costs, against osgUtil's own and one ray");
+    CLI::App& pick =
+        *application.add_subcommand("pick", "what a pick costs, against osgUtil's own and one ray");
     CLI::App& upsample = *application.add_subcommand(
         "upsample", "what images of fewer pixels lose, and what it costs to show them");
+    CLI::App& interactive = *application.add_subcommand(
+        "interactive", "whether the frames of a moving camera keep to their budgets");
     CLI::App& report =
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(
@@ -150,6 +172,7 @@ struct CommandLine
     double falseAlarmRate = 0.01;
     ReportOptions options;
     PhotonsOptions photonsOptions;
+    InteractiveOptions interactiveOptions;
 };
 
 } // namespace

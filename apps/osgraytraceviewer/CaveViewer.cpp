@@ -211,6 +211,7 @@ std::string fileOf(const std::string& output, const WallPicture& picture)
 void writePictures(osgViewer::Viewer& viewer, const RayTracedScene& scene,
                    const std::vector<WallPicture>& pictures, const std::string& output)
 {
+    scene.getSettings()->setFrameBudget(0.0f); // nobody waits for a frame
     int passes = -1;
     while (passes < scene.getSettings()->getMaxPasses())
     {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "osgRayTrace/bridge/SceneUpdater.h"
+#include "osgRayTrace/session/FramePlan.h"
 #include "osgRayTrace/session/RenderSession.h"
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -14,47 +16,137 @@
 namespace osgRayTrace::engine
 {
 
+/// How long a frame of a view may take, from trace() to noteShown().
+struct FrameBudget
+{
+    double seconds = 0.0; ///< 0: as long as the settings' passes per frame take
+    bool degrade = true;  ///< the resolution may be reduced while the view moves
+};
+
+/// Of the last frame.
+struct FrameReport
+{
+    int divider =
+        1; ///< of the width and height of what is shown; 1 as well where tiles are still missing
+    double seconds = 0.0;      ///< from trace() to noteShown()
+    double traceSeconds = 0.0; ///< of these, in passes and photons
+};
+
 /// A RenderSession under OSG: takes a frame's matrices and settings, and knows when there is
 /// something new to show. One thread at a time.
+///
+/// With a budget there are two sessions. While the view moves, and no whole pass of full resolution
+/// fits into a frame, one makes images of reduced resolution. When the view rests the other adds
+/// tiles of full resolution, as many in each frame as there is time for, which are shown over the
+/// enlarged last image; then passes.
 class ViewTracer
 {
 public:
-    /// Traces the settings' passes of a frame, if the image needs any. Failures are in progress(),
+    /// now: a clock [s], for tests.
+    explicit ViewTracer(std::function<double()> now = {});
+
+    /// Traces what a frame has time for, if the image needs any. Failures are in progress(),
     /// the image stays. Throws std::bad_alloc only.
-    /// If rgba is not null it takes display values and depth of a new image as resolve() would write
-    /// them, for less: buffers of the pass's size. True if it did.
-    bool trace(const SceneVersion& version, const View& pass, uint8_t* rgba = nullptr,
-               float* depth = nullptr);
+    /// If rgba is not null, it and depth are what the last frame was shown from, of the pass's
+    /// size: they may take a new image as resolve() would write it, for less. True if they did.
+    bool trace(const SceneVersion& version, const View& pass, const FrameBudget& budget = {},
+               uint8_t* rgba = nullptr, float* depth = nullptr);
 
     /// Takes the settings of how the image is shown. True if the image, or that, differs from what
     /// was resolved last. False if there is no image.
     bool needsResolve(const SceneVersion& version);
 
-    /// Display values and window depths, width() * height() pixels.
+    /// Display values and window depths, shownWidth() * shownHeight() pixels.
     void resolve(uint8_t* rgba, float* depth);
+
+    /// The frame that trace() began is on its way to the display.
+    void noteShown();
+
+    /// Of what resolve() writes: less than the pass's while the resolution is reduced.
+    int shownWidth() const { return shownIsReduced() ? _reduced->width() : _session->width(); }
+    int shownHeight() const { return shownIsReduced() ? _reduced->height() : _session->height(); }
 
     bool hasImage() const
     {
-        return _session && _session->width() > 0 && _session->progress().passes > 0;
+        return _session && image().width() > 0 && image().progress().passes > 0;
     }
-    int width() const { return _session->width(); }
-    int height() const { return _session->height(); }
-    std::vector<float> radiance() const { return _session->resolveRadiance(); }
 
-    /// Of the image. The error estimate is renewed when the passes have grown by an eighth: it
+    /// Linear RGBA of the last whole image, width() * height() pixels.
+    std::vector<float> radiance() const { return image().resolveRadiance(); }
+    int width() const { return image().width(); }
+    int height() const { return image().height(); }
+
+    /// Of that image. The error estimate is renewed when the passes have grown by an eighth: it
     /// costs as much as a resolve.
     RenderProgress progress() const;
+    const FrameReport& frame() const { return _frame; }
 
 private:
-    void estimateError(int maxPasses, bool restarted);
+    /// What is shown.
+    enum class Shown
+    {
+        Whole, ///< each tile of full resolution has a pass
+        Reduced,
+        Mixed, ///< tiles of full resolution over the enlarged reduced image
+    };
 
+    /// What comes after tracing.
+    enum class Showing
+    {
+        Whole,
+        Reduced,
+        FirstMixed, ///< the reduced image is enlarged
+    };
+
+    bool takeInputs(const SceneVersion& version, const View& pass);
+    void setDeadline(double budget, bool moved);
+    double secondsLeft() const { return _begin + _deadline - _now(); }
+    void traceFixed(int passes);
+    void traceMoved(FrameSituation frame);
+    bool traceImage(const FramePlan& plan, const FrameSituation& frame, bool mayGiveUp);
+    void traceStill(FrameSituation frame);
+    RenderProgress render(RenderSession& session, int divider, StopRule& rule,
+                          const DisplayTarget* display);
+    void estimateError();
+    void enlargeReduced(uint8_t* rgba, float* depth) const;
+
+    bool shownIsReduced() const { return _shown == Shown::Reduced; }
+    const RenderSession& image() const { return _shown == Shown::Whole ? *_session : *_reduced; }
+
+    std::function<double()> _now;
     std::shared_ptr<Workers> _workers;
-    std::unique_ptr<RenderSession> _session;
+    std::unique_ptr<RenderSession> _session; ///< full resolution
+    std::unique_ptr<RenderSession> _reduced; ///< has no image until one is needed
+    Shown _shown = Shown::Whole;
+    int _divider = 1; ///< of the reduced image
+
+    // Of the inputs of the last frame
     View _view;
+    std::shared_ptr<const TracedScene> _scene;
+    RenderOptions _options;
+    int _maxPasses = 1;
+    int _stillFrames = 0; ///< since any of these changed
+    Status _status;
+
     double _relativeError = std::numeric_limits<double>::infinity();
     int _nextEstimate = 2; ///< passes
+    double _estimateSeconds = 0.0;
 
+    // The frame's time
+    FramePlanner _planner;
+    FrameReport _frame;
+    double _begin = 0.0;
+    double _deadline = 0.0; ///< for tracing, from _begin on
+    double _traceEnd = 0.0;
+    int _newTiles = 0;
+    Showing _showing = Showing::Whole;
+    double _afterSeconds[3] = {}; ///< by _showing: from _traceEnd to noteShown()
+
+    // What the display holds
     ToneMap _toneMap;
+    DisplayTarget _display;     ///< of this frame; rgba is null where it cannot be used
+    bool _written = false;      ///< the frame's image is in it
+    bool _holdsFull = false;    ///< what resolve() would write, and that is of full size
     bool _imageChanged = false; ///< since it was resolved
     std::optional<ToneMap> _resolved;
 };

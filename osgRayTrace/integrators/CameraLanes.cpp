@@ -73,6 +73,7 @@ void planeDepths(const CameraRays& camera, int left, int bottom, const SurfaceLa
 {
     const CameraRays c = camera;
     const LaneMask hits = surface.hits;
+    const uint32_t parallel = maskOf(c.orthographic);
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
@@ -93,10 +94,8 @@ void planeDepths(const CameraRays& camera, int left, int bottom, const SurfaceLa
         const float sHit = ((hx - ox) * dx + (hy - oy) * dy + (hz - oz) * dz) / d2;
         const bool usable = (s > 0.5f * sHit) & (s < 2.0f * sHit);
         const float used = select(usable, s, sHit);
-        const float px = ox + used * dx, py = oy + used * dy, pz = oz + used * dz;
-        const float z = c.depthRow.x * px + c.depthRow.y * py + c.depthRow.z * pz + c.depthRow.w;
-        const float w = c.wRow.x * px + c.wRow.y * py + c.wRow.z * pz + c.wRow.w;
-        const float window = 0.5f * (z / w) + 0.5f;
+        const float beyond = 1.0f / used - 1.0f - x * c.depthDx - y * c.depthDy;
+        const float window = c.nearDepth + c.depthSlope * select(parallel, used, beyond);
         const float low = select(window > 0.0f, window, 0.0f);
         const float clamped = select(low < 1.0f, low, 1.0f);
         depth[i] = select(laneBit(hits, i), clamped, 1.0f);

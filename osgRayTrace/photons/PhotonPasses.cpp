@@ -249,6 +249,13 @@ std::size_t PhotonPasses::bytes() const
     return keptBytes();
 }
 
+bool PhotonPasses::keeps(int index) const
+{
+    const std::unique_lock<std::mutex> lock(_mutex, std::try_to_lock);
+    return lock && std::any_of(_kept.begin(), _kept.end(),
+                               [&](const Entry& e) { return e.index == index; });
+}
+
 uint64_t PhotonPasses::tracedRays() const
 {
     std::lock_guard<std::mutex> lock(_mutex);

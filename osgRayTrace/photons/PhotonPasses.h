@@ -65,6 +65,10 @@ public:
                   const void* view, std::vector<double> squares);
     void forgetSeen(const void* view);
 
+    /// Whether there are photons of a pass now. Not while some are traced: who would have to wait
+    /// for them is told false.
+    bool keeps(int index) const;
+
     uint64_t tracedRays() const; ///< of all passes that were traced
     std::size_t bytes() const;   ///< of the maps that are kept
     static constexpr std::size_t kMostBytes = std::size_t(1) << 29;

@@ -22,7 +22,8 @@ bool isFinite(const CameraRays& rays)
 {
     return engine::isFinite(rays.origin) && engine::isFinite(rays.originDx) &&
            engine::isFinite(rays.originDy) && engine::isFinite(rays.direction) &&
-           engine::isFinite(rays.directionDx) && engine::isFinite(rays.directionDy);
+           engine::isFinite(rays.directionDx) && engine::isFinite(rays.directionDy) &&
+           std::isfinite(rays.depthSlope) && std::isfinite(rays.depthDx) && std::isfinite(rays.depthDy);
 }
 
 /// Clip z of the near plane of a perspective view: of -1 and 1 the one nearer to the eye. Reversed depth
@@ -64,7 +65,9 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
     const Vec4d pole = viewFromClip * Vec4d(0.0, 0.0, 1.0, 0.0);
     const bool orthographic = std::abs(pole.w) <= 1e-14 * glm::length(Vec3d(pole));
 
-    const double nearZ = orthographic ? -1.0 : nearPlaneZ(planePoint, pole);
+    // Parallel rays say nothing about which way they run: the eye looks along -z.
+    const double orthographicZ = pole.z / planePoint(0.0, 0.0, 0.0).w > 0.0 ? 1.0 : -1.0;
+    const double nearZ = orthographic ? orthographicZ : nearPlaneZ(planePoint, pole);
     const Vec4d near00 = planePoint(0.0, 0.0, nearZ);
     const Vec4d nearDx = planePoint(1.0, 0.0, nearZ) - near00;
     const Vec4d nearDy = planePoint(0.0, 1.0, nearZ) - near00;
@@ -75,12 +78,13 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
     const glm::dmat3 rotation(engineFromView);
     if (orthographic)
     {
-        // Rays run from the near plane (clip z = -1) to the far plane (clip z = 1).
+        // Rays run from the near plane to the far plane, at half of it to clip z = 0.
         rays.origin = Vec3(engineFromView * Vec4d(Vec3d(near00) / near00.w, 1.0));
         rays.originDx = Vec3(rotation * (Vec3d(nearDx) / near00.w));
         rays.originDy = Vec3(rotation * (Vec3d(nearDy) / near00.w));
-        rays.direction = Vec3(rotation * (Vec3d(pole) / near00.w));
+        rays.direction = Vec3(rotation * (-nearZ * Vec3d(pole) / near00.w));
         rays.nearS = 0.0f;
+        rays.depthSlope = static_cast<float>(-0.5 * nearZ);
     }
     else
     {
@@ -93,7 +97,13 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
         rays.directionDx = Vec3(rotation * direction(nearDx));
         rays.directionDy = Vec3(rotation * direction(nearDy));
         rays.nearS = 1.0f;
+        // Clip coordinates of N are (x, y, nearZ, 1) / N.w, those of E (0, 0, 1, 0) / E.w: w grows by
+        // 1 / near00.w with s, z begins at 1 / E.w.
+        rays.depthSlope = static_cast<float>(0.5 * near00.w / pole.w);
+        rays.depthDx = static_cast<float>(nearDx.w / near00.w);
+        rays.depthDy = static_cast<float>(nearDy.w / near00.w);
     }
+    rays.nearDepth = nearZ > 0.0 ? 1.0f : 0.0f;
 
     const Mat4d clipFromEngine = glm::transpose(clipFromView * viewFromEngine);
     rays.depthRow = Vec4(clipFromEngine[2]);

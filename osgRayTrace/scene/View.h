@@ -36,6 +36,11 @@ struct CameraRays
     Vec3 direction{0.0f}, directionDx{0.0f}, directionDy{0.0f}; ///< not unit; Dx, Dy zero if orthographic
     float nearS = 1.0f; ///< rays start at s = nearS: 1 for perspective, 0 for orthographic views
 
+    // Window depth at s, without the cancellation of the rows below: orthographic, nearDepth + depthSlope * s;
+    // else nearDepth + depthSlope * (1/s - 1 - x*depthDx - y*depthDy).
+    float nearDepth = 0.0f; ///< 0; 1 if depth is reversed
+    float depthSlope = 0.0f, depthDx = 0.0f, depthDy = 0.0f;
+
     // Window depth of the point origin(x,y) + s*direction(x,y): rows 3 and 4 of clipFromEngine.
     // Both are clip coordinates in engine units of length: only their quotient means something.
     Vec4 depthRow{0.0f}; ///< clip z = dot(depthRow, (p, 1))

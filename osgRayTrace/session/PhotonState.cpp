@@ -89,6 +89,7 @@ void PhotonState::reset(int tileCount)
     _least = _largest = 0.0f;
     _shrink = 1.0f;
     _dark = _limited = _stored = _aims = false;
+    _preparedPass = -1;
     _pixels = static_cast<std::size_t>(tileCount) * kTilePixels;
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
@@ -160,7 +161,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
         std::sqrt(globalRadiusSquared(pass, static_cast<double>(context.options.photonAlpha))));
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
     context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
-    sumUpSeen();
+    if (pass != _preparedPass) sumUpSeen();
     if (pass == PhotonPasses::kFirst && !_seenSquares.empty())
     {
         _aims = true;
@@ -169,12 +170,21 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
         _seenSquares.clear();
     }
     const float cell = 2.0f * std::max(_floor, _cellRadius * _shrink);
-    _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
+    if (pass != _preparedPass || !_pass) // else those that the pass was begun with
+        _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
     context.photons = &_pass->map;
     _stored |= _pass->map.size() > 0;
+    _preparedPass = pass;
 }
 
-/// In the order of the tiles, so that no thread's luck is in the sums.
+double PhotonState::secondsOf(int pass) const
+{
+    if (!_pass || pass == _preparedPass || _passes->keeps(pass)) return 0.0;
+    return _pass->seconds;
+}
+
+/// Of a pass that is whole, in the order of the tiles, so that no thread's luck is in the sums, nor
+/// how often the pass was interrupted.
 void PhotonState::sumUpSeen()
 {
     for (std::vector<SeenSquares>& tile : _seen)

@@ -45,6 +45,10 @@ public:
     void prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context, int pass,
                  const Workers& workers);
 
+    /// What prepare will take at least for a pass, going by the last photons that were traced; 0 for
+    /// photons that are kept.
+    double secondsOf(int pass) const;
+
     bool active() const { return _pass != nullptr; }
 
     /// The tile's hit points if camera paths are the same in each pass, as those of Ppm; else null.
@@ -86,6 +90,7 @@ private:
     bool _stored = false;  ///< some pass has
     bool _aims =
         false; ///< from pass PhotonPasses::kFirst on photons are aimed at what this view has seen
+    int _preparedPass = -1;
     std::size_t _pixels = 0;                  ///< of all tiles
     std::vector<float> _firstRadii;           ///< tile, pixel; 0: not known; empty if local
     std::vector<LocalStatistics> _statistics; ///< half, tile, pixel; empty unless local

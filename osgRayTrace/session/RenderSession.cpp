@@ -6,6 +6,7 @@
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/film/Resolve.h"
+#include "osgRayTrace/film/TileOrder.h"
 #include "osgRayTrace/integrators/Integrator.h"
 #include "osgRayTrace/session/ChannelImage.h"
 #include "osgRayTrace/session/PhotonState.h"
@@ -86,11 +87,13 @@ struct RenderSession::Implementation
 
     bool begin();
     TileCounts renderTile(const PassContext& context, const Integrator& integrator, int tile);
-    void renderPass(const PassContext& context, const Integrator& integrator, const DisplayTarget* display);
+    bool renderPass(const PassContext& context, const Integrator& integrator, const StopRule& rule,
+                    const DisplayTarget* display);
+    void preparePhotons(PassContext& context, int pass);
     double estimateError() const;
     RenderProgress run(const StopRule& rule, const std::function<bool(const RenderProgress&)>& keepGoing,
                        const DisplayTarget* display);
-    void resolve(const DisplayTarget& display) const;
+    void resolve(const DisplayTarget& display, bool over) const;
     PassContext contextOfPass(int pass) const;
     std::optional<PassContext> contextOfSize(int width, int height) const;
 
@@ -112,6 +115,7 @@ struct RenderSession::Implementation
     PhotonState photons;
     RenderProgress progress;
     std::vector<TileCounts> tileCounts; // of the pass that is rendered
+    int photonsCounted = 0;             // passes whose photon rays are in progress
 
     std::atomic<bool> cancelled{false}; // cancel(): any thread; render(): the session's and the workers
 };
@@ -154,6 +158,7 @@ bool RenderSession::Implementation::begin()
     strata = std::move(made);
     progress = RenderProgress();
     progress.restarted = true;
+    photonsCounted = 0;
     progress.integrator = chooseIntegrator(options.integrator, scene->traits());
     return true;
 }
@@ -223,23 +228,58 @@ TileCounts RenderSession::Implementation::renderTile(const PassContext& context,
     return result.counts;
 }
 
-/// Adds one pass to every tile that does not have it yet, and shows it.
-void RenderSession::Implementation::renderPass(const PassContext& context, const Integrator& integrator,
-                                               const DisplayTarget* display)
+/// The photons of a pass, which may be one that an earlier call did not finish.
+void RenderSession::Implementation::preparePhotons(PassContext& context, int pass)
+{
+    const Clock::time_point start = Clock::now();
+    photons.prepare(filmScene, context, pass, *workers);
+    progress.photonSeconds += secondsSince(start);
+    progress.photonNote = photons.note();
+    const PhotonPass* traced = photons.photons();
+    if (!traced) return;
+    progress.photonRadius = static_cast<float>(photons.radius() * filmScene->scene().unit);
+    progress.storedPhotons = traced->map.size();
+    progress.photonBytes = photons.keptBytes();
+    if (pass < photonsCounted) return;
+    progress.rays.photon += traced->rays;
+    progress.droppedSamples += traced->dropped;
+    photonsCounted = pass + 1;
+}
+
+/// Adds one pass to every tile that does not have it yet, and shows it. False if some still do not.
+bool RenderSession::Implementation::renderPass(const PassContext& context, const Integrator& integrator,
+                                               const StopRule& rule, const DisplayTarget* display)
 {
     const int pass = film.passes();
-    tileCounts.assign(static_cast<std::size_t>(film.tileCount()), TileCounts());
+    const auto tiles = static_cast<std::size_t>(film.tileCount());
+    const std::size_t stride = evenStride(tiles);
+    std::atomic<std::size_t> next{0};
+    std::atomic<int> begun{progress.newTiles};
+    std::atomic<bool> over{false};
+    tileCounts.assign(tiles, TileCounts());
     film.beginPass();
-    workers->forEach(static_cast<std::size_t>(film.tileCount()),
-                     [&](std::size_t index)
-                     {
-                         const int tile = static_cast<int>(index);
-                         if (film.tilePasses(tile) == pass && !cancelled.load(std::memory_order_relaxed))
-                             tileCounts[index] = renderTile(context, integrator, tile);
-                         if (display)
-                             resolveTileDisplay(film, tile, display->toneMap, display->rgba,
-                                                display->depth);
-                     });
+    workers->forEach(
+        tiles,
+        [&](std::size_t index)
+        {
+            // Workers begin at several places at once; an order has to be kept by all of them together.
+            if (rule.over) index = next.fetch_add(1, std::memory_order_relaxed) * stride % tiles;
+            const int tile = static_cast<int>(index);
+            bool renders = film.tilePasses(tile) == pass && !cancelled.load(std::memory_order_relaxed) &&
+                           !over.load(std::memory_order_relaxed);
+            if (renders && rule.over && rule.over(begun.load(std::memory_order_relaxed), 0.0))
+            {
+                renders = false;
+                over = true;
+            }
+            if (renders)
+            {
+                begun.fetch_add(1, std::memory_order_relaxed);
+                tileCounts[index] = renderTile(context, integrator, tile);
+            }
+            if (display && (renders || !display->holdsImage))
+                resolveTileDisplay(film, tile, display->toneMap, display->rgba, display->depth);
+        });
     for (const TileCounts& counts : tileCounts)
     {
         progress.rays.camera += counts.cameraRays;
@@ -247,6 +287,8 @@ void RenderSession::Implementation::renderPass(const PassContext& context, const
         progress.rays.secondary += counts.secondaryRays;
         progress.droppedSamples += counts.droppedSamples;
     }
+    progress.newTiles = begun;
+    return film.passes() > pass;
 }
 
 /// Square root of the estimated mean squared relative error.
@@ -271,52 +313,50 @@ RenderProgress RenderSession::Implementation::run(
     const DisplayTarget* display)
 {
     cancelled = false;
+    progress.newTiles = 0;
+    progress.photonSeconds = progress.firstPhotonSeconds = 0.0;
     if (!begin()) return progress;
     const std::unique_ptr<Integrator> integrator = newIntegrator(progress.integrator);
     const Clock::time_point start = Clock::now();
     const bool wantsError = rule.relativeError > 0.0 || static_cast<bool>(keepGoing);
-    int made = 0;
-    bool shown = false;
-    for (; made < rule.newPasses && film.passes() < rule.passes; ++made)
+    bool shown = true;
+    for (int made = 0; made < rule.newPasses && film.passes() < rule.passes; ++made)
     {
+        const int pass = film.passes();
         if (made > 0 && secondsSince(start) >= rule.seconds) break;
+        if (made > 0 && rule.over && rule.over(progress.newTiles, photons.secondsOf(pass))) break;
         const Clock::time_point passStart = Clock::now();
-        shown = made + 1 == rule.newPasses || film.passes() + 1 == rule.passes;
-        PassContext context = contextOfPass(film.passes());
-        photons.prepare(filmScene, context, film.passes(), *workers);
-        progress.photonNote = photons.note();
-        if (const PhotonPass* traced = photons.photons())
-        {
-            progress.rays.photon += traced->rays;
-            progress.droppedSamples += traced->dropped;
-            progress.photonRadius = static_cast<float>(photons.radius() * filmScene->scene().unit);
-            progress.storedPhotons = traced->map.size();
-            progress.photonBytes = photons.keptBytes();
-        }
-        renderPass(context, *integrator, shown ? display : nullptr);
+        PassContext context = contextOfPass(pass);
+        preparePhotons(context, pass);
+        if (made == 0) progress.firstPhotonSeconds = progress.photonSeconds;
+        // In the pass that is likely to be the last one; tiles that only earlier ones of this call
+        // reached are written as well.
+        shown = made + 1 == rule.newPasses || pass + 1 == rule.passes;
+        DisplayTarget target = display ? *display : DisplayTarget();
+        target.holdsImage = target.holdsImage && made == 0;
+        const bool whole = renderPass(context, *integrator, rule, display && shown ? &target : nullptr);
         progress.hitPointBytes = photons.viewBytes();
         progress.seconds += secondsSince(passStart);
         progress.passes = film.passes();
-        if (cancelled)
-        {
-            progress.status = {StatusCode::Cancelled, "the render was cancelled"};
-            break;
-        }
+        if (cancelled) progress.status = {StatusCode::Cancelled, "the render was cancelled"};
+        if (cancelled || !whole) break;
         if (wantsError) progress.relativeError = estimateError();
         if (rule.relativeError > 0.0 && progress.relativeError <= rule.relativeError) break;
         if (keepGoing && !keepGoing(progress)) break;
     }
-    if (display && made > 0 && !shown) resolve(*display);
+    if (display && progress.newTiles > 0 && !shown) resolve(*display, display->holdsImage);
     return progress;
 }
 
-void RenderSession::Implementation::resolve(const DisplayTarget& display) const
+/// over: tiles without a pass are left as they are.
+void RenderSession::Implementation::resolve(const DisplayTarget& display, bool over) const
 {
     workers->forEach(static_cast<std::size_t>(film.tileCount()),
-                     [&](std::size_t tile)
+                     [&](std::size_t index)
                      {
-                         resolveTileDisplay(film, static_cast<int>(tile), display.toneMap, display.rgba,
-                                            display.depth);
+                         const int tile = static_cast<int>(index);
+                         if (over && film.tilePasses(tile) == 0) return;
+                         resolveTileDisplay(film, tile, display.toneMap, display.rgba, display.depth);
                      });
 }
 
@@ -360,6 +400,25 @@ RenderProgress RenderSession::render(const StopRule& rule,
 
 void RenderSession::cancel() { _implementation->cancelled = true; }
 
+void RenderSession::clear()
+{
+    Implementation& session = *_implementation;
+    session.scene.reset();
+    session.filmScene.reset();
+    session.photons.reset(0);
+    session.progress = RenderProgress();
+}
+
+int RenderSession::tilesLeft() const
+{
+    const Film& film = _implementation->film;
+    const int pass = film.passes();
+    int left = 0;
+    for (int tile = 0; tile < film.tileCount(); ++tile)
+        left += film.tilePasses(tile) == pass;
+    return left;
+}
+
 double RenderSession::estimateRelativeError() const { return _implementation->estimateError(); }
 
 const RenderProgress& RenderSession::progress() const { return _implementation->progress; }
@@ -381,7 +440,12 @@ std::vector<float> RenderSession::resolveRadiance() const
 
 void RenderSession::resolveDisplay(const ToneMap& toneMap, uint8_t* rgba, float* depth) const
 {
-    _implementation->resolve({toneMap, rgba, depth});
+    _implementation->resolve({toneMap, rgba, depth}, false);
+}
+
+void RenderSession::resolveOver(const ToneMap& toneMap, uint8_t* rgba, float* depth) const
+{
+    _implementation->resolve({toneMap, rgba, depth}, true);
 }
 
 std::vector<float> RenderSession::resolveChannel(Channel channel) const

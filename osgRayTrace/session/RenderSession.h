@@ -27,6 +27,12 @@ struct StopRule
     int newPasses = std::numeric_limits<int>::max(); ///< of this call
     double seconds = std::numeric_limits<double>::infinity(); ///< of this call; at least one pass is made
     double relativeError = 0.0; ///< estimated, see RenderProgress; of the accumulated image; 0: not used
+    /// If set: asked before each tile, by any thread, and before each pass but the first of the call. True:
+    /// no more are begun; those that have the pass keep it, and the next render() does the rest, as after
+    /// cancel(). Tiles are then taken in an order that is even over the image, so that any part of
+    /// them tells what all of them cost. tiles: begun by this call; seconds: the least time until it
+    /// is asked again, known of photons.
+    std::function<bool(int tiles, double seconds)> over;
 };
 
 /// Where display values go while an image is made: see RenderSession::resolveDisplay. For an image of the
@@ -36,6 +42,9 @@ struct DisplayTarget
     ToneMap toneMap;
     uint8_t* rgba = nullptr;
     float* depth = nullptr; ///< may be null
+    /// The image as it was before render() is there: only tiles that get a pass are written. Of an
+    /// image without any pass that is whatever shall be seen where there is no tile yet.
+    bool holdsImage = false;
 };
 
 /// Why photons do not do what one may expect of them.
@@ -70,6 +79,9 @@ struct RenderProgress
     RayCounts rays;
     uint64_t droppedSamples = 0;  ///< not finite, or above 1e30: left out of the image and counted
     bool restarted = false;       ///< this call began a new image
+    int newTiles = 0;             ///< of this call, summed over its passes
+    double photonSeconds = 0.0;   ///< that photons took in this call, traced or waited for
+    double firstPhotonSeconds = 0.0; ///< of these, those of its first pass
     float photonRadius = 0.0f;    ///< of the last pass [length]; 0 without photons
     PhotonNote photonNote = PhotonNote::None; ///< of all passes together
     uint64_t storedPhotons = 0;   ///< in the map of the last pass
@@ -121,6 +133,12 @@ public:
     /// RenderProgress::relativeError of the image as it is, worked out now.
     double estimateRelativeError() const;
 
+    /// Lets go of the scene and of the image; memory for images is kept.
+    void clear();
+
+    /// Without the pass at work; all, if none is.
+    int tilesLeft() const;
+
     /// State after the last render(). Width and height are those of the image, which may be older than
     /// setView's.
     const RenderProgress& progress() const;
@@ -133,6 +151,9 @@ public:
     /// Display values, row 0 at the bottom: width*height*4 bytes to rgba and, if not null, width*height
     /// window depths to depth. Runs on the session's threads.
     void resolveDisplay(const ToneMap& toneMap, uint8_t* rgba, float* depth) const;
+
+    /// The same, but tiles without a pass are left as they are.
+    void resolveOver(const ToneMap& toneMap, uint8_t* rgba, float* depth) const;
 
     /// Channel values, row 0 at the bottom, width*height*channelSize(channel) floats.
     std::vector<float> resolveChannel(Channel channel) const;

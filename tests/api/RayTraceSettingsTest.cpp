@@ -66,6 +66,8 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getMaxBounces() == 8);
     CHECK(settings->getShadows());
     CHECK(settings->getMaxPasses() == 1024);
+    CHECK(settings->getFrameBudget() == 33.0f);
+    CHECK(settings->getDegradeWhileMoving());
     CHECK(settings->getPassesPerFrame() == 1);
     CHECK(settings->getThreads() == 0);
     CHECK(settings->getSeed() == 0u);
@@ -76,7 +78,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getAimAtViews());
 }
 
-TEST_CASE("settings: the table names all twenty-five options once", "[api][settings]")
+TEST_CASE("settings: the table names all twenty-seven options once", "[api][settings]")
 {
     std::set<std::string> names;
     std::set<std::string> variables;
@@ -85,11 +87,11 @@ TEST_CASE("settings: the table names all twenty-five options once", "[api][setti
         names.insert(option.name);
         variables.insert(option.environment);
     }
-    CHECK(names.size() == 25);
-    CHECK(variables.size() == 25);
+    CHECK(names.size() == 27);
+    CHECK(variables.size() == 27);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 25);
+    CHECK(RayTraceSettings::options().size() == 27);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")
@@ -233,6 +235,8 @@ TEST_CASE("settings: setters clamp to the documented range", "[api][settings]")
     CHECK(settings->getMaxPasses() == 1 << 24);
     settings->setPassesPerFrame(0);
     CHECK(settings->getPassesPerFrame() == 1);
+    settings->setFrameBudget(-1.0f);
+    CHECK(settings->getFrameBudget() == 0.0f);
     settings->setThreads(-3);
     CHECK(settings->getThreads() == 0);
     settings->setExposure(std::numeric_limits<float>::infinity());

@@ -12,6 +12,8 @@
 #include <osgDB/WriteFile>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::app;
@@ -148,6 +150,88 @@ TEST_CASE("four walls stitched together are one panorama, without a seam")
     CHECK(largest < 1.5 / 255.0);
     CHECK(sum / count < 0.6 / 255.0);
     CHECK(edges / edgeCount < 0.6 / 255.0);
+}
+
+TEST_CASE("processes that show a wall each have the pixels of one that shows all, photons and edges")
+{
+    // Two walls side by side, one process each, as the nodes of a cluster; one process for both; and one
+    // wall as wide as the two.
+    const TemporaryFolder folder;
+    const auto wall = [](int number, int pixels, int width, int centre)
+    {
+        const std::string name = " name=\"" + std::to_string(number) + "\"";
+        const std::string size = " width=\"" + std::to_string(pixels) + "\" height=\"48\"";
+        return "<WindowConfig><Window" + name + size + "/></WindowConfig><ChannelConfig><Channel" + name +
+               size + " windowIndex=\"" + std::to_string(number) + "\"/></ChannelConfig><ScreenConfig><Screen" +
+               name + " width=\"" + std::to_string(width) + "\" height=\"3000\" originX=\"" +
+               std::to_string(centre) + "\" originY=\"1500\" originZ=\"0\"/></ScreenConfig>";
+    };
+    const std::string rest = "<Near value=\"50\"/><Far value=\"100000\"/><SceneSize value=\"9000\"/>";
+    std::ofstream(folder / "left.xml") << wall(0, 24, 1500, -750) << rest;
+    std::ofstream(folder / "right.xml") << wall(0, 24, 1500, 750) << rest;
+    std::ofstream(folder / "both.xml") << wall(0, 24, 1500, -750) << wall(1, 24, 1500, 750) << rest;
+    std::ofstream(folder / "whole.xml") << wall(0, 48, 3000, 0) << rest;
+    const auto pictures = [&](const std::string& name, int count)
+    {
+        const Outcome outcome = osgraytrace(
+            folder, "--cave " + name + ".xml --head 100 -200 50 0 0 0 --integrator ppm --photons 20000" +
+                        " --seed 7 --aim-at-views false --max-passes 6 --output " + name + ".png " +
+                        dataFile("cornell_box_glass.osgt"));
+        INFO(name << ": " << outcome.errors);
+        REQUIRE(outcome.exitCode == 0);
+        std::vector<osg::ref_ptr<osg::Image>> images;
+        for (int i = 0; i < count; ++i)
+        {
+            const std::string file = count > 1 || osgDB::fileExists(folder / (name + "-0.png"))
+                                         ? name + "-" + std::to_string(i)
+                                         : name;
+            images.push_back(osgDB::readRefImageFile(folder / (file + ".png")));
+            REQUIRE(images.back());
+        }
+        return images;
+    };
+    const osg::ref_ptr<osg::Image> alone[] = {pictures("left", 1)[0], pictures("right", 1)[0]};
+    const auto together = pictures("both", 2);
+    const auto whole = pictures("whole", 1)[0];
+    constexpr int n = 24, height = 48;
+    REQUIRE((whole->s() == 2 * n && whole->t() == height));
+    for (std::size_t w = 0; w < 2; ++w)
+    {
+        REQUIRE((alone[w]->s() == n && alone[w]->t() == height));
+        REQUIRE((together[w]->s() == n && together[w]->t() == height));
+        int different = 0, lit = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < n; ++x)
+            {
+                different += alone[w]->getColor(x, y) != together[w]->getColor(x, y);
+                lit += pixel(*together[w], x, y).length() > 0.2;
+            }
+        CAPTURE(w, lit);
+        CHECK(different == 0);
+        CHECK(lit > n * height / 4);
+    }
+    // Along the edge the walls have, on either side, the values of the wide one, but for the noise of a
+    // pixel's own samples: 4 standard errors, a false alarm in 16,000 choices of the seed for each side.
+    for (int w = 0; w < 2; ++w)
+    {
+        double sum = 0.0, squares = 0.0;
+        int count = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < 4; ++x)
+            {
+                const int column = w == 0 ? n - 1 - x : x;
+                const double difference = (pixel(*alone[w], column, y) - pixel(*whole, column + w * n, y)) *
+                                          osg::Vec3d(1.0, 1.0, 1.0) / 3.0;
+                sum += difference;
+                squares += difference * difference;
+                ++count;
+            }
+        const double mean = sum / count;
+        const double standardError = std::sqrt((squares / count - mean * mean) / count);
+        CAPTURE(w, mean * 255, standardError * 255);
+        CHECK(std::fabs(mean) <= 4.0 * standardError);
+        CHECK(standardError < 2.0 / 255.0);
+    }
 }
 
 TEST_CASE("a wall that the head is behind has no picture, and is named")

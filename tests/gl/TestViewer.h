@@ -136,12 +136,13 @@ inline osg::ref_ptr<osg::ShapeDrawable> sphere(const osg::Vec3& center, float ra
     return drawable;
 }
 
-/// Settings that do not depend on the tester's environment.
+/// Settings that do not depend on the tester's environment, nor pictures on how fast the machine is.
 inline osg::ref_ptr<RayTracedScene> tracedScene(osg::Node* child)
 {
     osg::ref_ptr<RayTracedScene> scene = new RayTracedScene;
     scene->getSettings()->setIntegrator(RayTraceSettings::WHITTED);
     scene->getSettings()->setShadows(false);
+    scene->getSettings()->setFrameBudget(0.0f);
     if (child) scene->addChild(child);
     return scene;
 }

@@ -246,6 +246,53 @@ TEST_CASE("camera rays: orthographic rays start on the near plane and are parall
     CHECK(forward.z == Approx(-1.0));
 }
 
+TEST_CASE("camera rays: window depths along rays are those of the matrix, whichever way depth runs", "[scene]")
+{
+    const Mat4d perspective = glm::perspective(0.8, 1.5, 0.25, 40.0);
+    const Mat4d parallel = glm::ortho(-2.0, 3.0, -1.0, 2.0, 0.25, 40.0);
+    Mat4d oblique = perspective;
+    oblique[0][2] += 0.03; // a near plane that is not at right angles to the view
+    const struct
+    {
+        const char* name;
+        Mat4d matrix;
+        double nearDepth;
+    } cases[] = {{"perspective", perspective, 0.0},
+                 {"off-axis", glm::frustum(0.5, 0.9, 0.2, 0.6, 0.25, 40.0), 0.0},
+                 {"reversed", reversed(perspective), 1.0},
+                 {"infinite", infiniteFrustum(-0.1, 0.3, -0.1, 0.1, 0.25), 0.0},
+                 {"reversed infinite", reversed(infiniteFrustum(-0.1, 0.3, -0.1, 0.1, 0.25)), 1.0},
+                 {"oblique", oblique, 0.0},
+                 {"scaled", perspective * 7.5, 0.0},
+                 {"orthographic", parallel, 0.0},
+                 {"orthographic, reversed", reversed(parallel), 1.0}};
+    for (const auto& c : cases)
+    {
+        CAPTURE(c.name);
+        const View view = viewOf(c.matrix, kLookAt);
+        const std::optional<CameraRays> rays = cameraRays(view, Vec3d(0.0));
+        REQUIRE(rays);
+        CHECK(rays->nearDepth == c.nearDepth);
+        for (const float x : {10.5f, 900.5f, 1900.5f})
+        {
+            const float y = 700.5f;
+            const Ray ray = rayAt(*rays, x, y);
+            for (const double distance : {0.5, 3.0, 30.0})
+            {
+                const double s = rays->nearS + distance / glm::length(ray.direction);
+                const Vec4d p = view.viewFromWorld * Vec4d(ray.origin + s * ray.direction, 1.0);
+                CHECK(p.z < 0.0); // away from the eye
+                const Vec4d clip = view.clipFromView * p;
+                const double change = rays->orthographic
+                                          ? s
+                                          : 1.0 / s - 1.0 - x * rays->depthDx - y * rays->depthDy;
+                CHECK(rays->nearDepth + rays->depthSlope * change ==
+                      Approx(0.5 + 0.5 * clip.z / clip.w).margin(1e-6));
+            }
+        }
+    }
+}
+
 TEST_CASE("camera rays: depth rows give the clip coordinates of engine points", "[scene]")
 {
     const Vec3d origin(100.0, -50.0, 25.0);
@@ -312,6 +359,8 @@ TEST_CASE("stability 3: camera rays of a scaled world in a scaled unit are the s
             CHECK(rays->direction == expected->direction);
             CHECK(rays->directionDx == expected->directionDx);
             CHECK(rays->directionDy == expected->directionDy);
+            CHECK(rays->nearDepth == expected->nearDepth);
+            CHECK(rays->depthSlope == expected->depthSlope);
             // Clip coordinates may have a common factor.
             const float factor = rays->wRow == Vec4(0, 0, 0, rays->wRow.w)
                                      ? rays->wRow.w / expected->wRow.w

@@ -1,0 +1,366 @@
+// ViewTracerTest.cpp - frames under a budget, by a clock that each tile moves on: what is shown is
+// whole. SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+
+#include "osgRayTrace/bridge/RenderOptionsFromSettings.h"
+#include "osgRayTrace/bridge/ViewTracer.h"
+#include "osgRayTrace/film/Enlarge.h"
+#include "osgRayTrace/film/Film.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <random>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr int kWidth = 340, kHeight = 250, kTiles = 352;
+constexpr double kBudget = 80.0, kTile = 1.0; // a tile, and each other look at the clock
+
+View viewAt(double x)
+{
+    return perspectiveView({278 + x, 278, 20}, {278, 250, 559}, {0, 1, 0}, 50.0, kWidth, kHeight);
+}
+
+struct Pixels
+{
+    int width = 0, height = 0;
+    std::vector<uint8_t> rgba;
+    std::vector<float> depth;
+
+    void resize(int w, int h)
+    {
+        width = w;
+        height = h;
+        rgba.assign(4 * std::size_t(w * h), uint8_t(123)); // values are lost
+        depth.assign(std::size_t(w * h), 0.123f);
+    }
+};
+
+bool sameTile(const Pixels& a, const Pixels& b, int tile)
+{
+    const int across = (a.width + kTileSize - 1) / kTileSize;
+    const int left = tile % across * kTileSize, bottom = tile / across * kTileSize;
+    for (int y = bottom; y < std::min(bottom + kTileSize, a.height); ++y)
+        for (int x = left; x < std::min(left + kTileSize, a.width); ++x)
+        {
+            const auto p = std::size_t(y * a.width + x);
+            if (std::memcmp(&a.rgba[4 * p], &b.rgba[4 * p], 4) != 0 || a.depth[p] != b.depth[p])
+                return false;
+        }
+    return true;
+}
+
+/// What each pass of a view makes, by a session that nobody interrupts.
+class References
+{
+public:
+    References(std::shared_ptr<const TracedScene> traced, const RayTraceSettings& settings)
+        : _traced(std::move(traced)), _options(renderOptionsFromSettings(settings))
+    {
+    }
+
+    const Pixels& image(double x, int divider, int passes, float exposure)
+    {
+        Pixels& pixels = _images[{x, divider, passes, exposure}];
+        if (pixels.width > 0) return pixels;
+        View view = viewAt(x);
+        view.width = reducedSize(kWidth, divider);
+        view.height = reducedSize(kHeight, divider);
+        pixels.resize(view.width, view.height);
+        RenderSession session(std::make_shared<Workers>(1));
+        session.setScene(_traced);
+        session.setView(view);
+        session.setOptions(_options);
+        StopRule rule;
+        rule.passes = passes;
+        session.render(rule);
+        session.resolveDisplay({exposure, false}, pixels.rgba.data(), pixels.depth.data());
+        return pixels;
+    }
+
+private:
+    std::shared_ptr<const TracedScene> _traced;
+    RenderOptions _options;
+    std::map<std::tuple<double, int, int, float>, Pixels> _images;
+};
+
+/// A viewer without OpenGL: it does as RayTraceDrawable does.
+struct Screen
+{
+    explicit Screen(double tile = kTile)
+        : tileSeconds(tile), tracer([this] { return clock += tileSeconds; })
+    {
+        settings->setIntegrator(RayTraceSettings::PATH);
+        settings->setMaxBounces(1);
+        settings->setMaxPasses(3);
+        version.scene = cornellBox().build();
+        version.workers = std::make_shared<Workers>(1);
+        version.photons = std::make_shared<PhotonPasses>();
+        takeSettings();
+    }
+
+    void takeSettings() { version.settings = new RayTraceSettings(*settings); }
+
+    void frame(double x, bool keepsDisplay = true)
+    {
+        const FrameBudget budget{kBudget, settings->getDegradeWhileMoving()};
+        if (!keepsDisplay) display = Pixels();
+        const bool fits = display.width == kWidth && display.height == kHeight;
+        const bool written =
+            tracer.trace(version, viewAt(x), budget, fits ? display.rgba.data() : nullptr,
+                         fits ? display.depth.data() : nullptr);
+        resolved = tracer.needsResolve(version);
+        if (resolved)
+        {
+            if (tracer.shownWidth() != display.width || tracer.shownHeight() != display.height)
+                display.resize(tracer.shownWidth(), tracer.shownHeight());
+            tracer.resolve(display.rgba.data(), display.depth.data());
+        }
+        if (written || resolved) shown = display;
+        if (shown.width < kWidth) reduced = shown;
+        tracer.noteShown();
+    }
+
+    /// Tiles of the picture that are those of a whole pass; those of the enlarged picture of
+    /// reduced resolution; none of both.
+    struct Tiles
+    {
+        int traced = 0, enlarged = 0, torn = 0;
+    };
+    Tiles tiles(double x, References& references) const
+    {
+        Tiles result;
+        const bool small = shown.width < kWidth;
+        const int divider = small ? tracer.frame().divider : 1;
+        Pixels under;
+        if (!small && reduced.width > 0)
+        {
+            under.resize(kWidth, kHeight);
+            Pixels from = reduced;
+            enlarge({from.width, from.height, from.rgba.data(), from.depth.data()},
+                    {kWidth, kHeight, under.rgba.data(), under.depth.data()}, Workers(1));
+        }
+        for (int tile = 0; tile < tilesOf(shown.width, shown.height); ++tile)
+        {
+            bool traced = false;
+            for (int pass = 1; pass <= settings->getMaxPasses() && !traced; ++pass)
+            {
+                const Pixels& whole = references.image(x, divider, pass, settings->getExposure());
+                traced = whole.width == shown.width && sameTile(shown, whole, tile);
+            }
+            const bool enlarged = !traced && under.width > 0 && sameTile(shown, under, tile);
+            result.traced += traced;
+            result.enlarged += enlarged;
+            result.torn += !traced && !enlarged;
+        }
+        return result;
+    }
+
+    double clock = 0.0, tileSeconds;
+    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    SceneVersion version;
+    ViewTracer tracer;
+    Pixels display, shown, reduced; ///< reduced: as it was shown last
+    bool resolved = false;
+};
+
+} // namespace
+
+TEST_CASE("frame budget: a moving view is whole in each frame, of one resolution, in time",
+          "[bridge]")
+{
+    Screen screen;
+    References references(screen.version.scene, *screen.settings);
+    std::vector<int> dividers;
+    for (int i = 0; i < 30; ++i)
+    {
+        screen.frame(i);
+        dividers.push_back(screen.tracer.frame().divider);
+        const Screen::Tiles tiles = screen.tiles(i, references);
+        CAPTURE(i, dividers.back());
+        CHECK(tiles.torn == 0);
+        CHECK(tiles.enlarged == 0);
+        CHECK(screen.tracer.frame().seconds < 1.1 * kBudget);
+        CHECK(screen.tracer.frame().traceSeconds > (i > 2 ? 0.7 : 0.2) * kBudget);
+    }
+    CHECK(dividers.back() > 1);
+    CHECK(std::count(dividers.begin() + 2, dividers.end(), dividers.back()) == 28);
+}
+
+TEST_CASE("frame budget: at rest full resolution fills in, passes add up, then nothing is done",
+          "[bridge]")
+{
+    Screen screen;
+    References references(screen.version.scene, *screen.settings);
+    for (int i = 0; i < 5; ++i)
+        screen.frame(i);
+    int before = 0, mixed = 0;
+    bool whole = false;
+    for (int i = 0;
+         i < 100 && (screen.tracer.progress().passes < 3 || screen.tracer.frame().divider > 1); ++i)
+    {
+        screen.frame(4.0);
+        if (screen.shown.width < kWidth) continue; // not settled yet
+        const Screen::Tiles tiles = screen.tiles(4.0, references);
+        CAPTURE(i);
+        CHECK(tiles.torn == 0);
+        CHECK(tiles.traced >= before);
+        CHECK((!whole || tiles.enlarged == 0));
+        CHECK(screen.tracer.frame().seconds < 1.1 * kBudget);
+        mixed += tiles.enlarged > 0;
+        whole = tiles.enlarged == 0;
+        before = tiles.traced;
+    }
+    CHECK(mixed > 3); // some 70 of 352 tiles in a frame
+    CHECK(screen.tracer.progress().passes == 3);
+    const Pixels& last = references.image(4.0, 1, 3, 0.0f);
+    CHECK((screen.shown.rgba == last.rgba));
+    CHECK((screen.shown.depth == last.depth));
+
+    const uint64_t rays = screen.tracer.progress().rays.total();
+    for (int i = 0; i < 3; ++i)
+    {
+        const double clock = screen.clock;
+        screen.frame(4.0);
+        CHECK_FALSE(screen.resolved);
+        CHECK(screen.clock - clock < 10.0 * kTile); // looks at the clock, no tile
+    }
+    CHECK(screen.tracer.progress().rays.total() == rays);
+}
+
+TEST_CASE("frame budget: moved, stopped, slowed down and redrawn at random no tile is ever torn",
+          "[bridge]")
+{
+    Screen screen;
+    References references(screen.version.scene, *screen.settings);
+    std::mt19937 random(5);
+    double x = 0.0;
+    int stillFrames = 0, mixed = 0;
+    for (int i = 0; i < 200; ++i)
+    {
+        if (stillFrames-- <= 0)
+        {
+            x = double(random() % 4); // back to where it was, too
+            stillFrames = random() % 3 == 0 ? int(random() % 24) : 0;
+        }
+        screen.tileSeconds =
+            random() % 10 == 0 ? 4.0 * kTile : kTile; // another program takes the machine
+        screen.frame(x, random() % 20 != 0);
+        const Screen::Tiles tiles = screen.tiles(x, references);
+        CAPTURE(i, x, screen.tracer.frame().divider);
+        mixed += tiles.enlarged > 0;
+        REQUIRE(tiles.torn == 0);
+    }
+    CHECK(mixed > 5);
+}
+
+TEST_CASE(
+    "frame budget: an exposure that changes while full resolution fills in is that of all tiles",
+    "[bridge]")
+{
+    Screen screen;
+    References references(screen.version.scene, *screen.settings);
+    for (int i = 0; i < 3; ++i)
+        screen.frame(i);
+    for (int i = 0; i < 4; ++i)
+        screen.frame(2.0);
+    const Screen::Tiles before = screen.tiles(2.0, references);
+    CHECK(before.enlarged > 100);
+    const Pixels old = screen.shown;
+    screen.settings->setExposure(1.0f);
+    screen.takeSettings();
+    screen.frame(2.0);
+    CHECK(screen.tiles(2.0, references).traced > before.traced);
+    for (int tile = 0; tile < kTiles; ++tile)
+        CHECK_FALSE(sameTile(screen.shown, old, tile));
+}
+
+TEST_CASE("frame budget: the first image and one after a jump take a frame", "[bridge]")
+{
+    for (const double tile : {0.02, 0.3, 1.0, 3.0})
+    {
+        CAPTURE(tile);
+        Screen screen(tile);
+        screen.frame(0.0);
+        CHECK(screen.tracer.hasImage());
+        const double most = 1.1 * kBudget + 8.0 * tile;
+        CHECK(screen.tracer.frame().seconds < most);
+        for (int i = 0; i < 30; ++i)
+            screen.frame(0.0);
+        screen.frame(200.0);
+        CHECK(screen.tracer.frame().seconds < most);
+    }
+}
+
+TEST_CASE("frame budget: what becomes five times as slow is late once, not twice as much",
+          "[bridge]")
+{
+    Screen screen(0.3);
+    for (int i = 0; i < 20; ++i)
+        screen.frame(i);
+    screen.tileSeconds = 1.5;
+    screen.frame(20.0);
+    CHECK(screen.tracer.hasImage());
+    CHECK(screen.tracer.frame().seconds < 2.0 * kBudget);
+    for (int i = 21; i < 40; ++i)
+    {
+        screen.frame(i);
+        CHECK(screen.tracer.frame().seconds < 1.1 * kBudget);
+    }
+}
+
+TEST_CASE(
+    "frame budget: without degrading a moving view is of full resolution, however long it takes",
+    "[bridge]")
+{
+    Screen screen;
+    References references(screen.version.scene, *screen.settings);
+    screen.settings->setDegradeWhileMoving(false);
+    for (int i = 0; i < 4; ++i)
+    {
+        screen.frame(i);
+        CHECK(screen.tracer.frame().divider == 1);
+        CHECK(screen.tracer.progress().passes >= 1);
+        CHECK(screen.tiles(i, references).traced == kTiles);
+    }
+    screen.frame(3.0); // at rest the budget holds
+    CHECK(screen.tracer.frame().seconds < 1.1 * kBudget);
+}
+
+TEST_CASE("frame budget: a scene that changes is not held by an image that is not shown",
+          "[bridge]")
+{
+    Screen screen;
+    for (int i = 0; i < 20; ++i)
+        screen.frame(0.0); // both sessions have had it
+    std::vector<std::weak_ptr<const TracedScene>> scenes;
+    for (int i = 0; i < 4; ++i)
+    {
+        scenes.push_back(screen.version.scene);
+        screen.version.scene = cornellBox().build();
+        screen.frame(0.0);
+    }
+    CHECK(scenes[0].expired());
+    CHECK(scenes[1].expired());
+    CHECK(scenes[2].expired());
+}
+
+TEST_CASE("frame budget: none, then so many passes as are set, as ever", "[bridge]")
+{
+    Screen screen;
+    screen.settings->setPassesPerFrame(2);
+    screen.takeSettings();
+    for (const int expected : {2, 3, 3})
+    {
+        screen.tracer.trace(screen.version, viewAt(0.0));
+        CHECK(screen.tracer.progress().passes == expected);
+        CHECK(screen.tracer.shownWidth() == kWidth);
+    }
+}

@@ -1,0 +1,118 @@
+// FrameBudgetTest.cpp - frame budgets in a viewer: whose they are, and what is seen under them.
+// Layer: tests. SPDX-License-Identifier: MIT
+#include "TestViewer.h"
+#include "tests/Catch.h"
+
+#include <osg/ValueObject>
+#include <osgDB/WriteFile>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::test;
+
+namespace
+{
+
+constexpr int kSize = 128;
+constexpr float kEndless = 60000.0f; // [ms] no machine is that slow
+constexpr float kNothing = 1e-3f;    // [ms] nor that fast
+
+const osg::Vec4 kGreen(0.0f, 1.0f, 0.0f, 1.0f);
+
+int passes(const RayTracedScene& scene)
+{
+    return scene.getDrawable()->getStatistics().passes;
+}
+
+int divider(const RayTracedScene& scene)
+{
+    return scene.getDrawable()->getStatistics().resolutionDivider;
+}
+
+} // namespace
+
+TEST_CASE("frame budget: a frame with time for all passes makes them all", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = tracedScene(unlitSquare(1.0f, kGreen).get());
+    scene->getSettings()->setMaxPasses(12);
+    scene->getSettings()->setFrameBudget(kEndless);
+    TestViewer view(kSize, kSize, scene.get());
+    view.frames(2); // the first knows no costs
+    CHECK(passes(*scene) == 12);
+    CHECK(divider(*scene) == 1);
+    CHECK(scene->getDrawable()->getStatistics().frameSeconds > 0.0);
+}
+
+TEST_CASE("frame budget: a camera's own wins, of any type", "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = tracedScene(unlitSquare(1.0f, kGreen).get());
+    scene->getSettings()->setFrameBudget(kEndless);
+    scene->getSettings()->setMaxPasses(50);
+    TestViewer view(kSize, kSize, scene.get());
+    SECTION("float")
+    {
+        view.camera().setUserValue("osgRayTrace.frameBudget", 0.0f);
+    }
+    SECTION("double")
+    {
+        view.camera().setUserValue("osgRayTrace.frameBudget", 0.0);
+    }
+    SECTION("int")
+    {
+        view.camera().setUserValue("osgRayTrace.frameBudget", 0);
+    }
+    SECTION("no number: as none")
+    {
+        view.camera().setUserValue("osgRayTrace.frameBudget",
+                                   std::numeric_limits<double>::quiet_NaN());
+    }
+    for (int i = 1; i <= 3; ++i)
+    {
+        view.frames();
+        CHECK(passes(*scene) == i); // passes-per-frame
+    }
+}
+
+TEST_CASE("frame budget: with no time at all a moving view is coarse and smooth, and at rest "
+          "becomes fine",
+          "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = tracedScene(sphere(osg::Vec3(), 2.5f, kGreen).get());
+    TestViewer exact(kSize, kSize, scene.get());
+    const osg::ref_ptr<osg::Image> fine = exact.frames(4);
+
+    osg::ref_ptr<RayTracedScene> budgeted = tracedScene(sphere(osg::Vec3(), 2.5f, kGreen).get());
+    budgeted->getSettings()->setFrameBudget(kNothing);
+    budgeted->getSettings()->setMaxPasses(4);
+    TestViewer view(kSize, kSize, budgeted.get());
+    view.look(osg::Vec3d(0.0, 0.3, 10.0));
+    view.frames();
+    view.look(osg::Vec3d(0.0, 0.0, 10.0));
+    const osg::ref_ptr<osg::Image> coarse = view.frames();
+    CHECK(divider(*budgeted) > 4);
+    CHECK(meanDifference(*coarse, *fine) < 20.0); // the same picture
+    CHECK(meanDifference(*coarse, *fine) > 0.5);
+    int steps =
+        0; // in the middle of the sphere neighbours are alike: blocks would differ from theirs
+    for (int x = 50; x < 78; ++x)
+        steps = std::max(
+            steps, std::abs(int(pixel(*coarse, x, 64).g()) - int(pixel(*coarse, x + 1, 64).g())));
+    CHECK(steps < 10);
+    if (const char* folder = std::getenv("OSGRAYTRACE_PICTURES"))
+    {
+        osgDB::writeImageFile(*coarse, std::string(folder) + "/budget-coarse.png");
+        view.frames(20);
+        osgDB::writeImageFile(*view.frames(), std::string(folder) + "/budget-mixed.png");
+    }
+
+    // At least a tile in each frame: 64 tiles, four passes.
+    for (int i = 0; i < 300 && (divider(*budgeted) > 1 || passes(*budgeted) < 4); ++i)
+        view.frames();
+    CHECK(divider(*budgeted) == 1);
+    CHECK(passes(*budgeted) == 4);
+    CHECK(equal(*view.frames(), *fine));
+}

@@ -1,0 +1,311 @@
+// ProjectionsTest.cpp - edges and depths of any projection are those that OpenGL draws. Layer:
+// tests. SPDX-License-Identifier: MIT
+#include "TestViewer.h"
+#include "tests/Catch.h"
+
+#include <osg/Depth>
+#include <osgDB/WriteFile>
+
+#include <cstdlib>
+#include <iostream>
+#include <random>
+#include <string>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::test;
+
+namespace
+{
+
+constexpr int kSize = 96;
+constexpr double kDepthUnit = 1.0 / 16777215.0; ///< of OSMesa's 24 bits
+
+/// Red, green and blue: means of samples tell how much of each is seen in a pixel.
+const osg::Vec4 kColors[] = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}};
+
+struct Projection
+{
+    osg::Matrixd matrix;
+    double nearest = 1.0, farthest = 20.0; ///< along -z of the eye, of what is looked at
+    bool reversed = false;
+    std::string name;
+};
+
+/// Clip coordinates, row vectors: x and y, and the planes that -1 and 1 of z are.
+osg::Matrixd infinite(double left, double right, double bottom, double top, double zNear)
+{
+    osg::Matrixd m = osg::Matrixd::frustum(left, right, bottom, top, zNear, 2.0 * zNear);
+    m(2, 2) = -1.0;
+    m(3, 2) = -2.0 * zNear;
+    return m;
+}
+
+/// Of all kinds, by a number: off-axis, sheared, tiled, orthographic and oblique; with finite or
+/// infinite far planes, ordinary and reversed depths.
+Projection randomProjection(int index)
+{
+    std::mt19937 random(1000u + static_cast<unsigned int>(index));
+    const auto uniform = [&](double from, double to)
+    { return from + (to - from) * (random() / 4294967296.0); };
+    const double zNear = 0.5, zFar = 40.0;
+    const double width = uniform(0.3, 0.8), height = uniform(0.3, 0.8);
+    // As far to the side as a wall beside its eye is.
+    const double left = uniform(-1.0, 0.6), bottom = uniform(-1.0, 0.6);
+
+    Projection p;
+    const bool orthographic = index % 4 == 3;
+    const bool infinitelyFar = index % 4 == 1;
+    p.reversed = index % 3 == 2;
+    p.name = orthographic ? "orthographic" : infinitelyFar ? "infinite" : "off-axis";
+    if (orthographic)
+        p.matrix = osg::Matrixd::ortho(10 * left, 10 * (left + width), 10 * bottom,
+                                       10 * (bottom + height), zNear, zFar);
+    else if (infinitelyFar)
+        p.matrix = infinite(left, left + width, bottom, bottom + height, zNear);
+    else
+        p.matrix = osg::Matrixd::frustum(left, left + width, bottom, bottom + height, zNear, zFar);
+    if (index % 5 == 1)
+    {
+        // x and y move with z, as of an oblique or turned screen.
+        osg::Matrixd shear;
+        shear(2, 0) = uniform(-0.4, 0.4);
+        shear(2, 1) = uniform(-0.4, 0.4);
+        p.matrix.preMult(shear);
+        p.name += ", sheared";
+    }
+    if (index % 5 == 2)
+    {
+        // One of 3 x 2 tiles of the picture.
+        p.matrix.postMult(
+            osg::Matrixd::translate(int(random() % 3) * 2 - 2, int(random() % 2) * 2 - 1, 0) *
+            osg::Matrixd::scale(3, 2, 1));
+        p.name += ", tile";
+    }
+    if (p.reversed)
+    {
+        p.matrix.postMult(osg::Matrixd::scale(1, 1, -1));
+        p.name += ", reversed";
+    }
+    if (index % 7 == 6)
+    {
+        for (int i = 0; i < 16; ++i)
+            p.matrix.ptr()[i] *= 7.5; // clip coordinates are homogeneous
+        p.name += ", scaled";
+    }
+    return p;
+}
+
+/// The point that is seen at x and y of the picture, from -1 to 1, at a distance along -z.
+osg::Vec3d seenAt(const osg::Matrixd& projection, double x, double y, double distance)
+{
+    // x w = X and y w = Y of the clip coordinates are two equations for the two other coordinates.
+    const auto at = [&](int column, double factor, int row)
+    { return projection(row, column) - factor * projection(row, 3); };
+    const double z = -distance;
+    const double a = at(0, x, 0), b = at(0, x, 1), c = at(1, y, 0), d = at(1, y, 1);
+    const double e = -(at(0, x, 2) * z + at(0, x, 3)), f = -(at(1, y, 2) * z + at(1, y, 3));
+    const double determinant = a * d - b * c;
+    return {(e * d - b * f) / determinant, (a * f - e * c) / determinant, z};
+}
+
+/// Triangles that fill a part of the picture each: tilted so that they reach through each other, or
+/// each at one distance.
+osg::ref_ptr<osg::Geometry> triangles(const Projection& p, const osg::Matrixd& worldFromView,
+                                      int index, bool tilted)
+{
+    std::mt19937 random(2000u + static_cast<unsigned int>(index));
+    const auto uniform = [&](double from, double to)
+    { return from + (to - from) * (random() / 4294967296.0); };
+    osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array;
+    for (const osg::Vec4& color : kColors)
+    {
+        const double x = uniform(-0.4, 0.4), y = uniform(-0.4, 0.4), turn = uniform(0.0, 6.0);
+        double distance = 0.0;
+        for (int corner = 0; corner < 3; ++corner)
+        {
+            const double angle = turn + corner * 2.0 * osg::PI / 3.0;
+            if (tilted || corner == 0) distance = uniform(p.nearest, p.farthest);
+            vertices->push_back(
+                seenAt(p.matrix, x + 0.7 * std::cos(angle), y + 0.7 * std::sin(angle), distance) *
+                worldFromView);
+            colors->push_back(color);
+        }
+    }
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(vertices);
+    geometry->setColorArray(colors, osg::Array::BIND_PER_VERTEX);
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 9));
+    geometry->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    geometry->setUseDisplayList(false);
+    return geometry;
+}
+
+struct Shot
+{
+    osg::ref_ptr<osg::Image> color, depth;
+};
+
+Shot shot(osg::Node* node, const Projection& p, const osg::Matrixd& viewFromWorld)
+{
+    TestViewer view(kSize, kSize, node);
+    view.camera().setProjectionResizePolicy(osg::Camera::FIXED);
+    view.camera().setProjectionMatrix(p.matrix);
+    view.camera().setViewMatrix(viewFromWorld);
+    if (p.reversed)
+    {
+        view.camera().setClearDepth(0.0);
+        view.camera().getOrCreateStateSet()->setAttributeAndModes(
+            new osg::Depth(osg::Depth::GREATER), osg::StateAttribute::ON);
+    }
+    Shot made{view.frames(), nullptr};
+    made.depth = new osg::Image(*view.capture->getDepthImage(), osg::CopyOp::DEEP_COPY_ALL);
+    return made;
+}
+
+/// The one colour that all of the pixel has, 3: the background; -1: it has several.
+int pure(const osg::Image& image, int x, int y)
+{
+    const osg::Vec4 color = pixel(image, x, y);
+    for (int c = 0; c < 3; ++c)
+        if (color[c] == 255.0f) return c;
+    return color.r() + color.g() + color.b() == 0.0f ? 3 : -1;
+}
+
+double depthAt(const Shot& shot, int x, int y)
+{
+    return *reinterpret_cast<const float*>(shot.depth->data(x, y));
+}
+
+/// Window depth, by double, where a triangle is in the middle of a pixel.
+struct ExactDepth
+{
+    double depth;
+    double
+        tolerance; ///< what vertices and matrices that are floats are worth, for OpenGL as for rays
+};
+
+ExactDepth exactDepth(const osg::Geometry& geometry, int triangle,
+                      const osg::Matrixd& viewFromWorld, const osg::Matrixd& projection, int x,
+                      int y)
+{
+    // The plane through the corners' window coordinates: depth is linear there in any projection.
+    const auto& vertices = static_cast<const osg::Vec3Array&>(*geometry.getVertexArray());
+    osg::Vec3d corners[3];
+    for (int i = 0; i < 3; ++i)
+        corners[i] = osg::Vec3d(vertices[static_cast<std::size_t>(3 * triangle + i)]) *
+                     (viewFromWorld * projection);
+    const osg::Vec3d normal = (corners[1] - corners[0]) ^ (corners[2] - corners[0]);
+    const osg::Vec3d at((2.0 * x + 1.0) / kSize - 1.0, (2.0 * y + 1.0) / kSize - 1.0, 0.0);
+    const osg::Vec3d offset = corners[0] - at;
+    const double clip = (normal * offset) / normal.z();
+    const double slope =
+        (std::fabs(normal.x()) + std::fabs(normal.y())) / std::fabs(normal.z()) / kSize;
+
+    // Along the slope a ten-thousandth of a pixel; and two spacings of floats at the point's coordinates, in
+    // depth: where the vertices are is rounded, where the point is between them is, too.
+    const double a = projection(2, 2), b = projection(3, 2), c = projection(2, 3),
+                 d = projection(3, 3);
+    const double z = (b - clip * d) / (clip * c - a);
+    const osg::Vec3d point =
+        seenAt(projection, at.x(), at.y(), -z) * osg::Matrixd::inverse(viewFromWorld);
+    const double moved = z + point.length() * 0x1p-22;
+    const double spacing = 0.5 * std::fabs((a * moved + b) / (c * moved + d) - clip);
+    return {0.5 + 0.5 * clip, 1e-4 * slope + spacing};
+}
+
+struct Agreement
+{
+    int wrong = 0;      ///< pixels whose edge is displaced by half a pixel or more
+    int edges = 0;      ///< pixels with an edge
+    int inner = 0;      ///< pixels whose depth can be compared
+    double shift = 0.0; ///< mean signed displacement of edges [pixels]
+    double nearestInner = 0.0, nearestEdge = 0.0; ///< largest 1 - depth, or depth if reversed
+    double units = 0.0; ///< largest difference of depth
+    double both = 0.0, traced = 0.0, drawn = 0.0; ///< less the tolerance; of each from the truth
+};
+
+/// A pixel whose middle OpenGL finds covered shows something of it, and one that shows nothing else
+/// is covered in the middle: otherwise an edge is half a pixel away.
+Agreement agreement(const Shot& traced, const Shot& drawn, const osg::Geometry& geometry,
+                    const osg::Matrixd& viewFromWorld, const Projection& p)
+{
+    Agreement result;
+    double shift = 0.0;
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x)
+        {
+            const int expected = pure(*drawn.color, x, y);
+            const osg::Vec4 seen = pixel(*traced.color, x, y);
+            const int all = pure(*traced.color, x, y);
+            const float covered = seen.r() + seen.g() + seen.b();
+            const bool some = expected == 3 ? covered < 254.0f : seen[expected] > 0.0f;
+            result.wrong += !some || (all >= 0 && all != expected);
+            result.edges += all < 0;
+            const double nearness =
+                p.reversed ? depthAt(traced, x, y) : 1.0 - depthAt(traced, x, y);
+            double& nearest = all < 0 ? result.nearestEdge : result.nearestInner;
+            nearest = std::max(nearest, nearness);
+            shift += (covered - (expected == 3 ? 0.0 : 255.0)) / 255.0;
+            if (all < 0 || all == 3 || all != expected) continue;
+            ++result.inner;
+            const ExactDepth exact = exactDepth(geometry, all, viewFromWorld, p.matrix, x, y);
+            const double t = depthAt(traced, x, y), d = depthAt(drawn, x, y);
+            const auto units = [&](double a, double b)
+            { return (std::fabs(a - b) - exact.tolerance) / kDepthUnit; };
+            result.units = std::max(result.units, std::fabs(t - d) / kDepthUnit);
+            result.both = std::max(result.both, units(t, d));
+            result.traced = std::max(result.traced, units(t, exact.depth));
+            result.drawn = std::max(result.drawn, units(d, exact.depth));
+        }
+    result.shift = shift / std::max(1, result.edges);
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("projections: edges and depths of twenty kinds are those of the rasterizer", "[gl]")
+{
+    const osg::Matrixd viewFromWorld = osg::Matrixd::lookAt(
+        osg::Vec3d(0.375, -0.625, 0.25), osg::Vec3d(1.5, 2.0, 0.5), osg::Vec3d(0, 0, 1));
+    const osg::Matrixd worldFromView = osg::Matrixd::inverse(viewFromWorld);
+    const bool tilted = GENERATE(true, false);
+    Agreement worst;
+    for (int index = 0; index < 20; ++index)
+    {
+        const Projection p = randomProjection(index);
+        CAPTURE(index, p.name, tilted);
+        const osg::ref_ptr<osg::Geometry> geometry = triangles(p, worldFromView, index, tilted);
+        const Shot drawn = shot(geometry.get(), p, viewFromWorld);
+        const osg::ref_ptr<RayTracedScene> scene = tracedScene(geometry.get());
+        scene->getSettings()->setPassesPerFrame(64);
+        const Shot traced = shot(scene.get(), p, viewFromWorld);
+        REQUIRE(scene->getDrawable()->getStatistics().passes == 64);
+        if (const char* folder = std::getenv("OSGRAYTRACE_TEST_PICTURES"))
+        {
+            const std::string name = std::string(folder) + "/projection-" + std::to_string(index) +
+                                     (tilted ? "-tilted" : "-facing");
+            osgDB::writeImageFile(*drawn.color, name + "-osg.png");
+            osgDB::writeImageFile(*traced.color, name + "-traced.png");
+        }
+        const Agreement same = agreement(traced, drawn, *geometry, viewFromWorld, p);
+        CHECK(same.wrong == 0);
+        CHECK(std::fabs(same.shift) < 0.05);
+        CHECK(same.traced <= 1.0);
+        CHECK(same.both <= 3.0); // OSMesa's own are up to 1.7 from the truth
+        // Pixels whose first sample missed have no depth: right in front of the background.
+        if (!tilted) CHECK(same.nearestEdge <= same.nearestInner + 2.0 * kDepthUnit);
+        CHECK(same.edges > 50);
+        CHECK(same.inner > 800);
+        worst.shift = std::max(worst.shift, std::fabs(same.shift));
+        worst.units = std::max(worst.units, same.units);
+        worst.both = std::max(worst.both, same.both);
+        worst.traced = std::max(worst.traced, same.traced);
+        worst.drawn = std::max(worst.drawn, same.drawn);
+    }
+    std::cout << "twenty projections, " << (tilted ? "tilted" : "facing")
+              << ": edges shifted by up to " << worst.shift << " pixels; depths differ by "
+              << worst.units << " units, by " << worst.both
+              << " more than floats are worth; from the truth traced " << worst.traced << ", drawn "
+              << worst.drawn << std::endl;
+}
