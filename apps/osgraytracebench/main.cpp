@@ -10,6 +10,7 @@
 #include "apps/osgraytracebench/PickMode.h"
 #include "apps/osgraytracebench/ReprojectMode.h"
 #include "apps/osgraytracebench/UpdateMode.h"
+#include "apps/osgraytracebench/UpsampleMode.h"
 #include "apps/osgraytracebench/report/CompareMode.h"
 #include "apps/osgraytracebench/report/ReportMode.h"
 
@@ -19,6 +20,7 @@
 #include <exception>
 #include <functional>
 #include <string>
+#include <vector>
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::bench;
@@ -45,7 +47,8 @@ struct CommandLine
     CommandLine()
     {
         for (CLI::App* rows :
-             {&limit, &features, &photons, &update, &pick, &interactive, &denoise, &reproject})
+             {&limit, &features, &photons, &update, &pick, &interactive, &denoise, &reproject,
+              &upsample})
             rows->add_option("--json", json, "write the rows to this file as well");
 
         photons
@@ -66,8 +69,7 @@ struct CommandLine
             ->capture_default_str();
         photons.add_option("--reference-a", photonsOptions.referenceA,
                            "linear picture of the diffuse box; rendered if not given");
-        photons.add_option("--reference-b", photonsOptions.referenceB,
-                           "of the box with a mirror");
+        photons.add_option("--reference-b", photonsOptions.referenceB, "of the box with a mirror");
         photons.add_option("--reference-c", photonsOptions.referenceC,
                            "of the box with a glass sphere");
         photons
@@ -81,8 +83,9 @@ struct CommandLine
         photons.add_option("--only", photonsOptions.only,
                            "parts whose name holds this: lookup, tracing, error");
 
-        interactive
-            .add_option("--width", interactiveOptions.width, "width of the view [pixels]")
+        upsample.add_option("--pictures", pictures, "write the pictures to this folder as well");
+        upsample.add_option("MODEL", models, "measure these files, too");
+        interactive.add_option("--width", interactiveOptions.width, "width of the view [pixels]")
             ->check(CLI::Range(16, 8192))
             ->capture_default_str();
         interactive
@@ -160,20 +163,23 @@ struct CommandLine
         if (reproject) return runRows([&] { return measureReprojection(reprojectOptions); }, json);
         if (compare) return runCompare(before, after, falseAlarmRate);
         app::addPluginPath();
+        if (upsample) return runRows([&] { return measureUpsampling(models, pictures); }, json);
         return runReport(options);
     }
 
     CLI::App application{"Speed and error of osgRayTrace."};
     CLI::App& limit = *application.add_subcommand(
         "limit", "a whole frame, a path traced one and a build against Embree alone");
-    CLI::App& features =
-        *application.add_subcommand("features", "what features cost a scene that does not use them");
+    CLI::App& features = *application.add_subcommand(
+        "features", "what features cost a scene that does not use them");
     CLI::App& photons = *application.add_subcommand(
         "photons", "photon maps against a plain grid and Embree alone; error against time");
     CLI::App& update = *application.add_subcommand(
         "update", "what edits of a large live scene cost, against Embree alone");
-    CLI::App& pick = *application.add_subcommand(
-        "pick", "what a pick costs, against osgUtil's own and one ray");
+    CLI::App& pick =
+        *application.add_subcommand("pick", "what a pick costs, against osgUtil's own and one ray");
+    CLI::App& upsample = *application.add_subcommand(
+        "upsample", "what images of fewer pixels lose, and what it costs to show them");
     CLI::App& interactive = *application.add_subcommand(
         "interactive", "whether the frames of a moving camera keep to their budgets");
     CLI::App& denoise = *application.add_subcommand(
@@ -184,7 +190,8 @@ struct CommandLine
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(
         "compare", "which rows of two reports differ by more than their noise");
-    std::string json, before, after;
+    std::string json, before, after, pictures;
+    std::vector<std::string> models;
     double falseAlarmRate = 0.01;
     ReportOptions options;
     PhotonsOptions photonsOptions;

@@ -208,7 +208,7 @@ std::string fileOf(const std::string& output, const WallPicture& picture)
     return name + '.' + (extension.empty() ? "png" : extension);
 }
 
-void writePictures(osgViewer::Viewer& viewer, const RayTracedScene& scene,
+void writePictures(osgViewer::Viewer& viewer, RayTracedScene& scene,
                    const std::vector<WallPicture>& pictures, const std::string& output)
 {
     scene.getSettings()->setFrameBudget(0.0f); // nobody waits for a frame

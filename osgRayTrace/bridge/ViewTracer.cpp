@@ -22,6 +22,12 @@ constexpr int kSettling = 2;
 /// Share of a frame that is traced in even if all that comes after it takes longer than the budget.
 constexpr double kLeastShare = 0.2;
 
+/// Reduced images are upsampled along edges where that takes no more of the budget; a guess of what it takes
+/// of one thread for a pixel, until it is known [s]; and the share of pixels that may be traced for it.
+constexpr double kUpsampleShare = 0.2;
+constexpr double kUpsampleSeconds = 12e-9;
+constexpr double kMostTraced = 0.25;
+
 double steadySeconds()
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -42,6 +48,8 @@ bool sameButForRounding(const View& a, const View& b)
     }
     return rounded == b;
 }
+
+double pixelsOf(const View& view) { return double(view.width) * view.height; }
 
 bool same(const ToneMap& a, const ToneMap& b)
 {
@@ -69,6 +77,7 @@ bool ViewTracer::takeInputs(const SceneVersion& version, const View& pass)
         _workers = version.workers;
         _session = std::make_unique<RenderSession>(version.workers, version.photons);
         _reduced = std::make_unique<RenderSession>(version.workers, version.photons);
+        _upsampleSeconds = kUpsampleSeconds / _workers->threads();
         _surfacesOf = nullptr;
         _imageOf = nullptr;
         _history.drop();
@@ -129,6 +138,8 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
         else
             traceStill(frame);
     }
+    _upsamples = budget.seconds > 0.0 &&
+                 _upsampleSeconds * pixelsOf(_view) <= kUpsampleShare * budget.seconds;
     _showing = _shown == Shown::Reduced                  ? Showing::Reduced
                : _shown == Shown::Mixed && _imageChanged ? Showing::FirstMixed
                                                          : Showing::Whole;
@@ -144,7 +155,7 @@ void ViewTracer::setDeadline(double budget, bool moved)
                             : _shown == Shown::Reduced ? Showing::FirstMixed
                                                        : Showing::Whole;
     double& after = _afterSeconds[static_cast<int>(showing)];
-    const double pixels = double(_view.width) * _view.height;
+    const double pixels = pixelsOf(_view);
     if (after == 0.0 && showing != Showing::Reduced) after = pixels * 2e-9; // a guess
     double seconds = budget - after;
     // Each thread ends the tile that it is at.
@@ -245,7 +256,9 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     const View view = reducedView(_view, divider);
     session.setScene(_scene);
     session.setView(view);
-    session.setOptions(_options);
+    RenderOptions options = _options;
+    options.centredFirstPass = divider > 1; // what is upsampled has to be what first hits tell of
+    session.setOptions(options);
     rule.passes = _maxPasses;
     const double start = _now();
     leaveView(session, view);
@@ -338,13 +351,17 @@ void ViewTracer::resolve(uint8_t* rgba, float* depth)
         resolveImage(*_session, rgba, depth);
         break;
     case Shown::Reduced:
-        // As it is: OpenGL enlarges it. What makes more of it shows it in full size, and says so in
-        // shownWidth.
-        resolveImage(*_reduced, rgba, depth);
+        if (_upsamples)
+            showUpsampled(rgba, depth);
+        else
+            resolveImage(*_reduced, rgba, depth); // OpenGL enlarges it
         break;
     case Shown::Mixed:
         // Single tiles cannot be denoised: those of full resolution wait for all of them then.
-        enlargeReduced(rgba, depth);
+        if (_upsamples)
+            showUpsampled(rgba, depth);
+        else
+            enlargeReduced(rgba, depth);
         if (!_denoises) _session->resolveOver(_toneMap, rgba, depth);
         break;
     }
@@ -381,6 +398,15 @@ ShownImage ViewTracer::stagedImage(const RenderSession& session)
 std::vector<float> ViewTracer::radiance()
 {
     return isStaged(image()) ? stagedImage(image()).radiance : image().resolveRadiance();
+}
+
+/// To full resolution, along the edges of what is seen.
+void ViewTracer::showUpsampled(uint8_t* rgba, float* depth)
+{
+    const double begin = _now();
+    _reduced->showUpsampled(stagedImage(*_reduced), _reduced->surfaceSamples(), _view.width,
+                            _view.height, {_toneMap, rgba, depth}, kMostTraced);
+    _upsampleSeconds = (_now() - begin) / pixelsOf(_view);
 }
 
 /// To full resolution, with nothing but what its pixels hold.

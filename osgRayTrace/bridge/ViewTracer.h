@@ -65,8 +65,8 @@ public:
     void noteShown();
 
     /// Of what resolve() writes: less than the pass's while the resolution is reduced.
-    int shownWidth() const { return shownIsReduced() ? _reduced->width() : _session->width(); }
-    int shownHeight() const { return shownIsReduced() ? _reduced->height() : _session->height(); }
+    int shownWidth() const { return enlarges() ? _view.width : image().width(); }
+    int shownHeight() const { return enlarges() ? _view.height : image().height(); }
 
     bool hasImage() const
     {
@@ -112,6 +112,7 @@ private:
     void estimateError();
     void resolveImage(const RenderSession& session, uint8_t* rgba, float* depth);
     ShownImage stagedImage(const RenderSession& session);
+    void showUpsampled(uint8_t* rgba, float* depth);
     void enlargeReduced(uint8_t* rgba, float* depth);
 
     void leaveView(RenderSession& session, const View& view);
@@ -122,7 +123,7 @@ private:
     }
     bool isStaged(const RenderSession& session) const { return _denoises || historyCounts(session); }
 
-    bool shownIsReduced() const { return _shown == Shown::Reduced; }
+    bool enlarges() const { return _shown == Shown::Mixed || (_shown == Shown::Reduced && _upsamples); }
     const RenderSession& image() const { return _shown == Shown::Whole ? *_session : *_reduced; }
 
     std::function<double()> _now;
@@ -171,6 +172,9 @@ private:
     uint32_t _sequence = 0; ///< of random numbers, which is another one for each view that is left
     ViewDependence _viewDependence;
     ViewHistory _history;
+
+    bool _upsamples = false;       ///< there is time to enlarge the reduced image along edges
+    double _upsampleSeconds = 0.0; ///< that takes, a pixel
 
     bool _denoises = false;
     bool _resolvedDenoised = false;

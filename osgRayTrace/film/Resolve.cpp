@@ -191,6 +191,24 @@ void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint
     if (depth) copyRows(film, tile, film.depth(tile), depth);
 }
 
+namespace
+{
+
+OSGRAYTRACE_KERNEL
+void splitPixels(const float* __restrict rgba, int count, RgbaLanes& __restrict block)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < count; ++i)
+    {
+        block.r[i] = rgba[4 * i];
+        block.g[i] = rgba[4 * i + 1];
+        block.b[i] = rgba[4 * i + 2];
+        block.a[i] = rgba[4 * i + 3];
+    }
+}
+
+} // namespace
+
 void displayPixels(const float* rgba, std::size_t count, float exposureEv, uint8_t* image)
 {
     TileRgba values = {};
@@ -198,16 +216,12 @@ void displayPixels(const float* rgba, std::size_t count, float exposureEv, uint8
     for (std::size_t first = 0; first < count; first += kTilePixels)
     {
         const std::size_t pixels = std::min<std::size_t>(kTilePixels, count - first);
-        for (std::size_t i = 0; i < pixels; ++i)
-        {
-            const float* in = rgba + 4 * (first + i);
-            RgbaLanes& block = values[i / kLanes];
-            const std::size_t lane = i % kLanes;
-            block.r[lane] = in[0];
-            block.g[lane] = in[1];
-            block.b[lane] = in[2];
-            block.a[lane] = in[3];
-        }
+        const std::size_t whole = pixels / kLanes;
+        for (std::size_t b = 0; b < whole; ++b)
+            splitPixels(rgba + 4 * (first + b * kLanes), kLanes, values[b]);
+        if (whole < kTileBlocks)
+            splitPixels(rgba + 4 * (first + whole * kLanes), static_cast<int>(pixels - whole * kLanes),
+                        values[whole]);
         packEncoded(values, std::exp2(exposureEv), packed);
         std::memcpy(image + 4 * first, packed, 4 * pixels);
     }

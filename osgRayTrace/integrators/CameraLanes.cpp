@@ -30,6 +30,17 @@ void pixelPoints(const PassKey& key, int left, int bottom, bool centres, FloatLa
 }
 
 OSGRAYTRACE_KERNEL
+void pixelCentres(int left, int bottom, FloatLanes& x, FloatLanes& y)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        x[i] = static_cast<float>(left + (i & 3)) + 0.5f;
+        y[i] = static_cast<float>(bottom + (i >> 2)) + 0.5f;
+    }
+}
+
+OSGRAYTRACE_KERNEL
 void raysThrough(const CameraRays& camera, const FloatLanes& x, const FloatLanes& y, RayBlock& ray)
 {
     const CameraRays c = camera;
@@ -99,6 +110,13 @@ void cameraRayLanes(const CameraRays& camera, const PassKey& key, int left, int 
     FloatLanes x, y;
     const int blockLeft = left + laneX(block, 0), blockBottom = bottom + laneY(block, 0);
     pixelPoints(key, blockLeft, blockBottom, centres, x, y, seeds);
+    raysThrough(camera, x, y, rays.ray);
+}
+
+void centreRayLanes(const CameraRays& camera, int left, int bottom, int block, RayHitBlock& rays)
+{
+    FloatLanes x, y;
+    pixelCentres(left + laneX(block, 0), bottom + laneY(block, 0), x, y);
     raysThrough(camera, x, y, rays.ray);
 }
 

@@ -13,6 +13,9 @@ namespace osgRayTrace::engine
 void cameraRayLanes(const CameraRays& camera, const PassKey& key, int left, int bottom, int block,
                     bool centres, RayHitBlock& rays, UintLanes& seeds);
 
+/// The same through the pixel centres, for what needs no random numbers.
+void centreRayLanes(const CameraRays& camera, int left, int bottom, int block, RayHitBlock& rays);
+
 /// Window depth in [0,1] of the surfaces at the pixel centres: where the centre's ray meets the plane of
 /// the triangle that the sample hit. 1 where nothing was hit.
 void depthLanes(const CameraRays& camera, int left, int bottom, int block, const SurfaceLanes& surface,

@@ -34,30 +34,67 @@ void setMaterial(const PassContext& context, const RayHitBlock& rays, const Surf
     set(context.traced->materials().bsdf(surface.material[i], materialPoint(context, rays, surface, i)));
 }
 
+/// All but the albedo.
+void traceCentres(const PassContext& context, int left, int bottom, int block, FirstHitLanes& hits)
+{
+    centreRayLanes(context.camera, left, bottom, block, hits.rays);
+    context.traced->intersector().closestHits(hits.rays, kAllLanes, Coherence::Coherent, kCameraRays);
+    surfacesOf(context.traced->surfaces(), hits.rays, kAllLanes, hits.surface);
+    facingNormalLanes(hits.rays.ray, hits.surface, hits.normal);
+}
+
+/// Blocks see few materials, most of which have the same albedo wherever they are seen.
+void albedoLanes(const PassContext& context, const FirstHitLanes& hits, Vec3Lanes& albedo)
+{
+    const MaterialTable& materials = context.traced->materials();
+    const SurfaceLanes& surface = hits.surface;
+    uint32_t known = kInvalid;
+    bool knownFront = false;
+    Vec3 value(0.0f);
+    for (int i = 0; i < kLanes; ++i)
+    {
+        if (!((surface.hits >> i) & 1u))
+        {
+            setLane(albedo, i, Vec3(0.0f));
+            continue;
+        }
+        const uint32_t material = surface.material[i];
+        const bool front = (surface.front >> i) & 1u;
+        if (material != known || front != knownFront)
+        {
+            value = bsdfAlbedo(materials.bsdf(material, materialPoint(context, hits.rays, surface, i)));
+            known = materials[material].constant ? material : kInvalid;
+            knownFront = front;
+        }
+        setLane(albedo, i, value);
+    }
+}
+
 } // namespace
+
+void firstHitLanes(const PassContext& context, int left, int bottom, int block, FirstHitLanes& hits)
+{
+    traceCentres(context, left, bottom, block, hits);
+    albedoLanes(context, hits, hits.albedo);
+}
 
 void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels])
 {
     for (int b = 0; b < kTileBlocks; ++b)
     {
-        RayHitBlock rays;
-        UintLanes seeds;
-        SurfaceLanes surface;
-        cameraRayLanes(context.camera, context.key, left, bottom, b, true, rays, seeds);
-        context.traced->intersector().closestHits(rays, kAllLanes, Coherence::Coherent, kCameraRays);
-        surfacesOf(context.traced->surfaces(), rays, kAllLanes, surface);
-        Vec3Lanes normals;
-        facingNormalLanes(rays.ray, surface, normals);
+        FirstHitLanes block;
+        traceCentres(context, left, bottom, b, block);
+        const SurfaceLanes& surface = block.surface;
         for (int i = 0; i < kLanes; ++i)
         {
             FirstHit& hit = hits[b * kLanes + i];
             hit = FirstHit();
             if (!((surface.hits >> i) & 1u)) continue;
             hit.hit = true;
-            hit.distance = rays.ray.tFar[i];
-            hit.normal = laneOf(normals, i);
-            setMaterial(context, rays, surface, i, hit);
-            hit.emits = emissionTowardsRay(context, rays, surface, i) != Vec3(0.0f);
+            hit.distance = block.rays.ray.tFar[i];
+            hit.normal = laneOf(block.normal, i);
+            setMaterial(context, block.rays, surface, i, hit);
+            hit.emits = emissionTowardsRay(context, block.rays, surface, i) != Vec3(0.0f);
             hit.position = laneOf(surface.position, i);
             hit.instance = surface.instance[i];
         }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/accel/Surface.h"
 #include "osgRayTrace/integrators/Integrator.h"
 
 namespace osgRayTrace::engine
@@ -20,6 +21,18 @@ struct FirstHit
     bool smooth = false;        ///< nothing but a mirror or clear glass
     float lobe = kInfinity;     ///< width of its narrowest lobe [radians]; see SurfaceSample
 };
+
+/// What the rays through the pixel centres of a block met first. Normals and albedos are 0 where nothing.
+struct FirstHitLanes
+{
+    RayHitBlock rays;
+    SurfaceLanes surface;
+    Vec3Lanes normal; ///< shading, unit, towards the viewer
+    Vec3Lanes albedo;
+};
+
+/// Of a block of a tile.
+void firstHitLanes(const PassContext& context, int left, int bottom, int block, FirstHitLanes& hits);
 
 /// First hits of a tile, index block * kLanes + lane.
 void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels]);

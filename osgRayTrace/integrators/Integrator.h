@@ -28,6 +28,7 @@ struct PassContext
     PassKey key;
     PassKey pathKey;                            ///< of camera paths; key, but of the first pass for PPM
     bool wantsDepth = true;                     ///< of the first pass
+    bool throughCentres = false;                ///< camera rays are those of firstHits
 
     PhotonUse photonUse = PhotonUse::None;
     /// The environment's, if options.environmentSampling is Structured; null: none.

@@ -117,8 +117,8 @@ void tracePaths(Tile& tile, PhotonUse use)
     for (int b = 0; b < kTileBlocks; ++b)
     {
         PathBlock& block = tile.paths.blocks[b];
-        cameraRayLanes(context.camera, context.pathKey, tile.left, tile.bottom, b, false,
-                       block.rays, block.seed);
+        cameraRayLanes(context.camera, context.pathKey, tile.left, tile.bottom, b,
+                       context.throughCentres, block.rays, block.seed);
         for (int i = 0; i < kLanes; ++i)
         {
             setLane(block.throughput, i, Vec3(1.0f));

@@ -63,6 +63,9 @@ struct RenderOptions
     int maxBounces = 8;      ///< edges of a path after the camera ray
     bool shadows = true;
     bool terminatorCorrection = true; ///< rays of smooth-shaded facets start as RayStart::Smooth says
+    /// The first pass looks through the middles of the pixels, where first hits are sampled: for images that
+    /// are filtered or upsampled by what is seen there.
+    bool centredFirstPass = false;
     uint32_t seed = 0;
     int photons = 1 << 16;      ///< emitted a pass
     float photonRadius = 0.0f;  ///< of the first pass [length]; 0: from the density of the photons
@@ -81,7 +84,8 @@ struct RenderOptions
                terminatorCorrection != previous.terminatorCorrection || seed != previous.seed ||
                photons != previous.photons || photonRadius != previous.photonRadius ||
                photonAlpha != previous.photonAlpha || radiusSchedule != previous.radiusSchedule ||
-               aimAtViews != previous.aimAtViews;
+               aimAtViews != previous.aimAtViews ||
+               centredFirstPass != previous.centredFirstPass;
     }
 };
 

@@ -309,7 +309,8 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
     for (int k = 0; k < kGroup; ++k)
     {
         ShadingBlock& block = tile.group[k];
-        cameraRayLanes(context.camera, context.key, left, bottom, first + k, false, block.rays, block.seed);
+        cameraRayLanes(context.camera, context.key, left, bottom, first + k, context.throughCentres,
+                       block.rays, block.seed);
         fill(Vec3(1.0f), block.weight);
         for (int i = 0; i < kLanes; ++i)
         {

@@ -104,12 +104,42 @@ namespace
 {
 
 /// linearFromSrgb within 0.002 for [0,1], for less: there is one for each pixel of each frame.
-Vec3 nearlyLinear(Vec3 encoded)
+OSGRAYTRACE_INLINE float nearlyLinear(float encoded)
 {
     return encoded * (encoded * (encoded * 0.305306f + 0.682171f) + 0.012523f);
 }
 
+SurfaceSample sampleOf(const FirstHit& hit, const Scene& scene)
+{
+    const Vec3 a = hit.albedo;
+    return {hit.normal,
+            static_cast<float>(hit.distance * scene.unit),
+            scene.displayReferred ? Vec3(nearlyLinear(a.x), nearlyLinear(a.y), nearlyLinear(a.z)) : a,
+            hit.hit ? hit.instance + 1u : 0u,
+            hit.lobe,
+            hit.emits    ? SurfaceKind::Emitting
+            : hit.smooth ? SurfaceKind::Smooth
+                         : SurfaceKind::Scattering};
+}
+
 } // namespace
+
+OSGRAYTRACE_KERNEL
+static void decodeAlbedos(Vec3Lanes& albedo)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        albedo.x[i] = nearlyLinear(albedo.x[i]);
+        albedo.y[i] = nearlyLinear(albedo.y[i]);
+        albedo.z[i] = nearlyLinear(albedo.z[i]);
+    }
+}
+
+void linearAlbedos(const Scene& scene, Vec3Lanes& albedo)
+{
+    if (scene.displayReferred) decodeAlbedos(albedo);
+}
 
 std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Workers& workers)
 {
@@ -131,15 +161,8 @@ std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Work
                 const int x = left + laneX(i / kLanes, i % kLanes);
                 const int y = bottom + laneY(i / kLanes, i % kLanes);
                 if (x >= context.width || y >= context.height) continue;
-                const FirstHit& hit = hits[i];
                 samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(context.width) +
-                        static_cast<std::size_t>(x)] = {
-                    hit.normal, static_cast<float>(hit.distance * scene.unit),
-                    scene.displayReferred ? nearlyLinear(hit.albedo) : hit.albedo,
-                    hit.hit ? hit.instance + 1u : 0u, hit.lobe,
-                    hit.emits    ? SurfaceKind::Emitting
-                    : hit.smooth ? SurfaceKind::Smooth
-                                 : SurfaceKind::Scattering};
+                        static_cast<std::size_t>(x)] = sampleOf(hits[i], scene);
             }
         });
     return samples;

@@ -13,6 +13,9 @@ namespace osgRayTrace::engine
 std::vector<float> channelImage(Channel channel, const Film& film, const PassContext& context,
                                 const Workers& workers);
 
+/// Albedos of first hits as SurfaceSample has them: linear, also where the scene has display values.
+void linearAlbedos(const Scene& scene, Vec3Lanes& albedo);
+
 /// See RenderSession::surfaceSamples.
 std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Workers& workers);
 

@@ -10,6 +10,7 @@
 #include "osgRayTrace/integrators/Integrator.h"
 #include "osgRayTrace/session/ChannelImage.h"
 #include "osgRayTrace/session/PhotonState.h"
+#include "osgRayTrace/session/Upsample.h"
 
 #include <algorithm>
 #include <atomic>
@@ -94,6 +95,7 @@ struct RenderSession::Implementation
                        const DisplayTarget* display);
     void resolve(const DisplayTarget& display, bool over) const;
     PassContext contextOfPass(int pass) const;
+    std::optional<PassContext> contextOfSize(int width, int height) const;
 
     std::shared_ptr<Workers> workers;
 
@@ -180,6 +182,26 @@ PassContext RenderSession::Implementation::contextOfPass(int pass) const
     context.key = passKey(filmSeed, pass);
     context.pathKey = progress.integrator == IntegratorKind::Ppm ? passKey(filmSeed, 0) : context.key;
     context.wantsDepth = pass == 0;
+    // Photon mapping with fixed hit points follows the first pass's camera paths in all of them.
+    const bool firstPaths = pass == 0 || progress.integrator == IntegratorKind::Ppm;
+    context.throughCentres = filmOptions.centredFirstPass && firstPaths;
+    return context;
+}
+
+/// Of first hits of the film's view in another size; nothing without an image.
+std::optional<PassContext> RenderSession::Implementation::contextOfSize(int width, int height) const
+{
+    if (!filmScene || film.passes() < 1) return std::nullopt;
+    View sized = filmView;
+    sized.width = width;
+    sized.height = height;
+    const Scene& of = filmScene->scene();
+    const std::optional<CameraRays> rays = cameraRays(sized, of.origin, of.unit);
+    if (!rays) return std::nullopt;
+    PassContext context = contextOfPass(0);
+    context.camera = *rays;
+    context.width = width;
+    context.height = height;
     return context;
 }
 
@@ -456,6 +478,26 @@ std::vector<SurfaceSample> RenderSession::surfaceSamples() const
     const Implementation& session = *_implementation;
     if (!session.filmScene || session.film.passes() < 1) return {};
     return engine::surfaceSamples(session.contextOfPass(0), *session.workers);
+}
+
+UpsampleCounts RenderSession::upsample(const ShownImage& image, const std::vector<SurfaceSample>& samples,
+                                       int width, int height, ShownImage& result,
+                                       double mostTraced) const
+{
+    const std::optional<PassContext> full = _implementation->contextOfSize(width, height);
+    if (full) return engine::upsample(image, samples, *full, mostTraced, *_implementation->workers, result);
+    result = ShownImage();
+    return {};
+}
+
+UpsampleCounts RenderSession::showUpsampled(const ShownImage& image,
+                                            const std::vector<SurfaceSample>& samples, int width,
+                                            int height, const DisplayTarget& display, double mostTraced) const
+{
+    const std::optional<PassContext> full = _implementation->contextOfSize(width, height);
+    if (!full) return {};
+    return engine::showUpsampled(image, samples, *full, mostTraced, display.toneMap, *_implementation->workers,
+                                 display.rgba, display.depth);
 }
 
 } // namespace osgRayTrace::engine

@@ -172,6 +172,17 @@ public:
     /// without an image.
     std::vector<SurfaceSample> surfaceSamples() const;
 
+    /// The same view of another size, mostly a larger one, from an image and samples of this one's, filtered or
+    /// not: see Upsample.h. Vectors of result that have its size already are used again. Empty without an image.
+    UpsampleCounts upsample(const ShownImage& image, const std::vector<SurfaceSample>& samples, int width,
+                            int height, ShownImage& result, double mostTraced = 1.0) const;
+
+    /// The same as display values and window depths, for less; a target of that size. Nothing is written
+    /// without an image.
+    UpsampleCounts showUpsampled(const ShownImage& image, const std::vector<SurfaceSample>& samples,
+                                 int width, int height, const DisplayTarget& display,
+                                 double mostTraced = 1.0) const;
+
 private:
     struct Implementation;
     std::unique_ptr<Implementation> _implementation;

@@ -44,6 +44,13 @@ struct SurfaceSample
     SurfaceKind kind = SurfaceKind::Scattering;
 };
 
+/// What it took to make a full-size image of one of fewer pixels, see Upsample.h: in pixels of the full size.
+struct UpsampleCounts
+{
+    uint64_t traced = 0; ///< whose first hit was traced
+    uint64_t unlike = 0; ///< of these: whose surface none of the four pixels around it sees
+};
+
 /// Display values of the image, 4 bytes a pixel, and its depths, which may be null.
 void showImage(const ShownImage& image, const ToneMap& toneMap, const Workers& workers, uint8_t* rgba,
                float* depth);
