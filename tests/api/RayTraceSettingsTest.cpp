@@ -77,7 +77,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getRadiusSchedule() == RayTraceSettings::GLOBAL);
     CHECK(settings->getAimAtViews());
     CHECK(settings->getDenoise() == RayTraceSettings::OFF);
-    CHECK(settings->getReproject());
+    CHECK_FALSE(settings->getReproject());
 }
 
 TEST_CASE("settings: the table names all twenty-nine options once", "[api][settings]")
