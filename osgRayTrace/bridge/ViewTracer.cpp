@@ -22,11 +22,8 @@ constexpr int kSettling = 2;
 /// Share of a frame that is traced in even if all that comes after it takes longer than the budget.
 constexpr double kLeastShare = 0.2;
 
-/// Reduced images are upsampled along edges where that takes no more of the budget; a guess of what it takes
-/// of one thread for a pixel, until it is known [s]; and the share of pixels that may be traced for it.
-constexpr double kUpsampleShare = 0.2;
+/// What upsampling takes of one thread for a pixel, until it is known [s].
 constexpr double kUpsampleSeconds = 12e-9;
-constexpr double kMostTraced = 0.25;
 
 double steadySeconds()
 {
@@ -139,7 +136,7 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
             traceStill(frame);
     }
     _upsamples = budget.seconds > 0.0 &&
-                 _upsampleSeconds * pixelsOf(_view) <= kUpsampleShare * budget.seconds;
+                 _upsampleSeconds * pixelsOf(_view) <= budget.upsampleShare * budget.seconds;
     _showing = _shown == Shown::Reduced                  ? Showing::Reduced
                : _shown == Shown::Mixed && _imageChanged ? Showing::FirstMixed
                                                          : Showing::Whole;

@@ -23,6 +23,9 @@ struct FrameBudget
 {
     double seconds = 0.0; ///< 0: as long as the settings' passes per frame take
     bool degrade = true;  ///< the resolution may be reduced while the view moves
+    /// Reduced images are upsampled along edges if that takes no more than this of the seconds; else OpenGL
+    /// enlarges them.
+    double upsampleShare = 0.2;
 };
 
 /// Of the last frame.
@@ -63,6 +66,9 @@ public:
 
     /// The frame that trace() began is on its way to the display.
     void noteShown();
+
+    /// Of the pixels of a reduced image, those that may be traced to upsample it.
+    static constexpr double kMostTraced = 0.25;
 
     /// Of what resolve() writes: less than the pass's while the resolution is reduced.
     int shownWidth() const { return enlarges() ? _view.width : image().width(); }

@@ -77,7 +77,9 @@ public:
         RenderSession session(std::make_shared<Workers>(1));
         session.setScene(_traced);
         session.setView(view);
-        session.setOptions(_options);
+        RenderOptions options = _options;
+        options.centredFirstPass = divider > 1;
+        session.setOptions(options);
         StopRule rule;
         rule.passes = passes;
         session.render(rule);
@@ -110,7 +112,7 @@ struct Screen
 
     void frame(double x, bool keepsDisplay = true)
     {
-        const FrameBudget budget{kBudget, settings->getDegradeWhileMoving()};
+        const FrameBudget budget{kBudget, settings->getDegradeWhileMoving(), upsampleShare};
         if (!keepsDisplay) display = Pixels();
         const bool fits = display.width == kWidth && display.height == kHeight;
         const bool written =
@@ -164,6 +166,7 @@ struct Screen
     }
 
     double clock = 0.0, tileSeconds;
+    double upsampleShare = 0.0; ///< reduced pictures are shown as they are
     osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
     SceneVersion version;
     ViewTracer tracer;
@@ -280,6 +283,43 @@ TEST_CASE(
     CHECK(screen.tiles(2.0, references).traced > before.traced);
     for (int tile = 0; tile < kTiles; ++tile)
         CHECK_FALSE(sameTile(screen.shown, old, tile));
+}
+
+TEST_CASE("frame budget: reduced pictures are upsampled where there is time for it", "[bridge]")
+{
+    Screen screen;
+    screen.upsampleShare = 0.2;
+    screen.settings->setMaxPasses(1);
+    screen.takeSettings();
+    for (int i = 0; i < 6; ++i)
+    {
+        screen.frame(i);
+        const int divider = screen.tracer.frame().divider;
+        REQUIRE(divider > 1);
+        RenderOptions options = renderOptionsFromSettings(*screen.settings);
+        options.centredFirstPass = true;
+        View view = viewAt(i);
+        view.width = reducedSize(kWidth, divider);
+        view.height = reducedSize(kHeight, divider);
+        RenderSession session(std::make_shared<Workers>(1));
+        session.setScene(screen.version.scene);
+        session.setView(view);
+        session.setOptions(options);
+        StopRule rule;
+        rule.passes = 1;
+        REQUIRE(session.render(rule).status.ok());
+        Pixels expected;
+        expected.resize(kWidth, kHeight);
+        session.showUpsampled(session.shownImage(), session.surfaceSamples(), kWidth, kHeight,
+                              {{}, expected.rgba.data(), expected.depth.data()},
+                              ViewTracer::kMostTraced);
+        REQUIRE(screen.shown.width == kWidth);
+        CHECK((screen.shown.rgba == expected.rgba));
+        CHECK((screen.shown.depth == expected.depth));
+    }
+    screen.upsampleShare = 1e-9; // it took longer
+    screen.frame(6.0);
+    CHECK(screen.shown.width < kWidth);
 }
 
 TEST_CASE("frame budget: the first image and one after a jump take a frame", "[bridge]")
