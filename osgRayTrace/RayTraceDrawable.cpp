@@ -5,13 +5,13 @@
 #include <osgRayTrace/RayIntersector>
 
 #include "osgRayTrace/DisplayTexture.h"
+#include "osgRayTrace/DrawPass.h"
 #include "osgRayTrace/bridge/DepthSlices.h"
 #include "osgRayTrace/bridge/PageRequests.h"
 #include "osgRayTrace/bridge/RasterizedPicker.h"
 #include "osgRayTrace/bridge/ScenePicker.h"
 #include "osgRayTrace/bridge/SceneUpdater.h"
 #include "osgRayTrace/bridge/StatisticsFromEngine.h"
-#include "osgRayTrace/bridge/ViewFromMatrices.h"
 #include "osgRayTrace/bridge/ViewRegistry.h"
 #include "osgRayTrace/bridge/ViewTracer.h"
 #include "osgRayTrace/bridge/ViewingConditions.h"
@@ -19,8 +19,6 @@
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/LOD>
-#include <osg/ValueObject>
-#include <osg/Viewport>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>
 
@@ -62,54 +60,6 @@ struct BoundsVisitor : osg::ComputeBoundsVisitor
     }
 };
 
-struct Rectangle
-{
-    int x, y, width, height;
-};
-
-/// In pixels, as osg::Viewport gives it to OpenGL; no area if there is none.
-Rectangle currentViewport(const osg::State& state)
-{
-    const osg::Viewport* viewport = state.getCurrentViewport();
-    if (!viewport) return {};
-    return {static_cast<int>(viewport->x()), static_cast<int>(viewport->y()),
-            static_cast<int>(viewport->width()), static_cast<int>(viewport->height())};
-}
-
-/// Of the pass that is drawn.
-engine::PassIdentity passIdentity(osg::RenderInfo& renderInfo, const Rectangle& viewport)
-{
-    const osg::State& state = *renderInfo.getState();
-    const auto& bins = renderInfo.getRenderBinStack();
-    engine::PassIdentity pass;
-    pass.camera = renderInfo.getCurrentCamera();
-    pass.renderStage = bins.empty() ? nullptr : bins.back()->getStage();
-    pass.contextId = state.getContextID();
-    pass.frameNumber = state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0;
-    pass.viewport = {viewport.x, viewport.y, viewport.width, viewport.height};
-    pass.view = engine::viewFromMatrices(state.getModelViewMatrix(), state.getProjectionMatrix(),
-                                         viewport.width, viewport.height);
-    return pass;
-}
-
-/// Of the pass that is culled; nothing if its near and far planes are not known yet.
-std::optional<engine::PassIdentity> passIdentity(osgUtil::CullVisitor& visitor)
-{
-    const osg::Viewport* viewport = visitor.getViewport();
-    if (!viewport || !visitor.getModelViewMatrix() || !visitor.getProjectionMatrix() ||
-        visitor.getComputeNearFarMode() != osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR)
-        return std::nullopt;
-    engine::PassIdentity pass;
-    pass.camera = visitor.getCurrentCamera();
-    pass.renderStage = visitor.getCurrentRenderStage();
-    pass.contextId = visitor.getState() ? visitor.getState()->getContextID() : 0;
-    pass.frameNumber = visitor.getFrameStamp() ? visitor.getFrameStamp()->getFrameNumber() : 0;
-    pass.view = engine::viewFromMatrices(*visitor.getModelViewMatrix(), *visitor.getProjectionMatrix(),
-                                         static_cast<int>(viewport->width()),
-                                         static_cast<int>(viewport->height()));
-    return pass;
-}
-
 /// What has to be traced for a pass, if anything: not what another slice of its picture has made.
 std::optional<engine::View> viewToTrace(const engine::ViewRegistry<ViewState>::Pass& found,
                                         const engine::View& pass)
@@ -127,41 +77,6 @@ std::optional<engine::View> viewToTrace(const engine::ViewRegistry<ViewState>::P
     const engine::View needed = engine::viewOfSlices(traced);
     if (sliced && needed == last) return std::nullopt;
     return needed;
-}
-
-/// Distance of the near plane in the middle of the view; of orthographic views, whose near plane
-/// may be anywhere, half the height of the picture. 0 if the matrix cannot be inverted.
-double nearDistance(const osg::Matrixd& projection)
-{
-    osg::Matrixd viewFromClip;
-    if (!viewFromClip.invert(projection)) return 0.0;
-    const bool orthographic = projection(2, 3) == 0.0;
-    const osg::Vec3d centre = osg::Vec3d(0.0, 0.0, -1.0) * viewFromClip;
-    if (!orthographic) return centre.length();
-    return (osg::Vec3d(0.0, 1.0, -1.0) * viewFromClip - centre).length();
-}
-
-/// A number of any type that the user set.
-std::optional<double> userNumber(const osg::Camera& camera, const char* name)
-{
-    float single = 0.0f;
-    double number = 0.0;
-    int whole = 0;
-    if (camera.getUserValue(name, number)) return number;
-    if (camera.getUserValue(name, single)) return double(single);
-    if (camera.getUserValue(name, whole)) return double(whole);
-    return {};
-}
-
-/// The camera's own, or that of the settings.
-engine::FrameBudget frameBudget(const osg::Camera* camera, const RayTraceSettings& settings)
-{
-    engine::FrameBudget budget;
-    budget.degrade = settings.getDegradeWhileMoving();
-    double milliseconds = double(settings.getFrameBudget());
-    if (camera) milliseconds = userNumber(*camera, "osgRayTrace.frameBudget").value_or(milliseconds);
-    budget.seconds = std::isfinite(milliseconds) ? 1e-3 * std::max(0.0, milliseconds) : 0.0;
-    return budget;
 }
 
 } // namespace
