@@ -403,7 +403,8 @@ void ViewTracer::showUpsampled(uint8_t* rgba, float* depth)
     const double begin = _now();
     _reduced->showUpsampled(stagedImage(*_reduced), _reduced->surfaceSamples(), _view.width,
                             _view.height, {_toneMap, rgba, depth}, kMostTraced);
-    _upsampleSeconds = (_now() - begin) / pixelsOf(_view);
+    // The first time takes longer than those after it.
+    _upsampleSeconds = std::min((_now() - begin) / pixelsOf(_view), 1.1 * _upsampleSeconds);
 }
 
 /// To full resolution, with nothing but what its pixels hold.
