@@ -1,0 +1,46 @@
+// DrawPass.h - what OSG says about the pass that is culled or drawn. Layer: public API, private.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/ViewRegistry.h"
+#include "osgRayTrace/bridge/ViewTracer.h"
+
+#include <osg/Camera>
+#include <osg/Matrixd>
+#include <osg/RenderInfo>
+#include <osg/State>
+
+#include <optional>
+
+namespace osgUtil
+{
+class CullVisitor;
+}
+
+namespace osgRayTrace
+{
+
+class RayTraceSettings;
+
+struct Rectangle
+{
+    int x, y, width, height;
+};
+
+/// In pixels, as osg::Viewport gives it to OpenGL; no area if there is none.
+Rectangle currentViewport(const osg::State& state);
+
+/// Of the pass that is drawn.
+engine::PassIdentity passIdentity(osg::RenderInfo& renderInfo, const Rectangle& viewport);
+
+/// Of the pass that is culled; nothing if its near and far planes are not known yet.
+std::optional<engine::PassIdentity> passIdentity(osgUtil::CullVisitor& visitor);
+
+/// Distance of the near plane in the middle of the view; of orthographic views, whose near plane
+/// may be anywhere, half the height of the picture. 0 if the matrix cannot be inverted.
+double nearDistance(const osg::Matrixd& projection);
+
+/// The camera's own, or that of the settings.
+engine::FrameBudget frameBudget(const osg::Camera* camera, const RayTraceSettings& settings);
+
+} // namespace osgRayTrace
