@@ -93,6 +93,12 @@ TEST_CASE("stability 52: when an allocation of a draw fails, the next frame show
         view.camera().setProjectionResizePolicy(osg::Camera::FIXED);
         view.frames(); // OpenGL's objects are there: OSG makes some of them in a way that nothing
                        // may stop
+        // Nor may the driver's compiler be stopped, of the shader that shows an image of another
+        // size.
+        scene->getDrawable()->setPaused(true);
+        view.camera().setViewport(0, 0, kSize - 2, kSize - 2);
+        view.viewer.frame();
+        scene->getDrawable()->setPaused(false);
         int failures = 0;
         for (int n = 0;; ++n)
         {
