@@ -3,7 +3,7 @@
 #        < offscreen < osgPlugins < apps
 #   - the bridge converts the classes of the API: it includes their public headers, nothing else of it
 #   - accel alone includes Embree (and apps/osgraytracebench, which measures against it)
-#   - base/Parallel.cpp alone includes TBB
+#   - base/Parallel.cpp alone includes TBB, session/DenoiseOidn.cpp alone Open Image Denoise
 #   - base to session include neither OpenSceneGraph nor OpenGL
 #   - DisplayTexture and offscreen alone call OpenGL
 #   - a public header includes only public headers, OpenSceneGraph and the C++ library
@@ -59,6 +59,9 @@ macro(check_include file layer include)
     endif()
     if(include MATCHES "^(oneapi/)?tbb[/.]" AND NOT file STREQUAL "osgRayTrace/base/Parallel.cpp")
         report("${file}" "includes TBB (${include}); base/Parallel.cpp alone may")
+    endif()
+    if(include MATCHES "^OpenImageDenoise/" AND NOT file STREQUAL "osgRayTrace/session/DenoiseOidn.cpp")
+        report("${file}" "includes Open Image Denoise (${include}); session/DenoiseOidn.cpp alone may")
     endif()
     if(include MATCHES "^(osg[A-Z]?[A-Za-z]*|OpenThreads|GL|GLES.*|EGL)/" AND NOT include MATCHES "^osgRayTrace/"
        AND layer IN_LIST ENGINE)

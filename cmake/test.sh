@@ -24,7 +24,7 @@ check()
     local preset=$1
     shift
     say "Testing $preset"
-    (cd "$ROOT" && ctest --preset "$preset" "$@")
+    (cd "$ROOT" && ctest --preset "$preset" --parallel "$(nproc)" "$@")
 }
 
 build release
@@ -33,5 +33,5 @@ check release
 build asan
 check asan -L 'unit|gl|fuzz'
 
-build tsan baseTest sessionTest displayTest
-check tsan -R '^(base|session|display)Test$'
+build tsan baseTest sessionTest displayTest backgroundTracerTest backgroundTest
+check tsan -R '^(base|session|display|backgroundTracer|background)Test$'

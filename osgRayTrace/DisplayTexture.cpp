@@ -8,7 +8,9 @@
 #include <osg/State>
 #include <osg/Viewport>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #ifndef GL_CONTEXT_PROFILE_MASK
 #define GL_CONTEXT_PROFILE_MASK 0x9126
@@ -124,6 +126,17 @@ bool isCoreProfile(const osg::GLExtensions& extensions)
     return (profile & GL_CONTEXT_CORE_PROFILE_BIT) != 0;
 }
 
+/// The depth of what is right in front of the background, where a buffer has fewer bits than the 24
+/// that it was chosen for. A core profile does not tell: 24 are taken for granted there.
+float inFrontOfBackground(float depth, const osg::State& state)
+{
+    GLint bits = 24;
+    if (!isCoreProfile(*state.get<osg::GLExtensions>())) glGetIntegerv(GL_DEPTH_BITS, &bits);
+    if (depth < 0.0f || bits < 1 || bits >= 24) return depth;
+    const float unit = 1.0f / static_cast<float>((1 << bits) - 1);
+    return std::clamp(depth, unit, 1.0f - unit);
+}
+
 /// Otherwise osg::State would go on with a buffer that may have been released by then.
 void forgetVertexArrays(osg::State& state)
 {
@@ -139,14 +152,48 @@ void applyTexture(osg::State& state, unsigned int unit, const osg::Texture2D& te
     state.applyTextureAttribute(unit, &texture);
 }
 
+/// To the texture that is applied, of the image's size.
+void copyRects(osg::State& state, const osg::Image& image,
+               const std::vector<engine::PixelRect>& rects)
+{
+    state.unbindPixelBufferObject();
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4); // of both formats
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, image.s());
+    for (const engine::PixelRect& rect : rects)
+        glTexSubImage2D(GL_TEXTURE_2D, 0, rect.x, rect.y, rect.width, rect.height,
+                        image.getPixelFormat(), image.getDataType(), image.data(rect.x, rect.y));
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
+/// The texture as the image is: all of it, if the image is dirty or OpenGL has lost it; otherwise
+/// what is marked.
+void applyChanged(osg::State& state, unsigned int unit, const osg::Texture2D& texture,
+                  osg::Image& image, const std::vector<uint8_t>& marks)
+{
+    applyTexture(state, unit, texture);
+    const std::vector<engine::PixelRect> rects = engine::changedRects(marks, image.s(), image.t());
+    if (rects.empty()) return;
+    if (texture.getTextureWidth() == image.s() && texture.getTextureHeight() == image.t())
+    {
+        copyRects(state, image, rects);
+        return;
+    }
+    image.dirty(); // OpenGL has a smaller one, as it takes none that large
+    applyTexture(state, unit, texture);
+}
+
 } // namespace
 
+DisplayTexture::Picture::Picture()
+    : color(new osg::Image),
+      depth(new osg::Image),
+      colorTexture(createTexture(color.get(), GL_RGBA8)),
+      depthTexture(createTexture(depth.get(), GL_LUMINANCE32F_ARB))
+{
+}
+
 DisplayTexture::DisplayTexture()
-    : _color(new osg::Image),
-      _depth(new osg::Image),
-      _colorTexture(createTexture(_color.get(), GL_RGBA8)),
-      _depthTexture(createTexture(_depth.get(), GL_LUMINANCE32F_ARB)),
-      _colorUnit(new osg::Uniform("osgRayTrace_color", static_cast<int>(kColorUnit))),
+    : _colorUnit(new osg::Uniform("osgRayTrace_color", static_cast<int>(kColorUnit))),
       _depthUnit(new osg::Uniform("osgRayTrace_depth", static_cast<int>(kDepthUnit))),
       _depthMap(new osg::Uniform("osgRayTrace_depthMap", osg::Vec3(1.0f, 0.0f, 1.0f))),
       _program(createProgram(kVertexDialect, kFragmentDialect)),
@@ -167,49 +214,84 @@ osg::ref_ptr<osg::StateSet> DisplayTexture::createStateSet()
     return stateSet;
 }
 
-void DisplayTexture::resize(int width, int height)
+void DisplayTexture::resize(int width, int height, bool full)
 {
-    if (width == _width && height == _height) return;
-    _width = _height = 0; // until both are there: memory may suffice for one of them only
-    _color->allocateImage(width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE);
-    _depth->allocateImage(width, height, 1, GL_LUMINANCE, GL_FLOAT);
-    _width = width;
-    _height = height;
+    Picture& picture = full ? _full : _reduced;
+    _shown = &picture;
+    if (width == picture.width && height == picture.height) return;
+    picture.width = picture.height =
+        0; // until all is there: memory may suffice for some of it only
+    picture.color->allocateImage(width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    picture.depth->allocateImage(width, height, 1, GL_LUMINANCE, GL_FLOAT);
+    picture.changed.reset(width, height);
+    picture.width = width;
+    picture.height = height;
 }
 
 void DisplayTexture::modified()
 {
-    _color->dirty();
-    _depth->dirty();
+    _shown->color->dirty();
+    _shown->depth->dirty();
+    _shown->changed.reset(_shown->width, _shown->height);
 }
 
-bool DisplayTexture::draw(osg::RenderInfo& renderInfo, const engine::DepthMap& depthMap) const
+void DisplayTexture::modified(const engine::ChangedTiles& tiles)
+{
+    if (tiles.width == _shown->width && tiles.height == _shown->height)
+        _shown->changed.add(tiles);
+    else
+        modified();
+}
+
+void DisplayTexture::show(osg::Image* color, osg::Image* depth)
+{
+    _shown = &_full;
+    _full.color = color;
+    _full.depth = depth;
+    _full.colorTexture->setImage(color);
+    _full.depthTexture->setImage(depth);
+    _full.width = color->s();
+    _full.height = color->t();
+    modified();
+}
+
+bool DisplayTexture::draw(osg::RenderInfo& renderInfo, const engine::DepthMap& depthMap)
 {
     osg::State& state = *renderInfo.getState();
-    const osg::Vec3 map(depthMap.scale, depthMap.offset, depthMap.background);
+    const osg::Vec3 map(depthMap.scale, depthMap.offset,
+                        inFrontOfBackground(depthMap.background, state));
     osg::Vec3 last;
     _depthMap->get(last);
     if (map != last) _depthMap->set(map);
     if (!useProgram(state)) return false;
     chooseFilter(state);
-    applyTexture(state, kColorUnit, *_colorTexture);
-    applyTexture(state, kDepthUnit, *_depthTexture);
+    applyPicture(state);
     _triangle->draw(renderInfo);
     if (!state.useVertexArrayObject(_triangle->getUseVertexArrayObject()))
         forgetVertexArrays(state);
     return true;
 }
 
+void DisplayTexture::applyPicture(osg::State& state)
+{
+    Picture& picture = *_shown;
+    engine::ChangedTiles& changed = picture.changed;
+    applyChanged(state, kColorUnit, *picture.colorTexture, *picture.color, changed.color);
+    applyChanged(state, kDepthUnit, *picture.depthTexture, *picture.depth, changed.depth);
+    changed.reset(picture.width, picture.height);
+}
+
 /// Pixel by pixel where sizes agree: a linear filter rounds, and takes longer.
 void DisplayTexture::chooseFilter(const osg::State& state) const
 {
     const osg::Viewport* viewport = state.getCurrentViewport();
-    const bool fits = viewport && static_cast<int>(viewport->width()) == _width &&
-                      static_cast<int>(viewport->height()) == _height;
+    const bool fits = viewport && static_cast<int>(viewport->width()) == width() &&
+                      static_cast<int>(viewport->height()) == height();
     const auto filter = fits ? osg::Texture::NEAREST : osg::Texture::LINEAR;
-    if (_colorTexture->getFilter(osg::Texture::MAG_FILTER) == filter) return;
-    _colorTexture->setFilter(osg::Texture::MIN_FILTER, filter);
-    _colorTexture->setFilter(osg::Texture::MAG_FILTER, filter);
+    osg::Texture2D& texture = *_shown->colorTexture;
+    if (texture.getFilter(osg::Texture::MAG_FILTER) == filter) return;
+    texture.setFilter(osg::Texture::MIN_FILTER, filter);
+    texture.setFilter(osg::Texture::MAG_FILTER, filter);
 }
 
 bool DisplayTexture::useProgram(osg::State& state) const
@@ -220,8 +302,8 @@ bool DisplayTexture::useProgram(osg::State& state) const
     const bool core = isCoreProfile(extensions);
     if (core)
     {
-        _depth->setPixelFormat(GL_RED);
-        _depthTexture->setInternalFormat(GL_R32F);
+        _shown->depth->setPixelFormat(GL_RED);
+        _shown->depthTexture->setInternalFormat(GL_R32F);
         // Elsewhere not: with it OSG 3.6 leaves the vertex buffer bound, which breaks client-side
         // arrays.
         _triangle->setUseVertexArrayObject(true);
@@ -238,8 +320,11 @@ bool DisplayTexture::useProgram(osg::State& state) const
 
 void DisplayTexture::releaseGLObjects(osg::State* state) const
 {
-    _colorTexture->releaseGLObjects(state);
-    _depthTexture->releaseGLObjects(state);
+    for (const Picture* picture : {&_full, &_reduced})
+    {
+        picture->colorTexture->releaseGLObjects(state);
+        picture->depthTexture->releaseGLObjects(state);
+    }
     _program->releaseGLObjects(state);
     _coreProgram->releaseGLObjects(state);
     _triangle->releaseGLObjects(state);
@@ -247,8 +332,11 @@ void DisplayTexture::releaseGLObjects(osg::State* state) const
 
 void DisplayTexture::resizeGLObjectBuffers(unsigned int maxSize)
 {
-    _colorTexture->resizeGLObjectBuffers(maxSize);
-    _depthTexture->resizeGLObjectBuffers(maxSize);
+    for (Picture* picture : {&_full, &_reduced})
+    {
+        picture->colorTexture->resizeGLObjectBuffers(maxSize);
+        picture->depthTexture->resizeGLObjectBuffers(maxSize);
+    }
     _program->resizeGLObjectBuffers(maxSize);
     _coreProgram->resizeGLObjectBuffers(maxSize);
     _triangle->resizeGLObjectBuffers(maxSize);

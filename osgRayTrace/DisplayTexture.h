@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/DepthSlices.h"
+#include "osgRayTrace/film/ChangedTiles.h"
 
 #include <osg/Geometry>
 #include <osg/Image>
@@ -18,49 +19,68 @@ namespace osgRayTrace
 {
 
 /// Colour and depth of one view, drawn as a triangle that covers the viewport and writes
-/// gl_FragDepth. The objects belong to the one context that draws it; storage in OpenGL is kept
-/// while the size stays. Draw thread of that context, unless stated otherwise.
+/// gl_FragDepth. The objects belong to the one context that draws it. Storage here and in OpenGL is
+/// kept while the size stays, for a picture of the view's size and for one of fewer pixels, which
+/// may take turns; of a picture that changes in parts these alone are copied to OpenGL. Draw thread
+/// of that context, unless stated otherwise.
 class DisplayTexture
 {
 public:
     DisplayTexture();
+    DisplayTexture(const DisplayTexture&) = delete;
+    DisplayTexture& operator=(const DisplayTexture&) = delete;
 
     /// State that the drawable needs in its StateSet; what draw() sets beyond it is known to
     /// osg::State. Premultiplied blending, a solid unculled triangle, drawn after the opaque things
     /// of bin 0.
     static osg::ref_ptr<osg::StateSet> createStateSet();
 
-    /// Makes room for width * height pixels; values are lost if that is a change.
-    void resize(int width, int height);
-    int width() const { return _width; }
-    int height() const { return _height; }
+    /// Makes room for width * height pixels; values are lost if that is a change. full: of the
+    /// view's size.
+    void resize(int width, int height, bool full);
+    int width() const { return _shown->width; }
+    int height() const { return _shown->height; }
 
     /// To be written to, then modified(). Row 0 at the bottom. Display values, 4 bytes a pixel:
     /// alpha is coverage, where it is 0 nothing is drawn; colours are multiplied with it. Window
     /// depths in [0,1].
-    uint8_t* rgba() { return _color->data(); }
-    float* depth() { return reinterpret_cast<float*>(_depth->data()); }
+    uint8_t* rgba() { return _shown->color->data(); }
+    float* depth() { return reinterpret_cast<float*>(_shown->depth->data()); }
     void modified();
+    void modified(const engine::ChangedTiles& tiles); ///< nothing but these
 
-    /// Fills the current viewport, whose size may be another: colours are smooth then, depths are not, as those
-    /// between two things are of neither. Depths are as the map makes them. False, and nothing drawn, if the
-    /// context has no usable GLSL.
-    bool draw(osg::RenderInfo& renderInfo, const engine::DepthMap& depthMap) const;
+    /// Images of equal size, allocated as resize() does it, in place of those that there are.
+    void show(osg::Image* color, osg::Image* depth);
+
+    /// Fills the current viewport, whose size may be another: colours are smooth then, depths are
+    /// not, as those between two things are of neither. Depths are as the map makes them. False,
+    /// and nothing drawn, if the context has no usable GLSL.
+    bool draw(osg::RenderInfo& renderInfo, const engine::DepthMap& depthMap);
 
     /// Any thread that OSG calls it from; null: all contexts.
     void releaseGLObjects(osg::State* state) const;
     void resizeGLObjectBuffers(unsigned int maxSize);
 
 private:
+    struct Picture
+    {
+        Picture();
+
+        int width = 0;
+        int height = 0;
+        osg::ref_ptr<osg::Image> color;
+        osg::ref_ptr<osg::Image> depth;
+        osg::ref_ptr<osg::Texture2D> colorTexture;
+        osg::ref_ptr<osg::Texture2D> depthTexture;
+        engine::ChangedTiles changed; ///< since the textures were as the images
+    };
+
     bool useProgram(osg::State& state) const;
     void chooseFilter(const osg::State& state) const;
+    void applyPicture(osg::State& state);
 
-    int _width = 0;
-    int _height = 0;
-    osg::ref_ptr<osg::Image> _color;
-    osg::ref_ptr<osg::Image> _depth;
-    osg::ref_ptr<osg::Texture2D> _colorTexture;
-    osg::ref_ptr<osg::Texture2D> _depthTexture;
+    Picture _full, _reduced;
+    Picture* _shown = &_full;
     osg::ref_ptr<osg::Uniform> _colorUnit;
     osg::ref_ptr<osg::Uniform> _depthUnit;
     osg::ref_ptr<osg::Uniform> _depthMap;

@@ -47,7 +47,8 @@ inline const Words kRadiusScheduleWords{"global", "local"};
 inline const Words kLightSamplingWords{"random", "uniform-jitter", "stratified", "sobol"};
 inline const Words kEnvironmentSamplingWords{"importance", "structured", "uniform"};
 inline const Words kDebugChannelWords{"normal", "uv", "id", "albedo", "depth", "dropped", "cost"};
-inline const Words kDenoiseWords{"off", "filter"};
+inline const Words kDenoiseWords{"off", "filter", "oidn"};
+inline const Words kPresentationWords{"frame-locked", "background"};
 inline const Words kColorRuleWords{"auto", "display-referred", "linear"};
 
 /// Shortest text that reads back as the same value, in any locale.

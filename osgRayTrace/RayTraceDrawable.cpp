@@ -4,8 +4,8 @@
 
 #include <osgRayTrace/RayIntersector>
 
-#include "osgRayTrace/DisplayTexture.h"
 #include "osgRayTrace/DrawPass.h"
+#include "osgRayTrace/ShownView.h"
 #include "osgRayTrace/bridge/DepthSlices.h"
 #include "osgRayTrace/bridge/PageRequests.h"
 #include "osgRayTrace/bridge/RasterizedPicker.h"
@@ -13,7 +13,6 @@
 #include "osgRayTrace/bridge/SceneUpdater.h"
 #include "osgRayTrace/bridge/StatisticsFromEngine.h"
 #include "osgRayTrace/bridge/ViewRegistry.h"
-#include "osgRayTrace/bridge/ViewTracer.h"
 #include "osgRayTrace/bridge/ViewingConditions.h"
 #include "osgRayTrace/bridge/WarnOnce.h"
 
@@ -38,15 +37,6 @@ namespace osgRayTrace
 namespace
 {
 
-/// The accumulated image of one view and what shows it.
-struct ViewState
-{
-    std::mutex mutex; // the view's draw thread; and any thread that asks for its image
-    engine::ViewTracer tracer;
-    DisplayTexture display;
-    std::vector<engine::View> slices; ///< of the passes that the image was traced for
-};
-
 struct BoundsVisitor : osg::ComputeBoundsVisitor
 {
     BoundsVisitor() : osg::ComputeBoundsVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
@@ -60,41 +50,21 @@ struct BoundsVisitor : osg::ComputeBoundsVisitor
     }
 };
 
-/// What has to be traced for a pass, if anything: not what another slice of its picture has made.
-std::optional<engine::View> viewToTrace(const engine::ViewRegistry<ViewState>::Pass& found,
-                                        const engine::View& pass)
-{
-    std::vector<engine::View>& traced = found.state->slices;
-    const bool moved = traced.empty() || !engine::sameRays(traced.front(), pass);
-    if (!found.shared || moved)
-    {
-        traced = found.slices;
-        return traced.size() == 1 ? pass : engine::viewOfSlices(traced);
-    }
-    const bool sliced = traced.size() > 1;
-    const engine::View last = sliced ? engine::viewOfSlices(traced) : traced.front();
-    traced.insert(traced.end(), found.slices.begin(), found.slices.end());
-    const engine::View needed = engine::viewOfSlices(traced);
-    if (sliced && needed == last) return std::nullopt;
-    return needed;
-}
-
 } // namespace
 
 struct RayTraceDrawable::Implementation
 {
     engine::SceneUpdater scene;
-    engine::ViewRegistry<ViewState> views;
+    engine::ViewRegistry<ShownView> views;
     std::atomic<bool> paused{false};
 
     mutable std::mutex mutex;        // draw threads write, any thread reads
-    engine::RenderProgress progress; ///< of the view drawn last
-    engine::FrameReport frame;       ///< the same
-    std::shared_ptr<ViewState> lastView;
+    engine::TraceReport report;      ///< of the view drawn last
+    std::shared_ptr<ShownView> lastView;
     std::weak_ptr<const engine::TracedScene> untraceable; ///< failed before it gave any image
 
     void draw(osg::RenderInfo& renderInfo);
-    void noteProgress(const std::shared_ptr<ViewState>& view, const engine::SceneVersion& version);
+    void noteProgress(const std::shared_ptr<ShownView>& view, const engine::SceneVersion& version);
     void fail(engine::StatusCode code, const char* message) noexcept;
     void failToDraw(engine::StatusCode code, const char* message) noexcept;
 };
@@ -107,75 +77,51 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     const engine::SceneVersion version = scene.version();
     if (!version.scene) return;
 
-    const auto makeView = [] { return std::make_shared<ViewState>(); };
+    const auto makeView = [] { return std::make_shared<ShownView>(); };
     const engine::PassIdentity pass = passIdentity(renderInfo, viewport);
-    const engine::ViewRegistry<ViewState>::Pass found = views.acquire(pass, makeView);
-    const std::shared_ptr<ViewState>& view = found.state;
-    std::lock_guard<std::mutex> lock(view->mutex);
-
-    const osg::Matrixd& viewMatrix = state.getModelViewMatrix();
-    const osg::Matrixd& projection = state.getProjectionMatrix();
-    std::optional<engine::View> wanted;
-    if (!paused || !view->tracer.hasImage()) wanted = viewToTrace(found, pass.view);
-    if (wanted)
-    {
-        // Traced into the display at once, unless its size changes: then it shows the last image until
-        // there is a new one.
-        DisplayTexture& display = view->display;
-        const bool fits = display.width() == viewport.width && display.height() == viewport.height;
-        if (view->tracer.trace(version, *wanted,
-                               frameBudget(renderInfo.getCurrentCamera(), *version.settings),
-                               fits ? display.rgba() : nullptr, fits ? display.depth() : nullptr))
-            display.modified();
-    }
-    if (view->tracer.needsResolve(version))
-    {
-        view->display.resize(view->tracer.shownWidth(), view->tracer.shownHeight());
-        view->tracer.resolve(view->display.rgba(), view->display.depth());
-        view->display.modified();
-    }
-    scene.noteDrawn(renderInfo.getCurrentCamera(), osg::Matrixd::inverse(viewMatrix).getTrans(),
-                    nearDistance(projection));
-    const engine::DepthMap depths = view->slices.size() > 1
-                                        ? engine::depthMap(pass.view, view->slices)
-                                        : engine::depthMap(pass.view);
-    const bool drawn = view->display.width() == 0 || view->display.draw(renderInfo, depths);
-    if (wanted) view->tracer.noteShown();
-    noteProgress(view, version);
+    const engine::ViewRegistry<ShownView>::Pass found = views.acquire(pass, makeView);
+    ShownView& view = *found.state;
+    view.update({version, pass.view, found.slices, found.shared,
+                 frameBudget(renderInfo.getCurrentCamera(), *version.settings), paused});
+    scene.noteDrawn(renderInfo.getCurrentCamera(),
+                    osg::Matrixd::inverse(state.getModelViewMatrix()).getTrans(),
+                    nearDistance(state.getProjectionMatrix()));
+    const bool drawn = view.draw(renderInfo, pass.view);
+    noteProgress(found.state, version);
     if (!drawn)
         fail(engine::StatusCode::DeviceFailure, "OpenGL cannot compile the display's shaders");
 }
 
-void RayTraceDrawable::Implementation::noteProgress(const std::shared_ptr<ViewState>& view,
+void RayTraceDrawable::Implementation::noteProgress(const std::shared_ptr<ShownView>& view,
                                                     const engine::SceneVersion& version)
 {
-    const engine::RenderProgress made = view->tracer.progress();
-    const engine::Status& status = made.status;
+    engine::TraceReport made = view->report(version);
+    const engine::Status& status = made.progress.status;
     if (!status.ok() && status.code != engine::StatusCode::EmptyScene)
         engine::warnOnce(status.message);
     const bool failed = status.code == engine::StatusCode::OutOfMemory ||
                         status.code == engine::StatusCode::DeviceFailure;
 
     std::lock_guard<std::mutex> lock(mutex);
-    progress = made;
-    frame = view->tracer.frame();
+    if (failed && made.fresh && made.progress.passes == 0) untraceable = made.scene;
+    report = std::move(made);
     lastView = view;
-    if (failed && made.passes == 0) untraceable = version.scene;
 }
 
 /// Memory may be what is missing: then the message is one that fits into a string as it is.
 void RayTraceDrawable::Implementation::fail(engine::StatusCode code, const char* message) noexcept
 {
     std::lock_guard<std::mutex> lock(mutex);
-    progress.status.code = code;
+    engine::Status& status = report.progress.status;
+    status.code = code;
     try
     {
-        progress.status.message = message;
-        engine::warnOnce(progress.status.message);
+        status.message = message;
+        engine::warnOnce(status.message);
     }
     catch (const std::exception&)
     {
-        progress.status.message = "out of memory";
+        status.message = "out of memory";
     }
 }
 
@@ -242,10 +188,13 @@ Statistics RayTraceDrawable::getStatistics() const
     const std::string message = statistics.message;
     {
         std::lock_guard<std::mutex> lock(self.mutex);
-        engine::setImageStatistics(statistics, self.progress);
-        statistics.resolutionDivider = self.frame.divider;
-        statistics.frameSeconds = self.frame.seconds;
-        statistics.traceSeconds = self.frame.traceSeconds;
+        engine::setImageStatistics(statistics, self.report.progress);
+        statistics.resolutionDivider = self.report.frame.divider;
+        statistics.frameSeconds = self.report.frame.seconds;
+        statistics.traceSeconds = self.report.frame.traceSeconds;
+        const bool background = self.lastView && self.lastView->inBackground();
+        statistics.presentation = background ? "background" : "frame-locked";
+        statistics.imageAge = self.report.age;
     }
     if (!converted)
     {
@@ -257,7 +206,7 @@ Statistics RayTraceDrawable::getStatistics() const
 
 osg::ref_ptr<osg::Image> RayTraceDrawable::getColorImage() const
 {
-    std::shared_ptr<ViewState> view;
+    std::shared_ptr<ShownView> view;
     {
         std::lock_guard<std::mutex> lock(_implementation->mutex);
         view = _implementation->lastView;
@@ -265,13 +214,7 @@ osg::ref_ptr<osg::Image> RayTraceDrawable::getColorImage() const
     if (!view) return nullptr;
     try
     {
-        std::lock_guard<std::mutex> lock(view->mutex);
-        if (!view->tracer.hasImage()) return nullptr;
-        const std::vector<float> radiance = view->tracer.radiance();
-        osg::ref_ptr<osg::Image> image = new osg::Image;
-        image->allocateImage(view->tracer.width(), view->tracer.height(), 1, GL_RGBA, GL_FLOAT);
-        std::copy(radiance.begin(), radiance.end(), reinterpret_cast<float*>(image->data()));
-        return image;
+        return view->radiance();
     }
     catch (const std::exception& error)
     {
@@ -326,16 +269,16 @@ void RayTraceDrawable::drawImplementation(osg::RenderInfo& renderInfo) const
 
 void RayTraceDrawable::releaseGLObjects(osg::State* state) const
 {
-    for (const std::shared_ptr<ViewState>& view : _implementation->views.states())
-        view->display.releaseGLObjects(state);
+    for (const std::shared_ptr<ShownView>& view : _implementation->views.states())
+        view->releaseGLObjects(state);
     if (state) _implementation->views.forgetContext(state->getContextID());
     osg::Drawable::releaseGLObjects(state);
 }
 
 void RayTraceDrawable::resizeGLObjectBuffers(unsigned int maxSize)
 {
-    for (const std::shared_ptr<ViewState>& view : _implementation->views.states())
-        view->display.resizeGLObjectBuffers(maxSize);
+    for (const std::shared_ptr<ShownView>& view : _implementation->views.states())
+        view->resizeGLObjectBuffers(maxSize);
     osg::Drawable::resizeGLObjectBuffers(maxSize);
 }
 
@@ -415,6 +358,8 @@ bool RayTraceDrawable::pick(RayIntersector& ray, osgUtil::IntersectionVisitor& v
 
 void RayTraceDrawable::forgetFailure()
 {
+    for (const std::shared_ptr<ShownView>& view : _implementation->views.states())
+        view->forgetFailures();
     std::lock_guard<std::mutex> lock(_implementation->mutex);
     _implementation->untraceable.reset();
 }

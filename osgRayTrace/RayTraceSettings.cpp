@@ -88,6 +88,7 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _frameBudget(other._frameBudget),
       _degradeWhileMoving(other._degradeWhileMoving),
       _passesPerFrame(other._passesPerFrame),
+      _presentation(other._presentation),
       _reproject(other._reproject),
       _threads(other._threads),
       _seed(other._seed),
@@ -177,6 +178,11 @@ void RayTraceSettings::setShadows(bool value)
 void RayTraceSettings::setTerminatorCorrection(bool value)
 {
     change(_terminatorCorrection, value, _modifiedCount);
+}
+
+void RayTraceSettings::setPresentation(Presentation value)
+{
+    changeChoice("presentation", kPresentationWords, _presentation, value, _modifiedCount);
 }
 
 void RayTraceSettings::setReproject(bool value)

@@ -5,13 +5,14 @@
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/bridge/HomeView.h"
+#include "osgRayTrace/bridge/HostArrays.h"
 #include "osgRayTrace/bridge/PixelImage.h"
 #include "osgRayTrace/bridge/RenderOptionsFromSettings.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/StatisticsFromEngine.h"
 #include "osgRayTrace/bridge/ViewFromMatrices.h"
 #include "osgRayTrace/bridge/WarnOnce.h"
-#include "osgRayTrace/session/DenoiseFilter.h"
+#include "osgRayTrace/session/Denoiser.h"
 #include "osgRayTrace/session/RenderSession.h"
 
 #include <osg/Light>
@@ -123,11 +124,13 @@ struct Renderer::Implementation
     Statistics statistics;
     int threads = -1; ///< that the session was made for
     std::shared_ptr<engine::Workers> workers;
+    engine::HostArraysRelease release; // after all that holds arrays
     engine::SceneConverter converter;
     engine::MaterialLibraryFile materialFile;
     ConversionKey convertedFor;
     std::shared_ptr<const engine::TracedScene> traced;
     std::unique_ptr<engine::RenderSession> session;
+    engine::Denoiser denoiser;
 
     /// cancel(), any thread, against render(), which replaces the session.
     std::mutex sessionMutex;
@@ -139,6 +142,7 @@ struct Renderer::Implementation
     void convertScene();
     engine::ConversionInput conversionInput(const ConversionKey& key) const;
     bool hasImage() const { return session && session->progress().passes > 0; }
+    bool denoises() const { return engine::denoiseKind(*settings) != engine::DenoiseKind::Off; }
     engine::ShownImage denoisedImage();
 };
 
@@ -171,11 +175,12 @@ engine::ShownImage Renderer::Implementation::denoisedImage()
 {
     engine::ShownImage image = session->shownImage();
     const auto begin = std::chrono::steady_clock::now();
-    engine::DenoiseFilter denoise;
-    denoise.setSurfaces(session->surfaceSamples(), image.width, image.height, *workers);
-    denoise.filter(image, *workers);
-    statistics.denoiseMilliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    denoiser.forgetSurfaces();
+    const auto surfaces = [this]() -> const std::vector<engine::SurfaceSample>&
+    { return session->surfaceSamples(); };
+    denoiser.denoise(image, engine::denoiseKind(*settings), surfaces, *workers);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+    engine::setDenoiseStatistics(statistics, denoiser.report(), time.count());
     return image;
 }
 
@@ -219,6 +224,7 @@ void Renderer::Implementation::convertScene()
 
     const std::lock_guard<std::mutex> lock(graphMutex());
     if (sceneDirty) converter.forget();
+    engine::releaseHostArrays();
     const engine::ConversionResult conversion = converter.convert(conversionInput(key));
     traced = engine::TracedScene::build(conversion.scene, workers, traced);
     session->setScene(traced);
@@ -368,7 +374,7 @@ osg::ref_ptr<osg::Image> Renderer::getColorImage() const
         [&self]
         {
             const engine::RenderSession& session = *self.session;
-            return engine::pixelImage(engine::denoises(*self.settings) ? self.denoisedImage().radiance
+            return engine::pixelImage(self.denoises() ? self.denoisedImage().radiance
                                                                        : session.resolveRadiance(),
                                       session.width(), session.height(), GL_RGBA);
         });
@@ -386,7 +392,7 @@ osg::ref_ptr<osg::Image> Renderer::getDisplayImage() const
             const osg::ref_ptr<osg::Image> image = engine::newPixelImage(
                 self.session->width(), self.session->height(), GL_RGBA, GL_UNSIGNED_BYTE);
             if (!image) return image;
-            if (engine::denoises(*self.settings))
+            if (self.denoises())
                 engine::showImage(self.denoisedImage(), toneMap, *self.workers, image->data(), nullptr);
             else
                 self.session->resolveDisplay(toneMap, image->data(), nullptr);

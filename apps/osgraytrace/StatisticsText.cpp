@@ -50,7 +50,12 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
                            {"radius", statistics.photonRadius},
                            {"note", statistics.photonNote}};
     json["relativeError"] = statistics.relativeError;
-    if (statistics.denoiseMilliseconds > 0.0) json["denoiseMilliseconds"] = statistics.denoiseMilliseconds;
+    if (!statistics.denoiser.empty())
+    {
+        json["denoiser"] = statistics.denoiser;
+        json["denoiseMilliseconds"] = statistics.denoiseMilliseconds;
+        json["denoiseNote"] = statistics.denoiseNote;
+    }
     json["droppedSamples"] = statistics.droppedSamples;
     json["conversion"] = statistics.conversion;
     json["conversionPaths"] = statistics.conversionPaths;

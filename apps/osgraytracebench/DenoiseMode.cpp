@@ -7,9 +7,10 @@
 #include "apps/osgraytracebench/Timing.h"
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/session/DenoiseFilter.h"
+#include "osgRayTrace/session/Denoiser.h"
 #include "osgRayTrace/session/RenderSession.h"
 
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -66,6 +67,12 @@ double relMse(const std::vector<float>& image, const std::vector<float>& referen
     return sum.measures().relMse;
 }
 
+/// What a denoiser asks for.
+Denoiser::Surfaces surfacesOf(const RenderSession& session)
+{
+    return [&session]() -> const std::vector<SurfaceSample>& { return session.surfaceSamples(); };
+}
+
 void measureError(Rows& rows, const std::string& name, const BenchScene& scene)
 {
     constexpr uint32_t kSeeds = 3;
@@ -74,24 +81,53 @@ void measureError(Rows& rows, const std::string& name, const BenchScene& scene)
         box.render(kReferencePasses, kReferenceSeed)->resolveRadiance();
     for (const int passes : {1, 4})
     {
-        double before = 0.0, after = 0.0;
+        double before = 0.0, after = 0.0, byOidn = 0.0;
         for (uint32_t seed = 1; seed <= kSeeds; ++seed)
         {
             const auto session = box.render(passes, seed);
-            ShownImage image = session->shownImage();
+            const ShownImage image = session->shownImage();
             before += relMse(image.radiance, reference) / kSeeds;
-            DenoiseFilter denoise;
-            denoise.setSurfaces(session->surfaceSamples(), image.width, image.height,
-                                box.workers());
-            denoise.filter(image, box.workers());
-            after += relMse(image.radiance, reference) / kSeeds;
+            const auto denoised = [&](DenoiseKind kind)
+            {
+                ShownImage copy = image;
+                Denoiser denoiser;
+                denoiser.denoise(copy, kind, surfacesOf(*session), box.workers());
+                // What takes its place is not it.
+                return denoiser.report().by == kind ? relMse(copy.radiance, reference) : NAN;
+            };
+            after += denoised(DenoiseKind::Filter) / kSeeds;
+            if (DenoiseOidn::isBuiltIn()) byOidn += denoised(DenoiseKind::Oidn) / kSeeds;
         }
         const std::string row =
             name + ", " + std::to_string(passes) + (passes == 1 ? " pass: " : " passes: ");
         rows.push_back({row + "relMSE", before, ""});
         rows.push_back({row + "relMSE, filtered", after, ""});
         rows.push_back({row + "relMSE / filtered", before / after, "times", Goal::AtLeast, 4.0});
+        if (!DenoiseOidn::isBuiltIn()) continue;
+        rows.push_back({row + "relMSE, Open Image Denoise", byOidn, ""});
+        rows.push_back({row + "relMSE / Open Image Denoise", before / byOidn, "times"});
     }
+}
+
+/// On the wall: the library has threads of its own.
+void measureOidnTime(Rows& rows)
+{
+    const Box box(cornellBox(1920, 1080));
+    const auto session = box.render(1, 1, 1);
+    const ShownImage image = session->shownImage();
+    Denoiser denoiser;
+    std::vector<double> times;
+    for (int run = 0; run < 6; ++run)
+    {
+        ShownImage copy = image;
+        const double time = secondsOf(
+            [&]
+            { denoiser.denoise(copy, DenoiseKind::Oidn, surfacesOf(*session), box.workers()); });
+        if (run > 0) times.push_back(time); // the first makes the network
+    }
+    const bool failed = denoiser.report().by != DenoiseKind::Oidn;
+    rows.push_back(
+        {"1920 x 1080, all threads: Open Image Denoise", failed ? NAN : 1e3 * median(times), "ms"});
 }
 
 /// By one thread's own time, which others on the machine hardly change; and on the wall with two.
@@ -134,6 +170,7 @@ Rows measureDenoise()
 {
     Rows rows;
     measureTime(rows);
+    if (DenoiseOidn::isBuiltIn()) measureOidnTime(rows);
     measureError(rows, "diffuse", cornellBox(kWidth, kHeight));
     measureError(rows, "glossy", glossyBox(kWidth, kHeight));
     measureError(rows, "textured", texturedBox(kWidth, kHeight));

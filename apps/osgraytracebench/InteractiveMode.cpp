@@ -5,6 +5,7 @@
 #include "apps/osgraytracebench/BenchScenes.h"
 #include "apps/osgraytracebench/ObjectField.h"
 #include "apps/osgraytracebench/Timing.h"
+#include "osgRayTrace/base/LargeArray.h"
 #include "osgRayTrace/bridge/SceneUpdater.h"
 #include "osgRayTrace/bridge/ViewTracer.h"
 
@@ -30,12 +31,12 @@ namespace
 
 constexpr double kBudgets[] = {16.0, 33.0, 100.0}; // [ms]
 
-/// What a viewer's frame does with a view, but for OpenGL.
-struct Display
+/// A picture, and the copy of it that a driver takes of what has changed.
+struct Picture
 {
     int width = 0, height = 0;
-    std::vector<uint8_t> rgba, uploadedRgba;
-    std::vector<float> depth, uploadedDepth;
+    UnclearedArray<uint8_t> rgba, copiedRgba;
+    UnclearedArray<float> depth, copiedDepth;
 
     void resize(int w, int h)
     {
@@ -43,32 +44,62 @@ struct Display
         width = w;
         height = h;
         const std::size_t pixels = std::size_t(w) * std::size_t(h);
-        rgba.resize(4 * pixels);
-        uploadedRgba.resize(4 * pixels);
-        depth.resize(pixels);
-        uploadedDepth.resize(pixels);
+        rgba = UnclearedArray<uint8_t>(4 * pixels);
+        copiedRgba = UnclearedArray<uint8_t>(4 * pixels);
+        depth = UnclearedArray<float>(pixels);
+        copiedDepth = UnclearedArray<float>(pixels);
     }
 
-    /// What a driver does first: it takes a copy.
-    void upload()
+    template <class T>
+    void copy(const std::vector<uint8_t>& marks, const T* from, T* to, std::size_t values) const
     {
-        std::memcpy(uploadedRgba.data(), rgba.data(), rgba.size());
-        std::memcpy(uploadedDepth.data(), depth.data(), depth.size() * sizeof(float));
+        for (const PixelRect& rect : changedRects(marks, width, height))
+            for (int y = rect.y; y < rect.y + rect.height; ++y)
+            {
+                const std::size_t first =
+                    values * (std::size_t(y) * std::size_t(width) + std::size_t(rect.x));
+                std::memcpy(to + first, from + first, values * sizeof(T) * std::size_t(rect.width));
+            }
     }
+
+    void upload(const ChangedTiles& changed)
+    {
+        copy(changed.color, rgba.data(), copiedRgba.data(), 4);
+        copy(changed.depth, depth.data(), copiedDepth.data(), 1);
+    }
+
+    void uploadAll()
+    {
+        std::memcpy(copiedRgba.data(), rgba.data(), rgba.size());
+        std::memcpy(copiedDepth.data(), depth.data(), depth.size() * sizeof(float));
+    }
+};
+
+/// What a viewer's frame does with a view, but for OpenGL.
+struct Display
+{
+    Picture full, reduced;
+    Picture* shown = &full;
 
     void frame(ViewTracer& tracer, const SceneVersion& version, const View& view,
                const FrameBudget& budget)
     {
-        const bool fits = width == view.width && height == view.height;
-        bool changed = tracer.trace(version, view, budget, fits ? rgba.data() : nullptr,
-                                    fits ? depth.data() : nullptr);
+        const bool fits = shown->width == view.width && shown->height == view.height;
+        const bool written =
+            tracer.trace(version, view, budget, fits ? shown->rgba.data() : nullptr,
+                         fits ? shown->depth.data() : nullptr);
         if (tracer.needsResolve(version))
         {
-            resize(tracer.shownWidth(), tracer.shownHeight());
-            tracer.resolve(rgba.data(), depth.data());
-            changed = true;
+            const int width = tracer.shownWidth(), height = tracer.shownHeight();
+            shown = width == view.width && height == view.height ? &full : &reduced;
+            shown->resize(width, height);
+            tracer.resolve(shown->rgba.data(), shown->depth.data());
+            shown->uploadAll();
         }
-        if (changed) upload();
+        else if (written)
+        {
+            shown->upload(tracer.changed());
+        }
         tracer.noteShown();
     }
 };
@@ -227,7 +258,7 @@ void addShowing(Rows& rows, const SceneVersion& version, const View& view, const
     RenderOptions traced;
     traced.integrator = IntegratorKind::Whitted;
     session.setOptions(traced);
-    Display display;
+    Picture display;
     display.resize(view.width, view.height);
     StopRule rule;
     rule.passes = 2;
@@ -238,7 +269,7 @@ void addShowing(Rows& rows, const SceneVersion& version, const View& view, const
         resolves.push_back(secondsBy(
             clock,
             [&] { session.resolveDisplay(ToneMap(), display.rgba.data(), display.depth.data()); }));
-        copies.push_back(secondsBy(clock, [&] { display.upload(); }));
+        copies.push_back(secondsBy(clock, [&] { display.uploadAll(); }));
     }
     rows.push_back(
         {"all of full resolution resolved, not in its pass", 1e3 * median(resolves), "ms"});

@@ -177,7 +177,9 @@ void measure(Rows& rows, const Subject& subject, const std::string& pictures)
         renderTo(session, subject, divider, 1);
         const std::string name = subject.name + ", 1/" + std::to_string(divider);
         const ShownImage small = session.shownImage();
-        const std::vector<SurfaceSample> samples = session.surfaceSamples();
+        // The session keeps them: it traces them once an image.
+        const double sampling = 1e3 * threadSecondsOf([&] { session.surfaceSamples(); });
+        const std::vector<SurfaceSample>& samples = session.surfaceSamples();
         ShownImage result;
         const UpsampleCounts counts = session.upsample(small, samples, kWidth, kHeight, result);
         const ShownImage blocks = enlarged(small, false), linear = enlarged(small, true);
@@ -205,8 +207,7 @@ void measure(Rows& rows, const Subject& subject, const std::string& pictures)
         std::vector<float> depth(std::size_t(kWidth) * kHeight);
         const DisplayTarget display{{}, rgba.data(), depth.data()};
         rows.push_back({name + ": shownImage", milliseconds([&] { session.shownImage(); }), "ms"});
-        rows.push_back(
-            {name + ": surfaceSamples", milliseconds([&] { session.surfaceSamples(); }), "ms"});
+        rows.push_back({name + ": surfaceSamples, once an image", sampling, "ms"});
         rows.push_back(
             {name + ": showUpsampled",
              milliseconds([&] { session.showUpsampled(small, samples, kWidth, kHeight, display); }),

@@ -87,8 +87,10 @@ std::string statusText(const RayTracedScene& scene)
         text += format("   %.1f Mrays/s", 1e-6 * rays / statistics.renderSeconds);
     if (std::isfinite(statistics.relativeError))
         text += format("   error %.2g %%", 100.0 * statistics.relativeError);
-    if (scene.getDrawable()->getSettings()->getDenoise() != RayTraceSettings::OFF)
-        text += format("   denoised in %.1f ms", statistics.denoiseMilliseconds);
+    if (scene.getDrawable()->getSettings()->getDenoise() != RayTraceSettings::OFF &&
+        !statistics.denoiser.empty())
+        text += format("   denoised by %s in %.1f ms", statistics.denoiser.c_str(),
+                       statistics.denoiseMilliseconds);
     if (scene.getDrawable()->getPaused()) text += "   paused";
     return text;
 }

@@ -3,6 +3,7 @@
 #include "osgRayTrace/base/Parallel.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -67,17 +68,24 @@ private:
     LoopOrder& _order;
 };
 
+/// Threads that may be inside at once beside those that it has. Who finds no place would have to wait for
+/// the loops of others: a scene could not be updated while a view is traced in the background.
+constexpr int kCallers = 8;
+
 } // namespace
 
 struct Workers::Implementation
 {
-    explicit Implementation(int threads) : arena(threads) {}
+    explicit Implementation(int count)
+        : threads(count > 0 ? count : tbb::info::default_concurrency()),
+          arena(threads - 1 + kCallers, kCallers)
+    {
+    }
+    int threads;
     tbb::task_arena arena;
 };
 
-Workers::Workers(int threads)
-    : _implementation(
-          std::make_unique<Implementation>(threads > 0 ? threads : +tbb::task_arena::automatic))
+Workers::Workers(int threads) : _implementation(std::make_unique<Implementation>(threads))
 {
     _implementation->arena.initialize();
 }
@@ -86,7 +94,7 @@ Workers::~Workers() = default;
 
 int Workers::threads() const
 {
-    return _implementation->arena.max_concurrency();
+    return _implementation->threads;
 }
 
 void Workers::forEach(std::size_t count, const std::function<void(std::size_t)>& body) const

@@ -11,11 +11,13 @@ namespace osgRayTrace::engine
 {
 
 /// An arena of worker threads. The host's TBB limits, thread affinities and floating-point modes are
-/// left as they are: denormals are flushed only while a body runs. Thread safe.
+/// left as they are: denormals are flushed only while a body runs. Thread safe: several callers share
+/// the workers, each works for itself meanwhile, and none waits for the loop of another.
 class Workers
 {
 public:
-    /// threads: 0 takes all that the machine has; otherwise at least 1, the calling thread included.
+    /// threads: 0 takes all that the machine has; otherwise at least 1, the calling thread included; other
+    /// threads that call at the same time come on top of them.
     explicit Workers(int threads = 0);
     ~Workers();
     Workers(const Workers&) = delete;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GeometryConverter.h"
 
+#include "osgRayTrace/bridge/HostArrays.h"
 #include "osgRayTrace/bridge/MeshClipper.h"
 #include "osgRayTrace/bridge/MeshPlacement.h"
 #include "osgRayTrace/bridge/VertexArrays.h"
@@ -111,8 +112,8 @@ std::vector<UVec3> soundTriangles(const UVec3* triangles, std::size_t count,
 
 SharedArray<UVec3> shareIndices(const osg::DrawElementsUInt& elements)
 {
-    const auto owner = std::make_shared<osg::ref_ptr<const osg::DrawElementsUInt>>(&elements);
-    return {reinterpret_cast<const UVec3*>(&elements.front()), elements.size() / 3, owner};
+    return {reinterpret_cast<const UVec3*>(&elements.front()), elements.size() / 3,
+            keepHostArray(elements)};
 }
 
 SharedArray<UVec3> checkedTriangles(TriangleList& list, const osg::Geometry& geometry,

@@ -115,10 +115,19 @@ ToneMap toneMapFromSettings(const RayTraceSettings& settings, const Scene& scene
     return toneMap;
 }
 
-bool denoises(const RayTraceSettings& settings)
+DenoiseKind denoiseKind(const RayTraceSettings& settings)
 {
-    return settings.getDenoise() != RayTraceSettings::OFF &&
-           settings.getIntegrator() != RayTraceSettings::DEBUG;
+    if (settings.getIntegrator() == RayTraceSettings::DEBUG) return DenoiseKind::Off;
+    switch (settings.getDenoise())
+    {
+    case RayTraceSettings::OFF:
+        return DenoiseKind::Off;
+    case RayTraceSettings::FILTER:
+        return DenoiseKind::Filter;
+    case RayTraceSettings::OIDN:
+        return DenoiseKind::Oidn;
+    }
+    return DenoiseKind::Off;
 }
 
 } // namespace osgRayTrace::engine

@@ -5,6 +5,7 @@
 #include "osgRayTrace/film/ToneMap.h"
 #include "osgRayTrace/integrators/RenderOptions.h"
 #include "osgRayTrace/scene/Scene.h"
+#include "osgRayTrace/session/DenoiseReport.h"
 
 #include <osgRayTrace/RayTraceSettings>
 
@@ -17,7 +18,7 @@ RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings);
 /// How an image of the scene is shown: the settings' exposure, the scene's colour rule.
 ToneMap toneMapFromSettings(const RayTraceSettings& settings, const Scene& scene);
 
-/// Whether images are denoised before they are shown. Debug channels are not.
-bool denoises(const RayTraceSettings& settings);
+/// How images are denoised before they are shown. Debug channels are not.
+DenoiseKind denoiseKind(const RayTraceSettings& settings);
 
 } // namespace osgRayTrace::engine

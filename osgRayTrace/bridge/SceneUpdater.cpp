@@ -105,6 +105,7 @@ void SceneUpdater::update(osg::Node* root, const RayTraceSettings& settings,
                           const osg::FrameStamp* frameStamp)
 {
     std::lock_guard<std::mutex> lock(_updateMutex);
+    releaseHostArrays();
     try
     {
         takeSettings(settings);
@@ -139,7 +140,12 @@ void SceneUpdater::takeSettings(const RayTraceSettings& settings)
     // The settings last: they are there only if all else is.
     if (!_settings || _settings->getThreads() != settings.getThreads())
         _workers = std::make_shared<Workers>(settings.getThreads());
-    _settings = new RayTraceSettings(settings);
+    if (_settingsOf != &settings || _settingsCount != settings.getModifiedCount())
+    {
+        _settings = new RayTraceSettings(settings);
+        _settingsOf = &settings;
+        _settingsCount = settings.getModifiedCount();
+    }
 
     std::lock_guard<std::mutex> lock(_versionMutex);
     _version.settings = _settings;

@@ -5,6 +5,7 @@
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/bridge/GraphWatch.h"
+#include "osgRayTrace/bridge/HostArrays.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/ViewingConditions.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
@@ -106,6 +107,7 @@ private:
                  const ConversionResult& conversion, const Statistics& statistics);
     void fail(const char* message) noexcept;
 
+    HostArraysRelease _release; // after all that holds arrays
     mutable std::mutex _notedMutex; // cull and draw threads write, update reads
     Noted _noted;
 
@@ -118,7 +120,9 @@ private:
     std::mutex _updateMutex; // all below; one update or cull thread at a time
     SceneConverter _converter;
     Requests _asked; ///< and not yet heard: what comes before may throw
-    osg::ref_ptr<const RayTraceSettings> _settings; ///< as they were in the last update
+    osg::ref_ptr<const RayTraceSettings> _settings; ///< as they were in the last update: the same copy until they change
+    osg::ref_ptr<const RayTraceSettings> _settingsOf; ///< whose copy that is
+    unsigned int _settingsCount = 0;                  ///< of its changes then
     std::shared_ptr<Workers> _workers;
     std::optional<unsigned int> _frameNumber; ///< last looked at
     // Last looked at for, and converted successfully or not:

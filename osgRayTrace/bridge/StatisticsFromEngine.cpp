@@ -49,6 +49,20 @@ const char* noteText(PhotonNote note)
     return "";
 }
 
+const char* denoiserName(DenoiseKind kind)
+{
+    switch (kind)
+    {
+    case DenoiseKind::Off:
+        return "";
+    case DenoiseKind::Filter:
+        return "filter";
+    case DenoiseKind::Oidn:
+        return "oidn";
+    }
+    return "";
+}
+
 } // namespace
 
 void setSceneStatistics(Statistics& statistics, const ConversionResult& conversion,
@@ -91,8 +105,16 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     statistics.photonNote = noteText(progress.photonNote);
     if (!statistics.photonNote.empty()) warnOnce(statistics.photonNote);
     statistics.photonRadius = static_cast<double>(progress.photonRadius);
-    statistics.denoiseMilliseconds = 1e3 * progress.denoiseSeconds;
+    setDenoiseStatistics(statistics, progress.denoised, progress.denoiseSeconds);
     statistics.droppedSamples = progress.droppedSamples;
+}
+
+void setDenoiseStatistics(Statistics& statistics, const DenoiseReport& report, double seconds)
+{
+    statistics.denoiseMilliseconds = 1e3 * seconds;
+    statistics.denoiser = denoiserName(report.by);
+    statistics.denoiseNote = report.note;
+    if (!report.note.empty()) warnOnce(report.note);
 }
 
 } // namespace osgRayTrace::engine

@@ -18,4 +18,7 @@ void setSceneStatistics(Statistics& statistics, const ConversionResult& conversi
 /// Sets the image's part, ok and message. A render that was cancelled after a complete pass is ok.
 void setImageStatistics(Statistics& statistics, const RenderProgress& progress);
 
+/// Sets what is in them of the image's denoising, and warns once if it was not as asked for.
+void setDenoiseStatistics(Statistics& statistics, const DenoiseReport& report, double seconds);
+
 } // namespace osgRayTrace::engine

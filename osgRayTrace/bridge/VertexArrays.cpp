@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/VertexArrays.h"
 
+#include "osgRayTrace/bridge/HostArrays.h"
+
 #include "osgRayTrace/film/ToneMap.h"
 
 #include <cmath>
@@ -155,8 +157,7 @@ template <class T> SharedArray<T> VertexReader::share(const osg::Array& array) c
                          array.getDataVariance() == osg::Object::DYNAMIC;
     if (changes || !mayBeReadPast(values + _map.vertexCount))
         return copyOf(values, _map.vertexCount);
-    const auto owner = std::make_shared<osg::ref_ptr<const osg::Array>>(&array);
-    return SharedArray<T>(values, _map.vertexCount, owner);
+    return SharedArray<T>(values, _map.vertexCount, keepHostArray(array));
 }
 
 RowSelection VertexReader::rowsOfBinding(const osg::Array& array, IntegerMeaning integers) const

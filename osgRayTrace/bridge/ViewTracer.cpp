@@ -22,8 +22,15 @@ constexpr int kSettling = 2;
 /// Share of a frame that is traced in even if all that comes after it takes longer than the budget.
 constexpr double kLeastShare = 0.2;
 
-/// What upsampling takes of one thread for a pixel, until it is known [s].
-constexpr double kUpsampleSeconds = 12e-9;
+/// Tiles at rest are made in squares of so many a side: what lies together is copied to the display
+/// in one go. Only if there is time for so many squares in a frame, as they shall tell of the costs
+/// of all.
+constexpr int kGroup = 4;
+constexpr int kFewGroups = 16;
+
+/// What the display takes to copy a pixel, until it is known [s]; and to be enlarged first, into
+/// memory that is new.
+constexpr double kCopySeconds = 2e-9, kEnlargeSeconds = 6e-9;
 
 double steadySeconds()
 {
@@ -31,22 +38,10 @@ double steadySeconds()
         .count();
 }
 
-/// OSG's culling clamps the planes of last frame's projection matrix again, so that the third
-/// column of a view at rest wanders by its last digits; an image must go on nevertheless.
-bool sameButForRounding(const View& a, const View& b)
+double pixelsOf(const View& view)
 {
-    constexpr double kTolerance = 1e-9;
-    View rounded = a;
-    for (int i = 0; i < 4; ++i)
-    {
-        double& depth = rounded.clipFromView[i][2];
-        const double other = b.clipFromView[i][2];
-        if (std::abs(depth - other) <= kTolerance * std::abs(other)) depth = other;
-    }
-    return rounded == b;
+    return double(view.width) * view.height;
 }
-
-double pixelsOf(const View& view) { return double(view.width) * view.height; }
 
 bool same(const ToneMap& a, const ToneMap& b)
 {
@@ -63,7 +58,23 @@ View reducedView(View view, int divider)
 
 } // namespace
 
-ViewTracer::ViewTracer(std::function<double()> now) : _now(now ? std::move(now) : steadySeconds) {}
+bool sameButForRounding(const View& a, const View& b)
+{
+    constexpr double kTolerance = 1e-9;
+    View rounded = a;
+    for (int i = 0; i < 4; ++i)
+    {
+        double& depth = rounded.clipFromView[i][2];
+        const double other = b.clipFromView[i][2];
+        if (std::abs(depth - other) <= kTolerance * std::abs(other)) depth = other;
+    }
+    return rounded == b;
+}
+
+ViewTracer::ViewTracer(std::function<double()> now)
+    : _now(now ? std::move(now) : steadySeconds), _stages(_now), _reducedStages(_now)
+{
+}
 
 /// True if the image of the last frame is not the one that is wanted now.
 bool ViewTracer::takeInputs(const SceneVersion& version, const View& pass)
@@ -74,10 +85,8 @@ bool ViewTracer::takeInputs(const SceneVersion& version, const View& pass)
         _workers = version.workers;
         _session = std::make_unique<RenderSession>(version.workers, version.photons);
         _reduced = std::make_unique<RenderSession>(version.workers, version.photons);
-        _upsampleSeconds = kUpsampleSeconds / _workers->threads();
-        _surfacesOf = nullptr;
-        _imageOf = nullptr;
-        _history.drop();
+        _stages.reset(_workers);
+        _reducedStages.reset(_workers);
         _shown = Shown::Whole;
         moved = true;
     }
@@ -99,7 +108,8 @@ bool ViewTracer::takeInputs(const SceneVersion& version, const View& pass)
         moved = true;
     }
     _maxPasses = version.settings->getMaxPasses();
-    _reprojects = version.settings->getReproject();
+    _stages.setReprojects(version.settings->getReproject());
+    _reducedStages.setReprojects(version.settings->getReproject());
     return moved;
 }
 
@@ -109,11 +119,18 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
     _begin = _now();
     const bool moved = takeInputs(version, pass);
     _stillFrames = moved ? 0 : _stillFrames + 1;
-    _denoises = denoises(*version.settings);
-    if (_denoises) rgba = nullptr; // that takes the whole image: resolve() does it
-    _holdsFull = _holdsFull && rgba;
-    _display = {toneMapFromSettings(*version.settings, version.scene->scene()), rgba, depth};
+    setDenoise(denoiseKind(*version.settings));
+    if (denoises()) rgba = nullptr; // that takes the whole image: resolve() does it
+    _holdsFull = _holdsFull && rgba && !moved;
+    // Depths are those of each tile's first pass.
+    const bool holdsDepth = _holdsFull && _shown == Shown::Whole;
+    _changed.reset(_view.width, _view.height);
+    _display = {toneMapFromSettings(*version.settings, version.scene->scene()), rgba,
+                holdsDepth ? nullptr : depth};
+    _display.changed = &_changed;
     _written = false;
+    _upsamples = budget.seconds > 0.0 && _reducedStages.upsampleSeconds(_view.width, _view.height) <=
+                                             budget.upsampleShare * budget.seconds;
     _frame.traceSeconds = 0.0;
     _newTiles = 0;
 
@@ -128,32 +145,46 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
         frame.height = _view.height;
         frame.moved = moved;
         frame.degrade = budget.degrade;
-        setDeadline(budget.seconds, moved);
+        setDeadline(budget.seconds, moved, expectedShowing(moved));
         frame.seconds = secondsLeft();
         if (moved)
-            traceMoved(frame);
+            traceMoved(frame, budget.seconds);
         else
             traceStill(frame);
     }
-    _upsamples = budget.seconds > 0.0 &&
-                 _upsampleSeconds * pixelsOf(_view) <= budget.upsampleShare * budget.seconds;
-    _showing = _shown == Shown::Reduced                  ? Showing::Reduced
-               : _shown == Shown::Mixed && _imageChanged ? Showing::FirstMixed
-                                                         : Showing::Whole;
+    if (_shown == Shown::Reduced)
+        _showing = _upsamples ? Showing::Upsampled : Showing::Reduced;
+    else if (_written)
+        _showing = _display.holdsImage ? Showing::Tiles : Showing::Whole;
+    else
+        _showing = _shown == Shown::Mixed ? Showing::FirstMixed : Showing::Whole;
     _traceEnd = _now();
     return _written;
 }
 
-/// What comes after tracing will take as long as it did.
-void ViewTracer::setDeadline(double budget, bool moved)
+/// A view that moves is taken to have the resolution that it had when it moved last.
+ViewTracer::Showing ViewTracer::expectedShowing(bool moved) const
 {
-    const bool reduced = _shown == Shown::Reduced && (moved || _stillFrames < kSettling);
-    const Showing showing = reduced                    ? Showing::Reduced
-                            : _shown == Shown::Reduced ? Showing::FirstMixed
-                                                       : Showing::Whole;
-    double& after = _afterSeconds[static_cast<int>(showing)];
+    const bool reduced = moved ? _divider > 1 || !_planner.knowsCosts()
+                               : _shown == Shown::Reduced && _stillFrames < kSettling;
+    if (reduced) return _upsamples ? Showing::Upsampled : Showing::Reduced;
+    if (_holdsFull) return Showing::Tiles;
+    return !moved && _shown == Shown::Reduced ? Showing::FirstMixed : Showing::Whole;
+}
+
+/// What comes after tracing will take as long as it did.
+void ViewTracer::setDeadline(double budget, bool moved, Showing showing)
+{
+    const bool reduced = showing == Showing::Reduced || showing == Showing::Upsampled;
     const double pixels = pixelsOf(_view);
-    if (after == 0.0 && showing != Showing::Reduced) after = pixels * 2e-9; // a guess
+    double& after = _afterSeconds[static_cast<int>(showing)];
+    if (after == 0.0) // a guess
+    {
+        if (showing != Showing::Reduced) after = pixels * kCopySeconds;
+        if (showing == Showing::FirstMixed) after = pixels * kEnlargeSeconds;
+        if (showing == Showing::Upsampled)
+            after += _reducedStages.upsampleSeconds(_view.width, _view.height);
+    }
     double seconds = budget - after;
     // Each thread ends the tile that it is at.
     seconds -= _planner.tileSeconds(reduced ? 2 : 1) * _workers->threads();
@@ -175,10 +206,15 @@ void ViewTracer::traceFixed(int passes)
 }
 
 /// Time for one whole pass, at any resolution, must be.
-void ViewTracer::traceMoved(FrameSituation frame)
+void ViewTracer::traceMoved(FrameSituation frame, double budget)
 {
     const bool guessed = frame.degrade && !_planner.knowsCosts();
     FramePlan plan = _planner.plan(frame);
+    if (plan.divider > 1)
+    {
+        setDeadline(budget, true, _upsamples ? Showing::Upsampled : Showing::Reduced);
+        frame.seconds = secondsLeft();
+    }
     bool traced = traceImage(plan, frame, frame.degrade);
     if (!traced && _status.ok())
     {
@@ -232,6 +268,8 @@ void ViewTracer::traceStill(FrameSituation frame)
         return;
     }
     if (_shown != Shown::Reduced) frame.tilesLeft = _session->tilesLeft();
+    const double groupSeconds = kGroup * kGroup * _planner.tileSeconds(1);
+    if (groupSeconds > 0.0 && kFewGroups * groupSeconds < frame.seconds) rule.groupedTiles = kGroup;
     rule.newPasses = _planner.plan(frame).passes;
     // The display may lack whatever it did not hold before: then it is resolved.
     const bool addsToDisplay = _holdsFull && _resolved && same(_display.toneMap, *_resolved);
@@ -247,26 +285,36 @@ void ViewTracer::traceStill(FrameSituation frame)
     if (made.newTiles > 0) estimateError();
 }
 
+void ViewTracer::setDenoise(DenoiseKind kind)
+{
+    _denoise = kind;
+    _stages.setDenoise(kind);
+    _reducedStages.setDenoise(kind);
+}
+
 RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule& rule,
                                   const DisplayTarget* display)
 {
-    const View view = reducedView(_view, divider);
+    const ImageInputs inputs{_scene, reducedView(_view, divider), _options};
     session.setScene(_scene);
-    session.setView(view);
+    session.setView(inputs.view);
     RenderOptions options = _options;
     options.centredFirstPass = divider > 1; // what is upsampled has to be what first hits tell of
     session.setOptions(options);
     rule.passes = _maxPasses;
+    if (_interrupt)
+        rule.over = [this, over = rule.over](int tiles, double ahead)
+        { return _interrupt() || (over && over(tiles, ahead)); };
     const double start = _now();
-    leaveView(session, view);
-    // Display values need more than the tile's pass where there is a history.
-    const bool writes =
-        display && display->rgba && !_history.leaving() && !historyCounts(session);
+    ImageStages& stages = stagesOf(session);
+    stages.leaveView(session, inputs);
+    // Of what fills in, tiles are shown as they are; else the whole image is, once it is there.
+    const bool writes = display && display->rgba && !stages.changes(session) &&
+                        (display->holdsImage || !stages.willChange());
     const RenderProgress made = session.render(rule, {}, writes ? display : nullptr);
-    enterView(session, view, made);
+    stages.enterView(session, inputs, made);
     _status = made.status;
     _newTiles += made.newTiles;
-    if (made.restarted && _surfacesOf == &session) _surfacesOf = nullptr;
     const double seconds = _now() - start;
     _frame.traceSeconds += seconds;
     _planner.noteTiles(divider, made.newTiles, seconds - made.photonSeconds);
@@ -279,47 +327,21 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
 
     // A pass that was cut short may have left tiles of two images in the display; it is not shown
     // then.
-    const bool complete = made.status.ok() && (made.passes > 0 || (display && display->holdsImage));
-    _written = writes && complete;
+    const bool lacksDepth = made.restarted && display && !display->depth;
+    const bool complete =
+        made.status.ok() && !lacksDepth && (made.passes > 0 || (display && display->holdsImage));
+    _written = writes && complete && !stages.changes(session);
     _holdsFull = _written;
-    _imageChanged = !_written;
+    if (_written)
+        _imageChanged = false;
+    else if (made.passes > 0 || !denoises()) // single tiles cannot be denoised: they are not seen
+        _imageChanged = true;
     if (_written)
     {
         _resolved = display->toneMap;
-        _resolvedDenoised = false;
+        _resolvedDenoise = DenoiseKind::Off;
     }
     return made;
-}
-
-/// Takes what the session's image is worth to the next one, if nothing but the view changes.
-void ViewTracer::leaveView(RenderSession& session, const View& view)
-{
-    const bool sameScene = _imageScene.lock() == _scene;
-    const bool sameSize = view.width == _imageView.width && view.height == _imageView.height;
-    if (!sameScene) _viewDependence = viewDependence(_scene->scene());
-    const bool keeps = _reprojects && &session == _imageOf && sameScene && sameSize &&
-                       !_options.needsRestart(_imageOptions) && !_viewDependence.everywhere &&
-                       session.progress().integrator != IntegratorKind::Debug;
-    if (!keeps) _history.drop();
-    if (keeps && session.progress().passes > 0 && view != _imageView)
-        _history.leave(session, _imageView, *_workers);
-
-    if (!keeps) _sequence = 0;
-    session.setSequence(_history.leaving() ? _sequence + 1 : 0);
-}
-
-void ViewTracer::enterView(const RenderSession& session, const View& view, const RenderProgress& made)
-{
-    if (made.restarted && made.status.code != StatusCode::InvalidView)
-    {
-        _imageOf = &session;
-        _imageScene = _scene;
-        _imageView = view;
-        _imageOptions = _options;
-        if (_history.leaving()) ++_sequence;
-    }
-    if (_history.leaving() && made.passes > 0 && _imageView == view)
-        _history.enter(session, view, _viewDependence, *_workers);
 }
 
 void ViewTracer::estimateError()
@@ -335,9 +357,9 @@ void ViewTracer::estimateError()
 bool ViewTracer::needsResolve(const SceneVersion& version)
 {
     _toneMap = toneMapFromSettings(*version.settings, version.scene->scene());
-    _denoises = denoises(*version.settings);
+    setDenoise(denoiseKind(*version.settings));
     return hasImage() && (_imageChanged || !_resolved || !same(_toneMap, *_resolved) ||
-                          _denoises != _resolvedDenoised);
+                          _denoise != _resolvedDenoise);
 }
 
 void ViewTracer::resolve(uint8_t* rgba, float* depth)
@@ -345,13 +367,13 @@ void ViewTracer::resolve(uint8_t* rgba, float* depth)
     switch (_shown)
     {
     case Shown::Whole:
-        resolveImage(*_session, rgba, depth);
+        _stages.show(*_session, _toneMap, rgba, depth);
         break;
     case Shown::Reduced:
         if (_upsamples)
             showUpsampled(rgba, depth);
         else
-            resolveImage(*_reduced, rgba, depth); // OpenGL enlarges it
+            _reducedStages.show(*_reduced, _toneMap, rgba, depth); // OpenGL enlarges it
         break;
     case Shown::Mixed:
         // Single tiles cannot be denoised: those of full resolution wait for all of them then.
@@ -359,52 +381,25 @@ void ViewTracer::resolve(uint8_t* rgba, float* depth)
             showUpsampled(rgba, depth);
         else
             enlargeReduced(rgba, depth);
-        if (!_denoises) _session->resolveOver(_toneMap, rgba, depth);
+        if (!denoises()) _session->resolveOver(_toneMap, rgba, depth);
         break;
     }
-    _holdsFull = _shown != Shown::Reduced && !isStaged(image());
+    _holdsFull =
+        _shown == Shown::Reduced ? _upsamples && !denoises() : !stagesOf(image()).changes(image());
     _resolved = _toneMap;
-    _resolvedDenoised = _denoises;
+    _resolvedDenoise = _denoise;
     _imageChanged = false;
-}
-
-/// With what is done to images after they are accumulated.
-void ViewTracer::resolveImage(const RenderSession& session, uint8_t* rgba, float* depth)
-{
-    if (isStaged(session))
-        showImage(stagedImage(session), _toneMap, *_workers, rgba, depth);
-    else
-        session.resolveDisplay(_toneMap, rgba, depth);
-}
-
-ShownImage ViewTracer::stagedImage(const RenderSession& session)
-{
-    ShownImage image = session.shownImage();
-    if (historyCounts(session)) _history.blend(image, session.progress().passes, *_workers);
-    if (!_denoises) return image;
-    const double begin = _now();
-    if (!_denoise) _denoise = std::make_unique<DenoiseFilter>();
-    if (_surfacesOf != &session)
-        _denoise->setSurfaces(session.surfaceSamples(), image.width, image.height, *_workers);
-    _surfacesOf = &session;
-    _denoise->filter(image, *_workers);
-    _denoiseSeconds = _now() - begin;
-    return image;
 }
 
 std::vector<float> ViewTracer::radiance()
 {
-    return isStaged(image()) ? stagedImage(image()).radiance : image().resolveRadiance();
+    return stagesOf(image()).radiance(image());
 }
 
 /// To full resolution, along the edges of what is seen.
 void ViewTracer::showUpsampled(uint8_t* rgba, float* depth)
 {
-    const double begin = _now();
-    _reduced->showUpsampled(stagedImage(*_reduced), _reduced->surfaceSamples(), _view.width,
-                            _view.height, {_toneMap, rgba, depth}, kMostTraced);
-    // The first time takes longer than those after it.
-    _upsampleSeconds = std::min((_now() - begin) / pixelsOf(_view), 1.1 * _upsampleSeconds);
+    _reducedStages.showUpsampled(*_reduced, _view.width, _view.height, {_toneMap, rgba, depth});
 }
 
 /// To full resolution, with nothing but what its pixels hold.
@@ -414,10 +409,16 @@ void ViewTracer::enlargeReduced(uint8_t* rgba, float* depth)
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     std::vector<uint8_t> smallRgba(4 * pixels);
     std::vector<float> smallDepth(pixels);
-    resolveImage(*_reduced, smallRgba.data(), smallDepth.data());
+    _reducedStages.show(*_reduced, _toneMap, smallRgba.data(), smallDepth.data());
     const DisplayPixels small{width, height, smallRgba.data(), smallDepth.data()};
     const DisplayPixels large{_view.width, _view.height, rgba, depth};
     enlarge(small, large, *_workers);
+}
+
+void ViewTracer::forgetDisplay()
+{
+    _holdsFull = false;
+    _resolved.reset();
 }
 
 void ViewTracer::noteShown()
@@ -428,7 +429,7 @@ void ViewTracer::noteShown()
     if (_newTiles == 0) return;
     double& after = _afterSeconds[static_cast<int>(_showing)];
     const double seen = end - _traceEnd;
-    after = after == 0.0 ? seen : after + 0.25 * (seen - after);
+    after = seen > 1.5 * after ? seen : after + (seen > after ? 0.5 : 0.25) * (seen - after);
 }
 
 RenderProgress ViewTracer::progress() const
@@ -438,9 +439,7 @@ RenderProgress ViewTracer::progress() const
     progress.status = _status;
     progress.relativeError =
         _shown == Shown::Whole ? _relativeError : std::numeric_limits<double>::infinity();
-    progress.denoiseSeconds = _denoiseSeconds;
-    progress.reprojectedShare = historyCounts(image()) ? _history.share() : 0.0;
-    progress.reprojectSeconds = _history.seconds();
+    (_shown == Shown::Whole ? _stages : _reducedStages).report(image(), progress);
     return progress;
 }
 

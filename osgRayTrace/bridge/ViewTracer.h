@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/ImageStages.h"
 #include "osgRayTrace/bridge/SceneUpdater.h"
-#include "osgRayTrace/session/DenoiseFilter.h"
 #include "osgRayTrace/session/FramePlan.h"
 #include "osgRayTrace/session/RenderSession.h"
-#include "osgRayTrace/session/ViewHistory.h"
 
 #include <cstdint>
 #include <functional>
@@ -18,21 +17,26 @@
 namespace osgRayTrace::engine
 {
 
+/// OSG's culling clamps the planes of last frame's projection matrix again, so that the third
+/// column of a view at rest wanders by its last digits; an image must go on nevertheless.
+bool sameButForRounding(const View& a, const View& b);
+
 /// How long a frame of a view may take, from trace() to noteShown().
 struct FrameBudget
 {
     double seconds = 0.0; ///< 0: as long as the settings' passes per frame take
     bool degrade = true;  ///< the resolution may be reduced while the view moves
-    /// Reduced images are upsampled along edges if that takes no more than this of the seconds; else OpenGL
-    /// enlarges them.
+    /// Reduced images are upsampled along edges if that takes no more than this of the seconds;
+    /// else OpenGL enlarges them.
     double upsampleShare = 0.2;
 };
 
 /// Of the last frame.
 struct FrameReport
 {
-    int divider =
-        1; ///< of the width and height of what is shown; 1 as well where tiles are still missing
+    /// Of the width and height of what is shown. While full resolution fills in: of the reduced
+    /// image that is seen where tiles are still missing.
+    int divider = 1;
     double seconds = 0.0;      ///< from trace() to noteShown()
     double traceSeconds = 0.0; ///< of these, in passes and photons
 };
@@ -50,12 +54,20 @@ public:
     /// now: a clock [s], for tests.
     explicit ViewTracer(std::function<double()> now = {});
 
+    /// Asked before each tile, by any thread. True: trace() makes no more; parts of passes are kept, and the
+    /// next one does the rest.
+    void setInterrupt(std::function<bool()> interrupt) { _interrupt = std::move(interrupt); }
+
     /// Traces what a frame has time for, if the image needs any. Failures are in progress(),
     /// the image stays. Throws std::bad_alloc only.
     /// If rgba is not null, it and depth are what the last frame was shown from, of the pass's
-    /// size: they may take a new image as resolve() would write it, for less. True if they did.
+    /// size: they may take a new image as resolve() would write it, for less. True if they did:
+    /// changed() tells where.
     bool trace(const SceneVersion& version, const View& pass, const FrameBudget& budget = {},
                uint8_t* rgba = nullptr, float* depth = nullptr);
+
+    /// What the last trace() wrote to the display.
+    const ChangedTiles& changed() const { return _changed; }
 
     /// Takes the settings of how the image is shown. True if the image, or that, differs from what
     /// was resolved last. False if there is no image.
@@ -64,11 +76,18 @@ public:
     /// Display values and window depths, shownWidth() * shownHeight() pixels.
     void resolve(uint8_t* rgba, float* depth);
 
+    /// The display no longer holds what was resolved last: it has to be resolved again.
+    void forgetDisplay();
+
     /// The frame that trace() began is on its way to the display.
     void noteShown();
 
-    /// Of the pixels of a reduced image, those that may be traced to upsample it.
-    static constexpr double kMostTraced = 0.25;
+    /// Another trace() for the same would do nothing.
+    bool isDone() const
+    {
+        return _session && _status.ok() && _shown == Shown::Whole &&
+               _session->progress().passes >= _maxPasses;
+    }
 
     /// Of what resolve() writes: less than the pass's while the resolution is reduced.
     int shownWidth() const { return enlarges() ? _view.width : image().width(); }
@@ -98,41 +117,46 @@ private:
         Mixed, ///< tiles of full resolution over the enlarged reduced image
     };
 
-    /// What comes after tracing.
+    /// What comes after tracing, by what it costs.
     enum class Showing
     {
         Whole,
-        Reduced,
+        Tiles,      ///< some of them, or their colours alone: the display has the rest
+        Reduced,    ///< OpenGL enlarges it
+        Upsampled,
         FirstMixed, ///< the reduced image is enlarged
     };
+    static constexpr int kShowings = 5;
 
     bool takeInputs(const SceneVersion& version, const View& pass);
-    void setDeadline(double budget, bool moved);
+    Showing expectedShowing(bool moved) const;
+    void setDeadline(double budget, bool moved, Showing showing);
     double secondsLeft() const { return _begin + _deadline - _now(); }
     void traceFixed(int passes);
-    void traceMoved(FrameSituation frame);
+    void traceMoved(FrameSituation frame, double budget);
     bool traceImage(const FramePlan& plan, const FrameSituation& frame, bool mayGiveUp);
     void traceStill(FrameSituation frame);
     RenderProgress render(RenderSession& session, int divider, StopRule& rule,
                           const DisplayTarget* display);
     void estimateError();
-    void resolveImage(const RenderSession& session, uint8_t* rgba, float* depth);
-    ShownImage stagedImage(const RenderSession& session);
     void showUpsampled(uint8_t* rgba, float* depth);
     void enlargeReduced(uint8_t* rgba, float* depth);
 
-    void leaveView(RenderSession& session, const View& view);
-    void enterView(const RenderSession& session, const View& view, const RenderProgress& made);
-    bool historyCounts(const RenderSession& session) const
+    void setDenoise(DenoiseKind kind);
+    bool denoises() const { return _denoise != DenoiseKind::Off; }
+    ImageStages& stagesOf(const RenderSession& session)
     {
-        return &session == _imageOf && _history.counts(session.progress().passes);
+        return &session == _session.get() ? _stages : _reducedStages;
     }
-    bool isStaged(const RenderSession& session) const { return _denoises || historyCounts(session); }
 
-    bool enlarges() const { return _shown == Shown::Mixed || (_shown == Shown::Reduced && _upsamples); }
+    bool enlarges() const
+    {
+        return _shown == Shown::Mixed || (_shown == Shown::Reduced && _upsamples);
+    }
     const RenderSession& image() const { return _shown == Shown::Whole ? *_session : *_reduced; }
 
     std::function<double()> _now;
+    std::function<bool()> _interrupt;
     std::shared_ptr<Workers> _workers;
     std::unique_ptr<RenderSession> _session; ///< full resolution
     std::unique_ptr<RenderSession> _reduced; ///< has no image until one is needed
@@ -159,34 +183,22 @@ private:
     double _traceEnd = 0.0;
     int _newTiles = 0;
     Showing _showing = Showing::Whole;
-    double _afterSeconds[3] = {}; ///< by _showing: from _traceEnd to noteShown()
+    double _afterSeconds[kShowings] = {}; ///< by _showing: from _traceEnd to noteShown()
 
     // What the display holds
     ToneMap _toneMap;
     DisplayTarget _display;     ///< of this frame; rgba is null where it cannot be used
     bool _written = false;      ///< the frame's image is in it
-    bool _holdsFull = false;    ///< what resolve() would write, and that is of full size
+    ChangedTiles _changed;      ///< by this frame
+    bool _holdsFull = false;    ///< what resolve() would write, of full size: tiles may be added
     bool _imageChanged = false; ///< since it was resolved
     std::optional<ToneMap> _resolved;
 
-    // What the session's image is of that made the last one, and what is left of its earlier views.
-    bool _reprojects = false;
-    const RenderSession* _imageOf = nullptr;
-    std::weak_ptr<const TracedScene> _imageScene;
-    View _imageView;
-    RenderOptions _imageOptions;
-    uint32_t _sequence = 0; ///< of random numbers, which is another one for each view that is left
-    ViewDependence _viewDependence;
-    ViewHistory _history;
-
-    bool _upsamples = false;       ///< there is time to enlarge the reduced image along edges
-    double _upsampleSeconds = 0.0; ///< that takes, a pixel
-
-    bool _denoises = false;
-    bool _resolvedDenoised = false;
-    std::unique_ptr<DenoiseFilter> _denoise;      ///< null until it is needed
-    const RenderSession* _surfacesOf = nullptr;   ///< whose image's it knows
-    double _denoiseSeconds = 0.0;
+    // What is done to images between the two
+    ImageStages _stages, _reducedStages; ///< of _session, of _reduced
+    DenoiseKind _denoise = DenoiseKind::Off;
+    bool _upsamples = false; ///< there is time to enlarge the reduced image along edges
+    DenoiseKind _resolvedDenoise = DenoiseKind::Off;
 };
 
 } // namespace osgRayTrace::engine

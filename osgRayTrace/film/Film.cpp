@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/Film.h"
 
-#include "osgRayTrace/base/LargeArray.h"
 #include "osgRayTrace/base/Status.h"
 
 #include <algorithm>
@@ -115,8 +114,8 @@ void Film::reset(int width, int height)
         try
         {
             // Values are written before they are read, tile by tile: by the first pass of each half.
-            allocateLarge(_sums, tiles * 2 * kTileBlocks);
-            allocateLarge(_depth, tiles * kTilePixels);
+            _sums = UnclearedArray<RgbaLanes>(tiles * 2 * kTileBlocks);
+            _depth = UnclearedArray<float>(tiles * kTilePixels);
             _passes.assign(tiles, 0);
         }
         catch (const std::bad_alloc&)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/base/Lanes.h"
+#include "osgRayTrace/base/LargeArray.h"
 #include "osgRayTrace/base/Math.h"
 
 #include <cstdint>
@@ -15,6 +16,9 @@ constexpr int kTileSize = 16;                       ///< pixels a side
 constexpr int kTilePixels = kTileSize * kTileSize;
 constexpr int kBlockSize = 4;                       ///< a block of lanes is 4 x 4 pixels
 constexpr int kTileBlocks = kTilePixels / kLanes;
+
+/// Of an image's side.
+inline int tilesAlong(int pixels) { return (pixels + kTileSize - 1) / kTileSize; }
 
 /// Position of a lane of a block within its tile, in pixels.
 OSGRAYTRACE_INLINE int laneX(int block, int lane) { return (block & 3) * kBlockSize + (lane & 3); }
@@ -101,9 +105,9 @@ private:
     int _height = 0;
     int _tilesX = 0;
     int _tilesY = 0;
-    std::vector<RgbaLanes> _sums;  ///< tile, half, block
+    UnclearedArray<RgbaLanes> _sums; ///< tile, half, block
     std::vector<double> _totals;   ///< the same; empty until a half has kFoldPasses
-    std::vector<float> _depth;     ///< tile, block, lane
+    UnclearedArray<float> _depth;  ///< tile, block, lane
     std::vector<int> _passes;      ///< a tile
 };
 

@@ -68,12 +68,11 @@ void raysThrough(const CameraRays& camera, const FloatLanes& x, const FloatLanes
 }
 
 OSGRAYTRACE_KERNEL
-void planeDepths(const CameraRays& camera, int left, int bottom, const SurfaceLanes& surface,
-                 float* __restrict depth)
+void planeDistances(const CameraRays& camera, int left, int bottom, const SurfaceLanes& surface,
+                    FloatLanes& along)
 {
     const CameraRays c = camera;
     const LaneMask hits = surface.hits;
-    const uint32_t parallel = maskOf(c.orthographic);
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
@@ -93,9 +92,23 @@ void planeDepths(const CameraRays& camera, int left, int bottom, const SurfaceLa
         const float d2 = dx * dx + dy * dy + dz * dz;
         const float sHit = ((hx - ox) * dx + (hy - oy) * dy + (hz - oz) * dz) / d2;
         const bool usable = (s > 0.5f * sHit) & (s < 2.0f * sHit);
-        const float used = select(usable, s, sHit);
-        const float beyond = 1.0f / used - 1.0f - x * c.depthDx - y * c.depthDy;
-        const float window = c.nearDepth + c.depthSlope * select(parallel, used, beyond);
+        along[i] = select(laneBit(hits, i), select(usable, s, sHit), kInfinity);
+    }
+}
+
+OSGRAYTRACE_KERNEL
+void windowDepths(const CameraRays& camera, int left, int bottom, LaneMask hits, const FloatLanes& along,
+                  float* __restrict depth)
+{
+    const CameraRays c = camera;
+    const uint32_t parallel = maskOf(c.orthographic);
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float x = static_cast<float>(left + (i & 3)) + 0.5f;
+        const float y = static_cast<float>(bottom + (i >> 2)) + 0.5f;
+        const float beyond = 1.0f / along[i] - 1.0f - x * c.depthDx - y * c.depthDy;
+        const float window = c.nearDepth + c.depthSlope * select(parallel, along[i], beyond);
         const float low = select(window > 0.0f, window, 0.0f);
         const float clamped = select(low < 1.0f, low, 1.0f);
         depth[i] = select(laneBit(hits, i), clamped, 1.0f);
@@ -121,17 +134,18 @@ void centreRayLanes(const CameraRays& camera, int left, int bottom, int block, R
 }
 
 void depthLanes(const CameraRays& camera, int left, int bottom, int block, const SurfaceLanes& surface,
-                float* depth)
+                FloatLanes& along, float* depth)
 {
     const int blockLeft = left + laneX(block, 0), blockBottom = bottom + laneY(block, 0);
-    if (!surface.lifted)
+    if (surface.lifted)
     {
-        planeDepths(camera, blockLeft, blockBottom, surface, depth);
-        return;
+        SurfaceLanes onTriangles = surface;
+        dropLift(onTriangles, kAllLanes);
+        planeDistances(camera, blockLeft, blockBottom, onTriangles, along);
     }
-    SurfaceLanes onTriangles = surface;
-    dropLift(onTriangles, kAllLanes);
-    planeDepths(camera, blockLeft, blockBottom, onTriangles, depth);
+    else
+        planeDistances(camera, blockLeft, blockBottom, surface, along);
+    windowDepths(camera, blockLeft, blockBottom, surface.hits, along, depth);
 }
 
 } // namespace osgRayTrace::engine

@@ -16,9 +16,10 @@ void cameraRayLanes(const CameraRays& camera, const PassKey& key, int left, int 
 /// The same through the pixel centres, for what needs no random numbers.
 void centreRayLanes(const CameraRays& camera, int left, int bottom, int block, RayHitBlock& rays);
 
-/// Window depth in [0,1] of the surfaces at the pixel centres: where the centre's ray meets the plane of
-/// the triangle that the sample hit. 1 where nothing was hit.
+/// Of the surfaces at the pixel centres, where the centre's ray meets the plane of the triangle that the sample
+/// hit: along, s of the camera's rays there, infinity where nothing was hit; and the window depth in [0,1], 1
+/// where nothing was.
 void depthLanes(const CameraRays& camera, int left, int bottom, int block, const SurfaceLanes& surface,
-                float* depth);
+                FloatLanes& along, float* depth);
 
 } // namespace osgRayTrace::engine

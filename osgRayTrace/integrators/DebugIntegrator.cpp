@@ -88,12 +88,13 @@ void DebugIntegrator::renderTile(const PassContext& context, int left, int botto
         RayHitBlock rays;
         UintLanes seeds;
         SurfaceLanes surface;
+        FloatLanes along;
         alignas(64) float depth[kLanes];
         cameraRayLanes(context.camera, context.key, left, bottom, b, false, rays, seeds);
         context.traced->intersector().closestHits(rays, kAllLanes, Coherence::Coherent, kCameraRays);
         result.counts.cameraRays += kLanes;
         surfacesOf(context.traced->surfaces(), rays, kAllLanes, surface);
-        depthLanes(context.camera, left, bottom, b, surface, depth);
+        depthLanes(context.camera, left, bottom, b, surface, along, depth);
         for (int i = 0; i < kLanes; ++i)
         {
             const bool hit = (surface.hits >> i) & 1u;

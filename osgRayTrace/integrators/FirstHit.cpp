@@ -6,6 +6,8 @@
 #include "osgRayTrace/integrators/CameraLanes.h"
 #include "osgRayTrace/integrators/HitShading.h"
 
+#include <algorithm>
+
 namespace osgRayTrace::engine
 {
 
@@ -20,18 +22,87 @@ float lobeWidth(const MaterialRecord& record, const Bsdf& bsdf)
     return bsdf.isSmooth() ? 0.0f : bsdf.alpha;
 }
 
-void setMaterial(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface, int i,
-                 FirstHit& hit)
+/// What of a material is seen at a point.
+struct SeenMaterial
 {
-    const MaterialRecord& record = context.traced->materials()[surface.material[i]];
-    const auto set = [&](const Bsdf& bsdf)
+    Vec3 albedo{0.0f};
+    float lobe = kInfinity;
+    bool smooth = false;
+};
+
+SeenMaterial seenMaterial(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
+                          int i)
+{
+    const MaterialTable& materials = context.traced->materials();
+    const uint32_t material = surface.material[i];
+    const Bsdf bsdf = materials.bsdf(material, materialPoint(context, rays, surface, i));
+    return {bsdfAlbedo(bsdf), lobeWidth(materials[material], bsdf),
+            bsdf.isSmooth() && !bsdf.isDiffuse() && bsdf.diffuse == Vec3(0.0f)};
+}
+
+/// take(lane, value) for all lanes that hit something. value(lane): by material and side if
+/// isConstant(record): blocks see few materials, most of which are the same wherever they are seen.
+template <class IsConstant, class ValueOf, class Take>
+void forEachMaterial(const PassContext& context, const SurfaceLanes& surface, const IsConstant& isConstant,
+                     const ValueOf& valueOf, const Take& take)
+{
+    const MaterialTable& materials = context.traced->materials();
+    uint32_t known = kInvalid;
+    bool knownFront = false;
+    decltype(valueOf(0)) value{};
+    for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
     {
-        hit.albedo = bsdfAlbedo(bsdf);
-        hit.lobe = lobeWidth(record, bsdf);
-        hit.smooth = bsdf.isSmooth() && !bsdf.isDiffuse() && bsdf.diffuse == Vec3(0.0f);
-    };
-    if (record.constant) return set((surface.front >> i) & 1u ? record.front : record.back);
-    set(context.traced->materials().bsdf(surface.material[i], materialPoint(context, rays, surface, i)));
+        const int i = __builtin_ctz(lanes);
+        const uint32_t material = surface.material[i];
+        const bool front = (surface.front >> i) & 1u;
+        if (material != known || front != knownFront)
+        {
+            value = valueOf(i);
+            known = isConstant(materials[material]) ? material : kInvalid;
+            knownFront = front;
+        }
+        take(i, value);
+    }
+}
+
+template <class Take>
+void forEachMaterial(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
+                     const Take& take)
+{
+    forEachMaterial(
+        context, surface, [](const MaterialRecord& record) { return record.constant; },
+        [&](int i) { return seenMaterial(context, rays, surface, i); }, take);
+}
+
+void setLobes(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
+              FloatLanes& lobes)
+{
+    const MaterialTable& materials = context.traced->materials();
+    forEachMaterial(
+        context, surface, [](const MaterialRecord& record) { return record.sameLobes; },
+        [&](int i)
+        {
+            const MaterialRecord& record = materials[surface.material[i]];
+            if (!record.sameLobes) return seenMaterial(context, rays, surface, i).lobe;
+            return lobeWidth(record, (surface.front >> i) & 1u ? record.front : record.back);
+        },
+        [&](int i, float lobe) { lobes[i] = lobe; });
+}
+
+OSGRAYTRACE_KERNEL
+void setObjects(const SurfaceLanes& surface, SurfaceBlock& seen)
+{
+    const LaneMask hits = surface.hits;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const uint32_t hit = laneBit(hits, i);
+        seen.normal.x[i] = select(hit, seen.normal.x[i], 0.0f);
+        seen.normal.y[i] = select(hit, seen.normal.y[i], 0.0f);
+        seen.normal.z[i] = select(hit, seen.normal.z[i], 0.0f);
+        seen.lobe[i] = kInfinity;
+        seen.object[i] = (surface.instance[i] + 1u) & hit;
+    }
 }
 
 /// All but the albedo.
@@ -43,39 +114,16 @@ void traceCentres(const PassContext& context, int left, int bottom, int block, F
     facingNormalLanes(hits.rays.ray, hits.surface, hits.normal);
 }
 
-/// Blocks see few materials, most of which have the same albedo wherever they are seen.
-void albedoLanes(const PassContext& context, const FirstHitLanes& hits, Vec3Lanes& albedo)
-{
-    const MaterialTable& materials = context.traced->materials();
-    const SurfaceLanes& surface = hits.surface;
-    uint32_t known = kInvalid;
-    bool knownFront = false;
-    Vec3 value(0.0f);
-    for (int i = 0; i < kLanes; ++i)
-    {
-        if (!((surface.hits >> i) & 1u))
-        {
-            setLane(albedo, i, Vec3(0.0f));
-            continue;
-        }
-        const uint32_t material = surface.material[i];
-        const bool front = (surface.front >> i) & 1u;
-        if (material != known || front != knownFront)
-        {
-            value = bsdfAlbedo(materials.bsdf(material, materialPoint(context, hits.rays, surface, i)));
-            known = materials[material].constant ? material : kInvalid;
-            knownFront = front;
-        }
-        setLane(albedo, i, value);
-    }
-}
-
 } // namespace
 
 void firstHitLanes(const PassContext& context, int left, int bottom, int block, FirstHitLanes& hits)
 {
     traceCentres(context, left, bottom, block, hits);
-    albedoLanes(context, hits, hits.albedo);
+    std::fill_n(hits.albedo.x.v, kLanes, 0.0f);
+    std::fill_n(hits.albedo.y.v, kLanes, 0.0f);
+    std::fill_n(hits.albedo.z.v, kLanes, 0.0f);
+    forEachMaterial(context, hits.rays, hits.surface,
+                    [&](int i, const SeenMaterial& seen) { setLane(hits.albedo, i, seen.albedo); });
 }
 
 void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels])
@@ -85,20 +133,54 @@ void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits
         FirstHitLanes block;
         traceCentres(context, left, bottom, b, block);
         const SurfaceLanes& surface = block.surface;
-        for (int i = 0; i < kLanes; ++i)
-        {
-            FirstHit& hit = hits[b * kLanes + i];
-            hit = FirstHit();
-            if (!((surface.hits >> i) & 1u)) continue;
-            hit.hit = true;
-            hit.distance = block.rays.ray.tFar[i];
-            hit.normal = laneOf(block.normal, i);
-            setMaterial(context, block.rays, surface, i, hit);
-            hit.emits = emissionTowardsRay(context, block.rays, surface, i) != Vec3(0.0f);
-            hit.position = laneOf(surface.position, i);
-            hit.instance = surface.instance[i];
-        }
+        std::fill_n(hits + b * kLanes, kLanes, FirstHit());
+        forEachMaterial(context, block.rays, surface,
+                        [&](int i, const SeenMaterial& seen)
+                        {
+                            FirstHit& hit = hits[b * kLanes + i];
+                            hit.hit = true;
+                            hit.distance = block.rays.ray.tFar[i];
+                            hit.normal = laneOf(block.normal, i);
+                            hit.albedo = seen.albedo;
+                            hit.lobe = seen.lobe;
+                            hit.smooth = seen.smooth;
+                            hit.emits = emissionTowardsRay(context, block.rays, surface, i) != Vec3(0.0f);
+                            hit.position = laneOf(surface.position, i);
+                            hit.instance = surface.instance[i];
+                        });
     }
+}
+
+namespace
+{
+
+void setSurfaces(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
+                 const FloatLanes& along, SurfaceBlock& seen)
+{
+    seen.along = along;
+    facingNormalLanes(rays.ray, surface, seen.normal);
+    setObjects(surface, seen);
+    setLobes(context, rays, surface, seen.lobe);
+}
+
+} // namespace
+
+void noteFirstHits(const PassContext& context, int left, int bottom, int block, const RayHitBlock& rays,
+                   const SurfaceLanes& surface, TileResult& result)
+{
+    if (!context.wantsDepth) return;
+    FloatLanes along;
+    depthLanes(context.camera, left, bottom, block, surface, along, result.depth + block * kLanes);
+    if (result.surfaces) setSurfaces(context, rays, surface, along, result.surfaces[block]);
+}
+
+void firstSurfaces(const PassContext& context, int left, int bottom, int block, SurfaceBlock& seen)
+{
+    FirstHitLanes hits;
+    traceCentres(context, left, bottom, block, hits);
+    FloatLanes along, depth;
+    depthLanes(context.camera, left, bottom, block, hits.surface, along, depth.v);
+    setSurfaces(context, hits.rays, hits.surface, along, seen);
 }
 
 } // namespace osgRayTrace::engine

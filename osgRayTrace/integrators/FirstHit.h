@@ -37,4 +37,12 @@ void firstHitLanes(const PassContext& context, int left, int bottom, int block, 
 /// First hits of a tile, index block * kLanes + lane.
 void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels]);
 
+/// The same as noteFirstHits has it.
+void firstSurfaces(const PassContext& context, int left, int bottom, int block, SurfaceBlock& seen);
+
+/// What camera rays of a pass tell about their first hits, as far as it is wanted: of block's rays, through
+/// whatever points of the pixels.
+void noteFirstHits(const PassContext& context, int left, int bottom, int block, const RayHitBlock& rays,
+                   const SurfaceLanes& surface, TileResult& result);
+
 } // namespace osgRayTrace::engine

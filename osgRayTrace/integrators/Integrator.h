@@ -80,10 +80,20 @@ struct GatheredPhotons
 
 struct HitPoints;
 
+/// What the camera rays of a block met first. Where that is nothing, normals and objects are 0.
+struct SurfaceBlock
+{
+    Vec3Lanes normal;  ///< shading, unit, towards the viewer
+    FloatLanes along;  ///< s of CameraRays where the pixel's middle sees its plane; infinity: nothing
+    FloatLanes lobe;   ///< width of its narrowest lobe [radians]; see SurfaceSample
+    UintLanes object;  ///< instance + 1
+};
+
 struct TileResult
 {
     RgbaLanes* rgba = nullptr;              ///< kTileBlocks of radiance and coverage, one sample a pixel; finite
     float depth[kTilePixels];               ///< window depth at pixel centres; if wanted
+    SurfaceBlock* surfaces = nullptr;       ///< kTileBlocks, written with depth; null: nobody wants them
     TileCounts counts;
     TileDiagnostics* diagnostics = nullptr; ///< null: nobody wants them
     GatheredPhotons* gathered = nullptr;    ///< needed if photonUse

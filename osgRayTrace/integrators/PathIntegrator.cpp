@@ -18,6 +18,7 @@
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/CameraLanes.h"
+#include "osgRayTrace/integrators/FirstHit.h"
 #include "osgRayTrace/integrators/HitShading.h"
 #include "osgRayTrace/integrators/PathBounce.h"
 #include "osgRayTrace/shading/SmoothLanes.h"
@@ -81,9 +82,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     addEmission(tile, block, bounce.surface, use);
     if (number == 0)
     {
-        if (tile.context.wantsDepth)
-            depthLanes(tile.context.camera, tile.left, tile.bottom, b, bounce.surface,
-                       tile.result.depth + b * kLanes);
+        noteFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface, tile.result);
         for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
             tile.sums.a[block.pixel[__builtin_ctz(lanes)] & kPixelBits] = 1.0f;
     }

@@ -13,6 +13,7 @@
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/CameraLanes.h"
+#include "osgRayTrace/integrators/FirstHit.h"
 #include "osgRayTrace/integrators/EnvironmentLanes.h"
 #include "osgRayTrace/integrators/WhittedTile.h"
 
@@ -332,9 +333,7 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
         ShadingBlock& block = tile.group[k];
         countRays(tile, block, kAllLanes);
         if (block.passed) weigh(block.weight, block.radiance);
-        if (context.wantsDepth)
-            depthLanes(context.camera, left, bottom, first + k, block.surface,
-                       tile.result.depth + (first + k) * kLanes);
+        noteFirstHits(context, left, bottom, first + k, block.rays, block.surface, tile.result);
         RgbaLanes& rgba = tile.result.rgba[first + k];
         setPixels(block.radiance, block.surface.hits, rgba);
         for (LaneMask lanes = seen ? kAllLanes & ~block.surface.hits : 0; lanes; lanes &= lanes - 1)

@@ -15,8 +15,14 @@ namespace osgRayTrace::engine
 /// gamma functions. Passes are independent of each other.
 inline double globalRadiusSquared(int pass, double alpha)
 {
+    // std::lgamma also writes a sign that all threads share.
+    const auto logGamma = [](double x)
+    {
+        int sign = 1;
+        return lgamma_r(x, &sign);
+    };
     const double n = pass + 1.0;
-    return std::exp(std::lgamma(n + alpha) - std::lgamma(1.0 + alpha) - std::lgamma(n + 1.0));
+    return std::exp(logGamma(n + alpha) - logGamma(1.0 + alpha) - logGamma(n + 1.0));
 }
 
 /// Statistics of a pixel that shrinks its radius by the photons that it has seen: radius reduction and flux

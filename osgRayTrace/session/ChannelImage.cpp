@@ -141,13 +141,12 @@ void linearAlbedos(const Scene& scene, Vec3Lanes& albedo)
     if (scene.displayReferred) decodeAlbedos(albedo);
 }
 
-std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Workers& workers)
+void surfaceSamples(const PassContext& context, const Workers& workers, std::vector<SurfaceSample>& samples)
 {
     const int tilesX = (context.width + kTileSize - 1) / kTileSize;
     const int tilesY = (context.height + kTileSize - 1) / kTileSize;
     const Scene& scene = context.traced->scene();
-    std::vector<SurfaceSample> samples(static_cast<std::size_t>(context.width) *
-                                       static_cast<std::size_t>(context.height));
+    samples.resize(static_cast<std::size_t>(context.width) * static_cast<std::size_t>(context.height));
     workers.forEach(
         static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY),
         [&](std::size_t tile)
@@ -165,7 +164,6 @@ std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Work
                         static_cast<std::size_t>(x)] = sampleOf(hits[i], scene);
             }
         });
-    return samples;
 }
 
 } // namespace osgRayTrace::engine

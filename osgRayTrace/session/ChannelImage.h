@@ -17,6 +17,6 @@ std::vector<float> channelImage(Channel channel, const Film& film, const PassCon
 void linearAlbedos(const Scene& scene, Vec3Lanes& albedo);
 
 /// See RenderSession::surfaceSamples.
-std::vector<SurfaceSample> surfaceSamples(const PassContext& context, const Workers& workers);
+void surfaceSamples(const PassContext& context, const Workers& workers, std::vector<SurfaceSample>& samples);
 
 } // namespace osgRayTrace::engine

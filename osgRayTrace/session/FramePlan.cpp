@@ -33,7 +33,7 @@ int reducedSize(int size, int divider)
 
 int tilesOf(int width, int height)
 {
-    return ((width + kTileSize - 1) / kTileSize) * ((height + kTileSize - 1) / kTileSize);
+    return tilesAlong(width) * tilesAlong(height);
 }
 
 double FramePlanner::tileSeconds(int divider) const

@@ -1,19 +1,12 @@
 // RenderSession.cpp - the progressive image of one view. Layer: session.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/session/RenderSession.h"
+#include "osgRayTrace/session/RenderSessionState.h"
 
-#include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/film/Resolve.h"
 #include "osgRayTrace/film/TileOrder.h"
-#include "osgRayTrace/integrators/Integrator.h"
-#include "osgRayTrace/session/ChannelImage.h"
-#include "osgRayTrace/session/PhotonState.h"
-#include "osgRayTrace/session/Upsample.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <new>
@@ -78,50 +71,6 @@ Mat3 eyeFromEngine(const View& view)
 
 } // namespace
 
-struct RenderSession::Implementation
-{
-    Implementation(std::shared_ptr<Workers> w, std::shared_ptr<PhotonPasses> p)
-        : workers(std::move(w)), photons(p ? std::move(p) : std::make_shared<PhotonPasses>())
-    {
-    }
-
-    bool begin();
-    TileCounts renderTile(const PassContext& context, const Integrator& integrator, int tile);
-    bool renderPass(const PassContext& context, const Integrator& integrator, const StopRule& rule,
-                    const DisplayTarget* display);
-    void preparePhotons(PassContext& context, int pass);
-    double estimateError() const;
-    RenderProgress run(const StopRule& rule, const std::function<bool(const RenderProgress&)>& keepGoing,
-                       const DisplayTarget* display);
-    void resolve(const DisplayTarget& display, bool over) const;
-    PassContext contextOfPass(int pass) const;
-    std::optional<PassContext> contextOfSize(int width, int height) const;
-
-    std::shared_ptr<Workers> workers;
-
-    // Wanted next.
-    std::shared_ptr<const TracedScene> scene;
-    View view;
-    RenderOptions options;
-    uint32_t sequence = 0;
-
-    // What the film holds.
-    std::shared_ptr<const TracedScene> filmScene;
-    View filmView;
-    RenderOptions filmOptions;
-    uint32_t filmSeed = 0; // of the options and the sequence
-    CameraRays camera;
-    std::vector<Light> placedLights; // empty: those of the scene
-    std::vector<EnvironmentStratum> strata;
-    Film film;
-    PhotonState photons;
-    RenderProgress progress;
-    std::vector<TileCounts> tileCounts; // of the pass that is rendered
-    int photonsCounted = 0;             // passes whose photon rays are in progress
-
-    std::atomic<bool> cancelled{false}; // cancel(): any thread; render(): the session's and the workers
-};
-
 /// Restart or continue: decided here and nowhere else. True if there is something to render.
 bool RenderSession::Implementation::begin()
 {
@@ -150,6 +99,7 @@ bool RenderSession::Implementation::begin()
     const PlacedEnvironment* environment = scene->lights().shiningEnvironment();
     if (environment && options.environmentSampling == EnvironmentSampling::Structured)
         made = environment->strata(options.environmentSamples);
+    if (film.passes() > 0 && surfaces.finished) std::swap(surfaces, lastSurfaces);
     film.reset(view.width, view.height);
     photons.reset(film.tileCount());
     camera = *rays;
@@ -163,6 +113,10 @@ bool RenderSession::Implementation::begin()
     progress.restarted = true;
     photonsCounted = 0;
     progress.integrator = chooseIntegrator(options.integrator, scene->traits());
+    samples.clear();
+    if (!keepsSurfaces) surfaces = lastSurfaces = SurfaceMap();
+    surfaces.view = View();
+    if (keepsSurfaces && progress.integrator != IntegratorKind::Debug) beginSurfaceMap(view, surfaces);
     return true;
 }
 
@@ -188,23 +142,6 @@ PassContext RenderSession::Implementation::contextOfPass(int pass) const
     return context;
 }
 
-/// Of first hits of the film's view in another size; nothing without an image.
-std::optional<PassContext> RenderSession::Implementation::contextOfSize(int width, int height) const
-{
-    if (!filmScene || film.passes() < 1) return std::nullopt;
-    View sized = filmView;
-    sized.width = width;
-    sized.height = height;
-    const Scene& of = filmScene->scene();
-    const std::optional<CameraRays> rays = cameraRays(sized, of.origin, of.unit);
-    if (!rays) return std::nullopt;
-    PassContext context = contextOfPass(0);
-    context.camera = *rays;
-    context.width = width;
-    context.height = height;
-    return context;
-}
-
 /// Adds the next pass of a tile, in the film itself where that is possible.
 TileCounts RenderSession::Implementation::renderTile(const PassContext& context,
                                                      const Integrator& integrator, int tile)
@@ -220,7 +157,12 @@ TileCounts RenderSession::Implementation::renderTile(const PassContext& context,
         result.gathered = &gathered;
         result.hitPoints = photons.hitPoints(tile);
     }
+    SurfaceBlock met[kTileBlocks];
+    const bool keeps = context.wantsDepth && surfaces.view.width > 0;
+    if (keeps) result.surfaces = met;
     integrator.renderTile(context, film.tileX(tile), film.tileY(tile), result);
+    for (int b = 0; keeps && b < kTileBlocks; ++b)
+        setBlock(film.tileX(tile) + laneX(b, 0), film.tileY(tile) + laneY(b, 0), met[b], surfaces);
     if (photons.active())
         photons.end(tile, film.tilePasses(tile), gathered, context.options.photonAlpha, result.rgba);
     if (context.wantsDepth) std::copy(result.depth, result.depth + kTilePixels, film.depth(tile));
@@ -255,18 +197,22 @@ bool RenderSession::Implementation::renderPass(const PassContext& context, const
 {
     const int pass = film.passes();
     const auto tiles = static_cast<std::size_t>(film.tileCount());
-    const std::size_t stride = evenStride(tiles);
+    const TileOrder order(static_cast<std::size_t>(tilesAlong(film.width())),
+                          static_cast<std::size_t>(tilesAlong(film.height())),
+                          static_cast<std::size_t>(rule.groupedTiles));
     std::atomic<std::size_t> next{0};
     std::atomic<int> begun{progress.newTiles};
     std::atomic<bool> over{false};
     tileCounts.assign(tiles, TileCounts());
+    unshown.resize(tiles);
     film.beginPass();
     workers->forEach(
-        tiles,
+        rule.over ? order.places() : tiles,
         [&](std::size_t index)
         {
             // Workers begin at several places at once; an order has to be kept by all of them together.
-            if (rule.over) index = next.fetch_add(1, std::memory_order_relaxed) * stride % tiles;
+            if (rule.over) index = order.tile(next.fetch_add(1, std::memory_order_relaxed));
+            if (index == tiles) return;
             const int tile = static_cast<int>(index);
             bool renders = film.tilePasses(tile) == pass && !cancelled.load(std::memory_order_relaxed) &&
                            !over.load(std::memory_order_relaxed);
@@ -280,8 +226,9 @@ bool RenderSession::Implementation::renderPass(const PassContext& context, const
                 begun.fetch_add(1, std::memory_order_relaxed);
                 tileCounts[index] = renderTile(context, integrator, tile);
             }
-            if (display && (renders || !display->holdsImage))
-                resolveTileDisplay(film, tile, display->toneMap, display->rgba, display->depth);
+            if (renders) unshown[index] = 1;
+            if (display && (unshown[index] || !display->holdsImage)) resolveTile(*display, tile);
+            if (display) unshown[index] = 0;
         });
     for (const TileCounts& counts : tileCounts)
     {
@@ -294,28 +241,12 @@ bool RenderSession::Implementation::renderPass(const PassContext& context, const
     return film.passes() > pass;
 }
 
-/// Square root of the estimated mean squared relative error.
-double RenderSession::Implementation::estimateError() const
-{
-    if (film.passes() < 2) return std::numeric_limits<double>::infinity();
-    std::vector<Film::ErrorSum> sums(static_cast<std::size_t>(film.tileCount()));
-    workers->forEach(sums.size(), [&](std::size_t tile)
-                     { sums[tile] = film.relativeSquaredError(static_cast<int>(tile)); });
-    double sum = 0.0;
-    int64_t count = 0;
-    for (const Film::ErrorSum& tile : sums)
-    {
-        sum += tile.sum;
-        count += tile.count;
-    }
-    return count ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
-}
-
 RenderProgress RenderSession::Implementation::run(
     const StopRule& rule, const std::function<bool(const RenderProgress&)>& keepGoing,
     const DisplayTarget* display)
 {
     cancelled = false;
+    unshown.clear();
     progress.newTiles = 0;
     progress.photonSeconds = progress.firstPhotonSeconds = 0.0;
     if (!begin()) return progress;
@@ -335,9 +266,7 @@ RenderProgress RenderSession::Implementation::run(
         // In the pass that is likely to be the last one; tiles that only earlier ones of this call
         // reached are written as well.
         shown = made + 1 == rule.newPasses || pass + 1 == rule.passes;
-        DisplayTarget target = display ? *display : DisplayTarget();
-        target.holdsImage = target.holdsImage && made == 0;
-        const bool whole = renderPass(context, *integrator, rule, display && shown ? &target : nullptr);
+        const bool whole = renderPass(context, *integrator, rule, shown ? display : nullptr);
         progress.hitPointBytes = photons.viewBytes();
         progress.seconds += secondsSince(passStart);
         progress.passes = film.passes();
@@ -347,19 +276,18 @@ RenderProgress RenderSession::Implementation::run(
         if (rule.relativeError > 0.0 && progress.relativeError <= rule.relativeError) break;
         if (keepGoing && !keepGoing(progress)) break;
     }
-    if (display && progress.newTiles > 0 && !shown) resolve(*display, display->holdsImage);
+    if (display && progress.newTiles > 0 && !shown) showRest(*display);
     return progress;
 }
 
-/// over: tiles without a pass are left as they are.
-void RenderSession::Implementation::resolve(const DisplayTarget& display, bool over) const
+/// What no pass of this call has shown.
+void RenderSession::Implementation::showRest(const DisplayTarget& display)
 {
-    workers->forEach(static_cast<std::size_t>(film.tileCount()),
-                     [&](std::size_t index)
+    workers->forEach(unshown.size(),
+                     [&](std::size_t tile)
                      {
-                         const int tile = static_cast<int>(index);
-                         if (over && film.tilePasses(tile) == 0) return;
-                         resolveTileDisplay(film, tile, display.toneMap, display.rgba, display.depth);
+                         if (unshown[tile] || !display.holdsImage)
+                             resolveTile(display, static_cast<int>(tile));
                      });
 }
 
@@ -378,6 +306,8 @@ void RenderSession::setScene(std::shared_ptr<const TracedScene> scene)
 void RenderSession::setView(const View& view) { _implementation->view = view; }
 
 void RenderSession::setOptions(const RenderOptions& options) { _implementation->options = options; }
+
+void RenderSession::setKeepsSurfaces(bool keeps) { _implementation->keepsSurfaces = keeps; }
 
 void RenderSession::setSequence(uint32_t sequence) { _implementation->sequence = sequence; }
 
@@ -410,6 +340,8 @@ void RenderSession::clear()
     Implementation& session = *_implementation;
     session.scene.reset();
     session.filmScene.reset();
+    session.samples = {};
+    session.surfaces = session.lastSurfaces = SurfaceMap();
     session.photons.reset(0);
     session.progress = RenderProgress();
 }
@@ -424,80 +356,8 @@ int RenderSession::tilesLeft() const
     return left;
 }
 
-double RenderSession::estimateRelativeError() const { return _implementation->estimateError(); }
-
 const RenderProgress& RenderSession::progress() const { return _implementation->progress; }
 int RenderSession::width() const { return _implementation->film.width(); }
 int RenderSession::height() const { return _implementation->film.height(); }
-
-std::vector<float> RenderSession::resolveRadiance() const
-{
-    const Film& film = _implementation->film;
-    std::vector<float> image(4 * static_cast<std::size_t>(film.width()) *
-                             static_cast<std::size_t>(film.height()));
-    const bool displayReferred =
-        _implementation->filmScene && _implementation->filmScene->scene().displayReferred;
-    _implementation->workers->forEach(
-        static_cast<std::size_t>(film.tileCount()), [&](std::size_t tile)
-        { resolveTileRadiance(film, static_cast<int>(tile), displayReferred, image.data()); });
-    return image;
-}
-
-void RenderSession::resolveDisplay(const ToneMap& toneMap, uint8_t* rgba, float* depth) const
-{
-    _implementation->resolve({toneMap, rgba, depth}, false);
-}
-
-void RenderSession::resolveOver(const ToneMap& toneMap, uint8_t* rgba, float* depth) const
-{
-    _implementation->resolve({toneMap, rgba, depth}, true);
-}
-
-std::vector<float> RenderSession::resolveChannel(Channel channel) const
-{
-    const Implementation& session = *_implementation;
-    if (!session.filmScene) return {}; // nor was there ever an image
-    return channelImage(channel, session.film, session.contextOfPass(0), *session.workers);
-}
-
-ShownImage RenderSession::shownImage() const
-{
-    const Implementation& session = *_implementation;
-    ShownImage image;
-    if (!session.filmScene || session.film.passes() < 1) return image;
-    image.width = width();
-    image.height = height();
-    image.radiance = resolveRadiance();
-    image.depth = resolveChannel(Channel::Depth);
-    if (session.film.passes() > 1) image.error = resolveChannel(Channel::Error);
-    return image;
-}
-
-std::vector<SurfaceSample> RenderSession::surfaceSamples() const
-{
-    const Implementation& session = *_implementation;
-    if (!session.filmScene || session.film.passes() < 1) return {};
-    return engine::surfaceSamples(session.contextOfPass(0), *session.workers);
-}
-
-UpsampleCounts RenderSession::upsample(const ShownImage& image, const std::vector<SurfaceSample>& samples,
-                                       int width, int height, ShownImage& result,
-                                       double mostTraced) const
-{
-    const std::optional<PassContext> full = _implementation->contextOfSize(width, height);
-    if (full) return engine::upsample(image, samples, *full, mostTraced, *_implementation->workers, result);
-    result = ShownImage();
-    return {};
-}
-
-UpsampleCounts RenderSession::showUpsampled(const ShownImage& image,
-                                            const std::vector<SurfaceSample>& samples, int width,
-                                            int height, const DisplayTarget& display, double mostTraced) const
-{
-    const std::optional<PassContext> full = _implementation->contextOfSize(width, height);
-    if (!full) return {};
-    return engine::showUpsampled(image, samples, *full, mostTraced, display.toneMap, *_implementation->workers,
-                                 display.rgba, display.depth);
-}
 
 } // namespace osgRayTrace::engine

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "osgRayTrace/base/Status.h"
+#include "osgRayTrace/film/ChangedTiles.h"
 #include "osgRayTrace/film/ToneMap.h"
 #include "osgRayTrace/integrators/RenderOptions.h"
 #include "osgRayTrace/scene/View.h"
+#include "osgRayTrace/session/DenoiseReport.h"
 #include "osgRayTrace/session/ShownImage.h"
 
 #include <cstdint>
@@ -17,6 +19,7 @@
 namespace osgRayTrace::engine
 {
 
+struct SurfaceMap; // where the surfaces of a view's pixels are
 class TracedScene; // accel: a Scene with its Embree structures
 class Workers;     // base: the threads that a render may use
 
@@ -33,6 +36,9 @@ struct StopRule
     /// them tells what all of them cost. tiles: begun by this call; seconds: the least time until it
     /// is asked again, known of photons.
     std::function<bool(int tiles, double seconds)> over;
+    /// With over: tiles along a side of the squares whose tiles follow each other, see TileOrder. These
+    /// squares, and not tiles, are what is even over the image then.
+    int groupedTiles = 1;
 };
 
 /// Where display values go while an image is made: see RenderSession::resolveDisplay. For an image of the
@@ -45,6 +51,7 @@ struct DisplayTarget
     /// The image as it was before render() is there: only tiles that get a pass are written. Of an
     /// image without any pass that is whatever shall be seen where there is no tile yet.
     bool holdsImage = false;
+    ChangedTiles* changed = nullptr; ///< gets a mark for each tile that is written; of that size; may be null
 };
 
 /// Why photons do not do what one may expect of them.
@@ -78,7 +85,8 @@ struct RenderProgress
     double relativeError = std::numeric_limits<double>::infinity();
     RayCounts rays;
     uint64_t droppedSamples = 0;  ///< not finite, or above 1e30: left out of the image and counted
-    double denoiseSeconds = 0.0;  ///< of the last filter, noted by who calls it: see DenoiseFilter
+    double denoiseSeconds = 0.0;  ///< of the last image that was denoised, noted by who does it: see Denoiser
+    DenoiseReport denoised;       ///< what it went through
     bool restarted = false;       ///< this call began a new image
     int newTiles = 0;             ///< of this call, summed over its passes
     double photonSeconds = 0.0;   ///< that photons took in this call, traced or waited for
@@ -121,6 +129,9 @@ public:
     void setView(const View& view);
     void setOptions(const RenderOptions& options);
 
+    /// Whether the images that are begun from now on keep what their first samples meet: surfaces().
+    void setKeepsSurfaces(bool keeps);
+
     /// Which of many independent sequences of random numbers the next image that is begun takes: those that are
     /// averaged need different ones. 0: that of the options' seed. Photons are the same for all.
     void setSequence(uint32_t sequence);
@@ -155,6 +166,11 @@ public:
     /// Linear RGBA radiance, premultiplied, row 0 at the bottom: width*height*4 floats.
     std::vector<float> resolveRadiance() const;
 
+    /// The same to memory of the caller, with window depths if depth is not null. As soon as some rows are
+    /// there, take(first row, row past the last) is called for them, by any thread.
+    void resolveRows(float* radiance, float* depth,
+                     const std::function<void(std::size_t, std::size_t)>& take) const;
+
     /// Display values, row 0 at the bottom: width*height*4 bytes to rgba and, if not null, width*height
     /// window depths to depth. Runs on the session's threads.
     void resolveDisplay(const ToneMap& toneMap, uint8_t* rgba, float* depth) const;
@@ -168,9 +184,15 @@ public:
     /// The image with what more than a tone map needs. Empty without an image.
     ShownImage shownImage() const;
 
-    /// What is seen through the middle of each pixel, row 0 at the bottom; traces a ray for each. Empty
-    /// without an image.
-    std::vector<SurfaceSample> surfaceSamples() const;
+    /// What is seen through the middle of each pixel, row 0 at the bottom. The first time it is asked for it
+    /// traces a ray for each; it is kept as long as the image. Empty without an image.
+    const std::vector<SurfaceSample>& surfaceSamples() const;
+
+    /// What the pixels of the image show, and of the last image before it that was asked for them: taken from
+    /// the samples of the first pass, and where these tell of an edge from rays through the middles of
+    /// pixels. Of a view of no size where that was not kept.
+    const SurfaceMap& surfaces();
+    const SurfaceMap& lastSurfaces() const;
 
     /// The same view of another size, mostly a larger one, from an image and samples of this one's, filtered or
     /// not: see Upsample.h. Vectors of result that have its size already are used again. Empty without an image.

@@ -253,85 +253,82 @@ OSGRAYTRACE_INLINE Gathered OldImage::cubic(int x, int y, float u, float v) cons
     return gathered;
 }
 
-class Reprojector
+struct Reprojector
 {
-public:
-    Reprojector(const SampledImage& old, const SurfaceMap& from, const SurfaceMap& to,
-                const ReprojectionLimits& limits, SampledImage& result)
-        : _old{old, from},
-          _to(to),
-          _limits(limits),
-          _projection(projectionOf(from, to)),
-          _result(result)
-    {
-    }
-
-    /// Returns the number of pixels that took something.
-    std::size_t row(std::size_t y, ProjectedRow& projected) const;
-
-private:
     Gathered pixel(std::size_t i, std::size_t x, const ProjectedRow& projected) const;
 
-    OldImage _old;
-    const SurfaceMap& _to;
-    ReprojectionLimits _limits;
-    Projection _projection;
-    SampledImage& _result;
+    OldImage old;
+    const SurfaceMap& to;
+    ReprojectionLimits limits;
+    Projection projection;
+    SampledImage& result;
 };
 
-Gathered Reprojector::pixel(std::size_t i, std::size_t x, const ProjectedRow& projected) const
+OSGRAYTRACE_INLINE Gathered Reprojector::pixel(std::size_t i, std::size_t x,
+                                               const ProjectedRow& projected) const
 {
     const float oldX = projected.x[x], oldY = projected.y[x];
     // The floor of what is -1/2 at least, without a call.
     const int left = static_cast<int>(oldX + 1.0f) - 1, bottom = static_cast<int>(oldY + 1.0f) - 1;
     const float u = oldX - static_cast<float>(left), v = oldY - static_cast<float>(bottom);
     const int nearestX =
-        std::min(left + (u >= 0.5f), _old.map.view.width - 1); // of a place that was
-    const int nearestY = std::min(bottom + (v >= 0.5f), _old.map.view.height - 1); // rounded up
+        std::min(left + (u >= 0.5f), old.map.view.width - 1); // of a place that was
+    const int nearestY = std::min(bottom + (v >= 0.5f), old.map.view.height - 1); // rounded up
     const Surface surface{Vec3(projected.pointX[x], projected.pointY[x], projected.pointZ[x]),
-                          Vec3(_to.normalX[i], _to.normalY[i], _to.normalZ[i]), _to.along[i],
-                          _to.object[i]};
-    const SurfaceMap& map = _old.map;
-    const std::size_t nearest = _old.index(nearestX, nearestY);
+                          Vec3(to.normalX[i], to.normalY[i], to.normalZ[i]), to.along[i],
+                          to.object[i]};
+    const SurfaceMap& map = old.map;
+    const std::size_t nearest = old.index(nearestX, nearestY);
     const bool window =
         left >= 1 && bottom >= 1 && left + 2 < map.view.width && bottom + 2 < map.view.height;
     Gathered found;
     // With these four, all sixteen are smooth: none of them is mixed.
-    const bool interior = window && map.interior[_old.index(left, bottom)] &&
-                          map.interior[_old.index(left + 1, bottom)] &&
-                          map.interior[_old.index(left, bottom + 1)] &&
-                          map.interior[_old.index(left + 1, bottom + 1)];
-    if (interior && _old.shows(surface, nearestX, nearestY, nearest))
-        found = _old.cubic(left, bottom, u, v);
+    const bool interior = window && map.interior[old.index(left, bottom)] &&
+                          map.interior[old.index(left + 1, bottom)] &&
+                          map.interior[old.index(left, bottom + 1)] &&
+                          map.interior[old.index(left + 1, bottom + 1)];
+    if (interior && old.shows(surface, nearestX, nearestY, nearest))
+        found = old.cubic(left, bottom, u, v);
     else
-        found = _old.bilinear(surface, _to.smooth[i], left, bottom, u, v);
-    const float most = _to.smooth[i] ? _limits.count : _limits.edgeCount;
+        found = old.bilinear(surface, to.smooth[i], left, bottom, u, v);
+    const float most = to.smooth[i] ? limits.count : limits.edgeCount;
     found.count = std::min(found.count, std::min(most, projected.limit[x]));
     return found;
 }
 
-std::size_t Reprojector::row(std::size_t y, ProjectedRow& projected) const
+/// Returns the number of pixels that took something.
+OSGRAYTRACE_KERNEL
+std::size_t gatherRow(const Reprojector& reprojector, std::size_t first, std::size_t width,
+                      const ProjectedRow& projected)
 {
-    const auto width = static_cast<std::size_t>(_to.view.width);
-    const std::size_t first = y * width;
-    projectRow(_projection, _limits, width, static_cast<int>(y), &_to.along[first],
-               &_to.lobe[first], projected.x.data(), projected.y.data(), projected.pointX.data(),
-               projected.pointY.data(), projected.pointZ.data(), projected.limit.data());
+    SampledImage& result = reprojector.result;
     std::size_t found = 0;
     for (std::size_t x = 0; x < width; ++x)
     {
         Gathered gathered;
-        if (projected.limit[x] > 0.0f) gathered = pixel(first + x, x, projected);
+        if (projected.limit[x] > 0.0f) gathered = reprojector.pixel(first + x, x, projected);
         const Vec4& c = gathered.radiance;
         const float sum = c.x + c.y + c.z + c.w;
         const bool usable = gathered.count > 0.0f && sum - sum == 0.0f;
-        float* rgba = &_result.radiance[4 * (first + x)];
+        float* rgba = &result.radiance[4 * (first + x)];
         for (int k = 0; k < 4; ++k)
             rgba[k] = usable ? c[k] : 0.0f;
-        _result.count[first + x] = usable ? gathered.count : 0.0f;
+        result.count[first + x] = usable ? gathered.count : 0.0f;
         found += usable;
     }
     return found;
+}
+
+std::size_t reprojectRow(const Reprojector& reprojector, std::size_t y, ProjectedRow& projected)
+{
+    const SurfaceMap& to = reprojector.to;
+    const auto width = static_cast<std::size_t>(to.view.width);
+    const std::size_t first = y * width;
+    projectRow(reprojector.projection, reprojector.limits, width, static_cast<int>(y),
+               &to.along[first], &to.lobe[first], projected.x.data(), projected.y.data(),
+               projected.pointX.data(), projected.pointY.data(), projected.pointZ.data(),
+               projected.limit.data());
+    return gatherRow(reprojector, first, width, projected);
 }
 
 } // namespace
@@ -345,7 +342,7 @@ double reproject(const SampledImage& old, const SurfaceMap& from, const SurfaceM
     result.height = to.view.height;
     result.radiance.resize(4 * pixels);
     result.count.resize(pixels);
-    const Reprojector reprojector(old, from, to, limits, result);
+    const Reprojector reprojector{{old, from}, to, limits, projectionOf(from, to), result};
     std::atomic<std::size_t> found{0};
     forEachRows(workers, to.view.height,
                 [&](std::size_t first, std::size_t end)
@@ -353,7 +350,7 @@ double reproject(const SampledImage& old, const SurfaceMap& from, const SurfaceM
                     ProjectedRow projected(width);
                     std::size_t here = 0;
                     for (std::size_t y = first; y < end; ++y)
-                        here += reprojector.row(y, projected);
+                        here += reprojectRow(reprojector, y, projected);
                     found += here;
                 });
     return pixels ? static_cast<double>(found) / static_cast<double>(pixels) : 0.0;

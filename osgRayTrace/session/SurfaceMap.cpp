@@ -29,22 +29,6 @@ std::optional<Vec3d> poleOf(const View& view)
     return place;
 }
 
-/// Distances along rays to multiples of D.
-OSGRAYTRACE_KERNEL
-void measureRow(const PixelRays& pixelRays, float y, std::size_t width, float* __restrict along)
-{
-    const CameraRays c = pixelRays.rays;
-    const Vec3 first = c.direction + y * c.directionDy, step = c.directionDx;
-    OSGRAYTRACE_SIMD
-    for (std::size_t x = 0; x < width; ++x)
-    {
-        const float px = static_cast<float>(static_cast<int>(x)) + 0.5f;
-        const float dx = first.x + px * step.x, dy = first.y + px * step.y,
-                    dz = first.z + px * step.z;
-        along[x] = along[x] / std::sqrt(dx * dx + dy * dy + dz * dz);
-    }
-}
-
 /// One row of the map.
 struct Row
 {
@@ -133,23 +117,6 @@ void findInterior(SurfaceMap& map, std::size_t y, std::vector<uint8_t>& columns)
         interior[x] = columns[x] & columns[x + 1] & columns[x + 2];
 }
 
-void takeRow(const SurfaceSample* samples, std::size_t y, SurfaceMap& map)
-{
-    const auto width = static_cast<std::size_t>(map.view.width);
-    const std::size_t first = y * width;
-    for (std::size_t i = first; i < first + width; ++i)
-    {
-        const SurfaceSample& sample = samples[i];
-        map.normalX[i] = sample.normal.x;
-        map.normalY[i] = sample.normal.y;
-        map.normalZ[i] = sample.normal.z;
-        map.along[i] = sample.distance;
-        map.lobe[i] = sample.lobe;
-        map.object[i] = sample.object;
-    }
-    measureRow(map.rays, static_cast<float>(static_cast<int>(y)) + 0.5f, width, &map.along[first]);
-}
-
 void resize(SurfaceMap& map, std::size_t pixels)
 {
     for (std::vector<float>* values :
@@ -186,38 +153,72 @@ void forEachRows(const Workers& workers, int height,
                     [&](std::size_t i) { body(i * kRows, std::min(rows, (i + 1) * kRows)); });
 }
 
-bool makeSurfaceMap(const View& view, const std::vector<SurfaceSample>& samples,
-                    const Workers& workers, SurfaceMap& map)
+bool beginSurfaceMap(const View& view, SurfaceMap& map)
 {
     const std::optional<PixelRays> rays = pixelRays(view);
+    map.view = View();
+    map.finished = false;
     if (!rays) return false;
-    const auto width = static_cast<std::size_t>(view.width);
-    const std::size_t pixels = width * static_cast<std::size_t>(view.height);
-    if (samples.size() != pixels) return false;
-    resize(map, pixels);
+    resize(map, static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
     map.view = view;
     map.rays = *rays;
-    forEachRows(workers, view.height,
-                [&](std::size_t first, std::size_t end)
-                {
-                    for (std::size_t y = first; y < end; ++y)
-                        takeRow(samples.data(), y, map);
-                });
-    forEachRows(workers, view.height,
+    return true;
+}
+
+void setBlock(int left, int bottom, const SurfaceBlock& block, SurfaceMap& map)
+{
+    const int width = map.view.width;
+    const int columns = std::min(kBlockSize, width - left);
+    const int rows = std::min(kBlockSize, map.view.height - bottom);
+    for (int y = 0; y < rows; ++y)
+    {
+        const int lane = y * kBlockSize;
+        const auto pixel = static_cast<std::size_t>(bottom + y) * static_cast<std::size_t>(width) +
+                           static_cast<std::size_t>(left);
+        std::copy_n(block.normal.x.v + lane, columns, &map.normalX[pixel]);
+        std::copy_n(block.normal.y.v + lane, columns, &map.normalY[pixel]);
+        std::copy_n(block.normal.z.v + lane, columns, &map.normalZ[pixel]);
+        std::copy_n(block.along.v + lane, columns, &map.along[pixel]);
+        std::copy_n(block.lobe.v + lane, columns, &map.lobe[pixel]);
+        std::copy_n(block.object.v + lane, columns, &map.object[pixel]);
+    }
+}
+
+bool isSmooth(const SurfaceMap& map, int left, int bottom)
+{
+    const int right = std::min(left + kBlockSize, map.view.width);
+    const int top = std::min(bottom + kBlockSize, map.view.height);
+    uint8_t smooth = 1;
+    for (int y = bottom; y < top; ++y)
+        for (int x = left; x < right; ++x)
+            smooth &=
+                map.smooth[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.view.width) +
+                           static_cast<std::size_t>(x)];
+    return smooth != 0;
+}
+
+void findSmooth(const Workers& workers, SurfaceMap& map)
+{
+    const auto width = static_cast<std::size_t>(map.view.width);
+    forEachRows(workers, map.view.height,
                 [&](std::size_t first, std::size_t end)
                 {
                     std::vector<uint32_t> same(width), pairs(width + 1);
                     for (std::size_t y = first; y < end; ++y)
                         findEdges(map, y, same, pairs);
                 });
-    forEachRows(workers, view.height,
+}
+
+void findInteriors(const Workers& workers, SurfaceMap& map)
+{
+    const auto width = static_cast<std::size_t>(map.view.width);
+    forEachRows(workers, map.view.height,
                 [&](std::size_t first, std::size_t end)
                 {
                     std::vector<uint8_t> columns(width + 2);
                     for (std::size_t y = first; y < end; ++y)
                         findInterior(map, y, columns);
                 });
-    return true;
 }
 
 } // namespace osgRayTrace::engine

@@ -2,8 +2,8 @@
 // Layer: session. SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/integrators/Integrator.h"
 #include "osgRayTrace/scene/View.h"
-#include "osgRayTrace/session/ShownImage.h"
 
 #include <cstdint>
 #include <functional>
@@ -28,24 +28,37 @@ struct PixelRays
 /// Nothing for a view without rays.
 std::optional<PixelRays> pixelRays(const View& view);
 
-/// Arrays by pixel, row 0 at the bottom.
+/// What the pixels of a view show. Arrays by pixel, row 0 at the bottom; see SurfaceBlock.
 struct SurfaceMap
 {
-    View view;
+    View view; ///< of no size: the map is of nothing
     PixelRays rays;
     std::vector<float> normalX, normalY, normalZ;
-    std::vector<float> along;     ///< s of the hit; infinity: nothing is hit
-    std::vector<float> lobe;      ///< SurfaceSample::lobe
+    std::vector<float> along; ///< s of the surface; infinity: nothing is hit
+    std::vector<float> lobe;
     std::vector<uint32_t> object; ///< 0: nothing is hit
+
     std::vector<uint8_t>
         smooth; ///< 1: the pixels to the left, right, above and below show the same surface
     std::vector<uint8_t> interior; ///< 1: smooth, and so are the eight pixels around
+    bool finished = false;         ///< interior is known
+
+    bool isOf(const View& other) const { return view.width > 0 && view == other; }
 };
 
-/// samples: of this view, one for each pixel. False, and the map is not changed, if the view has no
-/// rays or there are not as many samples as it has pixels. Reuses the map's memory.
-bool makeSurfaceMap(const View& view, const std::vector<SurfaceSample>& samples,
-                    const Workers& workers, SurfaceMap& map);
+/// An empty map for a view, in the map's memory. False, and the map is of nothing, if it has no
+/// rays.
+bool beginSurfaceMap(const View& view, SurfaceMap& map);
+
+/// What the 4 x 4 pixels from one on show. Different ones by any threads.
+void setBlock(int left, int bottom, const SurfaceBlock& block, SurfaceMap& map);
+
+/// After all pixels are set: which of them are smooth; and then, which are interior.
+void findSmooth(const Workers& workers, SurfaceMap& map);
+void findInteriors(const Workers& workers, SurfaceMap& map);
+
+/// True if all of the 4 x 4 pixels are.
+bool isSmooth(const SurfaceMap& map, int left, int bottom);
 
 /// body(first row, row past the last) for all rows of an image, some of them at a time.
 void forEachRows(const Workers& workers, int height,

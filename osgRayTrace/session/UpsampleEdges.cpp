@@ -291,7 +291,8 @@ void traceUpsampled(const UpsampleSource& source, int left, int bottom, Upsample
     FirstHitLanes hits;
     firstHitLanes(full, left, bottom, 0, hits);
     linearAlbedos(full.traced->scene(), hits.albedo);
-    depthLanes(full.camera, left, bottom, 0, hits.surface, block.depth);
+    FloatLanes along;
+    depthLanes(full.camera, left, bottom, 0, hits.surface, along, block.depth);
 
     const LanePlaces place = placesOf(source, left, bottom);
     LaneSurfaces at{hits.surface.geometricNormal, hits.normal, hits.albedo,

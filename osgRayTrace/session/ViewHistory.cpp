@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/Lanes.h"
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/film/Resolve.h"
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/session/RenderSession.h"
 
@@ -61,6 +62,15 @@ void blendPixels(const float* __restrict history, const float* __restrict count,
     }
 }
 
+OSGRAYTRACE_KERNEL
+void addFaded(const float* __restrict history, float passes, std::size_t pixels,
+              float* __restrict count)
+{
+    OSGRAYTRACE_SIMD
+    for (std::size_t i = 0; i < pixels; ++i)
+        count[i] += fadedCount(history[i], passes);
+}
+
 /// Of the mean of all samples, as those of the film vary: e sqrt(n / (h + n)).
 void scaleErrors(const float* count, float passes, std::size_t pixels, float* error)
 {
@@ -109,51 +119,75 @@ ViewDependence viewDependence(const Scene& scene)
     return result;
 }
 
-void ViewHistory::leave(const RenderSession& session, const View& view, const Workers& workers)
+/// Film and history to _blended, and to the display if there is one.
+void ViewHistory::blendRows(const RenderSession& session, const ToneMap* toneMap, uint8_t* rgba,
+                            float* depth)
+{
+    const auto width = static_cast<std::size_t>(session.width());
+    const int passes = session.progress().passes;
+    const bool blends = counts(passes);
+    _blended.resize(4 * width * static_cast<std::size_t>(session.height()));
+    session.resolveRows(_blended.data(), depth,
+                        [&](std::size_t first, std::size_t end)
+                        {
+                            const std::size_t pixel = first * width, pixels = (end - first) * width;
+                            float* radiance = &_blended[4 * pixel];
+                            if (blends)
+                                blendPixels(&_history.radiance[4 * pixel], &_history.count[pixel],
+                                            static_cast<float>(passes), pixels, radiance);
+                            if (toneMap)
+                                displayPixels(radiance, pixels, toneMap->exposureEv,
+                                              rgba + 4 * pixel);
+                        });
+    _blendedPasses = passes;
+}
+
+void ViewHistory::leave(RenderSession& session, const View& view, const Workers& workers)
 {
     const Clock::time_point begin = Clock::now();
     const int passes = session.progress().passes;
     if (_taken && passes == 0) return; // what the view before left is still on its way
     _taken = false;
-    if (session.width() != view.width || session.height() != view.height) return drop();
-    const bool mapped = _here.view == view && !_here.object.empty();
-    if (!mapped)
-    {
-        _share = 0.0; // the history is of a view that was never left
-        if (!makeSurfaceMap(view, session.surfaceSamples(), workers, _here)) return drop();
-    }
+    if (!session.surfaces().isOf(view)) return drop();
     const auto width = static_cast<std::size_t>(view.width);
     const float n = static_cast<float>(passes);
+    if (_blendedPasses != passes) blendRows(session, nullptr, nullptr, nullptr);
+    _blendedPasses = 0;
     _left.width = view.width;
     _left.height = view.height;
-    _left.radiance = session.resolveRadiance();
-    _left.count.assign(width * static_cast<std::size_t>(view.height), n);
-    if (counts(passes))
-        forEachRows(workers, view.height,
-                    [&](std::size_t first, std::size_t end)
-                    {
-                        const std::size_t pixel = first * width, pixels = (end - first) * width;
-                        for (std::size_t i = pixel; i < pixel + pixels; ++i)
-                            _left.count[i] += fadedCount(_history.count[i], n);
-                        blendPixels(&_history.radiance[4 * pixel], &_history.count[pixel], n,
-                                    pixels, &_left.radiance[4 * pixel]);
-                    });
+    _left.radiance.swap(_blended);
+    _left.count.resize(width * static_cast<std::size_t>(view.height));
+    const bool blends = counts(passes);
+    forEachRows(workers, view.height,
+                [&](std::size_t first, std::size_t end)
+                {
+                    const std::size_t pixel = first * width, pixels = (end - first) * width;
+                    std::fill_n(&_left.count[pixel], pixels, n);
+                    if (blends) addFaded(&_history.count[pixel], n, pixels, &_left.count[pixel]);
+                });
+    _leftView = view;
     _taken = true;
     _seconds = secondsSince(begin);
 }
 
-void ViewHistory::enter(const RenderSession& session, const View& view,
-                        const ViewDependence& dependence, const Workers& workers)
+void ViewHistory::enter(RenderSession& session, const View& view, const ViewDependence& dependence,
+                        const Workers& workers)
 {
     const Clock::time_point begin = Clock::now();
-    if (!_taken || dependence.everywhere) return drop();
+    if (!_taken) return drop();
     _taken = false;
-    std::swap(_here, _there);
-    if (!makeSurfaceMap(view, session.surfaceSamples(), workers, _here)) return drop();
+    if (view == _leftView) return; // another view came and could not be traced
+    _blendedPasses = 0;
+    const SurfaceMap &from = session.lastSurfaces(), &to = session.surfaces();
+    if (dependence.everywhere || !from.isOf(_leftView) || !to.isOf(view)) return drop();
     ReprojectionLimits limits;
-    limits.count = kMostCount;
-    if (dependence.axes) limits.turn = turnOf(_there.view, view);
-    _share = reproject(_left, _there, _here, limits, workers, _history);
+    // One sample of a larger pixel tells less of each of the smaller ones within it.
+    const double sizes =
+        static_cast<double>(_left.count.size()) / static_cast<double>(to.along.size());
+    limits.count = kMostCount * static_cast<float>(std::min(1.0, sizes));
+    limits.edgeCount = std::min(limits.edgeCount, limits.count);
+    if (dependence.axes) limits.turn = turnOf(from.view, view);
+    _share = reproject(_left, from, to, limits, workers, _history);
     _seconds += secondsSince(begin);
 }
 
@@ -183,6 +217,12 @@ void ViewHistory::blend(ShownImage& image, int passes, const Workers& workers) c
                         scaleErrors(count, n, pixels, error);
                     blendPixels(history, count, n, pixels, radiance);
                 });
+}
+
+void ViewHistory::show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba,
+                       float* depth)
+{
+    blendRows(session, &toneMap, rgba, depth);
 }
 
 } // namespace osgRayTrace::engine

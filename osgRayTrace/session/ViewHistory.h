@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/film/ToneMap.h"
 #include "osgRayTrace/session/Reprojection.h"
+#include "osgRayTrace/session/ShownImage.h"
 
 namespace osgRayTrace::engine
 {
@@ -28,9 +30,9 @@ ViewDependence viewDependence(const Scene& scene);
 /// history: from pass 2 kMostCount + 1 on, and earlier where it holds less, the image is the film's
 /// own.
 ///
-/// A history is of one scene and one set of options, and of one size: who renders calls leave and
-/// enter only where nothing but the view changes, and drop where anything else does. Not thread
-/// safe; one for each view.
+/// A history is of one scene and one set of options, and of sessions that keep what their samples
+/// meet: who renders calls leave and enter only where nothing but the view changes, or its size,
+/// and drop where anything else does. Not thread safe; one for each session.
 class ViewHistory
 {
 public:
@@ -38,13 +40,14 @@ public:
 
     /// Before the session's image, of this view, is begun anew for another view: takes what is in
     /// it.
-    void leave(const RenderSession& session, const View& view, const Workers& workers);
+    void leave(RenderSession& session, const View& view, const Workers& workers);
 
     /// True if what leave took waits for enter.
     bool leaving() const { return _taken; }
 
-    /// After the first pass of the other view: carries what leave took into it.
-    void enter(const RenderSession& session, const View& view, const ViewDependence& dependence,
+    /// After the first pass of the other view: carries what leave took into it. After none, the
+    /// view was not left.
+    void enter(RenderSession& session, const View& view, const ViewDependence& dependence,
                const Workers& workers);
 
     void drop();
@@ -61,15 +64,23 @@ public:
     /// radiance.
     void blend(ShownImage& image, int passes, const Workers& workers) const;
 
+    /// The session's image with the history, as display values and window depths. For less than
+    /// blend and showImage, and the next leave then finds half of its work done.
+    void show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba, float* depth);
+
     double share() const { return _share; }     ///< of pixels with history
     double seconds() const { return _seconds; } ///< that the last leave and enter took
 
 private:
-    SampledImage _history; ///< of the view of _here
+    void blendRows(const RenderSession& session, const ToneMap* toneMap, uint8_t* rgba,
+                   float* depth);
+
+    SampledImage _history; ///< of the present view
     SampledImage _left;    ///< what leave took
-    SurfaceMap _here;      ///< of the last view that was entered
-    SurfaceMap _there;     ///< of the one before it
-    bool _taken = false;   ///< leave was called; enter was not yet
+    View _leftView;
+    std::vector<float> _blended; ///< film and history, of so many passes of the film; 0: of none
+    int _blendedPasses = 0;
+    bool _taken = false; ///< leave was called; enter was not yet
     double _share = 0.0;
     double _seconds = 0.0;
 };

@@ -53,6 +53,9 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
         record.fixedFunction = material.model == MaterialModel::FixedFunction;
         record.constant = !isTextured(material) && !material.hasBack &&
                           (!record.fixedFunction || material.vertexColorUse == VertexColorUse::None);
+        record.sameLobes = material.metallicRoughnessTexture == kInvalid &&
+                           material.transmissionTexture == kInvalid &&
+                           material.vertexColorUse != VertexColorUse::Specular;
         if (!isInvisible(material)) // else it is not traced: no photons are aimed at it
         {
             MaterialPoint point;

@@ -25,6 +25,7 @@ struct MaterialRecord
     Bsdf front;               ///< seen from outside; exact if constant
     Bsdf back;                ///< seen from inside; differs for transmissive surfaces
     bool constant = true;     ///< neither textures nor vertex colours
+    bool sameLobes = true;     ///< lobes, not colours, are those of front and back at each point
     bool plainDiffuse = false; ///< constant, and nothing but a Lambert base
     bool fixedFunction = false;
     bool emits = false;       ///< emission, or an unlit fixed-function colour

@@ -1,6 +1,8 @@
 // RendererTest.cpp - tests of the renderer that needs no graphics context.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/session/DenoiseOidn.h"
 #include "tests/Catch.h"
+#include "tests/bridge/Messages.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/Renderer>
@@ -23,6 +25,8 @@ using osgRayTrace::AreaLight;
 using osgRayTrace::RayTraceSettings;
 using osgRayTrace::Renderer;
 using osgRayTrace::Statistics;
+using osgRayTrace::engine::DenoiseOidn;
+using osgRayTrace::engine::test::Messages;
 
 namespace
 {
@@ -467,4 +471,36 @@ TEST_CASE("renderer: denoised images are smoother, and what was accumulated stay
     renderer->getSettings()->setDenoise(RayTraceSettings::OFF);
     CHECK(sameBytes(renderer->getColorImage(), color));
     CHECK(sameBytes(renderer->getDisplayImage(), display));
+}
+
+TEST_CASE("renderer: denoise oidn is the filter where it is not built in, and says so once",
+          "[api][renderer][denoise]")
+{
+    const osg::ref_ptr<osg::Group> scene = room();
+    const osg::ref_ptr<Renderer> renderer = rendererOf(scene.get());
+    renderer->getSettings()->setMaxPasses(1);
+    REQUIRE(renderer->render());
+    CHECK(renderer->getStatistics().denoiser.empty());
+    renderer->getSettings()->setDenoise(RayTraceSettings::FILTER);
+    const osg::ref_ptr<osg::Image> filtered = renderer->getColorImage();
+    CHECK(renderer->getStatistics().denoiser == "filter");
+    CHECK(renderer->getStatistics().denoiseNote.empty());
+
+    const Messages messages;
+    renderer->getSettings()->setDenoise(RayTraceSettings::OIDN);
+    const osg::ref_ptr<osg::Image> image = renderer->getColorImage();
+    REQUIRE(renderer->getDisplayImage());
+    CHECK(renderer->getStatistics().denoiseMilliseconds > 0.0);
+    if (DenoiseOidn::isBuiltIn())
+    {
+        CHECK(renderer->getStatistics().denoiser == "oidn");
+        CHECK(messages.text().empty());
+        CHECK_FALSE(sameBytes(image, filtered));
+        return;
+    }
+    CHECK(renderer->getStatistics().denoiser == "filter");
+    CHECK(renderer->getStatistics().denoiseNote ==
+          "denoise oidn: this build is without Open Image Denoise; denoise filter takes its place");
+    CHECK(messages.timesSaid("this build is without Open Image Denoise") == 1);
+    CHECK(sameBytes(image, filtered));
 }

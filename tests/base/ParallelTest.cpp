@@ -109,6 +109,35 @@ TEST_CASE("workers: forEach within forEach, and within that of other workers", "
         REQUIRE(n == 2);
 }
 
+TEST_CASE("workers: nobody waits for the loop of another caller", "[base]")
+{
+    for (const int threads : {1, 2})
+    {
+        const Workers workers(threads);
+        std::atomic<bool> free{false};
+        std::atomic<int> held{0};
+        std::thread other(
+            [&]
+            {
+                workers.forEach(1000,
+                                [&](std::size_t)
+                                {
+                                    ++held;
+                                    while (!free)
+                                        std::this_thread::yield();
+                                });
+            });
+        while (held < threads)
+            std::this_thread::yield();
+        int calls = 0; // by this thread: all others are held
+        workers.run([&] { ++calls; });
+        workers.forEach(1, [&](std::size_t) { ++calls; });
+        CHECK(calls == 2);
+        free = true;
+        other.join();
+    }
+}
+
 TEST_CASE("workers: several host threads may use the same workers at once", "[base]")
 {
     const Workers workers(2);

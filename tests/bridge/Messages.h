@@ -3,6 +3,7 @@
 #pragma once
 
 #include <osg/Notify>
+#include <osg/ref_ptr>
 
 #include <string>
 

@@ -3,6 +3,8 @@
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 
+#include "osgRayTrace/bridge/HostArrays.h"
+
 #include <osgRayTrace/AreaLight>
 
 #include <osg/LightSource>
@@ -177,6 +179,7 @@ TEST_CASE("removed geometry is forgotten, and its arrays are freed with the scen
     graph.second = nullptr;
     scene = graph.convert();
     CHECK(scene->meshes.size() == 1);
+    releaseHostArrays();
     CHECK_FALSE(array.valid());
 }
 

@@ -3,8 +3,11 @@
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 
+#include "osgRayTrace/bridge/HostArrays.h"
+
 #include <cmath>
 #include <limits>
+#include <thread>
 
 using namespace osgRayTrace::engine;
 
@@ -132,13 +135,15 @@ TEST_CASE("arrays in the right layout are shared, not copied", "[bridge]")
         CHECK(mesh.colors.data() == colors->getDataPointer());
     }
 
-    SECTION("the scene keeps them alive")
+    SECTION("the scene keeps them alive; they go by the thread that updates, whoever used them last")
     {
         osg::observer_ptr<osg::Array> array = geometry->getVertexArray();
         geometry->setVertexArray(new osg::Vec3Array);
         CHECK(array.valid());
         CHECK(soleMesh(result).positions[1] == Vec3(1.0f, 0.0f, 0.0f));
-        result.scene.reset();
+        std::thread([&result] { result = ConversionResult(); }).join();
+        CHECK(array.valid());
+        releaseHostArrays();
         CHECK_FALSE(array.valid());
     }
     SECTION("a geometry or an array that says that it will change is copied")

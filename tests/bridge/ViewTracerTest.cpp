@@ -5,6 +5,7 @@
 
 #include "osgRayTrace/bridge/RenderOptionsFromSettings.h"
 #include "osgRayTrace/bridge/ViewTracer.h"
+#include "osgRayTrace/film/ChangedTiles.h"
 #include "osgRayTrace/film/Enlarge.h"
 #include "osgRayTrace/film/Film.h"
 
@@ -42,6 +43,25 @@ struct Pixels
         depth.assign(std::size_t(w * h), 0.123f);
     }
 };
+
+bool same(const Pixels& a, const Pixels& b)
+{
+    return a.width == b.width && a.height == b.height && a.rgba == b.rgba && a.depth == b.depth;
+}
+
+void copyRects(const std::vector<PixelRect>& rects, const Pixels& from, Pixels& to, bool depth)
+{
+    for (const PixelRect& rect : rects)
+        for (int y = rect.y; y < rect.y + rect.height; ++y)
+        {
+            const auto first = std::size_t(y * from.width + rect.x),
+                       count = std::size_t(rect.width);
+            if (depth)
+                std::copy_n(&from.depth[first], count, &to.depth[first]);
+            else
+                std::copy_n(&from.rgba[4 * first], 4 * count, &to.rgba[4 * first]);
+        }
+}
 
 bool sameTile(const Pixels& a, const Pixels& b, int tile)
 {
@@ -112,11 +132,12 @@ struct Screen
 
     void frame(double x, bool keepsDisplay = true)
     {
-        const FrameBudget budget{kBudget, settings->getDegradeWhileMoving(), upsampleShare};
+        at = x;
+        const FrameBudget frameBudget{budget, settings->getDegradeWhileMoving(), upsampleShare};
         if (!keepsDisplay) display = Pixels();
         const bool fits = display.width == kWidth && display.height == kHeight;
         const bool written =
-            tracer.trace(version, viewAt(x), budget, fits ? display.rgba.data() : nullptr,
+            tracer.trace(version, viewAt(x), frameBudget, fits ? display.rgba.data() : nullptr,
                          fits ? display.depth.data() : nullptr);
         resolved = tracer.needsResolve(version);
         if (resolved)
@@ -124,8 +145,21 @@ struct Screen
             if (tracer.shownWidth() != display.width || tracer.shownHeight() != display.height)
                 display.resize(tracer.shownWidth(), tracer.shownHeight());
             tracer.resolve(display.rgba.data(), display.depth.data());
+            if (upsampleShare > 0.0 && display.width == kWidth) clock += upsampleSeconds;
         }
-        if (written || resolved) shown = display;
+        if (resolved)
+        {
+            shown = display;
+        }
+        else if (written)
+        {
+            const ChangedTiles& changed = tracer.changed();
+            REQUIRE((changed.width == kWidth && changed.height == kHeight));
+            copyRects(changedRects(changed.color, kWidth, kHeight), display, shown, false);
+            copyRects(changedRects(changed.depth, kWidth, kHeight), display, shown, true);
+            ++(std::count(changed.depth.begin(), changed.depth.end(), 1) ? copies : colorCopies);
+        }
+        if (resolved || written) REQUIRE(same(shown, display));
         if (shown.width < kWidth) reduced = shown;
         tracer.noteShown();
     }
@@ -166,12 +200,26 @@ struct Screen
     }
 
     double clock = 0.0, tileSeconds;
+    double at = 0.0; ///< the last frame's
+    double budget = kBudget;
+    double upsampleSeconds = 0.0; ///< that it takes, beside looks at the clock
     double upsampleShare = 0.0; ///< reduced pictures are shown as they are
     osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
     SceneVersion version;
     ViewTracer tracer;
-    Pixels display, shown, reduced; ///< reduced: as it was shown last
+    /// What a resolve of all makes of the present image.
+    Pixels whole()
+    {
+        Pixels pixels;
+        pixels.resize(tracer.shownWidth(), tracer.shownHeight());
+        tracer.resolve(pixels.rgba.data(), pixels.depth.data());
+        return pixels;
+    }
+
+    /// shown: copied of the display, what is marked alone; reduced: as it was shown last.
+    Pixels display, shown, reduced;
     bool resolved = false;
+    int copies = 0, colorCopies = 0; ///< of what is marked
 };
 
 } // namespace
@@ -312,7 +360,7 @@ TEST_CASE("frame budget: reduced pictures are upsampled where there is time for 
         expected.resize(kWidth, kHeight);
         session.showUpsampled(session.shownImage(), session.surfaceSamples(), kWidth, kHeight,
                               {{}, expected.rgba.data(), expected.depth.data()},
-                              ViewTracer::kMostTraced);
+                              ImageStages::kMostTraced);
         REQUIRE(screen.shown.width == kWidth);
         CHECK((screen.shown.rgba == expected.rgba));
         CHECK((screen.shown.depth == expected.depth));
@@ -320,6 +368,76 @@ TEST_CASE("frame budget: reduced pictures are upsampled where there is time for 
     screen.upsampleShare = 1e-9; // it took longer
     screen.frame(6.0);
     CHECK(screen.shown.width < kWidth);
+}
+
+TEST_CASE("frame budget: tiles laid over the upsampled picture make that of a full resolve",
+          "[bridge]")
+{
+    Screen screen;
+    screen.upsampleShare = 0.2;
+    for (int i = 0; i < 4; ++i)
+        screen.frame(i);
+    int laid = 0;
+    for (int i = 0; i < 30; ++i)
+    {
+        screen.frame(3.0);
+        const bool mixed = screen.tracer.frame().divider > 1 && i >= 1;
+        CAPTURE(i);
+        if (mixed) CHECK_FALSE(screen.resolved); // not even in the first of these frames
+        laid += mixed;
+        CHECK(same(screen.shown, screen.whole()));
+    }
+    CHECK(laid > 3);
+    CHECK(screen.colorCopies > 3); // depths are those of the first pass
+}
+
+TEST_CASE("frame budget: after a jump there is time for upsampling", "[bridge]")
+{
+    Screen screen;
+    screen.upsampleShare = 0.2;
+    screen.upsampleSeconds = 12.0;
+    for (int i = 0; i < 6; ++i)
+        screen.frame(i);
+    for (const double x : {200.0, -100.0, 50.0})
+    {
+        for (int i = 0; i < 25; ++i)
+        {
+            screen.frame(screen.at);
+            CHECK(screen.tracer.frame().seconds < 1.1 * kBudget);
+        }
+        CHECK(screen.tracer.frame().divider == 1);
+        screen.frame(x);
+        CHECK(screen.tracer.frame().divider > 1);
+        CHECK(screen.resolved);
+        CHECK(screen.tracer.frame().seconds < 1.1 * kBudget);
+        CHECK(screen.tracer.frame().traceSeconds > 0.7 * kBudget);
+    }
+}
+
+TEST_CASE("frame budget: copies of what is marked equal the whole, whatever changes", "[bridge]")
+{
+    Screen screen;
+    std::mt19937 random(11);
+    double x = 0.0;
+    for (int i = 0; i < 300; ++i)
+    {
+        if (random() % 12 == 0) x = double(random() % 4);
+        if (random() % 40 == 0) screen.upsampleShare = 0.2 - screen.upsampleShare;
+        if (random() % 40 == 0) screen.settings->setExposure(float(random() % 2));
+        if (random() % 40 == 0) screen.settings->setMaxBounces(1 + random() % 2);
+        if (random() % 40 == 0)
+            screen.settings->setDenoise(random() % 3 ? RayTraceSettings::OFF
+                                                     : RayTraceSettings::FILTER);
+        if (random() % 40 == 0) screen.settings->setDegradeWhileMoving(random() % 3);
+        if (random() % 60 == 0) screen.settings->setReproject(random() % 2);
+        if (random() % 60 == 0) screen.version.scene = cornellBox().build();
+        screen.budget = random() % 30 == 0 ? 0.0 : kBudget;
+        screen.takeSettings();
+        screen.frame(x, random() % 30 != 0); // which requires it
+    }
+    INFO(screen.copies << ", of colours alone " << screen.colorCopies);
+    CHECK(screen.copies > 20);
+    CHECK(screen.colorCopies > 20);
 }
 
 TEST_CASE("frame budget: the first image and one after a jump take a frame", "[bridge]")
@@ -403,4 +521,34 @@ TEST_CASE("frame budget: none, then so many passes as are set, as ever", "[bridg
         CHECK(screen.tracer.progress().passes == expected);
         CHECK(screen.tracer.shownWidth() == kWidth);
     }
+}
+
+TEST_CASE("frame budget: what fills in is not denoised: the picture under it is made once",
+          "[bridge]")
+{
+    Screen screen;
+    screen.settings->setDenoise(RayTraceSettings::FILTER);
+    screen.takeSettings();
+    for (int frame = 0; frame < 6; ++frame)
+        screen.frame(10.0 * frame);
+    REQUIRE(screen.tracer.frame().divider > 1);
+    Pixels before;
+    int fillingIn = 0, made = 0;
+    for (int frame = 0; frame < 40 && screen.tracer.frame().divider > 1; ++frame)
+    {
+        screen.frame(50.0);
+        const bool fills = screen.shown.width == kWidth && screen.tracer.frame().divider > 1;
+        if (fills)
+        {
+            ++fillingIn;
+            made += screen.resolved;
+            if (fillingIn > 1) CHECK(screen.shown.rgba == before.rgba);
+        }
+        before = screen.shown;
+    }
+    CHECK(fillingIn > 2);
+    CHECK(made == 1);
+    // The whole image is denoised, and so is each that has another pass.
+    REQUIRE(screen.tracer.frame().divider == 1);
+    CHECK(screen.resolved);
 }

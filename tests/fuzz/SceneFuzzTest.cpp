@@ -27,7 +27,7 @@ namespace
 {
 
 constexpr int kSize = 16;
-constexpr int kGeometries = 20000, kGraphs = 20000; ///< seeds
+constexpr int kGeometries = 10000, kGraphs = 10000; ///< seeds
 
 /// Empty, or what is wrong with a mesh that Embree and the integrators are to trust.
 std::string faultOf(const Mesh& mesh)

@@ -16,6 +16,13 @@
 namespace osgRayTrace::test
 {
 
+/// Sanitizers find in fewer pictures what is theirs to find.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
 /// Single threaded, without a manipulator, near and far planes fixed unless changed; black
 /// background.
 struct TestViewer
@@ -96,7 +103,8 @@ inline double meanDifference(const osg::Image& a, const osg::Image& b)
     return meanDifference(a, b, [](int, int) { return true; });
 }
 
-/// Means of samples * samples pixels: a traced picture is antialiased, so what it is compared with must be.
+/// Means of samples * samples pixels: a traced picture is antialiased, so what it is compared with
+/// must be.
 inline osg::ref_ptr<osg::Image> reduced(const osg::Image& image, int samples)
 {
     osg::ref_ptr<osg::Image> small = new osg::Image;
@@ -136,7 +144,8 @@ inline osg::ref_ptr<osg::ShapeDrawable> sphere(const osg::Vec3& center, float ra
     return drawable;
 }
 
-/// Settings that do not depend on the tester's environment, nor pictures on how fast the machine is.
+/// Settings that do not depend on the tester's environment, nor pictures on how fast the machine
+/// is.
 inline osg::ref_ptr<RayTracedScene> tracedScene(osg::Node* child)
 {
     osg::ref_ptr<RayTracedScene> scene = new RayTracedScene;

@@ -103,7 +103,7 @@ double sumOf(const std::vector<Estimate>& regions)
 } // namespace
 
 TEST_CASE("lent paths: the same light in all parts of the Cornell box, with less noise",
-          "[integrators][statistics]")
+          "[integrators][statistics][long]")
 {
     const Measured own = measureBox(boxWith(1), 100);
     const Measured lent = measureBox(boxWith(1000), 200);

@@ -77,7 +77,7 @@ SceneBuilder ballOverFloor()
 
 } // namespace
 
-TEST_CASE("soft light: irradiance by path tracing", "[integrators][statistics][stability 24]")
+TEST_CASE("soft light: irradiance by path tracing", "[integrators][statistics][stability 24][long]")
 {
     for (const Known& known : kKnown)
     {
@@ -91,7 +91,7 @@ TEST_CASE("soft light: irradiance by path tracing", "[integrators][statistics][s
 }
 
 TEST_CASE("soft light: irradiance by Whitted's light samples, with every strategy",
-          "[integrators][statistics][stability 24]")
+          "[integrators][statistics][stability 24][long]")
 {
     const auto traced = receiver(sphereLight(90.0)).build(); // half of it is below the horizon
     for (const LightSampling strategy : {LightSampling::Random, LightSampling::UniformJitter,
@@ -153,7 +153,7 @@ TEST_CASE("soft light: a tiny one is the point light", "[integrators]")
 }
 
 // OpenGL's materials get the same light, and soft shadows as well.
-TEST_CASE("soft light: fixed-function surfaces", "[integrators][statistics]")
+TEST_CASE("soft light: fixed-function surfaces", "[integrators][statistics][long]")
 {
     Material material;
     material.ambient = Vec3(0.0f);

@@ -377,7 +377,7 @@ TEST_CASE("denoise: the box has the same pixels for any number of threads", "[se
 }
 
 TEST_CASE("denoise: at one pass the box has a quarter of the error, at four half",
-          "[session][denoise][statistics]")
+          "[session][denoise][statistics][long]")
 {
     const auto scene = cornellBox().build();
     constexpr int kSize = 64;
@@ -419,7 +419,7 @@ TEST_CASE("denoise: at one pass the box has a quarter of the error, at four half
     }
 }
 
-TEST_CASE("denoise: a converged box is left within its standard error", "[session][denoise]")
+TEST_CASE("denoise: a converged box is left within its standard error", "[session][denoise][long]")
 {
     const Filtered box = filteredBox(cornellBox().build(), 48, 1024, 1, 2);
     double variance = 0.0;

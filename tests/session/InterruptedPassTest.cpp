@@ -61,6 +61,16 @@ StopRule someTiles(int passes, int tiles)
     return rule;
 }
 
+void copyMarked(const Display& from, Display& to, const ChangedTiles& changed)
+{
+    for (std::size_t p = 0; p < kPixels; ++p)
+    {
+        const std::size_t tile = p / kWidth / kTileSize * 7 + p % kWidth / kTileSize;
+        if (changed.color[tile]) std::copy_n(&from.rgba[4 * p], 4, &to.rgba[4 * p]);
+        if (changed.depth[tile]) to.depth[p] = from.depth[p];
+    }
+}
+
 /// Of the tile of the pixel.
 bool sameTile(const Display& a, const Display& b, int tileX, int tileY)
 {
@@ -127,14 +137,21 @@ TEST_CASE(
     for (const int threads : {1, 2})
     {
         Room spread(IntegratorKind::Path, threads);
-        Display display = whole[0];
+        Display display = whole[0], copy = whole[0];
         std::vector<int> passOf(35); // tile
         for (int call = 0; spread.session.progress().passes < kPasses; ++call)
         {
             StopRule rule = someTiles(kPasses, 1 + call % kMost);
             rule.newPasses = 1 + call % 3;
+            rule.groupedTiles = 1 << call % 3;
+            ChangedTiles changed;
+            changed.reset(kWidth, kHeight);
             DisplayTarget target = display.target(true);
+            target.changed = &changed;
             const RenderProgress made = spread.session.render(rule, {}, &target);
+            copyMarked(display, copy, changed);
+            REQUIRE(copy.rgba == display.rgba); // nothing is written without a mark
+            REQUIRE(copy.depth == display.depth);
             int sum = 0;
             for (int tile = 0; tile < 35; ++tile)
             {

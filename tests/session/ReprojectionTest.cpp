@@ -93,7 +93,24 @@ SampledImage imageOf(const Sight& sight, const Texture3& texture, float count)
 SurfaceMap mapOf(const Sight& sight)
 {
     SurfaceMap map;
-    REQUIRE(makeSurfaceMap(sight.view, sight.samples, Workers(1), map));
+    REQUIRE(beginSurfaceMap(sight.view, map));
+    const CameraRays& rays = map.rays.rays;
+    for (std::size_t i = 0; i < sight.samples.size(); ++i)
+    {
+        const auto width = static_cast<std::size_t>(sight.view.width);
+        const float x = static_cast<float>(i % width) + 0.5f;
+        const float y = static_cast<float>(i / width) + 0.5f;
+        const SurfaceSample& sample = sight.samples[i];
+        map.normalX[i] = sample.normal.x;
+        map.normalY[i] = sample.normal.y;
+        map.normalZ[i] = sample.normal.z;
+        map.along[i] = sample.distance /
+                       glm::length(rays.direction + x * rays.directionDx + y * rays.directionDy);
+        map.lobe[i] = sample.lobe;
+        map.object[i] = sample.object;
+    }
+    findSmooth(Workers(1), map);
+    findInteriors(Workers(1), map);
     return map;
 }
 

@@ -1,6 +1,7 @@
-// ShownImageTest.cpp - images that take the long way to the display are those that take the short one.
-// SPDX-License-Identifier: MIT
+// ShownImageTest.cpp - images that take the long way to the display are those that take the short
+// one. SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/ToneMap.h"
+#include "osgRayTrace/session/SurfaceMap.h"
 
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -59,7 +60,8 @@ TEST_CASE("shown image: display values and depths are those of resolveDisplay", 
                     largest = std::max(largest, std::abs(shown[i] - expected[i]));
                 }
                 CHECK(brightest > 40);
-                CHECK(largest <= (displayReferred ? 1 : 0)); // its values are decoded and encoded again
+                CHECK(largest <=
+                      (displayReferred ? 1 : 0)); // its values are decoded and encoded again
             }
         }
     }
@@ -133,4 +135,64 @@ TEST_CASE("shown image: samples tell lamps and mirrors from what scatters light"
     CHECK(samples[1 * 8 + 1].kind == SurfaceKind::Scattering);
     CHECK(samples[1 * 8 + 6].kind == SurfaceKind::Smooth);
     CHECK(samples[6 * 8 + 6].kind == SurfaceKind::Emitting);
+}
+
+TEST_CASE("shown image: what first samples met is what is seen there, and nothing is traced for it",
+          "[session]")
+{
+    SceneBuilder builder = cornellBox();
+    for (Material& material : builder.scene->materials)
+        if (material.baseColor == Vec3(0.73f))
+        {
+            material.metallic = 1.0f;
+            material.roughness = 0.4f;
+        }
+    const auto scene = builder.build();
+    // Wider than the box: there is nothing at its sides.
+    const View view =
+        perspectiveView({278, 273, -800}, {278, 273, 279}, {0, 1, 0}, 40.0, kWidth, kHeight);
+    for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})
+    {
+        RenderSession session(std::make_shared<Workers>(2));
+        session.setScene(scene);
+        session.setView(view);
+        session.setKeepsSurfaces(true);
+        RenderOptions options = optionsOf(kind);
+        options.centredFirstPass = true;
+        session.setOptions(options);
+        StopRule rule;
+        rule.passes = 1;
+        REQUIRE(session.render(rule).status.ok());
+        const std::vector<SurfaceSample>& samples = session.surfaceSamples();
+        const SurfaceMap& map = session.surfaces();
+        REQUIRE(map.isOf(view));
+        const CameraRays& rays = map.rays.rays;
+        int nothing = 0, glossy = 0;
+        for (std::size_t i = 0; i < samples.size(); ++i)
+        {
+            CAPTURE(static_cast<int>(kind), i);
+            const SurfaceSample& sample = samples[i];
+            REQUIRE(map.object[i] == sample.object);
+            REQUIRE(Vec3(map.normalX[i], map.normalY[i], map.normalZ[i]) == sample.normal);
+            REQUIRE(map.lobe[i] == sample.lobe);
+            const float x = static_cast<float>(i % kWidth) + 0.5f;
+            const float y = static_cast<float>(i / kWidth) + 0.5f;
+            const Vec3 ray = rays.direction + x * rays.directionDx + y * rays.directionDy;
+            if (sample.object == 0)
+                REQUIRE(map.along[i] == kInfinity);
+            else
+                REQUIRE(map.along[i] * glm::length(ray) == Approx(sample.distance).epsilon(1e-5));
+            nothing += sample.object == 0;
+            glossy += sample.lobe < 1.0f;
+        }
+        CHECK(nothing > 50);
+        CHECK(glossy > 50);
+    }
+    RenderSession session(std::make_shared<Workers>(2));
+    session.setScene(scene);
+    session.setView(view);
+    StopRule rule;
+    rule.passes = 1;
+    REQUIRE(session.render(rule).status.ok());
+    CHECK(session.surfaces().view.width == 0); // nobody wanted it
 }

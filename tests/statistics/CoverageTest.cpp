@@ -104,7 +104,7 @@ void checkCoverage(const std::shared_ptr<const TracedScene>& traced, const View&
         REQUIRE(session.render(rule).passes == count);
         return tileIntervals(session);
     };
-    const std::vector<Interval> truth = rendered(99999, 256 * passes);
+    const std::vector<Interval> truth = rendered(99999, 128 * passes);
 
     Coverage tiles, whole;
     for (uint32_t seed = 0; seed < kSeeds; ++seed)
@@ -153,7 +153,7 @@ void checkPixelCoverage(const std::shared_ptr<const TracedScene>& traced, const 
         }
         return pixels;
     };
-    const std::vector<Pixel> truth = rendered(99999, 256 * passes);
+    const std::vector<Pixel> truth = rendered(99999, 128 * passes);
 
     int trials = 0, in68 = 0, in95 = 0;
     for (uint32_t seed = 0; seed < kSeeds; ++seed)

@@ -1,0 +1,110 @@
+// ShownView.cpp - the image of a view, and how it comes to the display. Layer: public API.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/ShownView.h"
+
+#include <algorithm>
+
+namespace osgRayTrace
+{
+
+/// What has to be traced for a pass, if anything: not what another slice of its picture has made.
+std::optional<engine::View> ShownView::viewToTrace(const ViewFrame& frame)
+{
+    const engine::View& pass = frame.pass;
+    const bool moved = _slices.empty() || !engine::sameRays(_slices.front(), pass);
+    if (!frame.shared || moved)
+    {
+        _slices = frame.slices;
+        return _slices.size() == 1 ? pass : engine::viewOfSlices(_slices);
+    }
+    const bool sliced = _slices.size() > 1;
+    const engine::View last = sliced ? engine::viewOfSlices(_slices) : _slices.front();
+    _slices.insert(_slices.end(), frame.slices.begin(), frame.slices.end());
+    const engine::View needed = engine::viewOfSlices(_slices);
+    if (sliced && needed == last) return std::nullopt;
+    return needed;
+}
+
+void ShownView::update(const ViewFrame& frame)
+{
+    if (!frame.shared) ++_frames;
+    if (frame.version.settings->getPresentation() == RayTraceSettings::BACKGROUND)
+        askWorker(frame);
+    else
+        traceNow(frame);
+}
+
+void ShownView::traceNow(const ViewFrame& frame)
+{
+    if (_inBackground) _tracer.stop();
+    const auto tracer = _tracer.lease();
+    if (_inBackground) tracer->forgetDisplay();
+    _inBackground = false;
+
+    std::optional<engine::View> wanted;
+    if (!frame.paused || !tracer->hasImage()) wanted = viewToTrace(frame);
+    _traced = wanted.has_value();
+    if (wanted)
+    {
+        // Traced into the display at once, unless its size changes: then it shows the last image
+        // until there is a new one.
+        const bool fits = _display.width() == wanted->width && _display.height() == wanted->height;
+        if (tracer->trace(frame.version, *wanted, frame.budget, fits ? _display.rgba() : nullptr,
+                          fits ? _display.depth() : nullptr))
+            _display.modified(tracer->changed());
+    }
+    if (tracer->needsResolve(frame.version))
+    {
+        const int width = tracer->shownWidth(), height = tracer->shownHeight();
+        _display.resize(width, height, width == frame.pass.width && height == frame.pass.height);
+        tracer->resolve(_display.rgba(), _display.depth());
+        _display.modified();
+    }
+    _shownSlices = _slices;
+}
+
+void ShownView::askWorker(const ViewFrame& frame)
+{
+    _inBackground = true;
+    _traced = false;
+    const bool waits = frame.paused && _display.width() > 0;
+    std::optional<engine::View> wanted;
+    if (!waits)
+        wanted = viewToTrace(frame);
+    else if (!frame.shared)
+        wanted = frame.pass;
+    if (wanted) _tracer.ask({frame.version, *wanted, _slices, frame.budget, !waits}, _frames);
+    // All slices of a frame show one image.
+    if (frame.shared || !_tracer.takeNewest(_newest)) return;
+    _display.show(_newest.color.get(), _newest.depth.get());
+    _shownSlices = _newest.slices;
+}
+
+bool ShownView::draw(osg::RenderInfo& renderInfo, const engine::View& pass)
+{
+    const engine::DepthMap depths =
+        _shownSlices.size() > 1 ? engine::depthMap(pass, _shownSlices) : engine::depthMap(pass);
+    const bool drawn = _display.width() == 0 || _display.draw(renderInfo, depths);
+    if (_traced) _tracer.lease()->noteShown();
+    return drawn;
+}
+
+engine::TraceReport ShownView::report(const engine::SceneVersion& version)
+{
+    if (_inBackground) return _tracer.report(_frames);
+    const auto tracer = _tracer.lease();
+    return {tracer->progress(), tracer->frame(), version.scene, true, 0};
+}
+
+osg::ref_ptr<osg::Image> ShownView::radiance() const
+{
+    const auto tracer = _tracer.lease();
+    if (!tracer->hasImage()) return nullptr;
+    const std::vector<float> radiance = tracer->radiance();
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(tracer->width(), tracer->height(), 1, GL_RGBA, GL_FLOAT);
+    std::copy(radiance.begin(), radiance.end(), reinterpret_cast<float*>(image->data()));
+    return image;
+}
+
+} // namespace osgRayTrace

@@ -1,0 +1,109 @@
+// ImageStages.cpp - what is done to a view's images between accumulation and display. Layer:
+// bridge. SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/ImageStages.h"
+
+#include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/base/Parallel.h"
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// What upsampling takes of one thread for a pixel, until it is known [s].
+constexpr double kUpsampleSeconds = 12e-9;
+
+} // namespace
+
+void ImageStages::reset(std::shared_ptr<Workers> workers)
+{
+    _workers = std::move(workers);
+    _upsampleSeconds = kUpsampleSeconds / _workers->threads();
+    _denoiser.forgetSurfaces();
+    _imageScene.reset();
+    _history.drop();
+}
+
+void ImageStages::leaveView(RenderSession& session, const ImageInputs& next)
+{
+    const bool sameScene = _imageScene.lock() == next.scene;
+    if (!sameScene) _viewDependence = viewDependence(next.scene->scene());
+    const bool keeps = _reprojects && sameScene && !next.options.needsRestart(_imageOptions) &&
+                       !_viewDependence.everywhere &&
+                       session.progress().integrator != IntegratorKind::Debug;
+    if (!keeps) _history.drop();
+    if (keeps && session.progress().passes > 0 && next.view != _imageView)
+        _history.leave(session, _imageView, *_workers);
+
+    session.setKeepsSurfaces(_reprojects && !_viewDependence.everywhere);
+    if (!keeps) _sequence = 0;
+    session.setSequence(_history.leaving() ? _sequence + 1 : 0);
+}
+
+void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
+                            const RenderProgress& made)
+{
+    if (made.restarted) _denoiser.forgetSurfaces();
+    if (made.restarted && made.status.code != StatusCode::InvalidView)
+    {
+        _imageScene = next.scene;
+        _imageView = next.view;
+        _imageOptions = next.options;
+        if (_history.leaving()) ++_sequence;
+    }
+    if (_history.leaving() && made.passes > 0 && _imageView == next.view)
+        _history.enter(session, next.view, _viewDependence, *_workers);
+}
+
+ShownImage ImageStages::staged(const RenderSession& session)
+{
+    ShownImage image = session.shownImage();
+    if (historyCounts(session)) _history.blend(image, session.progress().passes, *_workers);
+    if (!denoises()) return image;
+    const double begin = _now();
+    const auto surfaces = [&session]() -> const std::vector<SurfaceSample>&
+    { return session.surfaceSamples(); };
+    _denoiser.denoise(image, _denoise, surfaces, *_workers);
+    _denoiseSeconds = _now() - begin;
+    return image;
+}
+
+std::vector<float> ImageStages::radiance(const RenderSession& session)
+{
+    return changes(session) ? staged(session).radiance : session.resolveRadiance();
+}
+
+void ImageStages::show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba,
+                       float* depth)
+{
+    if (denoises())
+        showImage(staged(session), toneMap, *_workers, rgba, depth);
+    else if (historyCounts(session))
+        _history.show(session, toneMap, rgba, depth);
+    else
+        session.resolveDisplay(toneMap, rgba, depth);
+}
+
+void ImageStages::showUpsampled(const RenderSession& session, int width, int height,
+                                const DisplayTarget& display)
+{
+    const double begin = _now();
+    session.showUpsampled(staged(session), session.surfaceSamples(), width, height, display,
+                          kMostTraced);
+    // The first time takes longer than those after it.
+    const double pixels = static_cast<double>(width) * height;
+    _upsampleSeconds = std::min((_now() - begin) / pixels, 1.1 * _upsampleSeconds);
+}
+
+void ImageStages::report(const RenderSession& session, RenderProgress& progress) const
+{
+    progress.denoiseSeconds = _denoiseSeconds;
+    progress.denoised = _denoiser.report();
+    progress.reprojectedShare = historyCounts(session) ? _history.share() : 0.0;
+    progress.reprojectSeconds = _history.seconds();
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,213 @@
+// RenderSessionImages.cpp - a session's image as others want it: display values, radiance,
+// channels. Layer: session. SPDX-License-Identifier: MIT
+#include "osgRayTrace/session/RenderSessionState.h"
+
+#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/film/Resolve.h"
+#include "osgRayTrace/integrators/FirstHit.h"
+#include "osgRayTrace/session/ChannelImage.h"
+#include "osgRayTrace/session/Upsample.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+/// Of first hits of the film's view in another size; nothing without an image.
+std::optional<PassContext> RenderSession::Implementation::contextOfSize(int width, int height) const
+{
+    if (!filmScene || film.passes() < 1) return std::nullopt;
+    View sized = filmView;
+    sized.width = width;
+    sized.height = height;
+    const Scene& of = filmScene->scene();
+    const std::optional<CameraRays> rays = cameraRays(sized, of.origin, of.unit);
+    if (!rays) return std::nullopt;
+    PassContext context = contextOfPass(0);
+    context.camera = *rays;
+    context.width = width;
+    context.height = height;
+    return context;
+}
+
+/// Square root of the estimated mean squared relative error.
+double RenderSession::Implementation::estimateError() const
+{
+    if (film.passes() < 2) return std::numeric_limits<double>::infinity();
+    std::vector<Film::ErrorSum> sums(static_cast<std::size_t>(film.tileCount()));
+    workers->forEach(sums.size(), [&](std::size_t tile)
+                     { sums[tile] = film.relativeSquaredError(static_cast<int>(tile)); });
+    double sum = 0.0;
+    int64_t count = 0;
+    for (const Film::ErrorSum& tile : sums)
+    {
+        sum += tile.sum;
+        count += tile.count;
+    }
+    return count ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
+}
+
+/// over: tiles without a pass are left as they are.
+void RenderSession::Implementation::resolve(const DisplayTarget& display, bool over) const
+{
+    workers->forEach(static_cast<std::size_t>(film.tileCount()),
+                     [&](std::size_t index)
+                     {
+                         const int tile = static_cast<int>(index);
+                         if (!over || film.tilePasses(tile) > 0) resolveTile(display, tile);
+                     });
+}
+
+void RenderSession::Implementation::resolveTile(const DisplayTarget& display, int tile) const
+{
+    resolveTileDisplay(film, tile, display.toneMap, display.rgba, display.depth);
+    if (!display.changed) return;
+    display.changed->color[static_cast<std::size_t>(tile)] = 1;
+    if (display.depth) display.changed->depth[static_cast<std::size_t>(tile)] = 1;
+}
+
+double RenderSession::estimateRelativeError() const
+{
+    return _implementation->estimateError();
+}
+
+std::vector<float> RenderSession::resolveRadiance() const
+{
+    std::vector<float> image(4 * static_cast<std::size_t>(width()) *
+                             static_cast<std::size_t>(height()));
+    resolveRows(image.data(), nullptr, [](std::size_t, std::size_t) {});
+    return image;
+}
+
+void RenderSession::resolveRows(float* radiance, float* depth,
+                                const std::function<void(std::size_t, std::size_t)>& take) const
+{
+    const Film& film = _implementation->film;
+    const bool displayReferred =
+        _implementation->filmScene && _implementation->filmScene->scene().displayReferred;
+    const int across = (film.width() + kTileSize - 1) / kTileSize;
+    if (across == 0) return;
+    _implementation->workers->forEach(
+        static_cast<std::size_t>(film.tileCount() / across),
+        [&](std::size_t row)
+        {
+            const int first = static_cast<int>(row) * across;
+            for (int tile = first; tile < first + across; ++tile)
+            {
+                resolveTileRadiance(film, tile, displayReferred, radiance);
+                if (depth) resolveTileDepth(film, tile, depth);
+            }
+            const std::size_t bottom = row * kTileSize;
+            take(bottom, std::min(bottom + kTileSize, static_cast<std::size_t>(film.height())));
+        });
+}
+
+void RenderSession::resolveDisplay(const ToneMap& toneMap, uint8_t* rgba, float* depth) const
+{
+    _implementation->resolve({toneMap, rgba, depth}, false);
+}
+
+void RenderSession::resolveOver(const ToneMap& toneMap, uint8_t* rgba, float* depth) const
+{
+    _implementation->resolve({toneMap, rgba, depth}, true);
+}
+
+std::vector<float> RenderSession::resolveChannel(Channel channel) const
+{
+    const Implementation& session = *_implementation;
+    if (!session.filmScene) return {}; // nor was there ever an image
+    return channelImage(channel, session.film, session.contextOfPass(0), *session.workers);
+}
+
+ShownImage RenderSession::shownImage() const
+{
+    const Implementation& session = *_implementation;
+    ShownImage image;
+    if (!session.filmScene || session.film.passes() < 1) return image;
+    image.width = width();
+    image.height = height();
+    image.radiance = resolveRadiance();
+    image.depth = resolveChannel(Channel::Depth);
+    if (session.film.passes() > 1) image.error = resolveChannel(Channel::Error);
+    return image;
+}
+
+const std::vector<SurfaceSample>& RenderSession::surfaceSamples() const
+{
+    Implementation& session = *_implementation;
+    const bool hasImage = session.filmScene && session.film.passes() > 0;
+    if (hasImage && session.samples.empty())
+        engine::surfaceSamples(session.contextOfPass(0), *session.workers, session.samples);
+    return session.samples;
+}
+
+/// The first pass's samples are anywhere in their pixels. What is seen in the middle of a pixel
+/// decides what it is taken for, so that a pixel at an edge does not change sides from frame to
+/// frame.
+void RenderSession::Implementation::finishSurfaces()
+{
+    SurfaceMap& map = surfaces;
+    if (map.finished || map.view.width == 0 || film.passes() < 1) return;
+    findSmooth(*workers, map);
+    if (!filmOptions.centredFirstPass)
+    {
+        const PassContext context = contextOfPass(0);
+        constexpr int kRow = kTileSize * kTileSize; // pixels of a row that are looked at together
+        const int across = (map.view.width + kRow - 1) / kRow;
+        const int down = (map.view.height + kBlockSize - 1) / kBlockSize;
+        workers->forEach(static_cast<std::size_t>(across) * static_cast<std::size_t>(down),
+                         [&](std::size_t index)
+                         {
+                             const int first = static_cast<int>(index) % across * kRow;
+                             const int bottom = static_cast<int>(index) / across * kBlockSize;
+                             const int end = std::min(first + kRow, map.view.width);
+                             for (int left = first; left < end; left += kBlockSize)
+                             {
+                                 if (isSmooth(map, left, bottom)) continue;
+                                 SurfaceBlock seen;
+                                 firstSurfaces(context, left, bottom, 0, seen);
+                                 setBlock(left, bottom, seen, map);
+                             }
+                         });
+        findSmooth(*workers, map);
+    }
+    findInteriors(*workers, map);
+    map.finished = true;
+}
+
+const SurfaceMap& RenderSession::surfaces()
+{
+    _implementation->finishSurfaces();
+    return _implementation->surfaces;
+}
+
+const SurfaceMap& RenderSession::lastSurfaces() const
+{
+    return _implementation->lastSurfaces;
+}
+
+UpsampleCounts RenderSession::upsample(const ShownImage& image,
+                                       const std::vector<SurfaceSample>& samples, int width,
+                                       int height, ShownImage& result, double mostTraced) const
+{
+    const std::optional<PassContext> full = _implementation->contextOfSize(width, height);
+    if (full)
+        return engine::upsample(image, samples, *full, mostTraced, *_implementation->workers,
+                                result);
+    result = ShownImage();
+    return {};
+}
+
+UpsampleCounts RenderSession::showUpsampled(const ShownImage& image,
+                                            const std::vector<SurfaceSample>& samples, int width,
+                                            int height, const DisplayTarget& display,
+                                            double mostTraced) const
+{
+    const std::optional<PassContext> full = _implementation->contextOfSize(width, height);
+    if (!full) return {};
+    return engine::showUpsampled(image, samples, *full, mostTraced, display.toneMap,
+                                 *_implementation->workers, display.rgba, display.depth);
+}
+
+} // namespace osgRayTrace::engine
