@@ -22,22 +22,35 @@ float lobeWidth(const MaterialRecord& record, const Bsdf& bsdf)
     return bsdf.isSmooth() ? 0.0f : bsdf.alpha;
 }
 
-/// What of a material is seen at a point.
-struct SeenMaterial
+/// linearFromSrgb within 0.002 for [0,1], for less: there is one for each pixel of each frame.
+OSGRAYTRACE_INLINE float nearlyLinear(float encoded)
 {
-    Vec3 albedo{0.0f};
-    float lobe = kInfinity;
-    bool smooth = false;
-};
+    return encoded * (encoded * (encoded * 0.305306f + 0.682171f) + 0.012523f);
+}
 
-SeenMaterial seenMaterial(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
-                          int i)
+Vec3 linearAlbedo(const Scene& scene, const Vec3& albedo)
 {
-    const MaterialTable& materials = context.traced->materials();
-    const uint32_t material = surface.material[i];
-    const Bsdf bsdf = materials.bsdf(material, materialPoint(context, rays, surface, i));
-    return {bsdfAlbedo(bsdf), lobeWidth(materials[material], bsdf),
-            bsdf.isSmooth() && !bsdf.isDiffuse() && bsdf.diffuse == Vec3(0.0f)};
+    if (!scene.displayReferred) return albedo;
+    return Vec3(nearlyLinear(albedo.x), nearlyLinear(albedo.y), nearlyLinear(albedo.z));
+}
+
+Bsdf seenBsdf(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface, int i)
+{
+    return context.traced->materials().bsdf(surface.material[i], materialPoint(context, rays, surface, i));
+}
+
+/// What its material tells.
+SurfaceSample seenMaterial(const PassContext& context, const RayHitBlock& rays,
+                           const SurfaceLanes& surface, int i)
+{
+    const MaterialRecord& record = context.traced->materials()[surface.material[i]];
+    const Bsdf bsdf = seenBsdf(context, rays, surface, i);
+    const bool smooth = bsdf.isSmooth() && !bsdf.isDiffuse() && bsdf.diffuse == Vec3(0.0f);
+    SurfaceSample sample;
+    sample.albedo = linearAlbedo(context.traced->scene(), bsdfAlbedo(bsdf));
+    sample.lobe = lobeWidth(record, bsdf);
+    sample.kind = smooth ? SurfaceKind::Smooth : SurfaceKind::Scattering;
+    return sample;
 }
 
 /// take(lane, value) for all lanes that hit something. value(lane): by material and side if
@@ -65,13 +78,9 @@ void forEachMaterial(const PassContext& context, const SurfaceLanes& surface, co
     }
 }
 
-template <class Take>
-void forEachMaterial(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
-                     const Take& take)
+bool isConstant(const MaterialRecord& record)
 {
-    forEachMaterial(
-        context, surface, [](const MaterialRecord& record) { return record.constant; },
-        [&](int i) { return seenMaterial(context, rays, surface, i); }, take);
+    return record.constant;
 }
 
 void setLobes(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
@@ -83,7 +92,7 @@ void setLobes(const PassContext& context, const RayHitBlock& rays, const Surface
         [&](int i)
         {
             const MaterialRecord& record = materials[surface.material[i]];
-            if (!record.sameLobes) return seenMaterial(context, rays, surface, i).lobe;
+            if (!record.sameLobes) return lobeWidth(record, seenBsdf(context, rays, surface, i));
             return lobeWidth(record, (surface.front >> i) & 1u ? record.front : record.back);
         },
         [&](int i, float lobe) { lobes[i] = lobe; });
@@ -106,24 +115,51 @@ void setObjects(const SurfaceLanes& surface, SurfaceBlock& seen)
 }
 
 /// All but the albedo.
-void traceCentres(const PassContext& context, int left, int bottom, int block, FirstHitLanes& hits)
+void traceCentres(const PassContext& context, int left, int bottom, int block, HitRule rule,
+                  FirstHitLanes& hits)
 {
     centreRayLanes(context.camera, left, bottom, block, hits.rays);
-    context.traced->intersector().closestHits(hits.rays, kAllLanes, Coherence::Coherent, kCameraRays);
+    context.traced->intersector().closestHits(hits.rays, kAllLanes, Coherence::Coherent, rule);
     surfacesOf(context.traced->surfaces(), hits.rays, kAllLanes, hits.surface);
     facingNormalLanes(hits.rays.ray, hits.surface, hits.normal);
+}
+
+void setSamples(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
+                const Vec3Lanes& normal, SurfaceSample* samples)
+{
+    const Scene& scene = context.traced->scene();
+    constexpr SurfaceSample kNothing{Vec3(0.0f), kInfinity, Vec3(0.0f), 0u};
+    for (LaneMask lanes = kAllLanes & ~surface.hits; lanes; lanes &= lanes - 1)
+        samples[__builtin_ctz(lanes)] = kNothing;
+    forEachMaterial(
+        context, surface, isConstant,
+        [&](int i) { return seenMaterial(context, rays, surface, i); },
+        [&](int i, const SurfaceSample& seen)
+        {
+            SurfaceSample& sample = samples[i];
+            sample = seen;
+            sample.normal = laneOf(normal, i);
+            sample.distance = static_cast<float>(rays.ray.tFar[i] * scene.unit);
+            sample.object = surface.instance[i] + 1u;
+            if (emissionTowardsRay(context, rays, surface, i) != Vec3(0.0f))
+                sample.kind = SurfaceKind::Emitting;
+        });
 }
 
 } // namespace
 
 void firstHitLanes(const PassContext& context, int left, int bottom, int block, FirstHitLanes& hits)
 {
-    traceCentres(context, left, bottom, block, hits);
+    const bool keepsBlended = context.options.integrator == IntegratorKind::Whitted;
+    traceCentres(context, left, bottom, block, {true, keepsBlended}, hits);
     std::fill_n(hits.albedo.x.v, kLanes, 0.0f);
     std::fill_n(hits.albedo.y.v, kLanes, 0.0f);
     std::fill_n(hits.albedo.z.v, kLanes, 0.0f);
-    forEachMaterial(context, hits.rays, hits.surface,
-                    [&](int i, const SeenMaterial& seen) { setLane(hits.albedo, i, seen.albedo); });
+    const Scene& scene = context.traced->scene();
+    forEachMaterial(
+        context, hits.surface, isConstant,
+        [&](int i) { return linearAlbedo(scene, bsdfAlbedo(seenBsdf(context, hits.rays, hits.surface, i))); },
+        [&](int i, const Vec3& albedo) { setLane(hits.albedo, i, albedo); });
 }
 
 void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels])
@@ -131,23 +167,32 @@ void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits
     for (int b = 0; b < kTileBlocks; ++b)
     {
         FirstHitLanes block;
-        traceCentres(context, left, bottom, b, block);
+        traceCentres(context, left, bottom, b, kCameraRays, block);
         const SurfaceLanes& surface = block.surface;
         std::fill_n(hits + b * kLanes, kLanes, FirstHit());
-        forEachMaterial(context, block.rays, surface,
-                        [&](int i, const SeenMaterial& seen)
-                        {
-                            FirstHit& hit = hits[b * kLanes + i];
-                            hit.hit = true;
-                            hit.distance = block.rays.ray.tFar[i];
-                            hit.normal = laneOf(block.normal, i);
-                            hit.albedo = seen.albedo;
-                            hit.lobe = seen.lobe;
-                            hit.smooth = seen.smooth;
-                            hit.emits = emissionTowardsRay(context, block.rays, surface, i) != Vec3(0.0f);
-                            hit.position = laneOf(surface.position, i);
-                            hit.instance = surface.instance[i];
-                        });
+        forEachMaterial(
+            context, surface, isConstant,
+            [&](int i) { return bsdfAlbedo(seenBsdf(context, block.rays, surface, i)); },
+            [&](int i, const Vec3& albedo)
+            {
+                FirstHit& hit = hits[b * kLanes + i];
+                hit.hit = true;
+                hit.distance = block.rays.ray.tFar[i];
+                hit.normal = laneOf(block.normal, i);
+                hit.albedo = albedo;
+                hit.position = laneOf(surface.position, i);
+                hit.instance = surface.instance[i];
+            });
+    }
+}
+
+void firstSamples(const PassContext& context, int left, int bottom, SurfaceSample (&samples)[kTilePixels])
+{
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        FirstHitLanes block;
+        traceCentres(context, left, bottom, b, kCameraRays, block);
+        setSamples(context, block.rays, block.surface, block.normal, samples + b * kLanes);
     }
 }
 
@@ -172,12 +217,16 @@ void noteFirstHits(const PassContext& context, int left, int bottom, int block, 
     FloatLanes along;
     depthLanes(context.camera, left, bottom, block, surface, along, result.depth + block * kLanes);
     if (result.surfaces) setSurfaces(context, rays, surface, along, result.surfaces[block]);
+    if (!result.samples) return;
+    Vec3Lanes normal;
+    facingNormalLanes(rays.ray, surface, normal);
+    setSamples(context, rays, surface, normal, result.samples + block * kLanes);
 }
 
 void firstSurfaces(const PassContext& context, int left, int bottom, int block, SurfaceBlock& seen)
 {
     FirstHitLanes hits;
-    traceCentres(context, left, bottom, block, hits);
+    traceCentres(context, left, bottom, block, kCameraRays, hits);
     FloatLanes along, depth;
     depthLanes(context.camera, left, bottom, block, hits.surface, along, depth.v);
     setSurfaces(context, hits.rays, hits.surface, along, seen);

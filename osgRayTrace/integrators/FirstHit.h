@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/accel/Surface.h"
 #include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/integrators/SurfaceSample.h"
 
 namespace osgRayTrace::engine
 {
@@ -17,12 +18,10 @@ struct FirstHit
     Vec3 albedo{0.0f};
     Vec3 position{0.0f};        ///< engine space
     uint32_t instance = kInvalid;
-    bool emits = false;         ///< towards the camera
-    bool smooth = false;        ///< nothing but a mirror or clear glass
-    float lobe = kInfinity;     ///< width of its narrowest lobe [radians]; see SurfaceSample
 };
 
 /// What the rays through the pixel centres of a block met first. Normals and albedos are 0 where nothing.
+/// Albedos are linear, as in SurfaceSample.
 struct FirstHitLanes
 {
     RayHitBlock rays;
@@ -31,11 +30,15 @@ struct FirstHitLanes
     Vec3Lanes albedo;
 };
 
-/// Of a block of a tile.
+/// Of a block of a tile. Blended surfaces are met as the integrator's own camera rays meet them: always, or
+/// by chance.
 void firstHitLanes(const PassContext& context, int left, int bottom, int block, FirstHitLanes& hits);
 
 /// First hits of a tile, index block * kLanes + lane.
 void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels]);
+
+/// The same with what is done with images in mind.
+void firstSamples(const PassContext& context, int left, int bottom, SurfaceSample (&samples)[kTilePixels]);
 
 /// The same as noteFirstHits has it.
 void firstSurfaces(const PassContext& context, int left, int bottom, int block, SurfaceBlock& seen);

@@ -79,6 +79,7 @@ struct GatheredPhotons
 };
 
 struct HitPoints;
+struct SurfaceSample;
 
 /// What the camera rays of a block met first. Where that is nothing, normals and objects are 0.
 struct SurfaceBlock
@@ -94,6 +95,7 @@ struct TileResult
     RgbaLanes* rgba = nullptr;              ///< kTileBlocks of radiance and coverage, one sample a pixel; finite
     float depth[kTilePixels];               ///< window depth at pixel centres; if wanted
     SurfaceBlock* surfaces = nullptr;       ///< kTileBlocks, written with depth; null: nobody wants them
+    SurfaceSample* samples = nullptr;       ///< kTilePixels, written with depth; null: nobody wants them
     TileCounts counts;
     TileDiagnostics* diagnostics = nullptr; ///< null: nobody wants them
     GatheredPhotons* gathered = nullptr;    ///< needed if photonUse

@@ -100,70 +100,37 @@ std::vector<float> channelImage(Channel channel, const Film& film, const PassCon
     return image;
 }
 
-namespace
+void setSurfaceSamples(const SurfaceSample* tile, int left, int bottom, int width, int height,
+                       std::vector<SurfaceSample>& samples)
 {
-
-/// linearFromSrgb within 0.002 for [0,1], for less: there is one for each pixel of each frame.
-OSGRAYTRACE_INLINE float nearlyLinear(float encoded)
-{
-    return encoded * (encoded * (encoded * 0.305306f + 0.682171f) + 0.012523f);
-}
-
-SurfaceSample sampleOf(const FirstHit& hit, const Scene& scene)
-{
-    const Vec3 a = hit.albedo;
-    return {hit.normal,
-            static_cast<float>(hit.distance * scene.unit),
-            scene.displayReferred ? Vec3(nearlyLinear(a.x), nearlyLinear(a.y), nearlyLinear(a.z)) : a,
-            hit.hit ? hit.instance + 1u : 0u,
-            hit.lobe,
-            hit.emits    ? SurfaceKind::Emitting
-            : hit.smooth ? SurfaceKind::Smooth
-                         : SurfaceKind::Scattering};
-}
-
-} // namespace
-
-OSGRAYTRACE_KERNEL
-static void decodeAlbedos(Vec3Lanes& albedo)
-{
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < kLanes; ++i)
+    for (int b = 0; b < kTileBlocks; ++b)
     {
-        albedo.x[i] = nearlyLinear(albedo.x[i]);
-        albedo.y[i] = nearlyLinear(albedo.y[i]);
-        albedo.z[i] = nearlyLinear(albedo.z[i]);
+        const int x = left + laneX(b, 0), columns = std::min(kBlockSize, width - x);
+        for (int row = 0; row < kBlockSize && columns > 0; ++row)
+        {
+            const int y = bottom + laneY(b, row * kBlockSize);
+            if (y >= height) break;
+            std::copy_n(tile + b * kLanes + row * kBlockSize, columns,
+                        &samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                 static_cast<std::size_t>(x)]);
+        }
     }
-}
-
-void linearAlbedos(const Scene& scene, Vec3Lanes& albedo)
-{
-    if (scene.displayReferred) decodeAlbedos(albedo);
 }
 
 void surfaceSamples(const PassContext& context, const Workers& workers, std::vector<SurfaceSample>& samples)
 {
     const int tilesX = (context.width + kTileSize - 1) / kTileSize;
     const int tilesY = (context.height + kTileSize - 1) / kTileSize;
-    const Scene& scene = context.traced->scene();
     samples.resize(static_cast<std::size_t>(context.width) * static_cast<std::size_t>(context.height));
-    workers.forEach(
-        static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY),
-        [&](std::size_t tile)
-        {
-            const int left = static_cast<int>(tile) % tilesX * kTileSize;
-            const int bottom = static_cast<int>(tile) / tilesX * kTileSize;
-            FirstHit hits[kTilePixels];
-            firstHits(context, left, bottom, hits);
-            for (int i = 0; i < kTilePixels; ++i)
-            {
-                const int x = left + laneX(i / kLanes, i % kLanes);
-                const int y = bottom + laneY(i / kLanes, i % kLanes);
-                if (x >= context.width || y >= context.height) continue;
-                samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(context.width) +
-                        static_cast<std::size_t>(x)] = sampleOf(hits[i], scene);
-            }
-        });
+    workers.forEach(static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY),
+                    [&](std::size_t index)
+                    {
+                        const int left = static_cast<int>(index) % tilesX * kTileSize;
+                        const int bottom = static_cast<int>(index) / tilesX * kTileSize;
+                        SurfaceSample tile[kTilePixels];
+                        firstSamples(context, left, bottom, tile);
+                        setSurfaceSamples(tile, left, bottom, context.width, context.height, samples);
+                    });
 }
 
 } // namespace osgRayTrace::engine

@@ -13,8 +13,9 @@ namespace osgRayTrace::engine
 std::vector<float> channelImage(Channel channel, const Film& film, const PassContext& context,
                                 const Workers& workers);
 
-/// Albedos of first hits as SurfaceSample has them: linear, also where the scene has display values.
-void linearAlbedos(const Scene& scene, Vec3Lanes& albedo);
+/// A tile's part of an image's samples. tile: kTilePixels.
+void setSurfaceSamples(const SurfaceSample* tile, int left, int bottom, int width, int height,
+                       std::vector<SurfaceSample>& samples);
 
 /// See RenderSession::surfaceSamples.
 void surfaceSamples(const PassContext& context, const Workers& workers, std::vector<SurfaceSample>& samples);

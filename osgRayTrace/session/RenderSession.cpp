@@ -5,6 +5,7 @@
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/film/Resolve.h"
 #include "osgRayTrace/film/TileOrder.h"
+#include "osgRayTrace/session/ChannelImage.h"
 
 #include <algorithm>
 #include <chrono>
@@ -113,7 +114,12 @@ bool RenderSession::Implementation::begin()
     progress.restarted = true;
     photonsCounted = 0;
     progress.integrator = chooseIntegrator(options.integrator, scene->traits());
-    samples.clear();
+    hasSamples = false;
+    if (options.centredFirstPass && progress.integrator != IntegratorKind::Debug)
+    {
+        samples.resize(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
+        hasSamples = true;
+    }
     if (!keepsSurfaces) surfaces = lastSurfaces = SurfaceMap();
     surfaces.view = View();
     if (keepsSurfaces && progress.integrator != IntegratorKind::Debug) beginSurfaceMap(view, surfaces);
@@ -160,9 +166,14 @@ TileCounts RenderSession::Implementation::renderTile(const PassContext& context,
     SurfaceBlock met[kTileBlocks];
     const bool keeps = context.wantsDepth && surfaces.view.width > 0;
     if (keeps) result.surfaces = met;
+    const bool keepsSamples = context.wantsDepth && hasSamples;
+    const std::unique_ptr<SurfaceSample[]> seen(keepsSamples ? new SurfaceSample[kTilePixels] : nullptr);
+    result.samples = seen.get();
     integrator.renderTile(context, film.tileX(tile), film.tileY(tile), result);
     for (int b = 0; keeps && b < kTileBlocks; ++b)
         setBlock(film.tileX(tile) + laneX(b, 0), film.tileY(tile) + laneY(b, 0), met[b], surfaces);
+    if (keepsSamples)
+        setSurfaceSamples(seen.get(), film.tileX(tile), film.tileY(tile), film.width(), film.height(), samples);
     if (photons.active())
         photons.end(tile, film.tilePasses(tile), gathered, context.options.photonAlpha, result.rgba);
     if (context.wantsDepth) std::copy(result.depth, result.depth + kTilePixels, film.depth(tile));
@@ -341,6 +352,7 @@ void RenderSession::clear()
     session.scene.reset();
     session.filmScene.reset();
     session.samples = {};
+    session.hasSamples = false;
     session.surfaces = session.lastSurfaces = SurfaceMap();
     session.photons.reset(0);
     session.progress = RenderProgress();

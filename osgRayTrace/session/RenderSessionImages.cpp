@@ -135,10 +135,13 @@ ShownImage RenderSession::shownImage() const
 
 const std::vector<SurfaceSample>& RenderSession::surfaceSamples() const
 {
+    static const std::vector<SurfaceSample> kNone;
     Implementation& session = *_implementation;
     const bool hasImage = session.filmScene && session.film.passes() > 0;
-    if (hasImage && session.samples.empty())
+    if (!hasImage) return kNone;
+    if (!session.hasSamples)
         engine::surfaceSamples(session.contextOfPass(0), *session.workers, session.samples);
+    session.hasSamples = true;
     return session.samples;
 }
 

@@ -54,7 +54,8 @@ struct RenderSession::Implementation
     std::vector<Light> placedLights; // empty: those of the scene
     std::vector<EnvironmentStratum> strata;
     Film film;
-    std::vector<SurfaceSample> samples; // of its pixels; empty until they are asked for
+    std::vector<SurfaceSample> samples; // of its pixels, if it has them
+    bool hasSamples = false; // or will, with its first pass
     SurfaceMap surfaces, lastSurfaces;
     PhotonState photons;
     RenderProgress progress;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/base/Math.h"
 #include "osgRayTrace/film/ToneMap.h"
+#include "osgRayTrace/integrators/SurfaceSample.h"
 
 #include <cstdint>
 #include <vector>
@@ -21,27 +21,6 @@ struct ShownImage
     std::vector<float> radiance; ///< linear RGBA, premultiplied
     std::vector<float> error;    ///< standard error of the mean, linear RGB; empty below two passes
     std::vector<float> depth;    ///< window depth
-};
-
-/// What of the light that is seen in a pixel its surface tells about.
-enum class SurfaceKind : uint32_t
-{
-    Scattering,
-    Smooth,   ///< a mirror or clear glass and nothing else: one sees other surfaces in it
-    Emitting, ///< a lamp, or unlit
-};
-
-/// What the camera ray through the middle of a pixel meets first.
-struct SurfaceSample
-{
-    Vec3 normal;     ///< world space, unit, towards the viewer; 0 where nothing is hit
-    float distance;  ///< along the ray [length]; infinity: nothing is hit
-    Vec3 albedo;     ///< linear
-    uint32_t object; ///< instance + 1; 0 where nothing is hit
-    /// By about so much may the viewer move around the point before it looks otherwise [radians]. Infinity:
-    /// it looks the same from everywhere; 0: a mirror, glass, or a layer that others are seen through.
-    float lobe = kInfinity;
-    SurfaceKind kind = SurfaceKind::Scattering;
 };
 
 /// What it took to make a full-size image of one of fewer pixels, see Upsample.h: in pixels of the full size.

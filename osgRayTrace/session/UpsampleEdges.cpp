@@ -5,7 +5,6 @@
 #include "osgRayTrace/integrators/CameraLanes.h"
 #include "osgRayTrace/integrators/EnvironmentLanes.h"
 #include "osgRayTrace/integrators/FirstHit.h"
-#include "osgRayTrace/session/ChannelImage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -290,7 +289,6 @@ void traceUpsampled(const UpsampleSource& source, int left, int bottom, Upsample
     const PassContext& full = source.full;
     FirstHitLanes hits;
     firstHitLanes(full, left, bottom, 0, hits);
-    linearAlbedos(full.traced->scene(), hits.albedo);
     FloatLanes along;
     depthLanes(full.camera, left, bottom, 0, hits.surface, along, block.depth);
 

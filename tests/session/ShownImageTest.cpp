@@ -6,6 +6,7 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 using namespace osgRayTrace::engine;
@@ -135,6 +136,73 @@ TEST_CASE("shown image: samples tell lamps and mirrors from what scatters light"
     CHECK(samples[1 * 8 + 1].kind == SurfaceKind::Scattering);
     CHECK(samples[1 * 8 + 6].kind == SurfaceKind::Smooth);
     CHECK(samples[6 * 8 + 6].kind == SurfaceKind::Emitting);
+}
+
+TEST_CASE(
+    "shown image: samples that a first pass through the middles notes are those traced for them",
+    "[session]")
+{
+    SceneBuilder builder = cornellBox();
+    for (Material& material : builder.scene->materials)
+        if (material.baseColor == Vec3(0.73f))
+        {
+            material.metallic = 1.0f;
+            material.roughness = 0.4f;
+        }
+    builder.add(quadMesh({100, 300, 200}, {200, 0, 0}, {0, 200, 0}), mirror(Vec3(0.9f)));
+    builder.addQuadLight({350, 300, 200}, {0, 100, 0}, {100, 0, 0}, Vec3(2.0f));
+    for (const bool displayReferred : {false, true})
+    {
+        builder.scene->displayReferred = displayReferred;
+        const auto scene = builder.build();
+        for (const IntegratorKind kind :
+             {IntegratorKind::Whitted, IntegratorKind::Path, IntegratorKind::Ppm})
+        {
+            RenderSession noting(std::make_shared<Workers>(2)),
+                tracing(std::make_shared<Workers>(2));
+            for (const int width : {3 * kWidth, kWidth})
+            {
+                CAPTURE(displayReferred, static_cast<int>(kind), width);
+                const View view = perspectiveView({278, 273, -800}, {278, 273, 279}, {0, 1, 0},
+                                                  40.0, width, kHeight);
+                RenderOptions options = optionsOf(kind);
+                StopRule rule;
+                rule.passes = 1;
+                tracing.setScene(scene);
+                tracing.setView(view);
+                tracing.setOptions(options);
+                REQUIRE(tracing.render(rule).status.ok());
+                options.centredFirstPass = true;
+                noting.setScene(scene);
+                noting.setView(view);
+                noting.setOptions(options);
+                rule.over = [](int tiles, double) { return tiles >= 2; };
+                noting.render(rule);
+                CHECK(noting.surfaceSamples().empty()); // a part of them
+                rule.over = {};
+                rule.passes = 3; // of which the first one notes them
+                REQUIRE(noting.render(rule).status.ok());
+
+                const std::vector<SurfaceSample>& noted = noting.surfaceSamples();
+                const std::vector<SurfaceSample>& traced = tracing.surfaceSamples();
+                REQUIRE(noted.size() == traced.size());
+                int kinds[3] = {}, nothing = 0;
+                for (std::size_t i = 0; i < traced.size(); ++i)
+                {
+                    CAPTURE(i);
+                    REQUIRE(noted[i].normal == traced[i].normal);
+                    REQUIRE(noted[i].distance == traced[i].distance);
+                    REQUIRE(noted[i].albedo == traced[i].albedo);
+                    REQUIRE(noted[i].object == traced[i].object);
+                    REQUIRE(noted[i].lobe == traced[i].lobe);
+                    REQUIRE(noted[i].kind == traced[i].kind);
+                    ++kinds[static_cast<int>(traced[i].kind)];
+                    nothing += traced[i].object == 0;
+                }
+                CHECK(std::min({kinds[0], kinds[1], kinds[2], nothing}) > 0);
+            }
+        }
+    }
 }
 
 TEST_CASE("shown image: what first samples met is what is seen there, and nothing is traced for it",

@@ -348,6 +348,28 @@ TEST_CASE("upsampling: with too many edges less is traced, and nothing is black"
     CHECK(traced[2] == 16 * (2 * (40 + 30) - 4)); // blocks at the border
 }
 
+TEST_CASE("upsampling: of a blended layer the layer is what is seen, at edges, too", "[session]")
+{
+    // Half of the camera rays would pass it by chance, and meet something else.
+    SceneBuilder builder;
+    Material pane = glowing(Vec3(0.2f, 0.6f, 1.0f));
+    pane.alpha = 0.5f;
+    pane.blended = true;
+    builder.add(quadMesh({-1.1f, -1.3f, 1.0f}, {2.0f, 0.3f, 0.0f}, {-0.2f, 2.1f, 0.0f}), pane);
+    builder.add(quadMesh({-8, -8, -1}, {16, 0, 0}, {0, 16, 0}), glowing(Vec3(1.0f, 0.5f, 0.1f)));
+    const Upsampled u = upsampled(builder.build(), frontView(160, 120), 4);
+    CHECK(u.counts.traced > 200);
+    CHECK(u.counts.unlike == 0);
+    for (const SurfaceSample& sample : u.samples)
+        REQUIRE(sample.object != 0);
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x)
+        {
+            CAPTURE(x, y);
+            REQUIRE(isNear(pixelOf(u.image, x, y), pixelOf(u.reference, x, y)));
+        }
+}
+
 TEST_CASE("centred first pass: it sees what first hits are sampled of, later ones their own points",
           "[session][upsample]")
 {
