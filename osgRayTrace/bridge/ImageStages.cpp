@@ -15,6 +15,8 @@ namespace
 
 /// What upsampling takes of one thread for a pixel, until it is known [s].
 constexpr double kUpsampleSeconds = 12e-9;
+/// What it was known to take of time is forgotten while it is not done: it will be tried again.
+constexpr double kForgets = 0.995;
 
 } // namespace
 
@@ -79,6 +81,7 @@ std::vector<float> ImageStages::radiance(const RenderSession& session)
 void ImageStages::show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba,
                        float* depth)
 {
+    _upsampleSeconds *= kForgets;
     if (denoises())
         showImage(staged(session), toneMap, *_workers, rgba, depth);
     else if (historyCounts(session))
@@ -93,9 +96,9 @@ void ImageStages::showUpsampled(const RenderSession& session, int width, int hei
     const double begin = _now();
     session.showUpsampled(staged(session), session.surfaceSamples(), width, height, display,
                           kMostTraced);
-    // The first time takes longer than those after it.
-    const double pixels = static_cast<double>(width) * height;
-    _upsampleSeconds = std::min((_now() - begin) / pixels, 1.1 * _upsampleSeconds);
+    // A frame that something else held up is not all there is to know.
+    const double seen = (_now() - begin) / (static_cast<double>(width) * height);
+    _upsampleSeconds = std::min(seen, 2.0 * _upsampleSeconds);
 }
 
 void ImageStages::report(const RenderSession& session, RenderProgress& progress) const

@@ -35,6 +35,7 @@ public:
 
     void setReprojects(bool reprojects) { _reprojects = reprojects; }
     void setDenoise(DenoiseKind kind) { _denoise = kind; }
+    DenoiseKind denoise() const { return _denoise; }
     bool denoises() const { return _denoise != DenoiseKind::Off; }
 
     /// Before and after session.render(): takes what its image is worth to the next one, if nothing

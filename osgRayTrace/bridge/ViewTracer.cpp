@@ -129,8 +129,7 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
                 holdsDepth ? nullptr : depth};
     _display.changed = &_changed;
     _written = false;
-    _upsamples = budget.seconds > 0.0 && _reducedStages.upsampleSeconds(_view.width, _view.height) <=
-                                             budget.upsampleShare * budget.seconds;
+    if (moved) chooseUpsampling(budget.upsampleShare * budget.seconds);
     _frame.traceSeconds = 0.0;
     _newTiles = 0;
 
@@ -153,7 +152,7 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
             traceStill(frame);
     }
     if (_shown == Shown::Reduced)
-        _showing = _upsamples ? Showing::Upsampled : Showing::Reduced;
+        _showing = showingOf(_divider);
     else if (_written)
         _showing = _display.holdsImage ? Showing::Tiles : Showing::Whole;
     else
@@ -162,12 +161,28 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
     return _written;
 }
 
+/// Held while it fits, so that a view that moves does not change its sharpness in each frame.
+void ViewTracer::chooseUpsampling(double seconds)
+{
+    constexpr double kSpare = 0.7;
+    const auto takes = [&](int divider)
+    {
+        return _reducedStages.upsampleSeconds(reducedSize(_view.width, divider),
+                                              reducedSize(_view.height, divider));
+    };
+    int finest = 1;
+    while (finest < FramePlanner::kLargestDivider && takes(finest) > kSpare * seconds)
+        ++finest;
+    if (finest < _upsampleDivider || takes(_upsampleDivider) > seconds) _upsampleDivider = finest;
+}
+
 /// A view that moves is taken to have the resolution that it had when it moved last.
 ViewTracer::Showing ViewTracer::expectedShowing(bool moved) const
 {
-    const bool reduced = moved ? _divider > 1 || !_planner.knowsCosts()
-                               : _shown == Shown::Reduced && _stillFrames < kSettling;
-    if (reduced) return _upsamples ? Showing::Upsampled : Showing::Reduced;
+    if (moved && !_planner.knowsCosts()) return showingOf(FramePlanner::kFirstDivider);
+    const bool reduced =
+        moved ? _divider > 1 : _shown == Shown::Reduced && _stillFrames < kSettling;
+    if (reduced) return showingOf(_divider);
     if (_holdsFull) return Showing::Tiles;
     return !moved && _shown == Shown::Reduced ? Showing::FirstMixed : Showing::Whole;
 }
@@ -175,19 +190,20 @@ ViewTracer::Showing ViewTracer::expectedShowing(bool moved) const
 /// What comes after tracing will take as long as it did.
 void ViewTracer::setDeadline(double budget, bool moved, Showing showing)
 {
-    const bool reduced = showing == Showing::Reduced || showing == Showing::Upsampled;
-    const double pixels = pixelsOf(_view);
+    const bool upsampled = showing == Showing::Upsampled;
+    const View shown = upsampled ? reducedView(_view, _upsampleDivider) : _view;
+    const double pixels = pixelsOf(shown);
     double& after = _afterSeconds[static_cast<int>(showing)];
     if (after == 0.0) // a guess
     {
         if (showing != Showing::Reduced) after = pixels * kCopySeconds;
         if (showing == Showing::FirstMixed) after = pixels * kEnlargeSeconds;
-        if (showing == Showing::Upsampled)
-            after += _reducedStages.upsampleSeconds(_view.width, _view.height);
+        if (upsampled) after += _reducedStages.upsampleSeconds(shown.width, shown.height);
     }
     double seconds = budget - after;
     // Each thread ends the tile that it is at.
-    seconds -= _planner.tileSeconds(reduced ? 2 : 1) * _workers->threads();
+    seconds -= _planner.tileSeconds(upsampled || showing == Showing::Reduced ? 2 : 1) *
+               _workers->threads();
     const int passes = _session->progress().passes;
     if (!moved && passes + 1 >= _nextEstimate) seconds -= _estimateSeconds;
     _deadline = std::max(seconds, kLeastShare * budget);
@@ -212,7 +228,7 @@ void ViewTracer::traceMoved(FrameSituation frame, double budget)
     FramePlan plan = _planner.plan(frame);
     if (plan.divider > 1)
     {
-        setDeadline(budget, true, _upsamples ? Showing::Upsampled : Showing::Reduced);
+        setDeadline(budget, true, showingOf(plan.divider));
         frame.seconds = secondsLeft();
     }
     bool traced = traceImage(plan, frame, frame.degrade);
@@ -287,7 +303,6 @@ void ViewTracer::traceStill(FrameSituation frame)
 
 void ViewTracer::setDenoise(DenoiseKind kind)
 {
-    _denoise = kind;
     _stages.setDenoise(kind);
     _reducedStages.setDenoise(kind);
 }
@@ -359,7 +374,7 @@ bool ViewTracer::needsResolve(const SceneVersion& version)
     _toneMap = toneMapFromSettings(*version.settings, version.scene->scene());
     setDenoise(denoiseKind(*version.settings));
     return hasImage() && (_imageChanged || !_resolved || !same(_toneMap, *_resolved) ||
-                          _denoise != _resolvedDenoise);
+                          _stages.denoise() != _resolvedDenoise);
 }
 
 void ViewTracer::resolve(uint8_t* rgba, float* depth)
@@ -370,24 +385,18 @@ void ViewTracer::resolve(uint8_t* rgba, float* depth)
         _stages.show(*_session, _toneMap, rgba, depth);
         break;
     case Shown::Reduced:
-        if (_upsamples)
-            showUpsampled(rgba, depth);
-        else
-            _reducedStages.show(*_reduced, _toneMap, rgba, depth); // OpenGL enlarges it
+        showReduced(shownDivider(), rgba, depth);
         break;
     case Shown::Mixed:
         // Single tiles cannot be denoised: those of full resolution wait for all of them then.
-        if (_upsamples)
-            showUpsampled(rgba, depth);
-        else
-            enlargeReduced(rgba, depth);
+        enlargeReduced(rgba, depth);
         if (!denoises()) _session->resolveOver(_toneMap, rgba, depth);
         break;
     }
-    _holdsFull =
-        _shown == Shown::Reduced ? _upsamples && !denoises() : !stagesOf(image()).changes(image());
+    _holdsFull = _shown == Shown::Reduced ? shownDivider() == 1 && !denoises()
+                                          : !stagesOf(image()).changes(image());
     _resolved = _toneMap;
-    _resolvedDenoise = _denoise;
+    _resolvedDenoise = _stages.denoise();
     _imageChanged = false;
 }
 
@@ -396,20 +405,28 @@ std::vector<float> ViewTracer::radiance()
     return stagesOf(image()).radiance(image());
 }
 
-/// To full resolution, along the edges of what is seen.
-void ViewTracer::showUpsampled(uint8_t* rgba, float* depth)
+/// Upsampled along the edges of what is seen if the divider is less than that of the image.
+void ViewTracer::showReduced(int divider, uint8_t* rgba, float* depth)
 {
-    _reducedStages.showUpsampled(*_reduced, _view.width, _view.height, {_toneMap, rgba, depth});
+    if (divider == _divider)
+        _reducedStages.show(*_reduced, _toneMap, rgba, depth);
+    else
+        _reducedStages.showUpsampled(*_reduced, reducedSize(_view.width, divider),
+                                     reducedSize(_view.height, divider), {_toneMap, rgba, depth});
 }
 
-/// To full resolution, with nothing but what its pixels hold.
+/// To full resolution: as far as there is time for it along edges, then with nothing but what
+/// pixels hold.
 void ViewTracer::enlargeReduced(uint8_t* rgba, float* depth)
 {
-    const int width = _reduced->width(), height = _reduced->height();
+    const int divider = std::min(_upsampleDivider, _divider);
+    if (divider == 1) return showReduced(1, rgba, depth);
+    const int width = reducedSize(_view.width, divider),
+              height = reducedSize(_view.height, divider);
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     std::vector<uint8_t> smallRgba(4 * pixels);
     std::vector<float> smallDepth(pixels);
-    _reducedStages.show(*_reduced, _toneMap, smallRgba.data(), smallDepth.data());
+    showReduced(divider, smallRgba.data(), smallDepth.data());
     const DisplayPixels small{width, height, smallRgba.data(), smallDepth.data()};
     const DisplayPixels large{_view.width, _view.height, rgba, depth};
     enlarge(small, large, *_workers);

@@ -7,6 +7,7 @@
 #include "osgRayTrace/session/FramePlan.h"
 #include "osgRayTrace/session/RenderSession.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -26,9 +27,9 @@ struct FrameBudget
 {
     double seconds = 0.0; ///< 0: as long as the settings' passes per frame take
     bool degrade = true;  ///< the resolution may be reduced while the view moves
-    /// Reduced images are upsampled along edges if that takes no more than this of the seconds;
-    /// else OpenGL enlarges them.
-    double upsampleShare = 0.2;
+    /// Reduced images are upsampled along edges, to the largest size for which that takes no more
+    /// than this of the seconds; OpenGL enlarges the rest of the way.
+    double upsampleShare = 0.15;
 };
 
 /// Of the last frame.
@@ -54,8 +55,8 @@ public:
     /// now: a clock [s], for tests.
     explicit ViewTracer(std::function<double()> now = {});
 
-    /// Asked before each tile, by any thread. True: trace() makes no more; parts of passes are kept, and the
-    /// next one does the rest.
+    /// Asked before each tile, by any thread. True: trace() makes no more; parts of passes are
+    /// kept, and the next one does the rest.
     void setInterrupt(std::function<bool()> interrupt) { _interrupt = std::move(interrupt); }
 
     /// Traces what a frame has time for, if the image needs any. Failures are in progress(),
@@ -90,8 +91,14 @@ public:
     }
 
     /// Of what resolve() writes: less than the pass's while the resolution is reduced.
-    int shownWidth() const { return enlarges() ? _view.width : image().width(); }
-    int shownHeight() const { return enlarges() ? _view.height : image().height(); }
+    int shownWidth() const
+    {
+        return upsamples() ? reducedSize(_view.width, shownDivider()) : image().width();
+    }
+    int shownHeight() const
+    {
+        return upsamples() ? reducedSize(_view.height, shownDivider()) : image().height();
+    }
 
     bool hasImage() const
     {
@@ -122,8 +129,8 @@ private:
     {
         Whole,
         Tiles,      ///< some of them, or their colours alone: the display has the rest
-        Reduced,    ///< OpenGL enlarges it
-        Upsampled,
+        Reduced,    ///< as it is: OpenGL enlarges it
+        Upsampled,  ///< at least a part of the way
         FirstMixed, ///< the reduced image is enlarged
     };
     static constexpr int kShowings = 5;
@@ -139,20 +146,28 @@ private:
     RenderProgress render(RenderSession& session, int divider, StopRule& rule,
                           const DisplayTarget* display);
     void estimateError();
-    void showUpsampled(uint8_t* rgba, float* depth);
+    void chooseUpsampling(double seconds);
+    void showReduced(int divider, uint8_t* rgba, float* depth);
     void enlargeReduced(uint8_t* rgba, float* depth);
 
     void setDenoise(DenoiseKind kind);
-    bool denoises() const { return _denoise != DenoiseKind::Off; }
+    bool denoises() const { return _stages.denoises(); }
     ImageStages& stagesOf(const RenderSession& session)
     {
         return &session == _session.get() ? _stages : _reducedStages;
     }
 
-    bool enlarges() const
+    /// Of a reduced image of this divider.
+    Showing showingOf(int divider) const
     {
-        return _shown == Shown::Mixed || (_shown == Shown::Reduced && _upsamples);
+        return _upsampleDivider < divider ? Showing::Upsampled : Showing::Reduced;
     }
+    /// Of the width and height of what resolve() writes.
+    int shownDivider() const
+    {
+        return _shown == Shown::Reduced ? std::min(_upsampleDivider, _divider) : 1;
+    }
+    bool upsamples() const { return _shown != Shown::Whole && shownDivider() < _divider; }
     const RenderSession& image() const { return _shown == Shown::Whole ? *_session : *_reduced; }
 
     std::function<double()> _now;
@@ -196,8 +211,7 @@ private:
 
     // What is done to images between the two
     ImageStages _stages, _reducedStages; ///< of _session, of _reduced
-    DenoiseKind _denoise = DenoiseKind::Off;
-    bool _upsamples = false; ///< there is time to enlarge the reduced image along edges
+    int _upsampleDivider = 1;            ///< of the finest size for which there is time
     DenoiseKind _resolvedDenoise = DenoiseKind::Off;
 };
 

@@ -116,8 +116,7 @@ private:
 /// A viewer without OpenGL: it does as RayTraceDrawable does.
 struct Screen
 {
-    explicit Screen(double tile = kTile)
-        : tileSeconds(tile), tracer([this] { return clock += tileSeconds; })
+    explicit Screen(double tile = kTile) : tileSeconds(tile), tracer([this] { return look(); })
     {
         settings->setIntegrator(RayTraceSettings::PATH);
         settings->setMaxBounces(1);
@@ -126,6 +125,13 @@ struct Screen
         version.workers = std::make_shared<Workers>(1);
         version.photons = std::make_shared<PhotonPasses>();
         takeSettings();
+    }
+
+    double look()
+    {
+        if (resolveLooks > 0 && --resolveLooks == 0) // the one after upsampling
+            clock += upsamplePixelSeconds * display.width * display.height;
+        return clock += tileSeconds;
     }
 
     void takeSettings() { version.settings = new RayTraceSettings(*settings); }
@@ -144,7 +150,9 @@ struct Screen
         {
             if (tracer.shownWidth() != display.width || tracer.shownHeight() != display.height)
                 display.resize(tracer.shownWidth(), tracer.shownHeight());
+            resolveLooks = 2;
             tracer.resolve(display.rgba.data(), display.depth.data());
+            resolveLooks = 0;
             if (upsampleShare > 0.0 && display.width == kWidth) clock += upsampleSeconds;
         }
         if (resolved)
@@ -202,8 +210,10 @@ struct Screen
     double clock = 0.0, tileSeconds;
     double at = 0.0; ///< the last frame's
     double budget = kBudget;
-    double upsampleSeconds = 0.0; ///< that it takes, beside looks at the clock
-    double upsampleShare = 0.0; ///< reduced pictures are shown as they are
+    double upsampleSeconds = 0.0;      ///< that it takes, beside looks at the clock
+    double upsamplePixelSeconds = 0.0; ///< the same, of a pixel of its result
+    int resolveLooks = 0;              ///< that are still to come
+    double upsampleShare = 0.0;        ///< reduced pictures are shown as they are
     osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
     SceneVersion version;
     ViewTracer tracer;
@@ -368,6 +378,56 @@ TEST_CASE("frame budget: reduced pictures are upsampled where there is time for 
     screen.upsampleShare = 1e-9; // it took longer
     screen.frame(6.0);
     CHECK(screen.shown.width < kWidth);
+}
+
+TEST_CASE("frame budget: reduced pictures are upsampled as far as there is time for it", "[bridge]")
+{
+    Screen screen;
+    screen.upsampleShare = 0.2;
+    const double half = 0.4 * kBudget / (kWidth * kHeight); // of both sides: a tenth of the budget
+    double x = 0.0;
+    const auto widthAfter = [&](int frames, double pixelSeconds)
+    {
+        screen.upsamplePixelSeconds = pixelSeconds;
+        for (int i = 0; i < frames; ++i)
+            screen.frame(x += 1.0);
+        REQUIRE(screen.tracer.frame().divider > 2);
+        return screen.shown.width;
+    };
+    CHECK(widthAfter(30, half) == reducedSize(kWidth, 2));
+    for (int i = 0; i < 20; ++i)
+    {
+        CHECK(widthAfter(1, half) == reducedSize(kWidth, 2));
+        CHECK(screen.tracer.frame().seconds < 1.1 * kBudget);
+        CHECK(screen.tracer.frame().traceSeconds > 0.7 * kBudget);
+    }
+    // Full size is the next step; what it takes is known before it is done.
+    screen.upsamplePixelSeconds = half / 5.0;
+    do
+    {
+        screen.frame(x += 1.0);
+        CHECK(screen.tracer.frame().seconds < 1.04 * kBudget);
+    } while (screen.shown.width < kWidth && x < 100.0);
+    CHECK(screen.shown.width == kWidth);
+    CHECK(widthAfter(30, 1e3 * half) == reducedSize(kWidth, screen.tracer.frame().divider));
+    // What it takes is learnt while it is done only.
+    CHECK(widthAfter(800, half) == reducedSize(kWidth, 2));
+
+    // At rest the tiles of full resolution are laid over it.
+    screen.frame(x);
+    screen.reduced = Pixels();
+    screen.reduced.resize(kWidth, kHeight);
+    Pixels small = screen.shown;
+    REQUIRE(small.width < kWidth);
+    enlarge({small.width, small.height, small.rgba.data(), small.depth.data()},
+            {kWidth, kHeight, screen.reduced.rgba.data(), screen.reduced.depth.data()}, Workers(1));
+    screen.frame(x);
+    REQUIRE(screen.shown.width == kWidth);
+    int kept = 0;
+    for (int tile = 0; tile < kTiles; ++tile)
+        kept += sameTile(screen.shown, screen.reduced, tile);
+    CHECK(kept > 0);
+    CHECK(kept < kTiles);
 }
 
 TEST_CASE("frame budget: tiles laid over the upsampled picture make that of a full resolve",
