@@ -66,7 +66,7 @@ TEST_CASE("area light: irradiance by path tracing, as parallelogram and as mesh"
 }
 
 TEST_CASE("area light: irradiance by Whitted's light samples, with every strategy",
-          "[integrators][statistics][stability 23]")
+          "[integrators][statistics][long][stability 23]")
 {
     for (const Square& square : kSquares)
     {
@@ -226,7 +226,7 @@ TEST_CASE("area light: several lights of different power add up", "[integrators]
 }
 
 TEST_CASE("area light: found by chance or sampled, every material shows the same",
-          "[integrators][statistics]")
+          "[integrators][statistics][long]")
 {
     // A lamp that is in the light table against one that only bounces find: multiple importance
     // sampling may not change the mean. 4 standard errors, 16 seeds each.

@@ -87,7 +87,7 @@ View blocksView(int pixels)
 } // namespace
 
 TEST_CASE("environment: irradiance of closed forms by paths and by Whitted's samples",
-          "[integrators][statistics]")
+          "[integrators][statistics][long]")
 {
     for (const Sky& sky : skies())
     {
@@ -219,7 +219,7 @@ TEST_CASE("furnace: nothing is seen of white and clear things under an even sky"
                   .agrees(1.0, 1e-3));
 }
 
-TEST_CASE("environment: all ways to sample it have the same mean", "[integrators][statistics]")
+TEST_CASE("environment: all ways to sample it have the same mean", "[integrators][statistics][long]")
 {
     SceneBuilder builder = blocks();
     builder.addQuadLight({1, 1, 3}, {0, 1, 0}, {1, 0, 0}, Vec3(3.0f)); // beside other lights
@@ -244,7 +244,7 @@ TEST_CASE("environment: all ways to sample it have the same mean", "[integrators
 }
 
 TEST_CASE("environment: with a sun, importance sampling needs twenty times less",
-          "[integrators][statistics]")
+          "[integrators][statistics][long]")
 {
     SceneBuilder builder = blocks();
     builder.addLight(environmentLight(sunnySky(64, 32)));

@@ -81,7 +81,7 @@ TEST_CASE("furnace: Whitted's one bounce gives Le (1 + rho)", "[integrators][sta
 }
 
 TEST_CASE("sphere: a point light of intensity pi in a sphere of albedo 1/2 gives radiance 1",
-          "[integrators][statistics]")
+          "[integrators][statistics][long]")
 {
     // A light of diffuse 1 and quadratic attenuation has the intensity pi [W/sr].
     SceneBuilder sphere;
