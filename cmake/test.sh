@@ -33,5 +33,5 @@ check release
 build asan
 check asan -L 'unit|gl|fuzz'
 
-build tsan baseTest sessionTest displayTest backgroundTracerTest backgroundTest
-check tsan -R '^(base|session|display|backgroundTracer|background)Test$'
+build tsan baseTest sessionTest displayTest viewsTest backgroundTracerTest backgroundTest
+check tsan -R '^(base|session|display|views|backgroundTracer|background)Test$'

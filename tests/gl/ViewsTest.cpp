@@ -10,10 +10,12 @@
 #include <osg/MatrixTransform>
 #include <osgDB/WriteFile>
 
+#include <chrono>
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <string>
+#include <thread>
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::test;
@@ -293,6 +295,49 @@ TEST_CASE("views: slices of depth are traced once an eye, and each writes its ow
         other.look(osg::Vec3d(shift, 0.0, 10.0));
         const osg::ref_ptr<osg::Image> now = other.frames();
         if (shift == 0.0) CHECK(meanDifference(*now, *whole) < 0.1);
+    }
+}
+
+TEST_CASE("views: eyes and slices that workers trace come to the pictures of frame-locked ones",
+          "[gl]")
+{
+    using Settings = osg::DisplaySettings;
+    const Settings::StereoMode mode =
+        GENERATE(Settings::ANAGLYPHIC, Settings::VERTICAL_SPLIT, Settings::HORIZONTAL_INTERLACE);
+    const bool sliced = GENERATE(false, true);
+    CAPTURE(static_cast<int>(mode), sliced);
+    const auto content = [&](osg::Node* scene)
+    {
+        osg::ref_ptr<osg::Group> root = new osg::Group;
+        if (sliced) root = new DepthPartition({0.5, 6.0, 15.0, 200.0});
+        root->addChild(scene);
+        return root;
+    };
+    const auto setUp = [&](TestViewer& view)
+    {
+        view.camera().setDisplaySettings(stereo(mode).get());
+        view.camera().setProjectionMatrixAsPerspective(50.0, 1.0, 0.5, 200.0);
+    };
+    const osg::ref_ptr<RayTracedScene> locked = tracedSquares(), scene = tracedSquares();
+    scene->getSettings()->setPresentation(RayTraceSettings::BACKGROUND);
+    for (const osg::ref_ptr<RayTracedScene>& each : {locked, scene})
+        each->getSettings()->setMaxPasses(3);
+    TestViewer exact(kSize, kSize, content(locked.get()).get());
+    setUp(exact);
+    TestViewer view(kSize, kSize, content(scene.get()).get());
+    setUp(view);
+    for (const double x : {0.0, 0.4})
+    {
+        exact.look(osg::Vec3d(x, 0.0, 10.0));
+        view.look(osg::Vec3d(x, 0.0, 10.0));
+        const osg::ref_ptr<osg::Image> expected = exact.frames(4);
+        bool came = false;
+        for (int i = 0; i < 20000 && !came; ++i) // longer than any machine needs
+        {
+            came = equal(*view.frames(), *expected);
+            if (!came) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        CHECK(came);
     }
 }
 
