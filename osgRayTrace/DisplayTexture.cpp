@@ -9,6 +9,7 @@
 #include <osg/Viewport>
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -218,6 +219,19 @@ void DisplayTexture::resize(int width, int height, bool full)
 {
     Picture& picture = full ? _full : _reduced;
     _shown = &picture;
+    allocate(picture, width, height);
+}
+
+void DisplayTexture::reserve(int width, int height)
+{
+    if (_full.width > 0) return;
+    allocate(_full, width, height);
+    std::memset(_full.color->data(), 0, _full.color->getTotalSizeInBytes());
+    std::memset(_full.depth->data(), 0, _full.depth->getTotalSizeInBytes());
+}
+
+void DisplayTexture::allocate(Picture& picture, int width, int height)
+{
     if (width == picture.width && height == picture.height) return;
     picture.width = picture.height =
         0; // until all is there: memory may suffice for some of it only

@@ -38,6 +38,10 @@ public:
     /// Makes room for width * height pixels; values are lost if that is a change. full: of the
     /// view's size.
     void resize(int width, int height, bool full);
+
+    /// Once, memory for pictures of full size: the system takes long to hand it out, and the frame in which a
+    /// view comes to rest has no time for that.
+    void reserve(int width, int height);
     int width() const { return _shown->width; }
     int height() const { return _shown->height; }
 
@@ -75,6 +79,7 @@ private:
         engine::ChangedTiles changed; ///< since the textures were as the images
     };
 
+    static void allocate(Picture& picture, int width, int height);
     bool useProgram(osg::State& state) const;
     void chooseFilter(const osg::State& state) const;
     void applyPicture(osg::State& state);

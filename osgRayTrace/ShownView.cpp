@@ -57,6 +57,7 @@ void ShownView::traceNow(const ViewFrame& frame)
     {
         const int width = tracer->shownWidth(), height = tracer->shownHeight();
         _display.resize(width, height, width == frame.pass.width && height == frame.pass.height);
+        _display.reserve(frame.pass.width, frame.pass.height);
         tracer->resolve(_display.rgba(), _display.depth());
         _display.modified();
     }

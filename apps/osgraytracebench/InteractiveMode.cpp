@@ -50,6 +50,18 @@ struct Picture
         copiedDepth = UnclearedArray<float>(pixels);
     }
 
+    /// As DisplayTexture::reserve() does it; the copies are a driver's.
+    void reserve(int w, int h)
+    {
+        if (width > 0) return;
+        resize(w, h);
+        const std::size_t pixels = std::size_t(w) * std::size_t(h);
+        for (uint8_t* values : {rgba.data(), copiedRgba.data()})
+            std::memset(values, 0, 4 * pixels);
+        for (float* values : {depth.data(), copiedDepth.data()})
+            std::memset(values, 0, pixels * sizeof(float));
+    }
+
     template <class T>
     void copy(const std::vector<uint8_t>& marks, const T* from, T* to, std::size_t values) const
     {
@@ -93,6 +105,7 @@ struct Display
             const int width = tracer.shownWidth(), height = tracer.shownHeight();
             shown = width == view.width && height == view.height ? &full : &reduced;
             shown->resize(width, height);
+            full.reserve(view.width, view.height);
             tracer.resolve(shown->rgba.data(), shown->depth.data());
             shown->uploadAll();
         }

@@ -253,7 +253,7 @@ bool ViewTracer::traceImage(const FramePlan& plan, const FrameSituation& frame, 
         tilesOf(reducedSize(_view.width, plan.divider), reducedSize(_view.height, plan.divider));
     const double start = _now();
     StopRule rule;
-    rule.newPasses = plan.passes;
+    if (!reduced) rule.newPasses = plan.passes; // in the last of which tiles go to the display
     rule.over = [&, start](int tiles, double ahead)
     {
         const double spent = _now() - start;

@@ -199,6 +199,25 @@ TEST_CASE("display: marks of a picture of another size have all of it copied", "
         display->releaseGLObjects(&window.state());
 }
 
+TEST_CASE("display: memory for pictures of full size is there once, and changes nothing", "[gl]")
+{
+    DisplayTexture display;
+    display.resize(8, 4, false);
+    const uint8_t* small = display.rgba();
+    display.reserve(32, 16);
+    CHECK((display.width() == 8 && display.height() == 4));
+    CHECK(display.rgba() == small);
+
+    display.resize(32, 16, true);
+    uint8_t* large = display.rgba();
+    CHECK(std::count(large, large + 4 * 32 * 16, 0) == 4 * 32 * 16);
+    large[5] = 77;
+    display.reserve(64, 64); // of a window that grew: resize() makes room for that
+    CHECK((display.width() == 32 && display.height() == 16));
+    CHECK(display.rgba() == large);
+    CHECK(display.rgba()[5] == 77);
+}
+
 TEST_CASE("display: prints what copies and drawing take at 1920 x 1080", "[.copy-times]")
 {
     constexpr int kWide = 1920, kHigh = 1080, kTimes = 15;
