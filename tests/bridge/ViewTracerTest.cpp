@@ -534,6 +534,23 @@ TEST_CASE("frame budget: what becomes five times as slow is late once, not twice
     }
 }
 
+TEST_CASE("frame budget: what becomes a third as slow takes all of its time at once", "[bridge]")
+{
+    Screen screen(0.9);
+    screen.settings->setMaxPasses(100);
+    screen.takeSettings();
+    for (int i = 0; i < 20; ++i)
+        screen.frame(i);
+    screen.tileSeconds = 0.3;
+    for (int i = 20; i < 24; ++i)
+    {
+        screen.frame(i);
+        CHECK(screen.tracer.frame().divider > 1);
+        CHECK(screen.tracer.frame().seconds < 1.1 * kBudget);
+        CHECK(screen.tracer.frame().traceSeconds > 0.85 * kBudget);
+    }
+}
+
 TEST_CASE(
     "frame budget: without degrading a moving view is of full resolution, however long it takes",
     "[bridge]")
