@@ -269,6 +269,18 @@ void DisplayTexture::show(osg::Image* color, osg::Image* depth)
     modified();
 }
 
+/// OSG makes its lists of a context's deleted programs and shaders when the first one is deleted, in
+/// whatever thread that happens and without a lock, while the context's own thread may go through them:
+/// osg::ContextData::get() of OSG 3.6.5. Views that nobody draws any more are forgotten by the next one to
+/// draw, which may be of another context.
+static void makeDeletionLists(osg::State& state)
+{
+    const osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->getPCP(state);
+    const osg::ref_ptr<osg::Shader> shader = new osg::Shader(osg::Shader::VERTEX);
+    shader->getPCS(state);
+}
+
 bool DisplayTexture::draw(osg::RenderInfo& renderInfo, const engine::DepthMap& depthMap)
 {
     osg::State& state = *renderInfo.getState();
@@ -278,6 +290,8 @@ bool DisplayTexture::draw(osg::RenderInfo& renderInfo, const engine::DepthMap& d
     _depthMap->get(last);
     if (map != last) _depthMap->set(map);
     if (!useProgram(state)) return false;
+    if (!_hasDrawn) makeDeletionLists(state);
+    _hasDrawn = true;
     chooseFilter(state);
     applyPicture(state);
     _triangle->draw(renderInfo);

@@ -86,6 +86,7 @@ private:
 
     Picture _full, _reduced;
     Picture* _shown = &_full;
+    bool _hasDrawn = false;
     osg::ref_ptr<osg::Uniform> _colorUnit;
     osg::ref_ptr<osg::Uniform> _depthUnit;
     osg::ref_ptr<osg::Uniform> _depthMap;

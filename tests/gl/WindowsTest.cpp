@@ -121,7 +121,7 @@ GlObjects countObjects(osg::GraphicsContext& context)
     REQUIRE(context.makeCurrent());
     const osg::GLExtensions& gl = *context.getState()->get<osg::GLExtensions>();
     GlObjects count;
-    for (GLuint name = 1; name < 512; ++name) // they are used again
+    for (GLuint name = 1; name < 4096; ++name) // more than all windows have
     {
         count.textures += glIsTexture(name) == GL_TRUE;
         count.buffers += gl.glIsBuffer(name) == GL_TRUE;
