@@ -9,8 +9,9 @@ namespace osgRayTrace::bench
 
 /// Frames at 1920 x 1080 (camera rays, one shadow ray a pixel to an area light, shading, film, tone
 /// mapping) against the same rays through bare Embree; path tracing against the same rays one at a time;
-/// two threads against one; graph to ready BVH against Embree's own build and one copy.
-Rows measureLimit();
+/// two threads against one; graph to ready BVH against Embree's own build and one copy. Of these the parts
+/// whose name holds `only`.
+Rows measureLimit(const std::string& only);
 
 /// The rows on building of measureLimit.
 void measureBuild(Rows& rows);

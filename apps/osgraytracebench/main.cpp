@@ -51,6 +51,8 @@ struct CommandLine
               &upsample})
             rows->add_option("--json", json, "write the rows to this file as well");
 
+        limit.add_option("--only", limitOnly,
+                         "parts whose name holds this: box 1920x1080, sphere 640x360, 1 M triangles, ...");
         photons
             .add_option("--width", photonsOptions.width,
                         "width and height of the pictures [pixels]; 0: none are made")
@@ -152,7 +154,7 @@ struct CommandLine
 
     int run()
     {
-        if (limit) return runRows(measureLimit, json);
+        if (limit) return runRows([&] { return measureLimit(limitOnly); }, json);
         if (features) return runRows(measureFeatures, json);
         if (pick) return runRows(measurePicks, json);
         if (interactive)
@@ -190,7 +192,7 @@ struct CommandLine
         *application.add_subcommand("report", "error against time, of all methods on many scenes");
     CLI::App& compare = *application.add_subcommand(
         "compare", "which rows of two reports differ by more than their noise");
-    std::string json, before, after, pictures;
+    std::string json, limitOnly, before, after, pictures;
     std::vector<std::string> models;
     double falseAlarmRate = 0.01;
     ReportOptions options;
