@@ -18,7 +18,7 @@ namespace
 constexpr float kLargestDirection = 1e6f;
 constexpr float kSmallestDirection = 1e-6f;
 
-/// Below this many rays a packet does not pay on incoherent rays.
+/// Of so many rays or fewer a packet does not pay on incoherent rays.
 constexpr int kFewRays = 2;
 
 OSGRAYTRACE_INLINE bool traceable(float reach, float ox, float oy, float oz, float dx, float dy, float dz,
@@ -48,12 +48,11 @@ LaneMask checkRays(const RayBlock& ray, float reach, LaneMask active, Lanes<int>
     return refused & active;
 }
 
-int countLanes(LaneMask mask)
+bool areFew(LaneMask rays)
 {
-    int count = 0;
-    for (; mask; mask &= mask - 1)
-        ++count;
-    return count;
+    for (int i = 0; i < kFewRays; ++i)
+        rays &= rays - 1;
+    return rays == 0;
 }
 
 /// Rays first..first+width-1 of a block as one of Embree's narrower packets, and back.
@@ -141,7 +140,7 @@ void Intersector::query(RayHitBlock& block, const Lanes<int>& valid, LaneMask ac
     const auto scene = static_cast<RTCScene>(_scene);
     QueryArguments arguments(coherence == Coherence::Coherent, _filter, rule);
     const bool packets = coherence == Coherence::Coherent ||
-                         (_nativeWidth == 16 && countLanes(active) > kFewRays);
+                         (_nativeWidth == 16 && !areFew(active));
     if (packets && _nativeWidth == 16)
     {
         arguments.intersect16(valid.v, scene, reinterpret_cast<RTCRayHit16*>(&block));
@@ -201,11 +200,11 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
     // Never the coherent flag here: it makes occlusion packets slower, and with instances Embree 3.13.5
     // may not return at all.
     QueryArguments query(false, _filter);
-    if (_nativeWidth == 16 && countLanes(active) > kFewRays)
+    if (_nativeWidth == 16 && !areFew(active))
     {
         query.occluded16(valid.v, scene, reinterpret_cast<RTCRay16*>(&block));
     }
-    else if (_nativeWidth == 8 && countLanes(active) > kFewRays)
+    else if (_nativeWidth == 8 && !areFew(active))
     {
         for (int first = 0; first < kLanes; first += 8)
         {

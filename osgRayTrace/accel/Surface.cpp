@@ -27,14 +27,6 @@ constexpr float kShortestNormal2 = 1e-12f;  ///< squared length below which a no
 /// but a side of a body whose edges were averaged: two sides of a box make 45 degrees.
 constexpr float kLargestTurn2 = 0.5868f;
 
-/// What is read from the meshes, lane by lane; everything after it is arithmetic on lanes.
-struct TriangleLanes
-{
-    Vec3Lanes a, b, c;         ///< vertices, engine space
-    Vec3Lanes na, nb, nc;      ///< vertex normals, engine space, any length; zero: geometric normal
-    FloatLanes transformBound; ///< magnitude of what was added up to place the vertices; 0 if not placed
-};
-
 void store(Vec3Lanes& lanes, int i, Vec3 value)
 {
     lanes.x[i] = value.x;
@@ -179,15 +171,16 @@ void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
     s.front = front;
 }
 
-/// The same where all hits are on the triangle of lane from: one plane for all.
+/// The same where all hits are on one triangle: one plane for all.
 OSGRAYTRACE_KERNEL
-void geometryOfOne(const RayHitBlock& block, const TriangleLanes& t, int from, SurfaceLanes& s)
+void geometryOfOne(const RayHitBlock& block, const LastTriangle& last, SurfaceLanes& s)
 {
-    const float ax = t.a.x[from], ay = t.a.y[from], az = t.a.z[from];
-    const float bx = t.b.x[from], by = t.b.y[from], bz = t.b.z[from];
-    const float cx = t.c.x[from], cy = t.c.y[from], cz = t.c.z[from];
-    float nx, ny, nz, offset, steep;
-    planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[from], nx, ny, nz, offset, steep);
+    const TriangleLanes& t = last.lanes;
+    const float ax = t.a.x[0], ay = t.a.y[0], az = t.a.z[0];
+    const float bx = t.b.x[0], by = t.b.y[0], bz = t.b.z[0];
+    const float cx = t.c.x[0], cy = t.c.y[0], cz = t.c.z[0];
+    const float nx = last.normal.x, ny = last.normal.y, nz = last.normal.z;
+    const float offset = last.offset, steep = last.steep;
     LaneMask front = 0;
     OSGRAYTRACE_SIMD_OR(front)
     for (int i = 0; i < kLanes; ++i)
@@ -302,13 +295,13 @@ LaneMask hitLanes(const RayHitBlock& block, LaneMask active)
     return hits & active;
 }
 
-/// Vertices or their normals of one lane in all lanes, stored as wide as they will be loaded.
+/// Vertices or their normals of the first lane in all lanes, stored as wide as they will be loaded.
 OSGRAYTRACE_KERNEL
-void broadcast(int from, Vec3Lanes& a, Vec3Lanes& b, Vec3Lanes& c)
+void broadcast(Vec3Lanes& a, Vec3Lanes& b, Vec3Lanes& c)
 {
     for (Vec3Lanes* list : {&a, &b, &c})
     {
-        const float x = list->x[from], y = list->y[from], z = list->z[from];
+        const float x = list->x[0], y = list->y[0], z = list->z[0];
         OSGRAYTRACE_SIMD
         for (int i = 0; i < kLanes; ++i)
         {
@@ -342,52 +335,90 @@ void turnMirrored(LaneMask lanes, SurfaceLanes& s)
     }
 }
 
-} // namespace
-
-void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active,
-                SurfaceLanes& surface, RayStart start)
+/// Sets last to the triangle that a lane of a block is on.
+void setLast(const SurfaceTable& table, const RayHitBlock& block, int lane, LastTriangle& last)
 {
-    TriangleLanes triangles;
-    const LaneMask hits = hitLanes(block, active);
-    surface.hits = hits;
-    surface.lifted = 0;
-    LaneMask smooth = 0, mirrored = 0;
-    const int first = hits ? __builtin_ctz(hits) : 0;
-    if (hits && isOneTriangle(block, hits, first))
+    last.geometry = kInvalid; // until it is whole
+    last.instance = block.instance[lane];
+    last.primitive = block.primitive[lane];
+    last.sceneInstance = hitInstance(block.geometry[lane], block.instance[lane]);
+    const SurfaceRecord& record = table[last.sceneInstance];
+    TriangleLanes& t = last.lanes;
+    last.smooth = loadTriangle(record, last.primitive, 0, t);
+    last.mirrored = isMirrored(record);
+    last.material = record.material;
+    planeOf(t.a.x[0], t.a.y[0], t.a.z[0], t.b.x[0], t.b.y[0], t.b.z[0], t.c.x[0], t.c.y[0], t.c.z[0],
+            t.transformBound[0], last.normal.x, last.normal.y, last.normal.z, last.offset, last.steep);
+    if (last.smooth)
     {
-        const uint32_t instance = hitInstance(block.geometry[first], block.instance[first]);
-        const SurfaceRecord& record = table[instance];
-        if (loadTriangle(record, block.primitive[first], first, triangles)) smooth = kAllLanes;
-        if (isMirrored(record)) mirrored = kAllLanes;
-        geometryOfOne(block, triangles, first, surface);
-        if (smooth) broadcast(first, triangles.na, triangles.nb, triangles.nc);
-        if (smooth && start == RayStart::Smooth) broadcast(first, triangles.a, triangles.b, triangles.c);
-        std::fill_n(surface.instance.v, kLanes, instance);
-        std::fill_n(surface.material.v, kLanes, record.material);
+        broadcast(t.a, t.b, t.c);
+        broadcast(t.na, t.nb, t.nc);
     }
-    else
-    {
-        for (int i = 0; i < kLanes; ++i)
-        {
-            if (!((hits >> i) & 1u))
-            {
-                clearLane(triangles, i);
-                surface.material[i] = 0;
-                continue;
-            }
-            const uint32_t instance = hitInstance(block.geometry[i], block.instance[i]);
-            const SurfaceRecord& record = table[instance];
-            smooth |= static_cast<LaneMask>(loadTriangle(record, block.primitive[i], i, triangles)) << i;
-            mirrored |= static_cast<LaneMask>(isMirrored(record)) << i;
-            surface.instance[i] = instance;
-            surface.material[i] = record.material;
-        }
-        geometry(block, triangles, surface);
-    }
+    last.geometry = block.geometry[lane];
+}
+
+bool isOn(const LastTriangle& last, const RayHitBlock& block, int lane)
+{
+    return block.geometry[lane] == last.geometry && block.primitive[lane] == last.primitive &&
+           block.instance[lane] == last.instance;
+}
+
+/// Adds the interpolated normals, on the outside of the body.
+void finishNormals(const RayHitBlock& block, const TriangleLanes& triangles, LaneMask smooth, LaneMask mirrored,
+                   RayStart start, SurfaceLanes& surface)
+{
     if (mirrored) turnMirrored(mirrored, surface);
     if (!smooth) return;
     interpolateNormals(block, triangles, smooth, surface);
     if (start == RayStart::Smooth) lift(block, triangles, smooth, surface);
+}
+
+/// surfacesOf where all hits are on one triangle.
+void surfacesOfOne(const RayHitBlock& block, const LastTriangle& triangle, RayStart start, SurfaceLanes& surface)
+{
+    geometryOfOne(block, triangle, surface);
+    std::fill_n(surface.instance.v, kLanes, triangle.sceneInstance);
+    std::fill_n(surface.material.v, kLanes, triangle.material);
+    finishNormals(block, triangle.lanes, triangle.smooth ? kAllLanes : 0, triangle.mirrored ? kAllLanes : 0,
+                  start, surface);
+}
+
+} // namespace
+
+void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active, SurfaceLanes& surface,
+                RayStart start, LastTriangle* last)
+{
+    const LaneMask hits = hitLanes(block, active);
+    surface.hits = hits;
+    surface.lifted = 0;
+    const int first = hits ? __builtin_ctz(hits) : 0;
+    if (hits && isOneTriangle(block, hits, first))
+    {
+        if (last && isOn(*last, block, first)) return surfacesOfOne(block, *last, start, surface);
+        LastTriangle local;
+        LastTriangle& triangle = last ? *last : local;
+        setLast(table, block, first, triangle);
+        return surfacesOfOne(block, triangle, start, surface);
+    }
+    TriangleLanes triangles;
+    LaneMask smooth = 0, mirrored = 0;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        if (!((hits >> i) & 1u))
+        {
+            clearLane(triangles, i);
+            surface.material[i] = 0;
+            continue;
+        }
+        const uint32_t instance = hitInstance(block.geometry[i], block.instance[i]);
+        const SurfaceRecord& record = table[instance];
+        smooth |= static_cast<LaneMask>(loadTriangle(record, block.primitive[i], i, triangles)) << i;
+        mirrored |= static_cast<LaneMask>(isMirrored(record)) << i;
+        surface.instance[i] = instance;
+        surface.material[i] = record.material;
+    }
+    geometry(block, triangles, surface);
+    finishNormals(block, triangles, smooth, mirrored, start, surface);
 }
 
 OSGRAYTRACE_KERNEL

@@ -301,6 +301,21 @@ void setPixels(const Vec3Lanes& radiance, LaneMask hits, RgbaLanes& rgba)
     }
 }
 
+/// What camera rays count for, whose pixels are those from firstPixel on.
+OSGRAYTRACE_KERNEL
+void startCamera(uint32_t firstPixel, ShadingBlock& block)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        block.pixel[i] = firstPixel + static_cast<uint32_t>(i);
+        block.weight.x[i] = block.weight.y[i] = block.weight.z[i] = 1.0f;
+        block.etaScale[i] = 1.0f;
+        block.depth[i] = block.layers[i] = 0;
+    }
+    block.fromCamera = kAllLanes;
+}
+
 /// Camera rays of blocks first to first + kGroup - 1, stage by stage.
 void traceCamera(WhittedTile& tile, int left, int bottom, int first)
 {
@@ -312,20 +327,14 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
         ShadingBlock& block = tile.group[k];
         cameraRayLanes(context.camera, context.key, left, bottom, first + k, context.throughCentres,
                        block.rays, block.seed);
-        fill(Vec3(1.0f), block.weight);
-        for (int i = 0; i < kLanes; ++i)
-        {
-            block.pixel[i] = static_cast<uint32_t>((first + k) * kLanes + i);
-            block.etaScale[i] = 1.0f;
-            block.depth[i] = block.layers[i] = 0;
-        }
-        block.fromCamera = kAllLanes;
+        startCamera(static_cast<uint32_t>((first + k) * kLanes), block);
         drawFirstPoints(tile, block);
     }
     for (ShadingBlock& block : tile.group)
         traced.intersector().closestHits(block.rays, kAllLanes, Coherence::Coherent, {true, true});
     for (ShadingBlock& block : tile.group)
-        surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface, rayStart(context.options));
+        surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface, rayStart(context.options),
+                   &tile.lastTriangle);
     tile.result.counts.cameraRays += kGroup * kLanes;
     shade(tile, tile.group, kGroup);
     for (int k = 0; k < kGroup; ++k)

@@ -88,6 +88,7 @@ struct WhittedTile
     LightGrid grid;
     std::vector<SecondaryRay> stack;
     ShadingBlock group[kGroup];
+    LastTriangle lastTriangle; ///< that a block of camera rays met
     std::vector<Bsdf> bsdfs; ///< kLanes for each block of the group; empty until needed
     std::vector<FixedFunctionPoint> points; ///< the same
 };
