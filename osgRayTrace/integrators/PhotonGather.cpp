@@ -14,13 +14,10 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Halvings of the octave that a radius is in. In whole octaves a caustic would have rings around it: where
-/// the radius takes in its rim, and where the next larger one still does after it has shrunk.
-constexpr int kRadiusSteps = 4;
-
-/// Where the largest radius holds no more photons than this all radii are counted from one look-up. Where
-/// it holds more each radius takes a look-up of its own, which need not read those of a crowd.
+/// Where the largest radius holds no more photons than this the radius comes from one look-up. Where it holds
+/// more it is narrowed down first, by sums that need not read the photons of a crowd.
 constexpr std::size_t kMostReaches = 4096;
+constexpr int kNarrowings = 8; ///< of the octave that the radius is in
 
 void addPhotons(const PhotonMap& map, const GatherPoint& point, const PhotonQuery& query,
                 const ShadingFrame& frame, Vec3 wo, bool behind, PhotonSum& sum)
@@ -49,24 +46,27 @@ float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float large
     if (!(least < largest)) return largest;
     static thread_local PhotonReaches reaches;
     query.radius = largest;
-    const bool known = map.findReaches(query, kMostReaches, reaches);
-    if (known && reaches.size() < kRadiusPhotons) return largest;
-    const auto holdsEnough = [&](float radius)
+    if (map.findReaches(query, kMostReaches, reaches))
+        return std::clamp(reaches.radiusBefore(kRadiusPhotons), least, largest);
+
+    const auto holdsMore = [&](float radius)
     {
-        if (known) return reaches.countWithin(radius) >= kRadiusPhotons;
         query.radius = radius;
-        return map.gather(query).count >= kRadiusPhotons;
+        return map.gather(query).count > kRadiusPhotons;
     };
-    if (holdsEnough(least)) return least;
-    float few = least, enough = std::min(2.0f * least, largest);
-    for (; enough < largest && !holdsEnough(enough); enough = std::min(2.0f * enough, largest))
-        few = enough;
-    for (int i = 0; i < kRadiusSteps; ++i)
+    if (holdsMore(least)) return least;
+    float few = least, many = std::min(2.0f * least, largest);
+    for (; many < largest && !holdsMore(many); many = std::min(2.0f * many, largest))
+        few = many;
+    for (int i = 0; i < kNarrowings; ++i)
     {
-        const float middle = std::sqrt(few * enough);
-        (holdsEnough(middle) ? enough : few) = middle;
+        query.radius = many;
+        if (map.findReaches(query, kMostReaches, reaches))
+            return std::clamp(reaches.radiusBefore(kRadiusPhotons), few, many);
+        const float middle = std::sqrt(few * many);
+        (holdsMore(middle) ? many : few) = middle;
     }
-    return enough;
+    return many;
 }
 
 PhotonSum gatherDiffuse(const PhotonMap& map, const PhotonQuery& query, Vec3 albedo)

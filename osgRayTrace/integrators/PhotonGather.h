@@ -18,8 +18,9 @@ struct GatherPoint
     bool directOnly = false; ///< photons that met another than a mirror-like surface are left out
 };
 
-/// The smallest radius from least to largest within which there are kRadiusPhotons photons, to a twentieth;
-/// largest if there are never as many.
+/// The largest radius from least to largest within which there are no more than kRadiusPhotons photons; least if
+/// there are more in any. It ends where the next photon is, which is not part of the disc: so what the very photons
+/// that chose the radius say is right in the mean where their density is even [Loftsgaarden65], also with bounds.
 float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float largest);
 constexpr uint32_t kRadiusPhotons = 16;
 

@@ -86,16 +86,6 @@ LaneMask insideLanes(const PhotonColumns& columns, uint32_t block, uint32_t end,
     return inside;
 }
 
-OSGRAYTRACE_KERNEL
-uint32_t countBelow(const float* distance2, const float* off, std::size_t size, float radius2,
-                    float planeDistance)
-{
-    uint32_t count = 0;
-    for (std::size_t k = 0; k < size; ++k)
-        count += (maskOf(distance2[k] <= radius2) & maskOf(off[k] <= planeDistance)) & 1u;
-    return count;
-}
-
 float sumOf(const FloatLanes& lanes)
 {
     // Always the same tree of additions.
@@ -270,26 +260,29 @@ void PhotonMap::find(const PhotonQuery& query, std::vector<uint32_t>& found) con
 
 bool PhotonMap::findReaches(const PhotonQuery& query, std::size_t most, PhotonReaches& reaches) const
 {
-    std::vector<float>&distances = reaches._distance2, &offs = reaches._off;
-    distances.clear();
-    offs.clear();
+    std::vector<float>& reach2 = reaches._reach2;
+    reach2.clear();
     forEachFound(
         query,
         [&](uint32_t, LaneMask lanes, const FloatLanes& distance2, const FloatLanes& off)
         {
             for (; lanes; lanes &= lanes - 1)
             {
-                distances.push_back(distance2[__builtin_ctz(lanes)]);
-                offs.push_back(off[__builtin_ctz(lanes)]);
+                const int i = __builtin_ctz(lanes);
+                const float plane = off[i] / kPlaneShare;
+                reach2.push_back(std::max(distance2[i], plane * plane));
             }
-            return distances.size() <= most;
+            return reach2.size() <= most;
         });
-    return distances.size() <= most;
+    return reach2.size() <= most;
 }
 
-uint32_t PhotonReaches::countWithin(float radius) const
+float PhotonReaches::radiusBefore(std::size_t count)
 {
-    return countBelow(_distance2.data(), _off.data(), size(), radius * radius, radius * kPlaneShare);
+    if (size() <= count) return kInfinity;
+    const auto next = _reach2.begin() + static_cast<std::ptrdiff_t>(count);
+    std::nth_element(_reach2.begin(), next, _reach2.end());
+    return std::sqrt(*next) * (1.0f - 0x1p-21f); // so that the square of it, rounded, is less
 }
 
 std::size_t PhotonMap::work(const PhotonQuery& query) const

@@ -47,19 +47,19 @@ struct PhotonSum
     uint32_t count = 0;
 };
 
-/// How large discs around one place have to be to hold its photons: for counts by many radii from
-/// one look-up.
+/// How large discs around one place have to be to hold its photons.
 class PhotonReaches
 {
 public:
-    std::size_t size() const { return _distance2.size(); }
+    std::size_t size() const { return _reach2.size(); }
 
-    /// Photons that the disc of a look-up with this radius would hold; radius: that of the query at most.
-    uint32_t countWithin(float radius) const;
+    /// The largest radius of a look-up whose disc holds no more than count photons, to 5e-7 of it; infinity if
+    /// none that was found is left out. Reorders them.
+    float radiusBefore(std::size_t count);
 
 private:
     friend class PhotonMap;
-    std::vector<float> _distance2, _off; ///< from the place, and from its plane
+    std::vector<float> _reach2; ///< square of the radius from which on a look-up finds the photon
 };
 
 /// Photons near a corner or behind a thin wall do not belong to a surface although they are within

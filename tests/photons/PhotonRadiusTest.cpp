@@ -59,32 +59,15 @@ std::vector<Photon> cloud(int count)
     return photons;
 }
 
-/// The definition, by a look-up for each radius.
-float radiusByLookups(const PhotonMap& map, PhotonQuery query, float least, float largest)
+uint32_t countOf(const PhotonMap& map, PhotonQuery query, float radius)
 {
-    const auto enough = [&](float radius)
-    {
-        query.radius = radius;
-        return map.gather(query).count >= kRadiusPhotons;
-    };
-    if (enough(least)) return least;
-    float low = least, high = std::min(2.0f * least, largest);
-    while (high < largest && !enough(high))
-    {
-        low = high;
-        high = std::min(2.0f * high, largest);
-    }
-    for (int i = 0; i < 4; ++i)
-    {
-        const float middle = std::sqrt(low * high);
-        (enough(middle) ? high : low) = middle;
-    }
-    return high;
+    query.radius = radius;
+    return map.gather(query).count;
 }
 
 } // namespace
 
-TEST_CASE("photon radius: the same as by a look-up for each", "[photons]")
+TEST_CASE("photon radius: look-ups with it hold the photons asked for, and larger ones more", "[photons]")
 {
     const std::vector<Photon> photons = cloud(100000);
     const PhotonMap map(photons, 0.05f, Workers(1));
@@ -97,12 +80,17 @@ TEST_CASE("photon radius: the same as by a look-up for each", "[photons]")
         query.mostEdges = k % 3 ? kMostEdges : 4;
         const float least = k % 5 ? 0.001f : 0.02f, largest = k % 7 ? 0.05f : 0.3f;
         const float radius = radiusOf(map, query, least, largest);
-        REQUIRE(radius == radiusByLookups(map, query, least, largest));
+        CAPTURE(k, radius);
+        if (radius > least) REQUIRE(countOf(map, query, radius) <= kRadiusPhotons);
+        if (radius < largest)
+        {
+            REQUIRE(countOf(map, query, 1.00001f * radius) > kRadiusPhotons);
+            if (radius > least) REQUIRE(countOf(map, query, radius) == kRadiusPhotons);
+        }
         atLeast += radius == least;
         atLargest += radius == largest;
         between += radius > least && radius < largest;
-        query.radius = largest;
-        many += map.gather(query).count > 4096;
+        many += countOf(map, query, largest) > 4096;
     }
     CAPTURE(atLeast, between, atLargest, many);
     CHECK(atLeast > 50);
@@ -111,23 +99,62 @@ TEST_CASE("photon radius: the same as by a look-up for each", "[photons]")
     CHECK(many > 50);
 }
 
-TEST_CASE("photon radius: holds the photons asked for, and hardly more", "[photons]")
+TEST_CASE("photon radius: where photons lie on a lattice, where there are many and none", "[photons]")
 {
     const Workers workers(1);
     const PhotonMap map = halfLit(workers);
     for (const float x : {-0.3f, -0.11f, -0.02f, 0.0f, 0.013f, 0.05f, 0.5f})
     {
         CAPTURE(x);
-        PhotonQuery query = queryAt(x);
+        const PhotonQuery query = queryAt(x);
         const float radius = radiusOf(map, query, 0.001f, 1.0f);
-        query.radius = radius;
-        CHECK(map.gather(query).count >= kRadiusPhotons);
-        query.radius = radius / 1.05f;
-        CHECK(map.gather(query).count < kRadiusPhotons);
+        CHECK(countOf(map, query, radius) <= kRadiusPhotons); // several are equally far away
+        CHECK(countOf(map, query, radius) >= kRadiusPhotons - 8);
+        CHECK(countOf(map, query, 1.00001f * radius) > kRadiusPhotons);
     }
     CHECK(radiusOf(map, queryAt(0.5f), 0.3f, 1.0f) == 0.3f);
     CHECK(radiusOf(map, queryAt(-2.0f), 0.001f, 1.0f) == 1.0f);
     CHECK(radiusOf(PhotonMap(), queryAt(0.0f), 0.001f, 1.0f) == 1.0f);
+}
+
+TEST_CASE("photon radius: the photons that chose it are right in the mean", "[photons][statistics][long]")
+{
+    // Random photons on an even floor, anew for each of 40,000 discs; bounds that no disc meets, that half of
+    // them meet below, above, and on both sides; and so many that the radius is narrowed down first.
+    const struct
+    {
+        int photons;
+        float least, largest; ///< in radii that hold 16 photons in the mean
+    } cases[] = {{400, 0.01f, 4.0f}, {400, 1.0f, 4.0f}, {400, 0.01f, 1.0f}, {400, 0.9f, 1.1f}, {12000, 0.01f, 20.0f}};
+    const Workers workers(1);
+    for (const auto& c : cases)
+    {
+        Uniform uniform(5);
+        const float usual = std::sqrt(16.0f / (kPi * static_cast<float>(c.photons))); // on a square of area 1
+        const int discs = c.photons > 1000 ? 4000 : 40000;
+        double sum = 0.0, squares = 0.0;
+        for (int disc = 0; disc < discs; ++disc)
+        {
+            std::vector<Photon> photons(static_cast<std::size_t>(c.photons));
+            for (Photon& photon : photons)
+            {
+                photon.position = Vec3(uniform() - 0.5f, uniform() - 0.5f, 0.0f);
+                photon.wi = photon.normal = Vec3(0.0f, 0.0f, 1.0f);
+                photon.power = Vec3(1.0f / static_cast<float>(c.photons));
+            }
+            const PhotonMap map(photons, 2.0f * usual, workers);
+            PhotonQuery query = queryAt(0.0f);
+            query.radius = radiusOf(map, query, c.least * usual, std::min(0.5f, c.largest * usual));
+            const double density = map.gather(query).power.x / (kPi * query.radius * query.radius);
+            sum += density;
+            squares += density * density;
+        }
+        const double mean = sum / discs;
+        const double error = std::sqrt((squares / discs - mean * mean) / discs);
+        CAPTURE(c.photons, c.least, c.largest, mean, error);
+        CHECK(std::abs(mean - 1.0) < 4.0 * error);
+        CHECK(error < (c.photons > 1000 ? 0.005 : 0.0015)); // the next photon counted as well: 1/16 more
+    }
 }
 
 TEST_CASE("photon radius: no ring around light that has shrunk", "[photons]")
