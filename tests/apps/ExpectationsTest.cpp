@@ -15,7 +15,7 @@ const std::string kExpectations = R"({
   "non_finite": 0,
   "bias": { "largest_percent": 0.1, "largest_errors": 4 },
   "kernels": [ { "scene": "s6-flat-mirror", "method": "SPPM", "largest_percent": 0.25,
-                 "bias_square_left": 0.3, "slope": [-1.0, -0.6] } ],
+                 "bias_square_left": 0.3, "bias_square": 1.3e-4, "slope": [-1.0, -0.6] } ],
   "placements": { "largest_errors": 4 },
   "sampler_slopes": [ { "scene": "open", "strategy": "Sobol", "at_most": -2.5 },
                       { "scene": "open", "strategy": "random", "at_most": -0.9, "at_least": -1.1 } ],
@@ -61,6 +61,13 @@ TEST_CASE("expectations: each can be missed", "[report]")
     SECTION("a kernel's bias that stays")
     {
         report.lines[4].rows[1].mse = 1.5e-4;
+        CHECK(failures(report) == 1);
+    }
+    SECTION("a kernel's bias that is too large, though it fell")
+    {
+        std::vector<ReportRow>& rows = report.lines[4].rows;
+        rows[0].mse = rows[0].variance + 1e-2;
+        rows[1].mse = rows[1].variance + 2e-4;
         CHECK(failures(report) == 1);
     }
     SECTION("a kernel's bias that was never there cannot have fallen")
