@@ -36,6 +36,7 @@ int runRows(const std::function<Rows()>& measure, const std::string& json)
     const app::Failure cannotWrite(app::kCannotWrite, "cannot write " + json);
     if (!json.empty() && !canWriteRows(json)) throw cannotWrite;
     const Rows rows = measure();
+    if (rows.empty()) throw app::Failure(app::kUsage, "--only: nothing that is measured has this in its name");
     printRows(rows);
     if (!json.empty() && !writeRows(rows, json)) throw cannotWrite;
     return app::kDone;

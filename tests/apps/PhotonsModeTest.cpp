@@ -104,7 +104,8 @@ TEST_CASE("bench photons: wrong usage is refused", "[apps]")
     for (const std::string arguments :
          {"--runs 0", "--photons 10", "--width -1", "--unknown", "--only nothing"})
         CHECK(osgraytrace(folder, "photons " + arguments).exitCode == 1);
-    CHECK(osgraytrace(folder, "report --quick --only nothing").exitCode == 1);
+    for (const std::string mode : {"report --quick", "limit", "interactive"})
+        CHECK(osgraytrace(folder, mode + " --only nothing").exitCode == 1);
     // Before it measures for minutes.
     const Outcome unwritable = osgraytrace(folder, "limit --json nowhere/rows.json");
     CHECK(unwritable.exitCode == 4);
