@@ -8,6 +8,7 @@
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/sampling/Sobol.h"
 #include "osgRayTrace/sampling/Warp.h"
 
@@ -80,7 +81,7 @@ std::vector<Photon> photonsOn(const Scene& scene, std::size_t count)
     return photons;
 }
 
-/// Where a picture of the scene sees surfaces, tile by tile; those of a tile row by row.
+/// Where a picture of the scene sees surfaces, tile by tile; those of a tile in blocks of 4 x 4.
 std::vector<PhotonQuery> queriesOf(const BenchScene& bench, const TracedScene& traced)
 {
     const glm::dmat4 worldFromClip =
@@ -94,8 +95,8 @@ std::vector<PhotonQuery> queriesOf(const BenchScene& bench, const TracedScene& t
     for (int tile = 0; tile < kSide * kSide / (kTile * kTile); ++tile)
         for (int i = 0; i < kTile * kTile; ++i)
         {
-            const int column = tile % (kSide / kTile) * kTile + i % kTile;
-            const int row = tile / (kSide / kTile) * kTile + i / kTile;
+            const int column = tile % (kSide / kTile) * kTile + laneX(i / kLanes, i % kLanes);
+            const int row = tile / (kSide / kTile) * kTile + laneY(i / kLanes, i % kLanes);
             const double x = 2.0 * (column + 0.5) / kSide - 1.0,
                          y = 2.0 * (row + 0.5) / kSide - 1.0;
             const Vec3d origin = unproject(x, y, -1.0);
@@ -127,6 +128,32 @@ void gatherAll(const Map& map, const std::vector<PhotonQuery>& queries, const Wo
                     {
                         for (std::size_t i = chunk * kChunk; i < (chunk + 1) * kChunk; ++i)
                             sums[i] = map.gather(queries[i]);
+                    });
+}
+
+/// The blocks of 4 x 4 at once, as integrators do.
+void gatherBlocks(const PhotonMap& map, const std::vector<PhotonQuery>& queries,
+                  const Workers& workers, std::vector<PhotonSum>& sums)
+{
+    workers.forEach(queries.size() / kLanes,
+                    [&](std::size_t block)
+                    {
+                        const std::size_t first = block * kLanes;
+                        PhotonQueryLanes lanes;
+                        lanes.lanes = kAllLanes;
+                        for (int i = 0; i < kLanes; ++i)
+                        {
+                            const PhotonQuery& query = queries[first + static_cast<std::size_t>(i)];
+                            setLane(lanes.position, i, query.position);
+                            setLane(lanes.normal, i, query.normal);
+                            setLane(lanes.shadingNormal, i, query.shadingNormal);
+                            lanes.radius[i] = query.radius;
+                        }
+                        PhotonSumLanes found;
+                        map.gather(lanes, found);
+                        for (int i = 0; i < kLanes; ++i)
+                            sums[first + static_cast<std::size_t>(i)] = {laneOf(found.power, i),
+                                                                         found.count[i]};
                     });
 }
 
@@ -175,6 +202,8 @@ void measureRadius(const std::vector<Photon>& photons, std::vector<PhotonQuery> 
         static_cast<double>(compare(sums, plainSums)) / static_cast<double>(queries.size());
     const std::string name = "lookup r " + std::to_string(radius).substr(0, 3);
     rows.push_back({name + ": photons found a gather, by both", found, "photons"});
+    gatherBlocks(map, queries, *one, sums);
+    compare(sums, plainSums);
     rows.push_back({name + ": cells of the plain grid", plainCell / radius, "radii"});
     for (const auto& workers : {one, all})
     {
@@ -187,6 +216,13 @@ void measureRadius(const std::vector<Photon>& photons, std::vector<PhotonQuery> 
         rows.push_back(
             {threads + ": photon map", millions(queries.size(), times.second), "M gathers/s"});
         rows.push_back({threads + ": map / plain", times.ratio, "times", Goal::AtLeast, 1.7});
+        const PairedTimes blocks = timePair(
+            runs, [&] { gatherAll(plain, queries, *workers, plainSums); },
+            [&] { gatherBlocks(map, queries, *workers, sums); }, stopwatchFor(workers->threads()));
+        rows.push_back({threads + ": map, sixteen at once", millions(queries.size(), blocks.second),
+                        "M gathers/s"});
+        rows.push_back(
+            {threads + ": sixteen at once / plain", blocks.ratio, "times", Goal::AtLeast, 1.7});
     }
     for (const auto& workers : {one, all})
     {

@@ -12,38 +12,39 @@
 namespace osgRayTrace::engine
 {
 
-/// A point at which a camera path takes light samples and, if gathering, looks up photons: the hit
-/// points of progressive photon mapping [Hachisuka08, sect. 4.1].
-struct HitPoint
+/// Points at which camera paths take light samples and, if gathering, look up photons: the hit points
+/// of progressive photon mapping [Hachisuka08, sect. 4.1]. Sixteen of the same number of bounces; lanes
+/// beyond count hold the first one.
+struct HitPointBlock
 {
-    Vec3 position;        ///< on the triangle
-    Vec3 start;           ///< of shadow rays: position but for lifted points, see RayStart
-    Vec3 geometricNormal; ///< unit, on the side of the ray
-    Vec3 normal;          ///< shading, on that side
-    Vec3 direction;       ///< of the ray that came here, unit
-    Vec3 throughput;
-    Vec3 albedo;  ///< if diffuse
-    float offset, steep; ///< see SurfaceLanes
-    uint32_t material;
-    uint32_t instance;
-    uint32_t seed;   ///< of the pixel
-    uint32_t pixel;  ///< with the path's flags
-    uint32_t bsdf;   ///< index into HitPoints::bsdfs unless diffuse
-    uint16_t number; ///< of bounces before
-    bool diffuse, through, lifted, gathering, ending; ///< see Bounce, SurfaceLanes
+    Vec3Lanes position;        ///< on the triangle
+    Vec3Lanes start;           ///< of shadow rays: position but for lifted points, see RayStart
+    Vec3Lanes geometricNormal; ///< unit, on the side of the ray
+    Vec3Lanes normal;          ///< shading, on that side
+    Vec3Lanes direction;       ///< of the ray that came here, unit
+    Vec3Lanes throughput;
+    Vec3Lanes albedo;         ///< if diffuse
+    FloatLanes offset, steep; ///< see SurfaceLanes
+    UintLanes material, instance;
+    UintLanes seed;  ///< of the pixel
+    UintLanes pixel; ///< with the path's flags
+    UintLanes bsdf;  ///< index into HitPoints::bsdfs unless diffuse
+    int number = 0;  ///< of bounces before
+    int count = 0;
+    LaneMask diffuse = 0, through = 0, lifted = 0, gathering = 0, ending = 0; ///< see Bounce, SurfaceLanes
 };
 
 /// Of one tile, for all passes in which camera paths are the same.
 struct HitPoints
 {
     bool traced = false;          ///< the paths were followed; otherwise all else is empty
-    std::vector<HitPoint> points; ///< by number of bounces
+    std::vector<HitPointBlock> blocks; ///< by number of bounces
     std::vector<Bsdf> bsdfs;
     std::vector<RgbaLanes> seen; ///< kTileBlocks of the light that the paths met by themselves
 
     std::size_t bytes() const
     {
-        return points.capacity() * sizeof(HitPoint) + bsdfs.capacity() * sizeof(Bsdf) +
+        return blocks.capacity() * sizeof(HitPointBlock) + bsdfs.capacity() * sizeof(Bsdf) +
                seen.capacity() * sizeof(RgbaLanes);
     }
 };

@@ -9,93 +9,107 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr bool bitOf(LaneMask lanes, int i)
+/// Bit to if bit from is set.
+constexpr LaneMask moved(LaneMask mask, int from, int to)
 {
-    return (lanes >> i) & 1u;
+    return ((mask >> from) & 1u) << to;
 }
 
-constexpr LaneMask maskIf(bool condition, int i)
+/// The state in which a bounce stood at a block's points.
+void restore(const HitPoints& hits, const HitPointBlock& points, PathBlock& block, Bounce& bounce)
 {
-    return static_cast<LaneMask>(condition) << i;
-}
-
-/// The state in which a bounce stood at up to sixteen points of the same number of bounces.
-void restore(const HitPoints& hits, const HitPoint* points, int count, PathBlock& block,
-             Bounce& bounce)
-{
-    bounce.number = points[0].number;
-    bounce.diffuse = bounce.general = bounce.through = bounce.gathering = bounce.ending = 0;
+    const LaneMask all = (1u << points.count) - 1u;
+    bounce.number = points.number;
+    bounce.normal = points.normal;
+    bounce.albedo = points.albedo;
+    bounce.diffuse = points.diffuse;
+    bounce.general = all & ~points.diffuse;
+    bounce.through = points.through;
+    bounce.gathering = points.gathering;
+    bounce.ending = points.ending;
     SurfaceLanes& surface = bounce.surface;
-    surface.lifted = 0;
-    surface.hits = block.active = (1u << count) - 1u;
-    for (int i = 0; i < kLanes; ++i)
+    surface.onTriangle = points.position;
+    surface.position = points.start;
+    surface.geometricNormal = points.geometricNormal;
+    surface.offset = points.offset;
+    surface.steep = points.steep;
+    surface.material = points.material;
+    surface.instance = points.instance;
+    surface.lifted = points.lifted;
+    surface.hits = block.active = all;
+    block.throughput = points.throughput;
+    block.rays.ray.directionX = points.direction.x;
+    block.rays.ray.directionY = points.direction.y;
+    block.rays.ray.directionZ = points.direction.z;
+    block.seed = points.seed;
+    block.pixel = points.pixel;
+    for (LaneMask lanes = bounce.general; lanes; lanes &= lanes - 1)
     {
-        // Lanes out of use hold the last point: vector code may read them.
-        const HitPoint& point = points[i < count ? i : count - 1];
-        setLane(surface.onTriangle, i, point.position);
-        setLane(surface.position, i, point.start);
-        setLane(surface.geometricNormal, i, point.geometricNormal);
-        setLane(bounce.normal, i, point.normal);
-        setLane(bounce.albedo, i, point.albedo);
-        setLane(block.throughput, i, point.throughput);
-        block.rays.ray.directionX[i] = point.direction.x;
-        block.rays.ray.directionY[i] = point.direction.y;
-        block.rays.ray.directionZ[i] = point.direction.z;
-        surface.offset[i] = point.offset;
-        surface.steep[i] = point.steep;
-        surface.material[i] = point.material;
-        surface.instance[i] = point.instance;
-        block.seed[i] = point.seed;
-        block.pixel[i] = point.pixel;
-        if (i >= count) continue;
-        if (!point.diffuse) bounce.bsdfs[i] = hits.bsdfs[point.bsdf];
-        bounce.diffuse |= maskIf(point.diffuse, i);
-        bounce.general |= maskIf(!point.diffuse, i);
-        bounce.through |= maskIf(point.through, i);
-        bounce.gathering |= maskIf(point.gathering, i);
-        bounce.ending |= maskIf(point.ending, i);
-        surface.lifted |= maskIf(point.lifted, i);
+        const int i = __builtin_ctz(lanes);
+        bounce.bsdfs[i] = hits.bsdfs[points.bsdf[i]];
     }
+}
+
+/// A block with room for a point after so many bounces.
+HitPointBlock& blockFor(int number, HitPoints& hits)
+{
+    if (hits.blocks.empty() || hits.blocks.back().number != number || hits.blocks.back().count == kLanes)
+    {
+        hits.blocks.emplace_back();
+        hits.blocks.back().number = number;
+    }
+    return hits.blocks.back();
+}
+
+/// Lane i of a bounce to lane to.
+void setLane(HitPointBlock& points, int to, const PathBlock& block, const Bounce& bounce, int i,
+             uint32_t bsdf)
+{
+    const SurfaceLanes& surface = bounce.surface;
+    engine::setLane(points.position, to, laneOf(trianglePoints(surface), i));
+    engine::setLane(points.start, to, laneOf(surface.position, i));
+    engine::setLane(points.geometricNormal, to, laneOf(surface.geometricNormal, i));
+    engine::setLane(points.normal, to, laneOf(bounce.normal, i));
+    engine::setLane(points.direction, to, directionOf(block.rays.ray, i));
+    engine::setLane(points.throughput, to, laneOf(block.throughput, i));
+    const bool diffuse = (bounce.diffuse >> i) & 1u;
+    engine::setLane(points.albedo, to, diffuse ? laneOf(bounce.albedo, i) : Vec3(0.0f));
+    points.offset[to] = surface.offset[i];
+    points.steep[to] = surface.steep[i];
+    points.material[to] = surface.material[i];
+    points.instance[to] = surface.instance[i];
+    points.seed[to] = block.seed[i];
+    points.pixel[to] = block.pixel[i];
+    points.bsdf[to] = bsdf;
 }
 
 } // namespace
 
 void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits)
 {
-    const SurfaceLanes& surface = bounce.surface;
     for (LaneMask lanes = bounce.diffuse | bounce.general; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        HitPoint point;
-        point.position = laneOf(trianglePoints(surface), i);
-        point.start = laneOf(surface.position, i);
-        point.geometricNormal = laneOf(surface.geometricNormal, i);
-        point.normal = laneOf(bounce.normal, i);
-        point.direction = directionOf(block.rays.ray, i);
-        point.throughput = laneOf(block.throughput, i);
-        point.diffuse = bitOf(bounce.diffuse, i);
-        point.albedo = point.diffuse ? laneOf(bounce.albedo, i) : Vec3(0.0f);
-        point.offset = surface.offset[i];
-        point.steep = surface.steep[i];
-        point.material = surface.material[i];
-        point.instance = surface.instance[i];
-        point.seed = block.seed[i];
-        point.pixel = block.pixel[i];
-        point.bsdf = kInvalid;
-        point.number = static_cast<uint16_t>(bounce.number);
-        point.through = bitOf(bounce.through, i);
-        point.lifted = bitOf(surface.lifted, i);
-        point.gathering = bitOf(bounce.gathering, i);
-        point.ending = bitOf(bounce.ending, i);
-        if (!point.diffuse)
+        uint32_t kept = kInvalid;
+        if (!((bounce.diffuse >> i) & 1u))
         {
             const Bsdf& bsdf = bounce.bsdfs[i];
+            const bool gathering = (bounce.gathering >> i) & 1u;
             // Mirrors and smooth glass send nothing back from light samples or photons.
-            if (bsdf.isSmooth() && bsdf.diffuse == Vec3(0.0f) && !point.gathering) continue;
-            point.bsdf = static_cast<uint32_t>(hits.bsdfs.size());
+            if (bsdf.isSmooth() && bsdf.diffuse == Vec3(0.0f) && !gathering) continue;
+            kept = static_cast<uint32_t>(hits.bsdfs.size());
             hits.bsdfs.push_back(bsdf);
         }
-        hits.points.push_back(point);
+        HitPointBlock& points = blockFor(bounce.number, hits);
+        const int at = points.count++;
+        // Vector code reads lanes out of use as well.
+        for (int to = at; to < (at == 0 ? kLanes : at + 1); ++to)
+            setLane(points, to, block, bounce, i, kept);
+        points.diffuse |= moved(bounce.diffuse, i, at);
+        points.through |= moved(bounce.through, i, at);
+        points.lifted |= moved(bounce.surface.lifted, i, at);
+        points.gathering |= moved(bounce.gathering, i, at);
+        points.ending |= moved(bounce.ending, i, at);
     }
 }
 
@@ -104,13 +118,9 @@ void gatherAtHitPoints(Tile& tile, const HitPoints& hits)
     PathBlock& block = tile.paths.blocks[0];
     Bounce bounce;
     bounce.bsdfs = tile.bsdfs;
-    const std::size_t size = hits.points.size();
-    for (std::size_t at = 0, end; at < size; at = end)
+    for (const HitPointBlock& points : hits.blocks)
     {
-        end = at + 1;
-        while (end < size && end < at + kLanes && hits.points[end].number == hits.points[at].number)
-            ++end;
-        restore(hits, &hits.points[at], static_cast<int>(end - at), block, bounce);
+        restore(hits, points, block, bounce);
         bounce.rough = bounce.gathering;
         addPhotons(tile, block, bounce);
         sampleLights(tile, block, bounce);

@@ -173,7 +173,7 @@ void gatherOnly(Tile& tile, PhotonUse use)
         tracePaths(tile, use);
         hits.seen.resize(kTileBlocks);
         writeSums(tile, hits.seen.data());
-        hits.points.shrink_to_fit();
+        hits.blocks.shrink_to_fit();
         hits.bsdfs.shrink_to_fit();
         hits.traced = true;
     }

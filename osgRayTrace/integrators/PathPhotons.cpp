@@ -37,6 +37,42 @@ void noteSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
     }
 }
 
+/// The discs of the lanes that gather, with first radii where there are none yet.
+PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bounce)
+{
+    const auto edgesLeft = static_cast<uint32_t>(tile.context.options.maxBounces - bounce.number);
+    PhotonQueryLanes queries;
+    queries.position = trianglePoints(bounce.surface);
+    queries.normal = bounce.surface.geometricNormal;
+    queries.shadingNormal = bounce.normal;
+    queries.mostEdges = std::min(kMostEdges, edgesLeft);
+    queries.lanes = bounce.gathering;
+    for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        float& radius = tile.result.gathered->radius[block.pixel[i] & kPixelBits];
+        if (radius == 0.0f)
+            radius = radiusOf(*tile.context.photons, laneOf(queries, i),
+                              tile.context.leastPhotonRadius, tile.context.largestPhotonRadius);
+        queries.radius[i] = radius;
+    }
+    return queries;
+}
+
+/// What surfaces send back of the photons in their discs.
+void gatherLanes(const PhotonMap& map, PhotonQueryLanes queries, const PathBlock& block,
+                 const Bounce& bounce, PhotonSumLanes& sums)
+{
+    queries.lanes = bounce.gathering & bounce.diffuse;
+    gatherDiffuse(map, queries, bounce.albedo, sums);
+    queries.lanes = bounce.gathering & ~bounce.diffuse;
+    if (!queries.lanes) return;
+    GatherLanes points{queries, {}, bounce.bsdfs, bounce.gathering & ~bounce.rough};
+    for (int i = 0; i < kLanes; ++i)
+        setLane(points.wo, i, -directionOf(block.rays.ray, i));
+    gatherBsdf(map, points, sums);
+}
+
 } // namespace
 
 void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
@@ -64,42 +100,25 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
 
 void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
 {
+    if (!bounce.gathering) return;
     const PhotonMap& map = *tile.context.photons;
     GatheredPhotons& gathered = *tile.result.gathered;
-    const int edgesLeft = tile.context.options.maxBounces - bounce.number;
+    const PhotonQueryLanes queries = queriesOf(tile, block, bounce);
+    PhotonSumLanes sums;
+    gatherLanes(map, queries, block, bounce, sums);
     for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
+        if (sums.count[i] == 0) continue;
         const uint32_t pixel = block.pixel[i] & kPixelBits;
-        GatherPoint point;
-        point.query.position = laneOf(trianglePoints(bounce.surface), i);
-        point.query.normal = laneOf(bounce.surface.geometricNormal, i);
-        point.query.shadingNormal = laneOf(bounce.normal, i);
-        point.query.mostEdges = std::min(kMostEdges, static_cast<uint32_t>(edgesLeft));
-        float& radius = gathered.radius[pixel];
-        if (radius == 0.0f)
-            radius = radiusOf(map, point.query, tile.context.leastPhotonRadius,
-                              tile.context.largestPhotonRadius);
-        point.query.radius = radius;
-        PhotonSum sum;
-        if ((bounce.diffuse >> i) & 1u)
-            sum = gatherDiffuse(map, point.query, laneOf(bounce.albedo, i));
-        else
-        {
-            point.bsdf = &bounce.bsdfs[i];
-            point.wo = -directionOf(block.rays.ray, i);
-            point.directOnly = !((bounce.rough >> i) & 1u);
-            sum = gatherBsdf(map, point);
-        }
-        if (sum.count == 0) continue;
-        const Vec3 flux = laneOf(block.throughput, i) * sum.power;
-        const float discArea = kPi * point.query.radius * point.query.radius;
+        const Vec3 flux = laneOf(block.throughput, i) * laneOf(sums.power, i);
+        const float discArea = kPi * queries.radius[i] * queries.radius[i];
         if (gathered.seenStride && (pixel + gathered.seenFirst) % gathered.seenStride == 0 &&
-            sum.count <= kMostNotedPhotons)
-            noteSeen(map, point.query, luminance(flux) / discArea, gathered.seen);
+            sums.count[i] <= kMostNotedPhotons)
+            noteSeen(map, laneOf(queries, i), luminance(flux) / discArea, gathered.seen);
         if (gathered.separate)
         {
-            gathered.count[pixel] += sum.count;
+            gathered.count[pixel] += sums.count[i];
             gathered.flux[pixel] += flux;
         }
         else

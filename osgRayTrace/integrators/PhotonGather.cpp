@@ -1,9 +1,6 @@
-// PhotonGather.cpp - radiance that a surface sends to the eye from the photons around a point.
-// Layer: integrators.
-// SPDX-License-Identifier: MIT
+// PhotonGather.cpp - first radii, and what plain Lambert surfaces make of the photons around points.
+// Layer: integrators. SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/PhotonGather.h"
-
-#include "osgRayTrace/integrators/HitShading.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,26 +15,6 @@ namespace
 /// more it is narrowed down first, by sums that need not read the photons of a crowd.
 constexpr std::size_t kMostReaches = 4096;
 constexpr int kNarrowings = 8; ///< of the octave that the radius is in
-
-void addPhotons(const PhotonMap& map, const GatherPoint& point, const PhotonQuery& query,
-                const ShadingFrame& frame, Vec3 wo, bool behind, PhotonSum& sum)
-{
-    static thread_local std::vector<uint32_t> found;
-    found.clear();
-    map.find(query, found);
-    for (const uint32_t k : found)
-    {
-        const Photon photon = map.photon(k);
-        if (point.directOnly && !photon.direct) continue;
-        const float cosGeometric = glm::dot(photon.wi, query.normal);
-        const Vec3 wi = frame.toLocal(photon.wi);
-        // Light and shading normal must agree on the side, as for light samples.
-        if ((wi.z > 0.0f) == behind) continue;
-        const BsdfValue value = evalBsdf(*point.bsdf, wo, wi);
-        sum.power += value.fCos * photon.power / cosGeometric;
-    }
-    sum.count += static_cast<uint32_t>(found.size());
-}
 
 } // namespace
 
@@ -69,26 +46,16 @@ float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float large
     return many;
 }
 
-PhotonSum gatherDiffuse(const PhotonMap& map, const PhotonQuery& query, Vec3 albedo)
+void gatherDiffuse(const PhotonMap& map, const PhotonQueryLanes& queries, const Vec3Lanes& albedo,
+                   PhotonSumLanes& sums)
 {
-    PhotonSum sum = map.gather(query);
-    sum.power *= albedo * kInvPi;
-    return sum;
-}
-
-PhotonSum gatherBsdf(const PhotonMap& map, const GatherPoint& point)
-{
-    const ShadingFrame frame(point.query.shadingNormal);
-    const Vec3 wo = frame.toLocal(point.wo);
-    PhotonSum sum;
-    addPhotons(map, point, point.query, frame, wo, false, sum);
-    if (point.bsdf->transmits() && !point.bsdf->isSmooth())
+    map.gather(queries, sums);
+    for (int i = 0; i < kLanes; ++i)
     {
-        PhotonQuery behind = point.query;
-        behind.normal = -behind.normal;
-        addPhotons(map, point, behind, frame, wo, true, sum);
+        sums.power.x[i] *= albedo.x[i] * kInvPi;
+        sums.power.y[i] *= albedo.y[i] * kInvPi;
+        sums.power.z[i] *= albedo.z[i] * kInvPi;
     }
-    return sum;
 }
 
 } // namespace osgRayTrace::engine

@@ -9,13 +9,13 @@
 namespace osgRayTrace::engine
 {
 
-/// Where photons are looked for and what the surface does with them.
-struct GatherPoint
+/// Where photons are looked for and what the surfaces do with them.
+struct GatherLanes
 {
-    PhotonQuery query;
-    Vec3 wo{0.0f};          ///< unit, world, towards the eye; not used by gatherDiffuse
-    const Bsdf* bsdf = nullptr;
-    bool directOnly = false; ///< photons that met another than a mirror-like surface are left out
+    PhotonQueryLanes queries;
+    Vec3Lanes wo;               ///< unit, world, towards the eye
+    const Bsdf* bsdfs = nullptr; ///< one a lane
+    LaneMask directOnly = 0; ///< photons that met another than a mirror-like surface are left out
 };
 
 /// The largest radius from least to largest within which there are no more than kRadiusPhotons photons; least if
@@ -24,11 +24,13 @@ struct GatherPoint
 float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float largest);
 constexpr uint32_t kRadiusPhotons = 16;
 
-/// Sum over the photons of the disc of f times power [W/sr]: radiance is that over pi radius^2. A Lambert
-/// surface.
-PhotonSum gatherDiffuse(const PhotonMap& map, const PhotonQuery& query, Vec3 albedo);
+/// Sums over the photons of the discs of f times power [W/sr]: radiance is that over pi radius^2. Lambert
+/// surfaces.
+void gatherDiffuse(const PhotonMap& map, const PhotonQueryLanes& queries, const Vec3Lanes& albedo,
+                   PhotonSumLanes& sums);
 
-/// Any surface, its mirror-like lobes left out; from both sides if it transmits.
-PhotonSum gatherBsdf(const PhotonMap& map, const GatherPoint& point);
+/// The same of any surfaces, their mirror-like lobes left out; from both sides if they transmit.
+/// Added to sums.
+void gatherBsdf(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes& sums);
 
 } // namespace osgRayTrace::engine

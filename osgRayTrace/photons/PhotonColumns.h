@@ -52,22 +52,47 @@ struct PhotonColumns
     }
 };
 
-/// Bit mask of photon i in the disc, all bits or none. Also how far it is from the disc's centre and
-/// from its plane.
-OSGRAYTRACE_INLINE uint32_t insideDisc(const PhotonColumns& p, int i, const PhotonQuery& q,
-                                       float radius2, float planeDistance, float& distance2,
-                                       float& off)
+/// A vector as loops over lanes take it: GLM's own, made in the loop, keeps it from being vectorized.
+struct PlainVec3
 {
-    const float dx = p.x[i] - q.position.x, dy = p.y[i] - q.position.y, dz = p.z[i] - q.position.z;
+    float x, y, z;
+};
+
+OSGRAYTRACE_INLINE PlainVec3 plainOf(const Vec3Lanes& lanes, int i)
+{
+    return {lanes.x[i], lanes.y[i], lanes.z[i]};
+}
+OSGRAYTRACE_INLINE PlainVec3 plainOf(Vec3 v)
+{
+    return {v.x, v.y, v.z};
+}
+
+/// Bit mask of photon k in the disc around a position, all bits or none. Also how far it is from the
+/// disc's centre and from its plane.
+OSGRAYTRACE_INLINE uint32_t insideDisc(const PhotonColumns& p, int k, PlainVec3 position,
+                                       PlainVec3 normal, int32_t mostEdges, float radius2,
+                                       float planeDistance, float& distance2, float& off)
+{
+    const float dx = p.x[k] - position.x, dy = p.y[k] - position.y, dz = p.z[k] - position.z;
     distance2 = dx * dx + dy * dy + dz * dz;
-    off = std::fabs(dx * q.normal.x + dy * q.normal.y + dz * q.normal.z);
-    const float side = p.wiX[i] * q.normal.x + p.wiY[i] * q.normal.y + p.wiZ[i] * q.normal.z;
-    const uint32_t packed = p.normal[i];
-    const float turned = byteOf(packed, 0) * q.normal.x + byteOf(packed, 8) * q.normal.y +
-                         byteOf(packed, 16) * q.normal.z;
-    const uint32_t shortEnough = maskOf(edgesOf(packed) <= static_cast<int32_t>(q.mostEdges));
-    return maskOf(distance2 <= radius2) & maskOf(off <= planeDistance) &
-           maskOf(side > 0.0f) & maskOf(turned >= kLeastNormalCosine) & shortEnough;
+    off = std::fabs(dx * normal.x + dy * normal.y + dz * normal.z);
+    const float side = p.wiX[k] * normal.x + p.wiY[k] * normal.y + p.wiZ[k] * normal.z;
+    const uint32_t packed = p.normal[k];
+    const float turned = byteOf(packed, 0) * normal.x + byteOf(packed, 8) * normal.y +
+                         byteOf(packed, 16) * normal.z;
+    const uint32_t shortEnough = maskOf(edgesOf(packed) <= mostEdges);
+    return maskOf(distance2 <= radius2) & maskOf(off <= planeDistance) & maskOf(side > 0.0f) &
+           maskOf(turned >= kLeastNormalCosine) & shortEnough;
+}
+
+/// Of photon k and a shading normal, in a disc of that normal: the ratio of its cosines.
+OSGRAYTRACE_INLINE float shadingWeight(const PhotonColumns& p, int k, uint32_t in,
+                                       PlainVec3 normal, PlainVec3 shadingNormal)
+{
+    const float geometric = p.wiX[k] * normal.x + p.wiY[k] * normal.y + p.wiZ[k] * normal.z;
+    const float shading =
+        p.wiX[k] * shadingNormal.x + p.wiY[k] * shadingNormal.y + p.wiZ[k] * shadingNormal.z;
+    return select(in & maskOf(shading > 0.0f), shading / geometric, 0.0f);
 }
 
 } // namespace osgRayTrace::engine

@@ -24,7 +24,9 @@ OSGRAYTRACE_INLINE void addBlocks(const PhotonColumns& columns, uint32_t begin, 
                                   const PhotonQuery& query, float radius2, float planeDistance,
                                   LaneSums& sums)
 {
-    const PhotonQuery q = query;
+    const PlainVec3 position = plainOf(query.position), normal = plainOf(query.normal);
+    const PlainVec3 shading = plainOf(query.shadingNormal);
+    const auto mostEdges = static_cast<int32_t>(query.mostEdges);
     LaneSums s = sums;
     for (uint32_t block = begin; block < end; block += kLanes)
     {
@@ -34,17 +36,11 @@ OSGRAYTRACE_INLINE void addBlocks(const PhotonColumns& columns, uint32_t begin, 
         for (int i = 0; i < kLanes; ++i)
         {
             float distance2, off;
-            const uint32_t in =
-                insideDisc(p, i, q, radius2, planeDistance, distance2, off) & maskOf(i < left);
-            float weight = select(in, 1.0f, 0.0f);
-            if (!kFlat)
-            {
-                const float geometric =
-                    p.wiX[i] * q.normal.x + p.wiY[i] * q.normal.y + p.wiZ[i] * q.normal.z;
-                const float shading = p.wiX[i] * q.shadingNormal.x + p.wiY[i] * q.shadingNormal.y +
-                                      p.wiZ[i] * q.shadingNormal.z;
-                weight = select(in & maskOf(shading > 0.0f), shading / geometric, 0.0f);
-            }
+            const uint32_t in = insideDisc(p, i, position, normal, mostEdges, radius2,
+                                           planeDistance, distance2, off) &
+                                maskOf(i < left);
+            const float weight = kFlat ? select(in, 1.0f, 0.0f)
+                                       : shadingWeight(p, i, in, normal, shading);
             s.r[i] += weight * p.r[i];
             s.g[i] += weight * p.g[i];
             s.b[i] += weight * p.b[i];
@@ -71,14 +67,16 @@ LaneMask insideLanes(const PhotonColumns& columns, uint32_t block, uint32_t end,
                      FloatLanes& distance2, FloatLanes& off)
 {
     const PhotonColumns p = columns.from(block);
-    const PhotonQuery q = query;
+    const PlainVec3 position = plainOf(query.position), normal = plainOf(query.normal);
+    const auto mostEdges = static_cast<int32_t>(query.mostEdges);
     const int left = static_cast<int>(end - block);
     LaneMask inside = 0;
     OSGRAYTRACE_SIMD_OR(inside)
     for (int i = 0; i < kLanes; ++i)
     {
         float d2, o;
-        const uint32_t in = insideDisc(p, i, q, radius2, planeDistance, d2, o);
+        const uint32_t in = insideDisc(p, i, position, normal, mostEdges, radius2,
+                                       planeDistance, d2, o);
         distance2[i] = d2;
         off[i] = o;
         inside |= bitOfLane(in & maskOf(i < left), i);
@@ -105,9 +103,9 @@ std::size_t PhotonMap::bytes() const
            _crowds.bytes();
 }
 
-/// The stretches of photons that can be in the disc, none of them twice. One line of cells along x
-/// is one stretch, or two where the table ends within it.
-int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
+/// The stretches of photons that can be in the disc, in ascending order, none of them twice. Flat: a call of
+/// rangesIn would be a twentieth of a look-up.
+__attribute__((flatten)) int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
 {
     if (_count == 0 || !(query.radius >= 0.0f)) return 0;
     const Vec3d centre(query.position);
@@ -119,7 +117,13 @@ int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
     const Vec3d share =
         glm::min(across + glm::abs(n) * static_cast<double>(kPlaneShare), Vec3d(1.0));
     const Vec3d reach = (share + 0x1p-20) * static_cast<double>(query.radius);
-    const Vec3d low = centre - reach, high = centre + reach;
+    return rangesIn(centre - reach, centre + reach, ranges);
+}
+
+/// Of the cells that a box touches. One line of cells along x is one stretch, or two where the table
+/// ends within it.
+int PhotonMap::rangesIn(Vec3d low, Vec3d high, Range* ranges) const
+{
     if (!(glm::all(glm::lessThanEqual(low, _high)) && glm::all(glm::greaterThanEqual(high, _low))))
         return 0;
     const Vec3d from = (glm::max(low, _low) - _low) * _cellsPerUnit;

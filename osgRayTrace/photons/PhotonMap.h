@@ -47,6 +47,30 @@ struct PhotonSum
     uint32_t count = 0;
 };
 
+/// Sixteen discs. Those near each other read the photons around them once.
+struct PhotonQueryLanes
+{
+    Vec3Lanes position, normal, shadingNormal; ///< see PhotonQuery
+    FloatLanes radius;
+    uint32_t mostEdges = kMostEdges;
+    LaneMask lanes = 0; ///< in use
+};
+
+PhotonQuery laneOf(const PhotonQueryLanes& queries, int i);
+
+struct PhotonSumLanes
+{
+    Vec3Lanes power; ///< undefined where the count is 0
+    UintLanes count; ///< 0 of lanes that are not in use
+};
+
+/// A photon, and the lanes whose discs it is in.
+struct FoundPhoton
+{
+    uint32_t photon;
+    LaneMask lanes;
+};
+
 /// How large discs around one place have to be to hold its photons.
 class PhotonReaches
 {
@@ -89,8 +113,15 @@ public:
     /// [Veach97, sect. 5.3].
     PhotonSum gather(const PhotonQuery& query) const;
 
+    /// The same of sixteen, to rounding.
+    void gather(const PhotonQueryLanes& queries, PhotonSumLanes& sums) const;
+
     /// The photons of the disc, by index for photon(): appended to found.
     void find(const PhotonQuery& query, std::vector<uint32_t>& found) const;
+
+    /// The photons of sixteen discs: appended to found. A photon may be there more than once, for
+    /// other lanes.
+    void find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& found) const;
 
     /// The same photons, by what they are away from the place; what was in reaches is replaced. False
     /// if there are more than most: only some of them are there then.
@@ -131,6 +162,11 @@ private:
 
     void sort(const std::vector<Photon>& photons, const Workers& workers, bool keepBins);
     int rangesOf(const PhotonQuery& query, Range* ranges) const;
+    int rangesOf(const PhotonQueryLanes& queries, LaneMask group, Range* ranges) const;
+    int rangesIn(Vec3d low, Vec3d high, Range* ranges) const;
+    template <class Together, class Alone>
+    void forEachGroup(const PhotonQueryLanes& queries, const Together& together,
+                      const Alone& alone) const;
     template <class Add> void forEachFound(const PhotonQuery& query, const Add& add) const;
     uint32_t bucketOf(int64_t x, int64_t y, int64_t z) const
     {

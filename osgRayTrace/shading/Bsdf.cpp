@@ -163,6 +163,12 @@ std::optional<BsdfSample> sampleSmooth(const Bsdf& bsdf, Vec3 wo, float fresnelO
 
 } // namespace
 
+float coatShareOf(const Bsdf& bsdf, float cosTheta)
+{
+    const float fresnel = bsdf.coatRows ? 0.0f : interfaceFresnel(bsdf, cosTheta);
+    return (1.0f - coatAlbedo(bsdf, cosTheta, fresnel)) / (1.0f - coatAverage(bsdf));
+}
+
 std::optional<Vec3> refract(Vec3 wo, Vec3 h, float eta)
 {
     if (eta == 1.0f) return -wo; // also where 1 - cosI^2 rounds to 1

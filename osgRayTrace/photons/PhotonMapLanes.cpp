@@ -1,0 +1,275 @@
+// PhotonMapLanes.cpp - sixteen look-ups at once: discs near each other read the photons around them
+// once. Layer: photons. SPDX-License-Identifier: MIT
+#include "osgRayTrace/photons/PhotonColumns.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Discs of a group are this near to each other [radii], and of radii within a factor of two.
+constexpr float kNear = 4.0f;
+
+/// Fewer discs than that are looked up one by one: photons are then what lanes hold. So are those
+/// with more photons around them, as their own ones fill lanes as well.
+constexpr int kLeastGroup = 4;
+constexpr uint32_t kMostTogether = 512;
+
+/// What a loop over lanes knows of the discs; those that do not take part have negative radii.
+struct Discs
+{
+    FloatLanes radius2, plane;
+};
+
+OSGRAYTRACE_KERNEL
+LaneMask lanesNear(const PhotonQueryLanes& q, int first)
+{
+    const Vec3 centre = laneOf(q.position, first);
+    const float radius = q.radius[first], near2 = kNear * kNear * radius * radius;
+    LaneMask near = 0;
+    OSGRAYTRACE_SIMD_OR(near)
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float dx = q.position.x[i] - centre.x, dy = q.position.y[i] - centre.y,
+                    dz = q.position.z[i] - centre.z;
+        near |= bitOfLane(maskOf(dx * dx + dy * dy + dz * dz <= near2) &
+                              maskOf(q.radius[i] <= 2.0f * radius) &
+                              maskOf(q.radius[i] >= 0.5f * radius),
+                          i);
+    }
+    return near;
+}
+
+float least(FloatLanes lanes)
+{
+    for (int width = kLanes / 2; width > 0; width /= 2)
+        for (int i = 0; i < width; ++i)
+            lanes[i] = select(lanes[i + width] < lanes[i], lanes[i + width], lanes[i]);
+    return lanes[0];
+}
+
+/// The box of places, and how far their discs reach beyond it at most.
+struct Bounds
+{
+    FloatLanes lowX, lowY, lowZ;    ///< of each lane; infinity of those that do not take part
+    FloatLanes highX, highY, highZ; ///< negative
+    FloatLanes reachX, reachY, reachZ; ///< negative
+};
+
+OSGRAYTRACE_KERNEL
+void boundDiscs(const PhotonQueryLanes& q, LaneMask group, Bounds& bounds)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const uint32_t in = laneBit(group, i);
+        const float nx = q.normal.x[i], ny = q.normal.y[i], nz = q.normal.z[i];
+        const float px = q.position.x[i], py = q.position.y[i], pz = q.position.z[i];
+        const float x2 = nx * nx, y2 = ny * ny, z2 = nz * nz;
+        // A disc is thin, as in the box of one look-up.
+        const float x = std::sqrt(y2 + z2) + std::fabs(nx) * kPlaneShare,
+                    y = std::sqrt(z2 + x2) + std::fabs(ny) * kPlaneShare,
+                    z = std::sqrt(x2 + y2) + std::fabs(nz) * kPlaneShare;
+        const float reach = -q.radius[i];
+        bounds.reachX[i] = select(in, select(x < 1.0f, x, 1.0f) * reach, 0.0f);
+        bounds.reachY[i] = select(in, select(y < 1.0f, y, 1.0f) * reach, 0.0f);
+        bounds.reachZ[i] = select(in, select(z < 1.0f, z, 1.0f) * reach, 0.0f);
+        bounds.lowX[i] = select(in, px, kInfinity);
+        bounds.lowY[i] = select(in, py, kInfinity);
+        bounds.lowZ[i] = select(in, pz, kInfinity);
+        bounds.highX[i] = select(in, -px, kInfinity);
+        bounds.highY[i] = select(in, -py, kInfinity);
+        bounds.highZ[i] = select(in, -pz, kInfinity);
+    }
+}
+
+Discs discsOf(const PhotonQueryLanes& q, LaneMask group)
+{
+    Discs discs;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const bool in = (group >> i) & 1u;
+        discs.radius2[i] = in ? q.radius[i] * q.radius[i] : -1.0f;
+        discs.plane[i] = q.radius[i] * kPlaneShare;
+    }
+    return discs;
+}
+
+/// True if all shading normals are the geometric ones.
+bool isFlat(const PhotonQueryLanes& q, LaneMask group)
+{
+    uint32_t bent = 0;
+    for (int i = 0; i < kLanes; ++i)
+        bent |= laneBit(group, i) & (maskOf(q.shadingNormal.x[i] != q.normal.x[i]) |
+                                     maskOf(q.shadingNormal.y[i] != q.normal.y[i]) |
+                                     maskOf(q.shadingNormal.z[i] != q.normal.z[i]));
+    return bent == 0;
+}
+
+template <bool kFlat>
+OSGRAYTRACE_INLINE void addPhotons(const PhotonColumns& columns, uint32_t begin, uint32_t end,
+                                   const PhotonQueryLanes& q, const Discs& discs,
+                                   PhotonSumLanes& sums)
+{
+    const auto mostEdges = static_cast<int32_t>(q.mostEdges);
+    PhotonSumLanes s = sums;
+    for (uint32_t k = begin; k < end; ++k)
+    {
+        const PhotonColumns p = columns.from(k);
+        const float r = p.r[0], g = p.g[0], b = p.b[0];
+        OSGRAYTRACE_SIMD
+        for (int i = 0; i < kLanes; ++i)
+        {
+            float distance2, off;
+            const uint32_t in = insideDisc(p, 0, plainOf(q.position, i), plainOf(q.normal, i), mostEdges,
+                                           discs.radius2[i], discs.plane[i], distance2, off);
+            const float weight = kFlat ? select(in, 1.0f, 0.0f)
+                                       : shadingWeight(p, 0, in, plainOf(q.normal, i), plainOf(q.shadingNormal, i));
+            s.power.x[i] += weight * r;
+            s.power.y[i] += weight * g;
+            s.power.z[i] += weight * b;
+            s.count[i] += in & 1u;
+        }
+    }
+    sums = s;
+}
+
+OSGRAYTRACE_KERNEL
+void addRange(const PhotonColumns& columns, uint32_t begin, uint32_t end, const PhotonQueryLanes& q,
+              const Discs& discs, bool flat, PhotonSumLanes& sums)
+{
+    if (flat)
+        addPhotons<true>(columns, begin, end, q, discs, sums);
+    else
+        addPhotons<false>(columns, begin, end, q, discs, sums);
+}
+
+/// The lanes whose discs photon k is in.
+OSGRAYTRACE_KERNEL
+LaneMask lanesAround(const PhotonColumns& columns, uint32_t k, const PhotonQueryLanes& q,
+                     const Discs& discs)
+{
+    const auto mostEdges = static_cast<int32_t>(q.mostEdges);
+    const PhotonColumns p = columns.from(k);
+    LaneMask around = 0;
+    OSGRAYTRACE_SIMD_OR(around)
+    for (int i = 0; i < kLanes; ++i)
+    {
+        float distance2, off;
+        around |= bitOfLane(insideDisc(p, 0, plainOf(q.position, i), plainOf(q.normal, i), mostEdges,
+                                       discs.radius2[i], discs.plane[i], distance2, off),
+                            i);
+    }
+    return around;
+}
+
+} // namespace
+
+PhotonQuery laneOf(const PhotonQueryLanes& queries, int i)
+{
+    PhotonQuery query;
+    query.position = laneOf(queries.position, i);
+    query.normal = laneOf(queries.normal, i);
+    query.shadingNormal = laneOf(queries.shadingNormal, i);
+    query.radius = queries.radius[i];
+    query.mostEdges = queries.mostEdges;
+    return query;
+}
+
+/// Calls together(lanes, ranges, count) for discs that read the same photons, alone(lane) for the
+/// others.
+template <class Together, class Alone>
+void PhotonMap::forEachGroup(const PhotonQueryLanes& queries, const Together& together,
+                             const Alone& alone) const
+{
+    Range ranges[kMaxRanges];
+    const auto suits = [&](int count)
+    {
+        uint32_t photons = 0;
+        for (int i = 0; i < count; ++i)
+        {
+            photons += ranges[i].end - ranges[i].begin;
+            if (photons > kMostTogether) return false;
+        }
+        return true;
+    };
+    for (LaneMask left = queries.lanes, group; left; left &= ~group)
+    {
+        const int first = __builtin_ctz(left);
+        group = (lanesNear(queries, first) & left) | (1u << first);
+        if (__builtin_popcount(group) >= kLeastGroup)
+        {
+            const int count = rangesOf(queries, group, ranges);
+            if (suits(count))
+            {
+                together(group, ranges, count);
+                continue;
+            }
+        }
+        for (LaneMask lanes = group; lanes; lanes &= lanes - 1)
+            alone(__builtin_ctz(lanes));
+    }
+}
+
+/// The stretches of photons that can be in the discs of a group.
+int PhotonMap::rangesOf(const PhotonQueryLanes& queries, LaneMask group, Range* ranges) const
+{
+    if (_count == 0) return 0;
+    Bounds bounds;
+    boundDiscs(queries, group, bounds);
+    // Reaches are rounded, as are distances: hence a share of them more.
+    constexpr double kMore = 1.0 + 0x1p-16;
+    const Vec3d reach = -kMore * Vec3d(least(bounds.reachX), least(bounds.reachY), least(bounds.reachZ));
+    const Vec3d low(least(bounds.lowX), least(bounds.lowY), least(bounds.lowZ));
+    const Vec3d high(-least(bounds.highX), -least(bounds.highY), -least(bounds.highZ));
+    return rangesIn(low - reach, high + reach, ranges);
+}
+
+void PhotonMap::gather(const PhotonQueryLanes& queries, PhotonSumLanes& sums) const
+{
+    const PhotonColumns all = columns();
+    sums = {};
+    forEachGroup(
+        queries,
+        [&](LaneMask group, const Range* ranges, int count)
+        {
+            const Discs discs = discsOf(queries, group);
+            const bool flat = isFlat(queries, group);
+            for (int i = 0; i < count; ++i)
+                addRange(all, ranges[i].begin, ranges[i].end, queries, discs, flat, sums);
+        },
+        [&](int lane)
+        {
+            const PhotonSum sum = gather(laneOf(queries, lane));
+            setLane(sums.power, lane, sum.power);
+            sums.count[lane] = sum.count;
+        });
+}
+
+void PhotonMap::find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& found) const
+{
+    const PhotonColumns all = columns();
+    forEachGroup(
+        queries,
+        [&](LaneMask group, const Range* ranges, int count)
+        {
+            const Discs discs = discsOf(queries, group);
+            for (int i = 0; i < count; ++i)
+                for (uint32_t k = ranges[i].begin; k < ranges[i].end; ++k)
+                    if (const LaneMask lanes = lanesAround(all, k, queries, discs))
+                        found.push_back({k, lanes});
+        },
+        [&](int lane)
+        {
+            static thread_local std::vector<uint32_t> own;
+            own.clear();
+            find(laneOf(queries, lane), own);
+            for (const uint32_t k : own)
+                found.push_back({k, 1u << lane});
+        });
+}
+
+} // namespace osgRayTrace::engine
