@@ -13,10 +13,22 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// What upsampling takes of one thread for a pixel, until it is known [s].
-constexpr double kUpsampleSeconds = 12e-9;
+/// What upsampling takes of one thread for a pixel, and more for one in a cell at an edge, until it
+/// is known [s].
+constexpr double kUpsampleSeconds = 12e-9, kEdgeSeconds = 400e-9;
+/// Of a smaller share of edges one cannot tell.
+constexpr double kToldBy = 0.05;
 /// What it was known to take of time is forgotten while it is not done: it will be tried again.
 constexpr double kForgets = 0.995;
+/// Of what is seen in what is known, where that was more.
+constexpr double kNewWeight = 0.25;
+
+/// Share of the cells that upsampling with this limit takes for edges.
+double edgesWithin(const UpsampleCounts& counts, double mostTraced)
+{
+    if (counts.around <= mostTraced) return counts.around;
+    return counts.edges <= mostTraced ? counts.edges : 0.0;
+}
 
 } // namespace
 
@@ -24,6 +36,7 @@ void ImageStages::reset(std::shared_ptr<Workers> workers)
 {
     _workers = std::move(workers);
     _upsampleSeconds = kUpsampleSeconds / _workers->threads();
+    _edgeSeconds = kEdgeSeconds / _workers->threads();
     _denoiser.forgetSurfaces();
     _imageScene.reset();
     _history.drop();
@@ -82,6 +95,7 @@ void ImageStages::show(const RenderSession& session, const ToneMap& toneMap, uin
                        float* depth)
 {
     _upsampleSeconds *= kForgets;
+    _edgeSeconds *= kForgets;
     if (denoises())
         showImage(staged(session), toneMap, *_workers, rgba, depth);
     else if (historyCounts(session))
@@ -91,14 +105,29 @@ void ImageStages::show(const RenderSession& session, const ToneMap& toneMap, uin
 }
 
 void ImageStages::showUpsampled(const RenderSession& session, int width, int height,
-                                const DisplayTarget& display)
+                                const DisplayTarget& display, double seconds)
 {
+    const double pixels = static_cast<double>(width) * height;
+    const double plain = kUpsampleSeconds / _workers->threads();
+    const double affordable = std::max(0.0, seconds / pixels - plain) / _edgeSeconds;
     const double begin = _now();
-    session.showUpsampled(staged(session), session.surfaceSamples(), width, height, display,
-                          kMostTraced);
+    const double mostTraced = std::min(kMostTraced, affordable);
+    const UpsampleCounts counts = session.showUpsampled(staged(session), session.surfaceSamples(),
+                                                        width, height, display, mostTraced);
     // A frame that something else held up is not all there is to know.
-    const double seen = (_now() - begin) / (static_cast<double>(width) * height);
-    _upsampleSeconds = std::min(seen, 2.0 * _upsampleSeconds);
+    const double seen = (_now() - begin) / pixels;
+    const double traced = edgesWithin(counts, mostTraced);
+    if (traced > kToldBy)
+    {
+        const double edge = std::max(0.0, seen - plain) / traced;
+        _edgeSeconds += edge > _edgeSeconds ? std::min(edge - _edgeSeconds, _edgeSeconds)
+                                            : kNewWeight * (edge - _edgeSeconds);
+    }
+    else
+        _edgeSeconds *= kForgets;
+    // Edges that there was no time for: of fewer pixels there may be.
+    const double missing = (edgesWithin(counts, kMostTraced) - traced) * _edgeSeconds;
+    _upsampleSeconds = std::min(seen + missing, 2.0 * _upsampleSeconds);
 }
 
 void ImageStages::report(const RenderSession& session, RenderProgress& progress) const

@@ -56,14 +56,15 @@ public:
     std::vector<float> radiance(const RenderSession& session);
     void show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba, float* depth);
 
-    /// The image at a larger size, along the edges of what is seen; a target of that size.
+    /// The image at a larger size, along the edges of what is seen as far as the seconds go, which
+    /// earlier times tell; a target of that size.
     void showUpsampled(const RenderSession& session, int width, int height,
-                       const DisplayTarget& display);
+                       const DisplayTarget& display, double seconds);
 
     /// Of the pixels of a reduced image, those that may be traced to upsample it.
     static constexpr double kMostTraced = 0.25;
 
-    /// What upsampling takes, going by the times before [s].
+    /// What upsampling takes with all edges that are worth it, going by the times before [s].
     double upsampleSeconds(int width, int height) const
     {
         return _upsampleSeconds * width * height;
@@ -97,6 +98,7 @@ private:
     double _denoiseSeconds = 0.0;
 
     double _upsampleSeconds = 0.0; ///< a pixel
+    double _edgeSeconds = 0.0;     ///< more, one in a cell at an edge
 };
 
 } // namespace osgRayTrace::engine

@@ -129,7 +129,8 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
                 holdsDepth ? nullptr : depth};
     _display.changed = &_changed;
     _written = false;
-    if (moved) chooseUpsampling(budget.upsampleShare * budget.seconds);
+    _upsampleBudget = budget.upsampleShare * budget.seconds;
+    if (moved) chooseUpsampling(_upsampleBudget);
     _frame.traceSeconds = 0.0;
     _newTiles = 0;
 
@@ -412,7 +413,8 @@ void ViewTracer::showReduced(int divider, uint8_t* rgba, float* depth)
         _reducedStages.show(*_reduced, _toneMap, rgba, depth);
     else
         _reducedStages.showUpsampled(*_reduced, reducedSize(_view.width, divider),
-                                     reducedSize(_view.height, divider), {_toneMap, rgba, depth});
+                                     reducedSize(_view.height, divider), {_toneMap, rgba, depth},
+                                     _upsampleBudget);
 }
 
 /// To full resolution: as far as there is time for it along edges, then with nothing but what

@@ -211,6 +211,7 @@ private:
 
     // What is done to images between the two
     ImageStages _stages, _reducedStages; ///< of _session, of _reduced
+    double _upsampleBudget = 0.0;        ///< [s]
     int _upsampleDivider = 1;            ///< of the finest size for which there is time
     DenoiseKind _resolvedDenoise = DenoiseKind::Off;
 };

@@ -28,6 +28,8 @@ struct UpsampleCounts
 {
     uint64_t traced = 0; ///< whose first hit was traced
     uint64_t unlike = 0; ///< of these: whose surface none of the four pixels around it sees
+    double edges = 0.0;  ///< share of the small image's cells that are at edges,
+    double around = 0.0; ///< and that are at edges or beside them: what would be traced without a limit
 };
 
 /// Display values of the image, 4 bytes a pixel, and its depths, which may be null.

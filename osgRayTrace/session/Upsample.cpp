@@ -194,6 +194,8 @@ UpsampleCounts forEachStrip(const ShownImage& image, const std::vector<SurfaceSa
                         finish(first, static_cast<std::size_t>((end - begin) * full.width), rgba);
                     });
     UpsampleCounts sum;
+    sum.edges = cells.edges;
+    sum.around = cells.around;
     for (const UpsampleCounts& strip : counts)
     {
         sum.traced += strip.traced;

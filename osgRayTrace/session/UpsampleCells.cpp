@@ -122,7 +122,7 @@ void erode(const uint8_t* below, const uint8_t* row, const uint8_t* above, int c
                    above[last] & above[last - second];
 }
 
-/// Cells that are not smooth.
+/// Share of the cells that are not smooth.
 double edges(const std::vector<uint8_t>& smooth, std::size_t columns, std::size_t rows,
              std::size_t stride)
 {
@@ -130,7 +130,7 @@ double edges(const std::vector<uint8_t>& smooth, std::size_t columns, std::size_
     for (std::size_t row = 0; row < rows; ++row)
         count += static_cast<std::size_t>(
             std::count(&smooth[row * stride], &smooth[row * stride] + columns, uint8_t(0)));
-    return static_cast<double>(count);
+    return static_cast<double>(count) / static_cast<double>(columns * rows);
 }
 
 } // namespace
@@ -222,10 +222,11 @@ UpsampleCells upsampleCells(const std::vector<SurfaceSample>& samples, const Cam
                         const uint8_t* above = &flat[(row + 1 < cellRows ? row + 1 : row) * w];
                         erode(below, &flat[row * w], above, width - 1, &cells.smooth[row * w]);
                     });
-    const double most = mostEdges * static_cast<double>((w - 1) * cellRows);
-    if (edges(cells.smooth, w - 1, cellRows, w) <= most) return cells;
+    cells.around = edges(cells.smooth, w - 1, cellRows, w);
+    cells.edges = edges(flat, w - 1, cellRows, w);
+    if (cells.around <= mostEdges) return cells;
     std::copy(flat.begin(), flat.end(), cells.smooth.begin());
-    if (edges(cells.smooth, w - 1, cellRows, w) <= most) return cells;
+    if (cells.edges <= mostEdges) return cells;
     std::fill(cells.smooth.begin(), cells.smooth.end(), uint8_t(1));
     return cells;
 }
