@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/HitShading.h"
+#include "osgRayTrace/integrators/LightBsdfs.h"
 #include "osgRayTrace/integrators/PathBounce.h"
 #include "osgRayTrace/integrators/ShadowLanes.h"
 
@@ -97,22 +98,19 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
             tile.sums.add(block.pixel[i], laneOf(radiance, i));
         }
     }
-    for (LaneMask lanes = visible & bounce.general; lanes; lanes &= lanes - 1)
+    const LaneMask general = visible & bounce.general;
+    if (!general) return;
+    Vec3Lanes fCos;
+    FloatLanes pdfW;
+    evalTowardsLight(block.rays.ray, bounce.surface, bounce.normal, bounce.bsdfs, light.wi, general, fCos,
+                     pdfW);
+    for (LaneMask lanes = general; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        const ShadingFrame frame(laneOf(bounce.normal, i));
-        const Vec3 wo =
-            frame.toLocal(-directionOf(block.rays.ray, i));
-        const Vec3 wiWorld = laneOf(light.wi, i);
-        const Vec3 wi = frame.toLocal(wiWorld);
-        // Light and shading normal must agree on the side, or light leaks through smooth surfaces.
-        if ((wi.z > 0.0f) != isAbove(bounce.surface, i, wiWorld)) continue;
-        const BsdfValue value = evalBsdf(bounce.bsdfs[i], wo, wi);
-        if (!(value.pdfW > 0.0f)) continue;
-        const float mis =
-            (alone >> i) & 1u ? 1.0f : powerHeuristic(1.0f, value.pdfW * light.weight[i]);
+        if (!(pdfW[i] > 0.0f)) continue;
+        const float mis = (alone >> i) & 1u ? 1.0f : powerHeuristic(1.0f, pdfW[i] * light.weight[i]);
         const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
-        tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * value.fCos * radiance *
+        tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * laneOf(fCos, i) * radiance *
                                           (light.weight[i] * mis));
     }
 }

@@ -52,9 +52,10 @@ void gatherDiffuse(const PhotonMap& map, const PhotonQueryLanes& queries, const 
     map.gather(queries, sums);
     for (int i = 0; i < kLanes; ++i)
     {
-        sums.power.x[i] *= albedo.x[i] * kInvPi;
-        sums.power.y[i] *= albedo.y[i] * kInvPi;
-        sums.power.z[i] *= albedo.z[i] * kInvPi;
+        const uint32_t in = laneBit(queries.lanes, i); // other albedos may hold anything
+        sums.power.x[i] = select(in, sums.power.x[i] * albedo.x[i] * kInvPi, 0.0f);
+        sums.power.y[i] = select(in, sums.power.y[i] * albedo.y[i] * kInvPi, 0.0f);
+        sums.power.z[i] = select(in, sums.power.z[i] * albedo.z[i] * kInvPi, 0.0f);
     }
 }
 

@@ -25,7 +25,7 @@ float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float large
 constexpr uint32_t kRadiusPhotons = 16;
 
 /// Sums over the photons of the discs of f times power [W/sr]: radiance is that over pi radius^2. Lambert
-/// surfaces.
+/// surfaces. 0 in lanes that the queries do not use.
 void gatherDiffuse(const PhotonMap& map, const PhotonQueryLanes& queries, const Vec3Lanes& albedo,
                    PhotonSumLanes& sums);
 

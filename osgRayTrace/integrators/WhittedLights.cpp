@@ -1,6 +1,7 @@
 // WhittedLights.cpp - light that surfaces get from lights of all kinds, sample by sample. Layer:
 // integrators. SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/EnvironmentLanes.h"
+#include "osgRayTrace/integrators/LightBsdfs.h"
 #include "osgRayTrace/integrators/WhittedTile.h"
 
 namespace osgRayTrace::engine
@@ -48,19 +49,16 @@ void addDiffuse(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLan
 /// The same for lanes with any other Bsdf.
 void addGeneral(ShadingBlock& block, LaneMask visible, float scale)
 {
-    const LaneMaterials& m = block.materials;
     const LightLanes& light = block.light;
+    Vec3Lanes fCos;
+    FloatLanes pdfW;
+    evalTowardsLight(block.rays.ray, block.surface, block.materials.normal, block.materials.bsdfs,
+                     light.wi, visible, fCos, pdfW);
     for (LaneMask lanes = visible; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        const ShadingFrame frame(laneOf(m.normal, i));
-        const Vec3 wo = frame.toLocal(-directionOf(block.rays.ray, i));
-        const Vec3 wiWorld = laneOf(light.wi, i);
-        const Vec3 wi = frame.toLocal(wiWorld);
-        if ((wi.z > 0.0f) != isAbove(block.surface, i, wiWorld)) continue;
-        const BsdfValue value = evalBsdf(m.bsdfs[i], wo, wi);
         const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
-        addLane(block.radiance, i, value.fCos * radiance * (light.weight[i] * scale));
+        addLane(block.radiance, i, laneOf(fCos, i) * radiance * (light.weight[i] * scale));
     }
 }
 

@@ -161,20 +161,24 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
         std::sqrt(globalRadiusSquared(pass, static_cast<double>(context.options.photonAlpha))));
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
     context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
-    if (pass != _preparedPass) sumUpSeen();
-    if (pass == PhotonPasses::kFirst && !_seenSquares.empty())
-    {
-        _aims = true;
-        _passes->noteSeen(traced, *context.lights, options, this, std::move(_seenSquares));
-        std::vector<std::vector<SeenSquares>>().swap(_seen);
-        _seenSquares.clear();
-    }
     const float cell = 2.0f * std::max(_floor, _cellRadius * _shrink);
     if (pass != _preparedPass || !_pass) // else those that the pass was begun with
         _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
     context.photons = &_pass->map;
     _stored |= _pass->map.size() > 0;
     _preparedPass = pass;
+}
+
+void PhotonState::finish(const std::shared_ptr<const TracedScene>& traced,
+                         const PassContext& context, int pass)
+{
+    sumUpSeen();
+    if (pass + 1 != PhotonPasses::kFirst || _seenSquares.empty()) return;
+    _aims = true;
+    _passes->noteSeen(traced, *context.lights, passOptions(context.options), this,
+                      std::move(_seenSquares));
+    std::vector<std::vector<SeenSquares>>().swap(_seen);
+    _seenSquares.clear();
 }
 
 double PhotonState::secondsOf(int pass) const

@@ -278,6 +278,7 @@ RenderProgress RenderSession::Implementation::run(
         // reached are written as well.
         shown = made + 1 == rule.newPasses || pass + 1 == rule.passes;
         const bool whole = renderPass(context, *integrator, rule, shown ? display : nullptr);
+        if (whole) photons.finish(filmScene, context, pass);
         progress.hitPointBytes = photons.viewBytes();
         progress.seconds += secondsSince(passStart);
         progress.passes = film.passes();

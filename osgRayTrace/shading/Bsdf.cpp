@@ -41,13 +41,6 @@ float coatAlbedo(const Bsdf& bsdf, float cosTheta, float fresnel)
     return first + (second - first) * bsdf.coatFraction;
 }
 
-float coatAverage(const Bsdf& bsdf)
-{
-    if (!bsdf.coatRows) return bsdf.coatAverage;
-    const float first = bsdf.coatRows[0].average, second = bsdf.coatRows[1].average;
-    return first + (second - first) * bsdf.coatFraction;
-}
-
 /// f cos of the base.
 Vec3 evalBase(const Bsdf& bsdf, Vec3 wo, float fresnelO, Vec3 wi)
 {
@@ -163,10 +156,11 @@ std::optional<BsdfSample> sampleSmooth(const Bsdf& bsdf, Vec3 wo, float fresnelO
 
 } // namespace
 
-float coatShareOf(const Bsdf& bsdf, float cosTheta)
+float coatAverage(const Bsdf& bsdf)
 {
-    const float fresnel = bsdf.coatRows ? 0.0f : interfaceFresnel(bsdf, cosTheta);
-    return (1.0f - coatAlbedo(bsdf, cosTheta, fresnel)) / (1.0f - coatAverage(bsdf));
+    if (!bsdf.coatRows) return bsdf.coatAverage;
+    const float first = bsdf.coatRows[0].average, second = bsdf.coatRows[1].average;
+    return first + (second - first) * bsdf.coatFraction;
 }
 
 std::optional<Vec3> refract(Vec3 wo, Vec3 h, float eta)

@@ -75,9 +75,8 @@ struct BsdfValue
 /// Any wo, wi; zero where wo is below the surface.
 BsdfValue evalBsdf(const Bsdf& bsdf, Vec3 wo, Vec3 wi, Transport transport = Transport::Radiance);
 
-/// What a coat leaves of light between the base and one direction, for the base to be reciprocal: (1 - E(cosTheta)) /
-/// (1 - E_avg). For a BSDF with a coat.
-float coatShareOf(const Bsdf& bsdf, float cosTheta);
+/// E_avg of its coat.
+float coatAverage(const Bsdf& bsdf);
 
 /// The mirror-like lobes of a smooth surface, for integrators that follow all of them.
 struct SpecularLobes

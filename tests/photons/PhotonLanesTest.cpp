@@ -248,3 +248,31 @@ TEST_CASE("photon lanes: surfaces of all kinds send back what their BSDFs say", 
     CHECK(lit > 15000);
     CHECK(dark > 100);
 }
+
+TEST_CASE("photon lanes: what lanes out of use hold gets into nothing", "[photons]")
+{
+    // The albedo of lanes that are not Lambert's is not set, and their sums are added to.
+    const PhotonMap map(sheet(800, 3), 0.4f, Workers(1));
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    PhotonQueryLanes queries;
+    Vec3Lanes albedo;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        PhotonQuery query;
+        query.normal = query.shadingNormal = Vec3(0, 0, 1);
+        query.radius = 0.2f;
+        setLane(queries, i, query);
+        osgRayTrace::engine::setLane(albedo, i, Vec3(i % 2 ? 0.5f : none));
+    }
+    queries.lanes = 0xaaaau;
+    PhotonSumLanes sums;
+    gatherDiffuse(map, queries, albedo, sums);
+    const PhotonSum all = map.gather(laneOf(queries, 1));
+    REQUIRE(all.count > 5);
+    for (int i = 0; i < kLanes; ++i)
+    {
+        CHECK(sums.count[i] == (i % 2 ? all.count : 0));
+        const Vec3 expected = i % 2 ? all.power * (0.5f * kInvPi) : Vec3(0.0f);
+        CHECK(glm::distance(laneOf(sums.power, i), expected) <= 1e-5f);
+    }
+}

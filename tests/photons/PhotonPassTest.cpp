@@ -160,6 +160,32 @@ TEST_CASE("photon passes: a moved camera keeps them, a moved object does not", "
     }
 }
 
+TEST_CASE("photon passes: eyes that take turns share all of them, aimed ones, too", "[photons]")
+{
+    const auto traced = room(-0.1f).build();
+    const auto raysOf = [&](const std::vector<double>& eyes)
+    {
+        const auto photons = std::make_shared<PhotonPasses>();
+        const auto workers = std::make_shared<Workers>(2);
+        std::vector<std::unique_ptr<RenderSession>> sessions;
+        for (const double x : eyes)
+        {
+            sessions.push_back(std::make_unique<RenderSession>(workers, photons));
+            sessions.back()->setScene(traced);
+            sessions.back()->setView(viewFrom(x));
+            sessions.back()->setOptions(photonOptions(IntegratorKind::Sppm));
+        }
+        StopRule rule;
+        rule.newPasses = 1;
+        for (int pass = 0; pass < 8; ++pass)
+            for (const auto& session : sessions)
+                REQUIRE(session->render(rule).passes == pass + 1);
+        return double(photons->tracedRays());
+    };
+    // A pass that was traced twice would be an eighth more; other aims are some rays more or less.
+    CHECK(raysOf({0.5, 0.51}) == Approx(raysOf({0.5})).epsilon(0.05));
+}
+
 TEST_CASE("photon passes: memory of kept passes is bounded", "[photons]")
 {
     Session s;

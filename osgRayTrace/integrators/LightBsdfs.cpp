@@ -1,0 +1,42 @@
+// LightBsdfs.cpp - what surfaces of any kind send back of light samples. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/LightBsdfs.h"
+
+#include "osgRayTrace/integrators/HitShading.h"
+#include "osgRayTrace/shading/BsdfLanes.h"
+
+namespace osgRayTrace::engine
+{
+
+void evalTowardsLight(const RayBlock& rays, const SurfaceLanes& surface, const Vec3Lanes& normal,
+                      const Bsdf* bsdfs, const Vec3Lanes& wi, LaneMask lanes, Vec3Lanes& fCos,
+                      FloatLanes& pdfW)
+{
+    Vec3Lanes wo;
+    for (int i = 0; i < kLanes; ++i)
+        setLane(wo, i, -directionOf(rays, i));
+    LaneMask reflecting = 0, transmitting = 0;
+    for (; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const Vec3 towards = laneOf(wi, i);
+        const bool above = glm::dot(towards, laneOf(normal, i)) > 0.0f;
+        if (above != isAbove(surface, i, towards)) continue;
+        (bsdfs[i].transmits() ? transmitting : reflecting) |= 1u << i;
+    }
+    fCos = {};
+    pdfW = {};
+    if (reflecting)
+        evalBsdfLanes(bsdfLanes(bsdfs, reflecting), normal, wo, wi, reflecting, fCos, pdfW);
+    for (; transmitting; transmitting &= transmitting - 1)
+    {
+        const int i = __builtin_ctz(transmitting);
+        const ShadingFrame frame(laneOf(normal, i));
+        const BsdfValue value =
+            evalBsdf(bsdfs[i], frame.toLocal(laneOf(wo, i)), frame.toLocal(laneOf(wi, i)));
+        setLane(fCos, i, value.fCos);
+        pdfW[i] = value.pdfW;
+    }
+}
+
+} // namespace osgRayTrace::engine

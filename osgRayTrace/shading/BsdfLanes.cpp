@@ -1,0 +1,162 @@
+// BsdfLanes.cpp - sixteen surfaces that transmit nothing, as vector code. Layer: shading.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/shading/BsdfLanes.h"
+
+#include "osgRayTrace/shading/Fresnel.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Albedo of a coat by the two rows of its roughness: CoatAlbedoRow, without branches.
+OSGRAYTRACE_INLINE float rowAlbedo(const float* first, const float* second, float fraction,
+                                   float cosTheta)
+{
+    constexpr int kSteps = CoatAlbedoRow::kSteps;
+    const float c = select(cosTheta > 0.0f, select(cosTheta < 1.0f, cosTheta, 1.0f), 0.0f);
+    const float x = std::sqrt(c) * float(kSteps);
+    const int k = static_cast<int>(x);
+    const float t = x - static_cast<float>(k);
+    const float a = first[k] + (first[k + 1] - first[k]) * t;
+    const float b = second[k] + (second[k + 1] - second[k]) * t;
+    return a + (b - a) * fraction;
+}
+
+/// Fifth power of 1 - cosTheta: how far Schlick's approximation is from normal to grazing incidence.
+OSGRAYTRACE_INLINE float schlickShare(float cosTheta)
+{
+    const float m = 1.0f - select(cosTheta < 1.0f, cosTheta, 1.0f), m2 = m * m;
+    return m2 * m2 * m;
+}
+
+OSGRAYTRACE_INLINE float luminanceOf(float red, float green, float blue)
+{
+    return 0.2126f * red + 0.7152f * green + 0.0722f * blue;
+}
+
+/// Bsdf.h and Bsdf.cpp have the formulas.
+template <bool kRows>
+OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const float* firstRow, const float* secondRow,
+                                  const Vec3Lanes& normal, const Vec3Lanes& wo,
+                                  const Vec3Lanes& wi, LaneMask lanes, Vec3Lanes& fCos,
+                                  FloatLanes& pdfW)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float nx = normal.x[i], ny = normal.y[i], nz = normal.z[i];
+        const float ox = wo.x[i], oy = wo.y[i], oz = wo.z[i];
+        const float ix = wi.x[i], iy = wi.y[i], iz = wi.z[i];
+        const float cosO = ox * nx + oy * ny + oz * nz, cosI = ix * nx + iy * ny + iz * nz;
+        const uint32_t above = maskOf(cosI > 0.0f) & maskOf(cosO > 0.0f);
+
+        const float eta = s.eta[i], coat = s.coat[i], fraction = s.coatFraction[i];
+        const float fresnelO = select(coat > 0.0f, fresnelDielectric(cosO, eta), 0.0f);
+        const float belowO =
+            1.0f - (kRows ? rowAlbedo(firstRow, secondRow, fraction, cosO) : fresnelO);
+        const float belowI = 1.0f - (kRows ? rowAlbedo(firstRow, secondRow, fraction, cosI)
+                                           : fresnelDielectric(cosI, eta));
+        const float left = select(s.coated[i], belowI * belowO / s.belowAverage[i], 1.0f);
+        const float lambert = kInvPi * cosI * left;
+
+        // D of the half vector's tangential part, which keeps its digits near the peak.
+        const float sumX = ox + ix, sumY = oy + iy, sumZ = oz + iz;
+        const float length2 = sumX * sumX + sumY * sumY + sumZ * sumZ;
+        const float length = std::sqrt(length2), inverse = 1.0f / length, cosH = 0.5f * length;
+        const float cosN = (sumX * nx + sumY * ny + sumZ * nz) * inverse;
+        const float hx = sumX * inverse - nx * cosN, hy = sumY * inverse - ny * cosN,
+                    hz = sumZ * inverse - nz * cosN;
+        const float alpha2 = s.alpha[i] * s.alpha[i];
+        const float spread = hx * hx + hy * hy + hz * hz + alpha2 * cosN * cosN;
+        const float d = select(s.shines[i] & maskOf(length2 >= 1e-14f),
+                               alpha2 / (kPi * spread * spread * 4.0f * cosO), 0.0f);
+        const float cosO2 = cosO * cosO, cosI2 = cosI * cosI;
+        const float tanO2 = (1.0f - cosO2) / cosO2, tanI2 = (1.0f - cosI2) / cosI2;
+        const float lambdaO = 0.5f * (std::sqrt(1.0f + alpha2 * select(tanO2 > 0.0f, tanO2, 0.0f)) - 1.0f);
+        const float lambdaI = 0.5f * (std::sqrt(1.0f + alpha2 * select(tanI2 > 0.0f, tanI2, 0.0f)) - 1.0f);
+        const float facets = d / (1.0f + lambdaO + lambdaI);
+
+        const float grazing = s.grazing[i], toGrazing = schlickShare(cosH);
+        const float coatH = coat * fresnelDielectric(cosH, eta);
+        const float rx = s.reflectance.x[i], ry = s.reflectance.y[i], rz = s.reflectance.z[i];
+        const float dx = s.diffuse.x[i], dy = s.diffuse.y[i], dz = s.diffuse.z[i];
+        const float x = dx * lambert + (rx + (grazing - rx) * toGrazing + coatH) * facets;
+        const float y = dy * lambert + (ry + (grazing - ry) * toGrazing + coatH) * facets;
+        const float z = dz * lambert + (rz + (grazing - rz) * toGrazing + coatH) * facets;
+
+        // Lobes are chosen by the luminance of what they send towards wo.
+        const float toGrazingO = schlickShare(cosO), reflectance = luminanceOf(rx, ry, rz);
+        const float base = luminanceOf(dx, dy, dz) * belowO;
+        const float interface =
+            reflectance + (grazing - reflectance) * toGrazingO + coat * fresnelO;
+        const float sum = base + interface;
+        const float pdf = (base * kInvPi * cosI + interface * d / (1.0f + lambdaO)) / sum;
+
+        const uint32_t in = laneBit(lanes, i), lit = above & maskOf(sum > 0.0f);
+        fCos.x[i] = select(in, select(above, x, 0.0f), fCos.x[i]);
+        fCos.y[i] = select(in, select(above, y, 0.0f), fCos.y[i]);
+        fCos.z[i] = select(in, select(above, z, 0.0f), fCos.z[i]);
+        pdfW[i] = select(in, select(lit, pdf, 0.0f), pdfW[i]);
+    }
+}
+
+/// Lanes whose coats have the same rows, or none.
+OSGRAYTRACE_KERNEL
+void evalAlike(const BsdfLanes& bsdfs, const CoatAlbedoRow* rows, const Vec3Lanes& normal,
+               const Vec3Lanes& wo, const Vec3Lanes& wi, LaneMask lanes, Vec3Lanes& fCos,
+               FloatLanes& pdfW)
+{
+    if (rows)
+        evalLanes<true>(bsdfs, rows[0].albedo.data(), rows[1].albedo.data(), normal, wo, wi, lanes,
+                        fCos, pdfW);
+    else
+        evalLanes<false>(bsdfs, nullptr, nullptr, normal, wo, wi, lanes, fCos, pdfW);
+}
+
+} // namespace
+
+BsdfLanes bsdfLanes(const Bsdf* bsdfs, LaneMask lanes)
+{
+    BsdfLanes result;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const Bsdf& bsdf = bsdfs[(lanes >> i) & 1u ? i : __builtin_ctz(lanes)];
+        const bool coated = bsdf.coat > 0.0f && bsdf.diffuse != Vec3(0.0f);
+        setLane(result.diffuse, i, bsdf.diffuse);
+        setLane(result.reflectance, i, bsdf.reflectance);
+        result.grazing[i] = bsdf.grazing;
+        result.coat[i] = bsdf.coat;
+        result.eta[i] = bsdf.eta;
+        result.alpha[i] = bsdf.alpha;
+        result.coatFraction[i] = bsdf.coatFraction;
+        result.belowAverage[i] = coated ? 1.0f - coatAverage(bsdf) : 1.0f;
+        result.coated[i] = maskOf(coated);
+        result.shines[i] = maskOf(bsdf.reflects() && !bsdf.isSmooth());
+        result.coatRows[i] = bsdf.coatRows;
+    }
+    return result;
+}
+
+void evalBsdfLanes(const BsdfLanes& bsdfs, const Vec3Lanes& normal, const Vec3Lanes& wo,
+                   const Vec3Lanes& wi, LaneMask lanes, Vec3Lanes& fCos, FloatLanes& pdfW)
+{
+    fCos = {};
+    pdfW = {};
+    for (LaneMask left = lanes, same; left; left &= ~same) // once, where lanes are of one material
+    {
+        const CoatAlbedoRow* rows = bsdfs.coatRows[__builtin_ctz(left)];
+        same = 0;
+        for (LaneMask others = left; others; others &= others - 1)
+        {
+            const int i = __builtin_ctz(others);
+            same |= static_cast<LaneMask>(bsdfs.coatRows[i] == rows) << i;
+        }
+        evalAlike(bsdfs, rows, normal, wo, wi, same, fCos, pdfW);
+    }
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,74 @@
+// BsdfLanesTest.cpp - sixteen surfaces at once are what each of them is alone.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/Statistics.h"
+#include "tests/shading/BsdfKinds.h"
+
+#include "osgRayTrace/sampling/Warp.h"
+#include "osgRayTrace/shading/BsdfLanes.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+TEST_CASE("bsdf lanes: values and densities are those of each surface alone", "[shading]")
+{
+    std::vector<BsdfKind> kinds;
+    for (const std::vector<BsdfKind>& some : {allKinds(), extremeKinds()})
+        for (const BsdfKind& kind : some)
+            if (!kind.bsdf.transmits()) kinds.push_back(kind);
+    REQUIRE(kinds.size() > 20);
+    Uniform uniform(41);
+    const auto any = [&] { return std::min(kinds.size() - 1, std::size_t(uniform() * float(kinds.size()))); };
+    const auto direction = [&](Vec3 axis, float narrow)
+    { return turnedTo(axis, squareToCosineHemisphere(narrow * uniform(), uniform())); };
+    int lit = 0;
+    for (int round = 0; round < 4000; ++round)
+    {
+        const std::size_t one = any();
+        const LaneMask lanes = round % 3 ? kAllLanes : 0x8421u;
+        Bsdf bsdfs[kLanes];
+        std::string names[kLanes];
+        Vec3Lanes normal, wo, wi;
+        for (int i = 0; i < kLanes; ++i)
+        {
+            const BsdfKind& kind = kinds[round % 2 ? one : any()];
+            bsdfs[i] = kind.bsdf;
+            names[i] = kind.name;
+            const Vec3 n = direction(Vec3(0, 0, uniform() < 0.5f ? 1 : -1), 1.0f);
+            const Vec3 o = direction(uniform() < 0.05f ? -n : n, 1.0f);
+            // Near the mirror direction, where narrow lobes are, every other time.
+            const Vec3 mirrored = glm::normalize(n * (2.0f * glm::dot(n, o)) - o);
+            setLane(normal, i, n);
+            setLane(wo, i, o);
+            setLane(wi, i, uniform() < 0.5f ? direction(mirrored, 0.01f) : direction(n, 1.0f));
+        }
+        Vec3Lanes fCos;
+        FloatLanes pdfW;
+        evalBsdfLanes(bsdfLanes(bsdfs, lanes), normal, wo, wi, lanes, fCos, pdfW);
+        for (int i = 0; i < kLanes; ++i)
+        {
+            CAPTURE(round, i, names[i]);
+            if (!((lanes >> i) & 1u))
+            {
+                REQUIRE(laneOf(fCos, i) == Vec3(0.0f));
+                REQUIRE(pdfW[i] == 0.0f);
+                continue;
+            }
+            const Vec3 n = laneOf(normal, i);
+            Vec3 tangent, bitangent;
+            frameOf(n.x, n.y, n.z, tangent, bitangent);
+            const auto local = [&](Vec3 w)
+            { return Vec3(glm::dot(w, tangent), glm::dot(w, bitangent), glm::dot(w, n)); };
+            BsdfValue expected;
+            if (local(laneOf(wi, i)).z > 0.0f)
+                expected = evalBsdf(bsdfs[i], local(laneOf(wo, i)), local(laneOf(wi, i)));
+            // A facet's distance from a narrow lobe's axis has no more digits than directions have.
+            const float digits = 3e-5f + 1e-6f / std::max(bsdfs[i].alpha, kSmoothAlpha);
+            REQUIRE(glm::distance(laneOf(fCos, i), expected.fCos) <=
+                    digits * glm::length(expected.fCos) + 1e-7f);
+            REQUIRE(std::fabs(pdfW[i] - expected.pdfW) <= digits * expected.pdfW + 1e-7f);
+            lit += expected.pdfW > 0.0f;
+        }
+    }
+    CHECK(lit > 30000);
+}
