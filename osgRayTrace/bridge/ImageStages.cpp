@@ -95,7 +95,7 @@ void ImageStages::show(const RenderSession& session, const ToneMap& toneMap, uin
                        float* depth)
 {
     _upsampleSeconds *= kForgets;
-    _edgeSeconds *= kForgets;
+    forgetEdges();
     if (denoises())
         showImage(staged(session), toneMap, *_workers, rgba, depth);
     else if (historyCounts(session))
@@ -104,16 +104,24 @@ void ImageStages::show(const RenderSession& session, const ToneMap& toneMap, uin
         session.resolveDisplay(toneMap, rgba, depth);
 }
 
+/// Down to what is taken for dear: images without edges say nothing of how cheap these are.
+void ImageStages::forgetEdges()
+{
+    const double guess = kEdgeSeconds / _workers->threads();
+    if (_edgeSeconds > guess) _edgeSeconds = std::max(guess, kForgets * _edgeSeconds);
+}
+
 void ImageStages::showUpsampled(const RenderSession& session, int width, int height,
                                 const DisplayTarget& display, double seconds)
 {
     const double pixels = static_cast<double>(width) * height;
     const double plain = kUpsampleSeconds / _workers->threads();
     const double affordable = std::max(0.0, seconds / pixels - plain) / _edgeSeconds;
+    const ShownImage image = staged(session);
     const double begin = _now();
     const double mostTraced = std::min(kMostTraced, affordable);
-    const UpsampleCounts counts = session.showUpsampled(staged(session), session.surfaceSamples(),
-                                                        width, height, display, mostTraced);
+    const UpsampleCounts counts =
+        session.showUpsampled(image, session.surfaceSamples(), width, height, display, mostTraced);
     // A frame that something else held up is not all there is to know.
     const double seen = (_now() - begin) / pixels;
     const double traced = edgesWithin(counts, mostTraced);
@@ -124,7 +132,7 @@ void ImageStages::showUpsampled(const RenderSession& session, int width, int hei
                                             : kNewWeight * (edge - _edgeSeconds);
     }
     else
-        _edgeSeconds *= kForgets;
+        forgetEdges();
     // Edges that there was no time for: of fewer pixels there may be.
     const double missing = (edgesWithin(counts, kMostTraced) - traced) * _edgeSeconds;
     _upsampleSeconds = std::min(seen + missing, 2.0 * _upsampleSeconds);

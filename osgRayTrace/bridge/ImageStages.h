@@ -80,6 +80,7 @@ private:
         return passes > 0 && _history.counts(passes);
     }
     ShownImage staged(const RenderSession& session);
+    void forgetEdges();
 
     std::function<double()> _now;
     std::shared_ptr<Workers> _workers;

@@ -28,6 +28,18 @@ void addPhoton(const Photon& photon, const Vec3Lanes& wi, const Vec3Lanes& fCos,
     }
 }
 
+/// Fewer lanes are evaluated one by one.
+constexpr int kLeastLanes = 3;
+
+/// The BSDF of one point for light from wi on the side of wo.
+Vec3 evalAlone(const GatherLanes& points, int i, Vec3 wi)
+{
+    const ShadingFrame frame(laneOf(points.queries.shadingNormal, i));
+    const Vec3 local = frame.toLocal(wi);
+    if (!(local.z > 0.0f)) return Vec3(0.0f);
+    return evalBsdf(points.bsdfs[i], frame.toLocal(laneOf(points.wo, i)), local).fCos;
+}
+
 /// Light from the side of wo; light and shading normal must agree on that side, as for light
 /// samples.
 void addReflected(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes& sums)
@@ -44,9 +56,15 @@ void addReflected(const PhotonMap& map, const GatherLanes& points, PhotonSumLane
         for (LaneMask lanes = f.lanes; lanes; lanes &= lanes - 1)
             ++sums.count[__builtin_ctz(lanes)];
         const LaneMask lanes = photon.direct ? f.lanes : f.lanes & ~points.directOnly;
+        if (!lanes) continue;
         for (int i = 0; i < kLanes; ++i)
             setLane(wi, i, photon.wi);
-        evalBsdfLanes(bsdfs, points.queries.shadingNormal, points.wo, wi, lanes, fCos, pdfW);
+        if (__builtin_popcount(lanes) < kLeastLanes)
+            for (LaneMask left = lanes; left; left &= left - 1)
+                setLane(fCos, __builtin_ctz(left),
+                        evalAlone(points, __builtin_ctz(left), photon.wi));
+        else
+            evalBsdfLanes(bsdfs, points.queries.shadingNormal, points.wo, wi, lanes, fCos, pdfW);
         addPhoton(photon, wi, fCos, points.queries.normal, lanes, sums.power);
     }
 }

@@ -12,9 +12,9 @@
 namespace osgRayTrace::engine
 {
 
-/// Points at which camera paths take light samples and, if gathering, look up photons: the hit points
-/// of progressive photon mapping [Hachisuka08, sect. 4.1]. Sixteen of the same number of bounces; lanes
-/// beyond count hold the first one.
+/// Points at which camera paths take light samples and, if gathering, look up photons: the hit
+/// points of progressive photon mapping [Hachisuka08, sect. 4.1]. Sixteen of the same number of
+/// bounces; lanes beyond count hold the first one.
 struct HitPointBlock
 {
     Vec3Lanes position;        ///< on the triangle
@@ -31,13 +31,14 @@ struct HitPointBlock
     UintLanes bsdf;  ///< index into HitPoints::bsdfs unless diffuse
     int number = 0;  ///< of bounces before
     int count = 0;
-    LaneMask diffuse = 0, through = 0, lifted = 0, gathering = 0, ending = 0; ///< see Bounce, SurfaceLanes
+    LaneMask diffuse = 0, through = 0, lifted = 0, gathering = 0,
+             ending = 0; ///< see Bounce, SurfaceLanes
 };
 
 /// Of one tile, for all passes in which camera paths are the same.
 struct HitPoints
 {
-    bool traced = false;          ///< the paths were followed; otherwise all else is empty
+    bool traced = false;               ///< the paths were followed; otherwise all else is empty
     std::vector<HitPointBlock> blocks; ///< by number of bounces
     std::vector<Bsdf> bsdfs;
     std::vector<RgbaLanes> seen; ///< kTileBlocks of the light that the paths met by themselves

@@ -8,6 +8,13 @@
 namespace osgRayTrace::engine
 {
 
+namespace
+{
+
+constexpr int kLeastLanes = 3; ///< fewer are evaluated one by one
+
+} // namespace
+
 void evalTowardsLight(const RayBlock& rays, const SurfaceLanes& surface, const Vec3Lanes& normal,
                       const Bsdf* bsdfs, const Vec3Lanes& wi, LaneMask lanes, Vec3Lanes& fCos,
                       FloatLanes& pdfW)
@@ -15,22 +22,24 @@ void evalTowardsLight(const RayBlock& rays, const SurfaceLanes& surface, const V
     Vec3Lanes wo;
     for (int i = 0; i < kLanes; ++i)
         setLane(wo, i, -directionOf(rays, i));
-    LaneMask reflecting = 0, transmitting = 0;
+    LaneMask reflecting = 0, alone = 0;
     for (; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         const Vec3 towards = laneOf(wi, i);
         const bool above = glm::dot(towards, laneOf(normal, i)) > 0.0f;
         if (above != isAbove(surface, i, towards)) continue;
-        (bsdfs[i].transmits() ? transmitting : reflecting) |= 1u << i;
+        (bsdfs[i].transmits() ? alone : reflecting) |= 1u << i;
     }
     fCos = {};
     pdfW = {};
-    if (reflecting)
+    if (__builtin_popcount(reflecting) < kLeastLanes)
+        alone |= reflecting;
+    else
         evalBsdfLanes(bsdfLanes(bsdfs, reflecting), normal, wo, wi, reflecting, fCos, pdfW);
-    for (; transmitting; transmitting &= transmitting - 1)
+    for (; alone; alone &= alone - 1)
     {
-        const int i = __builtin_ctz(transmitting);
+        const int i = __builtin_ctz(alone);
         const ShadingFrame frame(laneOf(normal, i));
         const BsdfValue value =
             evalBsdf(bsdfs[i], frame.toLocal(laneOf(wo, i)), frame.toLocal(laneOf(wi, i)));

@@ -53,7 +53,8 @@ void restore(const HitPoints& hits, const HitPointBlock& points, PathBlock& bloc
 /// A block with room for a point after so many bounces.
 HitPointBlock& blockFor(int number, HitPoints& hits)
 {
-    if (hits.blocks.empty() || hits.blocks.back().number != number || hits.blocks.back().count == kLanes)
+    if (hits.blocks.empty() || hits.blocks.back().number != number ||
+        hits.blocks.back().count == kLanes)
     {
         hits.blocks.emplace_back();
         hits.blocks.back().number = number;
@@ -62,18 +63,18 @@ HitPointBlock& blockFor(int number, HitPoints& hits)
 }
 
 /// Lane i of a bounce to lane to.
-void setLane(HitPointBlock& points, int to, const PathBlock& block, const Bounce& bounce, int i,
-             uint32_t bsdf)
+void keepLane(HitPointBlock& points, int to, const PathBlock& block, const Bounce& bounce, int i,
+              uint32_t bsdf)
 {
     const SurfaceLanes& surface = bounce.surface;
-    engine::setLane(points.position, to, laneOf(trianglePoints(surface), i));
-    engine::setLane(points.start, to, laneOf(surface.position, i));
-    engine::setLane(points.geometricNormal, to, laneOf(surface.geometricNormal, i));
-    engine::setLane(points.normal, to, laneOf(bounce.normal, i));
-    engine::setLane(points.direction, to, directionOf(block.rays.ray, i));
-    engine::setLane(points.throughput, to, laneOf(block.throughput, i));
+    setLane(points.position, to, laneOf(trianglePoints(surface), i));
+    setLane(points.start, to, laneOf(surface.position, i));
+    setLane(points.geometricNormal, to, laneOf(surface.geometricNormal, i));
+    setLane(points.normal, to, laneOf(bounce.normal, i));
+    setLane(points.direction, to, directionOf(block.rays.ray, i));
+    setLane(points.throughput, to, laneOf(block.throughput, i));
     const bool diffuse = (bounce.diffuse >> i) & 1u;
-    engine::setLane(points.albedo, to, diffuse ? laneOf(bounce.albedo, i) : Vec3(0.0f));
+    setLane(points.albedo, to, diffuse ? laneOf(bounce.albedo, i) : Vec3(0.0f));
     points.offset[to] = surface.offset[i];
     points.steep[to] = surface.steep[i];
     points.material[to] = surface.material[i];
@@ -104,7 +105,7 @@ void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits
         const int at = points.count++;
         // Vector code reads lanes out of use as well.
         for (int to = at; to < (at == 0 ? kLanes : at + 1); ++to)
-            setLane(points, to, block, bounce, i, kept);
+            keepLane(points, to, block, bounce, i, kept);
         points.diffuse |= moved(bounce.diffuse, i, at);
         points.through |= moved(bounce.through, i, at);
         points.lifted |= moved(bounce.surface.lifted, i, at);

@@ -170,6 +170,7 @@ void gatherOnly(Tile& tile, PhotonUse use)
         readSums(hits.seen.data(), tile);
     else
     {
+        hits = HitPoints(); // of paths that ran out of memory there may be some
         tracePaths(tile, use);
         hits.seen.resize(kTileBlocks);
         writeSums(tile, hits.seen.data());

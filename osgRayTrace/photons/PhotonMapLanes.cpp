@@ -10,7 +10,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Discs of a group are this near to each other [radii], and of radii within a factor of two.
+/// Discs of a group are this near to its first [radii], with radii within a factor of two of its
+/// own.
 constexpr float kNear = 4.0f;
 
 /// Fewer discs than that are looked up one by one: photons are then what lanes hold. So are those
@@ -18,7 +19,7 @@ constexpr float kNear = 4.0f;
 constexpr int kLeastGroup = 4;
 constexpr uint32_t kMostTogether = 512;
 
-/// What a loop over lanes knows of the discs; those that do not take part have negative radii.
+/// What a loop over lanes knows of the discs; those that do not take part have a negative radius2.
 struct Discs
 {
     FloatLanes radius2, plane;
@@ -54,8 +55,8 @@ float least(FloatLanes lanes)
 /// The box of places, and how far their discs reach beyond it at most.
 struct Bounds
 {
-    FloatLanes lowX, lowY, lowZ;    ///< of each lane; infinity of those that do not take part
-    FloatLanes highX, highY, highZ; ///< negative
+    FloatLanes lowX, lowY, lowZ;       ///< of each lane; infinity of those that do not take part
+    FloatLanes highX, highY, highZ;    ///< negative
     FloatLanes reachX, reachY, reachZ; ///< negative
 };
 
@@ -124,10 +125,12 @@ OSGRAYTRACE_INLINE void addPhotons(const PhotonColumns& columns, uint32_t begin,
         for (int i = 0; i < kLanes; ++i)
         {
             float distance2, off;
-            const uint32_t in = insideDisc(p, 0, plainOf(q.position, i), plainOf(q.normal, i), mostEdges,
-                                           discs.radius2[i], discs.plane[i], distance2, off);
-            const float weight = kFlat ? select(in, 1.0f, 0.0f)
-                                       : shadingWeight(p, 0, in, plainOf(q.normal, i), plainOf(q.shadingNormal, i));
+            const uint32_t in =
+                insideDisc(p, 0, plainOf(q.position, i), plainOf(q.normal, i), mostEdges,
+                           discs.radius2[i], discs.plane[i], distance2, off);
+            const float weight =
+                kFlat ? select(in, 1.0f, 0.0f)
+                      : shadingWeight(p, 0, in, plainOf(q.normal, i), plainOf(q.shadingNormal, i));
             s.power.x[i] += weight * r;
             s.power.y[i] += weight * g;
             s.power.z[i] += weight * b;
@@ -159,8 +162,8 @@ LaneMask lanesAround(const PhotonColumns& columns, uint32_t k, const PhotonQuery
     for (int i = 0; i < kLanes; ++i)
     {
         float distance2, off;
-        around |= bitOfLane(insideDisc(p, 0, plainOf(q.position, i), plainOf(q.normal, i), mostEdges,
-                                       discs.radius2[i], discs.plane[i], distance2, off),
+        around |= bitOfLane(insideDisc(p, 0, plainOf(q.position, i), plainOf(q.normal, i),
+                                       mostEdges, discs.radius2[i], discs.plane[i], distance2, off),
                             i);
     }
     return around;
@@ -217,12 +220,12 @@ void PhotonMap::forEachGroup(const PhotonQueryLanes& queries, const Together& to
 /// The stretches of photons that can be in the discs of a group.
 int PhotonMap::rangesOf(const PhotonQueryLanes& queries, LaneMask group, Range* ranges) const
 {
-    if (_count == 0) return 0;
     Bounds bounds;
     boundDiscs(queries, group, bounds);
     // Reaches are rounded, as are distances: hence a share of them more.
     constexpr double kMore = 1.0 + 0x1p-16;
-    const Vec3d reach = -kMore * Vec3d(least(bounds.reachX), least(bounds.reachY), least(bounds.reachZ));
+    const Vec3d reach =
+        -kMore * Vec3d(least(bounds.reachX), least(bounds.reachY), least(bounds.reachZ));
     const Vec3d low(least(bounds.lowX), least(bounds.lowY), least(bounds.lowZ));
     const Vec3d high(-least(bounds.highX), -least(bounds.highY), -least(bounds.highZ));
     return rangesIn(low - reach, high + reach, ranges);
@@ -230,8 +233,9 @@ int PhotonMap::rangesOf(const PhotonQueryLanes& queries, LaneMask group, Range* 
 
 void PhotonMap::gather(const PhotonQueryLanes& queries, PhotonSumLanes& sums) const
 {
-    const PhotonColumns all = columns();
     sums = {};
+    if (_count == 0) return;
+    const PhotonColumns all = columns();
     forEachGroup(
         queries,
         [&](LaneMask group, const Range* ranges, int count)
@@ -251,6 +255,7 @@ void PhotonMap::gather(const PhotonQueryLanes& queries, PhotonSumLanes& sums) co
 
 void PhotonMap::find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& found) const
 {
+    if (_count == 0) return;
     const PhotonColumns all = columns();
     forEachGroup(
         queries,

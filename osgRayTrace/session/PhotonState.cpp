@@ -172,11 +172,12 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
 void PhotonState::finish(const std::shared_ptr<const TracedScene>& traced,
                          const PassContext& context, int pass)
 {
+    if (_idle) return;
     sumUpSeen();
-    if (pass + 1 != PhotonPasses::kFirst || _seenSquares.empty()) return;
-    _aims = true;
+    if (pass + 1 < PhotonPasses::kFirst || _seenSquares.empty()) return;
     _passes->noteSeen(traced, *context.lights, passOptions(context.options), this,
                       std::move(_seenSquares));
+    _aims = true;
     std::vector<std::vector<SeenSquares>>().swap(_seen);
     _seenSquares.clear();
 }

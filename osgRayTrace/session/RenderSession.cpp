@@ -278,10 +278,10 @@ RenderProgress RenderSession::Implementation::run(
         // reached are written as well.
         shown = made + 1 == rule.newPasses || pass + 1 == rule.passes;
         const bool whole = renderPass(context, *integrator, rule, shown ? display : nullptr);
-        if (whole) photons.finish(filmScene, context, pass);
         progress.hitPointBytes = photons.viewBytes();
         progress.seconds += secondsSince(passStart);
         progress.passes = film.passes();
+        if (whole) photons.finish(filmScene, context, pass);
         if (cancelled) progress.status = {StatusCode::Cancelled, "the render was cancelled"};
         if (cancelled || !whole) break;
         if (wantsError) progress.relativeError = estimateError();

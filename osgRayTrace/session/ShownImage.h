@@ -23,10 +23,10 @@ struct ShownImage
     std::vector<float> depth;    ///< window depth
 };
 
-/// What it took to make a full-size image of one of fewer pixels, see Upsample.h: in pixels of the full size.
+/// What it took to make a full-size image of one of fewer pixels, see Upsample.h.
 struct UpsampleCounts
 {
-    uint64_t traced = 0; ///< whose first hit was traced
+    uint64_t traced = 0; ///< pixels of the full size whose first hit was traced
     uint64_t unlike = 0; ///< of these: whose surface none of the four pixels around it sees
     double edges = 0.0;  ///< share of the small image's cells that are at edges,
     double around = 0.0; ///< and that are at edges or beside them: what would be traced without a limit

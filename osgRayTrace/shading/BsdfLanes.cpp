@@ -26,11 +26,19 @@ OSGRAYTRACE_INLINE float rowAlbedo(const float* first, const float* second, floa
     return a + (b - a) * fraction;
 }
 
-/// Fifth power of 1 - cosTheta: how far Schlick's approximation is from normal to grazing incidence.
+/// Fifth power of 1 - cosTheta: how far Schlick's approximation is from normal to grazing
+/// incidence.
 OSGRAYTRACE_INLINE float schlickShare(float cosTheta)
 {
     const float m = 1.0f - select(cosTheta < 1.0f, cosTheta, 1.0f), m2 = m * m;
     return m2 * m2 * m;
+}
+
+/// Smith's Lambda [Heitz14, eq. 72]; infinite next to grazing incidence.
+OSGRAYTRACE_INLINE float lambdaOf(float alpha2, float cosTheta)
+{
+    const float cos2 = cosTheta * cosTheta, tan2 = (1.0f - cos2) / cos2;
+    return 0.5f * (std::sqrt(1.0f + alpha2 * select(tan2 > 0.0f, tan2, 0.0f)) - 1.0f);
 }
 
 OSGRAYTRACE_INLINE float luminanceOf(float red, float green, float blue)
@@ -41,9 +49,8 @@ OSGRAYTRACE_INLINE float luminanceOf(float red, float green, float blue)
 /// Bsdf.h and Bsdf.cpp have the formulas.
 template <bool kRows>
 OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const float* firstRow, const float* secondRow,
-                                  const Vec3Lanes& normal, const Vec3Lanes& wo,
-                                  const Vec3Lanes& wi, LaneMask lanes, Vec3Lanes& fCos,
-                                  FloatLanes& pdfW)
+                                  const Vec3Lanes& normal, const Vec3Lanes& wo, const Vec3Lanes& wi,
+                                  LaneMask lanes, Vec3Lanes& fCos, FloatLanes& pdfW)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
@@ -72,13 +79,12 @@ OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const float* firstRow, con
                     hz = sumZ * inverse - nz * cosN;
         const float alpha2 = s.alpha[i] * s.alpha[i];
         const float spread = hx * hx + hy * hy + hz * hz + alpha2 * cosN * cosN;
-        const float d = select(s.shines[i] & maskOf(length2 >= 1e-14f),
-                               alpha2 / (kPi * spread * spread * 4.0f * cosO), 0.0f);
-        const float cosO2 = cosO * cosO, cosI2 = cosI * cosI;
-        const float tanO2 = (1.0f - cosO2) / cosO2, tanI2 = (1.0f - cosI2) / cosI2;
-        const float lambdaO = 0.5f * (std::sqrt(1.0f + alpha2 * select(tanO2 > 0.0f, tanO2, 0.0f)) - 1.0f);
-        const float lambdaI = 0.5f * (std::sqrt(1.0f + alpha2 * select(tanI2 > 0.0f, tanI2, 0.0f)) - 1.0f);
-        const float facets = d / (1.0f + lambdaO + lambdaI);
+        const float d = alpha2 / (kPi * spread * spread * 4.0f * cosO);
+        const float lambdaO = lambdaOf(alpha2, cosO), lambdaI = lambdaOf(alpha2, cosI);
+        // Selected last: where there are no facets all of this may be no number.
+        const uint32_t shines = s.shines[i] & maskOf(length2 >= 1e-14f);
+        const float facets = select(shines, d / (1.0f + lambdaO + lambdaI), 0.0f);
+        const float facetsPdf = select(shines, d / (1.0f + lambdaO), 0.0f);
 
         const float grazing = s.grazing[i], toGrazing = schlickShare(cosH);
         const float coatH = coat * fresnelDielectric(cosH, eta);
@@ -94,7 +100,7 @@ OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const float* firstRow, con
         const float interface =
             reflectance + (grazing - reflectance) * toGrazingO + coat * fresnelO;
         const float sum = base + interface;
-        const float pdf = (base * kInvPi * cosI + interface * d / (1.0f + lambdaO)) / sum;
+        const float pdf = (base * kInvPi * cosI + interface * facetsPdf) / sum;
 
         const uint32_t in = laneBit(lanes, i), lit = above & maskOf(sum > 0.0f);
         fCos.x[i] = select(in, select(above, x, 0.0f), fCos.x[i]);

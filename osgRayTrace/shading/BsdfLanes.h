@@ -22,9 +22,9 @@ struct BsdfLanes
 /// Of at least one lane; the others hold the first of these, as vector code reads them.
 BsdfLanes bsdfLanes(const Bsdf* bsdfs, LaneMask lanes);
 
-/// evalBsdf with its densities for light from the side of wo, of surfaces whose transmission is left
-/// out; radiance and importance are the same there. Directions and normals in the world, unit. Zero
-/// where wo or wi is not above the normal's plane, and in other lanes.
+/// evalBsdf with its densities for light from the side of wo, of surfaces whose transmission is
+/// left out; radiance and importance are the same there. Directions and normals in the world, unit.
+/// Zero where wo or wi is not above the normal's plane, and in other lanes.
 void evalBsdfLanes(const BsdfLanes& bsdfs, const Vec3Lanes& normal, const Vec3Lanes& wo,
                    const Vec3Lanes& wi, LaneMask lanes, Vec3Lanes& fCos, FloatLanes& pdfW);
 

@@ -61,6 +61,27 @@ struct Enlarged
         return Traced::Nothing;
     }
 
+    /// So many pictures in which nothing is seen.
+    void showBlank(int pictures)
+    {
+        View view = perspectiveView({278, 278, -900}, {278, 250, -2000}, {0, 1, 0}, 50.0, 8, 8);
+        RenderOptions options = optionsOf(IntegratorKind::Whitted);
+        options.centredFirstPass = true;
+        RenderSession blank(workers);
+        blank.setScene(cornellBox().build());
+        blank.setView(view);
+        blank.setOptions(options);
+        StopRule rule;
+        rule.passes = 1;
+        REQUIRE(blank.render(rule).status.ok());
+        std::vector<uint8_t> rgba(4 * 16 * 16);
+        for (int i = 0; i < pictures; ++i)
+        {
+            looks = 0;
+            stages.showUpsampled(blank, 16, 16, {{}, rgba.data()}, 1.0);
+        }
+    }
+
     std::vector<uint8_t> expected(double mostTraced)
     {
         std::vector<uint8_t> rgba(4 * std::size_t(kPixels));
@@ -114,4 +135,17 @@ TEST_CASE("image stages: the first picture along edges takes no more than it may
     CHECK(enlarged.traced(0.0015) == Traced::Nothing);
     CHECK(enlarged.traced(0.002) == Traced::Edges);
     CHECK(enlarged.traced(0.020) == Traced::Around);
+}
+
+TEST_CASE("image stages: images without edges do not make edges cheap", "[bridge]")
+{
+    Enlarged enlarged;
+    enlarged.taken = 0.040;
+    for (int i = 0; i < 20; ++i)
+        REQUIRE(enlarged.traced(10.0) == Traced::Around);
+    enlarged.taken = 3e-6;
+    enlarged.showBlank(2000);
+    enlarged.taken = 0.001;
+    CHECK(enlarged.foreseen() < 0.002); // of a picture without
+    CHECK(enlarged.traced(0.0015) == Traced::Nothing); // as if nothing were known
 }

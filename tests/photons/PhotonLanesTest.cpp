@@ -25,7 +25,8 @@ Vec3 axis(Uniform& uniform)
 
 Vec3 unit(Uniform& uniform)
 {
-    return turnedTo(Vec3(0, 0, uniform() < 0.5f ? 1 : -1), squareToCosineHemisphere(uniform(), uniform()));
+    return turnedTo(Vec3(0, 0, uniform() < 0.5f ? 1 : -1),
+                    squareToCosineHemisphere(uniform(), uniform()));
 }
 
 /// In a unit cube, on a lattice: sums are exact, whatever their order.
@@ -58,7 +59,8 @@ PhotonQueryLanes blockAround(Vec3 place, float radius, int round, Uniform& unifo
     const float spreads[] = {0.0f, 0.5f, 2.0f, 6.0f, 40.0f};
     const float spread = spreads[round % 5] * radius;
     const float none = std::numeric_limits<float>::quiet_NaN();
-    const auto offset = [&] { return std::floor((uniform() - 0.5f) * spread * 1024.0f) * 0x1p-10f; };
+    const auto offset = [&]
+    { return std::floor((uniform() - 0.5f) * spread * 1024.0f) * 0x1p-10f; };
     const Vec3 normal = axis(uniform);
     PhotonQueryLanes queries;
     queries.mostEdges = round % 3 ? kMostEdges : 4;
@@ -67,7 +69,8 @@ PhotonQueryLanes blockAround(Vec3 place, float radius, int round, Uniform& unifo
         PhotonQuery query;
         query.position = place + Vec3(offset(), offset(), offset());
         query.normal = query.shadingNormal = round % 4 ? normal : axis(uniform);
-        if (round % 7 == 0) query.shadingNormal = glm::normalize(query.normal + 0.4f * unit(uniform));
+        if (round % 7 == 0)
+            query.shadingNormal = glm::normalize(query.normal + 0.4f * unit(uniform));
         query.radius = radius * (round % 2 ? 1.0f : 0.25f + 2.0f * uniform());
         const bool used = round % 6 || uniform() < 0.6f;
         if (!used) query.position = query.normal = Vec3(query.radius = none);
@@ -95,7 +98,8 @@ TEST_CASE("photon lanes: sixteen look-ups are as many single ones", "[photons]")
     const Workers workers(2);
     uint64_t all = 0;
     // Few photons around, more than are read together, and a crowd.
-    for (const auto& [count, cell] : {std::pair(3000, 0.2f), std::pair(60000, 0.1f), std::pair(9000, 4.0f)})
+    for (const auto& [count, cell] :
+         {std::pair(3000, 0.2f), std::pair(60000, 0.1f), std::pair(9000, 4.0f)})
     {
         const std::vector<Photon> photons = cube(static_cast<std::size_t>(count), 5);
         const PhotonMap map(photons, cell, workers);
@@ -128,7 +132,8 @@ TEST_CASE("photon lanes: sixteen look-ups are as many single ones", "[photons]")
                 if (round % 7)
                     REQUIRE(power == expected.power);
                 else
-                    REQUIRE(glm::distance(power, expected.power) <= 1e-5f * (1.0f + expected.power.x));
+                    REQUIRE(glm::distance(power, expected.power) <=
+                            1e-5f * (1.0f + expected.power.x));
                 map.find(query, expectedOwn);
                 std::sort(own.begin(), own.end());
                 std::sort(expectedOwn.begin(), expectedOwn.end());
@@ -179,7 +184,8 @@ Vec3 expectedPower(const PhotonMap& map, const GatherLanes& points, int i, uint3
             const Vec3 wi = frame.toLocal(photon.wi);
             if ((wi.z > 0.0f) == behind) continue;
             if (((points.directOnly >> i) & 1u) && !photon.direct) continue;
-            power += Vec3d(evalBsdf(bsdf, wo, wi).fCos * photon.power / glm::dot(photon.wi, query.normal));
+            power += Vec3d(evalBsdf(bsdf, wo, wi).fCos * photon.power /
+                           glm::dot(photon.wi, query.normal));
         }
     }
     return Vec3(power);
@@ -221,7 +227,8 @@ TEST_CASE("photon lanes: surfaces of all kinds send back what their BSDFs say", 
             query.radius = 0.2f;
             setLane(points.queries, i, query);
             Vec3 wo = turnedTo(query.normal, squareToCosineHemisphere(uniform(), uniform()));
-            if (i == 5) wo = glm::normalize(Vec3(1, 0, 0.002f)); // often below the shading normal's horizon
+            if (i == 5)
+                wo = glm::normalize(Vec3(1, 0, 0.002f)); // often below the shading normal's horizon
             osgRayTrace::engine::setLane(points.wo, i, wo);
         }
         points.queries.lanes = round % 5 ? kAllLanes : 0x37f1u;
@@ -236,7 +243,8 @@ TEST_CASE("photon lanes: surfaces of all kinds send back what their BSDFs say", 
                 continue;
             }
             uint32_t count = 0;
-            const Vec3 expected = expectedPower(map, points, i, count), power = laneOf(sums.power, i);
+            const Vec3 expected = expectedPower(map, points, i, count),
+                       power = laneOf(sums.power, i);
             REQUIRE(sums.count[i] == count);
             // Narrow lobes lose digits of how far off their axis a facet is.
             const float tolerance = bsdfs[i].alpha < 0.01f ? 2e-3f : 5e-5f;

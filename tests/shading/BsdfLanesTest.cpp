@@ -18,7 +18,8 @@ TEST_CASE("bsdf lanes: values and densities are those of each surface alone", "[
             if (!kind.bsdf.transmits()) kinds.push_back(kind);
     REQUIRE(kinds.size() > 20);
     Uniform uniform(41);
-    const auto any = [&] { return std::min(kinds.size() - 1, std::size_t(uniform() * float(kinds.size()))); };
+    const auto any = [&]
+    { return std::min(kinds.size() - 1, std::size_t(uniform() * float(kinds.size()))); };
     const auto direction = [&](Vec3 axis, float narrow)
     { return turnedTo(axis, squareToCosineHemisphere(narrow * uniform(), uniform())); };
     int lit = 0;
@@ -71,4 +72,42 @@ TEST_CASE("bsdf lanes: values and densities are those of each surface alone", "[
         }
     }
     CHECK(lit > 30000);
+}
+
+TEST_CASE("bsdf lanes: next to the horizon there are numbers, for all kinds", "[shading]")
+{
+    std::vector<BsdfKind> kinds = allKinds();
+    for (const std::vector<BsdfKind>& extremes : {extremeKinds(), extremeSmoothKinds()})
+        kinds.insert(kinds.end(), extremes.begin(), extremes.end());
+    const double cosines[] = {1.0, 1e-2, 1e-4, 1e-6, 1e-10, 1e-17, 1e-19, 1e-21, 1e-30};
+    const auto directionOf = [](double cosine, double turn)
+    {
+        const double sine = std::sqrt(1.0 - cosine * cosine);
+        return Vec3(sine * std::cos(turn), sine * std::sin(turn), cosine);
+    };
+    for (const BsdfKind& kind : kinds)
+    {
+        for (const double cosine : cosines)
+        {
+            Bsdf bsdfs[kLanes];
+            Vec3Lanes normal, wo, wi, fCos;
+            FloatLanes pdfW;
+            for (int i = 0; i < kLanes; ++i)
+            {
+                bsdfs[i] = kind.bsdf;
+                setLane(normal, i, Vec3(0, 0, 1));
+                setLane(wo, i, directionOf(cosine, 2.0));
+                Vec3 towards = directionOf(cosines[i % 9], i < 9 ? 2.5 : 2.0 + M_PI);
+                if (i == 15) towards.z = -towards.z;
+                setLane(wi, i, towards);
+            }
+            evalBsdfLanes(bsdfLanes(bsdfs, kAllLanes), normal, wo, wi, kAllLanes, fCos, pdfW);
+            int bad = 0;
+            for (int i = 0; i < kLanes; ++i)
+                bad += !(isFinite(laneOf(fCos, i)) && std::isfinite(pdfW[i]) && fCos.x[i] >= 0.0f &&
+                         pdfW[i] >= 0.0f);
+            CAPTURE(kind.name, cosine);
+            CHECK(bad == 0);
+        }
+    }
 }
