@@ -84,6 +84,12 @@ OSGRAYTRACE_INLINE float select(bool condition, float a, float b)
     return select(maskOf(condition), a, b);
 }
 
+/// luminance() of colours in lanes.
+OSGRAYTRACE_INLINE float luminanceOf(float red, float green, float blue)
+{
+    return 0.2126f * red + 0.7152f * green + 0.0722f * blue;
+}
+
 /// A vector for each lane, structure of arrays.
 struct Vec3Lanes
 {

@@ -28,16 +28,12 @@ void addPhoton(const Photon& photon, const Vec3Lanes& wi, const Vec3Lanes& fCos,
     }
 }
 
-/// Fewer lanes are evaluated one by one.
-constexpr int kLeastLanes = 3;
-
 /// The BSDF of one point for light from wi on the side of wo.
 Vec3 evalAlone(const GatherLanes& points, int i, Vec3 wi)
 {
-    const ShadingFrame frame(laneOf(points.queries.shadingNormal, i));
-    const Vec3 local = frame.toLocal(wi);
-    if (!(local.z > 0.0f)) return Vec3(0.0f);
-    return evalBsdf(points.bsdfs[i], frame.toLocal(laneOf(points.wo, i)), local).fCos;
+    const Vec3 normal = laneOf(points.queries.shadingNormal, i);
+    if (!(glm::dot(wi, normal) > 0.0f)) return Vec3(0.0f);
+    return evalInWorld(points.bsdfs[i], normal, laneOf(points.wo, i), wi).fCos;
 }
 
 /// Light from the side of wo; light and shading normal must agree on that side, as for light
@@ -59,7 +55,7 @@ void addReflected(const PhotonMap& map, const GatherLanes& points, PhotonSumLane
         if (!lanes) continue;
         for (int i = 0; i < kLanes; ++i)
             setLane(wi, i, photon.wi);
-        if (__builtin_popcount(lanes) < kLeastLanes)
+        if (__builtin_popcount(lanes) < kLeastBsdfLanes)
             for (LaneMask left = lanes; left; left &= left - 1)
                 setLane(fCos, __builtin_ctz(left),
                         evalAlone(points, __builtin_ctz(left), photon.wi));

@@ -6,6 +6,7 @@
 #include "osgRayTrace/accel/Surface.h"
 #include "osgRayTrace/integrators/Integrator.h"
 #include "osgRayTrace/sampling/Warp.h"
+#include "osgRayTrace/shading/Bsdf.h"
 
 namespace osgRayTrace::engine
 {
@@ -30,6 +31,13 @@ struct ShadingFrame
 
     Vec3 normal, tangent, bitangent;
 };
+
+/// evalBsdf around a shading normal, all in the world.
+inline BsdfValue evalInWorld(const Bsdf& bsdf, Vec3 normal, Vec3 wo, Vec3 wi)
+{
+    const ShadingFrame frame(normal);
+    return evalBsdf(bsdf, frame.toLocal(wo), frame.toLocal(wi));
+}
 
 /// What the options want of rays that leave smooth-shaded facets.
 inline RayStart rayStart(const RenderOptions& options)

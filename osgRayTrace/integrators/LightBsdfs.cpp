@@ -8,13 +8,6 @@
 namespace osgRayTrace::engine
 {
 
-namespace
-{
-
-constexpr int kLeastLanes = 3; ///< fewer are evaluated one by one
-
-} // namespace
-
 void evalTowardsLight(const RayBlock& rays, const SurfaceLanes& surface, const Vec3Lanes& normal,
                       const Bsdf* bsdfs, const Vec3Lanes& wi, LaneMask lanes, Vec3Lanes& fCos,
                       FloatLanes& pdfW)
@@ -33,16 +26,15 @@ void evalTowardsLight(const RayBlock& rays, const SurfaceLanes& surface, const V
     }
     fCos = {};
     pdfW = {};
-    if (__builtin_popcount(reflecting) < kLeastLanes)
+    if (__builtin_popcount(reflecting) < kLeastBsdfLanes)
         alone |= reflecting;
     else
         evalBsdfLanes(bsdfLanes(bsdfs, reflecting), normal, wo, wi, reflecting, fCos, pdfW);
     for (; alone; alone &= alone - 1)
     {
         const int i = __builtin_ctz(alone);
-        const ShadingFrame frame(laneOf(normal, i));
         const BsdfValue value =
-            evalBsdf(bsdfs[i], frame.toLocal(laneOf(wo, i)), frame.toLocal(laneOf(wi, i)));
+            evalInWorld(bsdfs[i], laneOf(normal, i), laneOf(wo, i), laneOf(wi, i));
         setLane(fCos, i, value.fCos);
         pdfW[i] = value.pdfW;
     }

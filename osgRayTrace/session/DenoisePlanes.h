@@ -72,9 +72,4 @@ OSGRAYTRACE_INLINE float fallOff(float x)
     return c * c;
 }
 
-OSGRAYTRACE_INLINE float luminanceOf(float r, float g, float b)
-{
-    return 0.2126f * r + 0.7152f * g + 0.0722f * b;
-}
-
 } // namespace osgRayTrace::engine

@@ -12,26 +12,12 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Albedo of a coat by the two rows of its roughness: CoatAlbedoRow, without branches.
-OSGRAYTRACE_INLINE float rowAlbedo(const float* first, const float* second, float fraction,
-                                   float cosTheta)
+/// Albedo of a coat whose roughness is between those of two rows.
+OSGRAYTRACE_INLINE float between(const float* first, const float* second, float fraction,
+                                 float cosTheta)
 {
-    constexpr int kSteps = CoatAlbedoRow::kSteps;
-    const float c = select(cosTheta > 0.0f, select(cosTheta < 1.0f, cosTheta, 1.0f), 0.0f);
-    const float x = std::sqrt(c) * float(kSteps);
-    const int k = static_cast<int>(x);
-    const float t = x - static_cast<float>(k);
-    const float a = first[k] + (first[k + 1] - first[k]) * t;
-    const float b = second[k] + (second[k + 1] - second[k]) * t;
+    const float a = coatRowAlbedo(first, cosTheta), b = coatRowAlbedo(second, cosTheta);
     return a + (b - a) * fraction;
-}
-
-/// Fifth power of 1 - cosTheta: how far Schlick's approximation is from normal to grazing
-/// incidence.
-OSGRAYTRACE_INLINE float schlickShare(float cosTheta)
-{
-    const float m = 1.0f - select(cosTheta < 1.0f, cosTheta, 1.0f), m2 = m * m;
-    return m2 * m2 * m;
 }
 
 /// Smith's Lambda [Heitz14, eq. 72]; infinite next to grazing incidence.
@@ -39,11 +25,6 @@ OSGRAYTRACE_INLINE float lambdaOf(float alpha2, float cosTheta)
 {
     const float cos2 = cosTheta * cosTheta, tan2 = (1.0f - cos2) / cos2;
     return 0.5f * (std::sqrt(1.0f + alpha2 * select(tan2 > 0.0f, tan2, 0.0f)) - 1.0f);
-}
-
-OSGRAYTRACE_INLINE float luminanceOf(float red, float green, float blue)
-{
-    return 0.2126f * red + 0.7152f * green + 0.0722f * blue;
 }
 
 /// Bsdf.h and Bsdf.cpp have the formulas.
@@ -64,8 +45,8 @@ OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const float* firstRow, con
         const float eta = s.eta[i], coat = s.coat[i], fraction = s.coatFraction[i];
         const float fresnelO = select(coat > 0.0f, fresnelDielectric(cosO, eta), 0.0f);
         const float belowO =
-            1.0f - (kRows ? rowAlbedo(firstRow, secondRow, fraction, cosO) : fresnelO);
-        const float belowI = 1.0f - (kRows ? rowAlbedo(firstRow, secondRow, fraction, cosI)
+            1.0f - (kRows ? between(firstRow, secondRow, fraction, cosO) : fresnelO);
+        const float belowI = 1.0f - (kRows ? between(firstRow, secondRow, fraction, cosI)
                                            : fresnelDielectric(cosI, eta));
         const float left = select(s.coated[i], belowI * belowO / s.belowAverage[i], 1.0f);
         const float lambert = kInvPi * cosI * left;

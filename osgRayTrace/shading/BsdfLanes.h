@@ -8,6 +8,8 @@
 namespace osgRayTrace::engine
 {
 
+constexpr int kLeastBsdfLanes = 3; ///< fewer take less time one by one
+
 /// The BSDFs of lanes, for evalBsdfLanes.
 struct BsdfLanes
 {

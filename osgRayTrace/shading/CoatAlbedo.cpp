@@ -63,7 +63,7 @@ std::shared_ptr<CoatAlbedo> CoatAlbedo::ofIndex(float eta)
 void CoatAlbedo::makeRow(int row)
 {
     if (_made[static_cast<std::size_t>(row)]) return;
-    constexpr int kSteps = CoatAlbedoRow::kSteps, kFine = 4; // places between two nodes
+    constexpr int kSteps = kCoatSteps, kFine = 4; // places between two nodes
     const double roughness = double(row) / kRoughnessSteps;
     const double alpha = std::max(roughness * roughness, double(kSmoothAlpha));
     double fine[kSteps * kFine + 1];

@@ -2,6 +2,7 @@
 // shading. SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/Lanes.h"
 #include "osgRayTrace/base/Math.h"
 
 #include <array>
@@ -12,23 +13,27 @@
 namespace osgRayTrace::engine
 {
 
+constexpr int kCoatSteps = 64; ///< of a row; nodes are squares of steps: steep at grazing angles
+
+/// Between the nodes of a row. Without branches, for loops over lanes.
+OSGRAYTRACE_INLINE float coatRowAlbedo(const float* albedo, float cosTheta)
+{
+    const float c = select(cosTheta > 0.0f, select(cosTheta < 1.0f, cosTheta, 1.0f), 0.0f);
+    const float x = std::sqrt(c) * static_cast<float>(kCoatSteps);
+    const int i = static_cast<int>(x);
+    return albedo[i] + (albedo[i + 1] - albedo[i]) * (x - static_cast<float>(i));
+}
+
 /// Directional albedo E(cos) of GGX reflection with the Fresnel factor of a dielectric, single
 /// scattering, and its average Eavg = 2 int E(c) c dc. A base under such a coat that is scaled by
 /// (1 - E(wo)) (1 - E(wi)) / (1 - Eavg) is reciprocal and takes what the coat leaves, no more
 /// [Kelemen01, sect. 3].
 struct CoatAlbedoRow
 {
-    static constexpr int kSteps = 64;       ///< nodes are squares of steps: steep at grazing angles
-    std::array<float, kSteps + 2> albedo{}; ///< the last one twice
+    std::array<float, kCoatSteps + 2> albedo{}; ///< the last one twice
     float average = 0.0f;
 
-    float operator()(float cosTheta) const
-    {
-        const float x = std::sqrt(std::fmin(std::fmax(cosTheta, 0.0f), 1.0f)) * kSteps;
-        const int i = static_cast<int>(x);
-        const float low = albedo[static_cast<std::size_t>(i)];
-        return low + (albedo[static_cast<std::size_t>(i) + 1] - low) * (x - static_cast<float>(i));
-    }
+    float operator()(float cosTheta) const { return coatRowAlbedo(albedo.data(), cosTheta); }
 };
 
 /// Rows of one index by roughness, made where they are asked for.

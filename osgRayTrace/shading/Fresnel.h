@@ -33,12 +33,17 @@ OSGRAYTRACE_INLINE float fresnelDielectric(float cosThetaI, float eta)
 /// couple a diffuse base to its coat. Not for inner loops.
 float fresnelDielectricAverage(float eta);
 
+/// How far Schlick's approximation is from normal to grazing incidence, for a cosine >= 0.
+OSGRAYTRACE_INLINE float schlickShare(float cosTheta)
+{
+    const float m = 1.0f - select(cosTheta < 1.0f, cosTheta, 1.0f), m2 = m * m;
+    return m2 * m2 * m;
+}
+
 /// Schlick's approximation between the reflectances at normal and at grazing incidence [Schlick94, eq. 24].
 inline Vec3 fresnelSchlick(float cosTheta, Vec3 f0, float f90)
 {
-    const float m = 1.0f - std::fmin(std::fmax(cosTheta, 0.0f), 1.0f);
-    const float m2 = m * m;
-    return f0 + (Vec3(f90) - f0) * (m2 * m2 * m);
+    return f0 + (Vec3(f90) - f0) * schlickShare(std::fmax(cosTheta, 0.0f));
 }
 
 } // namespace osgRayTrace::engine

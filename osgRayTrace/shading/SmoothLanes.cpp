@@ -9,16 +9,6 @@
 namespace osgRayTrace::engine
 {
 
-namespace
-{
-
-OSGRAYTRACE_INLINE float luminanceOf(float red, float green, float blue)
-{
-    return 0.2126f * red + 0.7152f * green + 0.0722f * blue;
-}
-
-} // namespace
-
 /// Reflection with the probability p of its share of what leaves the surface, refraction with 1 -
 /// p:
 ///
@@ -48,8 +38,7 @@ SmoothLanes sampleSmoothLanes(const InterfaceLanes& interfaces, const IncidentLa
         const float cosO = -(dx * nx + dy * ny + dz * nz);
 
         const float fresnel = select(interfaces.coat[i] > 0.0f, fresnelDielectric(cosO, eta), 0.0f);
-        const float m = 1.0f - select(cosO < 1.0f, cosO, 1.0f), m2 = m * m;
-        const float schlick = m2 * m2 * m, grazing = interfaces.grazing[i];
+        const float schlick = schlickShare(cosO), grazing = interfaces.grazing[i];
         const float coated = interfaces.coat[i] * fresnel;
         const float rx = interfaces.reflectance.x[i], ry = interfaces.reflectance.y[i],
                     rz = interfaces.reflectance.z[i];

@@ -23,6 +23,19 @@ enum class Traced
     Around, ///< and what is beside them
 };
 
+/// The first pass of a reduced image.
+void renderReduced(RenderSession& session, const View& view)
+{
+    RenderOptions options = optionsOf(IntegratorKind::Whitted);
+    options.centredFirstPass = true;
+    session.setScene(cornellBox().build());
+    session.setView(view);
+    session.setOptions(options);
+    StopRule rule;
+    rule.passes = 1;
+    REQUIRE(session.render(rule).status.ok());
+}
+
 /// A reduced image, and stages whose clock says that making the large one took so long.
 struct Enlarged
 {
@@ -32,14 +45,7 @@ struct Enlarged
             perspectiveView({278, 278, 20}, {278, 250, 559}, {0, 1, 0}, 50.0, kWidth, kHeight);
         view.width /= kDivider;
         view.height /= kDivider;
-        RenderOptions options = optionsOf(IntegratorKind::Whitted);
-        options.centredFirstPass = true;
-        session.setScene(cornellBox().build());
-        session.setView(view);
-        session.setOptions(options);
-        StopRule rule;
-        rule.passes = 1;
-        REQUIRE(session.render(rule).status.ok());
+        renderReduced(session, view);
         linear = expected(0.0);
         around = expected(ImageStages::kMostTraced);
         REQUIRE(counts.around > 0.06); // enough to learn from
@@ -65,15 +71,8 @@ struct Enlarged
     void showBlank(int pictures)
     {
         View view = perspectiveView({278, 278, -900}, {278, 250, -2000}, {0, 1, 0}, 50.0, 8, 8);
-        RenderOptions options = optionsOf(IntegratorKind::Whitted);
-        options.centredFirstPass = true;
         RenderSession blank(workers);
-        blank.setScene(cornellBox().build());
-        blank.setView(view);
-        blank.setOptions(options);
-        StopRule rule;
-        rule.passes = 1;
-        REQUIRE(blank.render(rule).status.ok());
+        renderReduced(blank, view);
         std::vector<uint8_t> rgba(4 * 16 * 16);
         for (int i = 0; i < pictures; ++i)
         {
@@ -146,6 +145,6 @@ TEST_CASE("image stages: images without edges do not make edges cheap", "[bridge
     enlarged.taken = 3e-6;
     enlarged.showBlank(2000);
     enlarged.taken = 0.001;
-    CHECK(enlarged.foreseen() < 0.002); // of a picture without
+    CHECK(enlarged.foreseen() < 0.002);                // of a picture without
     CHECK(enlarged.traced(0.0015) == Traced::Nothing); // as if nothing were known
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
+#include "tests/photons/RandomAxis.h"
 #include "tests/shading/BsdfKinds.h"
 
 #include "osgRayTrace/base/Parallel.h"
@@ -15,13 +16,6 @@ using namespace osgRayTrace::engine::test;
 
 namespace
 {
-
-const Vec3 kAxes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-
-Vec3 axis(Uniform& uniform)
-{
-    return kAxes[static_cast<int>(uniform() * 6.0f)];
-}
 
 Vec3 unit(Uniform& uniform)
 {

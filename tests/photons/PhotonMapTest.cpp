@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
+#include "tests/photons/RandomAxis.h"
 
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/photons/PhotonMap.h"
@@ -11,13 +12,6 @@ using namespace osgRayTrace::engine::test;
 
 namespace
 {
-
-const Vec3 kAxes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-
-Vec3 axis(Uniform& uniform)
-{
-    return kAxes[static_cast<int>(uniform() * 6.0f)];
-}
 
 /// On a lattice of 2^-10 in a cube of 1 around centre, with powers of 1 to 8: all sums and squares
 /// are exact in float, so the search through all of them has no roundings that the grid's could
