@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/StateFingerprint.h"
 
+#include "osgRayTrace/bridge/TextureFormats.h"
+
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/AlphaFunc>
@@ -124,7 +126,7 @@ void addImage(Digest& digest, const osg::Image* image)
 void addTexture(Digest& digest, const osg::Texture& texture)
 {
     digest.add(texture.getWrap(osg::Texture::WRAP_S), texture.getWrap(osg::Texture::WRAP_T),
-               texture.getFilter(osg::Texture::MAG_FILTER), texture.getInternalFormat(),
+               texture.getFilter(osg::Texture::MAG_FILTER), internalFormatOf(texture, nullptr),
                texture.getInternalFormatMode());
     for (int c = 0; c < 4; ++c)
         digest.add(texture.getBorderColor()[c]);

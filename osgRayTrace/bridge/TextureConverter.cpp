@@ -94,15 +94,6 @@ void fillMagenta(Texture& texture)
     texture.bytes = {255, 0, 255, 255};
 }
 
-/// The format in which OpenGL keeps it, which says what it lacks: the user's, or the image's.
-GLint internalFormatOf(const osg::Texture& texture, const osg::Image& image)
-{
-    if (texture.getInternalFormatMode() == osg::Texture::USE_USER_DEFINED_FORMAT &&
-        texture.getInternalFormat() != 0)
-        return texture.getInternalFormat();
-    return image.getInternalTextureFormat();
-}
-
 /// What OpenGL's base format lacks never reaches the texture environment [OpenGL21, table 3.22].
 void setChannels(GLint internalFormat, GLenum pixelFormat, Texture& texture)
 {
@@ -157,7 +148,7 @@ uint32_t TextureConverter::index(const osg::Texture* texture, TextureContent con
 {
     if (!texture) return kInvalid;
     const bool color = content == TextureContent::Color;
-    const bool decode = color && (_linear || isSrgbFormat(texture->getInternalFormat()));
+    const bool decode = color && (_linear || isSrgb(*texture));
     Entry& entry = _entries[{texture, decode}];
     const bool current = (entry.looked == _stamp && entry.texture.get() == texture) ||
                          isCurrent(entry, *texture);
@@ -175,6 +166,16 @@ uint32_t TextureConverter::index(const osg::Texture* texture, TextureContent con
     }
     _textures[entry.index] = entry.converted;
     return entry.index;
+}
+
+/// Also after the image was given up, if its format alone says so.
+bool TextureConverter::isSrgb(const osg::Texture& texture) const
+{
+    const osg::Image* image = texture.getImage(0);
+    if (isSrgbFormat(internalFormatOf(texture, image))) return true;
+    const auto known = image ? _entries.end() : _entries.find({&texture, true});
+    return known != _entries.end() && known->second.texture.get() == &texture &&
+           isSrgbFormat(known->second.internalFormat);
 }
 
 /// Keeps the entry's index. False if there is nothing to sample.
@@ -195,7 +196,7 @@ bool TextureConverter::convert(Entry& entry, const osg::Texture& texture, bool d
     }
     entry.index = index;
     entry.texture = &texture;
-    entry.internalFormat = internalFormatOf(texture, *texture.getImage(0));
+    entry.internalFormat = internalFormatOf(texture, texture.getImage(0));
     entry.converted = converted(texture, decode, report);
     return true;
 }
@@ -222,7 +223,7 @@ std::shared_ptr<Texture> TextureConverter::converted(const osg::Texture& texture
     result->wrapT = wrapOf(texture, osg::Texture::WRAP_T);
     if (texture.getTextureTarget() == GL_TEXTURE_1D) result->wrapT = TextureWrap::ClampToEdge;
     result->border = borderOf(texture);
-    setChannels(internalFormatOf(texture, image), image.getPixelFormat(), *result);
+    setChannels(internalFormatOf(texture, &image), image.getPixelFormat(), *result);
     result->changed = _stamp;
     return result;
 }
@@ -238,7 +239,7 @@ bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture& texture
         (old.wrapT != wrapOf(texture, osg::Texture::WRAP_T) && old.height > 1) || old.border != borderOf(texture))
         return false;
     const osg::Image* first = texture.getImage(0);
-    if (first && entry.internalFormat != internalFormatOf(texture, *first)) return false;
+    if (first && entry.internalFormat != internalFormatOf(texture, first)) return false;
     for (unsigned int i = 0; i < entry.images.size(); ++i)
     {
         const osg::Image* image = texture.getImage(i);

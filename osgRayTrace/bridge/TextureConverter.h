@@ -72,6 +72,7 @@ private:
         Stamp looked = 0;          // at its image
     };
 
+    bool isSrgb(const osg::Texture& texture) const;
     bool isCurrent(const Entry& entry, const osg::Texture& texture) const;
     bool convert(Entry& entry, const osg::Texture& texture, bool decode, ConversionReport& report);
     std::shared_ptr<Texture> converted(const osg::Texture& texture, bool decode,

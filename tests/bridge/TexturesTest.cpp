@@ -352,3 +352,32 @@ TEST_CASE("textures of a linear scene: colours are decoded, data and floats are 
     CHECK_FALSE(textures.at(material.transmissionTexture)->decodeSrgb);
     CHECK(textures.at(material.transmissionTexture)->floats == Floats{0.5f, 0, 0, 1});
 }
+
+TEST_CASE("a texture whose image was given up stays what its image's format made of it", "[bridge]")
+{
+    const auto image = imageOf<uint8_t>(1, 1, GL_RGB, GL_UNSIGNED_BYTE, {10, 20, 30});
+    image->setInternalTextureFormat(GL_SRGB8);
+    const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+    const auto geometry = texturedGeometry(texture);
+    SceneConverter converter;
+    CHECK(converter.convert(inputFor(geometry)).scene->textures.at(0)->decodeSrgb);
+    texture->setImage(nullptr);
+    const ConversionResult result = converter.convert(inputFor(geometry));
+    REQUIRE(soleMaterial(result).baseColorTexture == 0);
+    CHECK(result.scene->textures.at(0)->decodeSrgb);
+    CHECK(result.scene->textures.at(0)->bytes == Bytes{10, 20, 30, 255});
+}
+
+TEST_CASE("texture modes that compress: the base format is OpenGL's", "[bridge]")
+{
+    const auto converted = [](osg::Texture::InternalFormatMode mode)
+    {
+        const osg::ref_ptr<osg::Texture2D> texture =
+            new osg::Texture2D(imageOf<uint8_t>(1, 1, GL_RGBA, GL_UNSIGNED_BYTE, {10, 20, 30, 40}));
+        texture->setInternalFormatMode(mode);
+        return convertGraph(texturedGeometry(texture)).scene->textures.at(0)->bytes;
+    };
+    CHECK(converted(osg::Texture::USE_S3TC_DXT1_COMPRESSION) == Bytes{10, 20, 30, 40});
+    CHECK(converted(osg::Texture::USE_S3TC_DXT5_COMPRESSION) == Bytes{10, 20, 30, 40});
+    CHECK(converted(osg::Texture::USE_S3TC_DXT1c_COMPRESSION) == Bytes{10, 20, 30, 255});
+}

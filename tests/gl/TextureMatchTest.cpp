@@ -305,3 +305,44 @@ TEST_CASE("match: pixel formats, packed, wide and compressed", "[gl][coverage]")
         checkMatch(std::string("format-") + format.name, root);
     }
 }
+
+/// Four blocks of one colour each, which compression keeps.
+static osg::ref_ptr<osg::Image> blocks(GLenum format)
+{
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(8, 8, 1, format, GL_UNSIGNED_BYTE);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+            image->setColor(osg::Vec4(x < 4 ? 1.0f : 0.0f, y < 4 ? 1.0f : 0.0f, 1.0f,
+                                      (x < 4) == (y < 4) ? 0.25f : 1.0f),
+                            x, y);
+    return image;
+}
+
+TEST_CASE("match: textures that OpenGL compresses", "[gl]")
+{
+    using osg::Texture;
+    struct Mode
+    {
+        const char* name;
+        Texture::InternalFormatMode mode;
+        GLenum format;
+    };
+    const Mode modes[] = {{"arb", Texture::USE_ARB_COMPRESSION, GL_RGB},
+                          {"dxt1", Texture::USE_S3TC_DXT1_COMPRESSION, GL_RGB},
+                          {"dxt1c", Texture::USE_S3TC_DXT1c_COMPRESSION, GL_RGBA},
+                          {"dxt3", Texture::USE_S3TC_DXT3_COMPRESSION, GL_RGB},
+                          {"dxt5", Texture::USE_S3TC_DXT5_COMPRESSION, GL_RGBA}};
+    for (const Mode& mode : modes)
+    {
+        const auto front = unlit(square(3.0f, {1, 1, 1, 1}, 1.0f, 0.1f));
+        osg::StateSet& state = *front->getStateSet();
+        const auto texture = textureOf(blocks(mode.format), Texture::REPEAT, Texture::NEAREST);
+        texture->setInternalFormatMode(mode.mode);
+        state.setTextureAttributeAndModes(0, texture);
+        state.setMode(GL_BLEND, kOn);
+        state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+        const auto root = groupOf({unlit(square(3.5f, osg::Vec4(0.2f, 0.5f, 0.8f, 1.0f))), front});
+        checkMatch(std::string("compressed-") + mode.name, root);
+    }
+}
