@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "Parameters.h"
 
+#include "osgPlugins/OwnFolder.h"
+
 #include <osgRayTrace/RayTracedScene>
 
 #include <osgDB/FileNameUtils>
@@ -18,7 +20,11 @@
 class ReaderWriterRayTrace : public osgDB::ReaderWriter
 {
 public:
-    ReaderWriterRayTrace() { supportsExtension("raytrace", "Ray tracing pseudo-loader"); }
+    ReaderWriterRayTrace()
+    {
+        supportsExtension("raytrace", "Ray tracing pseudo-loader");
+        osgRayTrace::engine::preferOwnFolder(); // for the images of what it loads
+    }
 
     const char* className() const override { return "ray tracing pseudo-loader"; }
 

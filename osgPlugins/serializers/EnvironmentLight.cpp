@@ -1,5 +1,7 @@
 // EnvironmentLight.cpp - EnvironmentLight in .osgt, .osgb and .osgx files. Layer: plugins.
 // SPDX-License-Identifier: MIT
+#include "osgPlugins/OwnFolder.h"
+
 #include <osgRayTrace/EnvironmentLight>
 
 #include <osgDB/InputStream>
@@ -10,6 +12,7 @@ REGISTER_OBJECT_WRAPPER(osgRayTrace_EnvironmentLight, new osgRayTrace::Environme
                         osgRayTrace::EnvironmentLight,
                         "osg::Object osg::Node osgRayTrace::EnvironmentLight")
 {
+    osgRayTrace::engine::preferOwnFolder(); // its image may be a .hdr file
     ADD_IMAGE_SERIALIZER(Image, osg::Image, nullptr);
     ADD_OBJECT_SERIALIZER(CubeMap, osg::TextureCubeMap, nullptr);
     ADD_QUAT_SERIALIZER(Rotation, osg::Quat());

@@ -94,29 +94,8 @@ void editHeader(std::string& file, Dice& dice)
 
 void damage(std::string& file, Dice& dice)
 {
-    const auto place = [&]
-    { return static_cast<std::size_t>(dice.below(static_cast<int>(file.size()))); };
-    switch (dice.below(6))
-    {
-    case 0:
-        file.resize(place());
-        return;
-    case 1:
-        for (int i = 1 + dice.below(16); i > 0; --i)
-            file[place()] = static_cast<char>(dice.bits());
-        return;
-    case 2:
-        file[place()] ^= static_cast<char>(1 << dice.below(8));
-        return;
-    case 3:
-        file.erase(place(), static_cast<std::size_t>(1 + dice.below(20)));
-        return;
-    case 4:
-        file.insert(place(), std::string(static_cast<std::size_t>(1 + dice.below(20)), '\0'));
-        return;
-    default:
-        editHeader(file, dice);
-    }
+    const int way = dice.below(6);
+    way < kDamages ? damageBytes(file, way, dice) : editHeader(file, dice);
 }
 
 } // namespace

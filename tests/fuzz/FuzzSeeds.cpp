@@ -65,6 +65,30 @@ double Dice::strange(double size, int rarity)
     return oneOf(kStrange);
 }
 
+void damageBytes(std::string& file, int way, Dice& dice)
+{
+    const auto place = [&]
+    { return static_cast<std::size_t>(dice.below(static_cast<int>(file.size()))); };
+    switch (way)
+    {
+    case 0:
+        file.resize(place());
+        return;
+    case 1:
+        for (int i = 1 + dice.below(16); i > 0; --i)
+            file[place()] = static_cast<char>(dice.bits());
+        return;
+    case 2:
+        file[place()] ^= static_cast<char>(1 << dice.below(8));
+        return;
+    case 3:
+        file.erase(place(), static_cast<std::size_t>(1 + dice.below(20)));
+        return;
+    default:
+        file.insert(place(), std::string(static_cast<std::size_t>(1 + dice.below(20)), '\0'));
+    }
+}
+
 int sanitizerShare()
 {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

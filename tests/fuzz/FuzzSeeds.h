@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <random>
+#include <string>
 
 namespace osgRayTrace::test
 {
@@ -35,6 +36,12 @@ public:
 private:
     std::mt19937 _engine;
 };
+
+/// Ways to damage a file.
+constexpr int kDamages = 5;
+
+/// Cuts the file off, or changes bytes or a bit of it, or takes bytes out, or puts zeros in. It is not empty.
+void damageBytes(std::string& file, int way, Dice& dice);
 
 /// A sanitizer's share of the seeds: 1 without one.
 int sanitizerShare();
