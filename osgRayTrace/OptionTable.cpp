@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/OptionTable.h"
 
+#include "osgRayTrace/base/NeverDestroyed.h"
 #include "osgRayTrace/bridge/LightSizes.h"
 
 #include <algorithm>
@@ -12,11 +13,11 @@ namespace osgRayTrace
 namespace
 {
 
-const Words kSwitchWords{"false", "true"};
+constexpr std::string_view kSwitchWords[] = {"false", "true"};
 
 /// Lower case without dashes and underscores: "light-samples", "LIGHT_SAMPLES" and "lightSamples"
 /// agree.
-std::string plainName(const std::string& name)
+std::string plainName(std::string_view name)
 {
     std::string plain;
     for (char c : name)
@@ -72,22 +73,23 @@ OptionRow numberRow(const std::string& name, const Range<T>& range,
 }
 
 template <typename T>
-OptionRow choiceRow(const std::string& name, const Words& words, T (RayTraceSettings::*get)() const,
+OptionRow choiceRow(const std::string& name, Words words, T (RayTraceSettings::*get)() const,
                     void (RayTraceSettings::*set)(T), const std::string& help)
 {
     std::string range;
-    for (const std::string& word : words)
+    for (const std::string_view word : words)
     {
-        range += (range.empty() ? "" : "|") + word;
+        if (!range.empty()) range += '|';
+        range += word;
     }
 
     OptionRow row;
     row.option = describe(name, range, help);
-    row.get = [&words, get](const RayTraceSettings& settings)
-    { return words[static_cast<size_t>((settings.*get)())]; };
-    row.set = [&words, set](RayTraceSettings& settings, const std::string& text)
+    row.get = [words, get](const RayTraceSettings& settings)
+    { return std::string(words.begin()[static_cast<size_t>((settings.*get)())]); };
+    row.set = [words, set](RayTraceSettings& settings, const std::string& text)
     {
-        const auto isMeant = [&text](const std::string& word)
+        const auto isMeant = [&text](std::string_view word)
         { return plainName(word) == plainName(text); };
         const auto found = std::find_if(words.begin(), words.end(), isMeant);
         if (found == words.end()) return false;
@@ -145,7 +147,7 @@ bool areLightSizes(const std::string& text)
 const std::vector<OptionRow>& optionTable()
 {
     using S = RayTraceSettings;
-    static const std::vector<OptionRow> table{
+    static const engine::NeverDestroyed<std::vector<OptionRow>> table(std::vector<OptionRow>{
         choiceRow("integrator", kIntegratorWords, &S::getIntegrator, &S::setIntegrator,
                   "How light is computed; auto: whitted for fixed-function scenes, path for "
                   "physical ones, photon-caustics for those with mirrors or glass"),
@@ -203,13 +205,14 @@ const std::vector<OptionRow>& optionTable()
         switchRow("aim-at-views", &S::getAimAtViews, &S::setAimAtViews,
                   "Photons for mirrors and glass go where the views see their light"),
         choiceRow("denoise", kDenoiseWords, &S::getDenoise, &S::setDenoise,
-                  "Takes out the noise of few passes; oidn: by Open Image Denoise, where that is built in"),
+                  "Takes out the noise of few passes; oidn: by Open Image Denoise, where that is "
+                  "built in"),
         textRow("materials", "none|FILE", &S::getMaterials, &S::setMaterials, isAnything,
                 "JSON file of physical materials by names in the model"),
         choiceRow("debug-channel", kDebugChannelWords, &S::getDebugChannel, &S::setDebugChannel,
                   "What the debug integrator shows"),
-    };
-    return table;
+    });
+    return *table;
 }
 
 /// Null if there is no such option.

@@ -5,9 +5,11 @@
 #include <osgRayTrace/RayTraceSettings>
 
 #include <charconv>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace osgRayTrace
@@ -37,19 +39,38 @@ constexpr Range<int> kPhotonsRange{0, 1 << 24};
 constexpr Range<float> kPhotonRadiusRange{0.0f, 1e30f};
 constexpr Range<float> kPhotonAlphaRange{0.1f, 0.99f};
 
-using Words = std::vector<std::string>;
+/// The words of a choice, which stand in an array that is never destroyed.
+class Words
+{
+public:
+    template <std::size_t N>
+    constexpr Words(const std::string_view (&words)[N]) : _begin(words), _size(N)
+    {
+    }
+
+    constexpr const std::string_view* begin() const { return _begin; }
+    constexpr const std::string_view* end() const { return _begin + _size; }
+    constexpr std::size_t size() const { return _size; }
+
+private:
+    const std::string_view* _begin;
+    std::size_t _size;
+};
 
 // The words of a choice stand in the order of its enumerators.
 
-inline const Words kIntegratorWords{"auto", "whitted",         "path", "ppm",
-                                    "sppm", "photon-caustics", "debug"};
-inline const Words kRadiusScheduleWords{"global", "local"};
-inline const Words kLightSamplingWords{"random", "uniform-jitter", "stratified", "sobol"};
-inline const Words kEnvironmentSamplingWords{"importance", "structured", "uniform"};
-inline const Words kDebugChannelWords{"normal", "uv", "id", "albedo", "depth", "dropped", "cost"};
-inline const Words kDenoiseWords{"off", "filter", "oidn"};
-inline const Words kPresentationWords{"frame-locked", "background"};
-inline const Words kColorRuleWords{"auto", "display-referred", "linear"};
+inline constexpr std::string_view kIntegratorWords[] = {"auto", "whitted",         "path", "ppm",
+                                                        "sppm", "photon-caustics", "debug"};
+inline constexpr std::string_view kRadiusScheduleWords[] = {"global", "local"};
+inline constexpr std::string_view kLightSamplingWords[] = {"random", "uniform-jitter", "stratified",
+                                                           "sobol"};
+inline constexpr std::string_view kEnvironmentSamplingWords[] = {"importance", "structured",
+                                                                 "uniform"};
+inline constexpr std::string_view kDebugChannelWords[] = {"normal", "uv",      "id",  "albedo",
+                                                          "depth",  "dropped", "cost"};
+inline constexpr std::string_view kDenoiseWords[] = {"off", "filter", "oidn"};
+inline constexpr std::string_view kPresentationWords[] = {"frame-locked", "background"};
+inline constexpr std::string_view kColorRuleWords[] = {"auto", "display-referred", "linear"};
 
 /// Shortest text that reads back as the same value, in any locale.
 template <typename T> std::string textOf(T value)

@@ -40,8 +40,7 @@ void changeNumber(const char* name, const Range<T>& range, T& member, T value,
 
 /// Not an enumerator: ignored.
 template <typename T>
-void changeChoice(const char* name, const Words& words, T& member, T value,
-                  unsigned int& modifiedCount)
+void changeChoice(const char* name, Words words, T& member, T value, unsigned int& modifiedCount)
 {
     const long long index = static_cast<long long>(value);
     if (index < 0 || index >= static_cast<long long>(words.size()))

@@ -4,6 +4,8 @@
 // Preloaded, this definition is found before that of libosgViewer, which it calls.
 #include "ToggleKey.h"
 
+#include "osgRayTrace/base/NeverDestroyed.h"
+
 #include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osgViewer/View>
@@ -51,9 +53,9 @@ bool holdsTracedScene(osg::Node& node)
 osg::ref_ptr<RayTracedScene> tracedScene(osg::Node& node)
 {
     static std::mutex mutex;
-    static std::map<osg::Node*, osg::observer_ptr<RayTracedScene>> scenes;
+    static engine::NeverDestroyed<std::map<osg::Node*, osg::observer_ptr<RayTracedScene>>> scenes;
     std::lock_guard<std::mutex> lock(mutex);
-    osg::observer_ptr<RayTracedScene>& known = scenes[&node];
+    osg::observer_ptr<RayTracedScene>& known = (*scenes)[&node];
     osg::ref_ptr<RayTracedScene> scene;
     if (known.lock(scene) && scene->containsNode(&node)) return scene;
     scene = new RayTracedScene;

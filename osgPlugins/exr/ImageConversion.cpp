@@ -1,7 +1,9 @@
 // ImageConversion.cpp - osg::Image to OpenEXR channels and back. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/exr/ImageConversion.h"
+
 #include "osgPlugins/exr/ExrError.h"
+#include "osgRayTrace/base/NeverDestroyed.h"
 
 #include <osg/Texture>
 
@@ -30,7 +32,8 @@ struct Layout
 
 const std::vector<Layout>& layouts()
 {
-    static const std::vector<Layout> table = {
+    using engine::NeverDestroyed;
+    static const NeverDestroyed<std::vector<Layout>> table(std::vector<Layout>{
         {GL_RGB, {"R", "G", "B"}, GL_RGB32F_ARB, GL_RGB16F_ARB},
         {GL_RGBA, {"R", "G", "B", "A"}, GL_RGBA32F_ARB, GL_RGBA16F_ARB},
         {GL_LUMINANCE, {"Y"}, GL_LUMINANCE32F_ARB, GL_LUMINANCE16F_ARB},
@@ -41,18 +44,18 @@ const std::vector<Layout>& layouts()
         {GL_RED, {"Y"}},
         {GL_INTENSITY, {"Y"}},
         {GL_DEPTH_COMPONENT, {"Y"}},
-    };
-    return table;
+    });
+    return *table;
 }
 
 const Layout& layoutOf(GLenum pixelFormat)
 {
-    static const Layout none = {GL_NONE, {}};
+    static const engine::NeverDestroyed<Layout> none(Layout{GL_NONE, {}});
     for (const Layout& layout : layouts())
     {
         if (layout.pixelFormat == pixelFormat) return layout;
     }
-    return none;
+    return *none;
 }
 
 GLenum formatOf(const ExrImage& image)
@@ -189,8 +192,9 @@ ExrImage deinterleave(const osg::Image& image, const Layout& layout, bool asHalf
 
 const std::vector<std::string>& exrColorChannels()
 {
-    static const std::vector<std::string> names = {"R", "G", "B", "A", "Y"};
-    return names;
+    static const engine::NeverDestroyed<std::vector<std::string>> names(
+        std::vector<std::string>{"R", "G", "B", "A", "Y"});
+    return *names;
 }
 
 std::string toOsgImage(const ExrImage& image, GLenum type, osg::ref_ptr<osg::Image>& result)

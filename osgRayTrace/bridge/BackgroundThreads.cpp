@@ -2,6 +2,8 @@
 // Layer: bridge. SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/BackgroundThreads.h"
 
+#include "osgRayTrace/base/NeverDestroyed.h"
+
 #include <OpenThreads/Thread>
 
 #include <atomic>
@@ -31,10 +33,9 @@ struct Threads
     bool exiting = false;
 };
 
-/// Never destroyed: static objects of the host may own scenes, and go after it would have.
 Threads& threads()
 {
-    static Threads* const all = new Threads;
+    static NeverDestroyed<Threads> all;
     return *all;
 }
 

@@ -84,6 +84,7 @@ struct BackgroundTracer::Worker
 
     bool ask(const TraceRequest& request, uint64_t frame);
     void stop();
+    void end();
     void run() noexcept;
     Outcome step(const TraceRequest& request) noexcept;
     Outcome tryToTrace(const TraceRequest& request) noexcept;
@@ -107,7 +108,8 @@ struct BackgroundTracer::Worker
     int unasked = 0;         ///< steps since a frame asked
     int guests = 0;          ///< who have a Lease, or wait for one
     bool running = false;    ///< there is a thread
-    bool stops = false;      ///< it shall end
+    bool stops = false;      ///< it shall end, unless somebody asks before it does
+    bool ended = false;      ///< the process ends: it shall end whoever asks
     bool working = false;    ///< it is in a step
     uint64_t taken = 0;      ///< number of the request that the worker is at
     bool handedOver = false; ///< an image of that
@@ -128,6 +130,7 @@ bool BackgroundTracer::Worker::ask(const TraceRequest& request, uint64_t frame)
     bool starts = false;
     {
         std::lock_guard<std::mutex> lock(mutex);
+        if (ended) return false;
         const bool differs = !wanted || !same(*wanted, request);
         if (differs)
             old = std::exchange(wanted, std::make_shared<TraceRequest>(withoutGraph(request)));
@@ -153,6 +156,16 @@ void BackgroundTracer::Worker::stop()
         fresh = false;
     }
     wake.notify_one();
+}
+
+/// When the process ends: other threads may draw, and so ask, until the very end of it.
+void BackgroundTracer::Worker::end()
+{
+    {
+        std::lock_guard<std::mutex> lock(mutex);
+        ended = true;
+    }
+    stop();
 }
 
 /// On the worker's thread.
@@ -275,7 +288,7 @@ void BackgroundTracer::ask(const TraceRequest& request, uint64_t frame)
         const std::weak_ptr<Worker> weak = _worker;
         const auto stop = [weak]
         {
-            if (const std::shared_ptr<Worker> worker = weak.lock()) worker->stop();
+            if (const std::shared_ptr<Worker> worker = weak.lock()) worker->end();
         };
         started = startBackgroundThread([worker = _worker] { worker->run(); }, stop);
         noteFailure();

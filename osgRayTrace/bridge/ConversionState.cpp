@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/ConversionState.h"
 
+#include "osgRayTrace/base/NeverDestroyed.h"
+
 #include <utility>
 
 namespace osgRayTrace::engine
@@ -34,8 +36,8 @@ void noteFlat(const Scene& scene, bool comparable, ConversionCaches& caches)
 
 const std::shared_ptr<const Mesh>& emptyMesh()
 {
-    static const std::shared_ptr<const Mesh> mesh = std::make_shared<const Mesh>();
-    return mesh;
+    static const NeverDestroyed<std::shared_ptr<const Mesh>> mesh(std::make_shared<const Mesh>());
+    return *mesh;
 }
 
 } // namespace osgRayTrace::engine

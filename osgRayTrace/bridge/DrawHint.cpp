@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 namespace osgRayTrace::engine
 {
@@ -13,7 +14,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-const std::string kPrefix = "osgRayTrace:";
+constexpr std::string_view kPrefix = "osgRayTrace:";
 
 struct HintWord
 {
@@ -67,7 +68,7 @@ void setOwnHint(osg::Node& node, DrawHint hint)
                            descriptions.end());
     }
     for (const HintWord& known : kWords)
-        if (known.hint == hint) node.addDescription(kPrefix + known.word);
+        if (known.hint == hint) node.addDescription(std::string(kPrefix) + known.word);
 }
 
 } // namespace osgRayTrace::engine

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GeometryCache.h"
 
+#include "osgRayTrace/base/NeverDestroyed.h"
 #include "osgRayTrace/bridge/NodePrints.h"
 #include "osgRayTrace/bridge/VertexArrays.h"
 
@@ -94,9 +95,9 @@ const MeshRequest* GeometryCache::lastRequest(const osg::Geometry& geometry) con
 
 const ConversionCounts& GeometryCache::lastCounts(const osg::Geometry& geometry) const
 {
-    static const ConversionCounts none;
+    static const NeverDestroyed<ConversionCounts> none;
     const Entry* entry = find(geometry);
-    return entry ? entry->counts : none;
+    return entry ? entry->counts : *none;
 }
 
 bool GeometryCache::hasSameArrays(const osg::Geometry& geometry) const

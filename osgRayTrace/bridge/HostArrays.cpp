@@ -2,9 +2,10 @@
 // bridge. SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/HostArrays.h"
 
+#include "osgRayTrace/base/NeverDestroyed.h"
+
 #include <list>
 #include <mutex>
-#include <new>
 
 namespace osgRayTrace::engine
 {
@@ -20,12 +21,9 @@ struct Released
     Arrays arrays;
 };
 
-/// Never destroyed: static objects of the host may own scenes, and go after it would have. Needs no
-/// memory.
 Released& released()
 {
-    alignas(Released) static unsigned char place[sizeof(Released)];
-    static Released* const all = new (place) Released;
+    static NeverDestroyed<Released> all;
     return *all;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/TextureConverter.h"
 
+#include "osgRayTrace/base/NeverDestroyed.h"
 #include "osgRayTrace/bridge/PixelDecoder.h"
 #include "osgRayTrace/bridge/TextureFormats.h"
 
@@ -259,12 +260,14 @@ void TextureConverter::end()
 
 void TextureConverter::keepOnly(const std::vector<bool>& used)
 {
-    static const std::shared_ptr<const Texture> nothing = []
-    {
-        auto texture = std::make_shared<Texture>();
-        fillMagenta(*texture);
-        return texture;
-    }();
+    static const NeverDestroyed<std::shared_ptr<const Texture>> kept(
+        []
+        {
+            auto texture = std::make_shared<Texture>();
+            fillMagenta(*texture);
+            return texture;
+        }());
+    const std::shared_ptr<const Texture>& nothing = *kept;
     for (uint32_t i = 0; i < _textures.size(); ++i)
     {
         if (used[i] || _textures[i] == nothing) continue;

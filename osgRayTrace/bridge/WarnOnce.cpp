@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/WarnOnce.h"
 
+#include "osgRayTrace/base/NeverDestroyed.h"
+
 #include <osg/Notify>
 
 #include <exception>
@@ -20,9 +22,9 @@ constexpr size_t kMostMessages = 4096; ///< then silence: a scene may hold any n
 bool isNew(const std::string& subject)
 {
     static std::mutex mutex;
-    static std::unordered_set<std::string> said; // guarded by mutex
+    static NeverDestroyed<std::unordered_set<std::string>> said; // guarded by mutex
     const std::lock_guard<std::mutex> lock(mutex);
-    return said.size() < kMostMessages && said.insert(subject).second;
+    return said->size() < kMostMessages && said->insert(subject).second;
 }
 
 } // namespace

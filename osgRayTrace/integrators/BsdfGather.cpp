@@ -10,6 +10,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
+constexpr std::size_t kUsuallyFound =
+    256; ///< photons around sixteen points beside each other, or fewer
+
 /// Adds what surfaces send back of a photon.
 OSGRAYTRACE_KERNEL
 void addPhoton(const Photon& photon, const Vec3Lanes& wi, const Vec3Lanes& fCos,
@@ -41,8 +44,8 @@ Vec3 evalAlone(const GatherLanes& points, int i, Vec3 wi)
 void addReflected(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes& sums)
 {
     const BsdfLanes bsdfs = bsdfLanes(points.bsdfs, points.queries.lanes);
-    static thread_local std::vector<FoundPhoton> found;
-    found.clear();
+    std::vector<FoundPhoton> found;
+    found.reserve(kUsuallyFound);
     map.find(points.queries, found);
     Vec3Lanes wi, fCos;
     FloatLanes pdfW;
@@ -72,8 +75,7 @@ void addTransmitted(const PhotonMap& map, const GatherLanes& points, int i, Phot
     behind.normal = -behind.normal;
     const ShadingFrame frame(behind.shadingNormal);
     const Vec3 wo = frame.toLocal(laneOf(points.wo, i));
-    static thread_local std::vector<uint32_t> found;
-    found.clear();
+    std::vector<uint32_t> found;
     map.find(behind, found);
     Vec3 power = laneOf(sums.power, i);
     for (const uint32_t k : found)

@@ -22,8 +22,7 @@ constexpr uint32_t kMostNotedPhotons = 2048;
 void noteSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
               std::vector<SeenPhoton>& seen)
 {
-    static thread_local std::vector<uint32_t> found;
-    found.clear();
+    std::vector<uint32_t> found;
     map.find(query, found);
     float power = 0.0f;
     for (const uint32_t k : found)

@@ -21,7 +21,7 @@ constexpr int kNarrowings = 8; ///< of the octave that the radius is in
 float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float largest)
 {
     if (!(least < largest)) return largest;
-    static thread_local PhotonReaches reaches;
+    PhotonReaches reaches;
     query.radius = largest;
     if (map.findReaches(query, kMostReaches, reaches))
         return std::clamp(reaches.radiusBefore(kRadiusPhotons), least, largest);

@@ -257,6 +257,7 @@ void PhotonMap::find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& 
 {
     if (_count == 0) return;
     const PhotonColumns all = columns();
+    std::vector<uint32_t> own;
     forEachGroup(
         queries,
         [&](LaneMask group, const Range* ranges, int count)
@@ -269,7 +270,6 @@ void PhotonMap::find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& 
         },
         [&](int lane)
         {
-            static thread_local std::vector<uint32_t> own;
             own.clear();
             find(laneOf(queries, lane), own);
             for (const uint32_t k : own)

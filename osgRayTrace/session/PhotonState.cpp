@@ -46,8 +46,7 @@ constexpr std::size_t kMostNotedStride = 16; ///< and no fewer than one of these
 
 /// Sums by bin of the squares of what single photons added, relative to the radiance of the tile as in
 /// RenderProgress::relativeError: dim places matter, too. There may be thousands of photons for each bin.
-std::vector<SeenSquares> squaresOf(const std::vector<SeenPhoton>& seen, const RgbaLanes* rgba,
-                                   std::size_t bins)
+std::vector<SeenSquares> squaresOf(const std::vector<SeenPhoton>& seen, const RgbaLanes* rgba)
 {
     float sum = 0.0f;
     for (int b = 0; b < kTileBlocks; ++b)
@@ -55,18 +54,16 @@ std::vector<SeenSquares> squaresOf(const std::vector<SeenPhoton>& seen, const Rg
             sum += luminance(Vec3(rgba[b].r[i], rgba[b].g[i], rgba[b].b[i]));
     const float mean = sum / kTilePixels;
 
-    static thread_local std::vector<double> sums; // 0 but for those of result
-    if (sums.size() < bins) sums.resize(bins);
+    std::vector<SeenPhoton> byBin = seen;
+    std::stable_sort(byBin.begin(), byBin.end(),
+                     [](const SeenPhoton& a, const SeenPhoton& b) { return a.bin < b.bin; });
     std::vector<SeenSquares> result;
-    result.reserve(std::min(seen.size(), bins)); // what throws later leaves sums behind
-    for (const SeenPhoton& photon : seen)
+    for (const SeenPhoton& photon : byBin)
     {
-        double& squares = sums[photon.bin];
-        if (squares == 0.0) result.push_back({photon.bin, 0.0});
-        squares += static_cast<double>(photon.radiance * (photon.radiance / (mean * mean + 0.01f)));
+        if (result.empty() || result.back().bin != photon.bin) result.push_back({photon.bin, 0.0});
+        result.back().squares +=
+            static_cast<double>(photon.radiance * (photon.radiance / (mean * mean + 0.01f)));
     }
-    for (SeenSquares& bin : result)
-        bin.squares = std::exchange(sums[bin.bin], 0.0);
     return result;
 }
 
@@ -245,8 +242,7 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
                       RgbaLanes* rgba)
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
-    if (gathered.seenStride)
-        _seen[static_cast<std::size_t>(tile)] = squaresOf(gathered.seen, rgba, _seenSquares.size());
+    if (gathered.seenStride) _seen[static_cast<std::size_t>(tile)] = squaresOf(gathered.seen, rgba);
     // By tile, so that no thread's luck decides which are kept.
     if (HitPoints* hits = hitPoints(tile);
         hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())

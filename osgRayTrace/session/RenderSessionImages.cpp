@@ -2,6 +2,7 @@
 // channels. Layer: session. SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/RenderSessionState.h"
 
+#include "osgRayTrace/base/NeverDestroyed.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/film/Resolve.h"
 #include "osgRayTrace/integrators/FirstHit.h"
@@ -135,10 +136,10 @@ ShownImage RenderSession::shownImage() const
 
 const std::vector<SurfaceSample>& RenderSession::surfaceSamples() const
 {
-    static const std::vector<SurfaceSample> kNone;
+    static const NeverDestroyed<std::vector<SurfaceSample>> kNone;
     Implementation& session = *_implementation;
     const bool hasImage = session.filmScene && session.film.passes() > 0;
-    if (!hasImage) return kNone;
+    if (!hasImage) return *kNone;
     if (!session.hasSamples)
         engine::surfaceSamples(session.contextOfPass(0), *session.workers, session.samples);
     session.hasSamples = true;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/CoatAlbedo.h"
 
+#include "osgRayTrace/base/NeverDestroyed.h"
 #include "osgRayTrace/shading/Fresnel.h"
 #include "osgRayTrace/shading/Ggx.h"
 
@@ -51,8 +52,9 @@ double albedoOf(double cosine, double alpha, float eta)
 std::shared_ptr<CoatAlbedo> CoatAlbedo::ofIndex(float eta)
 {
     static std::mutex mutex;
-    static std::map<float, std::weak_ptr<CoatAlbedo>> tables;
+    static NeverDestroyed<std::map<float, std::weak_ptr<CoatAlbedo>>> kept;
     const std::lock_guard<std::mutex> lock(mutex);
+    std::map<float, std::weak_ptr<CoatAlbedo>>& tables = *kept;
     for (auto entry = tables.begin(); entry != tables.end();)
         entry = entry->second.expired() ? tables.erase(entry) : std::next(entry);
     std::shared_ptr<CoatAlbedo> table = tables[eta].lock();

@@ -3,11 +3,13 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
+#include "osgRayTrace/bridge/BackgroundThreads.h"
 #include "osgRayTrace/bridge/BackgroundTracer.h"
 #include "osgRayTrace/bridge/RenderOptionsFromSettings.h"
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -387,4 +389,21 @@ TEST_CASE("background: several views share a pool of threads, photons and a scen
         REQUIRE(tracers[i]->takeNewest(desk.shown));
         CHECK(desk.reference(i, 3) == desk.shown);
     }
+}
+
+// A test of its own: what it checks is that the process ends.
+TEST_CASE("background: who asks on while the process ends does not keep the worker from ending",
+          "[.][ask-while-exiting]")
+{
+    static Desk& desk = *new Desk;
+    desk.ask(0.0);
+    desk.gate->awaitHeld(); // at work
+    const auto askOn = []
+    {
+        desk.ask(1.0); // the view's worker has been told to stop: threads are in the order of their
+                       // start
+        desk.gate->pass(kAll);
+    };
+    REQUIRE(startBackgroundThread([] {}, askOn));
+    std::exit(0);
 }
