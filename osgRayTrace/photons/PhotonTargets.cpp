@@ -56,6 +56,7 @@ Sphere tightSphere(const Scene& scene, const Instance& instance, const Box& box)
 /// True if a photon can be mirrored or let through by a mirror-like lobe.
 bool bendsLight(const MaterialRecord& record)
 {
+    if (record.fixedFunction) return false; // highlights are never that narrow
     const auto bends = [&](const Bsdf& bsdf)
     {
         if (!bsdf.reflects() && !bsdf.transmits()) return false;

@@ -31,7 +31,7 @@ enum class Transport
 /// F of a smooth one, S = Schlick with reflectance and grazing.
 /// With alpha below kSmoothAlpha D is a delta function; refraction is one, too, where microfacets turn it by
 /// too little, which takes an index close to 1. Neither side makes energy, as diffuse +
-/// transmission <= coat = 1 - grazing.
+/// transmission <= 1 - grazing, and coat is 0 or 1 - grazing.
 struct Bsdf
 {
     Vec3 diffuse{0.0f};      ///< albedo of the base

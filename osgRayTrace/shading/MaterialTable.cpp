@@ -34,6 +34,33 @@ float maxComponent(Vec3 v) { return std::max(v.x, std::max(v.y, v.z)); }
 
 Vec3 clampUnit(Vec3 v) { return glm::clamp(v, 0.0f, 1.0f); }
 
+/// What an interface of index 1.5 reflects at normal incidence: so much highlight any surface keeps.
+constexpr float kLeastHighlight = 0.04f;
+
+/// GGX reflectance that sends back as much light as a highlight of OpenGL's of colour 1 [OpenGL21, eq. 2.1],
+/// from a sphere that is lit and seen from the same far point: there the highlight is cos^s, with a mean of
+/// 2/(s+2) over the sphere's disc, and GGX is D G2 / (4 cos) [Walter07, eq. 20] of alpha^2 = 2/(s+2), with
+/// the mean that is integrated here. 8/(s+2) for large s, 4 for s = 0.
+double highlightReflectance(double shininess)
+{
+    const double s = std::max(shininess, 0.01); // the limit, without cancellation
+    const double alpha2 = 2.0 / (s + 2.0), alpha = std::sqrt(alpha2);
+    const double k2 = 1.0 + alpha2, k = std::sqrt(k2);
+    const double logarithm = std::log((k + 1.0) * (k - alpha) / ((k - 1.0) * (k + alpha)));
+    const double integral =
+        (1.0 / alpha2 - alpha) / (2.0 * k2) + logarithm / (4.0 * k2 * k);
+    const double mean = alpha2 / (2.0 * (1.0 - alpha2)) * integral;
+    return alpha2 / mean;
+}
+
+/// What texture environments multiply light of a fixed-function surface by: they are linear in it.
+Vec3 textureTint(const TextureTerms& textures)
+{
+    if (textures.count == 0) return Vec3(1.0f);
+    return Vec3(applyTextures(textures, Vec4(1.0f))) -
+           Vec3(applyTextures(textures, Vec4(Vec3(0.0f), 1.0f)));
+}
+
 } // namespace
 
 MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
@@ -55,7 +82,8 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
                           (!record.fixedFunction || material.vertexColorUse == VertexColorUse::None);
         record.sameLobes = material.metallicRoughnessTexture == kInvalid &&
                            material.transmissionTexture == kInvalid &&
-                           material.vertexColorUse != VertexColorUse::Specular;
+                           material.vertexColorUse != VertexColorUse::Specular &&
+                           !(record.fixedFunction && isTextured(material));
         if (!isInvisible(material)) // else it is not traced: no photons are aimed at it
         {
             MaterialPoint point;
@@ -139,13 +167,20 @@ Bsdf MaterialTable::fixedFunction(const Material& m, const MaterialPoint& point)
     if (!m.lit) return bsdf;
     const FaceColors colors =
         fixedFunctionColors(m, point.vertexColor, isFrontFace(m, point.front));
-    const Vec4 tinted = applyTextures(textures(m, point), Vec4(colors.diffuse, 1.0f));
-    const Vec3 specular = clampUnit(colors.specular) *
-                          std::min(1.0f, 8.0f / (std::max(colors.shininess, 0.0f) + 2.0f));
-    bsdf.alpha = std::sqrt(2.0f / (std::max(colors.shininess, 0.0f) + 2.0f));
-    bsdf.reflectance = specular;
-    bsdf.grazing = maxComponent(specular);
-    bsdf.diffuse = clampUnit(Vec3(tinted)) * (1.0f - bsdf.grazing);
+    const TextureTerms terms = textures(m, point);
+    const Vec3 diffuse = clampUnit(Vec3(applyTextures(terms, Vec4(colors.diffuse, 1.0f))));
+    const float shininess = std::max(colors.shininess, 0.0f);
+    bsdf.alpha = std::sqrt(2.0f / (shininess + 2.0f));
+    bsdf.diffuse = diffuse;
+    const Vec3 specular = clampUnit(colors.specular);
+    if (specular == Vec3(0.0f)) return bsdf;
+    Vec3 highlight = specular * static_cast<float>(highlightReflectance(shininess));
+    if (!m.separateSpecular) highlight *= glm::max(textureTint(terms), 0.0f);
+    const float wanted = maxComponent(highlight), base = maxComponent(diffuse);
+    if (!(wanted > 0.0f)) return bsdf;
+    bsdf.grazing = std::min(wanted, std::max(1.0f - base, kLeastHighlight));
+    bsdf.reflectance = highlight * (bsdf.grazing / wanted);
+    if (base > 1.0f - bsdf.grazing) bsdf.diffuse *= (1.0f - bsdf.grazing) / base;
     return bsdf;
 }
 

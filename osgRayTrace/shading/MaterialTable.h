@@ -55,8 +55,11 @@ public:
     const MaterialRecord& operator[](uint32_t material) const { return _records[material]; }
 
     /// The physical surface model at a point. Fixed-function materials: diffuse is the Lambert base, the
-    /// highlight a GGX reflection of alpha = sqrt(2/(shininess+2)) [Walter07, sect. 5.2] whose reflectance
-    /// is specular * 8/(shininess+2), at most specular: what a normalised highlight of equal peak has.
+    /// highlight a GGX reflection of alpha = sqrt(2/(shininess+2)) [Walter07, sect. 5.2], textured as OpenGL
+    /// does. A sphere that is lit from the eye is on average as bright by it as by OpenGL's highlight, so its
+    /// reflectance is about specular * 8/(shininess+2). No more light leaves than comes: the highlight is
+    /// limited to what the largest component of diffuse leaves of 1, but not to less than the 0.04 of an
+    /// interface of index 1.5; where they do not go together diffuse is scaled down by as much.
     Bsdf bsdf(uint32_t material, const MaterialPoint& point) const;
 
     /// Radiance that leaves the surface by itself: emission, or the colour of unlit fixed-function ones.

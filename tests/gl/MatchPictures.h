@@ -33,6 +33,7 @@ struct MatchSetup
         4; ///< a pixel and axis, of the rasterized picture; squared, passes of the traced one
     bool homeView = false;                      ///< osgviewer's, else TestViewer's
     std::function<void(TestViewer&)> view = {}; ///< further changes
+    std::function<void(RayTraceSettings&)> settings = {}; ///< of the traced picture
 };
 
 inline bool isCovered(const osg::Image& depth, int x, int y)
@@ -67,11 +68,15 @@ inline void setUp(TestViewer& view, const MatchSetup& setup)
     if (setup.homeView) view.frames(); // the manipulator goes home
 }
 
+/// OSG's first frame is not like those that follow: state of OpenGL's that it sets last stays for
+/// the next one, and pictures are loaded. So pictures are those of the third.
+constexpr int kFramesBefore = 2;
+
 inline Picture rasterize(osg::Node* model, const MatchSetup& setup)
 {
     TestViewer view(setup.width * setup.samples, setup.height * setup.samples, model);
     setUp(view, setup);
-    const osg::ref_ptr<osg::Image> color = view.frames();
+    const osg::ref_ptr<osg::Image> color = view.frames(kFramesBefore + 1);
     return reduced(*color, *view.capture->getDepthImage(), setup);
 }
 
@@ -79,9 +84,12 @@ inline Picture rayTrace(osg::Node* model, const MatchSetup& setup, Statistics* w
 {
     const osg::ref_ptr<RayTracedScene> scene = tracedScene(model);
     const int passes = setup.samples * setup.samples * 4;
-    scene->getSettings()->setPassesPerFrame(passes);
+    scene->getSettings()->setPassesPerFrame(1);
+    if (setup.settings) setup.settings(*scene->getSettings());
     TestViewer view(setup.width, setup.height, scene.get());
     setUp(view, setup);
+    view.frames(kFramesBefore);
+    scene->getSettings()->setPassesPerFrame(passes);
     Picture picture{view.frames(), {}};
     const Statistics statistics = scene->getDrawable()->getStatistics();
     REQUIRE(statistics.ok);

@@ -38,10 +38,10 @@ Material physical(float roughness, float metallic, float transmission, float ior
     return material;
 }
 
-Material phong(float specular, float shininess)
+Material phong(float specular, float shininess, float diffuse = 1.0f)
 {
     Material material;
-    material.diffuse = Vec3(1.0f);
+    material.diffuse = Vec3(diffuse);
     material.specular = Vec3(specular);
     material.shininess = shininess;
     return material;
@@ -112,6 +112,8 @@ std::vector<BsdfKind> roughKinds()
     add(kinds, "phong, broad", phong(0.5f, 4.0f));
     add(kinds, "phong, sharp", phong(1.0f, 128.0f));
     add(kinds, "phong, shininess 0", phong(1.0f, 0.0f));
+    add(kinds, "phong, dark and broad", phong(1.0f, 1.0f, 0.2f));
+    add(kinds, "phong, black", phong(1.0f, 12.0f, 0.0f));
     return kinds;
 }
 
