@@ -167,6 +167,8 @@ const std::vector<OptionRow>& optionTable()
         textRow("light-sizes", "none|NAME=0.2", &S::getLightSizes, &S::setLightSizes, areLightSizes,
                 "Radius or angle of single lights, by their names"),
         switchRow("shadows", &S::getShadows, &S::setShadows, "Shadows of all lights"),
+        switchRow("headlight-shadows", &S::getHeadlightShadows, &S::setHeadlightShadows,
+                  "Shadows of the viewer's headlight, which comes from behind the eye, too"),
         switchRow("terminator-correction", &S::getTerminatorCorrection, &S::setTerminatorCorrection,
                   "No step where light ends on smooth-shaded facets"),
         switchRow("cull-all-rays", &S::getCullAllRays, &S::setCullAllRays,

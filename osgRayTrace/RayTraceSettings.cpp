@@ -82,6 +82,7 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _cullAllRays(other._cullAllRays),
       _maxBounces(other._maxBounces),
       _shadows(other._shadows),
+      _headlightShadows(other._headlightShadows),
       _terminatorCorrection(other._terminatorCorrection),
       _maxPasses(other._maxPasses),
       _frameBudget(other._frameBudget),
@@ -172,6 +173,11 @@ void RayTraceSettings::setMaxBounces(int value)
 void RayTraceSettings::setShadows(bool value)
 {
     change(_shadows, value, _modifiedCount);
+}
+
+void RayTraceSettings::setHeadlightShadows(bool value)
+{
+    change(_headlightShadows, value, _modifiedCount);
 }
 
 void RayTraceSettings::setTerminatorCorrection(bool value)

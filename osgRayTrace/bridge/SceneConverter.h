@@ -32,21 +32,23 @@ struct ConversionSettings
 {
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
     bool cullAllRays = false;
+    bool headlightShadows = false;
     LightSizes lightSizes;
     std::shared_ptr<const MaterialLibrary> materials; ///< null: those of the graph only
 
     bool operator==(const ConversionSettings& other) const
     {
         return colorRule == other.colorRule && cullAllRays == other.cullAllRays &&
-               lightSizes == other.lightSizes && materials == other.materials;
+               headlightShadows == other.headlightShadows && lightSizes == other.lightSizes &&
+               materials == other.materials;
     }
 };
 
 inline ConversionSettings conversionSettings(const RayTraceSettings& settings,
                                              std::shared_ptr<const MaterialLibrary> materials)
 {
-    return {settings.getColorRule(), settings.getCullAllRays(), lightSizesOf(settings),
-            std::move(materials)};
+    return {settings.getColorRule(), settings.getCullAllRays(), settings.getHeadlightShadows(),
+            lightSizesOf(settings), std::move(materials)};
 }
 
 /// What to convert a graph for.

@@ -69,8 +69,12 @@ void addNumbered(Scene& scene, const ConversionInput& input,
     const osg::Matrixd engineFromWorld =
         osg::Matrixd::translate(-input.origin) * osg::Matrixd::scale(scale, scale, scale);
     if (input.viewLight)
+    {
         add(*input.viewLight, input.viewLightInEyeSpace ? osg::Matrixd() : engineFromWorld,
             input.viewLightInEyeSpace, "viewer");
+        for (auto& [number, light] : lights)
+            light.castsShadows = !input.viewLightInEyeSpace || input.headlightShadows;
+    }
     for (const CollectedLight& light : sources)
         if (light.source->getLight())
             add(*light.source->getLight(), light.engineFromLocal, light.eyeSpace, light.path);

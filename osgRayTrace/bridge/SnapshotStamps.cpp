@@ -21,9 +21,10 @@ bool same(const Light& a, const Light& b)
 {
     const auto fixedFunction = [](const Light& l)
     {
-        return std::tie(l.kind, l.number, l.eyeSpace, l.ambient, l.diffuse, l.specular, l.position,
-                        l.direction, l.attenuationConstant, l.attenuationLinear,
-                        l.attenuationQuadratic, l.spotExponent, l.spotCosCutoff, l.radius, l.sine);
+        return std::tie(l.kind, l.number, l.eyeSpace, l.castsShadows, l.ambient, l.diffuse,
+                        l.specular, l.position, l.direction, l.attenuationConstant,
+                        l.attenuationLinear, l.attenuationQuadratic, l.spotExponent,
+                        l.spotCosCutoff, l.radius, l.sine);
     };
     const auto area = [](const Light& l)
     { return std::tie(l.corner, l.edgeU, l.edgeV, l.radiance, l.twoSided, l.instance); };

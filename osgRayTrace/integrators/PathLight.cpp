@@ -153,17 +153,18 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
     const LightTable& table = tile.context.traced->lights();
     const LaneMask lanes = bounce.diffuse | bounce.general;
     const UintLanes seeds = lightSeeds(tile.context, block);
-    for (const uint32_t light : table.deltaLights())
+    for (const uint32_t index : table.deltaLights())
     {
+        const Light& light = (*tile.context.lights)[index];
         FloatLanes u, v;
-        if (isSoft((*tile.context.lights)[light]))
-            dimensionPoints(seedsOfLight(seeds, light), tile.context.key.index,
+        if (isSoft(light))
+            dimensionPoints(seedsOfLight(seeds, index), tile.context.key.index,
                             bounceDimension(bounce.number, DimensionLightPoint), u, v);
         LightLanes samples;
-        deltaLightLanes(tile.context, light, bounce.surface, lanes, bounce.through, u, v, samples);
-        countRays(tile, block, samples.lit);
-        addLight(tile, block, bounce, samples, visibleLanes(tile.context, samples, tile.counts),
-                 kAllLanes);
+        deltaLightLanes(tile.context, index, bounce.surface, lanes, bounce.through, u, v, samples);
+        if (light.castsShadows) countRays(tile, block, samples.lit);
+        addLight(tile, block, bounce, samples,
+                 visibleLanes(tile.context, light, samples, tile.counts), kAllLanes);
     }
     if (table.environment()) sampleEnvironment(tile, block, bounce, seeds);
     if (table.areaLights().empty()) return;

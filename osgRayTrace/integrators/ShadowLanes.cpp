@@ -199,4 +199,10 @@ LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCount
     return unoccluded(samples.shadow) & samples.lit;
 }
 
+LaneMask visibleLanes(const PassContext& context, const Light& light, LightLanes& samples,
+                      TileCounts& counts)
+{
+    return light.castsShadows ? visibleLanes(context, samples, counts) : samples.lit;
+}
+
 } // namespace osgRayTrace::engine

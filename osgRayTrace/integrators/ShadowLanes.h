@@ -43,4 +43,8 @@ void deltaLightLanes(const PassContext& context, uint32_t light, const SurfaceLa
 /// The lanes of samples.lit that see the light. Counts the rays.
 LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts);
 
+/// The same for samples of a directional, point or spot light. No rays if it casts no shadows.
+LaneMask visibleLanes(const PassContext& context, const Light& light, LightLanes& samples,
+                      TileCounts& counts);
+
 } // namespace osgRayTrace::engine

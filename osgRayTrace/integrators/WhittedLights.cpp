@@ -155,8 +155,8 @@ void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float
         const int i = __builtin_ctz(lanes);
         if (glm::dot(m.points[i].normal, laneOf(samples.wi, i)) <= 0.0f) samples.lit &= ~(1u << i);
     }
-    countRays(tile, block, samples.lit);
-    const LaneMask visible = visibleLanes(context, samples, tile.result.counts);
+    if (light.castsShadows) countRays(tile, block, samples.lit);
+    const LaneMask visible = visibleLanes(context, light, samples, tile.result.counts);
     for (LaneMask lanes = reached & m.fixedFunction; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);

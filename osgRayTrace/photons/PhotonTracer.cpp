@@ -51,6 +51,8 @@ public:
           _options(options),
           _seed(passSeed),
           _culls(culls),
+          _shadowless(std::any_of(lights.begin(), lights.end(),
+                                  [](const Light& light) { return !light.castsShadows; })),
           _chunk(chunk)
     {
     }
@@ -88,6 +90,7 @@ private:
     const PhotonPassOptions& _options;
     uint32_t _seed;
     bool _culls; ///< there are faces of which all rays pass one side
+    bool _shadowless; ///< there are lights without shadows
     Chunk& _chunk;
     uint32_t _first = 0; ///< photon of the chunk
     FlightQueue _flights{kChunk};
@@ -250,10 +253,11 @@ LaneMask ChunkTracer::classify(const SurfaceLanes& surface)
     return stores | _diffuse;
 }
 
-/// Half of the photons, twice as bright, go on where they meet the side that is seen of faces that
-/// all rays pass from the other: they are lit and let light through. A path from the eye meets that
-/// side only, so what it scatters to the other has come from there: such photons stay, see
-/// scatter(). Returns the lanes that go on.
+/// Half of the photons, twice as bright, go on where a surface is lit and lets light through all
+/// the same. Such are all surfaces for photons that come straight from a light without shadows, and
+/// for others the faces that all rays pass from one side, where photons meet the side that is seen.
+/// A path from the eye meets that side only, so what it scatters to the other has come from there:
+/// such photons stay, see scatter(). Returns the lanes that go on.
 LaneMask ChunkTracer::passFaces(FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                                 int bounce)
 {
@@ -262,11 +266,18 @@ LaneMask ChunkTracer::passFaces(FlightBlock& block, const SurfaceLanes& surface,
     {
         const int i = __builtin_ctz(lanes);
         const Material& material = *_traced.materials()[surface.material[i]].material;
-        if (!material.cullsAllRays) continue;
         const LaneMask lane = 1u << i;
-        _oneSided |= lane;
-        if (isCulled(material, isFrontFace(material, (surface.front >> i) & 1u))) continue;
-        _seen |= lane;
+        bool passes = bounce == 0 && !_lights[block.light[i]].castsShadows;
+        if (material.cullsAllRays)
+        {
+            _oneSided |= lane;
+            if (!isCulled(material, isFrontFace(material, (surface.front >> i) & 1u)))
+            {
+                _seen |= lane;
+                passes = true;
+            }
+        }
+        if (!passes) continue;
         setLane(block.power, i, 2.0f * laneOf(block.power, i));
         const uint32_t face = hash(surface.instance[i], _rays.primitive[i]);
         if (hash(hash(dimension(bounceNumber(bounce)), block.photon[i]), face) & 0x80000000u)
@@ -287,7 +298,7 @@ void ChunkTracer::findSurfaces(FlightBlock& block, LaneMask active, int bounce,
         _traced.intersector().closestHits(_rays, active, Coherence::Incoherent, kPhotonRays);
         _chunk.rays += static_cast<uint64_t>(__builtin_popcount(active));
         surfacesOf(_traced.surfaces(), _rays, active, surface);
-        if (!_culls) return;
+        if (!_culls && !(bounce == 0 && _shadowless)) return;
         lanes = passFaces(block, surface, lanes, bounce);
         if (!lanes) break;
         for (LaneMask m = lanes; m; m &= m - 1)

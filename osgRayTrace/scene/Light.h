@@ -31,6 +31,10 @@ struct Light
     /// headlight. RenderSession places it for each view.
     bool eyeSpace = false;
 
+    /// Directional, Point: false if nothing hides this light. It lights every surface that faces it, in
+    /// all integrators, and photons go on through surfaces on their first flight: see PhotonTracer.
+    bool castsShadows = true;
+
     // Directional, Point: fixed-function light colours. Diffuse 1 without attenuation gives a Lambert
     // surface its own colour at normal incidence, that is an irradiance of pi.
     Vec3 ambient{0.0f};

@@ -65,6 +65,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK_FALSE(settings->getCullAllRays());
     CHECK(settings->getMaxBounces() == 8);
     CHECK(settings->getShadows());
+    CHECK_FALSE(settings->getHeadlightShadows());
     CHECK(settings->getMaxPasses() == 1024);
     CHECK(settings->getFrameBudget() == 33.0f);
     CHECK(settings->getDegradeWhileMoving());
@@ -80,7 +81,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK_FALSE(settings->getReproject());
 }
 
-TEST_CASE("settings: the table names all thirty options once", "[api][settings]")
+TEST_CASE("settings: the table names all thirty-one options once", "[api][settings]")
 {
     std::set<std::string> names;
     std::set<std::string> variables;
@@ -89,11 +90,11 @@ TEST_CASE("settings: the table names all thirty options once", "[api][settings]"
         names.insert(option.name);
         variables.insert(option.environment);
     }
-    CHECK(names.size() == 30);
-    CHECK(variables.size() == 30);
+    CHECK(names.size() == 31);
+    CHECK(variables.size() == 31);
     CHECK(names.count("light-samples") == 1);
     CHECK(variables.count("OSGRAYTRACE_LIGHT_SAMPLES") == 1);
-    CHECK(RayTraceSettings::options().size() == 30);
+    CHECK(RayTraceSettings::options().size() == 31);
 }
 
 TEST_CASE("settings: every option goes through set, get and a copy", "[api][settings]")

@@ -140,6 +140,30 @@ TEST_CASE("absolute light sources and the headlight are in eye space", "[bridge]
     CHECK(lights[0].position == Vec3(1.0f, 0.0f, 0.0f));
 }
 
+TEST_CASE("the headlight casts no shadows unless asked to, all other lights do", "[bridge]")
+{
+    LitScene scene;
+    scene.add(1, osg::Matrixd(), osg::LightSource::ABSOLUTE_RF);
+    scene.input.viewLight = new osg::Light(0);
+    auto lights = scene.lights();
+    REQUIRE(lights.size() == 2);
+    CHECK_FALSE(lights[0].castsShadows);
+    CHECK(lights[1].castsShadows); // an application's own
+
+    const ConversionSettings before = scene.input;
+    scene.input.headlightShadows = true;
+    CHECK_FALSE(static_cast<const ConversionSettings&>(scene.input) == before);
+    CHECK(scene.lights()[0].castsShadows);
+
+    scene.input.headlightShadows = false;
+    scene.input.viewLightInEyeSpace = false;
+    CHECK(scene.lights()[0].castsShadows); // a sky light
+
+    scene.input.viewLightInEyeSpace = true;
+    scene.add(0);
+    CHECK(scene.lights()[0].castsShadows); // takes the headlight's place
+}
+
 TEST_CASE("lights are kept by number: the last one in the graph replaces all before it", "[bridge]")
 {
     LitScene scene;

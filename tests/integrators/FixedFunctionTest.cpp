@@ -138,6 +138,34 @@ TEST_CASE("fixed function: a headlight follows the view", "[integrators]")
     }
 }
 
+TEST_CASE("lights without shadows light what faces them, and cost no shadow rays", "[integrators]")
+{
+    for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})
+    {
+        for (const bool physical : {false, true})
+        {
+            const Vec3 color(0.8f, 0.6f, 0.4f);
+            SceneBuilder builder = floorOf(physical ? lambert(color) : phong());
+            builder.scene->ambient = Vec3(0.0f);
+            for (Material& material : builder.scene->materials)
+                material.emission = Vec3(0.0f);
+            Light light = sun({0.6f, 0, -0.8f});
+            light.ambient = Vec3(0.0f);
+            light.castsShadows = false;
+            builder.addLight(light);
+            builder.add(quadMesh({-3, -3, 3}, {6, 0, 0}, {0, 6, 0}), lambert(Vec3(0.0f)));
+            const View view = patchView({0, 0, 0}, {0, 0, 1}, 0.01, 8);
+            const Picture picture = render(builder.build(), view, optionsOf(kind, 1), 1);
+            CAPTURE(int(kind), physical);
+            checkColor(picture.mean(), light.diffuse * color * 0.8f);
+            CHECK(picture.progress.rays.shadow == 0);
+
+            builder.scene->lights[0].castsShadows = true;
+            CHECK(render(builder.build(), view, optionsOf(kind, 1), 1).mean() == Vec3(0.0f));
+        }
+    }
+}
+
 TEST_CASE("fixed function: physical surfaces show the same brightness under the same light",
           "[integrators]")
 {

@@ -165,6 +165,27 @@ SceneBuilder sunAndSpot()
     return builder;
 }
 
+/// A sun that casts shadows and one that nothing hides: it lights the floor below a table, the
+/// walls behind each other, and the inside of a box.
+SceneBuilder lightWithoutShadows()
+{
+    SceneBuilder builder = room(false);
+    Light sun;
+    sun.kind = LightKind::Directional;
+    sun.diffuse = Vec3(0.3f, 0.4f, 0.5f);
+    sun.direction = glm::normalize(Vec3(-0.4f, 0.8f, -1.0f));
+    builder.addLight(sun);
+    sun.number = 1;
+    sun.diffuse = Vec3(0.8f, 0.7f, 0.5f);
+    sun.direction = glm::normalize(Vec3(-0.2f, 0.5f, -1.0f));
+    sun.castsShadows = false;
+    builder.addLight(sun);
+    builder.add(boxMesh({-1.2f, -0.6f, 0.9f}, {0.2f, 0.6f, 1.0f}), lambert(Vec3(0.6f)));
+    builder.add(boxMesh({0.5f, -0.4f, 0}, {1.3f, 0.4f, 1.2f}), lambert(Vec3(0.7f, 0.4f, 0.4f)));
+    builder.add(smoothBall({0.9f, 0, 0.4f}, 0.3f, 24), lambert(Vec3(0.5f)));
+    return builder;
+}
+
 /// Lamps within balls of glass: no shadow ray reaches them from outside.
 SceneBuilder lampsInGlass()
 {
@@ -262,6 +283,7 @@ std::vector<ComparedScene> photonScenes(int width, int height)
             {"panes", panes().build(), inRoom, true},
             {"many lights", manyLights().build(), inRoom},
             {"sun and spot", sunAndSpot().build(), inRoom},
+            {"light without shadows", lightWithoutShadows().build(), inRoom},
             {"lamps in glass", lampsInGlass().build(), inRoom, true},
             {"highlights", highlights().build(), inRoom},
             {"one-sided", oneSided().build(), inRoom, true},

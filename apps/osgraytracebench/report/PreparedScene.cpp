@@ -138,6 +138,7 @@ void hashLight(Hasher& hasher, const Light& light)
                               light.radius, light.sine})
         hasher.add(value);
     hasher.add(light.eyeSpace);
+    hasher.add(light.castsShadows);
     hasher.add(light.twoSided);
     hasher.add(light.environment.visible);
     hasher.add(light.environment.mapFromEngine);
