@@ -48,6 +48,7 @@ void noteFlat(const Scene& scene, bool comparable, ConversionCaches& caches);
 struct ConvertedGraph
 {
     SceneIndex index;
+    bool setsColor = false; ///< see MaterialRules
     MaterialList materials;
     LightSources lights;
     ConversionCounts lightCounts; ///< of setLights

@@ -71,6 +71,24 @@ VertexColorUse vertexColorUse(osg::Material::ColorMode mode)
     }
 }
 
+/// What osg::Material::apply makes OpenGL's current colour.
+const osg::Vec4& currentColorOf(const osg::Material& source)
+{
+    switch (source.getColorMode())
+    {
+    case osg::Material::AMBIENT:
+        return source.getAmbient(kFront);
+    case osg::Material::SPECULAR:
+        return source.getSpecular(kFront);
+    case osg::Material::EMISSION:
+        return source.getEmission(kFront);
+    default:
+        return source.getDiffuse(kFront);
+    }
+}
+
+const Vec3 kDefaultColor = FaceColors().diffuse;
+
 FaceColors faceColors(const osg::Material& source, osg::Material::Face face)
 {
     FaceColors colors;
@@ -163,6 +181,12 @@ FaceCulling cullingOf(const GraphState& state)
 }
 
 } // namespace
+
+bool setsCurrentColor(const GraphState& state)
+{
+    const auto* source = state.attribute<osg::Material>(kMaterialSlot);
+    return source && rgb(currentColorOf(*source)) != kDefaultColor;
+}
 
 SurfaceInputs surfaceInputs(const osg::Geometry& geometry)
 {
@@ -268,6 +292,12 @@ Material MaterialConverter::fixedFunction(const GraphState& state,
 /// Without any osg::Material there is the one that osgViewer sets above the scene: OpenGL's default
 /// with AMBIENT_AND_DIFFUSE [OSG 3.6.5, StateSet::setGlobalDefaults]. osg::Material::apply makes
 /// its diffuse colour the current one, which colours geometry without a colour array.
+///
+/// At the end of a frame osg::State applies a default material that has no colour mode, of the
+/// diffuse colour 0.8 and the ambient colour 0.2, and with the next frame the viewer's. Where no
+/// other material was between them, the current colour is 0.8 all along, and from the second frame
+/// on Mesa (22.3) leaves the ambient colour at 0.2. That is what osgviewer shows, and what we do;
+/// OpenGL's specification would have 0.8.
 void MaterialConverter::applyColor(Material& material, const GraphState& state,
                                    const SurfaceInputs& inputs) const
 {
@@ -292,7 +322,8 @@ void MaterialConverter::applyColor(Material& material, const GraphState& state,
         replaceColor(face, use, inputs.overallColor);
         setFront(material, face);
     }
-    else if (use == VertexColorUse::AmbientAndDiffuse)
+    else if (use == VertexColorUse::AmbientAndDiffuse &&
+             (_rules.setsColor || material.diffuse != kDefaultColor))
         material.ambient = material.diffuse;
 }
 

@@ -41,7 +41,13 @@ struct MaterialRules
 {
     bool linear = false;      ///< fixed-function colours are decoded from sRGB
     bool cullAllRays = false; ///< see RayTraceSettings
+    bool setsColor = false;   ///< see setsCurrentColor: some material of the scene does
 };
+
+/// Whether the osg::Material of a state makes another colour current than OSG's default material.
+/// Where none of a scene does, colour materials of that colour keep the default ambient colour: see
+/// applyColor.
+bool setsCurrentColor(const GraphState& state);
 
 /// From state to materials.
 class MaterialConverter

@@ -56,7 +56,8 @@ SceneBuilder::SceneBuilder(const ConversionInput& input, const CollectedGraph& g
       _made(made),
       _scene(scene),
       _report(report),
-      _materials({rules.linear, input.cullAllRays}, caches.textures, _materialReport),
+      _materials({rules.linear, input.cullAllRays, rules.setsColor}, caches.textures,
+                 _materialReport),
       _treatments(graph.states.size())
 {
 }

@@ -15,6 +15,7 @@ struct BuildRules
 {
     double unit = 1.0;
     bool linear = false;
+    bool setsColor = false;  ///< see MaterialRules
     bool comparable = false; ///< with the last snapshot: what differs has changed
     Stamp now = 0;
 };

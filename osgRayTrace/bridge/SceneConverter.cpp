@@ -62,6 +62,14 @@ bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
     return false;
 }
 
+bool setsColor(const CollectedGraph& graph)
+{
+    for (const CollectedGeometry& geometry : graph.geometries)
+        for (const GeometryUse& use : geometry.uses)
+            if (setsCurrentColor(graph.states[use.state])) return true;
+    return false;
+}
+
 /// Geometry that OpenGL draws is where its path puts it: it may move without a conversion.
 void addUntraced(const RasterizedParts& parts, SceneIndex& index)
 {
@@ -134,6 +142,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     CollectedGraph graph = collector.take();
 
     rules.linear = isLinear(graph, input.colorRule);
+    rules.setsColor = state.made.setsColor = setsColor(graph);
     state.caches.geometries.begin(rules.now);
     setBounds(graph, state.caches.geometries);
     const LengthCounts lengths = lengthsOf(graph);

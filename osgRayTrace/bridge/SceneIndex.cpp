@@ -19,8 +19,8 @@ bool Treatment::operator==(const Treatment& other) const
 {
     const auto values = [](const Treatment& t)
     {
-        return std::tie(t.rasterized, t.restart, t.lift, t.physical, t.clipPlanes, t.hasAmbient,
-                        t.ambient, t.counts);
+        return std::tie(t.rasterized, t.restart, t.lift, t.physical, t.setsColor, t.clipPlanes,
+                        t.hasAmbient, t.ambient, t.counts);
     };
     return values(*this) == values(other);
 }
@@ -32,6 +32,7 @@ Treatment treatmentOf(const GraphState& state)
     treatment.restart = restartOf(state).key();
     treatment.lift = polygonLift(state);
     treatment.physical = state.attributes[kPhysicalMaterialSlot] != nullptr;
+    treatment.setsColor = setsCurrentColor(state);
     treatment.clipPlanes = clipPlanesOn(state);
     const auto* model = state.attribute<osg::LightModel>(kLightModelSlot);
     treatment.hasAmbient = model && state.isOn(kLightingBit);

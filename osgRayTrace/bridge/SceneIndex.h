@@ -22,6 +22,7 @@ struct Treatment
     uint64_t restart = 0;
     float lift = 0.0f;
     bool physical = false;
+    bool setsColor = false;  ///< see setsCurrentColor
     uint64_t clipPlanes = 0; ///< that are on, see clipPlanesOn
     bool hasAmbient = false; ///< a light model of its own, lit
     Vec3 ambient{0.0f};

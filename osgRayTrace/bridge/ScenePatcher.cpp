@@ -95,8 +95,8 @@ bool ScenePatcher::restate(const std::vector<RestatedUse>& uses)
     if (_input.materials) return false; // rules look at names
     StateStack states = statesAbove(_input);
     ConversionReport report;
-    MaterialConverter converter({!_scene->displayReferred, _input.cullAllRays}, _caches.textures,
-                                report);
+    MaterialConverter converter({!_scene->displayReferred, _input.cullAllRays, _made.setsColor},
+                                _caches.textures, report);
     for (const RestatedUse& use : uses)
         if (!restateUse(use, states, converter, report)) return false;
     for (const auto& [instance, material] : _restated)
@@ -247,7 +247,9 @@ bool ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
     const Treatment& treatment = _made.index.treatments[gone.treatment];
     traced.uses.erase(traced.uses.begin() + use);
     if (!treatment.counts.empty()) return false; // paths may be named
-    if ((treatment.hasAmbient || treatment.physical) && isLastOf(gone.treatment)) return false;
+    if ((treatment.hasAmbient || treatment.physical || treatment.setsColor) &&
+        isLastOf(gone.treatment))
+        return false;
 
     _leftFlat |= !instance.placed;
     _made.materials.release(instance.material);
@@ -318,6 +320,7 @@ bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeome
     {
         const Treatment treatment = treatmentOf(graph.states[use.state]);
         if (treatment.physical && automatic && _scene->displayReferred) return false;
+        if (treatment.setsColor && !_made.setsColor) return false;
         if (treatment.hasAmbient && treatment.ambient != _scene->ambient) return false;
         if (treatment.clipPlanes != 0) return false;
     }
@@ -327,6 +330,7 @@ bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeome
     ConversionReport report;
     BuildRules rules;
     rules.linear = !_scene->displayReferred;
+    rules.setsColor = _made.setsColor;
     rules.comparable = true;
     rules.now = _now;
     SceneBuilder builder(_input, graph, rules, _caches, _made, *_scene, report);

@@ -60,7 +60,7 @@ TEST_CASE("without any material: osgViewer's default, coloured by the vertices",
     CHECK(material.model == MaterialModel::FixedFunction);
     CHECK(material.lit);
     CHECK(material.diffuse == Vec3(0.8f));
-    CHECK(material.ambient == Vec3(0.8f)); // glColor, which osg::Material sets to diffuse, is both
+    CHECK(material.ambient == Vec3(0.2f)); // see applyColor in MaterialConverter.cpp
     CHECK(material.specular == Vec3(0.0f));
     CHECK(material.vertexColorUse == VertexColorUse::None);
 
@@ -72,6 +72,34 @@ TEST_CASE("without any material: osgViewer's default, coloured by the vertices",
 
     setColor(*geometry, osg::Array::BIND_PER_VERTEX);
     CHECK(materialOf(geometry).vertexColorUse == VertexColorUse::AmbientAndDiffuse);
+}
+
+TEST_CASE("without material and colours: ambient follows diffuse once glColor changes", "[bridge]")
+{
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(triangleGeometry());
+    const osg::ref_ptr<osg::Geometry> other = triangleGeometry();
+    root->addChild(other);
+    osg::ref_ptr<osg::Material> material = new osg::Material;
+    other->getOrCreateStateSet()->setAttribute(material);
+    const auto plain = [&root]
+    {
+        const ConversionResult result = convertGraph(root);
+        return result.scene->materials[result.scene->instances[0].material];
+    };
+    CHECK(plain().ambient == Vec3(0.2f));
+    CHECK(plain().diffuse == Vec3(0.8f));
+    material->setDiffuse(kSide, {0.3f, 0.3f, 0.3f, 1.0f});
+    CHECK(plain().ambient == Vec3(0.8f));
+    material->setColorMode(osg::Material::SPECULAR);
+    material->setSpecular(kSide, {0.8f, 0.8f, 0.8f, 1.0f});
+    CHECK(plain().ambient == Vec3(0.2f)); // glColor is that of SPECULAR, which is 0.8, too
+
+    // A material that changes it, and colours that ambient light follows, in one.
+    material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
+    const ConversionResult result = convertGraph(root);
+    CHECK(result.scene->materials[result.scene->instances[1].material].ambient == Vec3(0.3f));
+    CHECK(result.scene->materials[result.scene->instances[0].material].ambient == Vec3(0.8f));
 }
 
 TEST_CASE("culled faces are there for other rays than the camera's, or for none; lamps always are",

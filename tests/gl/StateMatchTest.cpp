@@ -65,6 +65,29 @@ TEST_CASE("match: shapes in the colours that ShapeDrawable gives them", "[gl][co
     checkMatch("shapes", root);
 }
 
+TEST_CASE("match: without materials and colours, alone and beside a material", "[gl][coverage]")
+{
+    const auto plain = [](float x)
+    {
+        const osg::ref_ptr<osg::Geometry> geometry = square(1.7f);
+        geometry->setColorArray(nullptr);
+        return placed(osg::Matrixd::translate(x, 0.0, 0.0), geometry);
+    };
+    osg::ref_ptr<osg::LightModel> bright = new osg::LightModel; // it is ambient light that differs
+    bright->setAmbientIntensity({0.3f, 0.3f, 0.3f, 1.0f});
+    const osg::ref_ptr<osg::Group> alone = groupOf({plain(-1.8f), plain(1.8f)});
+    alone->getOrCreateStateSet()->setAttribute(bright);
+    checkMatch("no-material", alone);
+
+    const osg::ref_ptr<osg::MatrixTransform> other = plain(1.8f);
+    osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setDiffuse(osg::Material::FRONT_AND_BACK, {0.2f, 0.5f, 0.3f, 1.0f});
+    other->getOrCreateStateSet()->setAttribute(material);
+    const osg::ref_ptr<osg::Group> beside = groupOf({plain(-1.8f), other});
+    beside->getOrCreateStateSet()->setAttribute(bright);
+    checkMatch("no-material-beside-one", beside);
+}
+
 TEST_CASE("match: a pyramid with colours and normals of its own, as osgshape has", "[gl][coverage]")
 {
     const osg::ref_ptr<osg::Geometry> pyramid = new osg::Geometry;
