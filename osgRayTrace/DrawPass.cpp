@@ -84,13 +84,18 @@ double nearDistance(const osg::Matrixd& projection)
     return (osg::Vec3d(0.0, 1.0, -1.0) * viewFromClip - centre).length();
 }
 
-engine::FrameBudget frameBudget(const osg::Camera* camera, const RayTraceSettings& settings)
+engine::FrameBudget frameBudget(const osg::Camera* camera, const RayTraceSettings& settings,
+                                const std::shared_ptr<engine::FrameAgreement>& agreement)
 {
     engine::FrameBudget budget;
     budget.degrade = settings.getDegradeWhileMoving();
-    double milliseconds = double(settings.getFrameBudget());
-    if (camera) milliseconds = userNumber(*camera, "osgRayTrace.frameBudget").value_or(milliseconds);
+    std::optional<double> own;
+    if (camera) own = userNumber(*camera, "osgRayTrace.frameBudget");
+    const double milliseconds = own.value_or(double(settings.getFrameBudget()));
     budget.seconds = std::isfinite(milliseconds) ? 1e-3 * std::max(0.0, milliseconds) : 0.0;
+    const bool agrees = settings.getEqualViews() &&
+                        settings.getPresentation() == RayTraceSettings::FRAME_LOCKED;
+    if (agrees && !own && budget.seconds > 0.0) budget.agreement = agreement;
     return budget;
 }
 

@@ -10,6 +10,7 @@
 #include <osg/RenderInfo>
 #include <osg/State>
 
+#include <memory>
 #include <optional>
 
 namespace osgUtil
@@ -40,7 +41,8 @@ std::optional<engine::PassIdentity> passIdentity(osgUtil::CullVisitor& visitor);
 /// may be anywhere, half the height of the picture. 0 if the matrix cannot be inverted.
 double nearDistance(const osg::Matrixd& projection);
 
-/// The camera's own, or that of the settings.
-engine::FrameBudget frameBudget(const osg::Camera* camera, const RayTraceSettings& settings);
+/// The camera's own, or that of the settings, which may be for all views of the agreement.
+engine::FrameBudget frameBudget(const osg::Camera* camera, const RayTraceSettings& settings,
+                                const std::shared_ptr<engine::FrameAgreement>& agreement);
 
 } // namespace osgRayTrace

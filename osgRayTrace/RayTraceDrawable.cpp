@@ -56,6 +56,7 @@ struct RayTraceDrawable::Implementation
 {
     engine::SceneUpdater scene;
     engine::ViewRegistry<ShownView> views;
+    std::shared_ptr<engine::FrameAgreement> agreement = std::make_shared<engine::FrameAgreement>();
     std::atomic<bool> paused{false};
 
     mutable std::mutex mutex;        // draw threads write, any thread reads
@@ -81,8 +82,11 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     const engine::PassIdentity pass = passIdentity(renderInfo, viewport);
     const engine::ViewRegistry<ShownView>::Pass found = views.acquire(pass, makeView);
     ShownView& view = *found.state;
-    view.update({version, pass.view, found.slices, found.shared,
-                 frameBudget(renderInfo.getCurrentCamera(), *version.settings), paused});
+    engine::FrameBudget budget =
+        frameBudget(renderInfo.getCurrentCamera(), *version.settings, agreement);
+    budget.frameNumber = pass.frameNumber;
+    budget.again = found.shared;
+    view.update({version, pass.view, found.slices, found.shared, budget, paused});
     scene.noteDrawn(renderInfo.getCurrentCamera(),
                     osg::Matrixd::inverse(state.getModelViewMatrix()).getTrans(),
                     nearDistance(state.getProjectionMatrix()));
@@ -231,6 +235,27 @@ void RayTraceDrawable::setPaused(bool paused)
 bool RayTraceDrawable::getPaused() const
 {
     return _implementation->paused;
+}
+
+std::optional<FrameWork> RayTraceDrawable::getAffordableWork() const
+{
+    const double seconds = 1e-3 * double(_settings->getFrameBudget());
+    const std::optional<engine::FrameWork> offer =
+        _implementation->agreement->offer(seconds, _settings->getDegradeWhileMoving());
+    if (!offer) return std::nullopt;
+    return FrameWork{offer->divider, offer->passes, offer->progress, offer->upsampleDivider};
+}
+
+void RayTraceDrawable::setFrameWork(const std::optional<FrameWork>& work)
+{
+    if (!work) return _implementation->agreement->impose(std::nullopt);
+    const auto clamped = [](int value, int most) { return std::clamp(value, 1, most); };
+    constexpr int kMostPasses = 1024, kMostDivider = engine::FramePlanner::kLargestDivider;
+    static_assert(FrameWork::WHOLE_PASS == engine::FrameWork::kWholePass);
+    _implementation->agreement->impose(
+        engine::FrameWork{clamped(work->divider, kMostDivider), clamped(work->passes, kMostPasses),
+                          clamped(work->progress, kMostPasses * FrameWork::WHOLE_PASS),
+                          clamped(work->upsampleDivider, kMostDivider)});
 }
 
 osg::BoundingBox RayTraceDrawable::computeBoundingBox() const

@@ -87,6 +87,7 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _maxPasses(other._maxPasses),
       _frameBudget(other._frameBudget),
       _degradeWhileMoving(other._degradeWhileMoving),
+      _equalViews(other._equalViews),
       _passesPerFrame(other._passesPerFrame),
       _presentation(other._presentation),
       _reproject(other._reproject),
@@ -218,6 +219,11 @@ void RayTraceSettings::setFrameBudget(float value)
 void RayTraceSettings::setDegradeWhileMoving(bool value)
 {
     change(_degradeWhileMoving, value, _modifiedCount);
+}
+
+void RayTraceSettings::setEqualViews(bool value)
+{
+    change(_equalViews, value, _modifiedCount);
 }
 
 void RayTraceSettings::setPassesPerFrame(int value)

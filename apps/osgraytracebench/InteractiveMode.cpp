@@ -248,7 +248,8 @@ void addUnchanged(Rows& rows, const std::string& name, SceneVersion version, con
     version.settings = settings;
     ViewTracer tracer(clock);
     Display display;
-    const FrameBudget budget{0.5, true};
+    FrameBudget budget;
+    budget.seconds = 0.5;
     for (int i = 0;
          i < 100 && (i < 4 || tracer.progress().passes < 2 || tracer.frame().divider > 1); ++i)
         display.frame(tracer, version, view, budget);

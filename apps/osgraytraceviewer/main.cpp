@@ -19,6 +19,7 @@
 #include <osgViewer/ViewerEventHandlers>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -154,6 +155,14 @@ Models readModels(const std::vector<std::string>& names, const Assignments& assi
     return models;
 }
 
+/// The walls of a CAVE show one picture, unless the environment or the command line wants otherwise.
+Assignments wallSettings(Assignments assignments)
+{
+    if (!std::getenv("OSGRAYTRACE_EQUAL_VIEWS"))
+        assignments.insert(assignments.begin(), {"equal-views", "true"});
+    return assignments;
+}
+
 int show(osgViewer::Viewer& viewer, const Models& models, osg::ApplicationUsage* usage)
 {
     const auto& [root, scene] = models;
@@ -200,7 +209,7 @@ int run(int argc, char** argv)
     }
     const std::vector<std::string> names = modelNames(arguments);
     if (names.empty()) return fail(kUsage, "no MODEL given; --help shows options and keys");
-    const Models models = readModels(names, *assignments);
+    const Models models = readModels(names, cave.file.empty() ? *assignments : wallSettings(*assignments));
     if (!cave.file.empty()) return runCave(cave, models.root.get(), models.scene.get());
     return show(viewer, models, &usage);
 }

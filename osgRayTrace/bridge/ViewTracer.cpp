@@ -6,6 +6,7 @@
 #include "osgRayTrace/film/Enlarge.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 
@@ -130,11 +131,18 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
     _display.changed = &_changed;
     _written = false;
     _upsampleBudget = budget.upsampleShare * budget.seconds;
+    const FrameAgreement::Part agreed = joinFrame(budget, moved);
+    _upsampleBudget *= agreed.share;
     if (moved) chooseUpsampling(_upsampleBudget);
+    if (moved) _upsampleDivider = _agreement ? agreed.work.upsampleDivider : _ownUpsampleDivider;
     _frame.traceSeconds = 0.0;
     _newTiles = 0;
 
-    if (!(budget.seconds > 0.0))
+    if (_agreement)
+    {
+        traceAgreed(moved, agreed.work, budget.seconds);
+    }
+    else if (!(budget.seconds > 0.0))
     {
         traceFixed(version.settings->getPassesPerFrame());
     }
@@ -162,6 +170,21 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
     return _written;
 }
 
+/// What all views agree on for the frame, if they do.
+FrameAgreement::Part ViewTracer::joinFrame(const FrameBudget& budget, bool moved)
+{
+    if (_agreement != budget.agreement)
+    {
+        _agreement = budget.agreement;
+        _member = _agreement ? _agreement->join() : nullptr;
+        _agreedProgress.reset();
+    }
+    _part = TracedPart();
+    if (!_agreement) return {};
+    const AgreedFrame frame{budget.frameNumber, budget.again, budget.seconds, budget.degrade};
+    return _agreement->begin(*_member, frame, _view.width, _view.height, moved, _begin);
+}
+
 /// Held while it fits, so that a view that moves does not change its sharpness in each frame.
 void ViewTracer::chooseUpsampling(double seconds)
 {
@@ -174,7 +197,8 @@ void ViewTracer::chooseUpsampling(double seconds)
     int finest = 1;
     while (finest < FramePlanner::kLargestDivider && takes(finest) > kSpare * seconds)
         ++finest;
-    if (finest < _upsampleDivider || takes(_upsampleDivider) > seconds) _upsampleDivider = finest;
+    int& held = _ownUpsampleDivider;
+    if (finest < held || takes(held) > seconds) held = finest;
 }
 
 /// A view that moves is taken to have the resolution that it had when it moved last.
@@ -261,12 +285,19 @@ bool ViewTracer::traceImage(const FramePlan& plan, const FrameSituation& frame, 
         if (tiles < whole) return mayGiveUp && _planner.givesUp(frame, plan.divider, tiles, spent);
         return spent + ahead >= frame.seconds;
     };
+    return renderImage(plan.divider, rule);
+}
+
+/// False if there is no whole pass of it.
+bool ViewTracer::renderImage(int divider, StopRule& rule)
+{
+    const bool reduced = divider > 1;
     const RenderProgress made =
-        render(reduced ? *_reduced : *_session, plan.divider, rule, reduced ? nullptr : &_display);
+        render(reduced ? *_reduced : *_session, divider, rule, reduced ? nullptr : &_display);
     _planner.notePhotons(made.firstPhotonSeconds);
     if (!made.status.ok() || made.passes < 1) return false;
     _shown = reduced ? Shown::Reduced : Shown::Whole;
-    _divider = plan.divider;
+    _divider = divider;
     _imageChanged |= made.newTiles == 0; // of an image that was there before
     return true;
 }
@@ -288,6 +319,12 @@ void ViewTracer::traceStill(FrameSituation frame)
     const double groupSeconds = kGroup * kGroup * _planner.tileSeconds(1);
     if (groupSeconds > 0.0 && kFewGroups * groupSeconds < frame.seconds) rule.groupedTiles = kGroup;
     rule.newPasses = _planner.plan(frame).passes;
+    addToImage(rule);
+}
+
+/// Tiles and passes of full resolution, of a view at rest.
+void ViewTracer::addToImage(StopRule& rule)
+{
     // The display may lack whatever it did not hold before: then it is resolved.
     const bool addsToDisplay = _holdsFull && _resolved && same(_display.toneMap, *_resolved);
     _display.holdsImage = true;
@@ -300,6 +337,80 @@ void ViewTracer::traceStill(FrameSituation frame)
         _shown = Shown::Mixed;
     _imageChanged |= _shown != before && !_written;
     if (made.newTiles > 0) estimateError();
+}
+
+void ViewTracer::traceAgreed(bool moved, FrameWork work, double budget)
+{
+    if (moved)
+    {
+        if (!traceAgreedImage(work, budget) && _status.ok())
+        {
+            work = _agreement->giveUp(*_member, _part);
+            TracedPart rest;
+            rest.lostSeconds = _frame.traceSeconds;
+            _part = rest;
+            traceAgreedImage(work, 0.0);
+        }
+        const int passes = image().progress().passes;
+        if (passes < std::min(work.passes, _maxPasses)) _agreement->cutShort(*_member, passes);
+        _agreedProgress = _shown == Shown::Whole ? int64_t(passes) * FrameWork::kWholePass : 0;
+    }
+    else if (_shown == Shown::Reduced && _stillFrames < kSettling)
+    {
+        StopRule rule;
+        rule.newPasses = work.passes;
+        render(*_reduced, _divider, rule, nullptr);
+    }
+    else
+    {
+        traceAgreedProgress(work);
+    }
+}
+
+/// As many passes as all views make, at the resolution of all. False if it was given up, or failed.
+/// budget: of all views [s]; 0: it is not given up.
+bool ViewTracer::traceAgreedImage(const FrameWork& work, double budget)
+{
+    const int whole =
+        tilesOf(reducedSize(_view.width, work.divider), reducedSize(_view.height, work.divider));
+    StopRule rule;
+    rule.newPasses = work.passes;
+    // Photons, which no other resolution makes fewer, do not count: it is asked after them first.
+    std::atomic<double> start{-std::numeric_limits<double>::infinity()};
+    if (budget > 0.0)
+        rule.over = [&](int tiles, double)
+        {
+            if (tiles < whole && work.divider >= FramePlanner::kLargestDivider) return false;
+            const double now = _now();
+            double none = -std::numeric_limits<double>::infinity();
+            if (start.compare_exchange_strong(none, now)) return false;
+            return now - none > FrameAgreement::kFarTooLong * budget;
+        };
+    return renderImage(work.divider, rule);
+}
+
+/// What the view at rest has of full resolution is the same share of its tiles in all views, so
+/// that they complete their passes in the same frames.
+void ViewTracer::traceAgreedProgress(const FrameWork& work)
+{
+    constexpr int64_t kWhole = FrameWork::kWholePass;
+    const int64_t tiles = tilesOf(_view.width, _view.height);
+    const bool begun = _shown != Shown::Reduced;
+    const int64_t done =
+        begun ? _session->progress().passes * tiles + tiles - _session->tilesLeft() : 0;
+    if (!_agreedProgress) _agreedProgress = done * kWhole / tiles;
+    _agreedProgress = std::min(*_agreedProgress + work.progress, _maxPasses * kWhole);
+    _part.progress = static_cast<int>(*_agreedProgress % kWhole);
+
+    const int64_t wanted = *_agreedProgress * tiles / kWhole;
+    if (wanted <= done) return;
+    StopRule rule;
+    rule.newTiles =
+        static_cast<int>(std::min<int64_t>(wanted - done, std::numeric_limits<int>::max()));
+    rule.newPasses = static_cast<int>((wanted + tiles - 1) / tiles - done / tiles);
+    _part.photonPasses =
+        static_cast<int>((wanted + tiles - 1) / tiles - (done + tiles - 1) / tiles);
+    addToImage(rule);
 }
 
 void ViewTracer::setDenoise(DenoiseKind kind)
@@ -334,6 +445,10 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     const double seconds = _now() - start;
     _frame.traceSeconds += seconds;
     _planner.noteTiles(divider, made.newTiles, seconds - made.photonSeconds);
+    TracedPart::Passes& passes = divider > 1 ? _part.reduced : _part.full;
+    passes.tiles += made.newTiles;
+    passes.seconds += seconds - made.photonSeconds;
+    _part.photonSeconds += made.photonSeconds;
     if (made.restarted && &session == _session.get())
     {
         _relativeError = std::numeric_limits<double>::infinity();
@@ -445,6 +560,8 @@ void ViewTracer::noteShown()
     const double end = _now();
     _frame.seconds = end - _begin;
     _frame.divider = _shown == Shown::Whole ? 1 : _divider;
+    _part.upsampleDivider = _ownUpsampleDivider;
+    if (_agreement) _agreement->end(*_member, _part, end);
     if (_newTiles == 0) return;
     double& after = _afterSeconds[static_cast<int>(_showing)];
     const double seen = end - _traceEnd;

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/ImageStages.h"
 #include "osgRayTrace/bridge/SceneUpdater.h"
+#include "osgRayTrace/session/FrameAgreement.h"
 #include "osgRayTrace/session/FramePlan.h"
 #include "osgRayTrace/session/RenderSession.h"
 
@@ -30,6 +31,10 @@ struct FrameBudget
     /// Reduced images are upsampled along edges, to the largest size for which that takes no more
     /// than this of the seconds; OpenGL enlarges the rest of the way.
     double upsampleShare = 0.15;
+    /// If not null, it says what the view traces, as all views do, and the seconds are for all of them.
+    std::shared_ptr<FrameAgreement> agreement;
+    uint64_t frameNumber = 0; ///< for the agreement; see AgreedFrame
+    bool again = false;
 };
 
 /// Of the last frame.
@@ -49,6 +54,8 @@ struct FrameReport
 /// fits into a frame, one makes images of reduced resolution. When the view rests the other adds
 /// tiles of full resolution, as many in each frame as there is time for, which are shown over the
 /// enlarged last image; then passes.
+///
+/// With an agreement it does the same, but how much is told, and no clock ends it.
 class ViewTracer
 {
 public:
@@ -136,6 +143,7 @@ private:
     static constexpr int kShowings = 5;
 
     bool takeInputs(const SceneVersion& version, const View& pass);
+    FrameAgreement::Part joinFrame(const FrameBudget& budget, bool moved);
     Showing expectedShowing(bool moved) const;
     void setDeadline(double budget, bool moved, Showing showing);
     double secondsLeft() const { return _begin + _deadline - _now(); }
@@ -143,6 +151,11 @@ private:
     void traceMoved(FrameSituation frame, double budget);
     bool traceImage(const FramePlan& plan, const FrameSituation& frame, bool mayGiveUp);
     void traceStill(FrameSituation frame);
+    void traceAgreed(bool moved, FrameWork work, double budget);
+    bool traceAgreedImage(const FrameWork& work, double budget);
+    void traceAgreedProgress(const FrameWork& work);
+    bool renderImage(int divider, StopRule& rule);
+    void addToImage(StopRule& rule);
     RenderProgress render(RenderSession& session, int divider, StopRule& rule,
                           const DisplayTarget* display);
     void estimateError();
@@ -200,6 +213,14 @@ private:
     Showing _showing = Showing::Whole;
     double _afterSeconds[kShowings] = {}; ///< by _showing: from _traceEnd to noteShown()
 
+    // What all views agree on
+    std::shared_ptr<FrameAgreement> _agreement; ///< of this frame; null: none
+    std::shared_ptr<FrameAgreement::Member> _member;
+    TracedPart _part; ///< of this frame
+    /// What the image at rest shall have of full resolution, in parts of a pass; none before the view has
+    /// moved under the agreement.
+    std::optional<int64_t> _agreedProgress;
+
     // What the display holds
     ToneMap _toneMap;
     DisplayTarget _display;     ///< of this frame; rgba is null where it cannot be used
@@ -212,7 +233,8 @@ private:
     // What is done to images between the two
     ImageStages _stages, _reducedStages; ///< of _session, of _reduced
     double _upsampleBudget = 0.0;        ///< [s]
-    int _upsampleDivider = 1;            ///< of the finest size for which there is time
+    int _upsampleDivider = 1;            ///< of the size that reduced images are upsampled to
+    int _ownUpsampleDivider = 1;         ///< of the finest one for which there is time
     DenoiseKind _resolvedDenoise = DenoiseKind::Off;
 };
 

@@ -36,48 +36,73 @@ int tilesOf(int width, int height)
     return tilesAlong(width) * tilesAlong(height);
 }
 
-double FramePlanner::tileSeconds(int divider) const
+void TileCosts::note(int divider, int tiles, double seconds)
+{
+    if (tiles <= 0 || !(seconds > 0.0)) return;
+    const double seen = seconds / tiles;
+    if (divider > 1)
+    {
+        learn(_reduced, seen);
+        _fullIsNewer = false;
+        return;
+    }
+    if (!_fullIsNewer && _reduced > 0.0)
+    {
+        _full = seen; // the last is of another image
+        _ratio = std::clamp(_reduced / seen, 1.0, 2.0);
+    }
+    learn(_full, seen);
+    _fullIsNewer = true;
+}
+
+double TileCosts::tileSeconds(int divider) const
 {
     if (divider == 1) return _full > 0.0 ? _full : _reduced;
     return _reduced > 0.0 ? _reduced : _full * _ratio;
 }
 
-double FramePlanner::passSeconds(const FrameSituation& frame, int divider) const
+double TileCosts::passSeconds(int width, int height, int divider) const
 {
-    const int tiles =
-        tilesOf(reducedSize(frame.width, divider), reducedSize(frame.height, divider));
+    const int tiles = tilesOf(reducedSize(width, divider), reducedSize(height, divider));
     // While coarse images are made, what is known of fine ones grows old: they cost no more a tile.
     const double seconds =
         divider == 1 && !_fullIsNewer && _reduced > 0.0 ? _reduced : tileSeconds(divider);
     return tiles * seconds;
 }
 
-/// The largest divider if none fits.
-int FramePlanner::finestWithin(const FrameSituation& frame, double share) const
+void TileCosts::expectReduced()
 {
-    const double room = share * (frame.seconds - _photonSeconds);
+    if (_fullIsNewer) _reduced = _full * _ratio;
+}
+
+int HeldDivider::finestWithin(const PassSeconds& passSeconds, double seconds)
+{
     int divider = 1;
-    while (divider < kLargestDivider && passSeconds(frame, divider) > room)
+    while (divider < kLargest && passSeconds(divider) > seconds)
         ++divider;
     return divider;
 }
 
-int FramePlanner::heldDivider(const FrameSituation& frame)
+int HeldDivider::choose(const PassSeconds& passSeconds, double seconds, bool moves)
 {
-    if (!knowsCosts()) return kFirstDivider;
-    if (_divider < 1) return finestWithin(frame, kChosen);
-
-    const double room = frame.seconds - _photonSeconds;
-    if (passSeconds(frame, _divider) > kTooMuch * room)
+    if (_divider < 1) return _divider = finestWithin(passSeconds, kChosen * seconds);
+    if (passSeconds(_divider) > kTooMuch * seconds)
     {
         _roomy = 0;
-        return std::max(_divider, finestWithin(frame, kChosen));
+        return _divider = std::max(_divider, finestWithin(passSeconds, kChosen * seconds));
     }
-    const int finer = finestWithin(frame, kLittle);
+    if (!moves) return _divider;
+    const int finer = finestWithin(passSeconds, kLittle * seconds);
     _roomy = finer < _divider ? _roomy + 1 : 0;
     if (_roomy < kPatience) return _divider;
     _roomy = 0;
-    return finer;
+    return _divider = finer;
+}
+
+HeldDivider::PassSeconds FramePlanner::passSeconds(const FrameSituation& frame) const
+{
+    return [this, &frame](int divider)
+    { return _costs.passSeconds(frame.width, frame.height, divider); };
 }
 
 /// So many as the seconds will do, and what is begun of one more.
@@ -102,10 +127,10 @@ FramePlan FramePlanner::plan(const FrameSituation& frame)
     }
     if (frame.degrade)
     {
-        if (_fullIsNewer) _reduced = _full * _ratio;
-        const bool known = knowsCosts();
-        plan.divider = heldDivider(frame);
-        if (known) _divider = plan.divider;
+        _costs.expectReduced();
+        plan.divider = knowsCosts()
+                           ? _divider.choose(passSeconds(frame), frame.seconds - _photonSeconds)
+                           : kFirstDivider;
     }
     plan.passes = passes(frame, plan.divider, 0);
     return plan;
@@ -114,29 +139,12 @@ FramePlan FramePlanner::plan(const FrameSituation& frame)
 FramePlan FramePlanner::replan(const FrameSituation& frame)
 {
     FramePlan plan;
-    _divider = _roomy = 0; // the next frame has more time, and knows the costs
-    plan.divider = finestWithin(frame, kChosen);
+    _divider.reset(); // the next frame has more time, and knows the costs
+    _costs.expectReduced();
+    plan.divider = HeldDivider::finestWithin(
+        passSeconds(frame), HeldDivider::kChosen * (frame.seconds - _photonSeconds));
     plan.passes = passes(frame, plan.divider, 0);
     return plan;
-}
-
-void FramePlanner::noteTiles(int divider, int tiles, double seconds)
-{
-    if (tiles <= 0 || !(seconds > 0.0)) return;
-    const double seen = seconds / tiles;
-    if (divider > 1)
-    {
-        learn(_reduced, seen);
-        _fullIsNewer = false;
-        return;
-    }
-    if (!_fullIsNewer && _reduced > 0.0)
-    {
-        _full = seen; // the last is of another image
-        _ratio = std::clamp(_reduced / seen, 1.0, 2.0);
-    }
-    learn(_full, seen);
-    _fullIsNewer = true;
 }
 
 bool FramePlanner::givesUp(const FrameSituation& frame, int divider, int tiles,

@@ -217,12 +217,13 @@ bool RenderSession::Implementation::renderPass(const PassContext& context, const
     tileCounts.assign(tiles, TileCounts());
     unshown.resize(tiles);
     film.beginPass();
+    const bool partial = rule.over || rule.newTiles < std::numeric_limits<int>::max();
     workers->forEach(
-        rule.over ? order.places() : tiles,
+        partial ? order.places() : tiles,
         [&](std::size_t index)
         {
             // Workers begin at several places at once; an order has to be kept by all of them together.
-            if (rule.over) index = order.tile(next.fetch_add(1, std::memory_order_relaxed));
+            if (partial) index = order.tile(next.fetch_add(1, std::memory_order_relaxed));
             if (index == tiles) return;
             const int tile = static_cast<int>(index);
             bool renders = film.tilePasses(tile) == pass && !cancelled.load(std::memory_order_relaxed) &&
@@ -232,11 +233,14 @@ bool RenderSession::Implementation::renderPass(const PassContext& context, const
                 renders = false;
                 over = true;
             }
-            if (renders)
+            // Not one more, however many threads come here at once.
+            if (renders && begun.fetch_add(1, std::memory_order_relaxed) >= rule.newTiles)
             {
-                begun.fetch_add(1, std::memory_order_relaxed);
-                tileCounts[index] = renderTile(context, integrator, tile);
+                begun.fetch_sub(1, std::memory_order_relaxed);
+                renders = false;
+                over = true;
             }
+            if (renders) tileCounts[index] = renderTile(context, integrator, tile);
             if (renders) unshown[index] = 1;
             if (display && (unshown[index] || !display->holdsImage)) resolveTile(*display, tile);
             if (display) unshown[index] = 0;
@@ -268,6 +272,7 @@ RenderProgress RenderSession::Implementation::run(
     for (int made = 0; made < rule.newPasses && film.passes() < rule.passes; ++made)
     {
         const int pass = film.passes();
+        if (progress.newTiles >= rule.newTiles) break;
         if (made > 0 && secondsSince(start) >= rule.seconds) break;
         if (made > 0 && rule.over && rule.over(progress.newTiles, photons.secondsOf(pass))) break;
         const Clock::time_point passStart = Clock::now();

@@ -28,6 +28,9 @@ struct StopRule
 {
     int passes = std::numeric_limits<int>::max(); ///< accumulated passes, those of earlier calls included
     int newPasses = std::numeric_limits<int>::max(); ///< of this call
+    /// Tiles of this call, summed over its passes; the next render() does the rest of a pass. Tiles are then taken
+    /// in an order that is even over the image.
+    int newTiles = std::numeric_limits<int>::max();
     double seconds = std::numeric_limits<double>::infinity(); ///< of this call; at least one pass is made
     double relativeError = 0.0; ///< estimated, see RenderProgress; of the accumulated image; 0: not used
     /// If set: asked before each tile, by any thread, and before each pass but the first of the call. True:

@@ -69,6 +69,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getMaxPasses() == 1024);
     CHECK(settings->getFrameBudget() == 33.0f);
     CHECK(settings->getDegradeWhileMoving());
+    CHECK_FALSE(settings->getEqualViews());
     CHECK(settings->getPassesPerFrame() == 1);
     CHECK(settings->getThreads() == 0);
     CHECK(settings->getSeed() == 0u);

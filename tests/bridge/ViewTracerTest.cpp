@@ -139,7 +139,10 @@ struct Screen
     void frame(double x, bool keepsDisplay = true)
     {
         at = x;
-        const FrameBudget frameBudget{budget, settings->getDegradeWhileMoving(), upsampleShare};
+        FrameBudget frameBudget;
+        frameBudget.seconds = budget;
+        frameBudget.degrade = settings->getDegradeWhileMoving();
+        frameBudget.upsampleShare = upsampleShare;
         if (!keepsDisplay) display = Pixels();
         const bool fits = display.width == kWidth && display.height == kHeight;
         const bool written =

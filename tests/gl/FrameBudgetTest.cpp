@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <string>
 
 using namespace osgRayTrace;
@@ -115,4 +116,106 @@ TEST_CASE("frame budget: with no time at all a moving view is coarse and smooth,
     CHECK(divider(*budgeted) == 1);
     CHECK(passes(*budgeted) == 4);
     CHECK(equal(*view.frames(), *fine));
+}
+
+namespace
+{
+
+/// What the views of a scene showed when they were drawn last.
+struct Shown : osg::Camera::DrawCallback
+{
+    explicit Shown(const RayTracedScene& traced) : scene(&traced) {}
+    void operator()(osg::RenderInfo&) const override
+    {
+        shownPasses = passes(*scene);
+        shownDivider = divider(*scene);
+    }
+    const RayTracedScene* scene;
+    mutable int shownPasses = -1, shownDivider = -1;
+};
+
+/// A viewer with a second window, which is smaller.
+struct TwoWindows : TestViewer
+{
+    TwoWindows(RayTracedScene* scene)
+        : TestViewer(kSize, kSize, scene), large(new Shown(*scene)), small(new Shown(*scene))
+    {
+        osg::ref_ptr<osg::Camera> second = new osg::Camera;
+        second->setGraphicsContext(createOSMesaContext(kSize / 2, kSize / 2).get());
+        second->setViewport(0, 0, kSize / 2, kSize / 2);
+        second->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
+        second->addFinalDrawCallback(small.get());
+        camera().addFinalDrawCallback(large.get());
+        viewer.addSlave(second.get());
+    }
+    osg::ref_ptr<Shown> large, small;
+};
+
+} // namespace
+
+TEST_CASE(
+    "equal views: windows of any size make their passes in the same frames, at the same resolution",
+    "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = tracedScene(sphere(osg::Vec3(), 2.5f, kGreen).get());
+    scene->getSettings()->setFrameBudget(kNothing);
+    scene->getSettings()->setMaxPasses(2);
+    scene->getSettings()->setEqualViews(true);
+    TwoWindows view(scene.get());
+    int completed = 0;
+    for (int i = 0; i < 540; ++i)
+    {
+        if (i < 20) view.look(osg::Vec3d(0.0, 0.01 * i, 10.0));
+        view.viewer.frame();
+        CAPTURE(i);
+        REQUIRE(view.large->shownPasses == view.small->shownPasses);
+        REQUIRE(view.large->shownDivider == view.small->shownDivider);
+        completed += view.large->shownDivider == 1;
+    }
+    CHECK(completed > 200);
+    CHECK(view.small->shownPasses == 2);
+}
+
+TEST_CASE("equal views: what somebody else decides holds for all, but for cameras with a budget of "
+          "their own",
+          "[gl]")
+{
+    osg::ref_ptr<RayTracedScene> scene = tracedScene(sphere(osg::Vec3(), 2.5f, kGreen).get());
+    scene->getSettings()->setFrameBudget(kEndless);
+    scene->getSettings()->setEqualViews(true);
+    RayTraceDrawable& drawable = *scene->getDrawable();
+    CHECK_FALSE(drawable.getAffordableWork());
+    TwoWindows view(scene.get());
+    FrameWork work;
+    work.divider = 2;
+    work.passes = 3;
+    work.progress = 2 * FrameWork::WHOLE_PASS;
+    drawable.setFrameWork(work);
+    const bool own = GENERATE(false, true);
+    if (own) view.camera().setUserValue("osgRayTrace.frameBudget", 0.0f);
+    for (int i = 0; i < 5; ++i)
+    {
+        view.look(osg::Vec3d(0.0, 0.01 * i, 10.0));
+        view.viewer.frame();
+        CHECK(view.large->shownDivider == (own ? 1 : 2));
+        CHECK(view.large->shownPasses == (own ? 1 : 3));
+        CHECK(view.small->shownDivider == 2);
+        CHECK(view.small->shownPasses == 3);
+    }
+    view.viewer.frame();
+    for (const int expected : {2, 4})
+    {
+        view.viewer.frame();
+        CHECK(view.small->shownDivider == 1);
+        CHECK(view.small->shownPasses == expected);
+    }
+    const std::optional<FrameWork> affordable = drawable.getAffordableWork();
+    REQUIRE(affordable);
+    CHECK(affordable->divider == 1);
+    CHECK(affordable->passes > 3);
+    drawable.setFrameWork(std::nullopt);
+    view.look(osg::Vec3d(0.0, 0.1, 10.0));
+    view.viewer.frame();
+    CHECK(view.small->shownDivider == 1);
+    CHECK(view.small->shownPasses > 3);
 }

@@ -121,7 +121,7 @@ TEST_CASE("frame plan: moving views fit into their budgets and fill them", "[ses
             const int divider = frames.back().divider;
             if (divider > 1)
                 CHECK(pass * machine.reducedPenalty / ((divider - 1) * (divider - 1)) >
-                      0.9 * FramePlanner::kLittle * budget);
+                      0.9 * HeldDivider::kLittle * budget);
         }
     }
 }
@@ -152,12 +152,12 @@ TEST_CASE("frame plan: coarser at once, finer with patience", "[session]")
     const auto heavy = run(machine, planner, 3);
     CHECK(heavy[0].divider == divider);
     CHECK(heavy[1].divider > divider);
-    CHECK(heavy[1].whole <= FramePlanner::kChosen * machine.budget * 1.01);
+    CHECK(heavy[1].whole <= HeldDivider::kChosen * machine.budget * 1.01);
     CHECK(heavy[2].divider == heavy[1].divider);
 
     machine.passSeconds = 0.2;
     const auto light = run(machine, planner, 60);
-    CHECK(light[FramePlanner::kPatience - 2].divider == heavy[1].divider);
+    CHECK(light[HeldDivider::kPatience - 2].divider == heavy[1].divider);
     CHECK(light.back().divider <= 5); // within kLittle; 4 takes a bit more
     CHECK(changes(light) <= 3);
 }
@@ -248,7 +248,7 @@ TEST_CASE("frame plan: what turns out to be too much is given up in time", "[ses
     frame.seconds = 0.015;
     const FramePlan plan = planner.replan(frame);
     CHECK(plan.divider > 2);
-    CHECK(0.06 / all * tilesAt(plan.divider) <= FramePlanner::kChosen * 0.015);
+    CHECK(0.06 / all * tilesAt(plan.divider) <= HeldDivider::kChosen * 0.015);
 }
 
 TEST_CASE("frame plan: views of any size", "[session]")

@@ -196,6 +196,30 @@ TEST_CASE("interrupted passes: over is asked before passes, with the photons' ti
     CHECK(ahead.empty()); // the first four are kept
 }
 
+TEST_CASE("interrupted passes: so many tiles as are allowed, by any number of threads, and the same image",
+          "[session]")
+{
+    Room whole(IntegratorKind::Path);
+    StopRule all;
+    all.passes = 3;
+    whole.session.render(all);
+    for (const int threads : {1, 2, 5})
+    {
+        Room room(IntegratorKind::Path, threads);
+        StopRule some;
+        some.passes = 3;
+        some.newTiles = 13; // of 35
+        for (int done = 0; done < 3 * 35; done += 13)
+        {
+            const RenderProgress made = room.session.render(some);
+            CAPTURE(threads, done);
+            CHECK(made.newTiles == std::min(13, 3 * 35 - done));
+            CHECK(made.passes == std::min(done + 13, 3 * 35) / 35);
+        }
+        CHECK(room.session.resolveRadiance() == whole.session.resolveRadiance());
+    }
+}
+
 TEST_CASE("interrupted passes: what is not shown in the pass is shown at the end", "[session]")
 {
     // keepGoing ends after the first pass, though more were allowed.
