@@ -17,14 +17,14 @@ int CalVRConnections::slaveCount() const
     return cvr::ComController::instance()->getNumSlaves();
 }
 
-bool CalVRConnections::sendToMaster(const int& value)
+bool CalVRConnections::sendToMaster(const void* data, int bytes)
 {
-    return cvr::ComController::instance()->sendMaster(const_cast<int*>(&value), sizeof value);
+    return cvr::ComController::instance()->sendMaster(const_cast<void*>(data), bytes);
 }
 
-bool CalVRConnections::readFromSlaves(std::vector<int>& values)
+bool CalVRConnections::readFromSlaves(void* data, int bytesOfEach)
 {
-    return cvr::ComController::instance()->readSlaves(values.data(), sizeof(int));
+    return cvr::ComController::instance()->readSlaves(data, bytesOfEach);
 }
 
 bool CalVRConnections::sendToSlaves(const void* data, int bytes)

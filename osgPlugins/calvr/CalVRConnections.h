@@ -12,8 +12,8 @@ class CalVRConnections : public Connections
 public:
     bool isMaster() const override;
     int slaveCount() const override;
-    bool sendToMaster(const int& value) override;
-    bool readFromSlaves(std::vector<int>& values) override;
+    bool sendToMaster(const void* data, int bytes) override;
+    bool readFromSlaves(void* data, int bytesOfEach) override;
     bool sendToSlaves(const void* data, int bytes) override;
     bool readFromMaster(void* data, int bytes) override;
 };

@@ -3,7 +3,6 @@
 #include "Cluster.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace osgRayTrace::calvr
 {
@@ -11,52 +10,73 @@ namespace osgRayTrace::calvr
 namespace
 {
 
-constexpr int kMostPasses = 1024;       // of setPassesPerFrame
 constexpr int kMostTextBytes = 1 << 20; // more is no text of ours: the nodes are out of step
+constexpr int kMessageBytes = static_cast<int>(sizeof(WorkMessage));
+
+WorkMessage messageOf(const std::optional<FrameWork>& work)
+{
+    WorkMessage message;
+    if (!work) return message;
+    message.hasSay = 1;
+    message.divider = work->divider;
+    message.passes = work->passes;
+    message.progress = work->progress;
+    message.upsampleDivider = work->upsampleDivider;
+    return message;
+}
 
 } // namespace
 
-int affordablePasses(double passSeconds, double budgetSeconds)
+FrameWork agreedWork(const std::vector<std::optional<FrameWork>>& offers)
 {
-    if (!(passSeconds > 0.0) || !std::isfinite(passSeconds)) return 1;
-    const double passes = std::floor(budgetSeconds / passSeconds);
-    if (!(passes >= 1.0)) return 1;
-    return static_cast<int>(std::min(passes, static_cast<double>(kMostPasses)));
+    std::optional<FrameWork> agreed;
+    for (const std::optional<FrameWork>& offer : offers)
+    {
+        if (!offer) continue;
+        if (!agreed) agreed = offer;
+        agreed->divider = std::max(agreed->divider, offer->divider);
+        agreed->passes = std::min(agreed->passes, offer->passes);
+        agreed->progress = std::min(agreed->progress, offer->progress);
+        agreed->upsampleDivider = std::max(agreed->upsampleDivider, offer->upsampleDivider);
+    }
+    return agreed.value_or(FrameWork());
 }
 
-int agreedPasses(const std::vector<int>& offers)
-{
-    int least = kMostPasses + 1;
-    for (const int offer : offers)
-        if (offer > kNoSay) least = std::min(least, offer);
-    return least > kMostPasses ? 1 : least;
-}
-
-PassAgreement::PassAgreement(Connections& connections)
+WorkAgreement::WorkAgreement(Connections& connections)
     : _connections(connections),
-      _offers(static_cast<size_t>(std::max(connections.slaveCount(), 0)), kNoSay)
+      _messages(static_cast<size_t>(std::max(connections.slaveCount(), 0))),
+      _offers(_messages.size() + 1)
 {
-    _offers.reserve(_offers.size() + 1);
 }
 
-int PassAgreement::agree(int offer)
+std::optional<FrameWork> WorkAgreement::read(const WorkMessage& message)
 {
-    const int alone = std::max(offer, 1);
-    int agreed = alone;
+    if (message.version != WorkMessage::kVersion) _otherVersion = true;
+    if (message.version != WorkMessage::kVersion || message.hasSay == 0) return std::nullopt;
+    return FrameWork{message.divider, message.passes, message.progress, message.upsampleDivider};
+}
+
+FrameWork WorkAgreement::agree(const std::optional<FrameWork>& offer)
+{
+    const FrameWork alone = offer.value_or(FrameWork());
     if (!_connections.isMaster())
     {
-        const bool sent = _connections.sendToMaster(offer);
-        const bool read = _connections.readFromMaster(&agreed, sizeof agreed);
-        return sent && read ? std::clamp(agreed, 1, kMostPasses) : alone;
+        const WorkMessage own = messageOf(offer);
+        WorkMessage agreed;
+        const bool sent = _connections.sendToMaster(&own, kMessageBytes);
+        const bool received = _connections.readFromMaster(&agreed, kMessageBytes);
+        return sent && received ? read(agreed).value_or(alone) : alone;
     }
-    if (_offers.empty()) return alone;
+    if (_messages.empty()) return alone;
 
-    const bool read = _connections.readFromSlaves(_offers);
-    _offers.push_back(offer);
-    agreed = agreedPasses(_offers);
-    _offers.pop_back();
-    const bool sent = _connections.sendToSlaves(&agreed, sizeof agreed);
-    return read && sent ? agreed : alone;
+    const bool received = _connections.readFromSlaves(_messages.data(), kMessageBytes);
+    _offers[0] = offer;
+    for (size_t i = 0; i < _messages.size(); ++i)
+        _offers[i + 1] = received ? read(_messages[i]) : std::nullopt;
+    const FrameWork agreed = agreedWork(_offers);
+    const WorkMessage message = messageOf(agreed);
+    const bool sent = _connections.sendToSlaves(&message, kMessageBytes);
+    return received && sent ? agreed : alone;
 }
 
 std::string mastersText(Connections& connections, const std::string& own)

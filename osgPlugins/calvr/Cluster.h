@@ -2,6 +2,9 @@
 // plugins. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgRayTrace/FrameWork>
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,36 +22,55 @@ public:
     virtual bool isMaster() const = 0;
     virtual int slaveCount() const = 0; ///< 0: a computer of its own. The same on all nodes
 
-    virtual bool sendToMaster(const int& value) = 0;            ///< slaves
-    virtual bool readFromSlaves(std::vector<int>& values) = 0;  ///< master: one for each slave
+    virtual bool sendToMaster(const void* data, int bytes) = 0; ///< slaves
+    /// master: so many bytes from each slave, one after the other.
+    virtual bool readFromSlaves(void* data, int bytesOfEach) = 0;
     virtual bool sendToSlaves(const void* data, int bytes) = 0; ///< master
     virtual bool readFromMaster(void* data, int bytes) = 0;     ///< slaves
 };
 
-/// A node that traces nothing, or failed to, has no say in how many passes the others trace.
-constexpr int kNoSay = 0;
+/// What goes over the wire: a node's offer, or what is agreed. Its size and the place of the
+/// version are those of all versions to come, so that nodes with different ones stay in step.
+struct WorkMessage
+{
+    static constexpr int kVersion = 2; ///< of the other numbers; 1 was a single number of passes
+    static constexpr int kNumbers = 8;
 
-/// How many passes of passSeconds a node can trace in budgetSeconds: 1 at least, 1024 at most.
-/// Before the first pass (not positive or not finite) nobody knows: 1.
-int affordablePasses(double passSeconds, double budgetSeconds);
+    int version = kVersion;
+    int hasSay =
+        0; ///< 0: the node traces nothing, or failed to, and takes what the others agree on
+    int divider = 0, passes = 0, progress = 0, upsampleDivider = 0; ///< see FrameWork
+    int unused[2] = {};
+};
+static_assert(sizeof(WorkMessage) == WorkMessage::kNumbers * sizeof(int));
 
-/// What all nodes trace: the least of what they can, 1 if none has a say.
-int agreedPasses(const std::vector<int>& offers);
+/// What all nodes trace: the coarsest divider and the least passes of what they can; what is traced
+/// in the first of all frames, if none has a say.
+FrameWork agreedWork(const std::vector<std::optional<FrameWork>>& offers);
 
 /// Sends offers to the master and its answer back, once a frame: pictures of all walls then have
-/// the same number of passes, and no edge between them shows in brightness or noise.
-class PassAgreement
+/// the same resolution and number of passes, and no edge between them shows.
+class WorkAgreement
 {
 public:
-    explicit PassAgreement(Connections& connections);
+    explicit WorkAgreement(Connections& connections);
 
-    /// The passes of this frame for all nodes. Makes the same calls whatever the offer is; without
-    /// a cluster none. When connections are lost the own offer counts (CalVR ends then).
-    int agree(int offer);
+    /// What all nodes trace in this frame; offer: what this one can, nothing: it has no say. Makes
+    /// the same calls whatever the offer is; without a cluster none. When connections are lost the
+    /// own offer counts (CalVR ends then).
+    FrameWork agree(const std::optional<FrameWork>& offer);
+
+    /// True once another node has sent a message of another version: that node has no say, and
+    /// where it is the master, it is not followed.
+    bool hasMetOtherVersion() const { return _otherVersion; }
 
 private:
+    std::optional<FrameWork> read(const WorkMessage& message);
+
     Connections& _connections;
-    std::vector<int> _offers; ///< of the slaves; allocated before the first frame
+    std::vector<WorkMessage> _messages; ///< of the slaves; allocated before the first frame
+    std::vector<std::optional<FrameWork>> _offers; ///< of all nodes; the same
+    bool _otherVersion = false;
 };
 
 /// Gives the master's text to all nodes; returns it. When connections are lost: the own one.

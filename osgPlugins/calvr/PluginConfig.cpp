@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "PluginConfig.h"
 
+#include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <cstdlib>
+#include <locale>
 #include <set>
 #include <sstream>
 
@@ -12,6 +14,8 @@ namespace osgRayTrace::calvr
 
 namespace
 {
+
+constexpr double kMostMilliseconds = 60000.0; // of frame-budget
 
 bool readSwitch(const std::string& text, bool& value)
 {
@@ -29,7 +33,7 @@ bool readMilliseconds(const std::string& text, double& value)
     double read = 0.0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), read);
     if (result.ec != std::errc() || result.ptr != text.data() + text.size()) return false;
-    if (!(read > 0.0) || !std::isfinite(read)) return false;
+    if (!(read > 0.0 && read <= kMostMilliseconds)) return false;
     value = read;
     return true;
 }
@@ -37,10 +41,51 @@ bool readMilliseconds(const std::string& text, double& value)
 /// Nodes may have more or fewer processors.
 bool isOfOneNode(const std::string& option)
 {
-    return option == "threads";
+    return option == "threads" || option == "frame-budget";
+}
+
+const RayTraceSettings::Option* findOption(const std::vector<RayTraceSettings::Option>& options,
+                                           const std::string& name)
+{
+    const auto found =
+        std::find_if(options.begin(), options.end(),
+                     [&](const RayTraceSettings::Option& option) { return option.name == name; });
+    return found == options.end() ? nullptr : &*found;
+}
+
+/// "frame-budget" as an element is called.
+std::string elementName(const std::string& option)
+{
+    std::string name;
+    bool upper = true;
+    for (const char c : option)
+    {
+        if (c != '-') name += upper && c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+        upper = c == '-';
+    }
+    return name;
+}
+
+/// Equal for all spellings of an option's name.
+std::string plainName(const std::string& name)
+{
+    std::string letters;
+    for (const char c : name)
+        if (c != '-' && c != '_')
+            letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return letters;
 }
 
 } // namespace
+
+osg::ref_ptr<RayTraceSettings> wallSettings()
+{
+    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    const auto options = RayTraceSettings::options();
+    const RayTraceSettings::Option* option = findOption(options, "equal-views");
+    if (!option || !std::getenv(option->environment.c_str())) settings->setEqualViews(true);
+    return settings;
+}
 
 PluginConfig readConfig(const std::vector<std::string>& names,
                         const std::function<std::string(const std::string& name)>& valueOf,
@@ -63,7 +108,10 @@ PluginConfig readConfig(const std::vector<std::string>& names,
             continue;
         }
         else
+        {
             taken = settings.set(name, value);
+            if (taken) config.given.push_back(name);
+        }
         if (!taken) config.complaints.push_back("'" + name + "' cannot be '" + value + "'");
     }
     return config;
@@ -99,10 +147,35 @@ std::vector<std::string> takeSharedSettings(const std::string& lines, RayTraceSe
     return complaints;
 }
 
-void makeEqualOnAllNodes(RayTraceSettings& settings)
+std::string makeEqualOnAllNodes(RayTraceSettings& settings, const PluginConfig& config)
 {
-    settings.setAimAtViews(false);
-    settings.set("frame-budget", "0");
+    const auto options = RayTraceSettings::options();
+    const auto isWanted = [&](const std::string& name)
+    {
+        for (const std::string& given : config.given)
+            if (plainName(given) == plainName(name)) return true;
+        const RayTraceSettings::Option* option = findOption(options, name);
+        return option && std::getenv(option->environment.c_str());
+    };
+    std::string overruled;
+    const auto impose =
+        [&](const std::string& name, const std::string& value, const std::string& reason)
+    {
+        const std::string wanted = settings.get(name);
+        settings.set(name, value);
+        if (wanted == settings.get(name) || !isWanted(name)) return;
+        overruled += overruled.empty() ? "in a cluster " : "; ";
+        overruled += elementName(name) + " '" + wanted + "' is overruled: " + reason;
+    };
+    impose("presentation", "frame-locked", "nodes show the same frame");
+    impose("equal-views", "true", "nodes agree on passes and resolution");
+    impose("passes-per-frame", "1", "nodes agree on them");
+    impose("aim-at-views", "false", "nodes trace the same photons");
+    std::ostringstream budget;
+    budget.imbue(std::locale::classic());
+    budget << config.clusterBudget;
+    impose("frame-budget", budget.str(), "ClusterBudget holds, " + budget.str() + " ms");
+    return overruled;
 }
 
 } // namespace osgRayTrace::calvr

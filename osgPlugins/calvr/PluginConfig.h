@@ -16,9 +16,14 @@ struct PluginConfig
 {
     bool trace = true; ///< Trace: ray traced from the first frame on
     double clusterBudget =
-        33.0; ///< ClusterBudget: tracing of each view in a frame, if nodes agree [ms]
+        33.0; ///< ClusterBudget: tracing of all views of a node in a frame, if nodes agree [ms]
+    std::vector<std::string> given;      ///< options that the configuration has, as it spells them
     std::vector<std::string> complaints; ///< one sentence each
 };
+
+/// Settings with the defaults of CalVR's walls: these take the same passes and resolution. What the
+/// environment says holds.
+osg::ref_ptr<RayTraceSettings> wallSettings();
 
 /// Reads the children of <Plugin><RayTrace>, <LightSamples value="16"/>: Trace, ClusterBudget, and
 /// every option by its name in any spelling. names: of the elements there are; valueOf: the value
@@ -29,7 +34,8 @@ PluginConfig readConfig(const std::vector<std::string>& names,
                         RayTraceSettings& settings);
 
 /// All that the nodes of a cluster must have in common, as lines "option=value": all but the number
-/// of threads, and "trace", for a click in the menu switches every node to what it was not.
+/// of threads and the time that a node has, and "trace", for a click in the menu switches every
+/// node to what it was not.
 std::string sharedSettings(const RayTraceSettings& settings, const PluginConfig& config);
 
 /// Takes such lines over; what fits no option is left out (another version of us on that node) and
@@ -37,9 +43,10 @@ std::string sharedSettings(const RayTraceSettings& settings, const PluginConfig&
 std::vector<std::string> takeSharedSettings(const std::string& lines, RayTraceSettings& settings,
                                             PluginConfig& config);
 
-/// Switches off what would make photons depend on what one node sees, aim-at-views: without it pass
-/// k has the same photons on all nodes, for its random numbers depend on seed and k alone. And a
-/// budget of time that each view keeps by its own clock, if there is one: nodes agree on passes.
-void makeEqualOnAllNodes(RayTraceSettings& settings);
+/// Sets what nodes need to show one picture. aim-at-views is off: without it pass k has the same
+/// photons on all nodes, for its random numbers depend on seed and k alone. Views are frame-locked
+/// and take what all of them agree on, in the node's ClusterBudget. Returns one sentence that names
+/// what the configuration or the environment wanted otherwise; empty: nothing.
+std::string makeEqualOnAllNodes(RayTraceSettings& settings, const PluginConfig& config);
 
 } // namespace osgRayTrace::calvr

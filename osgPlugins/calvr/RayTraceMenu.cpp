@@ -65,6 +65,12 @@ void RayTraceMenu::showChosen(const Lines& lines)
         lines.boxes[i]->setValue(static_cast<int>(i) == chosen);
 }
 
+/// An item that is set is drawn again.
+void RayTraceMenu::showFrozen(bool frozen)
+{
+    if (_freeze->getValue() != frozen) _freeze->setValue(frozen);
+}
+
 void RayTraceMenu::clicked(const cvr::MenuItem* item)
 {
     for (const Lines& lines : _lines)

@@ -31,6 +31,8 @@ public:
 
     bool isOn() const { return _on->getValue(); }
     bool isFrozen() const { return _freeze->getValue(); }
+    bool isFreeze(const cvr::MenuItem* item) const { return item == _freeze.get(); }
+    void showFrozen(bool frozen);
     bool isReport(const cvr::MenuItem* item) const { return item == _report.get(); }
 
 private:

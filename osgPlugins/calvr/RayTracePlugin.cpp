@@ -63,7 +63,7 @@ bool RayTracePlugin::init()
 
 void RayTracePlugin::readSettings()
 {
-    _settings = new RayTraceSettings;
+    _settings = wallSettings();
     std::vector<std::string> names;
     cvr::ConfigManager::getChildren(kElement, names);
     const auto valueOf = [](const std::string& name)
@@ -77,7 +77,12 @@ void RayTracePlugin::readSettings()
 void RayTracePlugin::shareSettings()
 {
     _agreement.emplace(_connections); // whatever else fails, this node goes on making the calls
-    if (_settings) makeEqualOnAllNodes(*_settings);
+    if (_settings)
+    {
+        // The slaves' own wishes do not count either way.
+        const std::string overruled = makeEqualOnAllNodes(*_settings, _config);
+        if (_connections.isMaster() && !overruled.empty()) warn(overruled);
+    }
     const std::string lines =
         mastersText(_connections, _settings ? sharedSettings(*_settings, _config) : "");
     if (!_settings) return;
@@ -97,15 +102,24 @@ void RayTracePlugin::start()
 void RayTracePlugin::preFrame()
 {
     guarded("frame", [this] { switchAndLight(); });
-    int passes = kNoSay;
-    guarded("statistics", [this, &passes] { passes = offer(); });
-    if (!_agreement) return;
-    const int agreed = _agreement->agree(passes);
+    guarded("menu", [this] { showFreeze(); });
+    std::optional<FrameWork> offered;
+    guarded("statistics", [this, &offered] { offered = offer(); });
+    if (_agreement) agree(offered);
+}
+
+/// The calls over the network are outside of what is guarded: no node may leave them out.
+void RayTracePlugin::agree(const std::optional<FrameWork>& offer)
+{
+    const FrameWork agreed = _agreement->agree(offer);
     guarded("passes",
-            [this, agreed]
+            [this, &agreed]
             {
-                if (_settings) _settings->setPassesPerFrame(agreed);
+                if (_root) _root->scene().getDrawable()->setFrameWork(agreed);
             });
+    if (_toldVersion || !_agreement->hasMetOtherVersion()) return;
+    _toldVersion = true;
+    warn("the nodes have different versions of the plugin: their walls may not match");
 }
 
 void RayTracePlugin::switchAndLight()
@@ -119,13 +133,17 @@ void RayTracePlugin::switchAndLight()
                         cvr::PluginHelper::getWorldToObjectTransform());
 }
 
-int RayTracePlugin::offer() const
+/// Others freeze the head, too.
+void RayTracePlugin::showFreeze()
 {
-    if (!_agreement || !_root || !_root->isOn()) return kNoSay;
-    const Statistics statistics = _root->scene().getDrawable()->getStatistics();
-    if (!statistics.ok || statistics.passes < 1) return kNoSay; // as on a master that draws nothing
-    return affordablePasses(statistics.renderSeconds / statistics.passes,
-                            1e-3 * _config.clusterBudget);
+    if (_menu) _menu->showFrozen(!cvr::TrackingManager::instance()->getUpdateHeadTracking());
+}
+
+std::optional<FrameWork> RayTracePlugin::offer() const
+{
+    if (!_agreement || !_root || !_root->isOn()) return std::nullopt;
+    if (!_root->scene().getDrawable()->getStatistics().ok) return std::nullopt;
+    return _root->scene().getDrawable()->getAffordableWork();
 }
 
 void RayTracePlugin::menuCallback(cvr::MenuItem* item)
@@ -135,8 +153,10 @@ void RayTracePlugin::menuCallback(cvr::MenuItem* item)
             {
                 if (!_root || !_menu) return;
                 _menu->clicked(item);
-                cvr::TrackingManager::instance()->setUpdateHeadTracking(!_menu->isFrozen());
-                if (_menu->isReport(item)) OSG_NOTICE << _root->scene().getConversionReport();
+                if (_menu->isFreeze(item))
+                    cvr::TrackingManager::instance()->setUpdateHeadTracking(!_menu->isFrozen());
+                if (_menu->isReport(item))
+                    OSG_NOTICE << _root->scene().getConversionReport() << std::flush;
             });
 }
 

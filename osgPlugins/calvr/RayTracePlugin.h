@@ -38,12 +38,15 @@ private:
     void shareSettings();
     void start();
     void switchAndLight();
-    int offer() const;
+    void showFreeze();
+    std::optional<FrameWork> offer() const;
+    void agree(const std::optional<FrameWork>& offer);
 
     osg::ref_ptr<RayTraceSettings> _settings;
     PluginConfig _config;
     CalVRConnections _connections;
-    std::optional<PassAgreement> _agreement; ///< in a cluster
+    bool _toldVersion = false;               ///< that another node has another one
+    std::optional<WorkAgreement> _agreement; ///< in a cluster
     std::unique_ptr<TracedRoot> _root;
     std::unique_ptr<RayTraceMenu> _menu;
 };

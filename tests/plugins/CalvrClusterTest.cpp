@@ -8,16 +8,30 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
-#include <limits>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 using namespace osgRayTrace::calvr;
+using osgRayTrace::FrameWork;
+
+namespace osgRayTrace
+{
+
+bool operator==(const FrameWork& a, const FrameWork& b)
+{
+    return a.divider == b.divider && a.passes == b.passes && a.progress == b.progress &&
+           a.upsampleDivider == b.upsampleDivider;
+}
+
+} // namespace osgRayTrace
 
 namespace
 {
+
+const FrameWork kOffer{3, 6, 1000, 2};
 
 /// Bytes on their way from one node to another. Readers wait for theirs, but not for ever.
 class Wire
@@ -76,18 +90,19 @@ public:
     bool isMaster() const override { return _number == 0; }
     int slaveCount() const override { return static_cast<int>(_wires.toSlave.size()); }
 
-    bool sendToMaster(const int& value) override
+    bool sendToMaster(const void* data, int bytes) override
     {
         ++calls;
-        _wires.toMaster[_number - 1].send(&value, sizeof value);
+        _wires.toMaster[_number - 1].send(data, static_cast<size_t>(bytes));
         return true;
     }
-    bool readFromSlaves(std::vector<int>& values) override
+    bool readFromSlaves(void* data, int bytesOfEach) override
     {
         ++calls;
-        bool all = values.size() == _wires.toMaster.size();
-        for (size_t i = 0; i < values.size(); ++i)
-            all = _wires.toMaster[i].read(&values[i], sizeof(int)) && all;
+        const auto bytes = static_cast<size_t>(bytesOfEach);
+        bool all = true;
+        for (size_t i = 0; i < _wires.toMaster.size(); ++i)
+            all = _wires.toMaster[i].read(static_cast<char*>(data) + i * bytes, bytes) && all;
         return all;
     }
     bool sendToSlaves(const void* data, int bytes) override
@@ -112,46 +127,45 @@ private:
 
 } // namespace
 
-TEST_CASE("affordable passes: whole ones within the budget, one at least, 1024 at most", "[calvr]")
+TEST_CASE("agreed work: the coarsest divider and the least passes; who traces nothing has no say",
+          "[calvr]")
 {
-    CHECK(affordablePasses(0.010, 0.033) == 3);
-    CHECK(affordablePasses(0.033, 0.033) == 1);
-    CHECK(affordablePasses(0.500, 0.033) == 1);
-    CHECK(affordablePasses(1e-9, 0.033) == 1024);
-    CHECK(affordablePasses(std::numeric_limits<double>::denorm_min(), 0.033) == 1024);
-    for (const double unknown : {0.0, -1.0, std::numeric_limits<double>::infinity(),
-                                 std::numeric_limits<double>::quiet_NaN()})
-        CHECK(affordablePasses(unknown, 0.033) == 1);
+    const std::optional<FrameWork> none;
+    const FrameWork fine{1, 9, 3 * FrameWork::WHOLE_PASS, 1}, coarse{4, 2, 100, 3};
+    CHECK(agreedWork({fine, coarse}) == FrameWork{4, 2, 100, 3});
+    CHECK(agreedWork({coarse, none, fine}) == FrameWork{4, 2, 100, 3});
+    CHECK(agreedWork({FrameWork{2, 5, 700, 2}, FrameWork{3, 1, 900, 1}}) ==
+          FrameWork{3, 1, 700, 2});
+    CHECK(agreedWork({none, fine}) == fine);
+    CHECK(agreedWork({none, none}) == FrameWork());
+    CHECK(agreedWork({}) == FrameWork());
 }
 
-TEST_CASE("agreed passes: the least offer; who traces nothing has no say", "[calvr]")
-{
-    CHECK(agreedPasses({5, 3, 9}) == 3);
-    CHECK(agreedPasses({5, kNoSay, 9}) == 5);
-    CHECK(agreedPasses({kNoSay, kNoSay}) == 1);
-    CHECK(agreedPasses({}) == 1);
-    CHECK(agreedPasses({1024, 1024}) == 1024);
-    CHECK(agreedPasses({-7, 4}) == 4);
-}
-
-TEST_CASE("pass agreement: four nodes trace the same passes in each of 200 frames, whoever traces "
-          "or failed",
+TEST_CASE("work agreement: four nodes trace the same passes at the same resolution in each of 200 "
+          "frames, "
+          "whoever traces or failed",
           "[calvr]")
 {
     constexpr int kNodes = 4, kFrames = 200;
     Wires wires(kNodes - 1);
-    std::vector<std::vector<int>> agreed(kNodes, std::vector<int>(kFrames));
+    std::vector<std::vector<FrameWork>> agreed(kNodes, std::vector<FrameWork>(kFrames));
     std::vector<int> calls(kNodes);
-    const auto offerOf = [](int node, int frame)
-    { return (frame * 7 + node * 5) % 11; }; // 0: has no say
+    const auto offerOf = [](int node, int frame) -> std::optional<FrameWork>
+    {
+        const int k = (frame * 7 + node * 5) % 11;
+        if (k == 0) return std::nullopt;
+        return FrameWork{(k + node) % 5 + 1, k, 100 * ((k + 3 * node) % 7 + 1),
+                         (k + frame) % 3 + 1};
+    };
     const auto run = [&](int node)
     {
         Node connections(wires, node);
-        PassAgreement agreement(connections);
+        WorkAgreement agreement(connections);
         for (int frame = 0; frame < kFrames; ++frame)
             agreed[static_cast<size_t>(node)][static_cast<size_t>(frame)] =
                 agreement.agree(offerOf(node, frame));
         calls[static_cast<size_t>(node)] = connections.calls;
+        if (agreement.hasMetOtherVersion()) calls[static_cast<size_t>(node)] = -1;
     };
     std::vector<std::thread> threads;
     for (int node = 0; node < kNodes; ++node)
@@ -161,10 +175,10 @@ TEST_CASE("pass agreement: four nodes trace the same passes in each of 200 frame
 
     for (int frame = 0; frame < kFrames; ++frame)
     {
-        std::vector<int> offers;
+        std::vector<std::optional<FrameWork>> offers;
         for (int node = 0; node < kNodes; ++node)
             offers.push_back(offerOf(node, frame));
-        const int expected = agreedPasses(offers);
+        const FrameWork expected = agreedWork(offers);
         for (int node = 0; node < kNodes; ++node)
             CHECK(agreed[static_cast<size_t>(node)][static_cast<size_t>(frame)] == expected);
     }
@@ -177,28 +191,50 @@ TEST_CASE("pass agreement: four nodes trace the same passes in each of 200 frame
     }
 }
 
-TEST_CASE("pass agreement: a computer of its own calls nobody and does what it can", "[calvr]")
+TEST_CASE("work agreement: a computer of its own calls nobody and does what it can", "[calvr]")
 {
     Wires wires(0);
     Node connections(wires, 0);
-    PassAgreement agreement(connections);
-    CHECK(agreement.agree(12) == 12);
-    CHECK(agreement.agree(kNoSay) == 1);
+    WorkAgreement agreement(connections);
+    CHECK(agreement.agree(kOffer) == kOffer);
+    CHECK(agreement.agree(std::nullopt) == FrameWork());
     CHECK(connections.calls == 0);
 }
 
-TEST_CASE("pass agreement: with connections lost a node goes on with its own offer", "[calvr]")
+TEST_CASE("work agreement: with connections lost a node goes on with its own offer", "[calvr]")
 {
     Wires wires(1);
     wires.toMaster[0].cut();
     wires.toSlave[0].cut();
     Node master(wires, 0), slave(wires, 1);
-    PassAgreement ofMaster(master), ofSlave(slave);
-    CHECK(ofSlave.agree(6) == 6);
-    int sent = 0;
+    WorkAgreement ofMaster(master), ofSlave(slave);
+    CHECK(ofSlave.agree(kOffer) == kOffer);
+    WorkMessage sent;
     REQUIRE(wires.toMaster[0].read(&sent, sizeof sent));
-    CHECK(ofMaster.agree(4) == 4);
+    const FrameWork own{1, 4, 9, 1};
+    CHECK(ofMaster.agree(own) == own);
     CHECK(master.calls == 2); // both, although the first one failed
+}
+
+TEST_CASE("work agreement: a node of another version stays in step, and is not followed", "[calvr]")
+{
+    Wires wires(1);
+    Node master(wires, 0), slave(wires, 1);
+    WorkAgreement ofMaster(master), ofSlave(slave);
+    WorkMessage other;
+    other.version = 3;
+    other.hasSay = 1;
+    other.divider = other.passes = other.progress = 7777;
+    wires.toMaster[0].send(&other, sizeof other);
+    CHECK(ofMaster.agree(kOffer) == kOffer);
+    CHECK(ofMaster.hasMetOtherVersion());
+    WorkMessage answer;
+    REQUIRE(wires.toSlave[0].read(&answer, sizeof answer));
+    CHECK(answer.version == WorkMessage::kVersion);
+
+    wires.toSlave[0].send(&other, sizeof other);
+    CHECK(ofSlave.agree(kOffer) == kOffer);
+    CHECK(ofSlave.hasMetOtherVersion());
 }
 
 TEST_CASE("master's text: all nodes have it, byte by byte, also an empty one", "[calvr]")

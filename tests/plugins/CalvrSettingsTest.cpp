@@ -126,19 +126,71 @@ TEST_CASE("cluster settings: all nodes have the master's, each its own threads",
     slave->setSeed(5);
     slave->setThreads(64);
     slave->setExposure(3.0f);
-    makeEqualOnAllNodes(*master);
 
     PluginConfig ofMaster, ofSlave;
     ofMaster.trace = false;
     ofMaster.clusterBudget = 16.0;
+    makeEqualOnAllNodes(*master, ofMaster);
+    makeEqualOnAllNodes(*slave, ofSlave);
     CHECK(takeSharedSettings(sharedSettings(*master, ofMaster), *slave, ofSlave).empty());
     CHECK_FALSE(ofSlave.trace);
     CHECK(ofSlave.clusterBudget == 33.0); // each node's own
     CHECK(slave->getThreads() == 64);
     CHECK_FALSE(slave->getAimAtViews());
-    CHECK((slave->get("frame-budget").empty() || slave->get("frame-budget") == "0"));
+    CHECK(slave->getEqualViews());
+    CHECK(slave->getFrameBudget() == 33.0f); // each node's own
+    CHECK(master->getFrameBudget() == 16.0f);
     slave->setThreads(2);
+    slave->setFrameBudget(16.0f);
     CHECK(allOf(*slave) == allOf(*master));
+}
+
+TEST_CASE("cluster settings: what the configuration wants otherwise is overruled, and named in one "
+          "sentence",
+          "[calvr]")
+{
+    const auto overruled = [](const Elements& elements)
+    {
+        const osg::ref_ptr<RayTraceSettings> settings = wallSettings();
+        const PluginConfig config = read(elements, *settings);
+        CHECK(config.complaints.empty());
+        const std::string sentence = makeEqualOnAllNodes(*settings, config);
+        CHECK(settings->getPresentation() == RayTraceSettings::FRAME_LOCKED);
+        CHECK_FALSE(settings->getAimAtViews());
+        CHECK(settings->getEqualViews());
+        CHECK(settings->getFrameBudget() == float(config.clusterBudget));
+        return sentence;
+    };
+    CHECK(overruled({}).empty());
+    CHECK(overruled({{"ClusterBudget", "50"}, {"Photons", "1024"}}).empty());
+    // What is as it has to be need not be told.
+    CHECK(overruled({{"Presentation", "frame-locked"}, {"AimAtViews", "off"}}).empty());
+    CHECK(overruled({{"ClusterBudget", "20"}, {"FrameBudget", "20"}}).empty());
+
+    CHECK(overruled({{"Presentation", "background"}}) ==
+          "in a cluster Presentation 'background' is overruled: nodes show the same frame");
+    const std::string all = overruled({{"Presentation", "background"},
+                                       {"FrameBudget", "16"},
+                                       {"AimAtViews", "on"},
+                                       {"equal_views", "off"},
+                                       {"PassesPerFrame", "3"}});
+    for (const char* part :
+         {"Presentation 'background'", "FrameBudget '16' is overruled: ClusterBudget holds, 33 ms",
+          "AimAtViews 'true'", "EqualViews 'false'", "PassesPerFrame '3'"})
+    {
+        CAPTURE(all, part);
+        CHECK(all.find(part) != std::string::npos);
+    }
+    CHECK(all.find('\n') == std::string::npos);
+}
+
+TEST_CASE("CalVR configuration: walls are equal unless it says otherwise", "[calvr]")
+{
+    const osg::ref_ptr<RayTraceSettings> settings = wallSettings();
+    CHECK(settings->getEqualViews());
+    read({{"EqualViews", "off"}}, *settings);
+    CHECK_FALSE(settings->getEqualViews());
+    CHECK_FALSE(read({{"ClusterBudget", "60001"}}, *settings).complaints.empty());
 }
 
 TEST_CASE("cluster settings: what another version says is left out and told", "[calvr]")
