@@ -27,6 +27,10 @@ install(FILES
     "${PROJECT_SOURCE_DIR}/cmake/OsgRayTraceOpenSceneGraph.cmake"
     DESTINATION "${OSGRAYTRACE_PACKAGE_DIR}")
 
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-install(DIRECTORY data/ DESTINATION "${CMAKE_INSTALL_DATADIR}/osgRayTrace"
-    FILES_MATCHING PATTERN "*.osgt" PATTERN "README.md" PATTERN generator EXCLUDE)
+# One folder in which the README's commands and links work: pages, pictures, scenes and configurations.
+set(OSGRAYTRACE_SHARE_DIR "${CMAKE_INSTALL_DATADIR}/osgRayTrace")
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}")
+install(FILES osgRayTrace/README.md osgRayTrace/Coverage.md osgRayTrace/References.md
+    DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace")
+install(DIRECTORY data/ DESTINATION "${OSGRAYTRACE_SHARE_DIR}/data"
+    PATTERN CMakeLists.txt EXCLUDE PATTERN generator EXCLUDE)

@@ -23,7 +23,8 @@ constexpr ReportClass kClasses[] = {
     {"not-traced.", "Cannot be ray traced: drawn by OSG where there is a viewer"},
     {"approximated.", "Ray traced, but not with all that OpenGL does"},
     {"repaired.", "Bad values that were replaced"},
-    {"warned.", "Ray traced as it is, but looks wrong"},
+    {"warned.", "Ray traced as it is, but worth a look"},
+    {"missing.", "Files that cannot be read"},
     {"skipped.", "Bad data, left out"},
 };
 

@@ -5,6 +5,7 @@
 #include <osg/Group>
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
+#include <osgDB/Options>
 #include <osgDB/Registry>
 
 #include <fstream>
@@ -55,7 +56,10 @@ osg::ref_ptr<osg::Node> readModel(const std::string& file)
     }
 
     osgDB::Registry* registry = osgDB::Registry::instance();
-    osgDB::ReaderWriter::ReadResult result = registry->readNode(file, registry->getOptions());
+    const osg::ref_ptr<osgDB::Options> options =
+        registry->getOptions() ? registry->getOptions()->cloneOptions() : new osgDB::Options;
+    options->setPluginStringData("ForceReadingImage", "true"); // names of those that are missing
+    osgDB::ReaderWriter::ReadResult result = registry->readNode(file, options.get());
     if (!result.validNode()) throw cannotLoad(file, result);
     return result.getNode();
 }

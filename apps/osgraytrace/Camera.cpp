@@ -7,6 +7,8 @@
 
 #include <osgRayTrace/Renderer>
 
+#include <osg/ComputeBoundsVisitor>
+
 #include <algorithm>
 
 namespace osgRayTrace::app
@@ -35,13 +37,36 @@ Placement homePlacement(const Options& options, osg::Node& scene)
     return placement;
 }
 
-osg::Matrixd projectionOf(const Placement& placement, const osg::Matrixd& view, double aspect,
-                          const osg::BoundingSphere& bound)
+/// From the eye, along the line of sight.
+struct DepthRange
 {
-    const double depth = bound.valid() ? -(osg::Vec3d(bound.center()) * view).z() : 0.0;
-    const double radius = bound.valid() ? bound.radius() : 0.0;
-    const double zFar = depth + radius > 0.0 ? (depth + radius) * 1.001 : 1.0;
-    const double zNear = std::max((depth - radius) * 0.999, zFar * kNearFarRatio);
+    double nearest = 0.0, farthest = 0.0;
+};
+
+/// Of the scene's bound, and of its drawables where they are larger: bounds may be stored.
+DepthRange depthsOf(osg::Node& scene, const osg::Matrixd& view)
+{
+    DepthRange range;
+    const osg::BoundingSphere& bound = scene.getBound();
+    if (!bound.valid()) return range;
+    const double depth = -(osg::Vec3d(bound.center()) * view).z();
+    range = {depth - bound.radius(), depth + bound.radius()};
+    osg::ComputeBoundsVisitor drawables;
+    scene.accept(drawables);
+    if (!drawables.getBoundingBox().valid()) return range;
+    for (unsigned int i = 0; i < 8; ++i)
+    {
+        const double corner = -(osg::Vec3d(drawables.getBoundingBox().corner(i)) * view).z();
+        range = {std::min(range.nearest, corner), std::max(range.farthest, corner)};
+    }
+    return range;
+}
+
+osg::Matrixd projectionOf(const Placement& placement, const osg::Matrixd& view, double aspect,
+                          const DepthRange& depths)
+{
+    const double zFar = depths.farthest > 0.0 ? depths.farthest * 1.001 : 1.0;
+    const double zNear = std::max(depths.nearest * 0.999, zFar * kNearFarRatio);
     return osg::Matrixd::perspective(placement.fovyDegrees, aspect, zNear, zFar);
 }
 
@@ -68,7 +93,7 @@ Camera cameraOf(const Options& options, osg::Node& scene)
     Camera camera;
     camera.clearColor = storedClearColor(scene).value_or(kOsgViewerClearColor);
     camera.view = osg::Matrixd::lookAt(placement.eye, placement.center, placement.up);
-    camera.projection = projectionOf(placement, camera.view, aspect, scene.getBound());
+    camera.projection = projectionOf(placement, camera.view, aspect, depthsOf(scene, camera.view));
     return camera;
 }
 

@@ -70,9 +70,10 @@ osg::ref_ptr<osg::Group> cornellBox(CornellVariant variant)
     const bool mirrorBlock = mirrorFloor || variant == CornellVariant::TallMirror;
     const bool blocks = variant != CornellVariant::GlassSphere;
 
-    osg::ref_ptr<osg::Group> scene = newScene("Cornell box");
-    scene->addChild(
-        storedView(osg::Vec3d(278, 278, -800), osg::Vec3d(278, 278, 0), osg::Vec3d(0, 1, 0), 39.3));
+    const osg::Vec3d up(0, 1, 0);
+    osg::ref_ptr<osg::MatrixTransform> scene =
+        newScene("Cornell box", {osg::Vec3d(278, 278, -800), osg::Vec3d(278, 278, 0), up, 39.3},
+                 {osg::Vec3d(278, 275, -720), osg::Vec3d(278, 275, 280), up, 42.0});
     scene->addChild(surface("floor", {kFloor}, mirrorFloor ? mirror().get() : white.get()));
     scene->addChild(surface("ceiling", frame(kCeiling, kLight), white.get()));
     scene->addChild(surface("back wall", {kBackWall}, white.get()));

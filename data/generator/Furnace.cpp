@@ -3,6 +3,8 @@
 #include "Scenes.h"
 #include "Surfaces.h"
 
+#include <osg/CullFace>
+
 namespace osgRayTrace::data
 {
 
@@ -13,11 +15,15 @@ osg::ref_ptr<osg::Group> furnace()
     const osg::ref_ptr<PhysicalMaterial> wall = lambert(half);
     wall->setEmission(half);
 
-    osg::ref_ptr<osg::Group> scene = newScene("furnace");
-    scene->addChild(
-        storedView(osg::Vec3d(0, -0.8, 0), osg::Vec3d(0, 0, 0), osg::Vec3d(0, 0, 1), 60.0));
-    scene->addChild(
-        surface("room", boxQuads(osg::Vec3(-1, -1, -1), osg::Vec3(1, 1, 1)), wall.get()));
+    const osg::Vec3d center, up(0, 0, 1);
+    osg::ref_ptr<osg::MatrixTransform> scene =
+        newScene("furnace", {osg::Vec3d(0, -0.8, 0), center, up, 60.0},
+                 {osg::Vec3d(0, -4, 0), center, up, 40.0});
+    const osg::ref_ptr<osg::Geode> room =
+        surface("room", boxQuads(osg::Vec3(-1, -1, -1), osg::Vec3(1, 1, 1)), wall.get());
+    // Whoever stands outside sees through the outer sides.
+    room->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT));
+    scene->addChild(room);
     return scene;
 }
 

@@ -44,8 +44,9 @@ osg::ref_ptr<osg::Group> glasses()
 {
     const float w = 30.0f, h = 45.0f; // half the width; the height [cm]
     const osg::ref_ptr<PhysicalMaterial> white = lambert(Vec3(0.75f, 0.75f, 0.73f));
-    osg::ref_ptr<osg::Group> scene = newScene("glasses");
-    scene->addChild(storedView(Vec3d(0, -84, 36), Vec3d(1.5, 0, 9.5), Vec3d(0, 0, 1), 28.0));
+    osg::ref_ptr<osg::MatrixTransform> scene =
+        newScene("glasses", {Vec3d(0, -84, 36), Vec3d(1.5, 0, 9.5), Vec3d(0, 0, 1), 28.0},
+                 {Vec3d(0, -100, 22), Vec3d(0, 0, 22), Vec3d(0, 0, 1), 37.0});
     scene->addChild(surface("box",
                             {{Vec3(-w, -w, 0), Vec3(w, -w, 0), Vec3(w, w, 0), Vec3(-w, w, 0)},
                              {Vec3(-w, -w, h), Vec3(-w, w, h), Vec3(w, w, h), Vec3(w, -w, h)},

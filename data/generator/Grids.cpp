@@ -5,8 +5,6 @@
 
 #include <osgRayTrace/AreaLight>
 
-#include <osg/MatrixTransform>
-
 namespace osgRayTrace::data
 {
 
@@ -57,9 +55,8 @@ osg::ref_ptr<osg::MatrixTransform> placed(const std::string& name, const osg::Ma
 
 osg::ref_ptr<osg::Group> grids()
 {
-    osg::ref_ptr<osg::Group> scene = newScene("grids");
-    scene->addChild(
-        storedView(osg::Vec3d(0, -11, 7), osg::Vec3d(0, 0.3, 0.6), osg::Vec3d(0, 0, 1), 36.0));
+    const SceneView view{osg::Vec3d(0, -11, 7), osg::Vec3d(0, 0.3, 0.6), osg::Vec3d(0, 0, 1), 36.0};
+    osg::ref_ptr<osg::MatrixTransform> scene = newScene("grids", view, view);
     const Quad floor{Vec3(-12, -12, 0), Vec3(12, -12, 0), Vec3(12, 12, 0), Vec3(-12, 12, 0)};
     scene->addChild(surface("floor", {floor}, lambert(Vec3(0.7f, 0.7f, 0.7f)).get()));
 

@@ -91,8 +91,8 @@ osg::ref_ptr<osg::LightSource> beam()
 
 osg::ref_ptr<osg::Group> prism()
 {
-    osg::ref_ptr<osg::Group> scene = newScene("prism");
-    scene->addChild(storedView(Vec3d(5, -32, 19), Vec3d(3.0, 0.5, 2.0), Vec3d(0, 0, 1), 33.0));
+    const SceneView view{Vec3d(5, -32, 19), Vec3d(3.0, 0.5, 2.0), Vec3d(0, 0, 1), 33.0};
+    osg::ref_ptr<osg::MatrixTransform> scene = newScene("prism", view, view);
     const Vec3 light(0.6f, 0.56f, 0.5f), dark(0.3f, 0.27f, 0.24f);
     scene->addChild(surface("light planks", planks(0), lambert(light).get()));
     scene->addChild(surface("dark planks", planks(1), lambert(dark).get()));

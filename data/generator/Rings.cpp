@@ -35,8 +35,8 @@ osg::ref_ptr<osg::Group> rings()
     const Quad looking{Vec3(-9, 8.4f, 0.6f), Vec3(9, 8.4f, 0.6f), Vec3(9, 8.4f, 11),
                        Vec3(-9, 8.4f, 11)};
 
-    osg::ref_ptr<osg::Group> scene = newScene("rings");
-    scene->addChild(storedView(Vec3d(-5, -17, 13.5), Vec3d(0.2, 2.6, 1.7), Vec3d(0, 0, 1), 36.0));
+    const SceneView view{Vec3d(-5, -17, 13.5), Vec3d(0.2, 2.6, 1.7), Vec3d(0, 0, 1), 36.0};
+    osg::ref_ptr<osg::MatrixTransform> scene = newScene("rings", view, view);
     scene->addChild(surface("table", {table}, lambert(Vec3(0.62f, 0.5f, 0.4f)).get()));
     scene->addChild(surface("wall", {wall}, lambert(Vec3(0.5f, 0.55f, 0.6f)).get()));
     scene->addChild(surface("looking-glass", {looking}, metal(Vec3(0.93f, 0.95f, 0.94f)).get()));

@@ -38,6 +38,36 @@ osg::ref_ptr<osg::Geometry> geometryOf(const Quad& quad, const PhysicalMaterial&
     return geometry;
 }
 
+/// What is to the right in the view becomes +x, what is ahead +y, what is up +z.
+osg::Matrixd turnedTo(const SceneView& view)
+{
+    osg::Vec3d ahead = view.center - view.eye;
+    ahead.normalize();
+    osg::Vec3d right = ahead ^ view.up;
+    right.normalize();
+    const osg::Vec3d up = right ^ ahead;
+    osg::Matrixd matrix;
+    for (int i = 0; i < 3; ++i)
+    {
+        matrix(i, 0) = right[i] + 0.0; // no negative zeros
+        matrix(i, 1) = ahead[i] + 0.0;
+        matrix(i, 2) = up[i] + 0.0;
+    }
+    return matrix;
+}
+
+osg::ref_ptr<osg::CameraView> cameraView(const SceneView& stored)
+{
+    osg::ref_ptr<osg::CameraView> view = new osg::CameraView;
+    view->setName("view");
+    view->setPosition(stored.eye);
+    view->setAttitude(
+        osg::Matrixd::lookAt(stored.eye, stored.center, stored.up).getRotate().inverse());
+    view->setFieldOfView(stored.fovyDegrees);
+    view->setFieldOfViewMode(osg::CameraView::VERTICAL);
+    return view;
+}
+
 } // namespace
 
 osg::ref_ptr<osg::Material> rasterMaterial(const PhysicalMaterial& physical,
@@ -133,22 +163,19 @@ std::vector<Quad> boxQuads(const osg::Vec3& low, const osg::Vec3& high)
     };
 }
 
-osg::ref_ptr<osg::CameraView> storedView(const osg::Vec3d& eye, const osg::Vec3d& center,
-                                         const osg::Vec3d& up, double fovyDegrees)
+osg::ref_ptr<osg::MatrixTransform> newScene(const std::string& name, const SceneView& stored,
+                                            const SceneView& home)
 {
-    osg::ref_ptr<osg::CameraView> view = new osg::CameraView;
-    view->setName("view");
-    view->setPosition(eye);
-    view->setAttitude(osg::Matrixd::lookAt(eye, center, up).getRotate().inverse());
-    view->setFieldOfView(fovyDegrees);
-    view->setFieldOfViewMode(osg::CameraView::VERTICAL);
-    return view;
-}
-
-osg::ref_ptr<osg::Group> newScene(const std::string& name)
-{
-    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    osg::ref_ptr<osg::MatrixTransform> scene = new osg::MatrixTransform(turnedTo(home));
     scene->setName(name);
+    scene->setDataVariance(osg::Object::DYNAMIC); // osgUtil's optimizer would turn geometry alone
+    const double halfHeight =
+        (home.center - home.eye).length() * std::tan(osg::DegreesToRadians(0.5 * home.fovyDegrees));
+    scene->setInitialBound(osg::BoundingSphere(home.center * scene->getMatrix(), halfHeight));
+    // The base class adds nothing to the initial bound, in place of the children's bounds.
+    scene->setComputeBoundingSphereCallback(new osg::Node::ComputeBoundingSphereCallback);
+    scene->setCullingActive(false);
+
     scene->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::OFF);
     osg::ref_ptr<osg::LightModel> ambient = new osg::LightModel;
     ambient->setAmbientIntensity(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f));
@@ -158,6 +185,7 @@ osg::ref_ptr<osg::Group> newScene(const std::string& name)
     background->setName("background");
     background->setClearColor(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
     scene->addChild(background.get());
+    scene->addChild(cameraView(stored).get());
     return scene;
 }
 

@@ -8,6 +8,7 @@
 #include <osg/Geode>
 #include <osg/Group>
 #include <osg/Material>
+#include <osg/MatrixTransform>
 #include <osg/Vec3>
 
 #include <array>
@@ -60,12 +61,25 @@ void addArc(std::vector<ProfilePoint>& profile, double radius, double z, double 
 /// The six sides of a box along the axes.
 std::vector<Quad> boxQuads(const osg::Vec3& low, const osg::Vec3& high);
 
-/// Where osgraytrace and osgraytraceviewer look from unless they are told otherwise.
-osg::ref_ptr<osg::CameraView> storedView(const osg::Vec3d& eye, const osg::Vec3d& center,
-                                         const osg::Vec3d& up, double fovyDegrees);
+/// A view of a scene, in the coordinates that its content is described in.
+struct SceneView
+{
+    osg::Vec3d eye;
+    osg::Vec3d center; ///< the middle of what is to be seen
+    osg::Vec3d up;
+    double fovyDegrees = 0.0; ///< vertical
+};
 
 /// An empty scene on a black background that area lights and emission alone light: osgviewer's
 /// headlight is off, and the rasterizer shows the materials' ambient colours.
-osg::ref_ptr<osg::Group> newScene(const std::string& name);
+///
+/// stored: where osgraytrace and osgraytraceviewer look from unless they are told otherwise.
+/// home: what a viewer shows that knows of no stored view, as osgviewer. The home position of
+/// osgGA's trackball looks along +y, with z up, at the middle of the scene's bound, so the scene is
+/// turned to that, and its bound is stored: a sphere around the view's centre, as large as what the
+/// view shows there, from which the trackball's distance follows. The content may be larger; it is
+/// not culled by that bound.
+osg::ref_ptr<osg::MatrixTransform> newScene(const std::string& name, const SceneView& stored,
+                                            const SceneView& home);
 
 } // namespace osgRayTrace::data

@@ -103,9 +103,10 @@ std::string writeSky(const std::string& path)
 
 osg::ref_ptr<osg::Group> terrace()
 {
-    osg::ref_ptr<osg::Group> scene = newScene("terrace");
-    scene->addChild(
-        storedView(Vec3d(0.6, -4.4, 1.75), Vec3d(0.0, 0.0, 0.55), Vec3d(0, 0, 1), 38.0));
+    // At home the terrace is level, and seen from the height of what stands on it.
+    osg::ref_ptr<osg::MatrixTransform> scene =
+        newScene("terrace", {Vec3d(0.6, -4.4, 1.75), Vec3d(0.0, 0.0, 0.55), Vec3d(0, 0, 1), 38.0},
+                 {Vec3d(0.0, -5.0, 0.9), Vec3d(0.0, 0.0, 0.9), Vec3d(0, 0, 1), 38.0});
     scene->addChild(surface("pale tiles", tiles(0), lambert(Vec3(0.62f, 0.58f, 0.52f)).get()));
     scene->addChild(surface("dark tiles", tiles(1), lambert(Vec3(0.38f, 0.3f, 0.25f)).get()));
     scene->addChild(surface("plinth", boxQuads(Vec3(-1.9f, 0.3f, 0), Vec3(-1.1f, 1.1f, 0.5f)),

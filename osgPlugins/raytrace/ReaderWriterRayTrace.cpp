@@ -61,7 +61,9 @@ private:
         const std::string error = applyParameters(parts.parameters, *scene->getSettings());
         if (!error.empty()) return ReadResult("raytrace: " + error);
 
-        ReadResult read = osgDB::Registry::instance()->readNode(parts.file, options);
+        const osg::ref_ptr<Options> naming = options ? options->cloneOptions() : new Options;
+        naming->setPluginStringData("ForceReadingImage", "true"); // names of those that are missing
+        ReadResult read = osgDB::Registry::instance()->readNode(parts.file, naming.get());
         if (!read.validNode()) return failure(read, parts.file);
         scene->addChild(read.getNode());
         return scene;

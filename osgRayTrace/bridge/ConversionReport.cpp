@@ -32,6 +32,8 @@ constexpr Wording kGeometryWordings[] = {
      "texture coordinates that are missing or not finite, replaced by 0"},
 };
 
+const char* const kMissing = "missing.";
+
 /// Said for each geometry by warnAboutGeometry.
 bool isNamedByGeometry(const std::string& what)
 {
@@ -57,7 +59,7 @@ void ConversionReport::count(const std::string& what, uint64_t number)
 {
     _counts[what] += number;
     _remarks += !begins(what, "converted.");
-    if (!_place || number == 0) return;
+    if (!_place || number == 0 || begins(what, kMissing)) return; // files are named instead
     const auto noted = _paths.find(what);
     if (noted == _paths.end() || noted->second.size() < kPathsKept) notePath(what, _place());
 }
@@ -84,6 +86,24 @@ void ConversionReport::warn(const std::string& what, const std::string& object,
     _named.insert(what);
     if (!_place) notePath(what, object);
     warnOnce(object + ": " + message);
+}
+
+void ConversionReport::missing(const std::string& what, const std::string& file,
+                               const std::string& object, const std::string& instead)
+{
+    count(what);
+    _named.insert(what);
+    notePath(what, file);
+    warnOnce(object + " " + file + ": the file cannot be read, " + instead);
+}
+
+void ConversionReport::addHere(const ConversionReport& other)
+{
+    add(other._counts);
+    for (const auto& [what, paths] : other._paths)
+        for (const std::string& file : paths)
+            if (begins(what, kMissing)) notePath(what, _place ? file + ", for " + _place() : file);
+    _named.insert(other._named.begin(), other._named.end());
 }
 
 void warnAboutGeometry(const std::string& path, const ConversionCounts& counts)

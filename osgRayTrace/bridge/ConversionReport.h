@@ -13,17 +13,23 @@ namespace osgRayTrace::engine
 {
 
 /// Counts by "<class>.<reason>" as Statistics::conversion shows them:
-/// converted    what became part of the Scene: geometry (drawables), instance, material, texture, light
+/// converted    what became part of the Scene: geometry (drawables), instance, material, texture,
+/// light; the
+///              viewer's own is a headlight or a sky-light
 /// repaired     values that were replaced: normal, texture-coordinate, color (each a vertex),
 ///              environment-not-finite, -negative, -too-bright (each a pixel), environment-scale
 /// skipped      bad data left out: index-out-of-range, not-finite, degenerate (each a triangle);
 ///              everything else an object
-/// warned       things that are traced as they are, but look wrong: far-vertices (a drawable),
+/// warned       things that are traced as they are, and may not be what was meant: far-vertices (a
+/// drawable),
 ///              opposite-normals (a triangle); trace-hint: hinted to be traced, but cannot be
-/// approximated things that are traced, but not with all that OpenGL would do (a drawable or an object)
-/// not-traced   things that have no triangles, or that are not part of the scene as seen by a ray; OSG draws
+/// approximated things that are traced, but not with all that OpenGL would do (a drawable or an
+/// object) not-traced   things that have no triangles, or that are not part of the scene as seen by
+/// a ray; OSG draws
 ///              them where there is a viewer
 /// rasterized   things that have triangles and that OSG draws all the same, in a viewer
+/// missing      files that could not be read, by what they are for; paths are "FILE" or "FILE, for
+/// NODE PATH"
 using ConversionCounts = std::map<std::string, uint64_t>;
 
 inline void addCounts(ConversionCounts& sum, const ConversionCounts& more)
@@ -54,6 +60,15 @@ public:
     /// Counts one skipped or changed object and names it: "transform 'root/arm': singular,
     /// skipped".
     void warn(const std::string& what, const std::string& object, const std::string& message);
+
+    /// Counts a file that could not be read, and names it: "texture wall.png: the file cannot be
+    /// read, " and what stands for it.
+    void missing(const std::string& what, const std::string& file, const std::string& object,
+                 const std::string& instead);
+
+    /// Adds the counts of what belongs to the present place, with the files that are missing for
+    /// it.
+    void addHere(const ConversionReport& other);
 
     const ConversionCounts& counts() const { return _counts; }
 

@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/EnvironmentConverter.h"
 
 #include "osgRayTrace/bridge/EnvironmentImages.h"
+#include "osgRayTrace/bridge/MissingImages.h"
 #include "osgRayTrace/bridge/WarnOnce.h"
 
 #include <osgRayTrace/EnvironmentLight>
@@ -117,12 +118,20 @@ std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& sourc
     }
     if (!_image)
     {
+        const auto lost = std::find_if(images.begin(), images.end(), isMissing);
+        if (lost != images.end())
+        {
+            report.missing("missing.environment-image", (*lost)->getFileName(), name + " of",
+                           "magenta stands for it unless the scene has another environment");
+            return std::nullopt;
+        }
         report.warn(
             "skipped.environment-light", name,
             images[0]
                 ? "image is empty, too large, of a format that cannot be read, or its cube is "
-                  "not of six equal squares; skipped"
-                : "has no image: was its file found? skipped");
+                  "not of six equal squares; magenta stands for it unless the scene has another"
+                : "has no image: was its file found? magenta stands for it unless the scene has "
+                  "another");
         return std::nullopt;
     }
     report.add(_counts);

@@ -26,7 +26,7 @@ namespace osgRayTrace::engine
 class EnvironmentConverter
 {
 public:
-    /// Nothing, counted and named, if there is no image or its format cannot be read. linear: 8-bit
+    /// Nothing, counted and named, if there is no image or it cannot be read. linear: 8-bit
     /// images are decoded from sRGB. The matrix must be invertible; only its rotation counts.
     std::optional<Light> convert(const EnvironmentLight& source,
                                  const osg::Matrixd& engineFromLocal, bool linear,

@@ -215,4 +215,12 @@ environmentFromCube(const std::vector<const osg::Image*>& images, bool decodeSrg
     return environment;
 }
 
+std::shared_ptr<const EnvironmentImage> magentaEnvironment()
+{
+    auto environment = std::make_shared<EnvironmentImage>();
+    environment->width = environment->height = 1;
+    environment->radiance = {Vec3(1.0f, 0.0f, 1.0f)};
+    return environment;
+}
+
 } // namespace osgRayTrace::engine

@@ -34,4 +34,7 @@ std::shared_ptr<const EnvironmentImage>
 environmentFromCube(const std::vector<const osg::Image*>& faces, bool decodeSrgb,
                     ReplacedPixels& replaced);
 
+/// Stands for an image that cannot be shown, for all to see: magenta from all around.
+std::shared_ptr<const EnvironmentImage> magentaEnvironment();
+
 } // namespace osgRayTrace::engine

@@ -12,6 +12,7 @@
 
 #include <osg/Billboard>
 #include <osg/Camera>
+#include <osg/ClearNode>
 #include <osg/ClipNode>
 #include <osg/PagedLOD>
 #include <osg/Projection>
@@ -174,6 +175,14 @@ void GraphCollector::apply(osg::LightSource& node)
             {&node, eyeSpace ? osg::Matrixd() : engineFromLocal(), eyeSpace, path()});
         rasterize(RasterizedPart::PlaceState);
     }
+    apply(static_cast<osg::Node&>(node));
+}
+
+/// Where OSG draws the background, mirrors show the same.
+void GraphCollector::apply(osg::ClearNode& node)
+{
+    if (_input.rasterizesRest && node.getRequiresClear()) _graph.clearColor = node.getClearColor();
+    rasterize(RasterizedPart::Clear);
     apply(static_cast<osg::Node&>(node));
 }
 
@@ -367,10 +376,12 @@ bool GraphCollector::collectLeaf(osg::Node& node)
         return true;
     }
     if (isFrom(&node, "osg")) return false;
-    _report.count(std::strcmp(node.className(), "LightPointNode") == 0 ? "not-traced.light-points"
-                                                                       : "not-traced.custom-node");
-    warnIfForced(node.className());
-    rasterize();
+    if (const char* reason = untracedLeaf(node))
+    {
+        _report.count(reason);
+        warnIfForced(node.className());
+    }
+    rasterize(); // also what is not seen, but works in the cull traversal
     return true;
 }
 

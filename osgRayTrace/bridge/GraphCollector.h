@@ -18,6 +18,7 @@
 #include <osg/NodeVisitor>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,6 +93,8 @@ struct CollectedGraph
     std::vector<GraphState> states;
     PlacedTexGens texGens;                     ///< the last of each unit, as OpenGL keeps them
     ClipPlanes clipPlanes;
+    std::optional<osg::Vec4>
+        clearColor;     ///< of the last osg::ClearNode, if ConversionInput::rasterizesRest
     bool paged = false; ///< see ConversionResult
     RasterizedParts rasterized; ///< if ConversionInput::rasterizesRest
     NodeTree paths;             ///< if ConversionInput::picks
@@ -126,6 +129,7 @@ public:
     void apply(osg::Camera& node) override;
     void apply(osg::Projection& node) override;
     void apply(osg::LightSource& node) override;
+    void apply(osg::ClearNode& node) override;
     void apply(osg::ClipNode& node) override;
     void apply(osg::PagedLOD& node) override;
     void apply(osg::ProxyNode& node) override;

@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/HomeView.h"
 
 #include <osg/Camera>
+#include <osg/ComputeBoundsVisitor>
 #include <osgGA/TrackballManipulator>
 
 #include <algorithm>
@@ -16,6 +17,19 @@ namespace
 constexpr double kViewerAspect = 1.25;   ///< of osgViewer's camera until there is a window
 constexpr double kNearestShare = 1.0e-3; ///< of the distance: the nearest near plane
 constexpr double kBoundMargin = 1.01;    ///< bounds are rounded
+
+/// How far drawables reach from a point: bounds may be stored, and be smaller than what they are
+/// of.
+double reachOf(osg::Node& scene, const osg::Vec3d& center)
+{
+    osg::ComputeBoundsVisitor drawables;
+    scene.accept(drawables);
+    const osg::BoundingBox& box = drawables.getBoundingBox();
+    double reach = 0.0;
+    for (unsigned int i = 0; i < 8 && box.valid(); ++i)
+        reach = std::max(reach, (osg::Vec3d(box.corner(i)) - center).length());
+    return reach;
+}
 
 } // namespace
 
@@ -33,11 +47,11 @@ HomeView homeView(osg::Node& scene, double fovyDegrees, double aspect)
     osg::Vec3d eye, center, up;
     manipulator->getHomePosition(eye, center, up);
     const double distance = (center - eye).length();
-    const double radius = kBoundMargin * std::max(double(scene.getBound().radius()), 0.0);
-    const double nearDistance = std::max(distance - radius, kNearestShare * distance);
-
     HomeView home;
     home.view = manipulator->getInverseMatrix();
+    const double radius =
+        kBoundMargin * std::max({double(scene.getBound().radius()), reachOf(scene, center), 0.0});
+    const double nearDistance = std::max(distance - radius, kNearestShare * distance);
     home.projection.makePerspective(fovyDegrees, aspect, nearDistance, distance + radius);
     return home;
 }

@@ -4,11 +4,13 @@
 
 #include "osgRayTrace/bridge/TriangleList.h"
 
+#include <osg/ClearNode>
 #include <osg/ClipNode>
 #include <osg/LightSource>
 #include <osg/TexGenNode>
 #include <osg/Transform>
 #include <osgUtil/CullVisitor>
+#include <osgUtil/RenderStage>
 
 #include <algorithm>
 
@@ -97,6 +99,12 @@ void placeState(const osg::Node& node, osgUtil::CullVisitor& visitor)
             visitor.addPositionedTextureAttribute(
                 texGen->getTextureUnit(), inEyeSpace ? nullptr : matrix, texGen->getTexGen());
     }
+    else if (const auto* clear = dynamic_cast<const osg::ClearNode*>(&node))
+    {
+        osgUtil::RenderStage* stage = visitor.getCurrentRenderBin()->getStage();
+        if (clear->getRequiresClear()) stage->setClearColor(clear->getClearColor());
+        stage->setClearMask(clear->getRequiresClear() ? clear->getClearMask() : 0);
+    }
 }
 
 } // namespace
@@ -130,7 +138,7 @@ void cullParts(const RasterizedParts& parts, osgUtil::CullVisitor& visitor)
         if (part.path.empty()) continue; // there is no decorator
         osg::Node& node = *part.path.back();
         if (!descent.moveTo(part.path.begin(), part.path.end() - 1)) continue;
-        if (part.kind == RasterizedPart::PlaceState)
+        if (part.kind != RasterizedPart::Draw)
         {
             if (visitor.validNodeMask(node)) placeState(node, visitor);
         }

@@ -23,6 +23,7 @@ struct RasterizedPart
     enum Kind
     {
         Draw,
+        Clear, ///< an osg::ClearNode: what the picture begins with
         PlaceState
     };
 

@@ -67,7 +67,7 @@ void SceneBuilder::build()
     _scene.origin = {_input.origin.x(), _input.origin.y(), _input.origin.z()};
     _scene.unit = _rules.unit;
     _scene.displayReferred = !_rules.linear;
-    _scene.background = backgroundOf(_input.clearColor, _rules.linear);
+    _scene.background = backgroundOf(_graph.clearColor.value_or(_input.clearColor), _rules.linear);
     _scene.ambient = Vec3(_input.lighting ? kViewerAmbient : kOpenGLAmbient);
     noteNew();
     for (const CollectedGeometry& geometry : _graph.geometries)
@@ -350,7 +350,7 @@ TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const Geo
     instance.material = _made.materials.add(
         _materials.material(state, surfaceInputs(*geometry.geometry),
                             {use.engineFromLocal, &_graph.texGens}));
-    _report.add(_materialReport.counts());
+    _report.addHere(_materialReport);
     setAmbient(state);
     instance.changed = _rules.now;
     return {appendInstance(instance), treatment(use.state, _materialReport.counts())};

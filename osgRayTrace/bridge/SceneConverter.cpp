@@ -160,7 +160,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     ConversionReport lightReport;
     setLights(*scene, input, graph.lights, state.caches, lightReport);
     report.add(lightReport);
-    report.count("converted.light", scene->lights.size());
+    report.count("converted.light", scene->lights.size() - viewerLights(lightReport.counts()));
     state.last = stampChanges(scene, state.last, rules.now);
     state.caches.geometries.end();
     ConversionResult result;
@@ -177,8 +177,9 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     result.counts = report.counts();
     result.paths = report.paths();
     warnOnceAReason(report, input.rasterizesRest);
-    const auto draws = [](const RasterizedPart& part) { return part.kind == RasterizedPart::Draw; };
-    if (std::any_of(graph.rasterized.begin(), graph.rasterized.end(), draws))
+    const auto shows = [](const RasterizedPart& part)
+    { return part.kind != RasterizedPart::PlaceState; };
+    if (std::any_of(graph.rasterized.begin(), graph.rasterized.end(), shows))
         result.rasterized = std::make_shared<RasterizedParts>(std::move(graph.rasterized));
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -203,7 +204,8 @@ std::optional<ConversionResult> SceneConverter::patch(const GraphChanges& change
     if (patcher.spliced()) result.pickIndex.reset();
     addToCount(result.counts, "converted.geometry", patcher.geometriesMore());
     addToCount(result.counts, "converted.instance", patcher.instancesMore());
-    result.counts["converted.light"] = state.last->lights.size();
+    result.counts["converted.light"] =
+        state.last->lights.size() - viewerLights(state.made.lightCounts);
     result.emptyInstances = state.made.instanceGaps.size();
     result.emptyMeshes =
         state.made.meshGaps.size() + (state.made.emptyMesh == kInvalid ? 0 : 1);

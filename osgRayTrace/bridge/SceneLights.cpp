@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/SceneLights.h"
 
+#include "osgRayTrace/bridge/EnvironmentImages.h"
 #include "osgRayTrace/bridge/LightConverter.h"
 
 #include <osg/LightSource>
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -14,6 +16,9 @@ namespace osgRayTrace::engine
 
 namespace
 {
+
+const char* const kHeadlight = "converted.headlight";
+const char* const kSkyLight = "converted.sky-light";
 
 /// Surfaces that emit, then area lights.
 void addShining(Scene& scene, const std::vector<ConversionCaches::Quad>& quads)
@@ -86,8 +91,31 @@ void addNumbered(Scene& scene, const ConversionInput& input,
     uint32_t enabled = 0;
     for (const Material& material : scene.materials)
         if (material.lit) enabled |= material.lightMask;
+    const auto ofGraph = [&](int number)
+    {
+        return std::any_of(sources.begin(), sources.end(),
+                           [&](const CollectedLight& light)
+                           { return light.source->getLight()->getLightNum() == number; });
+    };
     for (const auto& [number, light] : lights)
-        if (enabled >> number & 1u) scene.lights.push_back(light);
+    {
+        if (!(enabled >> number & 1u)) continue;
+        scene.lights.push_back(light);
+        const bool viewers = input.viewLight && input.viewLight->getLightNum() == number;
+        if (viewers && !ofGraph(number))
+            report.count(input.viewLightInEyeSpace ? kHeadlight : kSkyLight);
+    }
+}
+
+/// Stands for environments that cannot be converted, so that nobody takes darkness for their light.
+Light magentaLight(const std::string& name)
+{
+    Light light;
+    light.name = name;
+    light.kind = LightKind::Environment;
+    light.radiance = Vec3(1.0f);
+    light.environment.image = magentaEnvironment();
+    return light;
 }
 
 /// There is one sky: the first that can be converted.
@@ -108,6 +136,7 @@ void addEnvironment(Scene& scene, const std::vector<CollectedEnvironment>& sourc
         found = light.has_value();
         if (found) scene.lights.push_back(*light);
     }
+    if (!found && !sources.empty()) scene.lights.push_back(magentaLight(sources.front().path));
 }
 
 } // namespace
@@ -119,6 +148,11 @@ void setLights(Scene& scene, const ConversionInput& input, const LightSources& s
     addShining(scene, caches.areaLights);
     addNumbered(scene, input, sources.lights, report);
     addEnvironment(scene, sources.environments, caches.environment, report);
+}
+
+uint64_t viewerLights(const ConversionCounts& counts)
+{
+    return counts.count(kHeadlight) + counts.count(kSkyLight);
 }
 
 } // namespace osgRayTrace::engine

@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/TextureConverter.h"
 
 #include "osgRayTrace/base/NeverDestroyed.h"
+#include "osgRayTrace/bridge/MissingImages.h"
 #include "osgRayTrace/bridge/PixelDecoder.h"
 #include "osgRayTrace/bridge/TextureFormats.h"
 
@@ -188,6 +189,12 @@ bool TextureConverter::convert(Entry& entry, const osg::Texture& texture, bool d
     for (unsigned int i = 0; i < imageCount(texture); ++i)
     {
         const osg::Image* image = texture.getImage(i);
+        if (isMissing(image))
+        {
+            report.missing("missing.texture-image", image->getFileName(), "texture",
+                           "shown without it");
+            return false;
+        }
         if (!image || !image->data())
         {
             report.count("approximated.texture-without-image");

@@ -28,6 +28,14 @@ const char* untracedDrawable(const osg::Drawable& drawable)
     return "not-traced.custom-drawable";
 }
 
+const char* untracedLeaf(const osg::Node& node)
+{
+    const bool rainOrSnow = std::strcmp(node.className(), "PrecipitationEffect") == 0;
+    if (isFrom(&node, "osgParticle")) return rainOrSnow ? "not-traced.particles" : nullptr;
+    return std::strcmp(node.className(), "LightPointNode") == 0 ? "not-traced.light-points"
+                                                                : "not-traced.custom-node";
+}
+
 const char* untracedCamera(const osg::Camera& camera)
 {
     if (camera.getRenderTargetImplementation() != osg::Camera::FRAME_BUFFER ||

@@ -18,6 +18,10 @@ bool isFrom(const osg::Object* object, const char* library);
 /// Why a drawable that is no osg::Geometry is not traced; null: it is our own.
 const char* untracedDrawable(const osg::Drawable& drawable);
 
+/// Why a node without children that is of no library of OSG's core is not traced; null: there is
+/// nothing of it to see. Emitters, programs and updaters of particles move what other nodes draw.
+const char* untracedLeaf(const osg::Node& node);
+
 /// Why the content of a camera in the graph is not a part of the scene around it; null: it is.
 const char* untracedCamera(const osg::Camera& camera);
 

@@ -86,6 +86,22 @@ TEST_CASE("home view: near and far planes enclose the scene at any size", "[api]
     }
 }
 
+TEST_CASE("home view: near and far planes enclose what is larger than its stored bound",
+          "[api][renderer]")
+{
+    const osg::ref_ptr<osg::Node> scene = sign(osg::Vec3());
+    scene->setInitialBound(osg::BoundingSphere(osg::Vec3(3.0f, -5.0f, 1.0f), 0.5f));
+    scene->setComputeBoundingSphereCallback(new osg::Node::ComputeBoundingSphereCallback);
+    const HomeView home = homeView(*scene, kViewerFovyDegrees, 1.0);
+    for (const osg::Vec3d& point : {osg::Vec3d(), osg::Vec3d(6.0, 0.0, 2.0)})
+    {
+        const osg::Vec3d inView = point * home.view;
+        const double clipZ = (inView * home.projection).z();
+        CHECK(clipZ > -1.0);
+        CHECK(clipZ < 1.0);
+    }
+}
+
 TEST_CASE("home view: an empty scene has one too", "[api][renderer]")
 {
     const osg::ref_ptr<osg::Group> empty = new osg::Group;

@@ -108,11 +108,11 @@ TEST_CASE("osgraytrace: EXR channels are those asked for", "[apps]")
         CHECK(exr.find(name));
     }
 
-    // The floor's white, seen at the lower edge of the picture: its normal is +y, its albedo 0.73.
+    // The floor's white, seen at the lower edge of the picture: its normal is +z, its albedo 0.73.
     const size_t pixel = 2 * 64 + 32;
-    CHECK(exr.find("normal.Y")->values[pixel] == Approx(1.0f).margin(1e-5));
+    CHECK(exr.find("normal.Z")->values[pixel] == Approx(1.0f).margin(1e-5));
     CHECK(exr.find("albedo.R")->values[pixel] == Approx(0.73f));
-    CHECK(exr.find("position.Y")->values[pixel] == Approx(0.0f).margin(1e-3));
+    CHECK(exr.find("position.Z")->values[pixel] == Approx(0.0f).margin(1e-3));
     CHECK(exr.find("id.I")->values[pixel] >= 1.0f);
     CHECK(exr.find("depth.Z")->values[pixel] > 0.0f);
     CHECK(exr.find("depth.Z")->values[pixel] < 1.0f);
@@ -279,14 +279,14 @@ TEST_CASE("osgraytrace: a view stored in the scene is the default, options repla
 {
     const TemporaryFolder folder;
     REQUIRE(osgraytrace(folder, kBox + kQuick + "-o stored.exr").exitCode == 0);
-    const std::string published = "--eye 278 278 -800 --center 278 278 0 --up 0 1 0 --fovy 39.3 ";
+    const std::string published = "--eye -278 -800 278 --center -278 0 278 --up 0 0 1 --fovy 39.3 ";
     const Measures same = measuresIn(
         osgraytrace(folder, kBox + kQuick + published + "-o x.exr --reference stored.exr").output);
     CHECK(same.meanRatio == Approx(1.0).epsilon(0.01));
     CHECK(same.relMse < 0.001);
 
     const Measures other = measuresIn(
-        osgraytrace(folder, kBox + kQuick + "--eye 278 278 -1600 -o x.exr --reference stored.exr")
+        osgraytrace(folder, kBox + kQuick + "--eye -278 -1600 278 -o x.exr --reference stored.exr")
             .output);
     CHECK(other.relMse > 0.1);
 }

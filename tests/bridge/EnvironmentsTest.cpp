@@ -34,6 +34,14 @@ osg::ref_ptr<osg::Image> floatImage(int width, int height, osg::Vec3 value = {1,
     return image;
 }
 
+/// As osgDB leaves it: its name alone.
+osg::ref_ptr<osg::Image> missingImage()
+{
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->setFileName("sky.hdr");
+    return image;
+}
+
 osg::Vec3& pixel(osg::Image& image, int x, int y)
 {
     return *reinterpret_cast<osg::Vec3*>(
@@ -203,7 +211,9 @@ TEST_CASE("environment light: a cube map has OpenGL's faces", "[bridge]")
     CHECK(countOf(scene.convert(), "skipped.environment-light") == 1);
     cube->setImage(3, nullptr);
     CHECK(countOf(scene.convert(), "skipped.environment-light") == 1);
-    CHECK(scene.convert().scene->lights.empty());
+    CHECK(near(scene.radiance(kMark), Vec3(1, 0, 1)));
+    cube->setImage(3, missingImage());
+    CHECK(countOf(scene.convert(), "missing.environment-image") == 1);
 }
 
 TEST_CASE("environment light: bad pixels are replaced and counted", "[bridge][stability 30]")
@@ -254,7 +264,8 @@ TEST_CASE("environment light: the data type of a compressed image does not matte
     CHECK(countOf(result, "repaired.environment-not-finite") == 0);
 }
 
-TEST_CASE("environment light: without a usable image it is named and skipped", "[bridge]")
+TEST_CASE("environment light: without a usable image it is named, and magenta stands for it",
+          "[bridge]")
 {
     osg::ref_ptr<osg::Image> empty = new osg::Image;
     osg::ref_ptr<osg::Image> unreadable = new osg::Image;
@@ -263,10 +274,16 @@ TEST_CASE("environment light: without a usable image it is named and skipped", "
     {
         SkyScene scene(image);
         const ConversionResult result = scene.convert();
-        CHECK(result.scene->lights.empty());
+        CHECK(near(scene.radiance(kMark), Vec3(1, 0, 1)));
         CHECK(countOf(result, "skipped.environment-light") == 1);
         CHECK(countOf(result, "converted.environment-light") == 0);
     }
+    SkyScene lost(missingImage());
+    const ConversionResult result = lost.convert();
+    CHECK(near(lost.radiance(kMark), Vec3(1, 0, 1)));
+    CHECK(countOf(result, "skipped.environment-light") == 0);
+    CHECK(countOf(result, "missing.environment-image") == 1);
+    CHECK(result.paths.at("missing.environment-image") == std::vector<std::string>{"sky.hdr"});
     SkyScene pixel(floatImage(1, 1, {4, 5, 6}));
     CHECK(near(pixel.radiance(Vec3(0.3f, -0.2f, 0.8f)), Vec3(4, 5, 6)));
 }

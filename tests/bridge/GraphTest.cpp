@@ -12,7 +12,11 @@
 #include <osg/Sequence>
 #include <osg/ShapeDrawable>
 #include <osg/Switch>
+#include <osgParticle/ModularEmitter>
+#include <osgParticle/ModularProgram>
 #include <osgParticle/ParticleSystem>
+#include <osgParticle/ParticleSystemUpdater>
+#include <osgParticle/PrecipitationEffect>
 #include <osgSim/DOFTransform>
 #include <osgSim/MultiSwitch>
 #include <osgText/Text>
@@ -360,6 +364,27 @@ TEST_CASE("text, particles and custom drawables are counted, shapes are traced",
     REQUIRE(countOf(result, "converted.geometry") == 1);
     CHECK(soleMesh(result).triangles.size() == 12);
     CHECK(soleMesh(result).normals.size() == soleMesh(result).positions.size());
+}
+
+TEST_CASE("what moves particles is not seen, and not counted as something that is not traced",
+          "[bridge]")
+{
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(triangleGeometry());
+    root->addChild(new osgParticle::ModularEmitter);
+    root->addChild(new osgParticle::ModularProgram);
+    root->addChild(new osgParticle::ParticleSystemUpdater);
+    CHECK(countOf(convertGraph(root), "not-traced.custom-node") == 0);
+    CHECK(countOf(convertGraph(root), "not-traced.particles") == 0);
+    root->addChild(new osgParticle::PrecipitationEffect); // is seen
+    CHECK(countOf(convertGraph(root), "not-traced.particles") == 1);
+    // In a viewer all of them go on working.
+    ConversionInput input = inputFor(root);
+    input.rasterizesRest = true;
+    SceneConverter converter;
+    const ConversionResult result = converter.convert(input);
+    REQUIRE(result.rasterized);
+    CHECK(result.rasterized->size() == 4);
 }
 
 TEST_CASE("names are node paths of the first use", "[bridge]")

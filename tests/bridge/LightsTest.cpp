@@ -192,7 +192,13 @@ TEST_CASE("lights are enabled for each surface by mode, wherever their source is
     CHECK(result.scene->materials[instances[0].material].lightMask == 0x1);
     CHECK(result.scene->materials[instances[1].material].lightMask == 0x2);
     CHECK(result.scene->lights.size() == 2); // nobody has enabled number 2
-    CHECK(countOf(result, "converted.light") == 2);
+    CHECK(countOf(result, "converted.light") == 1);
+    CHECK(countOf(result, "converted.headlight") == 1);
+    // A light of the graph with the viewer's number takes its place.
+    scene.add(0);
+    CHECK(countOf(scene.converter.convert(scene.input), "converted.light") == 2);
+    CHECK(countOf(scene.converter.convert(scene.input), "converted.headlight") == 0);
+    CHECK(countOf(scene.converter.convert(scene.input), "converted.sky-light") == 0);
 }
 
 TEST_CASE("area light: parallelogram, quad that points back at it, black lamp material", "[bridge]")

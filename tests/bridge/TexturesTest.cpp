@@ -279,6 +279,18 @@ TEST_CASE("textures that cannot be sampled are left out and counted", "[bridge]"
         CHECK(soleMaterial(result).baseColorTexture == kInvalid);
         CHECK(countOf(result, "approximated.texture-without-image") == 1);
     }
+    SECTION("an image whose file was not read")
+    {
+        osg::ref_ptr<osg::Image> image = new osg::Image;
+        image->setFileName("bricks.png"); // as osgDB leaves it
+        const ConversionResult result = convertGraph(texturedGeometry(new osg::Texture2D(image)));
+        CHECK(soleMaterial(result).baseColorTexture == kInvalid);
+        CHECK(countOf(result, "approximated.texture-without-image") == 0);
+        CHECK(countOf(result, "missing.texture-image") == 1);
+        const auto& files = result.paths.at("missing.texture-image");
+        REQUIRE(files.size() == 1);
+        CHECK(files[0].find("bricks.png, for ") == 0);
+    }
     SECTION("but one without coordinates is looked up at the corner, as in OpenGL")
     {
         const auto geometry = texturedGeometry(smallTexture());

@@ -125,7 +125,9 @@ void requireSound(const ConversionResult& result)
 {
     const Scene& scene = *result.scene;
     REQUIRE(countIn(result.counts, "converted.instance") == scene.instances.size());
-    REQUIRE(countIn(result.counts, "converted.light") == scene.lights.size());
+    REQUIRE(countIn(result.counts, "converted.light") +
+                countIn(result.counts, "converted.headlight") ==
+            scene.lights.size());
     for (const auto& mesh : scene.meshes)
         REQUIRE(faultOf(*mesh) == "");
     for (const Instance& instance : scene.instances)

@@ -3,7 +3,10 @@
 #include "TestViewer.h"
 #include "tests/Catch.h"
 
+#include <osgRayTrace/PhysicalMaterial>
+
 #include <osg/BlendFunc>
+#include <osg/ClearNode>
 #include <osg/Depth>
 #include <osg/Material>
 #include <osg/MatrixTransform>
@@ -305,4 +308,29 @@ TEST_CASE("composite: the drawable leaves OSG's state as it was", "[gl]")
         }
     CHECK(traceable > 1000);
     CHECK(different == 0);
+}
+
+// Where a mirror shows the background, it has to be the one that the picture has.
+TEST_CASE("composite: a ClearNode in the scene is the background, also of mirrors", "[gl]")
+{
+    osg::ref_ptr<osg::ClearNode> clear = new osg::ClearNode;
+    clear->setClearColor(osg::Vec4(0.2f, 0.6f, 0.4f, 1.0f));
+    osg::ref_ptr<osg::Geometry> mirror = unlitSquare(1.0f, osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f));
+    osg::ref_ptr<PhysicalMaterial> metal = new PhysicalMaterial;
+    metal->setMetallic(1.0f);
+    metal->setRoughness(0.0f);
+    metal->setBaseColor(osg::Vec3(1.0f, 1.0f, 1.0f));
+    mirror->getOrCreateStateSet()->setAttribute(metal);
+    clear->addChild(mirror); // a group like others
+    TestViewer viewer(kSize, kSize, tracedScene(clear));
+    viewer.camera().setClearColor(osg::Vec4(1.0f, 0.0f, 0.0f, 1.0f));
+    const osg::ref_ptr<osg::Image> picture = viewer.frames(3);
+    for (const int x : {4, kSize / 2})
+    {
+        CAPTURE(x);
+        const osg::Vec4 color = pixel(*picture, x, kSize / 2);
+        CHECK(color.x() == Approx(51.0f).margin(2.0f));
+        CHECK(color.y() == Approx(153.0f).margin(2.0f));
+        CHECK(color.z() == Approx(102.0f).margin(2.0f));
+    }
 }
