@@ -77,7 +77,7 @@ CLI::Validator oneOf(const std::string& words)
 }
 
 /// One command line option for each option of RayTraceSettings, by the same name.
-void addSettings(CLI::App& app, RayTraceSettings& settings)
+void addSettings(CLI::App& app, Options& options)
 {
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
     {
@@ -86,9 +86,10 @@ void addSettings(CLI::App& app, RayTraceSettings& settings)
         const std::string help =
             passes ? "Stop after so many passes (64, unless --time or --error is given)"
                    : option.help;
-        const auto set = [&settings, option](const std::string& value)
+        const auto set = [&options, option](const std::string& value)
         {
-            if (settings.set(option.name, value)) return;
+            options.assignments.emplace_back(option.name, value);
+            if (options.settings->set(option.name, value)) return;
             throw CLI::ValidationError("--" + option.name, "'" + value + "' is not one of " +
                                                                commaSeparated(option.range));
         };
@@ -179,9 +180,8 @@ void applyPasses(const CLI::App& app, Options& options)
     if (app.count("--passes") || std::getenv("OSGRAYTRACE_MAX_PASSES")) return;
     const bool otherwiseLimited = options.seconds > 0.0 || options.relativeError > 0.0;
     const bool reportAlone = options.report && options.outputs.empty();
-    options.settings->setMaxPasses(otherwiseLimited ? 1 << 24
-                                   : reportAlone    ? 1
-                                                    : kDefaultPasses);
+    options.defaultPasses = otherwiseLimited ? 1 << 24 : reportAlone ? 1 : kDefaultPasses;
+    options.settings->setMaxPasses(*options.defaultPasses);
 }
 
 void check(const Options& options)
@@ -223,7 +223,7 @@ std::optional<Options> parseOptions(int argc, char** argv)
                  "osgraytrace");
     app.footer(kFooter);
     addOptions(app, options, raw);
-    addSettings(app, *options.settings);
+    addSettings(app, options);
     try
     {
         app.parse(argc, argv);
@@ -243,6 +243,18 @@ std::optional<Options> parseOptions(int argc, char** argv)
     applyPasses(app, options);
     check(options);
     return options;
+}
+
+void takeStoredSettings(const RayTraceSettings& stored, Options& options)
+{
+    options.settings = new RayTraceSettings(stored);
+    const auto known = RayTraceSettings::options();
+    const auto limit = std::find_if(known.begin(), known.end(),
+                                    [](const auto& option) { return option.name == "max-passes"; });
+    if (options.defaultPasses && stored.get(limit->name) == limit->defaultValue)
+        options.settings->setMaxPasses(*options.defaultPasses);
+    for (const auto& [name, value] : options.assignments)
+        options.settings->set(name, value);
 }
 
 std::string optionTable()

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace osgRayTrace::app
@@ -42,7 +43,15 @@ struct Options
     Context context = Context::None;
     bool listOptions = false;
     osg::ref_ptr<RayTraceSettings> settings; ///< maxPasses is the limit of passes
+
+    /// What the command line states of the settings: names and values.
+    std::vector<std::pair<std::string, std::string>> assignments;
+    std::optional<int> defaultPasses; ///< the limit of passes unless somebody states one
 };
+
+/// Takes over the settings that a scene brings with it; what the command line states goes before
+/// them. A limit of passes that is RayTraceSettings' own default states nothing.
+void takeStoredSettings(const RayTraceSettings& stored, Options& options);
 
 /// Nothing if the command line asked for help, which was printed then. Throws Failure(kUsage).
 std::optional<Options> parseOptions(int argc, char** argv);

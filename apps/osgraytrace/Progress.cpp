@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "Progress.h"
 
+#include "apps/common/ErrorText.h"
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -53,7 +55,8 @@ void Progress::show(const Statistics& statistics)
     }
     std::fprintf(stderr, "] %3d %%  pass %d  %.1f M rays/s", static_cast<int>(100.0 * done),
                  statistics.passes, rate);
-    if (statistics.passes > 1) std::fprintf(stderr, "  error %.2g", statistics.relativeError);
+    if (statistics.passes > 1)
+        std::fprintf(stderr, "  error %s", errorText(statistics.relativeError).c_str());
     if (done > 0.0) std::fprintf(stderr, "  %.0f s left", seconds() * (1.0 - done) / done);
     std::fputs("\033[K", stderr);
     std::fflush(stderr);

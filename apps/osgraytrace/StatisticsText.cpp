@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "StatisticsText.h"
 
+#include "apps/common/ErrorText.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -17,6 +19,24 @@ uint64_t allRays(const Statistics& statistics)
 {
     return statistics.cameraRays + statistics.shadowRays + statistics.secondaryRays +
            statistics.photonRays;
+}
+
+/// Why a picture shows nothing; empty: it shows something. radiance: GL_RGBA, GL_FLOAT.
+std::string blankness(const osg::Image& radiance)
+{
+    bool hit = false;
+    for (int y = 0; y < radiance.t(); ++y)
+    {
+        const float* row = reinterpret_cast<const float*>(radiance.data(0, y));
+        for (int x = 0; x < radiance.s(); ++x)
+        {
+            const float* pixel = row + 4 * x;
+            if (pixel[0] != 0.0f || pixel[1] != 0.0f || pixel[2] != 0.0f) return {};
+            hit = hit || pixel[3] != 0.0f;
+        }
+    }
+    return hit ? "all that was hit is black: is there a light that reaches it?"
+               : "nothing was hit: does the camera look at the scene (--eye, --center, --up)?";
 }
 
 } // namespace
@@ -70,7 +90,8 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string statisticsLine(const Statistics& statistics)
+std::string statisticsLine(const Options& options, const Statistics& statistics,
+                           const osg::Image& radiance)
 {
     const double rate = statistics.renderSeconds > 0.0
                             ? 1e-6 * allRays(statistics) / statistics.renderSeconds
@@ -79,12 +100,15 @@ std::string statisticsLine(const Statistics& statistics)
     std::snprintf(text, sizeof(text), "%s, %d passes in %.1f s, %.3g M rays/s",
                   statistics.integrator.c_str(), statistics.passes, statistics.renderSeconds, rate);
     std::string line = text;
-    if (std::isfinite(statistics.relativeError))
-    {
-        std::snprintf(text, sizeof(text), ", estimated error %.2g %%",
-                      100.0 * statistics.relativeError);
-        line += text;
-    }
+    const std::string blank = blankness(radiance);
+    if (statistics.triangles == 0)
+        line += ", all of it is drawn by OpenGL";
+    else if (!blank.empty())
+        line += ", " + blank;
+    else if (std::isfinite(statistics.relativeError))
+        line += ", estimated error " + errorText(statistics.relativeError);
+    if (statistics.relativeError > options.relativeError && options.relativeError > 0.0)
+        line += ", --error " + errorText(options.relativeError) + " was not reached";
     if (statistics.droppedSamples > 0)
         line += ", " + std::to_string(statistics.droppedSamples) + " samples dropped";
     return line;

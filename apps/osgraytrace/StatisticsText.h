@@ -18,7 +18,9 @@ namespace osgRayTrace::app
 std::string statisticsJson(const Options& options, const Statistics& statistics,
                            const std::optional<ErrorMeasures>& measures);
 
-/// "path, 64 passes in 3.2 s, 41 M rays/s, estimated error 0.81 %"
-std::string statisticsLine(const Statistics& statistics);
+/// "path, 64 passes in 3.2 s, 41 M rays/s, estimated error 0.81 %", and whether that is what was
+/// asked for. Of a picture that shows nothing it says so instead of its error.
+std::string statisticsLine(const Options& options, const Statistics& statistics,
+                           const osg::Image& radiance);
 
 } // namespace osgRayTrace::app

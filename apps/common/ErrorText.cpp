@@ -1,0 +1,18 @@
+// ErrorText.cpp - writes errors in percent. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "ErrorText.h"
+
+#include <cstdio>
+
+namespace osgRayTrace::app
+{
+
+std::string errorText(double relativeError)
+{
+    if (!(relativeError < 0.995)) return "100 % or more, mostly noise";
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.2g %%", 100.0 * relativeError);
+    return text;
+}
+
+} // namespace osgRayTrace::app

@@ -1,0 +1,13 @@
+// ErrorText.h - an estimated error as all programs write it. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace osgRayTrace::app
+{
+
+/// "1.8 %"; in words from 100 % on, where the number says no more than that.
+std::string errorText(double relativeError);
+
+} // namespace osgRayTrace::app
