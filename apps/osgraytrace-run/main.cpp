@@ -16,10 +16,14 @@ namespace
 
 constexpr int kUsage = 1, kNoLibrary = 2, kCannotStart = 127; // the last as shells have it
 
+constexpr long kMostPasses = 1 << 24;
+
 constexpr const char* kHelp =
-    "Usage: osgraytrace-run PROGRAM [ARGUMENTS...]\n"
+    "Usage: osgraytrace-run [--passes N] PROGRAM [ARGUMENTS...]\n"
     "Starts an OpenSceneGraph program that knows nothing of osgRayTrace with its scenes ray "
     "traced.\n"
+    "\n"
+    "  --passes N, --max-passes N  passes at most, as OSGRAYTRACE_MAX_PASSES=N\n"
     "\n"
     "Environment:\n"
     "  OSGRAYTRACE_...         settings: osgraytrace --list-options names each one's variable\n"
@@ -54,7 +58,24 @@ void prepend(const char* variable, const std::string& value, char separator)
 int main(int argc, char** argv)
 {
     const bool help = argc > 1 && (!std::strcmp(argv[1], "--help") || !std::strcmp(argv[1], "-h"));
-    if (argc < 2 || help)
+    int first = 1;
+    const auto isPasses = [](const char* argument)
+    { return !std::strcmp(argument, "--passes") || !std::strcmp(argument, "--max-passes"); };
+    while (first + 1 < argc && isPasses(argv[first]))
+    {
+        const char* value = argv[first + 1];
+        const std::size_t digits = std::strspn(value, "0123456789");
+        const long passes = digits < 9 ? std::strtol(value, nullptr, 10) : 0;
+        if (value[digits] != '\0' || passes < 1 || passes > kMostPasses)
+        {
+            std::cerr << "osgraytrace-run: " << argv[first] << ' ' << value
+                      << ": the values are 1 .. " << kMostPasses << '\n';
+            return kUsage;
+        }
+        setenv("OSGRAYTRACE_MAX_PASSES", value, 1);
+        first += 2;
+    }
+    if (argc <= first || help)
     {
         (help ? std::cout : std::cerr) << kHelp;
         return help ? 0 : kUsage;
@@ -69,8 +90,8 @@ int main(int argc, char** argv)
     prepend("LD_PRELOAD", library->string(), ':');
     prepend("OSG_LIBRARY_PATH", library->parent_path().string(),
             ':'); // models may hold our materials
-    execvp(argv[1], argv + 1);
-    std::cerr << "osgraytrace-run: cannot start " << argv[1] << ": " << std::strerror(errno)
+    execvp(argv[first], argv + first);
+    std::cerr << "osgraytrace-run: cannot start " << argv[first] << ": " << std::strerror(errno)
               << '\n';
     return kCannotStart;
 }

@@ -272,7 +272,8 @@ CaveOptions readCaveOptions(osg::ArgumentParser& arguments)
     return options;
 }
 
-int runCave(const CaveOptions& options, osg::Node* root, RayTracedScene* scene)
+int runCave(const CaveOptions& options, osg::Node* root, RayTracedScene* scene,
+            const std::string& title)
 {
     const CaveSetup setup = caveSetup(CaveFile(options.file, options.host));
     std::optional<HeadPath> path;
@@ -294,6 +295,10 @@ int runCave(const CaveOptions& options, osg::Node* root, RayTracedScene* scene)
     moveHead(setup, pictures, path ? path->at(options.time) : still);
     viewer.realize();
     if (!viewer.isRealized()) throw Failure(kCannotRender, "cannot open the windows");
+    osgViewer::Viewer::Windows windows;
+    viewer.getWindows(windows);
+    for (osgViewer::GraphicsWindow* window : windows)
+        window->setWindowName(title);
     if (offscreen)
     {
         writePictures(viewer, *scene, pictures, options.output);

@@ -33,7 +33,8 @@ void describeCave(osg::ApplicationUsage& usage);
 CaveOptions readCaveOptions(osg::ArgumentParser& arguments);
 
 /// Shows what is below root, with scene in it, until the user ends it; or writes the pictures.
-/// Throws Failure.
-int runCave(const CaveOptions& options, osg::Node* root, RayTracedScene* scene);
+/// title: of the windows. Throws Failure.
+int runCave(const CaveOptions& options, osg::Node* root, RayTracedScene* scene,
+            const std::string& title);
 
 } // namespace osgRayTrace::app

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "KeyHandler.h"
 
+#include "apps/common/DrawnParts.h"
+
 #include <osg/Notify>
 #include <osgDB/FileUtils>
 #include <osgDB/WriteFile>
@@ -31,6 +33,11 @@ void cycle(RayTraceSettings& settings, const std::string& name)
     }
 }
 
+int lowerCase(int key)
+{
+    return key >= 'A' && key <= 'Z' ? key - 'A' + 'a' : key;
+}
+
 std::string freeFileName()
 {
     std::string name;
@@ -46,16 +53,19 @@ std::string freeFileName()
 
 bool KeyHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action)
 {
-    if (event.getHandled() || event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
-    if (event.getKey() == 'F')
-        freeze(dynamic_cast<osgViewer::View*>(&action));
-    else if (!press(event.getKey()))
-        return false;
+    if (event.getHandled()) return false;
+    // Other handlers act on releases: that of F is f if Shift was let go before it, which
+    // osgViewer's full screen is.
+    if (event.getEventType() == osgGA::GUIEventAdapter::KEYUP)
+        return _held.erase(lowerCase(event.getKey())) > 0;
+    if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
+    if (!press(event.getKey(), dynamic_cast<osgViewer::View*>(&action))) return false;
+    _held.insert(lowerCase(event.getKey()));
     action.requestRedraw();
     return true;
 }
 
-bool KeyHandler::press(int key)
+bool KeyHandler::press(int key, osgViewer::View* view)
 {
     RayTraceSettings& settings = *_scene->getSettings();
     RayTraceDrawable& drawable = *_scene->getDrawable();
@@ -73,6 +83,9 @@ bool KeyHandler::press(int key)
         return true;
     case '-':
         settings.setExposure(settings.getExposure() - kExposureStep);
+        return true;
+    case 'F':
+        freeze(view);
         return true;
     case 'p':
         drawable.setPaused(!drawable.getPaused());
@@ -116,8 +129,10 @@ void KeyHandler::writeScreenshot() const
     }
     const std::string name = freeFileName();
     const bool written = osgDB::writeImageFile(*image, name);
-    OSG_NOTICE << "osgraytraceviewer: " << (written ? "wrote " : "could not write ") << name
-               << std::endl;
+    OSG_NOTICE << "osgraytraceviewer: " << (written ? "wrote " : "could not write ") << name;
+    if (const auto parts = partsDrawnByOsg(_scene->getDrawable()->getStatistics()))
+        OSG_NOTICE << ", which lacks " << parts << " parts of the scene that OpenGL draws";
+    OSG_NOTICE << std::endl;
 }
 
 void KeyHandler::getUsage(osg::ApplicationUsage& usage) const

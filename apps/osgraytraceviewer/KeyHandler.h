@@ -9,6 +9,8 @@
 #include <osgGA/GUIEventHandler>
 #include <osgViewer/View>
 
+#include <set>
+
 namespace osgRayTrace::app
 {
 
@@ -28,12 +30,14 @@ public:
     bool isFrozen() const { return _frozen; }
 
 private:
-    bool press(int key);
+    bool press(int key, osgViewer::View* view);
     void freeze(osgViewer::View* view);
     void writeScreenshot() const;
 
     osg::ref_ptr<RayTracedScene> _scene;
     bool _frozen = false;
+    std::set<int>
+        _held; ///< keys whose press was handled here, in lower case: their release is, too
     osg::ref_ptr<osgGA::CameraManipulator> _manipulator; ///< of the view, while it is frozen
 };
 

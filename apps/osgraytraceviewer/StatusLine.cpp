@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "StatusLine.h"
 
+#include "apps/common/ErrorText.h"
+
 #include <osg/Geode>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -15,6 +18,7 @@ namespace
 
 constexpr double kMargin = 10.0;        // pixels
 constexpr float kCharacterSize = 18.0f; // pixels
+constexpr float kPlateMargin = 5.0f;    // pixels
 
 osg::ref_ptr<osgText::Text> createText()
 {
@@ -22,7 +26,10 @@ osg::ref_ptr<osgText::Text> createText()
     text->setDataVariance(osg::Object::DYNAMIC);
     text->setCharacterSize(kCharacterSize);
     text->setPosition(osg::Vec3(kMargin, kMargin, 0.0f));
-    text->setBackdropType(osgText::Text::OUTLINE);
+    // A dark plate: outlines close over decimal points.
+    text->setDrawMode(osgText::Text::TEXT | osgText::Text::FILLEDBOUNDINGBOX);
+    text->setBoundingBoxColor(osg::Vec4(0.0f, 0.0f, 0.0f, 0.75f));
+    text->setBoundingBoxMargin(kPlateMargin);
     return text;
 }
 
@@ -54,7 +61,8 @@ template <class... Values> std::string format(const char* pattern, Values... val
 
 } // namespace
 
-StatusLine::StatusLine(RayTracedScene* scene) : _scene(scene), _text(createText())
+StatusLine::StatusLine(RayTracedScene* scene, const KeyHandler* keys)
+    : _scene(scene), _keys(keys), _text(createText())
 {
     _camera = createOverlay(_text.get());
 }
@@ -68,29 +76,37 @@ bool StatusLine::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAda
         return false;
     }
     if (event.getEventType() != osgGA::GUIEventAdapter::FRAME) return false;
-    const std::string text = statusText(*_scene);
+    const std::string text = statusText(*_scene, _keys->isFrozen());
     if (text != _shown) _text->setText(text);
     _shown = text;
     return false;
 }
 
-std::string statusText(const RayTracedScene& scene)
+std::string statusText(const RayTracedScene& scene, bool frozen)
 {
-    if (!scene.getEnabled()) return "rasterizer";
+    if (!scene.getEnabled()) return frozen ? "rasterizer   frozen" : "rasterizer";
     const Statistics statistics = scene.getDrawable()->getStatistics();
     if (!statistics.ok) return statistics.message;
 
-    std::string text = format("%s   %d passes", statistics.integrator.c_str(), statistics.passes);
+    const RayTraceSettings& settings = *scene.getSettings();
+    const int most = settings.getMaxPasses();
+    std::string text = format("%s   %d of %d passes", statistics.integrator.c_str(),
+                              std::min(statistics.passes, most), most);
+    if (statistics.passes >= most) text += ", done";
     const double rays = static_cast<double>(statistics.cameraRays + statistics.shadowRays +
-                                            statistics.secondaryRays);
+                                            statistics.secondaryRays + statistics.photonRays);
     if (statistics.renderSeconds > 0.0)
-        text += format("   %.1f Mrays/s", 1e-6 * rays / statistics.renderSeconds);
+        text += format("   %.1f M rays/s", 1e-6 * rays / statistics.renderSeconds);
     if (std::isfinite(statistics.relativeError))
-        text += format("   error %.2g %%", 100.0 * statistics.relativeError);
-    if (scene.getDrawable()->getSettings()->getDenoise() != RayTraceSettings::OFF &&
-        !statistics.denoiser.empty())
+        text += "   error " + errorText(statistics.relativeError);
+    if (statistics.resolutionDivider > 1)
+        text += format("   1/%d resolution", statistics.resolutionDivider);
+    if (settings.getExposure() != 0.0f)
+        text += format("   exposure %+g EV", double(settings.getExposure()));
+    if (settings.getDenoise() != RayTraceSettings::OFF && !statistics.denoiser.empty())
         text += format("   denoised by %s in %.1f ms", statistics.denoiser.c_str(),
                        statistics.denoiseMilliseconds);
+    if (frozen) text += "   frozen";
     if (scene.getDrawable()->getPaused()) text += "   paused";
     return text;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "KeyHandler.h"
+
 #include <osgRayTrace/RayTracedScene>
 
 #include <osg/Camera>
@@ -13,11 +15,11 @@
 namespace osgRayTrace::app
 {
 
-/// Integrator, passes, rays a second and estimated error, at the lower left of the window.
+/// What statusText says, at the lower left of the window.
 class StatusLine : public osgGA::GUIEventHandler
 {
 public:
-    explicit StatusLine(RayTracedScene* scene);
+    StatusLine(RayTracedScene* scene, const KeyHandler* keys);
 
     /// To be put into the graph, beside the scene.
     osg::Camera* camera() { return _camera.get(); }
@@ -27,12 +29,15 @@ public:
 
 private:
     osg::ref_ptr<RayTracedScene> _scene;
+    osg::ref_ptr<const KeyHandler> _keys;
     osg::ref_ptr<osg::Camera> _camera;
     osg::ref_ptr<osgText::Text> _text;
     std::string _shown;
 };
 
-/// "path   37 passes   12.4 Mrays/s   error 1.8 %", or why there is no picture.
-std::string statusText(const RayTracedScene& scene);
+/// "path   37 of 1024 passes   12.4 M rays/s   error 1.8 %", and what else is not as usual: a
+/// reduced resolution, an exposure, a denoiser, a view that is frozen or paused. Or why there is no
+/// picture.
+std::string statusText(const RayTracedScene& scene, bool frozen);
 
 } // namespace osgRayTrace::app

@@ -6,13 +6,14 @@
 
 #include "apps/common/ModelFiles.h"
 #include "apps/common/PluginPath.h"
+#include "apps/common/StoredScene.h"
 #include "apps/common/StoredView.h"
 
 #include <osgRayTrace/RayTracedScene>
 
 #include <osg/ArgumentParser>
 #include <osg/Group>
-#include <osg/NodeVisitor>
+#include <osgDB/FileNameUtils>
 #include <osgGA/StateSetManipulator>
 #include <osgGA/TrackballManipulator>
 #include <osgViewer/Viewer>
@@ -32,21 +33,10 @@ namespace osgRayTrace::app
 namespace
 {
 
+const char* const kMaxPasses = "max-passes";
+const char* const kPasses = "--passes"; ///< the same, as osgraytrace has it
+
 using Assignments = std::vector<std::pair<std::string, std::string>>;
-
-/// A model may bring a ray traced scene with it: cow.osgt.raytrace.
-struct FindTracedScene : osg::NodeVisitor
-{
-    FindTracedScene() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    void apply(osg::Group& node) override
-    {
-        if (!found) found = dynamic_cast<RayTracedScene*>(&node);
-        if (!found) traverse(node);
-    }
-
-    osg::ref_ptr<RayTracedScene> found;
-};
 
 int fail(ExitCode code, const std::string& message)
 {
@@ -62,8 +52,10 @@ void describe(osg::ApplicationUsage& usage)
     usage.setCommandLineUsage("osgraytraceviewer [options] MODEL [MODEL ...]");
     usage.addCommandLineOption("-h or --help", "Shows options and keys");
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
-        usage.addCommandLineOption("--" + option.name + " <" + option.range + ">", option.help,
-                                   settings->get(option.name));
+        usage.addCommandLineOption(
+            (option.name == kMaxPasses ? kPasses + std::string(" or ") : "") + "--" + option.name +
+                " <" + option.range + ">",
+            option.help, settings->get(option.name));
     describeCave(usage);
 }
 
@@ -75,7 +67,8 @@ std::optional<Assignments> readSettings(osg::ArgumentParser& arguments)
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
     {
         std::string value;
-        while (arguments.read("--" + option.name, value))
+        while (arguments.read("--" + option.name, value) ||
+               (option.name == kMaxPasses && arguments.read(kPasses, value)))
         {
             assignments.emplace_back(option.name, value);
             if (trial->set(option.name, value)) continue;
@@ -94,10 +87,10 @@ std::vector<std::string> modelNames(osg::ArgumentParser& arguments)
     return names;
 }
 
-void addHandlers(osgViewer::Viewer& viewer, RayTracedScene* scene, StatusLine* statusLine,
+void addHandlers(osgViewer::Viewer& viewer, KeyHandler* keys, StatusLine* statusLine,
                  osg::ApplicationUsage* usage)
 {
-    viewer.addEventHandler(new KeyHandler(scene));
+    viewer.addEventHandler(keys);
     viewer.addEventHandler(statusLine);
     viewer.addEventHandler(new osgGA::StateSetManipulator(viewer.getCamera()->getOrCreateStateSet()));
     viewer.addEventHandler(new osgViewer::ThreadingHandler);
@@ -105,6 +98,15 @@ void addHandlers(osgViewer::Viewer& viewer, RayTracedScene* scene, StatusLine* s
     viewer.addEventHandler(new osgViewer::StatsHandler);
     viewer.addEventHandler(new osgViewer::LODScaleHandler);
     viewer.addEventHandler(new osgViewer::HelpHandler(usage));
+}
+
+/// Of the window: "cow.osgt, glider.osgt".
+std::string titleOf(const std::vector<std::string>& models)
+{
+    std::string title;
+    for (const std::string& model : models)
+        title += (title.empty() ? "" : ", ") + osgDB::getSimpleFileName(model);
+    return title;
 }
 
 /// The view and background that the scene brings with it, if any.
@@ -138,9 +140,7 @@ Models readModels(const std::vector<std::string>& names, const Assignments& assi
 {
     Models models;
     models.root->addChild(readScene(names).get());
-    FindTracedScene brought;
-    models.root->accept(brought);
-    models.scene = brought.found;
+    models.scene = storedScene(*models.root); // cow.osgt.raytrace
     if (!models.scene)
     {
         models.scene = new RayTracedScene;
@@ -163,20 +163,24 @@ Assignments wallSettings(Assignments assignments)
     return assignments;
 }
 
-int show(osgViewer::Viewer& viewer, const Models& models, osg::ApplicationUsage* usage)
+int show(osgViewer::Viewer& viewer, const Models& models, const std::string& title,
+         osg::ApplicationUsage* usage)
 {
     const auto& [root, scene] = models;
-    osg::ref_ptr<StatusLine> statusLine = new StatusLine(scene.get());
+    const osg::ref_ptr<KeyHandler> keys = new KeyHandler(scene.get());
+    osg::ref_ptr<StatusLine> statusLine = new StatusLine(scene.get(), keys.get());
     root->addChild(statusLine->camera());
 
     viewer.setSceneData(root.get());
     viewer.setCameraManipulator(new osgGA::TrackballManipulator);
     showAsStored(viewer, *root);
-    addHandlers(viewer, scene.get(), statusLine.get(), usage);
+    addHandlers(viewer, keys.get(), statusLine.get(), usage);
     viewer.realize();
     osgViewer::Viewer::Windows windows;
     viewer.getWindows(windows);
     if (windows.empty()) return fail(kCannotRender, "cannot open a window");
+    for (osgViewer::GraphicsWindow* window : windows)
+        window->setWindowName(title);
     return viewer.run();
 }
 
@@ -195,7 +199,8 @@ int run(int argc, char** argv)
     if (help)
     {
         osg::ref_ptr<RayTracedScene> none = new RayTracedScene;
-        addHandlers(viewer, none.get(), new StatusLine(none.get()), &usage);
+        const osg::ref_ptr<KeyHandler> keys = new KeyHandler(none.get());
+        addHandlers(viewer, keys.get(), new StatusLine(none.get(), keys.get()), &usage);
         viewer.getUsage(usage);
         usage.write(std::cout, osg::ApplicationUsage::COMMAND_LINE_OPTION |
                                    osg::ApplicationUsage::KEYBOARD_MOUSE_BINDING);
@@ -209,9 +214,11 @@ int run(int argc, char** argv)
     }
     const std::vector<std::string> names = modelNames(arguments);
     if (names.empty()) return fail(kUsage, "no MODEL given; --help shows options and keys");
-    const Models models = readModels(names, cave.file.empty() ? *assignments : wallSettings(*assignments));
-    if (!cave.file.empty()) return runCave(cave, models.root.get(), models.scene.get());
-    return show(viewer, models, &usage);
+    const Models models =
+        readModels(names, cave.file.empty() ? *assignments : wallSettings(*assignments));
+    const std::string title = titleOf(names);
+    if (!cave.file.empty()) return runCave(cave, models.root.get(), models.scene.get(), title);
+    return show(viewer, models, title, &usage);
 }
 
 } // namespace

@@ -45,6 +45,10 @@ TEST_CASE("osgraytrace-run: wrong usage", "[apps]")
     CHECK(run("").exitCode == 1);
     CHECK(run("--help").exitCode == 0);
     CHECK(run("--help").output.find("OSGRAYTRACE_TOGGLE_KEY") != std::string::npos);
+    for (const char* wrong : {"--passes 0 ", "--passes many ", "--max-passes 16777217 "})
+        CHECK(run(wrong + kForeign).exitCode == 1);
+    CHECK(run("--passes 5").exitCode == 1);
+    CHECK(run("--passes 5 sh -c 'echo $OSGRAYTRACE_MAX_PASSES'").output == "5\n");
     const Outcome missing = run("no-such-program");
     CHECK(missing.exitCode == 127);
     CHECK(missing.errors.find("no-such-program") != std::string::npos);

@@ -1,0 +1,117 @@
+// ViewerTest.cpp - what osgraytraceviewer says over its picture, and which keys it takes. Layer:
+// tests. SPDX-License-Identifier: MIT
+#include "apps/common/ErrorText.h"
+#include "apps/osgraytraceviewer/KeyHandler.h"
+#include "apps/osgraytraceviewer/StatusLine.h"
+#include "tests/Catch.h"
+#include "tests/gl/TestViewer.h"
+
+#include <osgGA/TrackballManipulator>
+#include <osgViewer/ViewerEventHandlers>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::app;
+using namespace osgRayTrace::test;
+using Catch::Matchers::Contains;
+
+namespace
+{
+
+using Event = osgGA::GUIEventAdapter;
+
+/// True if the handler took it.
+bool send(KeyHandler& keys, osgViewer::Viewer& viewer, Event::EventType type, int key)
+{
+    const osg::ref_ptr<Event> event = new Event;
+    event->setEventType(type);
+    event->setKey(key);
+    return keys.handle(*event, viewer);
+}
+
+} // namespace
+
+TEST_CASE("viewer: F freezes the view, and its release toggles nothing however Shift is let go",
+          "[apps]")
+{
+    const osg::ref_ptr<RayTracedScene> scene = new RayTracedScene;
+    const osg::ref_ptr<KeyHandler> keys = new KeyHandler(scene);
+    osgViewer::Viewer viewer;
+    viewer.setCameraManipulator(new osgGA::TrackballManipulator);
+    for (const int released : {'f', 'F'})
+    {
+        CHECK(send(*keys, viewer, Event::KEYDOWN, 'F'));
+        CHECK(send(*keys, viewer, Event::KEYUP, released));
+        CHECK_FALSE(send(*keys, viewer, Event::KEYUP, released));
+    }
+    CHECK_FALSE(keys->isFrozen());
+    // f is osgViewer's.
+    CHECK_FALSE(send(*keys, viewer, Event::KEYDOWN, 'f'));
+    CHECK_FALSE(send(*keys, viewer, Event::KEYUP, 'f'));
+    // So are releases of all keys that others have.
+    for (const int key : {'i', 'n', 'r', 'p'})
+    {
+        CHECK(send(*keys, viewer, Event::KEYDOWN, key));
+        CHECK(send(*keys, viewer, Event::KEYUP, key));
+    }
+}
+
+TEST_CASE("viewer: the status line says how far the picture is, and what is not as usual",
+          "[apps][gl]")
+{
+    const osg::ref_ptr<RayTracedScene> scene =
+        tracedScene(sphere(osg::Vec3(), 2.0f, osg::Vec4(1, 1, 1, 1)));
+    RayTraceSettings& settings = *scene->getSettings();
+    settings.setMaxPasses(3);
+    TestViewer viewer(32, 32, scene);
+    viewer.frames(2);
+    CHECK_THAT(statusText(*scene, false), Contains("whitted   2 of 3 passes") &&
+                                              !Contains("done") && Contains(" M rays/s") &&
+                                              Contains(" %") && !Contains("frozen") &&
+                                              !Contains("resolution") && !Contains("exposure"));
+    viewer.frames(3);
+    settings.setExposure(1.5f);
+    CHECK_THAT(statusText(*scene, true), Contains("3 of 3 passes, done") &&
+                                             Contains("exposure +1.5 EV") && Contains("   frozen"));
+    settings.setExposure(-0.5f);
+    scene->getDrawable()->setPaused(true);
+    CHECK_THAT(statusText(*scene, true),
+               Contains("exposure -0.5 EV") && Contains("frozen   paused"));
+    scene->setEnabled(false);
+    CHECK(statusText(*scene, false) == "rasterizer");
+}
+
+TEST_CASE("viewer: decimal points of the status line can be seen", "[apps][gl]")
+{
+    // The line alone, with an error of one digit: pixels of the text's colour at the point's place.
+    const osg::ref_ptr<RayTracedScene> scene = tracedScene(nullptr);
+    const osg::ref_ptr<KeyHandler> keys = new KeyHandler(scene);
+    const osg::ref_ptr<StatusLine> line = new StatusLine(scene, keys);
+    osgText::Text& text =
+        *dynamic_cast<osgText::Text*>(line->camera()->getChild(0)->asGroup()->getChild(0));
+    line->camera()->setProjectionMatrixAsOrtho2D(0.0, 96.0, 0.0, 32.0);
+    TestViewer viewer(96, 32, line->camera());
+    viewer.camera().setClearColor(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f)); // the worst background
+    const auto brightPixels = [&](const char* words)
+    {
+        text.setText(words);
+        const osg::ref_ptr<osg::Image> picture = viewer.frames(2);
+        int bright = 0;
+        for (int y = 0; y < 32; ++y)
+            for (int x = 8; x < 50; ++x)
+                bright += pixel(*picture, x, y).x() > 100.0f && y > 6 && y < 28;
+        return bright;
+    };
+    const int without = brightPixels("8  8"), with = brightPixels("8. 8");
+    CAPTURE(without, with);
+    CHECK(with > without);
+    CHECK(without < 42 * 21 / 2); // most of the plate is dark
+}
+
+TEST_CASE("errors are written in percent, and in words from 100 % on", "[apps]")
+{
+    CHECK(errorText(0.018) == "1.8 %");
+    CHECK(errorText(0.00012) == "0.012 %");
+    CHECK(errorText(0.99) == "99 %");
+    CHECK(errorText(0.996) == "100 % or more, mostly noise");
+    CHECK(errorText(12.0) == "100 % or more, mostly noise");
+}
