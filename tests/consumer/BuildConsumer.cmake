@@ -73,9 +73,11 @@ foreach(page README.md data/README.md osgRayTrace/README.md osgRayTrace/Coverage
     endif()
     file(READ "${share}/${page}" text)
     get_filename_component(folder "${share}/${page}" DIRECTORY)
-    string(REGEX MATCHALL "\\]\\([^):]+\\)" links "${text}")
+    string(REPLACE "](" "@link@" text "${text}")
+    string(REGEX REPLACE "[][;]" " " text "${text}") # they mean something in lists
+    string(REGEX MATCHALL "@link@[^):]+\\)" links "${text}")
     foreach(link IN LISTS links)
-        string(REGEX REPLACE "^..(.+).$" "\\1" link "${link}")
+        string(REGEX REPLACE "^@link@(.+).$" "\\1" link "${link}")
         string(REGEX REPLACE "#.*$" "" link "${link}")
         if(NOT EXISTS "${folder}/${link}")
             list(APPEND missing "${page}: ${link}")
