@@ -136,17 +136,23 @@ struct Renderer::Implementation
     std::mutex sessionMutex;
     std::atomic<bool> cancelled{false};
 
-    void render(const engine::StopRule& rule, const Progress& progress);
+    void render(engine::StopRule rule, double seconds, const Progress& progress);
     void placeHomeView();
     void prepareSession();
     void convertScene();
     engine::ConversionInput conversionInput(const ConversionKey& key) const;
-    bool hasImage() const { return session && session->progress().passes > 0; }
-    bool denoises() const { return engine::denoiseKind(*settings) != engine::DenoiseKind::Off; }
+    bool hasImage() const { return session && session->progress().imageShare > 0.0; }
+    /// Single tiles cannot be denoised: they are as they are.
+    bool denoises() const
+    {
+        return session->progress().passes > 0 &&
+               engine::denoiseKind(*settings) != engine::DenoiseKind::Off;
+    }
     engine::ShownImage denoisedImage();
 };
 
-void Renderer::Implementation::render(const engine::StopRule& rule, const Progress& progress)
+void Renderer::Implementation::render(engine::StopRule rule, double seconds,
+                                      const Progress& progress)
 {
     if (!scene) throw EngineError(StatusCode::EmptyScene, "there is no scene to render");
     if (width <= 0 || height <= 0)
@@ -160,6 +166,14 @@ void Renderer::Implementation::render(const engine::StopRule& rule, const Progre
     session->setView(engine::viewFromMatrices(viewMatrix, projectionMatrix, width, height));
     session->setOptions(engine::renderOptionsFromSettings(*settings));
 
+    const auto begin = std::chrono::steady_clock::now();
+    // A tile at least, so that there is an end, however short the time.
+    if (seconds > 0.0)
+        rule.over = [begin, seconds](int tiles, double ahead)
+        {
+            const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+            return tiles > 0 && spent.count() + ahead >= seconds;
+        };
     const auto keepGoing = [this, &progress](const engine::RenderProgress& made)
     {
         if (cancelled) return false;
@@ -333,11 +347,10 @@ bool Renderer::render(double seconds, double relativeError, const Progress& prog
 
     engine::StopRule rule;
     rule.passes = self.settings->getMaxPasses();
-    if (seconds > 0.0) rule.seconds = seconds;
     if (relativeError > 0.0) rule.relativeError = relativeError;
     try
     {
-        self.render(rule, progress);
+        self.render(rule, seconds, progress);
         return self.statistics.ok;
     }
     catch (const std::bad_alloc&)

@@ -22,6 +22,7 @@ constexpr ReportClass kClasses[] = {
     {"rasterized.", "Has triangles, but is left to OSG to draw"},
     {"not-traced.", "Cannot be ray traced: drawn by OSG where there is a viewer"},
     {"approximated.", "Ray traced, but not with all that OpenGL does"},
+    {"unused.", "Does nothing, as in OpenGL"},
     {"repaired.", "Bad values that were replaced"},
     {"warned.", "Ray traced as it is, but worth a look"},
     {"missing.", "Files that cannot be read"},

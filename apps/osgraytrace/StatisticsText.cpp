@@ -57,6 +57,8 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
     json["embreeBytes"] = statistics.embreeBytes;
     json["integrator"] = statistics.integrator;
     json["passes"] = statistics.passes;
+    json["imageShare"] = statistics.imageShare;
+    if (!statistics.lightNote.empty()) json["lightNote"] = statistics.lightNote;
     json["renderSeconds"] = statistics.renderSeconds;
     json["rays"] = {{"camera", statistics.cameraRays},
                     {"shadow", statistics.shadowRays},
@@ -100,6 +102,13 @@ std::string statisticsLine(const Options& options, const Statistics& statistics,
     std::snprintf(text, sizeof(text), "%s, %d passes in %.1f s, %.3g M rays/s",
                   statistics.integrator.c_str(), statistics.passes, statistics.renderSeconds, rate);
     std::string line = text;
+    if (statistics.imageShare < 1.0)
+    {
+        std::snprintf(text, sizeof(text),
+                      ", %.0f %% of the first one, the rest of the picture is missing",
+                      std::floor(100.0 * statistics.imageShare));
+        line += text;
+    }
     const std::string blank = blankness(radiance);
     if (statistics.triangles == 0)
         line += ", all of it is drawn by OpenGL";

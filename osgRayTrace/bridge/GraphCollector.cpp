@@ -37,7 +37,11 @@ GraphState rootState(const ConversionInput& input)
     if (input.viewLight)
     {
         const int number = input.viewLight->getLightNum();
-        if (number >= 0 && number < 32) state.modesOn |= uint64_t(1) << number;
+        if (number >= 0 && number < kMaskedLights)
+            state.modesOn |= uint64_t(1) << number;
+        else if (number >= 0 && number < kLightNumbers)
+            state.moreLights = std::make_shared<LightModes>(
+                LightModes{{static_cast<unsigned int>(number), osg::StateAttribute::ON}});
     }
     return state;
 }

@@ -47,6 +47,20 @@ Vec3 rgb(const osg::Vec3& color)
     return {color.x(), color.y(), color.z()};
 }
 
+/// Those whose modes are on.
+void enableLights(Material& material, const GraphState& state)
+{
+    material.lightMask = static_cast<uint32_t>(state.modesOn);
+    if (!state.moreLights) return;
+    for (const auto& [number, value] : *state.moreLights)
+    {
+        if (!(value & osg::StateAttribute::ON)) continue;
+        const std::size_t word = number / 32 - 1; // numbers rise
+        material.moreLights.resize(word + 1);
+        material.moreLights[word] |= 1u << number % 32;
+    }
+}
+
 Vec3 decoded(const Vec3& color)
 {
     return {linearFromSrgb(color.x), linearFromSrgb(color.y), linearFromSrgb(color.z)};
@@ -261,7 +275,7 @@ Material MaterialConverter::fixedFunction(const GraphState& state,
 {
     Material material;
     material.lit = state.isOn(kLightingBit);
-    material.lightMask = material.lit ? static_cast<uint32_t>(state.modesOn) : 0xffffffffu;
+    if (material.lit) enableLights(material, state);
     if (const auto* model = state.attribute<osg::LightModel>(kLightModelSlot))
     {
         material.twoSidedLighting = material.lit && model->getTwoSided();
@@ -362,7 +376,7 @@ Material MaterialConverter::physical(const GraphState& state, const SurfaceInput
     Material material;
     material.name = source.getName();
     material.model = MaterialModel::Physical;
-    material.lightMask = static_cast<uint32_t>(state.modesOn);
+    enableLights(material, state);
     material.baseColor = rgb(source.getBaseColor());
     material.metallic = source.getMetallic();
     material.roughness = source.getRoughness();

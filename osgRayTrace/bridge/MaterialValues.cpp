@@ -28,7 +28,8 @@ public:
                         uint32_t(m.separateSpecular), uint32_t(m.localViewer), uint32_t(m.blended),
                         static_cast<uint32_t>(m.alphaTest), static_cast<uint32_t>(m.culling),
                         uint32_t(m.cullsAllRays), uint32_t(m.clockwise), m.second.texture,
-                        uint32_t(m.hasBack)});
+                        uint32_t(m.hasBack), static_cast<uint32_t>(m.moreLights.size())});
+        _values.insert(_values.end(), m.moreLights.begin(), m.moreLights.end());
         if (m.baseColorTexture != kInvalid)
             add(m.textureEnvironment, m.environmentColor, m.mapping);
         if (m.second.texture != kInvalid)

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/EnvironmentImages.h"
 #include "osgRayTrace/bridge/LightConverter.h"
+#include "osgRayTrace/bridge/StateStack.h"
 
 #include <osg/LightSource>
 
@@ -46,29 +47,65 @@ void addShining(Scene& scene, const std::vector<ConversionCaches::Quad>& quads)
     }
 }
 
+/// A material with the lights that any of them has enabled.
+Material lightsOfAll(const std::vector<Material>& materials)
+{
+    Material all;
+    all.lightMask = 0;
+    for (const Material& material : materials)
+    {
+        if (!material.lit) continue;
+        all.lightMask |= material.lightMask;
+        if (all.moreLights.size() < material.moreLights.size())
+            all.moreLights.resize(material.moreLights.size());
+        for (std::size_t k = 0; k < material.moreLights.size(); ++k)
+            all.moreLights[k] |= material.moreLights[k];
+    }
+    return all;
+}
+
+struct NumberedLight
+{
+    Light light;
+    std::string path;
+    bool ofGraph; ///< not the viewer's
+};
+
+/// A light whose number a later one has.
+void countReplaced(const NumberedLight& light, ConversionReport& report)
+{
+    if (!light.ofGraph) return; // nobody has put it there
+    report.setPlace([&light] { return light.path; });
+    report.count("unused.light-replaced");
+    report.setPlace({});
+}
+
 /// As OpenGL keeps lights: by number, the last one set stays, and a light that no surface has
 /// enabled does nothing. The viewer's light is set before those of the graph.
 void addNumbered(Scene& scene, const ConversionInput& input,
                  const std::vector<CollectedLight>& sources, ConversionReport& report)
 {
-    std::map<int, Light> lights;
+    std::map<int, NumberedLight> lights;
     std::map<std::string, float> unused = input.lightSizes.byName;
     const auto add = [&](const osg::Light& source, const osg::Matrixd& matrix, bool eyeSpace,
-                         const std::string& path)
+                         const std::string& path, bool ofGraph)
     {
         const int number = source.getLightNum();
         auto light = convertLight(source, matrix, eyeSpace, scene.unit);
-        if (!light || number < 0 || number >= 32)
+        if (!light || number < 0 || number >= kLightNumbers)
         {
             report.warn("skipped.light", "light '" + path + "'",
-                        light ? "number is not 0 to 31, skipped"
+                        light ? "number is not 0 to " + std::to_string(kLightNumbers - 1) +
+                                    ", which GL_LIGHT0 + number has modes for, skipped"
                               : "values are not finite, skipped");
             return;
         }
         const std::string sizedAs = applyLightSize(input.lightSizes, path, scene.unit, *light);
         if (!sizedAs.empty()) unused.erase(sizedAs);
-        lights[number] = *light;
-        if (lights[number].name.empty()) lights[number].name = path;
+        if (light->name.empty()) light->name = path;
+        const auto before = lights.find(number);
+        if (before != lights.end()) countReplaced(before->second, report);
+        lights.insert_or_assign(number, NumberedLight{*std::move(light), path, ofGraph});
     };
     const double scale = 1.0 / scene.unit;
     const osg::Matrixd engineFromWorld =
@@ -76,34 +113,24 @@ void addNumbered(Scene& scene, const ConversionInput& input,
     if (input.viewLight)
     {
         add(*input.viewLight, input.viewLightInEyeSpace ? osg::Matrixd() : engineFromWorld,
-            input.viewLightInEyeSpace, "viewer");
-        for (auto& [number, light] : lights)
-            light.castsShadows = !input.viewLightInEyeSpace || input.headlightShadows;
+            input.viewLightInEyeSpace, "viewer", false);
+        for (auto& [number, numbered] : lights)
+            numbered.light.castsShadows = !input.viewLightInEyeSpace || input.headlightShadows;
     }
     for (const CollectedLight& light : sources)
         if (light.source->getLight())
-            add(*light.source->getLight(), light.engineFromLocal, light.eyeSpace, light.path);
+            add(*light.source->getLight(), light.engineFromLocal, light.eyeSpace, light.path, true);
 
     for (const auto& [name, size] : unused)
         report.warn("warned.light-size", "light-sizes '" + name + "'",
                     "there is no light of this name");
 
-    uint32_t enabled = 0;
-    for (const Material& material : scene.materials)
-        if (material.lit) enabled |= material.lightMask;
-    const auto ofGraph = [&](int number)
+    const Material enabled = lightsOfAll(scene.materials);
+    for (auto& [number, numbered] : lights)
     {
-        return std::any_of(sources.begin(), sources.end(),
-                           [&](const CollectedLight& light)
-                           { return light.source->getLight()->getLightNum() == number; });
-    };
-    for (const auto& [number, light] : lights)
-    {
-        if (!(enabled >> number & 1u)) continue;
-        scene.lights.push_back(light);
-        const bool viewers = input.viewLight && input.viewLight->getLightNum() == number;
-        if (viewers && !ofGraph(number))
-            report.count(input.viewLightInEyeSpace ? kHeadlight : kSkyLight);
+        if (!isLightEnabled(enabled, numbered.light.number)) continue;
+        scene.lights.push_back(std::move(numbered.light));
+        if (!numbered.ofGraph) report.count(input.viewLightInEyeSpace ? kHeadlight : kSkyLight);
     }
 }
 

@@ -21,12 +21,11 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr unsigned int kLights = 32;
 constexpr GLenum kPrimitiveRestartFixedIndex = 0x8D69; // OpenGL 4.3; OSG has no name for it
 
 std::optional<unsigned int> modeBit(osg::StateAttribute::GLMode mode)
 {
-    if (mode >= GL_LIGHT0 && mode < GL_LIGHT0 + kLights) return mode - GL_LIGHT0;
+    if (mode >= GL_LIGHT0 && mode < GL_LIGHT0 + kMaskedLights) return mode - GL_LIGHT0;
     if (mode >= GL_CLIP_PLANE0 && mode < GL_CLIP_PLANE0 + kClipPlanes)
         return kClipPlaneBit + (mode - GL_CLIP_PLANE0);
     switch (mode)
@@ -177,6 +176,21 @@ void applyModes(GraphState& state, const osg::StateSet::ModeList& modes, const B
         applyMode(state, bit, value);
 }
 
+void applyMoreLights(GraphState& state, const osg::StateSet::ModeList& modes)
+{
+    const auto first = modes.lower_bound(GL_LIGHT0 + kMaskedLights);
+    const auto end = modes.lower_bound(GL_LIGHT0 + kLightNumbers);
+    if (first == end) return;
+    auto lights = std::make_shared<LightModes>(state.moreLights ? *state.moreLights : LightModes());
+    for (auto mode = first; mode != end; ++mode)
+    {
+        const auto [light, isNew] = lights->try_emplace(mode->first - GL_LIGHT0, mode->second);
+        const bool overrides = (light->second & osg::StateAttribute::OVERRIDE) != 0;
+        if (isNew || replaces(overrides, mode->second)) light->second = mode->second;
+    }
+    state.moreLights = std::move(lights);
+}
+
 void applyTextures(GraphState& state, const osg::StateSet& stateSet)
 {
     const osg::StateSet::TextureModeList& modes = stateSet.getTextureModeList();
@@ -194,6 +208,7 @@ void applyTextures(GraphState& state, const osg::StateSet& stateSet)
 GraphState applied(GraphState state, const osg::StateSet& stateSet)
 {
     applyModes(state, stateSet.getModeList(), modeBit);
+    applyMoreLights(state, stateSet.getModeList());
     for (const auto& [type, pair] : stateSet.getAttributeList())
         if (const auto slot = attributeSlot(type.first)) applyAttribute(state, *slot, pair);
     applyTextures(state, stateSet);

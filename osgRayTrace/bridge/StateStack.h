@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace osgRayTrace::engine
 
 constexpr unsigned int kClipPlanes = 8;
 
-/// The modes that matter here, as bits of a set. Bits 0 to 31 are GL_LIGHT0 + n.
+/// The modes that matter here, as bits of a set. Bits 0 to 31 are GL_LIGHT0 + n; higher numbers are
+/// in GraphState::moreLights.
 enum ModeBit : unsigned int
 {
     kLightingBit = 32,
@@ -78,6 +80,14 @@ enum UnitSlot : unsigned int
 };
 static_assert(kUnitSlot + kUnits * kUnitSlots == kAttributeSlots, "slots of the units");
 
+constexpr int kMaskedLights = 32; ///< osg::Light numbers with a bit of their own
+
+/// osg::Light numbers end here: GL_LIGHT0 + n is from there on the name of another mode of OpenGL.
+constexpr int kLightNumbers = 0x4000;
+
+/// osg::Light numbers from kMaskedLights on, with the value that GL_LIGHT0 + n was set to.
+using LightModes = std::map<unsigned int, unsigned int>;
+
 /// Accumulated state. Attributes live as long as the graph does.
 struct GraphState
 {
@@ -85,6 +95,7 @@ struct GraphState
     uint64_t modesOverride = 0;
     std::array<const osg::StateAttribute*, kAttributeSlots> attributes{};
     uint32_t attributesOverride = 0; ///< bit: AttributeSlot
+    std::shared_ptr<const LightModes> moreLights; ///< null: none were set
 
     bool isOn(unsigned int modeBit) const { return (modesOn >> modeBit & 1u) != 0; }
     bool isOn(unsigned int unit, UnitBit bit) const

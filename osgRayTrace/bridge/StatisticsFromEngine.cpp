@@ -49,6 +49,30 @@ const char* noteText(PhotonNote note)
     return "";
 }
 
+std::string sampledOf(std::size_t sampled, std::size_t all, const char* kind)
+{
+    return std::to_string(sampled) + " of " + std::to_string(all) + " " + kind + " lights";
+}
+
+std::string lightNote(const SampledLightCounts& lights)
+{
+    std::string some;
+    if (lights.sampledAreaLights < lights.areaLights)
+        some = sampledOf(lights.sampledAreaLights, lights.areaLights, "area");
+    if (lights.sampledDeltaLights < lights.deltaLights)
+        some +=
+            (some.empty() ? "" : " and ") +
+            sampledOf(lights.sampledDeltaLights, lights.deltaLights, "point, spot and directional");
+    if (!some.empty())
+        return "there are many lights: a pass samples " + some +
+               ", chosen by power and others in each pass; more passes lessen the noise";
+    if (lights.samplesOfEach < lights.wantedOfEach)
+        return "there are many lights: a pass takes " + std::to_string(lights.samplesOfEach) +
+               " samples of each of " + std::to_string(lights.areaLights) + " area lights, not " +
+               std::to_string(lights.wantedOfEach) + " as set by light-samples";
+    return "";
+}
+
 const char* denoiserName(DenoiseKind kind)
 {
     switch (kind)
@@ -91,6 +115,9 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     statistics.message = progress.status.message;
     statistics.integrator = integratorName(progress.integrator);
     statistics.passes = progress.passes;
+    statistics.imageShare = progress.imageShare;
+    statistics.lightNote = lightNote(progress.lights);
+    if (!statistics.lightNote.empty()) warnOnce(statistics.lightNote);
     statistics.renderSeconds = progress.seconds;
     statistics.relativeError = progress.relativeError;
     statistics.cameraRays = progress.rays.camera;

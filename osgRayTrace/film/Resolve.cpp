@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 namespace osgRayTrace::engine
@@ -158,6 +159,19 @@ template <class T> void copyRows(const Film& film, int tile, const T* lanes, T* 
                         lanes + ((y >> 2) * 4 + bx) * kLanes + (y & 3) * 4, 4 * sizeof(T));
 }
 
+/// Of a tile that has no pass yet: nothing is there.
+struct FarTile
+{
+    FarTile() { std::fill(std::begin(depth), std::end(depth), 1.0f); }
+    float depth[kTilePixels];
+};
+
+const float* depthOf(const Film& film, int tile)
+{
+    static const FarTile far;
+    return film.tilePasses(tile) > 0 ? film.depth(tile) : far.depth;
+}
+
 } // namespace
 
 void resolveTileRadiance(const Film& film, int tile, bool displayReferred, float* image)
@@ -188,7 +202,7 @@ void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint
     else
         packEncoded(values, std::exp2(toneMap.exposureEv), packed);
     copyRows(film, tile, packed[0].v, reinterpret_cast<uint32_t*>(image));
-    if (depth) copyRows(film, tile, film.depth(tile), depth);
+    if (depth) copyRows(film, tile, depthOf(film, tile), depth);
 }
 
 namespace
@@ -229,7 +243,7 @@ void displayPixels(const float* rgba, std::size_t count, float exposureEv, uint8
 
 void resolveTileDepth(const Film& film, int tile, float* depth)
 {
-    copyRows(film, tile, film.depth(tile), depth);
+    copyRows(film, tile, depthOf(film, tile), depth);
 }
 
 void resolveTileError(const Film& film, int tile, bool displayReferred, float* image)

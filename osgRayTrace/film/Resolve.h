@@ -19,7 +19,7 @@ void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint
 /// Display values of linear pixels, premultiplied RGBA, 4 floats each: as resolveTileDisplay makes them.
 void displayPixels(const float* rgba, std::size_t count, float exposureEv, uint8_t* image);
 
-/// Window depths of the first pass, 1 float a pixel.
+/// Window depths of the first pass, 1 float a pixel; 1 where there is none.
 void resolveTileDepth(const Film& film, int tile, float* depth);
 
 /// Estimated standard error of each pixel's mean, linear RGB, 3 floats a pixel; needs two passes.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/LightGrid.h"
 
+#include "osgRayTrace/integrators/SampledLights.h"
 #include "osgRayTrace/sampling/LightPoints.h"
 
 #include <cmath>
@@ -43,9 +44,9 @@ void lightPoints(LightSampling strategy, uint32_t j, uint32_t n, uint32_t sample
 
 } // namespace
 
-LightGrid::LightGrid(const PassContext& context)
+LightGrid::LightGrid(const PassContext& context, std::size_t lights)
     : _strategy(context.options.lightSampling),
-      _samples(static_cast<uint32_t>(lightSampleCount(context.options))),
+      _samples(static_cast<uint32_t>(samplesOfEach(context.options, lights))),
       _side(static_cast<uint32_t>(std::lround(std::sqrt(static_cast<float>(_samples))))),
       _passIndex(context.key.index)
 {

@@ -11,7 +11,8 @@ namespace osgRayTrace::engine
 class LightGrid
 {
 public:
-    explicit LightGrid(const PassContext& context);
+    /// lights: that share the samples of a point, see samplesOfEach.
+    LightGrid(const PassContext& context, std::size_t lights);
 
     /// Samples that a hit takes of each light in the pass.
     uint32_t samples() const { return _samples; }

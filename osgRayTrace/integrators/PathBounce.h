@@ -7,6 +7,7 @@
 #include "osgRayTrace/integrators/Integrator.h"
 #include "osgRayTrace/integrators/PathQueue.h"
 #include "osgRayTrace/integrators/PathReuse.h"
+#include "osgRayTrace/integrators/SampledLights.h"
 #include "osgRayTrace/photons/PhotonTracer.h"
 #include "osgRayTrace/sampling/Sobol.h"
 #include "osgRayTrace/shading/Bsdf.h"
@@ -46,7 +47,13 @@ struct LightLanes;
 struct Tile
 {
     Tile(const PassContext& c, int l, int b, TileResult& r)
-        : context(c), result(r), counts(r.counts), diagnostics(r.diagnostics), left(l), bottom(b)
+        : context(c),
+          result(r),
+          counts(r.counts),
+          diagnostics(r.diagnostics),
+          deltaLights(sampledDeltaLights(c)),
+          left(l),
+          bottom(b)
     {
     }
 
@@ -54,6 +61,7 @@ struct Tile
     TileResult& result;
     TileCounts& counts;
     TileDiagnostics* diagnostics;
+    std::vector<SampledLight> deltaLights; ///< of the pass
     int left, bottom;
     PixelSums sums;
     PathQueue paths;

@@ -153,7 +153,7 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
     const LightTable& table = tile.context.traced->lights();
     const LaneMask lanes = bounce.diffuse | bounce.general;
     const UintLanes seeds = lightSeeds(tile.context, block);
-    for (const uint32_t index : table.deltaLights())
+    for (const auto& [index, weight] : tile.deltaLights)
     {
         const Light& light = (*tile.context.lights)[index];
         FloatLanes u, v;
@@ -162,6 +162,8 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
                             bounceDimension(bounce.number, DimensionLightPoint), u, v);
         LightLanes samples;
         deltaLightLanes(tile.context, index, bounce.surface, lanes, bounce.through, u, v, samples);
+        for (int i = 0; i < kLanes; ++i)
+            samples.weight[i] *= weight;
         if (light.castsShadows) countRays(tile, block, samples.lit);
         addLight(tile, block, bounce, samples,
                  visibleLanes(tile.context, light, samples, tile.counts), kAllLanes);

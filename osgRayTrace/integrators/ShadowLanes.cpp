@@ -156,7 +156,7 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
     {
         const int i = __builtin_ctz(lanes);
         const Material& material = context.traced->scene().materials[surface.material[i]];
-        if (light.number < 32 && !((material.lightMask >> light.number) & 1u)) continue;
+        if (!isLightEnabled(material, light.number)) continue;
         const Vec3 point = laneOf(trianglePoints(surface), i);
         const SoftLightSample sample =
             sampleSoft(light, point, soft ? Vec2(u[i], v[i]) : Vec2(0.0f));

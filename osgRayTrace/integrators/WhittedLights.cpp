@@ -16,8 +16,8 @@ void countRays(WhittedTile& tile, const ShadingBlock& block, LaneMask lanes)
 
 void drawFirstPoints(const WhittedTile& tile, ShadingBlock& block)
 {
-    if (tile.context.traced->lights().areaLights().empty()) return;
-    tile.grid.draw(0, 0, block.seed, block.firstU, block.firstV);
+    if (tile.areaLights.empty()) return;
+    tile.areaGrid.draw(0, 0, block.seed, block.firstU, block.firstV);
 }
 
 namespace
@@ -88,15 +88,15 @@ void addSample(WhittedTile& tile, ShadingBlock* blocks, int count, float scale, 
     }
 }
 
-/// Direct light from all area lights, sample by sample.
+/// Direct light from the area lights of the pass, sample by sample.
 void addAreaLights(WhittedTile& tile, ShadingBlock* blocks, int count)
 {
     const PassContext& context = tile.context;
-    const std::vector<uint32_t>& lights = context.traced->lights().areaLights();
-    const LightGrid& grid = tile.grid;
-    const float scale = 1.0f / static_cast<float>(grid.samples());
+    const std::vector<SampledLight>& lights = tile.areaLights;
+    const LightGrid& grid = tile.areaGrid;
     for (std::size_t k = 0; k < lights.size(); ++k)
     {
+        const float scale = lights[k].weight / static_cast<float>(grid.samples());
         for (uint32_t j = 0; j < grid.samples(); ++j)
         {
             addSample(tile, blocks, count, scale,
@@ -104,7 +104,7 @@ void addAreaLights(WhittedTile& tile, ShadingBlock* blocks, int count)
                       {
                           FloatLanes u = block.firstU, v = block.firstV;
                           if (k + j > 0) grid.draw(k, j, block.seed, u, v);
-                          areaLightLanes(context, lights[k], 1.0f, block.surface, lanes,
+                          areaLightLanes(context, lights[k].light, 1.0f, block.surface, lanes,
                                          block.materials.through, u, v, block.light);
                       });
         }
@@ -125,8 +125,8 @@ void addEnvironment(WhittedTile& tile, ShadingBlock* blocks, int count)
                       });
         return;
     }
-    const LightGrid& grid = tile.grid;
-    const std::size_t behindAreaLights = context.traced->lights().areaLights().size();
+    const LightGrid& grid = tile.environmentGrid;
+    const std::size_t behindAreaLights = tile.areaLights.size();
     for (uint32_t j = 0; j < grid.samples(); ++j)
         addSample(tile, blocks, count, 1.0f / static_cast<float>(grid.samples()),
                   [&](ShadingBlock& block, LaneMask lanes)
@@ -138,7 +138,7 @@ void addEnvironment(WhittedTile& tile, ShadingBlock* blocks, int count)
                   });
 }
 
-/// One sample of one of them. share: of all its samples.
+/// One sample of one of them. share: what it counts for.
 void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float share,
                    const FloatLanes& u, const FloatLanes& v)
 {
@@ -173,20 +173,21 @@ void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float
 void addDeltaLights(WhittedTile& tile, ShadingBlock& block)
 {
     const LightTable& table = tile.context.traced->lights();
-    std::size_t number = table.areaLights().size() + (table.shiningEnvironment() ? 1 : 0);
+    std::size_t number = tile.areaLights.size() + (table.shiningEnvironment() ? 1 : 0);
     FloatLanes u, v;
-    for (const uint32_t index : table.deltaLights())
+    for (const SampledLight& sampled : tile.deltaLights)
     {
-        if (!isSoft((*tile.context.lights)[index]))
+        if (!isSoft((*tile.context.lights)[sampled.light]))
         {
-            addDeltaLight(tile, block, index, 1.0f, u, v);
+            addDeltaLight(tile, block, sampled.light, sampled.weight, u, v);
             continue;
         }
-        const uint32_t count = tile.grid.samples();
+        const uint32_t count = tile.softGrid.samples();
         for (uint32_t j = 0; j < count; ++j)
         {
-            tile.grid.draw(number, j, block.seed, u, v);
-            addDeltaLight(tile, block, index, 1.0f / static_cast<float>(count), u, v);
+            tile.softGrid.draw(number, j, block.seed, u, v);
+            addDeltaLight(tile, block, sampled.light, sampled.weight / static_cast<float>(count), u,
+                          v);
         }
         ++number;
     }
@@ -199,7 +200,7 @@ void addDirectLight(WhittedTile& tile, ShadingBlock* blocks, int count)
     const LightTable& lights = tile.context.traced->lights();
     addAreaLights(tile, blocks, count);
     if (lights.shiningEnvironment()) addEnvironment(tile, blocks, count);
-    if (lights.deltaLights().empty()) return;
+    if (tile.deltaLights.empty()) return;
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
         addDeltaLights(tile, *block);
 }

@@ -5,6 +5,7 @@
 #include "osgRayTrace/integrators/FixedFunctionLighting.h"
 #include "osgRayTrace/integrators/HitShading.h"
 #include "osgRayTrace/integrators/LightGrid.h"
+#include "osgRayTrace/integrators/SampledLights.h"
 #include "osgRayTrace/integrators/ShadowLanes.h"
 
 #include <algorithm>
@@ -66,7 +67,25 @@ struct ShadingBlock
 
 struct WhittedTile
 {
-    WhittedTile(const PassContext& c, TileResult& r) : context(c), result(r), grid(c) {}
+    WhittedTile(const PassContext& c, TileResult& r)
+        : context(c),
+          result(r),
+          areaLights(sampledAreaLights(c)),
+          deltaLights(sampledDeltaLights(c)),
+          areaGrid(c, areaLights.size()),
+          environmentGrid(c, 1),
+          softGrid(c, softLights())
+    {
+    }
+
+    /// Of the delta lights, those with a size.
+    std::size_t softLights() const
+    {
+        return static_cast<std::size_t>(
+            std::count_if(deltaLights.begin(), deltaLights.end(),
+                          [this](const SampledLight& sampled)
+                          { return isSoft((*context.lights)[sampled.light]); }));
+    }
 
     void add(uint32_t pixel, Vec3 radiance)
     {
@@ -85,7 +104,8 @@ struct WhittedTile
 
     const PassContext& context;
     TileResult& result;
-    LightGrid grid;
+    std::vector<SampledLight> areaLights, deltaLights; ///< of the pass
+    LightGrid areaGrid, environmentGrid, softGrid;
     std::vector<SecondaryRay> stack;
     ShadingBlock group[kGroup];
     LastTriangle lastTriangle; ///< that a block of camera rays met

@@ -138,8 +138,7 @@ void ChunkTracer::leaveLight(FlightBlock& block, SurfaceLanes& surface) const
         const Light& light = _lights[block.light[i]];
         if (light.kind != LightKind::Point && light.kind != LightKind::Directional) continue;
         const Material& material = _traced.scene().materials[surface.material[i]];
-        if (light.number < 32 && !((material.lightMask >> light.number) & 1u))
-            surface.hits &= ~(1u << i);
+        if (!isLightEnabled(material, light.number)) surface.hits &= ~(1u << i);
         const float distance =
             isSoft(light)
                 ? std::max(light.radius, glm::length(laneOf(surface.position, i) - light.position))

@@ -25,7 +25,7 @@ struct Light
 {
     std::string name;
     LightKind kind = LightKind::Point;
-    uint32_t number = 0; ///< osg::Light number, tested against Material::lightMask
+    uint32_t number = 0; ///< osg::Light number: see isLightEnabled
 
     /// position and direction are in view space (x right, y up, looking along -z), in world lengths: a
     /// headlight. RenderSession places it for each view.

@@ -115,6 +115,8 @@ struct Material
     bool lit = true;                     ///< GL_LIGHTING; false: the colour is shown as it is
     bool twoSidedLighting = false;       ///< the normal is turned to the viewer before lighting
     uint32_t lightMask = 0xffffffffu;    ///< bit n: osg::Light number n is enabled here
+    std::vector<uint32_t>
+        moreLights; ///< bit n of word k: number 32 (k + 1) + n; the last word is not 0
     VertexColorUse vertexColorUse = VertexColorUse::None;
     TextureEnvironment textureEnvironment = TextureEnvironment::Modulate; ///< of unit 0
     Vec4 environmentColor{0.0f};         ///< of TextureEnvironment::Blend
@@ -157,6 +159,14 @@ inline bool isTextured(const Material& m)
     return m.baseColorTexture != kInvalid || m.metallicRoughnessTexture != kInvalid ||
            m.transmissionTexture != kInvalid || m.emissionTexture != kInvalid ||
            m.second.texture != kInvalid;
+}
+
+/// Whether the osg::Light of a number is enabled on the surface.
+inline bool isLightEnabled(const Material& m, uint32_t number)
+{
+    if (number < 32) return (m.lightMask >> number & 1u) != 0;
+    const std::size_t word = number / 32 - 1;
+    return word < m.moreLights.size() && (m.moreLights[word] >> number % 32 & 1u) != 0;
 }
 
 /// An index this close to 1 cannot be seen, and its microfacet normals drown in rounding: taken for 1.

@@ -277,6 +277,7 @@ RenderProgress RenderSession::Implementation::run(
         if (made > 0 && rule.over && rule.over(progress.newTiles, photons.secondsOf(pass))) break;
         const Clock::time_point passStart = Clock::now();
         PassContext context = contextOfPass(pass);
+        progress.lights = sampledLightCounts(context);
         preparePhotons(context, pass);
         if (made == 0) progress.firstPhotonSeconds = progress.photonSeconds;
         // In the pass that is likely to be the last one; tiles that only earlier ones of this call
@@ -286,6 +287,7 @@ RenderProgress RenderSession::Implementation::run(
         progress.hitPointBytes = photons.viewBytes();
         progress.seconds += secondsSince(passStart);
         progress.passes = film.passes();
+        progress.imageShare = imageShare();
         if (whole) photons.finish(filmScene, context, pass);
         if (cancelled) progress.status = {StatusCode::Cancelled, "the render was cancelled"};
         if (cancelled || !whole) break;
@@ -295,6 +297,15 @@ RenderProgress RenderSession::Implementation::run(
     }
     if (display && progress.newTiles > 0 && !shown) showRest(*display);
     return progress;
+}
+
+double RenderSession::Implementation::imageShare() const
+{
+    if (film.passes() > 0) return 1.0;
+    int made = 0;
+    for (int tile = 0; tile < film.tileCount(); ++tile)
+        made += film.tilePasses(tile) > 0;
+    return film.tileCount() > 0 ? double(made) / film.tileCount() : 0.0;
 }
 
 /// What no pass of this call has shown.

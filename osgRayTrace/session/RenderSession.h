@@ -6,6 +6,7 @@
 #include "osgRayTrace/film/ChangedTiles.h"
 #include "osgRayTrace/film/ToneMap.h"
 #include "osgRayTrace/integrators/RenderOptions.h"
+#include "osgRayTrace/integrators/SampledLights.h"
 #include "osgRayTrace/scene/View.h"
 #include "osgRayTrace/session/DenoiseReport.h"
 #include "osgRayTrace/session/ShownImage.h"
@@ -31,7 +32,9 @@ struct StopRule
     /// Tiles of this call, summed over its passes; the next render() does the rest of a pass. Tiles are then taken
     /// in an order that is even over the image.
     int newTiles = std::numeric_limits<int>::max();
-    double seconds = std::numeric_limits<double>::infinity(); ///< of this call; at least one pass is made
+    /// Of this call, looked at between passes: these are whole, and at least one is made. A limit
+    /// that holds within passes is over.
+    double seconds = std::numeric_limits<double>::infinity();
     double relativeError = 0.0; ///< estimated, see RenderProgress; of the accumulated image; 0: not used
     /// If set: asked before each tile, by any thread, and before each pass but the first of the call. True:
     /// no more are begun; those that have the pass keep it, and the next render() does the rest, as after
@@ -92,6 +95,8 @@ struct RenderProgress
     DenoiseReport denoised;       ///< what it went through
     bool restarted = false;       ///< this call began a new image
     int newTiles = 0;             ///< of this call, summed over its passes
+    double imageShare = 0.0;      ///< of the tiles: those that have a pass; 1 as soon as passes is
+    SampledLightCounts lights;    ///< of its passes
     double photonSeconds = 0.0;   ///< that photons took in this call, traced or waited for
     double firstPhotonSeconds = 0.0; ///< of these, those of its first pass
     float photonRadius = 0.0f;    ///< of the last pass [length]; 0 without photons

@@ -75,7 +75,7 @@ LightTable::Record LightTable::parallelogram(const Light& light)
 LightTable::LightTable(const Scene& scene, const LightTable* previous)
     : _scene(&scene), _slots(scene.lights.size(), 0), _records(1)
 {
-    std::vector<double> powers;
+    std::vector<double> powers, deltaPowers;
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
     {
         const Light& light = scene.lights[i];
@@ -90,7 +90,10 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous)
         {
             // Black ones would each cost every surface point a look.
             const Vec3 sum = light.ambient + light.diffuse + light.specular;
-            if (sum != Vec3(0.0f)) _deltaLights.push_back(i);
+            if (sum == Vec3(0.0f)) continue;
+            _deltaLights.push_back(i);
+            deltaPowers.push_back(double(sumAbs(light.ambient)) + double(sumAbs(light.diffuse)) +
+                                  double(sumAbs(light.specular)));
             continue;
         }
         if (!(luminance(light.radiance) > 0.0f)) continue;
@@ -114,6 +117,7 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous)
         powers.push_back(power);
     }
     _cumulative = cumulativeOf(powers);
+    _deltaCumulative = cumulativeOf(deltaPowers);
     for (std::size_t k = 0; k < _areaLights.size(); ++k)
         _records[k + 1].pmf = _cumulative[k] - (k ? _cumulative[k - 1] : 0.0f);
 }
@@ -158,6 +162,13 @@ LightTable::Choice LightTable::chooseAreaLight(float u) const
     if (_areaLights.size() == 1) return {_areaLights[0], 1.0f};
     const uint32_t light = _areaLights[pick(_cumulative, u)];
     return {light, areaLightPmf(light)};
+}
+
+LightTable::Choice LightTable::chooseDeltaLight(float u) const
+{
+    if (_deltaLights.empty()) return {};
+    const std::size_t k = pick(_deltaCumulative, u);
+    return {_deltaLights[k], _deltaCumulative[k] - (k ? _deltaCumulative[k - 1] : 0.0f)};
 }
 
 std::optional<LightPoint> LightTable::samplePoint(uint32_t index, float u, float v) const

@@ -91,6 +91,9 @@ public:
     Choice chooseAreaLight(float u) const;
     float areaLightPmf(uint32_t light) const { return record(light).pmf; }
 
+    /// The same of the point, spot and directional lights, in proportion to their colours.
+    Choice chooseDeltaLight(float u) const;
+
     /// A point on an area light, uniform by area. u, v in [0,1). Nothing if it is seen from its dark side.
     std::optional<AreaLightSample> sampleArea(uint32_t light, Vec3 p, float u, float v) const;
 
@@ -126,6 +129,7 @@ private:
     std::vector<uint32_t> _slots;      ///< a light: its record
     std::vector<Record> _records;      ///< first that of all lights that are never sampled
     std::vector<float> _cumulative;    ///< an area light; the last is 1
+    std::vector<float> _deltaCumulative; ///< the same of delta lights
     std::vector<EmissiveMesh> _meshes; ///< of records of LightKind::Mesh
 };
 

@@ -332,6 +332,98 @@ TEST_CASE("renderer: time and error stop it too", "[api][renderer]")
     CHECK(renderer->getStatistics().passes >= 2);
 }
 
+TEST_CASE("renderer: time ends it within a pass, and the next one goes on there", "[api][renderer]")
+{
+    const auto renderer = rendererOf(room()), calm = rendererOf(room());
+    for (const auto& one : {renderer, calm})
+    {
+        one->setSize(160, 96); // 60 tiles
+        one->getSettings()->setThreads(1);
+        one->getSettings()->setMaxPasses(2);
+    }
+    REQUIRE(renderer->render(1e-9)); // over as soon as there is a tile
+    CHECK(renderer->getStatistics().passes == 0);
+    CHECK(renderer->getStatistics().cameraRays == 256);
+    CHECK(renderer->getStatistics().imageShare == Approx(1.0 / 60.0));
+
+    // What has no pass yet is the background, and far away.
+    const auto color = renderer->getColorImage(), depth = renderer->getChannelImage("depth");
+    REQUIRE((color && depth && renderer->getDisplayImage()));
+    int missing = 0, near = 0;
+    for (int p = 0; p < 160 * 96; ++p)
+    {
+        missing += floats(*color)[4 * p + 3] == 0.0f;
+        near += floats(*depth)[p] != 1.0f;
+    }
+    CHECK(missing >= 160 * 96 - 256);
+    CHECK(near <= 256);
+    renderer->getSettings()->setDenoise(
+        RayTraceSettings::FILTER); // of single tiles it makes nothing
+    CHECK(sameBytes(renderer->getColorImage(), color));
+    renderer->getSettings()->setDenoise(RayTraceSettings::OFF);
+
+    for (int call = 2; call <= 70; ++call)
+        REQUIRE(renderer->render(1e-9));
+    CHECK(renderer->getStatistics().passes == 1);
+    CHECK(renderer->getStatistics().imageShare == 1.0);
+    CHECK(renderer->getStatistics().cameraRays == 70 * 256);
+    REQUIRE(renderer->render());
+    REQUIRE(calm->render());
+    CHECK(renderer->getStatistics().passes == 2);
+    CHECK(sameBytes(renderer->getColorImage(), calm->getColorImage()));
+}
+
+TEST_CASE("renderer: forty spots of their own numbers each light their own patch",
+          "[api][renderer]")
+{
+    constexpr int kSpots = 40;
+    // Two have numbers further off, and two the same, of which the later one counts.
+    const auto numberOf = [](int i) { return i == 38 ? 1000 : i == 39 ? 16383 : i == 37 ? 36 : i; };
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(quad(osg::Vec3(0.0f, 0.0f, 0.0f), osg::Vec3(kSpots, 0.0f, 0.0f),
+                         osg::Vec3(0.0f, 1.0f, 0.0f)));
+    for (int i = 0; i < kSpots; ++i)
+    {
+        osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+        osg::Light* light = source->getLight();
+        light->setLightNum(numberOf(i));
+        light->setPosition(osg::Vec4(float(i) + 0.5f, 0.5f, 1.0f, 1.0f));
+        light->setDirection(osg::Vec3(0.0f, 0.0f, -1.0f));
+        light->setSpotCutoff(20.0f);
+        light->setAmbient(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
+        light->setDiffuse(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f));
+        source->setStateSetModes(*scene->getOrCreateStateSet(), osg::StateAttribute::ON);
+        scene->addChild(source);
+    }
+    const auto renderer = rendererOf(scene);
+    renderer->setHeadlight(false);
+    renderer->setSize(4 * kSpots, 4);
+    renderer->setViewMatrix(osg::Matrix::lookAt(osg::Vec3d(0.5 * kSpots, 0.5, 10.0),
+                                                osg::Vec3d(0.5 * kSpots, 0.5, 0.0),
+                                                osg::Vec3d(0.0, 1.0, 0.0)));
+    renderer->setProjectionMatrix(
+        osg::Matrix::ortho(-0.5 * kSpots, 0.5 * kSpots, -0.5, 0.5, 1.0, 20.0));
+    for (const auto kind : {RayTraceSettings::WHITTED, RayTraceSettings::PATH})
+    {
+        renderer->getSettings()->setIntegrator(kind);
+        REQUIRE(renderer->render());
+        const auto image = renderer->getColorImage();
+        REQUIRE(image);
+        std::vector<int> dark;
+        for (int i = 0; i < kSpots; ++i)
+        {
+            float sum = 0.0f;
+            for (int y = 1; y < 3; ++y)
+                for (int x = 1; x < 3; ++x)
+                    sum += reinterpret_cast<const float*>(image->data(4 * i + x, y))[1];
+            if (sum < 1.0f) dark.push_back(i);
+        }
+        CHECK(dark == std::vector<int>{36});
+    }
+    CHECK(renderer->getStatistics().lights == kSpots - 1);
+    CHECK(renderer->getStatistics().conversion.at("unused.light-replaced") == 1);
+}
+
 TEST_CASE("renderer: passes add up until something changes", "[api][renderer]")
 {
     const auto scene = room();

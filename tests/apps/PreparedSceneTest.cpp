@@ -34,6 +34,7 @@ TEST_CASE("report: the hash of a scene changes with all that its picture can", "
     const std::function<void(Scene&, Material&)> edits[] = {
         [](Scene&, Material& m) { m.baseColor.x = 0.25f; },
         [](Scene&, Material& m) { m.lightMask = 1; },
+        [](Scene&, Material& m) { m.moreLights = {1}; },
         [](Scene&, Material& m) { m.alpha = 0.5f; },
         [](Scene&, Material& m) { m.blended = true; },
         [](Scene&, Material& m) { m.alphaTest = AlphaTest::Less; },

@@ -174,6 +174,8 @@ TEST_CASE("lights are kept by number: the last one in the graph replaces all bef
     REQUIRE(lights.size() == 1);
     CHECK(lights[0].diffuse.x == 0.5f);
     CHECK_FALSE(lights[0].eyeSpace);
+    // The report has the one that lost its place, which the viewer's does not count for.
+    CHECK(countOf(scene.converter.convert(scene.input), "unused.light-replaced") == 1);
 }
 
 TEST_CASE("lights are enabled for each surface by mode, wherever their source is", "[bridge]")
@@ -199,6 +201,53 @@ TEST_CASE("lights are enabled for each surface by mode, wherever their source is
     CHECK(countOf(scene.converter.convert(scene.input), "converted.light") == 2);
     CHECK(countOf(scene.converter.convert(scene.input), "converted.headlight") == 0);
     CHECK(countOf(scene.converter.convert(scene.input), "converted.sky-light") == 0);
+}
+
+TEST_CASE("lights of any number shine on what has their mode on", "[bridge]")
+{
+    constexpr int kHighest = 16383;
+    LitScene scene({0, 1, 31, 32, 39, 40, 1000, kHighest});
+    for (const int number : {0, 1, 31, 32, 39, 1000, kHighest, 33})
+        scene.add(number);
+    osg::ref_ptr<osg::Group> other = new osg::Group;
+    other->addChild(triangleGeometry());
+    other->getOrCreateStateSet()->setMode(GL_LIGHT0 + 39, osg::StateAttribute::OFF);
+    scene.root->addChild(other);
+    const ConversionResult result = scene.converter.convert(scene.input);
+    std::vector<uint32_t> numbers;
+    for (const Light& light : result.scene->lights)
+        numbers.push_back(light.number);
+    CHECK(numbers == std::vector<uint32_t>{0, 1, 31, 32, 39, 1000, kHighest}); // nobody enabled 33
+    const auto materialOf = [&](std::size_t i)
+    { return result.scene->materials[result.scene->instances[i].material]; };
+    const Material first = materialOf(0), second = materialOf(1);
+    for (const uint32_t number : {0u, 1u, 31u, 32u, 40u, 1000u, uint32_t(kHighest)})
+        CHECK((isLightEnabled(first, number) && isLightEnabled(second, number)));
+    CHECK(isLightEnabled(first, 39));
+    CHECK_FALSE(isLightEnabled(second, 39));
+    for (const uint32_t number : {2u, 33u, 999u, 16382u, 16384u, 0xffffffffu})
+        CHECK_FALSE(isLightEnabled(first, number));
+    CHECK(countOf(result, "skipped.light") == 0);
+}
+
+TEST_CASE("lights whose mode is another one of OpenGL's are named", "[bridge]")
+{
+    LitScene scene({0});
+    scene.add(-1);
+    scene.add(0x403a); // GL_RESCALE_NORMAL, were it a mode of a light
+    scene.root->getOrCreateStateSet()->setMode(0x803a, kOn);
+    const ConversionResult result = scene.converter.convert(scene.input);
+    CHECK(result.scene->lights.empty());
+    CHECK(countOf(result, "skipped.light") == 2);
+}
+
+TEST_CASE("a viewer's light may have any number", "[bridge]")
+{
+    LitScene scene({});
+    scene.input.viewLight = new osg::Light(77);
+    const auto lights = scene.lights();
+    REQUIRE(lights.size() == 1);
+    CHECK(lights[0].number == 77);
 }
 
 TEST_CASE("area light: parallelogram, quad that points back at it, black lamp material", "[bridge]")

@@ -48,6 +48,8 @@ osg::ref_ptr<osg::StateSet> randomStateSet(std::mt19937& random)
     osg::ref_ptr<osg::StateSet> stateSet = new osg::StateSet;
     if (pick(random, 2)) stateSet->setMode(GL_LIGHTING, value());
     if (pick(random, 2)) stateSet->setMode(GL_LIGHT0 + 3, value());
+    if (pick(random, 2)) stateSet->setMode(GL_LIGHT0 + 40, value());
+    if (pick(random, 2)) stateSet->setMode(GL_LIGHT0 + 1000, value());
     if (pick(random, 2)) stateSet->setMode(GL_BLEND, value());
     if (pick(random, 2)) stateSet->setAttribute(new osg::Material, value());
     if (pick(random, 2)) stateSet->setAttribute(new PhysicalMaterial, value());
@@ -55,6 +57,13 @@ osg::ref_ptr<osg::StateSet> randomStateSet(std::mt19937& random)
     if (pick(random, 2)) stateSet->setTextureAttribute(0, new osg::Texture2D, value());
     if (pick(random, 2)) stateSet->setTextureAttribute(1, new osg::Texture2D, value());
     return stateSet;
+}
+
+bool isLightOn(const GraphState& state, unsigned int number)
+{
+    if (!state.moreLights) return false;
+    const auto light = state.moreLights->find(number);
+    return light != state.moreLights->end() && (light->second & osg::StateAttribute::ON) != 0;
 }
 
 bool isOn(const osg::StateSet& state, GLenum mode)
@@ -89,6 +98,8 @@ TEST_CASE("state stack: agrees with osg::State for random nestings", "[bridge]")
         const GraphState& state = stack.states()[stack.top()];
         CHECK(state.isOn(kLightingBit) == isOn(*expected, GL_LIGHTING));
         CHECK(state.isOn(3) == isOn(*expected, GL_LIGHT0 + 3));
+        CHECK(isLightOn(state, 40) == isOn(*expected, GL_LIGHT0 + 40));
+        CHECK(isLightOn(state, 1000) == isOn(*expected, GL_LIGHT0 + 1000));
         CHECK(state.isOn(kBlendBit) == isOn(*expected, GL_BLEND));
         CHECK(state.isOn(0, kTexture2DBit) == reference->isTexture2DOn());
         CHECK(state.attributes[kMaterialSlot] ==

@@ -109,6 +109,8 @@ void hashMaterial(Hasher& hasher, const Material& material)
          {material.lightMask, material.baseColorTexture, material.metallicRoughnessTexture,
           material.transmissionTexture, material.emissionTexture})
         hasher.add(index);
+    for (const uint32_t lights : material.moreLights)
+        hasher.add(lights);
     hasher.add(material.model);
     hashState(hasher, material);
 }

@@ -1,0 +1,155 @@
+// ManyLightsTest.cpp - scenes of more lights than a pass samples: its work is bounded, its mean
+// right. SPDX-License-Identifier: MIT
+#include "tests/integrators/Measure.h"
+
+#include "osgRayTrace/integrators/SampledLights.h"
+
+#include <cmath>
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr int kSide = 8; ///< of the view [pixels]
+
+/// A white floor around the origin.
+SceneBuilder whiteFloor()
+{
+    SceneBuilder builder;
+    builder.add(quadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), lambert(Vec3(1.0f)));
+    return builder;
+}
+
+View floorView()
+{
+    return patchView({0, 0, 0}, {0, 0, 1}, 1e-3, kSide);
+}
+
+/// Light number i of a field above the floor; some are a hundred times brighter than others.
+Vec3 placeOf(int i)
+{
+    return {0.37f * float(i % 37) - 6.5f, 0.41f * float(i % 31) - 6.0f, 2.0f + 0.1f * float(i % 7)};
+}
+float brightnessOf(int i)
+{
+    return i % 50 == 0 ? 100.0f : 1.0f;
+}
+
+std::shared_ptr<const TracedScene> underPoints(int count)
+{
+    SceneBuilder builder = whiteFloor();
+    for (int i = 0; i < count; ++i)
+        builder.addLight(pointLight(placeOf(i), Vec3(brightnessOf(i))));
+    return builder.build();
+}
+
+/// What the floor sends of them, at the origin.
+double radianceOfPoints(int count)
+{
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i)
+    {
+        const Vec3d p(placeOf(i));
+        sum += double(brightnessOf(i)) * p.z / std::pow(glm::length(p), 3.0);
+    }
+    return sum;
+}
+
+std::shared_ptr<const TracedScene> underSquares(int count)
+{
+    SceneBuilder builder = whiteFloor();
+    for (int i = 0; i < count; ++i)
+        builder.addQuadLight(placeOf(i), {0, 0.01f, 0}, {0.01f, 0, 0},
+                             Vec3(1e4f * brightnessOf(i)));
+    return builder.build();
+}
+
+/// As seen from afar: each is a point for all that 1e-3 of accuracy cares.
+double radianceOfSquares(int count)
+{
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i)
+    {
+        const Vec3d p = Vec3d(placeOf(i)) + Vec3d(0.005, 0.005, 0.0);
+        sum +=
+            1e4 * double(brightnessOf(i)) * 1e-4 * p.z * p.z / std::pow(glm::length(p), 4.0) / M_PI;
+    }
+    return sum;
+}
+
+double shadowRaysAPixel(const Picture& picture)
+{
+    return double(picture.progress.rays.shadow) / double(picture.progress.rays.camera);
+}
+
+} // namespace
+
+TEST_CASE("many lights: a pass takes a bounded number of samples", "[integrators]")
+{
+    const View view = floorView();
+    for (const int samples : {1, 4, 9})
+    {
+        RenderOptions options = optionsOf(IntegratorKind::Whitted);
+        options.lightSamples = samples;
+        const Picture picture = render(underSquares(3000), view, options, 1);
+        CAPTURE(samples, picture.progress.rays.shadow);
+        CHECK(shadowRaysAPixel(picture) <= 64.0 * samples);
+        CHECK(shadowRaysAPixel(picture) > 16.0 * samples);
+    }
+    for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})
+        CHECK(shadowRaysAPixel(render(underPoints(3000), view, optionsOf(kind, 2), 1)) <= 256.0);
+}
+
+TEST_CASE("many lights: up to the bound each light has all of its samples", "[integrators]")
+{
+    const View view = floorView();
+    const RenderOptions options = optionsOf(IntegratorKind::Whitted);
+    const Picture picture = render(underSquares(64), view, options, 1);
+    CHECK(shadowRaysAPixel(picture) == 64.0 * 4.0);
+    CHECK(picture.progress.lights.sampledAreaLights == 64);
+    CHECK(picture.progress.lights.samplesOfEach == 4);
+    CHECK(render(underSquares(100), view, options, 1).progress.lights.samplesOfEach == 2);
+    CHECK(shadowRaysAPixel(render(underPoints(256), view, options, 1)) == 256.0);
+
+    RenderOptions cells = options; // samples come in squares
+    cells.lightSampling = LightSampling::Stratified;
+    CHECK(samplesOfEach(cells, 64) == 4);
+    CHECK(samplesOfEach(cells, 100) == 1);
+    cells.lightSamples = 36;
+    CHECK(samplesOfEach(cells, 100) == 16);
+    CHECK(samplesOfEach(cells, 1000000) == 1);
+}
+
+TEST_CASE("many lights: the mean over passes is the light of all", "[integrators][statistics]")
+{
+    const int kPoints = 1500, kSquares = 1000;
+    for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})
+    {
+        const Estimate points = measure(underPoints(kPoints), floorView(), optionsOf(kind, 2), 4);
+        CAPTURE(int(kind), points.mean(), points.standardError(), radianceOfPoints(kPoints));
+        CHECK(points.agrees(radianceOfPoints(kPoints), 1e-4));
+        CHECK(points.standardError() < 5e-3 * points.mean());
+    }
+    const Estimate squares =
+        measure(underSquares(kSquares), floorView(), optionsOf(IntegratorKind::Whitted), 4);
+    CAPTURE(squares.mean(), squares.standardError(), radianceOfSquares(kSquares));
+    CHECK(squares.agrees(radianceOfSquares(kSquares), 1e-3 * radianceOfSquares(kSquares)));
+    CHECK(squares.standardError() < 5e-3 * squares.mean());
+}
+
+TEST_CASE("many lights: the progress says how many are sampled", "[integrators]")
+{
+    const auto lightsOf = [](const std::shared_ptr<const TracedScene>& traced, IntegratorKind kind)
+    { return render(traced, floorView(), optionsOf(kind, 2), 1).progress.lights; };
+    const SampledLightCounts squares = lightsOf(underSquares(1000), IntegratorKind::Whitted);
+    CHECK(squares.areaLights == 1000);
+    CHECK(squares.sampledAreaLights == 256);
+    CHECK(squares.samplesOfEach == 1);
+    CHECK(squares.wantedOfEach == 4);
+    CHECK(lightsOf(underSquares(1000), IntegratorKind::Path).areaLights == 0); // it samples one
+    const SampledLightCounts points = lightsOf(underPoints(300), IntegratorKind::Path);
+    CHECK(points.deltaLights == 300);
+    CHECK(points.sampledDeltaLights == 256);
+}
