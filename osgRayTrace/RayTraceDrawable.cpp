@@ -164,6 +164,7 @@ void RayTraceDrawable::setScene(osg::Node* scene)
 {
     if (scene == _scene) return;
     _scene = scene;
+    releaseScene();
     dirtyScene();
 }
 
@@ -378,6 +379,19 @@ bool RayTraceDrawable::pick(RayIntersector& ray, osgUtil::IntersectionVisitor& v
     {
         _implementation->fail(engine::StatusCode::OutOfMemory, error.what());
         return false;
+    }
+}
+
+/// Keeps no node of the scene alive until the next updateScene().
+void RayTraceDrawable::releaseScene()
+{
+    try
+    {
+        _implementation->scene.releaseGraph();
+    }
+    catch (const std::exception& error)
+    {
+        engine::warnOnce(std::string("the scene graph is kept in memory: ") + error.what());
     }
 }
 

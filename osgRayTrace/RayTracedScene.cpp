@@ -104,6 +104,7 @@ RayTracedScene::RayTracedScene(const RayTracedScene& other, const osg::CopyOp& c
 RayTracedScene::~RayTracedScene()
 {
     static_cast<SceneRoot*>(_children.get())->detach();
+    _drawable->releaseScene(); // others may keep it
 }
 
 void RayTracedScene::setHint(osg::Node* node, Hint hint)
@@ -191,8 +192,9 @@ void RayTracedScene::traverse(osg::NodeVisitor& visitor)
     if (_enabled && uploads(visitor)) return;
     if (_enabled && pick(visitor)) return;
     osg::Group::traverse(visitor);
-    // Before the first cull the light and the eye are not known: that cull converts.
     const bool update = visitor.getVisitorType() == osg::NodeVisitor::UPDATE_VISITOR;
+    if (update && !_enabled) _drawable->releaseScene(); // nobody looks at what is removed
+    // Before the first cull the light and the eye are not known: that cull converts.
     if (update && _enabled && _drawable->isViewed())
         _drawable->updateScene(visitor.getFrameStamp());
 }

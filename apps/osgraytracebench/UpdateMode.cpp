@@ -28,7 +28,7 @@ public:
     explicit LiveScene(osg::Node* root) : _root(root)
     {
         _settings->setThreads(1);
-        _updater.noteView(this, nullptr, ViewingConditions());
+        _updater.noteView(nullptr, nullptr, ViewingConditions());
         update();
     }
 

@@ -19,12 +19,12 @@ constexpr int kMostFlatBuilds = 3;
 
 void noteFlat(const Scene& scene, bool comparable, ConversionCaches& caches)
 {
-    std::vector<const Mesh*> flat;
+    std::vector<std::shared_ptr<const Mesh>> flat;
     uint64_t vertices = 0;
     for (const Instance& instance : scene.instances)
     {
         if (instance.placed) continue;
-        flat.push_back(scene.meshes[instance.mesh].get());
+        flat.push_back(scene.meshes[instance.mesh]);
         vertices += flat.back()->positions.size();
     }
     const bool large = caches.flatVertices > kSmallFlat;

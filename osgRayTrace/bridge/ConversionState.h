@@ -34,7 +34,7 @@ struct ConversionCaches
         Light light;
     };
     std::vector<Quad> areaLights; ///< in the order of the traversal
-    std::vector<const Mesh*> flat; ///< all meshes that are not placed; names, not followed
+    std::vector<std::shared_ptr<const Mesh>> flat; ///< all meshes that are not placed
     uint64_t flatVertices = 0;
     int flatBuilds = 0;     ///< of a large flat BVH that something has left
     bool dissolved = false; ///< there is no flat BVH any more
@@ -43,8 +43,8 @@ struct ConversionCaches
 /// If a large flat BVH must be built time and again, there shall be none.
 void noteFlat(const Scene& scene, bool comparable, ConversionCaches& caches);
 
-/// What the last Scene was made of. Pointers into the graph, for as long as nothing but what GraphChanges
-/// says has changed there.
+/// What the last Scene was made of. Keeps those nodes of the graph that it names alive until the
+/// next conversion or patch.
 struct ConvertedGraph
 {
     SceneIndex index;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/ObjectIdentity.h"
+
 #include <osg/Matrixd>
 
 #include <cstdint>
@@ -15,11 +17,17 @@ namespace osgRayTrace::engine
 class Digest
 {
 public:
+    /// kept: gets references to the objects that are added. Whoever compares the value with a later
+    /// one holds them until then. Null: the value is compared with an earlier one, whose objects
+    /// are held.
+    explicit Digest(KeptObjects* kept = nullptr) : _kept(kept) {}
+
     uint64_t value() const { return _value; }
 
     template <class T> void add(const T& item)
     {
-        if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_pointer_v<T>)
+        static_assert(!std::is_pointer_v<T>, "see addObject and addData");
+        if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>)
         {
             uint64_t bits = 0;
             static_assert(sizeof(item) <= sizeof(bits));
@@ -39,6 +47,16 @@ public:
         (add(rest), ...);
     }
 
+    /// Which object it is, not its values. May be null.
+    void addObject(const osg::Referenced* object)
+    {
+        addData(object);
+        if (_kept && object) _kept->push_back(keep(object));
+    }
+
+    /// Where the data of an object is: one sign of a change among others.
+    void addData(const void* data) { add(reinterpret_cast<uintptr_t>(data)); }
+
     void addMatrix(const osg::Matrixd& matrix)
     {
         for (int i = 0; i < 16; ++i)
@@ -55,6 +73,7 @@ private:
     }
 
     uint64_t _value = 0;
+    KeptObjects* _kept;
 };
 
 } // namespace osgRayTrace::engine

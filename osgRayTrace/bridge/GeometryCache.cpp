@@ -111,14 +111,16 @@ bool GeometryCache::hasSameArrays(const osg::Geometry& geometry) const
 Liveness GeometryCache::liveness(const osg::Geometry& geometry) const
 {
     const auto found = _liveness.find(&geometry);
-    return found == _liveness.end() ? Liveness::Still : found->second;
+    if (found == _liveness.end() || found->second.geometry != &geometry) return Liveness::Still;
+    return found->second.liveness;
 }
 
 void GeometryCache::noteLiveness(const osg::Geometry& geometry, Liveness liveness)
 {
     if (liveness == Liveness::Still) return;
-    Liveness& known = _liveness[&geometry];
-    known = std::max(known, liveness);
+    LivenessEntry& known = _liveness[&geometry];
+    if (known.geometry != &geometry) known = {&geometry, Liveness::Still};
+    known.liveness = std::max(known.liveness, liveness);
 }
 
 /// Positions changed alone, as a rule. Not if values were repaired, which may have been by positions, or
@@ -222,7 +224,7 @@ void GeometryCache::end()
     for (auto entry = _entries.begin(); entry != _entries.end();)
         entry = entry->second.used == _stamp ? std::next(entry) : _entries.erase(entry);
     for (auto live = _liveness.begin(); live != _liveness.end();)
-        live = find(*live->first) ? std::next(live) : _liveness.erase(live);
+        live = _entries.count({live->first, kOwnVariant}) ? std::next(live) : _liveness.erase(live);
 }
 
 } // namespace osgRayTrace::engine

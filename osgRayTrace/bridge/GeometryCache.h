@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/GeometryConverter.h"
+#include "osgRayTrace/bridge/ObjectIdentity.h"
 #include "osgRayTrace/bridge/SceneExtent.h"
 
 #include <osg/observer_ptr>
@@ -60,7 +61,7 @@ public:
     /// Of the geometry's positions, from the last snapshot if they are the same. Valid until end().
     const VertexBounds& bounds(const osg::Geometry& geometry);
 
-    /// Forgets a geometry. A name: it is not followed.
+    /// Forgets a geometry.
     void drop(const osg::Geometry* geometry);
 
     /// Ends the snapshot: forgets geometry that was not asked for in it.
@@ -103,6 +104,12 @@ private:
         }
     };
 
+    struct LivenessEntry
+    {
+        ObjectName geometry;
+        Liveness liveness = Liveness::Still;
+    };
+
     struct BoundsEntry
     {
         BufferPrint positions; ///< its reference keeps the array's address its own
@@ -118,7 +125,7 @@ private:
     static KeptArrays keptArrays(const Entry& before, const Fingerprint& now);
 
     std::unordered_map<Key, Entry, KeyHash> _entries;
-    std::unordered_map<const osg::Geometry*, Liveness> _liveness; ///< those that are not still
+    std::unordered_map<const osg::Geometry*, LivenessEntry> _liveness; ///< those that are not still
     uint64_t _converted = 0;
     std::unordered_map<const osg::Array*, BoundsEntry> _bounds;
     Stamp _stamp = 0;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/ObjectIdentity.h"
+
 #include <osg/Geometry>
 #include <osg/Matrixd>
 
@@ -31,12 +33,13 @@ struct RestatedUse : MovedUse
     osg::NodePath path; ///< from the first node that was found to the geometry
 };
 
-/// Nodes that came or went. In removed, geometry is a name: it may have been deleted.
+/// Nodes that came or went.
 struct GraphSplice
 {
-    std::vector<ChangedUse> removed; ///< numbers and uses as they were before
-    osg::NodePath added;             ///< to the node that came; empty: none
-    std::vector<ChangedUse> uses;    ///< of what came, in traversal order, as they are then
+    std::vector<ChangedUse> removed;   ///< numbers and uses as they were before
+    std::vector<Kept<osg::Node>> gone; ///< what removed points to
+    osg::NodePath added;               ///< to the node that came; empty: none
+    std::vector<ChangedUse> uses;      ///< of what came, in traversal order, as they are then
 };
 
 /// Pointers into the graph: valid as long as nobody changes it. The numbers of uses in moved,

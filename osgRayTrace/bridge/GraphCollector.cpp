@@ -7,9 +7,6 @@
 #include "osgRayTrace/bridge/NodePrints.h"
 #include "osgRayTrace/bridge/UntracedParts.h"
 
-#include <osgRayTrace/AreaLight>
-#include <osgRayTrace/EnvironmentLight>
-
 #include <osg/Billboard>
 #include <osg/Camera>
 #include <osg/ClearNode>

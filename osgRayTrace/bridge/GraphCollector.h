@@ -12,6 +12,9 @@
 #include "osgRayTrace/bridge/TextureUnits.h"
 #include "osgRayTrace/bridge/TriangleList.h"
 
+#include <osgRayTrace/AreaLight>
+#include <osgRayTrace/EnvironmentLight>
+
 #include <osg/Geometry>
 #include <osg/LightSource>
 #include <osg/Matrixd>
@@ -22,12 +25,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-namespace osgRayTrace
-{
-class AreaLight;
-class EnvironmentLight;
-}
 
 namespace osgRayTrace::engine
 {
@@ -46,7 +43,7 @@ struct GeometryUse
 
 struct CollectedGeometry
 {
-    const osg::Geometry* geometry = nullptr;
+    osg::ref_ptr<const osg::Geometry> geometry;
     std::string path; ///< of the first use: "root/child/geometry"
     std::vector<GeometryUse> uses;
     PrimitiveRestart restart; ///< of all uses
@@ -56,7 +53,7 @@ struct CollectedGeometry
 
 struct CollectedLight
 {
-    const osg::LightSource* source = nullptr;
+    osg::ref_ptr<const osg::LightSource> source;
     osg::Matrixd engineFromLocal; ///< identity in eye space
     bool eyeSpace = false;
     std::string path;
@@ -64,7 +61,7 @@ struct CollectedLight
 
 struct CollectedAreaLight
 {
-    const AreaLight* light = nullptr;
+    osg::ref_ptr<const AreaLight> light;
     osg::Matrixd engineFromLocal;
     std::string path;
     uint32_t pickPath = NodeTree::kNone; ///< as GeometryUse::path
@@ -72,7 +69,7 @@ struct CollectedAreaLight
 
 struct CollectedEnvironment
 {
-    const EnvironmentLight* light = nullptr;
+    osg::ref_ptr<const EnvironmentLight> light;
     osg::Matrixd engineFromLocal;
     std::string path;
 };
@@ -85,7 +82,8 @@ struct LightSources
     std::vector<CollectedEnvironment> environments;
 };
 
-/// Pointers into the graph: valid as long as nobody changes it.
+/// The attributes of states belong to the collector's state sets: valid as long as it lives. All
+/// else is kept alive, also if a node of the application's changes the graph while it is traversed.
 struct CollectedGraph
 {
     std::vector<CollectedGeometry> geometries; ///< in order of their first use

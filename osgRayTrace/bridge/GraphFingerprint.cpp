@@ -32,8 +32,11 @@ namespace
 class FingerprintVisitor : public osg::NodeVisitor
 {
 public:
-    FingerprintVisitor(const ViewingConditions& conditions, const osg::Matrixd& sceneFromLocal)
+    FingerprintVisitor(const ViewingConditions& conditions, const osg::Matrixd& sceneFromLocal,
+                       KeptObjects* kept)
         : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN),
+          _digest(kept),
+          _kept(kept),
           _eye(conditions.eye),
           _view(conditions.view),
           _cullStack(conditions.view),
@@ -52,7 +55,7 @@ public:
             _digest.add(light->getCorner(), light->getEdgeU(), light->getEdgeV(),
                         light->getRadiance(), light->getTwoSided());
         if (dynamic_cast<const EnvironmentLight*>(&node))
-            _digest.add(lightPrint(NodeKind::Environment, node));
+            _digest.add(lightPrint(NodeKind::Environment, node, _kept));
         enter(node);
     }
 
@@ -67,7 +70,8 @@ public:
 
     void apply(osg::TexGenNode& node) override
     {
-        _digest.add(node.getReferenceFrame(), node.getTextureUnit(), node.getTexGen());
+        _digest.add(node.getReferenceFrame(), node.getTextureUnit());
+        _digest.addObject(node.getTexGen());
         if (node.getTexGen()) addTexGen(_digest, *node.getTexGen());
         enter(node);
     }
@@ -108,18 +112,23 @@ public:
     void apply(osg::Geometry& geometry) override
     {
         addDrawable(geometry);
-        _digest.add(geometry.getDrawCallback());
+        _digest.add(geometry.getDrawCallback() != nullptr);
         for (const float weight : SoftwareVertices::weightsOf(geometry))
             _digest.add(weight);
         _arrays.clear();
         geometry.getArrayList(_arrays);
         for (const auto& array : _arrays)
-            _digest.add(array.get(), array->getModifiedCount(), array->getNumElements(),
-                        array->getBinding());
+        {
+            _digest.addObject(array);
+            _digest.add(array->getModifiedCount(), array->getNumElements(), array->getBinding());
+        }
         for (const auto& primitives : geometry.getPrimitiveSetList())
-            _digest.add(primitives.get(), primitives->getModifiedCount(), primitives->getMode(),
+        {
+            _digest.addObject(primitives);
+            _digest.add(primitives->getModifiedCount(), primitives->getMode(),
                         hasTriangles(*primitives) ? primitives->getNumIndices() : 0u,
                         rangesPrint(*primitives));
+        }
         traverse(geometry);
     }
 
@@ -145,7 +154,8 @@ private:
 
     void enter(osg::Node& node)
     {
-        _digest.add(&node, ownHint(node));
+        _digest.addObject(&node);
+        _digest.add(ownHint(node));
         addStateSetOf(node);
         if (getNodePath().size() < kDeepestPath) traverse(node);
         _digest.add(kEnd);
@@ -153,7 +163,8 @@ private:
 
     void addDrawable(const osg::Drawable& drawable)
     {
-        _digest.add(&drawable, ownHint(drawable));
+        _digest.addObject(&drawable);
+        _digest.add(ownHint(drawable));
         addStateSetOf(drawable);
         const osg::BoundingBox& box = drawable.getBoundingBox();
         _digest.add(box._min, box._max);
@@ -161,13 +172,14 @@ private:
 
     void addStateSetOf(const osg::Node& node)
     {
-        _digest.add(node.getStateSet());
+        _digest.addObject(node.getStateSet());
         if (node.getStateSet()) addStateSet(_digest, *node.getStateSet());
     }
 
     static constexpr int kEnd = -1; // of the children: a node that moves one level up must show
 
     Digest _digest;
+    KeptObjects* _kept;
     osg::Vec3d _eye;
     std::optional<ReferenceView> _view;
     ReferenceCullStack _cullStack;
@@ -178,9 +190,9 @@ private:
 } // namespace
 
 uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions,
-                          const osg::Matrixd& sceneFromLocal)
+                          const osg::Matrixd& sceneFromLocal, KeptObjects* kept)
 {
-    FingerprintVisitor visitor(conditions, sceneFromLocal);
+    FingerprintVisitor visitor(conditions, sceneFromLocal, kept);
     root.accept(visitor);
     return visitor.value();
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/ObjectIdentity.h"
 #include "osgRayTrace/bridge/ViewingConditions.h"
 
 #include <osg/Matrixd>
@@ -17,8 +18,9 @@ namespace osgRayTrace::engine
 /// values of the attributes and lights that are traced; those of the inherited state included.
 /// Vertex data that is written without Array::dirty(), and images without Image::dirty(), go
 /// unseen: that is what dirtyScene() is for. Reads the graph only.
-/// sceneFromLocal: of the place that root is at.
+/// sceneFromLocal: of the place that root is at. kept: as in Digest.
 uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions,
-                          const osg::Matrixd& sceneFromLocal = osg::Matrixd());
+                          const osg::Matrixd& sceneFromLocal = osg::Matrixd(),
+                          KeptObjects* kept = nullptr);
 
 } // namespace osgRayTrace::engine

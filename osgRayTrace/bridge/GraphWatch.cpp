@@ -68,9 +68,9 @@ bool isOfTheWhole(const WatchedNode& node)
     return node.kind == NodeKind::Opaque || isLight(node.kind) || node.hint != 0;
 }
 
-uint64_t inheritedPrint(const ViewingConditions& conditions)
+uint64_t inheritedPrint(const ViewingConditions& conditions, KeptObjects* kept = nullptr)
 {
-    Digest digest;
+    Digest digest(kept);
     for (const osg::ref_ptr<const osg::StateSet>& stateSet : conditions.inheritedState)
         addStateSet(digest, *stateSet);
     return digest.value();
@@ -80,7 +80,7 @@ uint64_t inheritedPrint(const ViewingConditions& conditions)
 
 void GraphWatch::forget()
 {
-    _recorded = false;
+    *this = GraphWatch();
 }
 
 /// What stands for the decorator is looked through: it is no parent that would know of its end.
@@ -98,15 +98,18 @@ void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
     _graph.traversalMask = conditions.traversalMask;
     _plain = conditions;
     _plain.inheritedState.clear();
-    _inheritedPrint = inheritedPrint(conditions);
-    _first = firstNode(root);
-    if (_first)
+    _inheritedPrint = inheritedPrint(conditions, &_inheritedKept);
+    osg::Node* const first = firstNode(root);
+    _first = first;
+    if (first)
     {
-        _graph.firstDepth = _first == &root ? 1 : 2;
-        _graph.append(*_first, kNowhere, osg::Matrixd(), _graph.firstDepth, _plain);
+        _graph.owner = first == &root ? nullptr : first;
+        _graph.firstDepth = first == &root ? 1 : 2;
+        _graph.append(*first, kNowhere, osg::Matrixd(), _graph.firstDepth, _plain);
     }
     _graph.finish();
     _graph.nodes.shrink_to_fit();
+    _graph.kept.shrink_to_fit();
     _graph.places.shrink_to_fit();
     _recorded = true;
 }
@@ -115,7 +118,7 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
 {
     GraphChanges changes;
     const bool comparable = _recorded && conditions.traversalMask == _graph.traversalMask &&
-                            firstNode(root) == _first;
+                            ObjectName(firstNode(root)) == _first;
     _recorded = false; // until everything is seen
     _plain.eye = conditions.eye;
     _plain.view = conditions.view;
@@ -132,8 +135,13 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
     lookAtStates();
     lookAtLights(changes);
     const uint64_t inherited = inheritedPrint(conditions);
-    changes.convert |= inherited != _inheritedPrint;
-    _inheritedPrint = inherited;
+    if (inherited != _inheritedPrint)
+    {
+        changes.convert = true;
+        KeptObjects kept;
+        _inheritedPrint = inheritedPrint(conditions, &kept);
+        _inheritedKept = std::move(kept);
+    }
     if (_anyMoved || _anyRestated) findChanged(changes);
     _recorded = true;
     return changes;
@@ -153,7 +161,8 @@ bool GraphWatch::isAsItWas(WatchedNode& node)
         }
     }
     if (node.kind == NodeKind::Opaque)
-        return graphFingerprint(*node.node, _plain, _graph.opaqueMatrices[node.item]) == node.print;
+        return graphFingerprint(*node.node, _plain, _graph.opaques[node.item].sceneFromLocal) ==
+               node.print;
     return node.repeated || nodePrint(node.kind, *node.node) == node.print;
 }
 
@@ -190,7 +199,7 @@ bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
     if (_graph.isRepeated(*node.node)) return false;
     const osg::StateSet* stateSet = node.node->getStateSet();
     const osg::StateSet* before =
-        node.state == kNowhere ? nullptr : _graph.states[node.state].stateSet;
+        node.state == kNowhere ? nullptr : _graph.states[node.state].stateSet.get();
     bool known = false;
     if (stateSet != before)
     {
@@ -260,7 +269,7 @@ bool GraphWatch::remove(uint32_t index, GraphChanges& changes)
         const WatchedGeometry& watched = _graph.geometries[node.item];
         splice.removed.push_back({watched.geometry, usesBefore(node.item, i), watched.uses});
     }
-    _graph.erase(index);
+    splice.gone = _graph.erase(index);
     return true;
 }
 
@@ -287,9 +296,9 @@ bool GraphWatch::add(uint32_t at, osg::Node& node, uint32_t parent, GraphChanges
 /// A mask has hidden a node.
 bool GraphWatch::hide(uint32_t index, GraphChanges& changes)
 {
-    const HiddenNode gone{_graph.nodes[index].node, _graph.nodes[index].parent};
+    HiddenNode gone{keep(_graph.nodes[index].node), _graph.nodes[index].parent};
     if (gone.parent == kNowhere || !remove(index, changes)) return false;
-    _graph.hidden.push_back(gone);
+    _graph.hidden.push_back(std::move(gone));
     return true;
 }
 
@@ -298,7 +307,7 @@ bool GraphWatch::lookAtHidden(GraphChanges& changes)
     std::size_t i = 0;
     while (i < _graph.hidden.size())
     {
-        const HiddenNode node = _graph.hidden[i++];
+        const HiddenNode& node = _graph.hidden[i++];
         if (!_graph.isVisible(*node.node)) continue;
         if (!redoChildren(node.parent, changes)) return false;
         i = 0; // they are others now
@@ -332,7 +341,7 @@ void GraphWatch::lookAtBuffers(GraphChanges& changes)
     const std::size_t count = buffers.size();
     for (std::size_t i = 0; i < count; ++i)
     {
-        if (i + kAhead < count) fetch(buffers[i + kAhead].data, kBufferBytes);
+        if (i + kAhead < count) fetch(buffers[i + kAhead].data.get(), kBufferBytes);
         WatchedBuffer& buffer = buffers[i];
         const uint64_t print = bufferPrint(buffer.kind, *buffer.data);
         if (print == buffer.print) continue;
@@ -354,8 +363,13 @@ void GraphWatch::lookAtStates()
         Digest digest;
         addStateSet(digest, *state.stateSet);
         state.changed = digest.value() != state.print;
-        any |= state.changed;
-        state.print = digest.value();
+        if (!state.changed) continue;
+        any = true;
+        KeptObjects kept;
+        Digest now(&kept);
+        addStateSet(now, *state.stateSet);
+        state.print = now.value();
+        state.kept = std::move(kept);
     }
     if (!any) return;
     _anyRestated = true;
@@ -370,9 +384,11 @@ void GraphWatch::lookAtLights(GraphChanges& changes)
     for (WatchedLight& light : _graph.lights)
     {
         const WatchedNode& node = _graph.nodes[light.node];
-        const uint64_t print = lightPrint(node.kind, *node.node);
-        changes.lights |= print != light.print;
-        light.print = print;
+        if (lightPrint(node.kind, *node.node) == light.print) continue;
+        changes.lights = true;
+        KeptObjects kept;
+        light.print = lightPrint(node.kind, *node.node, &kept);
+        light.kept = std::move(kept);
     }
 }
 

@@ -16,10 +16,14 @@ namespace osgRayTrace::engine
 class GraphWatch
 {
 public:
+    GraphWatch() = default;
+    GraphWatch(GraphWatch&&) = default;
+    GraphWatch& operator=(GraphWatch&&) = default;
+
     /// Remembers the graph as it is.
     void record(osg::Node& root, const ViewingConditions& conditions);
 
-    /// The next look finds everything changed.
+    /// The next look finds everything changed; nothing of the graph is kept alive until then.
     void forget();
 
     /// What has changed in the graph below the same root since the last look or record(), under the
@@ -44,9 +48,10 @@ private:
     uint32_t usesBefore(uint32_t geometry, uint32_t node) const;
 
     bool _recorded = false;
-    osg::Node* _first = nullptr; ///< of the nodes; null: nothing is visible. A name, not followed
-    ViewingConditions _plain;    ///< of the last look, without inherited state
+    ObjectName _first;        ///< of the nodes; of none: nothing is visible
+    ViewingConditions _plain; ///< of the last look, without inherited state
     uint64_t _inheritedPrint = 0;
+    KeptObjects _inheritedKept; ///< of the print
     WatchedGraph _graph;
     uint64_t _looks = 0;
 

@@ -113,11 +113,11 @@ uint64_t otherPrint(const osg::BufferData& data)
     return valuePrint(data.getModifiedCount(), count, data.getDataPointer(), kind) + ranges;
 }
 
-uint64_t environmentPrint(const EnvironmentLight& light)
+uint64_t environmentPrint(const EnvironmentLight& light, KeptObjects* kept)
 {
-    Digest digest;
+    Digest digest(kept);
     addImage(digest, light.getImage());
-    digest.add(light.getCubeMap());
+    digest.addObject(light.getCubeMap());
     if (light.getCubeMap()) addTexture(digest, *light.getCubeMap());
     digest.add(light.getRotation().asVec4(), light.getScale(), light.getVisible());
     return digest.value();
@@ -199,11 +199,11 @@ uint64_t nodePrint(NodeKind kind, const osg::Node& node)
     return 0;
 }
 
-uint64_t lightPrint(NodeKind kind, const osg::Node& node)
+uint64_t lightPrint(NodeKind kind, const osg::Node& node, KeptObjects* kept)
 {
     if (kind == NodeKind::Environment)
-        return environmentPrint(static_cast<const EnvironmentLight&>(node));
-    Digest digest;
+        return environmentPrint(static_cast<const EnvironmentLight&>(node), kept);
+    Digest digest(kept);
     if (kind == NodeKind::AreaLight)
     {
         const auto& light = static_cast<const AreaLight&>(node);
@@ -212,7 +212,7 @@ uint64_t lightPrint(NodeKind kind, const osg::Node& node)
         return digest.value();
     }
     const osg::Light* light = static_cast<const osg::LightSource&>(node).getLight();
-    digest.add(light);
+    digest.addObject(light);
     if (light) addLight(digest, *light);
     return digest.value();
 }
@@ -227,7 +227,7 @@ uint64_t arraysPrint(const osg::Geometry& geometry)
 
 uint64_t treatmentPrint(const osg::Geometry& geometry)
 {
-    return fold(bitsOf(geometry.getDrawCallback()) + hintPrint(geometry),
+    return fold((geometry.getDrawCallback() ? 256u : 0u) + hintPrint(geometry),
                 geometry.getDataVariance());
 }
 

@@ -2,6 +2,8 @@
 // changed. Layer: bridge. SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/ObjectIdentity.h"
+
 #include <osg/Geometry>
 #include <osg/Group>
 
@@ -47,11 +49,14 @@ bool isOn(NodeKind kind, const osg::Group& group, unsigned int child);
 /// What decides on the matrix of a transform.
 uint64_t matrixPrint(NodeKind kind, const osg::Node& node);
 
-/// Its state set, its children and which of them are on, its frame; of any kind but Geometry and Opaque.
+/// The addresses in prints are those of objects that WatchedGraph keeps alive.
+
+/// Its state set, its children and which of them are on, its frame; of any kind but Geometry and
+/// Opaque.
 uint64_t nodePrint(NodeKind kind, const osg::Node& node);
 
-/// The values of a light, its frame apart.
-uint64_t lightPrint(NodeKind kind, const osg::Node& node);
+/// The values of a light, its frame apart. kept: as in Digest.
+uint64_t lightPrint(NodeKind kind, const osg::Node& node, KeptObjects* kept = nullptr);
 
 /// Which arrays and primitive sets it has.
 uint64_t arraysPrint(const osg::Geometry& geometry);

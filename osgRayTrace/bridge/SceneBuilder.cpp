@@ -224,7 +224,7 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 {
     const uint64_t remarks = _report.remarks();
     warnIfCoarse(geometry);
-    TracedGeometry& traced = _made.index.geometries[geometry.geometry];
+    TracedGeometry& traced = _made.index.at(*geometry.geometry);
     // One that is here twice has other primitive restart: only one of both is in the index.
     traced.patchable = traced.uses.empty() && geometry.watched;
     traced.uses.clear();
@@ -250,8 +250,8 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 
 void SceneBuilder::addNothing(const CollectedGeometry& geometry, const GeometryUse& use)
 {
-    _made.index.geometries[geometry.geometry].uses.push_back(
-        {kInvalid, treatment(use.state, ConversionCounts())});
+    _made.index.at(*geometry.geometry)
+        .uses.push_back({kInvalid, treatment(use.state, ConversionCounts())});
     _instances.push_back(kInvalid);
 }
 
@@ -299,10 +299,10 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
         if (clipping != Clipping::None || own.lift != 0.0f ||
             !placeInstance(instance, frame.localFromMesh * use.engineFromLocal))
         {
-            _made.index.geometries[geometry.geometry].patchable = false; // not by the shared mesh
-            addBaked(geometry, use,
-                     _caches.geometries.mesh(*geometry.geometry, variant, own, geometry.path,
-                                             _report));
+            _made.index.at(*geometry.geometry).patchable = false; // not by the shared mesh
+            addBaked(
+                geometry, use,
+                _caches.geometries.mesh(*geometry.geometry, variant, own, geometry.path, _report));
             continue;
         }
         if (meshIndex == kInvalid)
@@ -318,7 +318,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
 bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& use,
                           uint32_t before)
 {
-    TracedGeometry& traced = _made.index.geometries[geometry.geometry];
+    TracedGeometry& traced = _made.index.at(*geometry.geometry);
     const MeshRequest* request = _caches.geometries.lastRequest(*geometry.geometry);
     if (!request || traced.uses.empty() || polygonLift(_graph.states[use.state]) != 0.0f) return false;
     osg::Matrixd localFromMesh;
@@ -338,7 +338,7 @@ void SceneBuilder::addInstance(const CollectedGeometry& geometry, const Geometry
                                Instance instance)
 {
     const TracedUse made = newInstance(geometry, use, instance);
-    _made.index.geometries[geometry.geometry].uses.push_back(made);
+    _made.index.at(*geometry.geometry).uses.push_back(made);
     _instances.push_back(made.instance);
 }
 

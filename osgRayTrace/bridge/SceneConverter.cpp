@@ -82,7 +82,7 @@ void addUntraced(const RasterizedParts& parts, SceneIndex& index)
             untraced.push_back(geometry);
     }
     for (const osg::Geometry* geometry : untraced)
-        index.geometries[geometry].uses.emplace_back();
+        index.at(*geometry).uses.emplace_back();
 }
 
 /// Where planes clip depends on where a geometry is.
@@ -114,6 +114,16 @@ struct SceneConverter::Implementation
 SceneConverter::SceneConverter() : _implementation(std::make_unique<Implementation>()) {}
 
 SceneConverter::~SceneConverter() = default;
+
+void SceneConverter::releaseGraph()
+{
+    Implementation& state = *_implementation;
+    state.made = ConvertedGraph();
+    state.caches.vertices = SoftwareVertices();
+    state.lastResult = ConversionResult();
+    state.input = ConversionInput();
+    state.ordinary = false; // so nothing can be patched
+}
 
 void SceneConverter::forget()
 {

@@ -110,6 +110,10 @@ public:
     /// Meshes that were made from arrays, ever.
     uint64_t convertedMeshes() const;
 
+    /// Keeps nothing of the graph alive until the next call of convert(), which comes before one of
+    /// patch(); but for arrays and images that have not changed by then.
+    void releaseGraph();
+
     /// The next conversion reads all arrays and images again, whatever their modified counts say.
     void forget();
 

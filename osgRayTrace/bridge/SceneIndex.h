@@ -41,15 +41,24 @@ struct TracedUse
 
 struct TracedGeometry
 {
-    std::vector<TracedUse> uses; ///< in the order of the traversal
-    bool patchable = true;       ///< false: made where it is, as raised faces are, or not watched
-    bool plain = true;           ///< nothing of it is counted but that it was converted
+    osg::ref_ptr<const osg::Geometry> geometry; ///< its key in SceneIndex::geometries
+    std::vector<TracedUse> uses;                ///< in the order of the traversal
+    bool patchable = true; ///< false: made where it is, as raised faces are, or not watched
+    bool plain = true;     ///< nothing of it is counted but that it was converted
 };
 
 struct SceneIndex
 {
     std::unordered_map<const osg::Geometry*, TracedGeometry> geometries;
     std::vector<Treatment> treatments; ///< all different
+
+    /// A new entry if there is none.
+    TracedGeometry& at(const osg::Geometry& geometry)
+    {
+        TracedGeometry& traced = geometries[&geometry];
+        traced.geometry = &geometry;
+        return traced;
+    }
 
     uint32_t treatment(const Treatment& treatment);
 };

@@ -231,8 +231,8 @@ bool ScenePatcher::remove(const GraphSplice& splice)
         const auto found = _made.index.geometries.find(gone->geometry);
         if (!removeUse(found->second, gone->use)) return false;
         if (!found->second.uses.empty()) continue;
+        _removed.push_back(found->second.geometry);
         _made.index.geometries.erase(found);
-        _removed.push_back(gone->geometry);
         --_geometries;
     }
     return true;
@@ -345,7 +345,7 @@ bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeome
             if (uses[i].use > known->second.uses.size() ||
                 !builder.addUse(geometry, geometry.uses[i], uses[i].use))
                 return false;
-    const TracedGeometry& traced = _made.index.geometries[geometry.geometry];
+    const TracedGeometry& traced = _made.index.at(*geometry.geometry);
     if (!traced.patchable || !traced.plain || traced.uses.size() != uses.front().uses) return false;
     const auto isThere = [this](const TracedUse& use)
     { return use.instance != kInvalid && _scene->instances[use.instance].placed; };
@@ -358,7 +358,7 @@ bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeome
 /// What came back in another place is kept.
 void ScenePatcher::dropRemoved()
 {
-    for (const osg::Geometry* geometry : _removed)
+    for (const osg::ref_ptr<const osg::Geometry>& geometry : _removed)
         if (_made.index.geometries.count(geometry) == 0) _caches.geometries.drop(geometry);
 }
 

@@ -63,7 +63,7 @@ private:
     Stamp _now;
     std::shared_ptr<Scene> _scene;
     std::vector<std::pair<uint32_t, Material>> _restated; ///< instances that get other materials
-    std::vector<const osg::Geometry*> _removed;           ///< names, not followed
+    std::vector<osg::ref_ptr<const osg::Geometry>> _removed;
     int64_t _geometries = 0, _instances = 0;
     bool _changed = false;
     bool _leftFlat = false;

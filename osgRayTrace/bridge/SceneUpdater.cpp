@@ -31,7 +31,7 @@ osg::Vec3d finiteOrZero(const osg::Vec3d& point)
 
 } // namespace
 
-void SceneUpdater::noteView(const void* camera, const osg::FrameStamp* frameStamp,
+void SceneUpdater::noteView(const ObjectName& camera, const osg::FrameStamp* frameStamp,
                             const ViewingConditions& conditions)
 {
     const unsigned int frameNumber = frameNumberOf(frameStamp);
@@ -53,7 +53,7 @@ bool SceneUpdater::isViewed() const
     return _noted.conditions.has_value();
 }
 
-void SceneUpdater::noteDrawn(const void* camera, const osg::Vec3d& eye, double nearDistance)
+void SceneUpdater::noteDrawn(const ObjectName& camera, const osg::Vec3d& eye, double nearDistance)
 {
     const SceneVersion drawn = version();
     if (!drawn.scene) return;
@@ -63,6 +63,16 @@ void SceneUpdater::noteDrawn(const void* camera, const osg::Vec3d& eye, double n
 
     std::lock_guard<std::mutex> lock(_notedMutex);
     if (camera == _noted.camera) _noted.asked.origin = eye;
+}
+
+void SceneUpdater::releaseGraph()
+{
+    std::lock_guard<std::mutex> lock(_updateMutex);
+    if (std::exchange(_released, true)) return;
+    _watch.forget();
+    _converter.releaseGraph();
+    _frameNumber.reset();
+    _stale = true;
 }
 
 void SceneUpdater::setDirty()
@@ -159,13 +169,13 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const ViewingConditions& co
     const bool seen = frameStamp && _frameNumber == frameStamp->getFrameNumber();
     const ConversionSettings settings = conversionSettings(
         *_settings, _materialFile.materials(_settings->getMaterials(), _asked.dirty));
-    const bool same = !_asked.dirty && !_asked.origin && root == _root && _conditions &&
+    const bool sameRoot = _root == root;
+    const bool same = !_asked.dirty && !_asked.origin && sameRoot && _conditions &&
                       convertAlike(*_conditions, conditions) && settings == _conversionSettings;
     if (seen && same) return;
     if (frameStamp) _frameNumber = frameStamp->getFrameNumber();
     if (!root && same) return;
 
-    const bool sameRoot = root == _root;
     _root = root;
     _conditions = conditions;
     _conversionSettings = settings;
@@ -174,9 +184,11 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const ViewingConditions& co
     {
         _asked = Requests();
         _watch.forget();
+        _converter.releaseGraph();
         publish(nullptr, ConversionResult(), _done);
         return;
     }
+    _released = false;
     const GraphChanges changes = look(*root, same, sameRoot, conditions);
     const Requests asked = std::exchange(_asked, Requests());
     if (changes.none()) return;
@@ -200,10 +212,12 @@ GraphChanges SceneUpdater::look(osg::Node& root, bool same, bool sameRoot,
     changes.record = !sameRoot;
     if (sameRoot)
     {
-        // Also under other conditions: then all changes are known, and the next look finds none of them.
-        const GraphChanges found = _watch.look(root, conditions);
-        if (same) changes = found;
-        changes.record = found.record;
+        // Also under other conditions: then all changes are known, and the next look finds none of
+        // them.
+        GraphChanges found = _watch.look(root, conditions);
+        const bool record = found.record;
+        if (same) changes = std::move(found);
+        changes.record = record;
         std::lock_guard<std::mutex> lock(_versionMutex);
         _statistics.walks = ++_done.walks;
     }

@@ -6,6 +6,7 @@
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/bridge/GraphWatch.h"
 #include "osgRayTrace/bridge/HostArrays.h"
+#include "osgRayTrace/bridge/ObjectIdentity.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/ViewingConditions.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
@@ -43,7 +44,7 @@ class SceneUpdater
 {
 public:
     /// A camera is about to draw the scene. Cull threads.
-    void noteView(const void* camera, const osg::FrameStamp* frameStamp,
+    void noteView(const ObjectName& camera, const osg::FrameStamp* frameStamp,
                   const ViewingConditions& conditions);
 
     /// True once a view was noted. Any thread.
@@ -51,7 +52,7 @@ public:
 
     /// The camera has drawn from eye with its near plane at a distance; one engine origin has to
     /// serve near things and far ones, see kOriginDistance. Draw threads.
-    void noteDrawn(const void* camera, const osg::Vec3d& eye, double nearDistance);
+    void noteDrawn(const ObjectName& camera, const osg::Vec3d& eye, double nearDistance);
 
     /// Takes the settings over and redoes what changed of the graph, of the settings or of the noted
     /// conditions; once for a frame number, unless the latter did. Null root: no
@@ -60,7 +61,12 @@ public:
     void update(osg::Node* root, const RayTraceSettings& settings,
                 const osg::FrameStamp* frameStamp);
 
-    /// The next update converts, whatever it sees, with all arrays and images read again. Any thread.
+    /// Keeps no node of the graph alive until the next update, which converts. For when there may
+    /// be none. Threads that may change the graph.
+    void releaseGraph();
+
+    /// The next update converts, whatever it sees, with all arrays and images read again. Any
+    /// thread.
     void setDirty();
 
     /// The version as of the last frame with its pickIndex, which is made from now on; as of now if no view
@@ -88,7 +94,7 @@ private:
 
     struct Noted
     {
-        const void* camera = nullptr; ///< the reference; a name, not followed
+        ObjectName camera;            ///< the reference
         unsigned int frameNumber = 0; ///< it was last seen in
         unsigned int othersSince = 0; ///< passes of other cameras since then
         std::optional<ViewingConditions> conditions;
@@ -129,10 +135,11 @@ private:
     std::optional<ViewingConditions> _conditions;
     ConversionSettings _conversionSettings;
     MaterialLibraryFile _materialFile;
-    osg::Node* _root = nullptr; ///< a name, not followed
+    ObjectName _root;
     GraphWatch _watch;
-    Statistics _done;    ///< its totals alone
-    bool _stale = false; ///< the last conversion failed: the converter has not seen all changes
+    bool _released = true; ///< see releaseGraph()
+    Statistics _done;      ///< its totals alone
+    bool _stale = false;   ///< the last conversion failed: the converter has not seen all changes
     std::optional<osg::Vec3d> _origin;
 };
 

@@ -43,7 +43,7 @@ void addPhysicalMaterial(Digest& digest, const PhysicalMaterial& material)
          {material.getBaseColorTexture(), material.getMetallicRoughnessTexture(),
           material.getTransmissionTexture(), material.getEmissionTexture()})
     {
-        digest.add(texture);
+        digest.addObject(texture);
         if (texture) addTexture(digest, *texture);
     }
 }
@@ -58,7 +58,7 @@ bool isOfTheFrame(const osg::StateAttribute& attribute)
 void addAttribute(Digest& digest, const osg::StateAttribute& attribute)
 {
     if (isOfTheFrame(attribute)) return;
-    digest.add(&attribute);
+    digest.addObject(&attribute);
     if (const auto* material = dynamic_cast<const osg::Material*>(&attribute))
         addMaterial(digest, *material);
     else if (const osg::Texture* texture = attribute.asTexture())
@@ -117,10 +117,12 @@ void addModes(Digest& digest, const osg::StateSet::ModeList& modes)
 
 } // namespace
 
-/// By its data, too: another one may be at the address of one that is gone.
 void addImage(Digest& digest, const osg::Image* image)
 {
-    digest.add(image, image ? image->getModifiedCount() : 0u, image ? image->data() : nullptr);
+    digest.addObject(image);
+    if (!image) return;
+    digest.add(image->getModifiedCount());
+    digest.addData(image->data());
 }
 
 void addTexture(Digest& digest, const osg::Texture& texture)

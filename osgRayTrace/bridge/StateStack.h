@@ -88,7 +88,8 @@ constexpr int kLightNumbers = 0x4000;
 /// osg::Light numbers from kMaskedLights on, with the value that GL_LIGHT0 + n was set to.
 using LightModes = std::map<unsigned int, unsigned int>;
 
-/// Accumulated state. Attributes live as long as the graph does.
+/// Accumulated state. Attributes live as long as the StateStack does, unless somebody changes a
+/// state set.
 struct GraphState
 {
     uint64_t modesOn = 0;
@@ -132,7 +133,7 @@ public:
 private:
     std::vector<GraphState> _states;
     std::vector<uint32_t> _stack;
-    std::map<std::pair<uint32_t, const osg::StateSet*>, uint32_t> _known;
+    std::map<std::pair<uint32_t, osg::ref_ptr<const osg::StateSet>>, uint32_t> _known;
 };
 
 } // namespace osgRayTrace::engine

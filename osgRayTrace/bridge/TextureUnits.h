@@ -18,7 +18,7 @@ namespace osgRayTrace::engine
 /// no osg::TexGen of its own.
 struct PlacedTexGen
 {
-    const osg::TexGen* texGen = nullptr;
+    osg::ref_ptr<const osg::TexGen> texGen;
     osg::Matrixd engineFromLocal;
 };
 using PlacedTexGens = std::array<PlacedTexGen, kUnits>;

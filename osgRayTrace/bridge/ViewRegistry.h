@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/DepthSlices.h"
+#include "osgRayTrace/bridge/ObjectIdentity.h"
 
 #include <algorithm>
 #include <array>
@@ -15,12 +16,11 @@
 namespace osgRayTrace::engine
 {
 
-/// One pass over a scene. The pointers are names, never followed: an address that is used again at
-/// most continues with a state that is then restarted.
+/// One pass over a scene.
 struct PassIdentity
 {
-    const void* camera = nullptr;
-    const void* renderStage = nullptr; ///< one for each eye; viewers may alternate two sets
+    ObjectName camera;
+    ObjectName renderStage; ///< one for each eye; viewers may alternate two sets
     unsigned int contextId = 0;
     uint64_t frameNumber = 0;      ///< of the camera's viewer; 0: it counts none
     std::array<int, 4> viewport{}; ///< x, y, width, height
@@ -149,7 +149,7 @@ private:
     {
         PassIdentity pass;
         uint64_t round;
-        std::vector<const void*> stages;
+        std::vector<ObjectName> stages;
     };
 
     static bool sameCamera(const PassIdentity& a, const PassIdentity& b)

@@ -9,6 +9,7 @@
 #include <osg/Transform>
 
 #include <algorithm>
+#include <iterator>
 
 namespace osgRayTrace::engine
 {
@@ -49,15 +50,17 @@ void WatchedGraph::setState(uint32_t& state, const osg::StateSet* stateSet)
         if (isNew)
         {
             known->second = newIndex(states, _freeStates);
-            Digest digest;
+            WatchedState& fresh = states[known->second];
+            fresh.stateSet = keep(stateSet);
+            Digest digest(&fresh.kept);
             addStateSet(digest, *stateSet);
-            states[known->second] = {stateSet, digest.value(), 0, false};
+            fresh.print = digest.value();
         }
         state = known->second;
         ++states[state].uses;
     }
     if (before == kNowhere || --states[before].uses > 0) return;
-    _stateOf.erase(states[before].stateSet);
+    _stateOf.erase(states[before].stateSet.get());
     states[before] = WatchedState();
     _freeStates.push_back(before);
 }
@@ -69,7 +72,7 @@ void WatchedGraph::setBuffers(uint32_t index)
                   {
                       if (!data) return;
                       const BufferKind kind = bufferKindOf(*data);
-                      buffers.push_back({data, bufferPrint(kind, *data), index, kind, shape});
+                      buffers.push_back({keep(data), bufferPrint(kind, *data), index, kind, shape});
                   });
 }
 
@@ -87,12 +90,18 @@ void WatchedGraph::resetBuffers(const std::vector<uint32_t>& exchanged)
         if (isExchanged[index]) setBuffers(index);
 }
 
+void WatchedGraph::push(const WatchedNode& node)
+{
+    nodes.push_back(node);
+    kept.push_back(keep(node.node == owner ? nullptr : node.node));
+}
+
 void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& sceneFromParent,
                           std::size_t depth, const ViewingConditions& conditions)
 {
     if (!isVisible(node))
     {
-        if (parent != kNowhere) hidden.push_back({&node, parent});
+        if (parent != kNowhere) hidden.push_back({keep(&node), parent});
         return;
     }
     if (depth > kDeepestPath) return;
@@ -112,10 +121,11 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
     if (entry.kind == NodeKind::Opaque)
     {
         fix(entry.place);
-        entry.item = static_cast<uint32_t>(opaqueMatrices.size());
-        opaqueMatrices.push_back(sceneFromParent);
-        entry.print = graphFingerprint(node, conditions, sceneFromParent);
-        nodes.push_back(entry);
+        entry.item = static_cast<uint32_t>(opaques.size());
+        WatchedOpaque& opaque = opaques.emplace_back();
+        opaque.sceneFromLocal = sceneFromParent;
+        entry.print = graphFingerprint(node, conditions, sceneFromParent, &opaque.kept);
+        push(entry);
         return;
     }
 
@@ -135,11 +145,13 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
     if (isLight(entry.kind))
     {
         fix(entry.place);
-        lights.push_back({index, lightPrint(entry.kind, node)});
+        WatchedLight& light = lights.emplace_back();
+        light.node = index;
+        light.print = lightPrint(entry.kind, node, &light.kept);
     }
     entry.print = nodePrint(entry.kind, node);
     setState(entry.state, node.getStateSet());
-    nodes.push_back(entry);
+    push(entry);
     if (const osg::Group* group = node.asGroup())
         for (unsigned int i = 0; i < childrenOf(*group).size(); ++i)
             if (osg::Node* child = childrenOf(*group)[i].get(); child && isOn(entry.kind, *group, i))
@@ -154,7 +166,7 @@ void WatchedGraph::appendGeometry(osg::Geometry& geometry, WatchedNode entry)
     entry.item = known->second;
     WatchedGeometry& watched = geometries[entry.item];
     ++watched.uses;
-    nodes.push_back(entry);
+    push(entry);
     if (!isNew) return;
     watched.geometry = &geometry;
     watched.arrays = arraysPrint(geometry);
@@ -211,6 +223,7 @@ void WatchedGraph::insert(uint32_t at, osg::Node& node, uint32_t parent,
     for (std::size_t i = 0; i < hidden.size(); ++i)
         shift(hidden[i].parent, i >= firstHidden);
     std::rotate(nodes.begin() + at, nodes.begin() + before, nodes.end());
+    std::rotate(kept.begin() + at, kept.begin() + before, kept.end());
 }
 
 void WatchedGraph::releaseGeometry(uint32_t index)
@@ -223,7 +236,7 @@ void WatchedGraph::releaseGeometry(uint32_t index)
     _freeGeometries.push_back(index);
 }
 
-void WatchedGraph::erase(uint32_t at)
+std::vector<Kept<osg::Node>> WatchedGraph::erase(uint32_t at)
 {
     const uint32_t end = nodes[at].end, count = end - at;
     const std::size_t freeGeometries = _freeGeometries.size();
@@ -266,7 +279,11 @@ void WatchedGraph::erase(uint32_t at)
     for (HiddenNode& node : hidden)
         shift(node.parent);
     nodes.erase(nodes.begin() + at, nodes.begin() + end);
+    std::vector<Kept<osg::Node>> gone(std::make_move_iterator(kept.begin() + at),
+                                      std::make_move_iterator(kept.begin() + end));
+    kept.erase(kept.begin() + at, kept.begin() + end);
     if (2 * _gonePlaces > places.size()) dropGonePlaces();
+    return gone;
 }
 
 void WatchedGraph::dropGonePlaces()

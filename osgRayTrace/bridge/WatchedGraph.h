@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/NodePrints.h"
+#include "osgRayTrace/bridge/ObjectIdentity.h"
 #include "osgRayTrace/bridge/ViewingConditions.h"
 
 #include <osg/Geometry>
@@ -23,13 +24,13 @@ constexpr uint32_t kOutermost = kNowhere >> 2; ///< of WatchedPlace::outer
 /// A node on one path, see WatchedGraph::nodes.
 struct WatchedNode
 {
-    osg::Node* node = nullptr;
+    osg::Node* node = nullptr; ///< see WatchedGraph::kept
     uint64_t print = 0;
     uint32_t parent = kNowhere; ///< in nodes
     uint32_t end = 0;           ///< in nodes: behind all that is below it
     uint32_t state = kNowhere;  ///< in states; a geometry's is with it
     uint32_t place = kNowhere;  ///< that it is in; a transform: its own
-    uint32_t item = kNowhere;   ///< Geometry: in geometries; Opaque: in opaqueMatrices
+    uint32_t item = kNowhere;   ///< Geometry: in geometries; Opaque: in opaques
     NodeKind kind = NodeKind::Group;
     uint8_t hint = 0;
     bool repeated = false; ///< the same node came before: looked at there
@@ -49,12 +50,12 @@ struct WatchedPlace
 /// Once, on however many paths it is.
 struct WatchedGeometry
 {
-    osg::Geometry* geometry = nullptr; ///< null: gone
+    osg::Geometry* geometry = nullptr; ///< one of the nodes; null: gone
     uint64_t arrays = 0;               ///< print of them
     uint64_t treatment = 0;            ///< likewise
     uint32_t uses = 0;                 ///< in nodes
     uint32_t state = kNowhere;
-    const osg::StateSet* stateSet = nullptr;
+    const osg::StateSet* stateSet = nullptr; ///< one of the states
     // While a look runs:
     uint64_t looked = 0;
     uint32_t counted = 0;
@@ -63,7 +64,7 @@ struct WatchedGeometry
 
 struct WatchedBuffer
 {
-    const osg::BufferData* data = nullptr;
+    Kept<const osg::BufferData> data;
     uint64_t print = 0;
     uint32_t geometry = 0;
     BufferKind kind = BufferKind::Other;
@@ -72,8 +73,9 @@ struct WatchedBuffer
 
 struct WatchedState
 {
-    const osg::StateSet* stateSet = nullptr; ///< null: gone
+    Kept<const osg::StateSet> stateSet; ///< null: gone
     uint64_t print = 0;
+    KeptObjects kept;     ///< of print
     uint32_t uses = 0;    ///< by nodes and geometries
     bool changed = false; ///< while a look runs
 };
@@ -82,30 +84,44 @@ struct WatchedLight
 {
     uint32_t node = 0;
     uint64_t print = 0;
+    KeptObjects kept; ///< of print
 };
 
 /// A child that a mask hides.
 struct HiddenNode
 {
-    osg::Node* node = nullptr;
+    Kept<osg::Node> node;
     uint32_t parent = 0;
 };
 
-/// All nodes that a traversal would visit, in its order, each on every path. A node may be read
-/// only after its parent was found to have it still, so nothing here keeps nodes alive; and what
-/// belongs to nodes only after all nodes were found to be there. Subtrees can be taken out and put
-/// in.
+/// A node whose class is not known, with all below it.
+struct WatchedOpaque
+{
+    WatchedOpaque() = default;
+    WatchedOpaque(WatchedOpaque&&) = default;
+    WatchedOpaque& operator=(WatchedOpaque&&) = default;
+
+    osg::Matrixd sceneFromLocal;
+    KeptObjects kept; ///< of its print
+};
+
+/// All nodes that a traversal would visit, in its order, each on every path. Whatever is compared
+/// by its address is kept alive until its replacement was compared with it: nodes, state sets with
+/// their attributes and images, arrays. So what the application lets go of is freed with the next
+/// look. Subtrees can be taken out and put in.
 struct WatchedGraph
 {
     std::vector<WatchedNode> nodes;
-    std::vector<WatchedPlace> places; ///< outer ones before those in them
+    std::vector<Kept<osg::Node>> kept; ///< the nodes themselves; null: the owner
+    std::vector<WatchedPlace> places;  ///< outer ones before those in them
     std::vector<WatchedGeometry> geometries;
     std::vector<WatchedBuffer> buffers;
     std::vector<WatchedState> states;
     std::vector<WatchedLight> lights;
     std::vector<HiddenNode> hidden;
-    std::vector<osg::Matrixd> opaqueMatrices;
-    std::size_t repeats = 0; ///< nodes with repeated set
+    std::vector<WatchedOpaque> opaques;
+    const osg::Node* owner = nullptr; ///< the decorator, if any: it owns what watches it
+    std::size_t repeats = 0;          ///< nodes with repeated set
     unsigned int traversalMask = 0xffffffffu;
     std::size_t firstDepth = 1; ///< nodes on the path to the first one, with it
 
@@ -121,8 +137,8 @@ struct WatchedGraph
     /// The same, before the node at this index, which is a child of parent or behind its last.
     void insert(uint32_t at, osg::Node& node, uint32_t parent, const ViewingConditions& conditions);
 
-    /// Takes out a node with all below it; nothing of it is read.
-    void erase(uint32_t at);
+    /// Takes out a node with all below it, which the result keeps alive.
+    std::vector<Kept<osg::Node>> erase(uint32_t at);
 
     /// Whether it is on several paths, and looked at on one of them alone.
     bool isRepeated(const osg::Node& node) const;
@@ -142,6 +158,7 @@ struct WatchedGraph
     void finish();
 
 private:
+    void push(const WatchedNode& node);
     void setBuffers(uint32_t geometry);
     void appendGeometry(osg::Geometry& geometry, WatchedNode entry);
     uint32_t outerPlace(uint32_t place) const

@@ -161,7 +161,7 @@ LiveView::LiveView(osg::Node* root) : _root(root)
 
 void LiveView::noteEye(const osg::Vec3d& eye)
 {
-    _updater.noteView(this, nullptr, conditionsOf(eye));
+    _updater.noteView(nullptr, nullptr, conditionsOf(eye));
 }
 
 void LiveView::update()

@@ -1,7 +1,9 @@
 // RandomEditsTest.cpp - a thousand edits of all kinds while frames are drawn. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/bridge/GraphEditor.h"
 #include "tests/bridge/LiveGraph.h"
+#include "tests/fuzz/FuzzSeeds.h"
 
 #include <random>
 
@@ -136,6 +138,32 @@ TEST_CASE("random edits: a thousand, and each twentieth picture is that of a fre
     CHECK(done.conversions < 50);
     CHECK(done.conversions > 5); // a tile of the flat BVH that is shared now
     CHECK(done.refitMeshes > 10);
+}
+
+TEST_CASE("random edits: objects that are replaced by others at their addresses",
+          "[bridge][live-edits]")
+{
+    forEachSeed(2,
+                [](uint32_t seed)
+                {
+                    osg::ref_ptr<osg::Group> root = new osg::Group;
+                    GraphEditor editor(*root, seed);
+                    LiveView view(root.get());
+                    for (int frame = 1; frame <= 1500; ++frame)
+                    {
+                        editor.edit();
+                        if (frame % 7 == 0) editor.edit(); // two in one frame
+                        view.update();
+                        if (frame % 50) continue;
+                        CAPTURE(seed, frame, editor.last());
+                        REQUIRE(view.statistics().ok);
+                        const std::vector<float>& image = view.image();
+                        const int different =
+                            differentPixels(image, freshImage(*root, view.passes()));
+                        REQUIRE(different >= 0);
+                        REQUIRE(different <= kRoundedPixels);
+                    }
+                });
 }
 
 TEST_CASE("random edits: memory comes back", "[bridge]")

@@ -18,14 +18,24 @@ std::shared_ptr<int> acquire(Registry& registry, const PassIdentity& pass)
     return registry.acquire(pass, [] { return std::make_shared<int>(0); }).state;
 }
 
-/// Names for cameras and stages.
-const char kNames[16] = {};
+/// Cameras and stages.
+const osg::Referenced* object(int number)
+{
+    static const auto objects = []
+    {
+        std::vector<osg::ref_ptr<osg::Referenced>> all(16);
+        for (osg::ref_ptr<osg::Referenced>& one : all)
+            one = new osg::Referenced;
+        return all;
+    }();
+    return objects[std::size_t(number)];
+}
 
 PassIdentity pass(int camera, int stage, uint64_t frame, std::array<int, 4> viewport = {0, 0, 8, 8})
 {
     PassIdentity identity;
-    identity.camera = &kNames[camera];
-    identity.renderStage = &kNames[stage];
+    identity.camera = object(camera);
+    identity.renderStage = object(stage);
     identity.frameNumber = frame;
     identity.viewport = viewport;
     return identity;
@@ -237,12 +247,14 @@ TEST_CASE("view registry: views of a context that is closed are forgotten", "[br
 TEST_CASE("view registry: a camera made for each picture does not pile up", "[bridge]")
 {
     Registry registry;
-    const std::vector<char> cameras(1000);
-    for (std::size_t i = 0; i < cameras.size(); ++i)
+    for (uint64_t frame = 1; frame <= 1000; ++frame)
     {
-        PassIdentity identity = pass(0, 0, i + 1);
-        identity.camera = &cameras[i];
+        const osg::ref_ptr<osg::Referenced> camera = new osg::Referenced;
+        PassIdentity identity = pass(0, 0, frame);
+        identity.camera = camera.get();
         acquire(registry, identity);
     }
     CHECK(registry.states().size() <= Registry::kMostSingles);
+    CHECK(registry.states().size() >
+          1u); // each is another one, though malloc gives addresses again
 }
