@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace osgRayTrace::engine
 {
@@ -44,6 +45,36 @@ bool GeometryCache::BufferPrint::operator==(const BufferPrint& other) const
                                p.ranges);
     };
     return values(*this) == values(other);
+}
+
+/// The values decide if the modified count or the place of the data alone differs; what was compared is
+/// remembered in both.
+bool GeometryCache::isSame(BufferPrint& then, BufferPrint& now)
+{
+    if (then == now)
+    {
+        now.contents = then.contents;
+        return true;
+    }
+    BufferPrint values = now;
+    values.modified = then.modified;
+    values.data = then.data;
+    if (!(values == then)) return false;
+    if (!now.contents) now.contents = contentsPrint(*now.buffer);
+    if (then.contents != now.contents) return false;
+    then = now;
+    return true;
+}
+
+/// Compares all, also behind what differs, so that the contents of all that is modified are known the
+/// next time.
+bool GeometryCache::isSame(Fingerprint& then, Fingerprint& now)
+{
+    if (then.size() != now.size()) return false;
+    bool same = true;
+    for (std::size_t i = 0; i < then.size(); ++i)
+        same &= isSame(then[i], now[i]);
+    return same;
 }
 
 GeometryCache::BufferPrint GeometryCache::printOf(const osg::BufferData* buffer, unsigned int kind)
@@ -87,6 +118,11 @@ const GeometryCache::Entry* GeometryCache::find(const osg::Geometry& geometry) c
     return found->second.geometry.get() == &geometry ? &found->second : nullptr;
 }
 
+GeometryCache::Entry* GeometryCache::find(const osg::Geometry& geometry)
+{
+    return const_cast<Entry*>(std::as_const(*this).find(geometry));
+}
+
 const MeshRequest* GeometryCache::lastRequest(const osg::Geometry& geometry) const
 {
     const Entry* entry = find(geometry);
@@ -100,10 +136,12 @@ const ConversionCounts& GeometryCache::lastCounts(const osg::Geometry& geometry)
     return entry ? entry->counts : *none;
 }
 
-bool GeometryCache::hasSameArrays(const osg::Geometry& geometry) const
+bool GeometryCache::hasSameArrays(const osg::Geometry& geometry)
 {
-    const Entry* entry = find(geometry);
-    if (!entry || !(entry->fingerprint == fingerprintOf(geometry))) return false;
+    Entry* entry = find(geometry);
+    if (!entry) return false;
+    Fingerprint now = fingerprintOf(geometry);
+    if (!isSame(entry->fingerprint, now)) return false;
     entry->same = _stamp;
     return true;
 }
@@ -125,17 +163,17 @@ void GeometryCache::noteLiveness(const osg::Geometry& geometry, Liveness livenes
 
 /// Positions changed alone, as a rule. Not if values were repaired, which may have been by positions, or
 /// if vertices were split, which is by primitive sets: then counts or sizes say so.
-KeptArrays GeometryCache::keptArrays(const Entry& before, const Fingerprint& now)
+KeptArrays GeometryCache::keptArrays(Entry& before, Fingerprint& now)
 {
     KeptArrays kept;
-    const Fingerprint& then = before.fingerprint;
-    const bool plain = before.counts.empty() && then.size() == now.size() &&
-                       std::equal(then.begin() + kPrimitives, then.end(), now.begin() + kPrimitives);
-    if (!plain) return kept;
-    if (then[kNormals] == now[kNormals]) kept.normals = before.mesh->normals;
-    if (then[kColors] == now[kColors]) kept.colors = before.mesh->colors;
-    if (then[kUvs] == now[kUvs]) kept.uvs = before.mesh->uvs;
-    if (then[kUvs1] == now[kUvs1]) kept.uvs1 = before.mesh->uvs1;
+    Fingerprint& then = before.fingerprint;
+    if (!before.counts.empty() || then.size() != now.size()) return kept;
+    for (std::size_t i = kPrimitives; i < then.size(); ++i)
+        if (!isSame(then[i], now[i])) return kept;
+    if (isSame(then[kNormals], now[kNormals])) kept.normals = before.mesh->normals;
+    if (isSame(then[kColors], now[kColors])) kept.colors = before.mesh->colors;
+    if (isSame(then[kUvs], now[kUvs])) kept.uvs = before.mesh->uvs;
+    if (isSame(then[kUvs1], now[kUvs1])) kept.uvs1 = before.mesh->uvs1;
     return kept;
 }
 
@@ -144,14 +182,20 @@ std::shared_ptr<const Mesh> GeometryCache::mesh(const osg::Geometry& geometry, u
                                                 ConversionReport& report)
 {
     Entry& entry = _entries[{&geometry, variant}];
-    const bool known = entry.used != 0 && entry.geometry.get() == &geometry &&
-                       entry.variance == geometry.getDataVariance() && entry.request == request &&
-                       (entry.same == _stamp || entry.fingerprint == fingerprintOf(geometry));
+    const bool had = entry.used != 0 && entry.geometry.get() == &geometry;
+    Fingerprint fingerprint;
+    bool sameArrays = had && entry.same == _stamp;
+    if (!sameArrays)
+    {
+        fingerprint = fingerprintOf(geometry);
+        sameArrays = had && isSame(entry.fingerprint, fingerprint);
+    }
+    const bool known = sameArrays && entry.variance == geometry.getDataVariance() &&
+                       entry.request == request;
     if (!known)
     {
-        Fingerprint fingerprint = fingerprintOf(geometry);
-        const bool other = entry.used != 0 && entry.geometry.get() == &geometry &&
-                           !(entry.fingerprint == fingerprint);
+        if (fingerprint.empty()) fingerprint = entry.fingerprint;
+        const bool other = had && !sameArrays;
         const bool kept = other && entry.mesh && entry.request == request && request.copies;
         ConvertedMesh converted = convertGeometry(
             geometry, request, kept ? keptArrays(entry, fingerprint) : KeptArrays());

@@ -9,6 +9,7 @@
 #include <osg/observer_ptr>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -26,8 +27,8 @@ enum class Liveness : uint8_t
 };
 
 /// A geometry is taken as unchanged while its arrays and primitive sets are the same objects with
-/// the same modified counts, sizes and addresses: call dirty() on an array whose values were
-/// changed.
+/// the same modified counts, sizes and addresses, or the same values where these differ: call dirty()
+/// on an array whose values were changed.
 class GeometryCache
 {
 public:
@@ -48,7 +49,7 @@ public:
     const ConversionCounts& lastCounts(const osg::Geometry& geometry) const;
 
     /// Whether its arrays are those of its last mesh. It was asked for in the last snapshot.
-    bool hasSameArrays(const osg::Geometry& geometry) const;
+    bool hasSameArrays(const osg::Geometry& geometry);
 
     Liveness liveness(const osg::Geometry& geometry) const;
 
@@ -79,8 +80,9 @@ private:
         unsigned int kind = 0;  // binding of an array, mode of a primitive set
         unsigned int count = 0; // vertices of a primitive set
         uint64_t ranges = 0;    // see rangesPrint
+        std::optional<uint64_t> contents; // of one that was found modified: see contentsPrint
 
-        bool operator==(const BufferPrint& other) const;
+        bool operator==(const BufferPrint& other) const; ///< but for contents
     };
     using Fingerprint = std::vector<BufferPrint>;
 
@@ -93,7 +95,7 @@ private:
         std::shared_ptr<const Mesh> mesh;
         ConversionCounts counts;
         Stamp used = 0;
-        mutable Stamp same = 0; ///< arrays were found to be the same in this snapshot
+        Stamp same = 0; ///< arrays were found to be the same in this snapshot
     };
     using Key = std::pair<const osg::Geometry*, uint32_t>;
     struct KeyHash
@@ -119,10 +121,13 @@ private:
 
     static BufferPrint printOf(const osg::BufferData* buffer, unsigned int kind);
     static Fingerprint fingerprintOf(const osg::Geometry& geometry);
+    static bool isSame(BufferPrint& then, BufferPrint& now);
+    static bool isSame(Fingerprint& then, Fingerprint& now);
 
     const Entry* find(const osg::Geometry& geometry) const;
+    Entry* find(const osg::Geometry& geometry);
     void dropBounds(const BufferPrint& positions);
-    static KeptArrays keptArrays(const Entry& before, const Fingerprint& now);
+    static KeptArrays keptArrays(Entry& before, Fingerprint& now);
 
     std::unordered_map<Key, Entry, KeyHash> _entries;
     std::unordered_map<const osg::Geometry*, LivenessEntry> _liveness; ///< those that are not still

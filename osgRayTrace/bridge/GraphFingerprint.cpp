@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GraphFingerprint.h"
 
+#include "osgRayTrace/bridge/BufferContents.h"
 #include "osgRayTrace/bridge/DrawHint.h"
 #include "osgRayTrace/bridge/GraphCollector.h"
 #include "osgRayTrace/bridge/NodePrints.h"
@@ -33,10 +34,11 @@ class FingerprintVisitor : public osg::NodeVisitor
 {
 public:
     FingerprintVisitor(const ViewingConditions& conditions, const osg::Matrixd& sceneFromLocal,
-                       KeptObjects* kept)
+                       KeptObjects* kept, BufferVersions* versions)
         : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN),
           _digest(kept),
           _kept(kept),
+          _versions(versions),
           _eye(conditions.eye),
           _view(conditions.view),
           _cullStack(conditions.view),
@@ -118,17 +120,9 @@ public:
         _arrays.clear();
         geometry.getArrayList(_arrays);
         for (const auto& array : _arrays)
-        {
-            _digest.addObject(array);
-            _digest.add(array->getModifiedCount(), array->getNumElements(), array->getBinding());
-        }
+            addArray(*array);
         for (const auto& primitives : geometry.getPrimitiveSetList())
-        {
-            _digest.addObject(primitives);
-            _digest.add(primitives->getModifiedCount(), primitives->getMode(),
-                        hasTriangles(*primitives) ? primitives->getNumIndices() : 0u,
-                        rangesPrint(*primitives));
-        }
+            if (primitives) addPrimitives(*primitives);
         traverse(geometry);
     }
 
@@ -170,6 +164,22 @@ private:
         _digest.add(box._min, box._max);
     }
 
+    void addArray(const osg::Array& array)
+    {
+        if (_versions) return _digest.add(_versions->of(array));
+        _digest.addObject(&array);
+        _digest.add(array.getModifiedCount(), array.getNumElements(), array.getBinding());
+    }
+
+    void addPrimitives(const osg::PrimitiveSet& primitives)
+    {
+        if (_versions) return _digest.add(_versions->of(primitives));
+        _digest.addObject(&primitives);
+        _digest.add(primitives.getModifiedCount(), primitives.getMode(),
+                    hasTriangles(primitives) ? primitives.getNumIndices() : 0u,
+                    rangesPrint(primitives));
+    }
+
     void addStateSetOf(const osg::Node& node)
     {
         _digest.addObject(node.getStateSet());
@@ -180,6 +190,7 @@ private:
 
     Digest _digest;
     KeptObjects* _kept;
+    BufferVersions* _versions;
     osg::Vec3d _eye;
     std::optional<ReferenceView> _view;
     ReferenceCullStack _cullStack;
@@ -190,10 +201,13 @@ private:
 } // namespace
 
 uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions,
-                          const osg::Matrixd& sceneFromLocal, KeptObjects* kept)
+                          const osg::Matrixd& sceneFromLocal, KeptObjects* kept,
+                          BufferVersions* versions)
 {
-    FingerprintVisitor visitor(conditions, sceneFromLocal, kept);
+    if (versions) versions->begin();
+    FingerprintVisitor visitor(conditions, sceneFromLocal, kept, versions);
     root.accept(visitor);
+    if (versions) versions->end();
     return visitor.value();
 }
 

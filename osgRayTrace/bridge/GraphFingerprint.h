@@ -13,14 +13,17 @@
 namespace osgRayTrace::engine
 {
 
+class BufferVersions;
+
 /// A number that changes with the children that are active for the eye, their order and masks, with
 /// transforms, with the modified counts and bounds of geometry, with state sets, and with the
 /// values of the attributes and lights that are traced; those of the inherited state included.
 /// Vertex data that is written without Array::dirty(), and images without Image::dirty(), go
 /// unseen: that is what dirtyScene() is for. Reads the graph only.
-/// sceneFromLocal: of the place that root is at. kept: as in Digest.
+/// sceneFromLocal: of the place that root is at. kept: as in Digest. versions: stand for the modified
+/// counts of arrays and primitive sets, so that equal values are no change; slower.
 uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions,
                           const osg::Matrixd& sceneFromLocal = osg::Matrixd(),
-                          KeptObjects* kept = nullptr);
+                          KeptObjects* kept = nullptr, BufferVersions* versions = nullptr);
 
 } // namespace osgRayTrace::engine

@@ -94,6 +94,7 @@ osg::Node* GraphWatch::firstNode(osg::Node& root) const
 
 void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
 {
+    WatchedGraph before = std::move(_graph); // keeps its nodes alive until the end
     *this = GraphWatch();
     _graph.traversalMask = conditions.traversalMask;
     _plain = conditions;
@@ -108,10 +109,30 @@ void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
         _graph.append(*first, kNowhere, osg::Matrixd(), _graph.firstDepth, _plain);
     }
     _graph.finish();
+    takeVersions(before);
     _graph.nodes.shrink_to_fit();
     _graph.kept.shrink_to_fit();
     _graph.places.shrink_to_fit();
     _recorded = true;
+}
+
+/// What is known of the contents of nodes that were there before.
+void GraphWatch::takeVersions(WatchedGraph& before)
+{
+    std::unordered_map<const osg::Node*, WatchedOpaque*> known;
+    for (const WatchedNode& node : before.nodes)
+        if (node.kind == NodeKind::Opaque && before.opaques[node.item].versions)
+            known.emplace(node.node, &before.opaques[node.item]);
+    if (known.empty()) return;
+    for (const WatchedNode& node : _graph.nodes)
+    {
+        if (node.kind != NodeKind::Opaque) continue;
+        const auto found = known.find(node.node);
+        if (found == known.end()) continue;
+        _graph.opaques[node.item].contents = found->second->contents;
+        _graph.opaques[node.item].versions = std::move(found->second->versions);
+        known.erase(found);
+    }
 }
 
 GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditions)
@@ -160,10 +181,23 @@ bool GraphWatch::isAsItWas(WatchedNode& node)
             place.moved = _anyMoved = true;
         }
     }
-    if (node.kind == NodeKind::Opaque)
-        return graphFingerprint(*node.node, _plain, _graph.opaques[node.item].sceneFromLocal) ==
-               node.print;
+    if (node.kind == NodeKind::Opaque) return isOpaqueAsItWas(node);
     return node.repeated || nodePrint(node.kind, *node.node) == node.print;
+}
+
+/// Where only modified counts differ the values of arrays decide.
+bool GraphWatch::isOpaqueAsItWas(WatchedNode& node)
+{
+    WatchedOpaque& opaque = _graph.opaques[node.item];
+    const uint64_t print = graphFingerprint(*node.node, _plain, opaque.sceneFromLocal);
+    if (print == node.print) return true;
+    if (!opaque.versions) opaque.versions = std::make_unique<BufferVersions>();
+    const uint64_t contents = graphFingerprint(*node.node, _plain, opaque.sceneFromLocal, nullptr,
+                                               opaque.versions.get());
+    const bool same = opaque.contents == contents;
+    opaque.contents = contents;
+    if (same) node.print = print;
+    return same;
 }
 
 /// False if the nodes that follow may be gone, and it cannot be said which.
@@ -346,6 +380,7 @@ void GraphWatch::lookAtBuffers(GraphChanges& changes)
         const uint64_t print = bufferPrint(buffer.kind, *buffer.data);
         if (print == buffer.print) continue;
         buffer.print = print;
+        if (!buffer.contents.change(*buffer.data)) continue;
         changes.convert |= !buffer.shape; // it may be a part of the material
         const osg::Geometry* geometry = _graph.geometries[buffer.geometry].geometry;
         if (buffer.shape && (changes.deformed.empty() || changes.deformed.back() != geometry))

@@ -32,8 +32,10 @@ public:
 
 private:
     osg::Node* firstNode(osg::Node& root) const;
+    void takeVersions(WatchedGraph& before);
     bool lookAtNodes(GraphChanges& changes);
     bool isAsItWas(WatchedNode& node);
+    bool isOpaqueAsItWas(WatchedNode& node);
     bool redo(uint32_t index, GraphChanges& changes);
     bool redoChildren(uint32_t index, GraphChanges& changes);
     bool remove(uint32_t index, GraphChanges& changes);

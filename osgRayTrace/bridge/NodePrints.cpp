@@ -2,6 +2,7 @@
 // bridge. SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/NodePrints.h"
 
+#include "osgRayTrace/bridge/BufferContents.h"
 #include "osgRayTrace/bridge/DrawHint.h"
 #include "osgRayTrace/bridge/StateFingerprint.h"
 #include "osgRayTrace/bridge/TriangleList.h"
@@ -94,23 +95,36 @@ template <class Elements> uint64_t elementsPrint(const osg::BufferData& data)
     return valuePrint(set.getModifiedCount(), set.size(), set.asVector().data(), set.getMode());
 }
 
-uint64_t otherPrint(const osg::BufferData& data)
+/// What buffers of all classes have.
+struct BufferLayout
 {
     std::size_t count = 0;
-    unsigned int kind = 0;
-    uint64_t ranges = 0;
+    unsigned int kind = 0; ///< binding of an array, mode of a primitive set
+    uint64_t ranges = 0;   ///< see rangesPrint
+};
+
+BufferLayout layoutOf(const osg::BufferData& data)
+{
+    BufferLayout layout;
     if (const osg::Array* array = data.asArray())
     {
-        count = array->getNumElements();
-        kind = static_cast<unsigned int>(array->getBinding());
+        layout.count = array->getNumElements();
+        layout.kind = static_cast<unsigned int>(array->getBinding());
     }
     else if (const osg::PrimitiveSet* set = data.asPrimitiveSet())
     {
-        if (hasTriangles(*set)) count = set->getNumIndices(); // others may lack what they count
-        kind = set->getMode();
-        ranges = rangesPrint(*set);
+        if (hasTriangles(*set)) layout.count = set->getNumIndices(); // others may lack what they count
+        layout.kind = set->getMode();
+        layout.ranges = rangesPrint(*set);
     }
-    return valuePrint(data.getModifiedCount(), count, data.getDataPointer(), kind) + ranges;
+    return layout;
+}
+
+uint64_t otherPrint(const osg::BufferData& data)
+{
+    const BufferLayout layout = layoutOf(data);
+    return valuePrint(data.getModifiedCount(), layout.count, data.getDataPointer(), layout.kind) +
+           layout.ranges;
 }
 
 uint64_t environmentPrint(const EnvironmentLight& light, KeptObjects* kept)
@@ -264,6 +278,14 @@ uint64_t rangesPrint(const osg::PrimitiveSet& set)
     for (const GLsizei count : several->getCounts())
         print = fold(print + 1, static_cast<uint32_t>(count));
     return print;
+}
+
+uint64_t contentsPrint(const osg::BufferData& data)
+{
+    const BufferLayout layout = layoutOf(data);
+    const void* const values = data.getDataPointer();
+    const uint64_t hash = values ? contentHash(values, data.getTotalDataSize()) : 0;
+    return fold(hash, uint64_t(layout.count) << 32 ^ layout.kind) + layout.ranges;
 }
 
 uint64_t bufferPrint(BufferKind kind, const osg::BufferData& data)

@@ -85,6 +85,9 @@ BufferKind bufferKindOf(const osg::BufferData& data);
 /// Its modified count, its size and where its data is; of some kinds more.
 uint64_t bufferPrint(BufferKind kind, const osg::BufferData& data);
 
+/// Its values, and what else bufferPrint knows but for the modified count and where the data is.
+uint64_t contentsPrint(const osg::BufferData& data);
+
 /// Which vertices a set without indices takes, whose setters mark nothing as changed; else 0.
 uint64_t rangesPrint(const osg::PrimitiveSet& set);
 

@@ -72,7 +72,7 @@ void WatchedGraph::setBuffers(uint32_t index)
                   {
                       if (!data) return;
                       const BufferKind kind = bufferKindOf(*data);
-                      buffers.push_back({keep(data), bufferPrint(kind, *data), index, kind, shape});
+                      buffers.push_back({keep(data), bufferPrint(kind, *data), index, kind, shape, {}});
                   });
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/BufferContents.h"
 #include "osgRayTrace/bridge/NodePrints.h"
 #include "osgRayTrace/bridge/ObjectIdentity.h"
 #include "osgRayTrace/bridge/ViewingConditions.h"
@@ -12,6 +13,8 @@
 #include <osg/StateSet>
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -69,6 +72,7 @@ struct WatchedBuffer
     uint32_t geometry = 0;
     BufferKind kind = BufferKind::Other;
     bool shape = false; ///< positions, normals or primitives
+    BufferContents contents; ///< as of the last change of the print
 };
 
 struct WatchedState
@@ -103,6 +107,8 @@ struct WatchedOpaque
 
     osg::Matrixd sceneFromLocal;
     KeptObjects kept; ///< of its print
+    std::optional<uint64_t> contents;         ///< its print by versions, as of the last change
+    std::unique_ptr<BufferVersions> versions; ///< null: it has not changed
 };
 
 /// All nodes that a traversal would visit, in its order, each on every path. Whatever is compared
