@@ -6,7 +6,7 @@ ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # Debian 12's names. xvfb, xauth and openscenegraph (osgviewer, osgconv) are used by the tests, gnuplot by
 # "osgraytracebench report".
 PACKAGES=(build-essential cmake ninja-build
-          libopenscenegraph-dev libembree-dev libtbb-dev libglm-dev libopenexr-dev
+          libopenscenegraph-dev libembree-dev libtbb-dev libglm-dev libopenexr-dev libpng-dev libjpeg-dev
           libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri
           libcli11-dev nlohmann-json3-dev catch2 openscenegraph xvfb xauth
           gnuplot-nox)

@@ -165,6 +165,8 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     convertScene();
     session->setView(engine::viewFromMatrices(viewMatrix, projectionMatrix, width, height));
     session->setOptions(engine::renderOptionsFromSettings(*settings));
+    // The session would forget it at its first pass.
+    if (cancelled) throw EngineError(StatusCode::Cancelled, "the render was cancelled");
 
     const auto begin = std::chrono::steady_clock::now();
     // A tile at least, so that there is an end, however short the time.

@@ -17,15 +17,16 @@ enum ExitCode
     kCannotWrite = 4,
 };
 
-/// Caught in main, which prints the message as one line.
+/// Caught by runProgram, which prints the message as one line.
 class Failure : public std::runtime_error
 {
 public:
-    Failure(ExitCode code, const std::string& message) : std::runtime_error(message), _code(code) {}
-    ExitCode code() const { return _code; }
+    /// code: an ExitCode, or what a signal ends with.
+    Failure(int code, const std::string& message) : std::runtime_error(message), _code(code) {}
+    int code() const { return _code; }
 
 private:
-    ExitCode _code;
+    int _code;
 };
 
 } // namespace osgRayTrace::app

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "Options.h"
 
-#include "Output.h"
+#include "PictureFile.h"
 #include "apps/common/Failure.h"
+#include "osgRayTrace/base/NumberText.h"
 
 #include <CLI/CLI.hpp>
 
@@ -49,9 +50,8 @@ CLI::Validator between(double low, double high, const std::string& wanted)
 {
     const auto problem = [=](const std::string& text)
     {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        const bool good = *end == '\0' && value > low && value < high;
+        const auto value = engine::parseNumber<double>(text);
+        const bool good = value && *value > low && *value < high;
         return good ? std::string() : "'" + text + "' is not " + wanted;
     };
     return CLI::Validator(problem, "");

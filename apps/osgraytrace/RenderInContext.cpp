@@ -3,6 +3,7 @@
 #include "Picture.h"
 
 #include "apps/common/Failure.h"
+#include "apps/common/Interruption.h"
 
 #include <osgRayTrace/RayTracedScene>
 #include <osgRayTrace/offscreen/FrameCapture>
@@ -31,8 +32,10 @@ osg::ref_ptr<osg::GraphicsContext> createContext(const Options& options)
                                      std::to_string(options.height));
 }
 
+/// A signal ends it with the pass at work: a drawable's passes are not cut short.
 bool finished(const Options& options, const Statistics& statistics)
 {
+    if (isInterrupted()) return true;
     const bool enoughPasses = statistics.passes >= options.settings->getMaxPasses();
     const bool enoughTime = options.seconds > 0.0 && statistics.renderSeconds >= options.seconds;
     return enoughPasses || enoughTime || statistics.relativeError <= options.relativeError;

@@ -3,6 +3,7 @@
 #include "Picture.h"
 
 #include "apps/common/Failure.h"
+#include "apps/common/Interruption.h"
 
 #include <osgRayTrace/Renderer>
 
@@ -25,8 +26,17 @@ Picture renderWithoutContext(const Options& options, osg::Node& scene, const Cam
         progress.show(statistics);
         return true;
     };
-    const bool rendered = renderer->render(options.seconds, options.relativeError, show);
-    if (!rendered) throw Failure(kCannotRender, renderer->getStatistics().message);
+    bool rendered = false;
+    {
+        const OrderlyEnd end([renderer] { renderer->cancel(); });
+        rendered = renderer->render(options.seconds, options.relativeError, show);
+    }
+    const bool begun = renderer->getStatistics().imageShare > 0.0;
+    if (isInterrupted() && !begun)
+        throw Failure(interruptionCode(),
+                      interruptionName() + ": no part of the picture was rendered yet");
+    if (!rendered && !isInterrupted())
+        throw Failure(kCannotRender, renderer->getStatistics().message);
 
     Picture picture;
     picture.radiance = renderer->getColorImage();

@@ -3,6 +3,7 @@
 #include "StatisticsText.h"
 
 #include "apps/common/ErrorText.h"
+#include "apps/common/Interruption.h"
 
 #include <nlohmann/json.hpp>
 
@@ -59,6 +60,7 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
     json["passes"] = statistics.passes;
     json["imageShare"] = statistics.imageShare;
     if (!statistics.lightNote.empty()) json["lightNote"] = statistics.lightNote;
+    if (isInterrupted()) json["interrupted"] = interruptionName();
     json["renderSeconds"] = statistics.renderSeconds;
     json["rays"] = {{"camera", statistics.cameraRays},
                     {"shadow", statistics.shadowRays},

@@ -2,31 +2,36 @@
 // SPDX-License-Identifier: MIT
 #include "Camera.h"
 #include "Options.h"
-#include "Output.h"
 #include "Picture.h"
+#include "PictureFile.h"
 #include "Progress.h"
 #include "Reference.h"
 #include "StatisticsText.h"
 #include "apps/common/DrawnParts.h"
 #include "apps/common/ErrorMeasures.h"
-#include "apps/common/Failure.h"
+#include "apps/common/Interruption.h"
 #include "apps/common/ModelFiles.h"
+#include "apps/common/Output.h"
 #include "apps/common/PluginPath.h"
+#include "apps/common/Program.h"
 #include "apps/common/StoredScene.h"
 
 #include <osgGA/EventVisitor>
 #include <osgViewer/Viewer>
 
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace osgRayTrace::app
 {
 
 namespace
 {
+
+constexpr const char* kProgram = "osgraytrace";
 
 Picture render(const Options& options, osg::Node& scene)
 {
@@ -93,14 +98,82 @@ void printMeasures(const ErrorMeasures& measures)
                 measures.meanRatio);
 }
 
-void run(Options options)
+/// Says what a signal has left of the picture.
+void reportInterruption(const Options& options, const Statistics& statistics)
 {
-    // What can fail without rendering fails first.
+    std::string left = std::to_string(statistics.passes) + " of at most " +
+                       std::to_string(options.settings->getMaxPasses()) + " passes are written";
+    if (statistics.passes == 0)
+    {
+        const int percent = static_cast<int>(100.0 * statistics.imageShare);
+        left = "not even the first pass was complete: " + std::to_string(percent) +
+               " % of the picture is written, the rest of it is background";
+    }
+    std::cerr << "osgraytrace: " << interruptionName() << ": " << left << '\n';
+}
+
+/// The outputs that a picture of this size can be written to. What cannot be is said, and
+/// remembered in code.
+std::vector<std::string> writableOutputs(const Options& options, int& code)
+{
+    std::vector<std::string> writable;
     for (const std::string& output : options.outputs)
     {
-        checkWritable(output);
+        const std::string problem = whyNotInFile(output, options.width, options.height);
+        if (problem.empty())
+            writable.push_back(output);
+        else
+            code = reportFailure(kProgram, cannotWrite(output, problem));
     }
-    if (!options.statistics.empty()) checkWritable(options.statistics);
+    return writable;
+}
+
+/// Writes what can be written, whatever else cannot be.
+int writeAll(const Options& options, const std::vector<std::string>& outputs,
+             const Picture& picture, const std::optional<ErrorMeasures>& measures)
+{
+    int code = kDone;
+    const auto attempt = [&code](const auto& write)
+    {
+        try
+        {
+            write();
+        }
+        catch (const Failure& failure)
+        {
+            code = reportFailure(kProgram, failure);
+        }
+    };
+    for (const std::string& output : outputs)
+    {
+        attempt(
+            [&]
+            {
+                writePicture(output, picture);
+                warnOfMissingParts(output, options, picture.statistics);
+            });
+    }
+    if (!options.statistics.empty())
+    {
+        const std::string text = statisticsJson(options, picture.statistics, measures);
+        attempt([&] { writeText(options.statistics, text); });
+    }
+    return code;
+}
+
+int run(Options options)
+{
+    // What can fail without rendering fails first.
+    std::vector<Output> files;
+    for (const std::string& output : options.outputs)
+    {
+        files.push_back({"-o", output});
+    }
+    if (!options.statistics.empty()) files.push_back({"--stats", options.statistics});
+    checkOutputs(files);
+    int code = kDone;
+    const std::vector<std::string> outputs = writableOutputs(options, code);
+    if (outputs.empty() && options.statistics.empty() && !options.report) return code;
     const std::string materialsError = options.settings->getMaterialsError();
     if (!materialsError.empty()) throw Failure(kCannotLoad, "--materials " + materialsError);
     osg::ref_ptr<osg::Image> reference;
@@ -110,21 +183,29 @@ void run(Options options)
     takeSettingsOf(*scene, options);
     goToFirstFrame(*scene);
 
+    const OrderlyEnd end; // from here on there is something to write
     const Picture picture = render(options, *scene);
     std::optional<ErrorMeasures> measures;
     if (reference) measures = errorMeasures(*picture.radiance, *reference);
 
-    for (const std::string& output : options.outputs)
-    {
-        writePicture(output, picture);
-        warnOfMissingParts(output, options, picture.statistics);
-    }
-    if (!options.statistics.empty())
-    {
-        writeText(options.statistics, statisticsJson(options, picture.statistics, measures));
-    }
+    const int written = writeAll(options, outputs, picture, measures);
     std::puts(statisticsLine(options, picture.statistics, *picture.radiance).c_str());
     if (measures) printMeasures(*measures);
+    if (isInterrupted()) reportInterruption(options, picture.statistics);
+    return written != kDone ? written : code;
+}
+
+int runCommandLine(int argc, char** argv)
+{
+    const std::optional<Options> options = parseOptions(argc, argv);
+    if (!options) return kDone;
+    if (options->listOptions)
+    {
+        std::cout << optionTable();
+        return kDone;
+    }
+    addPluginPath();
+    return run(*options);
 }
 
 } // namespace
@@ -134,27 +215,5 @@ void run(Options options)
 int main(int argc, char** argv)
 {
     using namespace osgRayTrace::app;
-    try
-    {
-        const std::optional<Options> options = parseOptions(argc, argv);
-        if (!options) return kDone;
-        if (options->listOptions)
-        {
-            std::cout << optionTable();
-            return kDone;
-        }
-        addPluginPath();
-        run(*options);
-        return kDone;
-    }
-    catch (const Failure& failure)
-    {
-        std::cerr << "osgraytrace: " << failure.what() << '\n';
-        return failure.code();
-    }
-    catch (const std::exception& error)
-    {
-        std::cerr << "osgraytrace: " << error.what() << '\n';
-        return kCannotRender;
-    }
+    return runProgram(kProgram, [=] { return runCommandLine(argc, argv); });
 }

@@ -166,15 +166,13 @@ void measureTime(Rows& rows)
 
 } // namespace
 
-Rows measureDenoise()
+void measureDenoise(Rows& rows)
 {
-    Rows rows;
     measureTime(rows);
     if (DenoiseOidn::isBuiltIn()) measureOidnTime(rows);
     measureError(rows, "diffuse", cornellBox(kWidth, kHeight));
     measureError(rows, "glossy", glossyBox(kWidth, kHeight));
     measureError(rows, "textured", texturedBox(kWidth, kHeight));
-    return rows;
 }
 
 } // namespace osgRayTrace::bench

@@ -9,6 +9,6 @@ namespace osgRayTrace::bench
 
 /// On a diffuse, a glossy and a textured box: relMSE against a converged picture at one and four
 /// passes without and with the filter, and what it takes at 1920 x 1080.
-Rows measureDenoise();
+void measureDenoise(Rows& rows);
 
 } // namespace osgRayTrace::bench

@@ -127,14 +127,12 @@ void measurePair(const ScenePair& pair, bool hasGoal, Rows& rows)
 
 } // namespace
 
-Rows measureFeatures()
+void measureFeatures(Rows& rows)
 {
-    Rows rows;
     for (const ScenePair& pair : unusedFeatures(kSize))
         measurePair(pair, true, rows);
     for (const ScenePair& pair : generalWays(kSize))
         measurePair(pair, false, rows);
-    return rows;
 }
 
 } // namespace osgRayTrace::bench

@@ -12,6 +12,6 @@ namespace osgRayTrace::bench
 /// so all that may differ is the price of a code path that is allowed. Then what the specialised
 /// paths gain: the same picture taken the general way; here are instances and lights, which take
 /// part in every ray's way wherever they are.
-Rows measureFeatures();
+void measureFeatures(Rows& rows);
 
 } // namespace osgRayTrace::bench

@@ -326,9 +326,8 @@ View fieldView(int width, int height)
 
 } // namespace
 
-Rows measureInteractive(const InteractiveOptions& options)
+void measureInteractive(const InteractiveOptions& options, Rows& rows)
 {
-    Rows rows;
     const auto workers = std::make_shared<Workers>(options.threads);
     const Clock clock = clockOf(options, workers->threads());
     const auto measure = [&](const std::string& name, const auto& makeVersion, const View& view)
@@ -353,7 +352,6 @@ Rows measureInteractive(const InteractiveOptions& options)
     measure(
         "10,000 instances", [&] { return fieldVersion(workers); },
         fieldView(options.width, options.height));
-    return rows;
 }
 
 } // namespace osgRayTrace::bench

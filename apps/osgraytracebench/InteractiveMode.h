@@ -22,6 +22,6 @@ struct InteractiveOptions
 /// wall: what other programs take of the machine is in it; or by cpuClock, as if there were none:
 /// exact for one thread, and as if none of several ever waited for another. Without OpenGL: the
 /// display's buffers are resolved as in a viewer, and a copy of them stands for their upload.
-Rows measureInteractive(const InteractiveOptions& options);
+void measureInteractive(const InteractiveOptions& options, Rows& rows);
 
 } // namespace osgRayTrace::bench

@@ -113,9 +113,8 @@ void measurePath(const std::string& name, const BenchScene& bench, double goal, 
 
 } // namespace
 
-Rows measureLimit(const std::string& only)
+void measureLimit(const std::string& only, Rows& rows)
 {
-    Rows rows;
     const auto wanted = [&](const std::string& name) { return name.find(only) != std::string::npos; };
     if (wanted("box 1920x1080")) measureFrame("box 1920x1080", cornellBox(1920, 1080), 0.55, rows);
     if (wanted("sphere 1920x1080"))
@@ -123,7 +122,6 @@ Rows measureLimit(const std::string& only)
     if (wanted("box 640x360")) measurePath("box 640x360", cornellBox(640, 360), 0.60, rows);
     if (wanted("sphere 640x360")) measurePath("sphere 640x360", displacedSphere(640, 360), 0.60, rows);
     if (wanted("1 M triangles")) measureBuild(rows);
-    return rows;
 }
 
 } // namespace osgRayTrace::bench

@@ -11,7 +11,7 @@ namespace osgRayTrace::bench
 /// mapping) against the same rays through bare Embree; path tracing against the same rays one at a time;
 /// two threads against one; graph to ready BVH against Embree's own build and one copy. Of these the parts
 /// whose name holds `only`.
-Rows measureLimit(const std::string& only);
+void measureLimit(const std::string& only, Rows& rows);
 
 /// The rows on building of measureLimit.
 void measureBuild(Rows& rows);

@@ -23,7 +23,7 @@ struct PhotonsOptions
 
 /// Look-ups and building against a plain grid, tracing against Embree alone on the same rays, and
 /// error against time of all that use photons, and of path tracing. Throws app::Failure.
-Rows measurePhotons(const PhotonsOptions& options);
+void measurePhotons(const PhotonsOptions& options, Rows& rows);
 
 /// Parts of it.
 void measurePhotonLookups(const PhotonsOptions& options, Rows& rows);

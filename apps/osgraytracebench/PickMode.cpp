@@ -149,13 +149,11 @@ void measure(Rows& rows, const std::string& name, osg::Node* content, int slowPi
 
 } // namespace
 
-Rows measurePicks()
+void measurePicks(Rows& rows)
 {
-    Rows rows;
     measure(rows, "a million triangles", displacedSphereGeometry().get(), 20);
     const ObjectField field(false);
     measure(rows, "10,000 objects", field.root.get(), 50);
-    return rows;
 }
 
 } // namespace osgRayTrace::bench

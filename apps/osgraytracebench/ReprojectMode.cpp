@@ -3,6 +3,7 @@
 #include "apps/osgraytracebench/ReprojectMode.h"
 
 #include "apps/common/ErrorMeasures.h"
+#include "apps/common/ImageFile.h"
 #include "apps/osgraytracebench/BenchScenes.h"
 #include "apps/osgraytracebench/Timing.h"
 #include "osgRayTrace/base/Parallel.h"
@@ -11,7 +12,6 @@
 #include <osgRayTrace/RayTraceSettings>
 
 #include <osg/Image>
-#include <osgDB/WriteFile>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -176,7 +176,7 @@ void write(const std::string& file, const View& view, const std::vector<float>& 
                 255.0 *
                     std::pow(std::min(1.0, std::max(0.0, double(picture[4 * i + c]))), 1.0 / 2.2) +
                 0.5);
-    osgDB::writeImageFile(*image, file);
+    app::writeImageFile(file, *image);
 }
 
 void measureErrors(Rows& rows, const ReprojectOptions& options, const std::string& name, Look look,
@@ -248,17 +248,15 @@ void measureCosts(Rows& rows, int threads)
 
 } // namespace
 
-Rows measureReprojection(const ReprojectOptions& options)
+void measureReprojection(const ReprojectOptions& options, Rows& rows)
 {
-    Rows rows;
     measureErrors(rows, options, "diffuse", Look::Diffuse, true);
     measureErrors(rows, options, "glossy", Look::Glossy, true);
     measureErrors(rows, options, "textured", Look::Textured, true);
     measureErrors(rows, options, "mirror", Look::Mirror, false);
-    if (!options.costs) return rows;
+    if (!options.costs) return;
     measureCosts(rows, 1);
     measureCosts(rows, 2);
-    return rows;
 }
 
 } // namespace osgRayTrace::bench

@@ -20,6 +20,6 @@ struct ReprojectOptions
 /// Along a path of a head at one pass a frame, by scene: relMSE with and without reprojection,
 /// against a converged picture at the same frame; the ratio at equal CPU time, as the error of
 /// independent passes falls with their number; and what a frame costs.
-Rows measureReprojection(const ReprojectOptions& options);
+void measureReprojection(const ReprojectOptions& options, Rows& rows);
 
 } // namespace osgRayTrace::bench

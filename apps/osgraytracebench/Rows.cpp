@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/Rows.h"
 
+#include "apps/common/Interruption.h"
+#include "apps/common/Output.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 
 namespace osgRayTrace::bench
 {
@@ -22,9 +23,15 @@ bool Row::meets() const
     return true;
 }
 
+void Rows::push_back(Row row)
+{
+    _list.push_back(std::move(row));
+    if (app::isInterrupted()) throw Interrupted();
+}
+
 void printRows(const Rows& rows)
 {
-    for (const Row& row : rows)
+    for (const Row& row : rows.list())
     {
         std::printf("%-58s %12.4g %-14s", row.name.c_str(), row.value, row.unit.c_str());
         if (row.goal != Goal::None)
@@ -34,17 +41,10 @@ void printRows(const Rows& rows)
     }
 }
 
-bool canWriteRows(const std::string& file)
-{
-    const std::string part = file + ".part";
-    if (std::filesystem::is_directory(file) || !std::ofstream(part)) return false;
-    return std::remove(part.c_str()) == 0;
-}
-
-bool writeRows(const Rows& rows, const std::string& file)
+void writeRows(const Rows& rows, const std::string& file)
 {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Row& row : rows)
+    for (const Row& row : rows.list())
     {
         nlohmann::ordered_json entry{{"name", row.name}, {"value", row.value}, {"unit", row.unit}};
         entry["goal"] = nullptr;
@@ -53,13 +53,7 @@ bool writeRows(const Rows& rows, const std::string& file)
         entry["meets"] = row.meets();
         list.push_back(entry);
     }
-    const std::string part = file + ".part";
-    {
-        std::ofstream stream(part);
-        stream << nlohmann::ordered_json{{"rows", list}}.dump(2) << "\n";
-        if (!stream) return false;
-    }
-    return std::rename(part.c_str(), file.c_str()) == 0;
+    app::writeText(file, nlohmann::ordered_json{{"rows", list}}.dump(2) + "\n");
 }
 
 } // namespace osgRayTrace::bench

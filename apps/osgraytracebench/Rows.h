@@ -10,7 +10,7 @@ namespace osgRayTrace::bench
 
 enum class Goal
 {
-    None,    ///< for information
+    None, ///< for information
     AtLeast,
     AtMost,
 };
@@ -26,16 +26,29 @@ struct Row
     bool meets() const;
 };
 
-using Rows = std::vector<Row>;
+/// What Rows throws: a signal has come.
+struct Interrupted
+{
+};
+
+/// Of what is measured one after the other.
+class Rows
+{
+public:
+    /// Throws Interrupted if no more shall be measured.
+    void push_back(Row row);
+
+    const std::vector<Row>& list() const { return _list; }
+
+private:
+    std::vector<Row> _list;
+};
 
 /// A table on standard output.
 void printRows(const Rows& rows);
 
-/// Whether writeRows will be able to: to be asked before minutes of measuring.
-bool canWriteRows(const std::string& file);
-
-/// {"rows":[{"name","value","unit","goal","meets"}, ...]}; goal is null for rows without one. False if the
-/// file cannot be written; then there is none.
-bool writeRows(const Rows& rows, const std::string& file);
+/// {"rows":[{"name","value","unit","goal","meets"}, ...]}; goal is null for rows without one.
+/// Throws app::Failure(kCannotWrite).
+void writeRows(const Rows& rows, const std::string& file);
 
 } // namespace osgRayTrace::bench

@@ -230,13 +230,11 @@ void measureInstances(Rows& rows)
 
 } // namespace
 
-Rows measureUpdate()
+void measureUpdate(Rows& rows)
 {
-    Rows rows;
     measureInstances(rows);
     measureInstanceRays(rows);
     measureEdits(rows);
-    return rows;
 }
 
 } // namespace osgRayTrace::bench

@@ -11,6 +11,6 @@ namespace osgRayTrace::bench
 /// Embree's own commit of as many instances, 1 % of the meshes deformed against Embree's own refit
 /// of them, an edited material; what 10,000 instances of one mesh take, and rays through them. All on one thread, by its
 /// own time, so that a busy machine changes nothing.
-Rows measureUpdate();
+void measureUpdate(Rows& rows);
 
 } // namespace osgRayTrace::bench

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/UpsampleMode.h"
 
+#include "apps/common/ImageFile.h"
 #include "apps/osgraytracebench/BenchScenes.h"
 #include "apps/osgraytracebench/ObjectField.h"
 #include "apps/osgraytracebench/Timing.h"
@@ -14,7 +15,6 @@
 #include <osg/Light>
 #include <osgDB/FileNameUtils>
 #include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
 
 #include <algorithm>
 #include <cmath>
@@ -159,7 +159,7 @@ void writePicture(const ShownImage& image, const std::string& folder, std::strin
     ShownImage shown = image;
     showImage(shown, {}, Workers(), pixels->data(), nullptr);
     blendOver(*pixels, osg::Vec4(0.2f, 0.2f, 0.4f, 1.0f));
-    osgDB::writeImageFile(*pixels, folder + "/" + name + ".png");
+    app::writeImageFile(folder + "/" + name + ".png", *pixels);
 }
 
 double milliseconds(const std::function<void()>& body)
@@ -234,9 +234,8 @@ void measure(Rows& rows, const Subject& subject, const std::string& pictures)
 
 } // namespace
 
-Rows measureUpsampling(const std::vector<std::string>& models, const std::string& pictures)
+void measureUpsampling(const std::vector<std::string>& models, const std::string& pictures, Rows& rows)
 {
-    Rows rows;
     const auto workers = std::make_shared<Workers>();
     const BenchScene box = cornellBox(kWidth, kHeight);
     measure(rows, {"Cornell box", TracedScene::build(box.scene, workers), box.view}, pictures);
@@ -248,7 +247,6 @@ Rows measureUpsampling(const std::vector<std::string>& models, const std::string
         if (model)
             measure(rows, subjectOf(osgDB::getStrippedName(file), model.get(), 2.0), pictures);
     }
-    return rows;
 }
 
 } // namespace osgRayTrace::bench

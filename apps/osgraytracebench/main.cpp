@@ -1,7 +1,10 @@
 // main.cpp - osgraytracebench: speed and error. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/common/Failure.h"
+#include "apps/common/Interruption.h"
+#include "apps/common/Output.h"
 #include "apps/common/PluginPath.h"
+#include "apps/common/Program.h"
 #include "apps/osgraytracebench/DenoiseMode.h"
 #include "apps/osgraytracebench/FeaturesMode.h"
 #include "apps/osgraytracebench/InteractiveMode.h"
@@ -17,7 +20,6 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
@@ -28,17 +30,29 @@ using namespace osgRayTrace::bench;
 namespace
 {
 
+constexpr const char* kProgram = "osgraytracebench";
 constexpr int kCompareUsage = 2;
 
-/// A mode that makes rows. What can fail without measuring fails first.
-int runRows(const std::function<Rows()>& measure, const std::string& json)
+/// A mode that makes rows. What can fail without measuring fails first; a signal leaves the rows so
+/// far.
+int runRows(const std::function<void(Rows&)>& measure, const std::string& json)
 {
-    const app::Failure cannotWrite(app::kCannotWrite, "cannot write " + json);
-    if (!json.empty() && !canWriteRows(json)) throw cannotWrite;
-    const Rows rows = measure();
-    if (rows.empty()) throw app::Failure(app::kUsage, "--only: nothing that is measured has this in its name");
+    if (!json.empty()) app::checkOutputs({{"--json", json}});
+    const app::OrderlyEnd end;
+    Rows rows;
+    try
+    {
+        measure(rows);
+    }
+    catch (const Interrupted&)
+    {
+        std::fprintf(stderr, "%s: %s: the rest was not measured\n", kProgram,
+                     app::interruptionName().c_str());
+    }
+    if (rows.list().empty())
+        throw app::Failure(app::kUsage, "--only: nothing that is measured has this in its name");
     printRows(rows);
-    if (!json.empty() && !writeRows(rows, json)) throw cannotWrite;
+    if (!json.empty()) writeRows(rows, json);
     return app::kDone;
 }
 
@@ -47,13 +61,13 @@ struct CommandLine
 {
     CommandLine()
     {
-        for (CLI::App* rows :
-             {&limit, &features, &photons, &update, &pick, &interactive, &denoise, &reproject,
-              &upsample})
+        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick, &interactive, &denoise,
+                               &reproject, &upsample})
             rows->add_option("--json", json, "write the rows to this file as well");
 
-        limit.add_option("--only", limitOnly,
-                         "parts whose name holds this: box 1920x1080, sphere 640x360, 1 M triangles, ...");
+        limit.add_option(
+            "--only", limitOnly,
+            "parts whose name holds this: box 1920x1080, sphere 640x360, 1 M triangles, ...");
         photons
             .add_option("--width", photonsOptions.width,
                         "width and height of the pictures [pixels]; 0: none are made")
@@ -155,18 +169,21 @@ struct CommandLine
 
     int run()
     {
-        if (limit) return runRows([&] { return measureLimit(limitOnly); }, json);
+        if (limit) return runRows([&](Rows& rows) { measureLimit(limitOnly, rows); }, json);
         if (features) return runRows(measureFeatures, json);
         if (pick) return runRows(measurePicks, json);
         if (interactive)
-            return runRows([&] { return measureInteractive(interactiveOptions); }, json);
+            return runRows([&](Rows& rows) { measureInteractive(interactiveOptions, rows); }, json);
         if (denoise) return runRows(measureDenoise, json);
         if (update) return runRows(measureUpdate, json);
-        if (photons) return runRows([&] { return measurePhotons(photonsOptions); }, json);
-        if (reproject) return runRows([&] { return measureReprojection(reprojectOptions); }, json);
+        if (photons)
+            return runRows([&](Rows& rows) { measurePhotons(photonsOptions, rows); }, json);
+        if (reproject)
+            return runRows([&](Rows& rows) { measureReprojection(reprojectOptions, rows); }, json);
         if (compare) return runCompare(before, after, falseAlarmRate);
         app::addPluginPath();
-        if (upsample) return runRows([&] { return measureUpsampling(models, pictures); }, json);
+        if (upsample)
+            return runRows([&](Rows& rows) { measureUpsampling(models, pictures, rows); }, json);
         return runReport(options);
     }
 
@@ -186,7 +203,8 @@ struct CommandLine
     CLI::App& interactive = *application.add_subcommand(
         "interactive", "whether the frames of a moving camera keep to their budgets");
     CLI::App& denoise = *application.add_subcommand(
-        "denoise", "how much error the denoiser takes from one and four passes, and how long it takes");
+        "denoise",
+        "how much error the denoiser takes from one and four passes, and how long it takes");
     CLI::App& reproject = *application.add_subcommand(
         "reproject", "what a moving view gains from its earlier frames, and what they cost");
     CLI::App& report =
@@ -206,27 +224,22 @@ struct CommandLine
 
 int main(int argc, char** argv)
 {
-    CommandLine commandLine;
-    try
-    {
-        commandLine.application.parse(argc, argv);
-        return commandLine.run();
-    }
-    catch (const CLI::ParseError& error)
-    {
-        if (commandLine.application.exit(error) == 0) return app::kDone;
-        // compare's 1 says that something changed.
-        const bool comparing = argc > 1 && std::string(argv[1]) == "compare";
-        return comparing ? kCompareUsage : app::kUsage;
-    }
-    catch (const app::Failure& failure)
-    {
-        std::fprintf(stderr, "osgraytracebench: %s\n", failure.what());
-        return failure.code();
-    }
-    catch (const std::exception& error)
-    {
-        std::fprintf(stderr, "osgraytracebench: %s\n", error.what());
-        return app::kCannotRender;
-    }
+    return app::runProgram(kProgram,
+                           [=]() -> int
+                           {
+                               CommandLine commandLine;
+                               try
+                               {
+                                   commandLine.application.parse(argc, argv);
+                               }
+                               catch (const CLI::ParseError& error)
+                               {
+                                   if (commandLine.application.exit(error) == 0) return app::kDone;
+                                   // compare's 1 says that something changed.
+                                   const bool comparing =
+                                       argc > 1 && std::string(argv[1]) == "compare";
+                                   return comparing ? kCompareUsage : app::kUsage;
+                               }
+                               return commandLine.run();
+                           });
 }

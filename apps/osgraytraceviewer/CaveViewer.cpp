@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "CaveViewer.h"
 #include "KeyHandler.h"
+#include "SignalledViewer.h"
 
 #include "apps/cave/CaveView.h"
 #include "apps/common/Failure.h"
+#include "apps/common/ImageFile.h"
+#include "apps/common/Output.h"
 
 #include <osgRayTrace/offscreen/FrameCapture>
 #include <osgRayTrace/offscreen/OffscreenContext>
@@ -12,8 +15,6 @@
 #include <osg/ColorMask>
 #include <osg/MatrixTransform>
 #include <osgDB/FileNameUtils>
-#include <osgDB/WriteFile>
-#include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
 #include <iostream>
@@ -162,7 +163,7 @@ void addSlaves(osgViewer::Viewer& viewer, const CaveSetup& setup,
         osg::Camera& camera = *picture.camera;
         camera.setName("wall " + std::to_string(picture.wall->index));
         camera.setReferenceFrame(osg::Transform::ABSOLUTE_RF); // its matrices are its own
-        camera.setNodeMask(0); // until moveHead has a view for it
+        camera.setNodeMask(0);                                 // until moveHead has a view for it
         camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
         camera.setClearColor(setup.background);
         separateEyes(picture, offscreen);
@@ -170,7 +171,8 @@ void addSlaves(osgViewer::Viewer& viewer, const CaveSetup& setup,
     }
 }
 
-/// A wall that the eye is not before keeps its last picture, and has none before it has seen the eye.
+/// A wall that the eye is not before keeps its last picture, and has none before it has seen the
+/// eye.
 void moveHead(const CaveSetup& setup, const std::vector<WallPicture>& pictures,
               const CavePose& pose)
 {
@@ -208,29 +210,46 @@ std::string fileOf(const std::string& output, const WallPicture& picture)
     return name + '.' + (extension.empty() ? "png" : extension);
 }
 
+/// What a picture a wall is written to, for walls that the head is before.
+std::vector<Output> filesOf(const std::vector<WallPicture>& pictures, const std::string& output)
+{
+    std::vector<Output> files;
+    for (const WallPicture& picture : pictures)
+        if (picture.camera->getNodeMask() != 0)
+            files.push_back({"--output", fileOf(output, picture)});
+    return files;
+}
+
 void writePictures(osgViewer::Viewer& viewer, RayTracedScene& scene,
                    const std::vector<WallPicture>& pictures, const std::string& output)
 {
     scene.getSettings()->setFrameBudget(0.0f); // nobody waits for a frame
+    checkOutputs(filesOf(pictures, output));
     int passes = -1;
-    while (passes < scene.getSettings()->getMaxPasses())
+    while (!isInterrupted() && passes < scene.getSettings()->getMaxPasses())
     {
         viewer.frame();
         const Statistics statistics = scene.getDrawable()->getStatistics();
         if (!statistics.ok) throw Failure(kCannotRender, statistics.message);
         if (statistics.passes == passes) break; // nothing more to be seen
         passes = statistics.passes;
+        if (isInterrupted()) break;
     }
+    if (isInterrupted() && passes < 1)
+        throw Failure(interruptionCode(), interruptionName() + ": there is no picture yet");
+    if (isInterrupted())
+        std::cerr << "osgraytraceviewer: " << interruptionName() << ": pictures of " << passes
+                  << " passes are written\n";
     for (const WallPicture& picture : pictures)
     {
         if (picture.camera->getNodeMask() == 0)
         {
-            std::cerr << "no picture of " << picture.camera->getName() << ": the head is behind it\n";
+            std::cerr << "no picture of " << picture.camera->getName()
+                      << ": the head is behind it\n";
             continue;
         }
         const std::string file = fileOf(output, picture);
-        if (!osgDB::writeImageFile(*picture.capture->getColorImage(), file))
-            throw Failure(kCannotWrite, "cannot write " + file);
+        writeImageFile(file, *picture.capture->getColorImage());
         std::cout << file << '\n';
     }
 }
@@ -285,7 +304,7 @@ int runCave(const CaveOptions& options, osg::Node* root, RayTracedScene* scene,
     else
         openWindows(setup, pictures);
 
-    osgViewer::Viewer viewer;
+    SignalledViewer viewer;
     if (offscreen) viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer.setLightingMode(osg::View::SKY_LIGHT);
     viewer.getLight()->setPosition(kLightFrom);

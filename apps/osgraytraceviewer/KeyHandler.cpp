@@ -3,10 +3,11 @@
 #include "KeyHandler.h"
 
 #include "apps/common/DrawnParts.h"
+#include "apps/common/Failure.h"
+#include "apps/common/ImageFile.h"
 
 #include <osg/Notify>
 #include <osgDB/FileUtils>
-#include <osgDB/WriteFile>
 
 #include <string>
 
@@ -128,11 +129,18 @@ void KeyHandler::writeScreenshot() const
         return;
     }
     const std::string name = freeFileName();
-    const bool written = osgDB::writeImageFile(*image, name);
-    OSG_NOTICE << "osgraytraceviewer: " << (written ? "wrote " : "could not write ") << name;
-    if (const auto parts = partsDrawnByOsg(_scene->getDrawable()->getStatistics()))
-        OSG_NOTICE << ", which lacks " << parts << " parts of the scene that OpenGL draws";
-    OSG_NOTICE << std::endl;
+    try
+    {
+        writeImageFile(name, *image);
+        OSG_NOTICE << "osgraytraceviewer: wrote " << name;
+        if (const auto parts = partsDrawnByOsg(_scene->getDrawable()->getStatistics()))
+            OSG_NOTICE << ", which lacks " << parts << " parts of the scene that OpenGL draws";
+        OSG_NOTICE << std::endl;
+    }
+    catch (const Failure& failure)
+    {
+        OSG_WARN << "osgraytraceviewer: " << failure.what() << std::endl;
+    }
 }
 
 void KeyHandler::getUsage(osg::ApplicationUsage& usage) const
@@ -142,7 +150,8 @@ void KeyHandler::getUsage(osg::ApplicationUsage& usage) const
     usage.addKeyboardMouseBinding("+", "Exposure half a stop up");
     usage.addKeyboardMouseBinding("-", "Exposure half a stop down");
     usage.addKeyboardMouseBinding("p", "Pause and continue ray tracing");
-    usage.addKeyboardMouseBinding("F", "Freeze the view, so that its image converges, and let it go");
+    usage.addKeyboardMouseBinding("F",
+                                  "Freeze the view, so that its image converges, and let it go");
     usage.addKeyboardMouseBinding("r", "Switch between ray tracer and rasterizer");
     usage.addKeyboardMouseBinding("R", "Print what is ray traced, and what is not");
     usage.addKeyboardMouseBinding("c", "Write the picture's radiance to osgraytrace-N.exr");

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "CaveViewer.h"
 #include "KeyHandler.h"
+#include "SignalledViewer.h"
 #include "StatusLine.h"
 
 #include "apps/common/ModelFiles.h"
 #include "apps/common/PluginPath.h"
+#include "apps/common/Program.h"
 #include "apps/common/StoredScene.h"
 #include "apps/common/StoredView.h"
 
@@ -38,11 +40,6 @@ const char* const kPasses = "--passes"; ///< the same, as osgraytrace has it
 
 using Assignments = std::vector<std::pair<std::string, std::string>>;
 
-int fail(ExitCode code, const std::string& message)
-{
-    std::cerr << "osgraytraceviewer: " << message << '\n';
-    return code;
-}
 
 void describe(osg::ApplicationUsage& usage)
 {
@@ -59,8 +56,8 @@ void describe(osg::ApplicationUsage& usage)
     describeCave(usage);
 }
 
-/// Names and values of the settings on the command line; nothing if a value is none of its option's.
-std::optional<Assignments> readSettings(osg::ArgumentParser& arguments)
+/// Names and values of the settings on the command line. Throws Failure(kUsage).
+Assignments readSettings(osg::ArgumentParser& arguments)
 {
     Assignments assignments;
     osg::ref_ptr<RayTraceSettings> trial = new RayTraceSettings;
@@ -72,8 +69,8 @@ std::optional<Assignments> readSettings(osg::ArgumentParser& arguments)
         {
             assignments.emplace_back(option.name, value);
             if (trial->set(option.name, value)) continue;
-            fail(kUsage, "--" + option.name + " " + value + ": the values are " + option.range);
-            return std::nullopt;
+            throw Failure(kUsage,
+                          "--" + option.name + " " + value + ": the values are " + option.range);
         }
     }
     return assignments;
@@ -92,7 +89,8 @@ void addHandlers(osgViewer::Viewer& viewer, KeyHandler* keys, StatusLine* status
 {
     viewer.addEventHandler(keys);
     viewer.addEventHandler(statusLine);
-    viewer.addEventHandler(new osgGA::StateSetManipulator(viewer.getCamera()->getOrCreateStateSet()));
+    viewer.addEventHandler(
+        new osgGA::StateSetManipulator(viewer.getCamera()->getOrCreateStateSet()));
     viewer.addEventHandler(new osgViewer::ThreadingHandler);
     viewer.addEventHandler(new osgViewer::WindowSizeHandler);
     viewer.addEventHandler(new osgViewer::StatsHandler);
@@ -178,7 +176,7 @@ int show(osgViewer::Viewer& viewer, const Models& models, const std::string& tit
     viewer.realize();
     osgViewer::Viewer::Windows windows;
     viewer.getWindows(windows);
-    if (windows.empty()) return fail(kCannotRender, "cannot open a window");
+    if (windows.empty()) throw Failure(kCannotRender, "cannot open a window");
     for (osgViewer::GraphicsWindow* window : windows)
         window->setWindowName(title);
     return viewer.run();
@@ -192,10 +190,9 @@ int run(int argc, char** argv)
     describe(usage);
 
     const bool help = arguments.read("-h") || arguments.read("--help");
-    const std::optional<Assignments> assignments = readSettings(arguments);
-    if (!assignments) return kUsage;
+    const Assignments assignments = readSettings(arguments);
     const CaveOptions cave = readCaveOptions(arguments);
-    osgViewer::Viewer viewer(arguments);
+    SignalledViewer viewer(arguments);
     if (help)
     {
         osg::ref_ptr<RayTracedScene> none = new RayTracedScene;
@@ -213,9 +210,9 @@ int run(int argc, char** argv)
         return kUsage;
     }
     const std::vector<std::string> names = modelNames(arguments);
-    if (names.empty()) return fail(kUsage, "no MODEL given; --help shows options and keys");
+    if (names.empty()) throw Failure(kUsage, "no MODEL given; --help shows options and keys");
     const Models models =
-        readModels(names, cave.file.empty() ? *assignments : wallSettings(*assignments));
+        readModels(names, cave.file.empty() ? assignments : wallSettings(assignments));
     const std::string title = titleOf(names);
     if (!cave.file.empty()) return runCave(cave, models.root.get(), models.scene.get(), title);
     return show(viewer, models, title, &usage);
@@ -227,16 +224,6 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-    try
-    {
-        return osgRayTrace::app::run(argc, argv);
-    }
-    catch (const osgRayTrace::app::Failure& failure)
-    {
-        return osgRayTrace::app::fail(failure.code(), failure.what());
-    }
-    catch (const std::exception& error)
-    {
-        return osgRayTrace::app::fail(osgRayTrace::app::kCannotRender, error.what());
-    }
+    using namespace osgRayTrace::app;
+    return runProgram("osgraytraceviewer", [=]() mutable { return run(argc, argv); });
 }

@@ -47,7 +47,7 @@ std::string readExr(const std::string& path, ExrImage& image,
 std::string readExr(std::istream& stream, ExrImage& image,
                     const std::vector<std::string>& wanted = {});
 
-/// Writes beside path first and renames then: there is the whole file, or what was there before.
+/// There is the whole file then, or what was there before: see writeFileWhole.
 /// Finite values beyond half's range become its largest.
 std::string writeExr(const std::string& path, const ExrImage& image,
                      ExrCompression compression = ExrCompression::Zip);

@@ -4,6 +4,7 @@
 #include "osgPlugins/exr/ExrHeader.h"
 #include "osgPlugins/exr/ExrImage.h"
 #include "osgPlugins/exr/ExrStreams.h"
+#include "osgRayTrace/base/OutputFile.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -11,11 +12,12 @@
 #include <ImfOutputFile.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
-#include <filesystem>
+#include <cstring>
 #include <fstream>
-#include <random>
 #include <sstream>
+#include <stdexcept>
 
 namespace osgRayTrace::engine
 {
@@ -104,27 +106,28 @@ void writeImage(std::ostream& stream, const ExrImage& image, ExrCompression comp
     }
 }
 
-std::filesystem::path besideOf(const std::filesystem::path& path)
+/// Throws.
+void writeFile(const std::string& path, const ExrImage& image, ExrCompression compression)
 {
-    std::ostringstream suffix;
-    suffix << '.' << std::hex << std::random_device()() << ".part";
-    return path.native() + std::filesystem::path(suffix.str()).native();
-}
-
-std::string writeFile(const std::filesystem::path& path, const ExrImage& image,
-                      ExrCompression compression)
-{
+    errno = 0;
     std::ofstream stream(path, std::ios::binary);
-    if (!stream) return "the file cannot be created";
-    const std::string problem = caught(
-        [&]
-        {
-            writeImage(stream, image, compression);
-            return std::string();
-        });
-    if (!problem.empty()) return problem;
+    const auto check = [&stream]
+    {
+        if (stream) return;
+        throw std::runtime_error(errno ? std::strerror(errno) : "the file cannot be written");
+    };
+    check();
+    try
+    {
+        writeImage(stream, image, compression);
+    }
+    catch (const std::exception&)
+    {
+        check(); // OpenEXR's own words do not tell what a write failed for
+        throw;
+    }
     stream.close();
-    return stream ? "" : "the file cannot be written";
+    check();
 }
 
 } // namespace
@@ -141,16 +144,11 @@ std::string writeExr(const std::string& path, const ExrImage& image, ExrCompress
     return caught(
         [&]() -> std::string
         {
-            std::string problem = checkImage(image);
+            const std::string problem = checkImage(image);
             if (!problem.empty()) return problem;
-
-            const std::filesystem::path partial = besideOf(path);
-            problem = writeFile(partial, image, compression);
-            std::error_code error;
-            if (problem.empty()) std::filesystem::rename(partial, path, error);
-            if (error) problem = error.message();
-            if (!problem.empty()) std::filesystem::remove(partial, error);
-            return problem;
+            writeFileWhole(path, [&](const std::string& temporary)
+                           { writeFile(temporary, image, compression); });
+            return "";
         });
 }
 

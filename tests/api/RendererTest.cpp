@@ -13,6 +13,7 @@
 #include <osg/LightSource>
 #include <osg/Material>
 #include <osg/MatrixTransform>
+#include <osg/observer_ptr>
 
 #include <chrono>
 #include <cmath>
@@ -279,6 +280,71 @@ TEST_CASE("renderer: the number of threads does not show", "[api][renderer]")
     REQUIRE(one->render());
     CHECK(one->getStatistics().passes == 4);
     CHECK(sameBytes(one->getColorImage(), two->getColorImage()));
+}
+
+TEST_CASE("renderer: a cancel while the scene is converted begins no pass", "[api][renderer]")
+{
+    // Conversions traverse nodes of classes that they do not know.
+    struct CancelsInTraversal : osg::Group
+    {
+        void traverse(osg::NodeVisitor& visitor) override
+        {
+            renderer->cancel();
+            ++traversals;
+            osg::Group::traverse(visitor);
+        }
+        osg::observer_ptr<Renderer> renderer;
+        int traversals = 0;
+    };
+    const osg::ref_ptr<CancelsInTraversal> scene = new CancelsInTraversal;
+    scene->addChild(room());
+    const auto renderer = rendererOf(scene.get());
+    scene->renderer = renderer.get();
+    CHECK_FALSE(renderer->render());
+    CHECK(scene->traversals > 0);
+    CHECK(renderer->getStatistics().message == "the render was cancelled");
+    CHECK(renderer->getStatistics().passes == 0);
+    CHECK(renderer->getStatistics().imageShare == 0.0);
+    CHECK_FALSE(renderer->getColorImage());
+}
+
+// A pass of these samples takes minutes; a machine that is busy may need a while to begin it.
+TEST_CASE("renderer: cancelled in its first pass, it has the tiles there are", "[api][renderer]")
+{
+    const auto renderer = rendererOf(room());
+    renderer->setSize(640, 480);
+    renderer->setClearColor(osg::Vec4(1.0f, 0.0f, 0.0f, 1.0f));
+    renderer->getSettings()->setIntegrator(RayTraceSettings::WHITTED);
+    renderer->getSettings()->setLightSamples(4096);
+    for (int milliseconds = 50; milliseconds < 20000; milliseconds *= 2)
+    {
+        std::thread thread([&] { CHECK_FALSE(renderer->render()); });
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        renderer->cancel();
+        thread.join();
+        if (renderer->getStatistics().imageShare > 0.0) break;
+    }
+    const double coverage = renderer->getStatistics().imageShare;
+    REQUIRE(coverage > 0.0);
+    CHECK(coverage < 1.0);
+    CHECK(renderer->getStatistics().passes == 0);
+    const auto radiance = renderer->getColorImage();
+    const auto display = renderer->getDisplayImage();
+    const auto depth = renderer->getChannelImage("depth");
+    REQUIRE(radiance);
+    REQUIRE(display);
+    REQUIRE(depth);
+    int covered = 0, wrong = 0;
+    for (int i = 0; i < 640 * 480; ++i)
+    {
+        const bool hit = floats(*radiance)[4 * i + 3] > 0.0f;
+        const unsigned char* shown = display->data() + 4 * i;
+        covered += hit;
+        if (!hit) wrong += shown[0] != 255 || shown[1] != 0 || floats(*depth)[i] != 1.0f;
+    }
+    CHECK(wrong == 0);
+    CHECK(covered > 0);
+    CHECK(covered <= std::lround(coverage * 640 * 480));
 }
 
 TEST_CASE("renderer: cancel from another thread ends a long render", "[api][renderer]")

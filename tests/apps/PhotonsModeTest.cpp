@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
+#include "tests/apps/RunningProgram.h"
 
 #include <nlohmann/json.hpp>
 
 #include <map>
+#include <thread>
 
 namespace
 {
@@ -112,4 +114,34 @@ TEST_CASE("bench photons: wrong usage is refused", "[apps]")
     CHECK(unwritable.errors == "osgraytracebench: cannot write nowhere/rows.json\n");
     CHECK(osgraytrace(folder, "limit --json .").exitCode == 4);
     CHECK(folder.fileNames().empty());
+}
+
+TEST_CASE("bench photons: a signal leaves the rows that were measured", "[apps]")
+{
+    for (int milliseconds = 250; milliseconds < 20000; milliseconds *= 2)
+    {
+        const TemporaryFolder folder;
+        RunningProgram program(folder / ".", {OSGRAYTRACE_TEST_PROGRAM, "photons", "--width", "0",
+                                              "--json", "rows.json", "--runs", "1000", "--photons",
+                                              "20000"});
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        program.signal(SIGTERM);
+        CHECK(program.wait() == 143);
+        if (folder.fileNames().empty()) continue; // it had not begun yet
+        CHECK(folder.fileNames() == std::vector<std::string>{"rows.json"});
+        const auto json = nlohmann::json::parse(contents(folder / "rows.json"));
+        CHECK(json.at("rows").size() > 0);
+        CHECK(program.printed().find("osgraytracebench: SIGTERM: the rest was not measured") !=
+              std::string::npos);
+        return;
+    }
+    FAIL("it did not begin to measure within 20 s");
+}
+
+TEST_CASE("bench photons: what cannot be printed ends with 4", "[apps]")
+{
+    const TemporaryFolder folder;
+    const Outcome outcome = osgraytrace(folder, "photons " + kFew + "--only lookup >/dev/full )", "(");
+    CHECK(outcome.exitCode == 4);
+    CHECK(outcome.errors.find("cannot write to standard output") != std::string::npos);
 }

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <locale>
 #include <sstream>
 #include <unistd.h>
 
@@ -96,6 +97,7 @@ std::string plot(const std::vector<Curve>& curves, const std::vector<Guide>& gui
 
     static int number = 0;
     std::ostringstream script;
+    script.imbue(std::locale::classic());
     script << "set terminal svg size 800,440 font 'sans-serif,13' name 'plot" << ++number << "'\n"
            << "set logscale xy\nset format x '10^{%T}'\nset format y '10^{%T}'\nset grid lc rgb "
               "'#dddddd'\n"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/report/Reference.h"
 
-#include "apps/common/Failure.h"
+#include "apps/common/Output.h"
 
 #include <nlohmann/json.hpp>
 
@@ -58,16 +58,11 @@ void writeCached(const std::string& stem, const ordered_json& description,
                  const Reference& reference)
 {
     std::filesystem::create_directories(std::filesystem::path(stem).parent_path());
-    {
-        std::ofstream values(stem + ".f64", std::ios::binary);
-        for (const std::vector<double>* list : {&reference.mean, &reference.variance})
-            values.write(reinterpret_cast<const char*>(list->data()),
-                         static_cast<std::streamsize>(list->size() * sizeof(double)));
-        if (!values) throw app::Failure(app::kCannotWrite, "cannot write " + stem + ".f64");
-    }
-    std::ofstream text(stem + ".json"); // last: it vouches for the other
-    text << description.dump(2) << "\n";
-    if (!text) throw app::Failure(app::kCannotWrite, "cannot write " + stem + ".json");
+    std::string values;
+    for (const std::vector<double>* list : {&reference.mean, &reference.variance})
+        values.append(reinterpret_cast<const char*>(list->data()), list->size() * sizeof(double));
+    app::writeText(stem + ".f64", values);
+    app::writeText(stem + ".json", description.dump(2) + "\n"); // last: it vouches for the other
 }
 
 /// Mean of the pictures, and the variance of that mean from their scatter.

@@ -3,6 +3,7 @@
 #include "apps/osgraytracebench/report/ReportFiles.h"
 
 #include "apps/common/Failure.h"
+#include "apps/common/Output.h"
 
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
+#include <locale>
 #include <sstream>
 
 namespace osgRayTrace::bench
@@ -172,20 +174,6 @@ ScheduleLine scheduleFrom(const ordered_json& json)
 
 } // namespace
 
-void writeWhole(const std::string& file, const std::string& text)
-{
-    const std::string part = file + ".part";
-    bool written = false;
-    {
-        std::ofstream stream(part, std::ios::binary);
-        stream << text;
-        stream.flush();
-        written = static_cast<bool>(stream);
-    }
-    if (!written || std::rename(part.c_str(), file.c_str()) != 0)
-        throw app::Failure(app::kCannotWrite, "cannot write " + file);
-}
-
 void writeJson(const Report& report, const std::string& file)
 {
     ordered_json json{{"format", kFormat},
@@ -201,12 +189,13 @@ void writeJson(const Report& report, const std::string& file)
         json["samplers"].push_back(samplerJson(line));
     for (const ScheduleLine& line : report.schedules)
         json["schedules"].push_back(scheduleJson(line));
-    writeWhole(file, json.dump(1) + "\n");
+    app::writeText(file, json.dump(1) + "\n");
 }
 
 void writeCsv(const Report& report, const std::string& file)
 {
     std::ostringstream csv;
+    csv.imbue(std::locale::classic());
     csv.precision(9);
     csv << "scene,placement,method,seeds,non_finite";
     for (const Column& column : kColumns)
@@ -239,7 +228,7 @@ void writeCsv(const Report& report, const std::string& file)
                 << point.variance << ',' << point.error << ',' << point.exactBiasSquare << ','
                 << point.exactVariance << '\n';
     }
-    writeWhole(file, csv.str());
+    app::writeText(file, csv.str());
 }
 
 Report readJson(const std::string& file)

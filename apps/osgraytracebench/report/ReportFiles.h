@@ -18,8 +18,4 @@ void writeCsv(const Report& report, const std::string& file);
 /// Throws app::Failure(kCannotLoad) if it is not there or is no report.
 Report readJson(const std::string& file);
 
-/// All or nothing: a file that is half written never has the name. Throws
-/// app::Failure(kCannotWrite).
-void writeWhole(const std::string& file, const std::string& text);
-
 } // namespace osgRayTrace::bench

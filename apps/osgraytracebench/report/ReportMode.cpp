@@ -3,7 +3,9 @@
 #include "apps/osgraytracebench/report/ReportMode.h"
 
 #include "apps/common/Failure.h"
+#include "apps/common/Interruption.h"
 #include "apps/common/ModelFiles.h"
+#include "apps/common/Output.h"
 #include "apps/osgraytracebench/report/BoxScenes.h"
 #include "apps/osgraytracebench/report/Expectations.h"
 #include "apps/osgraytracebench/report/Machine.h"
@@ -116,6 +118,7 @@ void printLine(const ReportLine& line)
 
 void measureScene(Run& run, const ReportScene& scene)
 {
+    if (app::isInterrupted()) return;
     const Reference reference = referenceOf(run, scene);
     SceneThumbnails thumbnails{scene.name, scene.title, thumbnail(reference), {}};
     for (std::size_t p = 0; p < scene.placements.size(); ++p)
@@ -125,6 +128,7 @@ void measureScene(Run& run, const ReportScene& scene)
         {
             // Elsewhere one of the methods with photons speaks for all: they have the same photons.
             if (p > 0 && hasKernel(method) && method.name != scene.methods.back().name) continue;
+            if (app::isInterrupted()) break;
             method.options.photons = photonsFor(run, scene);
             const MeasuredLine measured = measure(scene, scene.placements[p], method, prepared,
                                                   reference, planFor(run, method, p));
@@ -197,6 +201,12 @@ int printVerdicts(const std::vector<Verdict>& verdicts)
     return failed;
 }
 
+/// Of a report: as data, as a table, as a page.
+std::vector<std::string> filesIn(const std::string& folder)
+{
+    return {folder + "/report.json", folder + "/report.csv", folder + "/report.html"};
+}
+
 } // namespace
 
 int runReport(const ReportOptions& options)
@@ -215,19 +225,25 @@ int runReport(const ReportOptions& options)
     std::error_code error;
     std::filesystem::create_directories(options.folder, error);
     if (error) throw app::Failure(app::kCannotWrite, "cannot make the folder " + options.folder);
+    const std::vector<std::string> files = filesIn(options.folder);
+    app::checkOutputs({{"-o", files[0]}, {"-o", files[1]}, {"-o", files[2]}});
 
+    const app::OrderlyEnd end;
     for (const ReportScene& scene : scenes)
         measureScene(run, scene);
-    const bool whole = options.models.empty() && options.only.empty();
-    if (samplers) measureSamplers(run);
-    if (schedules) measureSchedules(run);
+    if (samplers && !app::isInterrupted()) measureSamplers(run);
+    if (schedules && !app::isInterrupted()) measureSchedules(run);
+    const bool whole = options.models.empty() && options.only.empty() && !app::isInterrupted();
+    if (app::isInterrupted())
+        std::fprintf(stderr, "osgraytracebench: %s: the report is of what was measured so far\n",
+                     app::interruptionName().c_str());
 
-    writeJson(run.report, options.folder + "/report.json");
-    writeCsv(run.report, options.folder + "/report.csv");
+    writeJson(run.report, files[0]);
+    writeCsv(run.report, files[1]);
     std::vector<Verdict> verdicts;
     if (options.quick && whole) verdicts = checkExpectations(run.report, expectationsOf(options));
     if (!haveGnuplot()) std::printf("gnuplot was not found: the page has tables, but no plots\n");
-    writeWhole(options.folder + "/report.html", reportPage(run.report, run.thumbnails, verdicts));
+    app::writeText(files[2], reportPage(run.report, run.thumbnails, verdicts));
     if (verdicts.empty()) return app::kDone;
     return printVerdicts(verdicts) == 0 ? app::kDone : kCheckFailed;
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <locale>
 #include <sstream>
 
 namespace osgRayTrace::bench
@@ -252,6 +253,7 @@ std::string reportPage(const Report& report, const std::vector<SceneThumbnails>&
                        const std::vector<Verdict>& verdicts)
 {
     std::ostringstream page;
+    page.imbue(std::locale::classic());
     page << "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><title>osgRayTrace: speed "
             "against "
             "error</title><style>"

@@ -1,0 +1,72 @@
+// Program.cpp - the frame around a program. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "apps/common/Program.h"
+
+#include "apps/common/Interruption.h"
+#include "apps/common/Output.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <exception>
+#include <iostream>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+/// A standard stream that is closed would be the next file that is opened, and get what is printed.
+/// Opened the wrong way round, it fails as a closed one does.
+void holdStandardStreams()
+{
+    for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    {
+        const bool closed = fcntl(number, F_GETFD) < 0 && errno == EBADF;
+        if (closed && open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
+    }
+}
+
+int codeOf(const std::string& name, const std::function<int()>& run)
+{
+    try
+    {
+        return run();
+    }
+    catch (const Failure& failure)
+    {
+        return reportFailure(name, failure);
+    }
+    catch (const std::exception& error)
+    {
+        std::cerr << name << ": " << error.what() << '\n';
+        return kCannotRender;
+    }
+}
+
+} // namespace
+
+int reportFailure(const std::string& name, const Failure& failure)
+{
+    std::cerr << name << ": " << failure.what() << '\n';
+    return failure.code();
+}
+
+int runProgram(const std::string& name, const std::function<int()>& run)
+{
+    holdStandardStreams();
+    handleSignals();
+    const int code = codeOf(name, run);
+    const int printed = codeOf(name,
+                               []
+                               {
+                                   checkStandardOutput();
+                                   return int(kDone);
+                               });
+    if (code != kDone) return code;
+    return printed != kDone ? printed : interruptionCode();
+}
+
+} // namespace osgRayTrace::app

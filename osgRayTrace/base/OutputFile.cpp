@@ -1,0 +1,344 @@
+// OutputFile.cpp - temporary files beside their destinations, renamed or copied. Layer: base.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/base/OutputFile.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/xattr.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+namespace osgRayTrace::engine
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr int kMostLinks = 40; ///< of a chain, as Linux has it
+
+[[noreturn]] void fail(int error)
+{
+    throw std::runtime_error(std::strerror(error));
+}
+
+/// Names of temporary files, for signal handlers: memory that is always there and never moves.
+struct TemporaryName
+{
+    enum State
+    {
+        Free,
+        Changing, ///< path is being written
+        Used,
+    };
+    std::atomic<int> state{Free};
+    char path[PATH_MAX];
+};
+
+std::array<TemporaryName, 16> temporaryNames;
+
+/// Null if there are too many, or if the path is too long: such a file would stay after a signal.
+TemporaryName* registerTemporary(const std::string& path)
+{
+    if (path.size() >= PATH_MAX) return nullptr;
+    for (TemporaryName& name : temporaryNames)
+    {
+        int expected = TemporaryName::Free;
+        if (!name.state.compare_exchange_strong(expected, TemporaryName::Changing)) continue;
+        std::memcpy(name.path, path.c_str(), path.size() + 1);
+        name.state = TemporaryName::Used;
+        return &name;
+    }
+    return nullptr;
+}
+
+class Descriptor
+{
+public:
+    explicit Descriptor(int number) : _number(number) {}
+    ~Descriptor()
+    {
+        if (_number >= 0) close(_number);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    int operator*() const { return _number; }
+
+    /// Says what only closing finds out, on file systems over a network.
+    void finish()
+    {
+        const int number = _number;
+        _number = -1;
+        if (close(number) != 0 && errno != EINTR) fail(errno);
+    }
+
+private:
+    int _number;
+};
+
+/// A file of this process alone; gone when this is.
+class TemporaryFile
+{
+public:
+    /// Its name is short: that of the destination may be as long as names can be.
+    TemporaryFile(const fs::path& folder, mode_t mode)
+    {
+        static std::atomic<unsigned> number{0};
+        do
+        {
+            _path = (folder /
+                     (".osgraytrace-" + std::to_string(getpid()) + "-" + std::to_string(++number)))
+                        .string();
+            _file = open(_path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+        } while (_file < 0 && errno == EEXIST);
+        if (_file < 0) fail(errno);
+        _name = registerTemporary(_path);
+    }
+    ~TemporaryFile()
+    {
+        if (!_renamed) unlink(_path.c_str());
+        if (_name) _name->state = TemporaryName::Free;
+        close(_file);
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    const std::string& path() const { return _path; }
+    int file() const { return _file; }
+
+    bool renameTo(const std::string& path)
+    {
+        _renamed = std::rename(_path.c_str(), path.c_str()) == 0;
+        return _renamed;
+    }
+
+private:
+    std::string _path;
+    TemporaryName* _name = nullptr;
+    int _file = -1;
+    bool _renamed = false;
+};
+
+struct Destination
+{
+    std::optional<struct stat> found; ///< nothing: a file is to be created
+    fs::path file;                    ///< the path with links followed
+    int error = 0;                    ///< why it cannot be looked at
+
+    bool isRegular() const { return found && S_ISREG(found->st_mode); }
+};
+
+bool isSame(const struct stat& a, const struct stat& b)
+{
+    return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+/// The last of a chain of links, of which the file need not exist.
+fs::path endOfLinks(fs::path path)
+{
+    std::error_code error;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i)
+    {
+        const fs::path target = fs::read_symlink(path, error);
+        if (error) break;
+        path = path.parent_path() / target;
+    }
+    return path;
+}
+
+fs::path folderOf(const fs::path& file)
+{
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+Destination destinationOf(const std::string& path)
+{
+    Destination destination;
+    struct stat found;
+    if (stat(path.c_str(), &found) == 0)
+    {
+        destination.found = found;
+        std::error_code error;
+        destination.file = fs::canonical(path, error);
+        if (error) destination.file = path;
+        return destination;
+    }
+    destination.file = endOfLinks(path);
+    if (errno != ENOENT) destination.error = errno;
+    return destination;
+}
+
+/// Standard output or standard error, if the destination is what it goes to: written through
+/// another descriptor, the file would hold one over the other. -1: neither.
+int standardDescriptor(const struct stat& destination)
+{
+    for (const int number : {STDOUT_FILENO, STDERR_FILENO})
+    {
+        struct stat standard;
+        const bool same = fstat(number, &standard) == 0 && isSame(standard, destination);
+        if (same && !S_ISCHR(destination.st_mode)) return number;
+    }
+    return -1;
+}
+
+void copyAll(int from, int to)
+{
+    if (lseek(from, 0, SEEK_SET) != 0) fail(errno);
+    std::array<char, 1 << 16> buffer;
+    for (;;)
+    {
+        const ssize_t count = read(from, buffer.data(), buffer.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail(errno);
+        if (count == 0) return;
+        for (ssize_t done = 0; done < count;)
+        {
+            const ssize_t written =
+                ::write(to, buffer.data() + done, static_cast<size_t>(count - done));
+            if (written < 0 && errno != EINTR) fail(errno);
+            if (written > 0) done += written;
+        }
+    }
+}
+
+/// Into a file that stays what it is. Its space is reserved first, so that a full disk leaves it
+/// alone.
+void copyIntoFile(int from, const std::string& path)
+{
+    Descriptor to(open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    struct stat source, before;
+    if (*to < 0 || fstat(from, &source) != 0 || fstat(*to, &before) != 0) fail(errno);
+    if (source.st_size > 0)
+    {
+        const int error = posix_fallocate(*to, 0, source.st_size);
+        const bool unknown = error == EOPNOTSUPP || error == EINVAL; // to this file system
+        if (error != 0 && !unknown)
+        {
+            if (ftruncate(*to, before.st_size) != 0) fail(errno);
+            fail(error);
+        }
+    }
+    copyAll(from, *to);
+    if (ftruncate(*to, source.st_size) != 0) fail(errno);
+    to.finish();
+}
+
+void copyIntoSpecial(int from, const std::string& path, int standard)
+{
+    std::fflush(nullptr); // what was printed before comes before
+    if (standard >= 0) return copyAll(from, standard);
+    Descriptor to(open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
+    if (*to < 0) fail(errno);
+    copyAll(from, *to);
+    to.finish();
+}
+
+/// Gives the temporary file the owner, group and mode of the one that it shall replace. False if it
+/// cannot have them, or if a rename would lose something else.
+bool becomeAlike(int temporary, const fs::path& file, const struct stat& wanted)
+{
+    struct stat now, named;
+    const bool isName = stat(file.c_str(), &named) == 0 && isSame(named, wanted);
+    if (!isName || wanted.st_nlink != 1) return false;
+    if (listxattr(file.c_str(), nullptr, 0) > 0) return false; // with access control lists
+    if (fstat(temporary, &now) != 0) return false;
+    const bool owned = now.st_uid == wanted.st_uid && now.st_gid == wanted.st_gid;
+    if (!owned && fchown(temporary, wanted.st_uid, wanted.st_gid) != 0) return false;
+    return fchmod(temporary, wanted.st_mode & 07777) == 0;
+}
+
+/// Beside the destination, where a rename can reach it; else with other temporary files, if it can
+/// be copied from there.
+std::unique_ptr<TemporaryFile> newTemporaryFile(const Destination& destination)
+{
+    if (destination.found && !destination.isRegular())
+        return std::make_unique<TemporaryFile>(fs::temp_directory_path(), 0600);
+    const mode_t mode = destination.found ? destination.found->st_mode & 0777 : 0666;
+    try
+    {
+        return std::make_unique<TemporaryFile>(folderOf(destination.file), mode);
+    }
+    catch (const std::runtime_error&)
+    {
+        if (!destination.found || errno == ENOSPC || errno == EDQUOT) throw;
+        return std::make_unique<TemporaryFile>(fs::temp_directory_path(), 0600);
+    }
+}
+
+bool mayAccess(const fs::path& path, int mode)
+{
+    return faccessat(AT_FDCWD, path.c_str(), mode, AT_EACCESS) == 0;
+}
+
+} // namespace
+
+std::string whyNotWritable(const std::string& path)
+{
+    const Destination destination = destinationOf(path);
+    if (destination.error) return std::strerror(destination.error);
+    if (destination.found && S_ISDIR(destination.found->st_mode)) return "it is a folder";
+    if (destination.found)
+        return standardDescriptor(*destination.found) >= 0 || mayAccess(path, W_OK)
+                   ? ""
+                   : std::strerror(errno);
+    if (!destination.file.has_filename()) return std::strerror(ENOENT);
+
+    const fs::path folder = folderOf(destination.file);
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) return "there is no folder " + folder.string();
+    return mayAccess(folder, W_OK | X_OK) ? "" : std::strerror(errno);
+}
+
+bool isSameFile(const std::string& a, const std::string& b)
+{
+    const Destination first = destinationOf(a), second = destinationOf(b);
+    if (first.found && second.found)
+        return first.isRegular() && isSame(*first.found, *second.found);
+    if (first.found || second.found) return false;
+    struct stat folderA, folderB;
+    return first.file.filename() == second.file.filename() &&
+           stat(folderOf(first.file).c_str(), &folderA) == 0 &&
+           stat(folderOf(second.file).c_str(), &folderB) == 0 && isSame(folderA, folderB);
+}
+
+void writeFileWhole(const std::string& path,
+                    const std::function<void(const std::string& temporary)>& write)
+{
+    const Destination destination = destinationOf(path);
+    if (destination.error) fail(destination.error);
+    const std::unique_ptr<TemporaryFile> temporary = newTemporaryFile(destination);
+    write(temporary->path());
+
+    const int standard = destination.found ? standardDescriptor(*destination.found) : -1;
+    if (standard >= 0 || (destination.found && !destination.isRegular()))
+        return copyIntoSpecial(temporary->file(), path, standard);
+    if (!destination.found)
+    {
+        if (!temporary->renameTo(destination.file.string())) fail(errno);
+        return;
+    }
+    const bool alike = becomeAlike(temporary->file(), destination.file, *destination.found);
+    if (alike && temporary->renameTo(destination.file.string())) return;
+    copyIntoFile(temporary->file(), path);
+}
+
+void removeTemporaryFiles() noexcept
+{
+    for (TemporaryName& name : temporaryNames)
+        if (name.state == TemporaryName::Used) unlink(name.path);
+}
+
+} // namespace osgRayTrace::engine
