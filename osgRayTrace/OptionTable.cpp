@@ -3,6 +3,7 @@
 #include "osgRayTrace/OptionTable.h"
 
 #include "osgRayTrace/base/NeverDestroyed.h"
+#include "osgRayTrace/base/NumberText.h"
 #include "osgRayTrace/bridge/LightSizes.h"
 
 #include <algorithm>
@@ -39,13 +40,12 @@ std::string environmentName(const std::string& name)
 }
 
 /// False unless all of the text is one number within the range.
-template <typename T> bool parseNumber(const std::string& text, const Range<T>& range, T& value)
+template <typename T> bool parseWithin(const std::string& text, const Range<T>& range, T& value)
 {
-    const char* begin = text.data();
-    const char* end = begin + text.size();
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-') ++begin;
-    const auto result = std::from_chars(begin, end, value);
-    return result.ec == std::errc() && result.ptr == end && range.contains(value);
+    const std::optional<T> number = engine::parseNumber<T>(text);
+    if (!number || !range.contains(*number)) return false;
+    value = *number;
+    return true;
 }
 
 RayTraceSettings::Option describe(const std::string& name, const std::string& range,
@@ -65,7 +65,7 @@ OptionRow numberRow(const std::string& name, const Range<T>& range,
     row.set = [range, set](RayTraceSettings& settings, const std::string& text)
     {
         T value{};
-        if (!parseNumber(text, range, value)) return false;
+        if (!parseWithin(text, range, value)) return false;
         (settings.*set)(value);
         return true;
     };

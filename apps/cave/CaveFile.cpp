@@ -3,11 +3,11 @@
 #include "apps/cave/CaveFile.h"
 
 #include "apps/common/Failure.h"
+#include "osgRayTrace/base/NumberText.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -173,12 +173,10 @@ double CaveFile::number(const std::string& path, const std::string& attribute,
 {
     const auto value = find(path, attribute);
     if (!value) return otherwise;
-    const std::string text = trimmed(value->text);
-    char* end = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !std::isfinite(number))
+    const auto number = engine::parseNumber<double>(trimmed(value->text));
+    if (!number || !std::isfinite(*number))
         failAt(*value->element, ": " + attribute + "=\"" + value->text + "\" is no number");
-    return number;
+    return *number;
 }
 
 int CaveFile::integer(const std::string& path, const std::string& attribute, int otherwise,

@@ -3,6 +3,7 @@
 #include "apps/cave/HeadPath.h"
 
 #include "apps/common/Failure.h"
+#include "osgRayTrace/base/NumberText.h"
 
 #include <cmath>
 #include <fstream>
@@ -24,12 +25,15 @@ HeadPath HeadPath::read(const std::string& file)
         std::istringstream numbers(text.substr(0, text.find('#')));
         double v[7];
         int count = 0;
-        while (count < 7 && numbers >> v[count])
-            ++count;
-        std::string rest;
-        numbers.clear();
-        if (count == 0 && !(numbers >> rest)) continue;
-        if (count != 7 || numbers >> rest) fail("a line is seconds x y z h p r, seven numbers");
+        bool good = true;
+        for (std::string word; good && numbers >> word; ++count)
+        {
+            const auto number = engine::parseNumber<double>(word);
+            good = count < 7 && number && std::isfinite(*number);
+            if (good) v[count] = *number;
+        }
+        if (count == 0) continue;
+        if (!good || count != 7) fail("a line is seconds x y z h p r, seven numbers");
         if (!path._keys.empty() && !(v[0] > path._keys.back().seconds)) fail("times must rise");
         path._keys.push_back({v[0], {{v[1], v[2], v[3]}, v[4], v[5], v[6]}});
     }

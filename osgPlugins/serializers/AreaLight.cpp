@@ -1,5 +1,7 @@
 // AreaLight.cpp - AreaLight in .osgt, .osgb and .osgx files. Layer: plugins.
 // SPDX-License-Identifier: MIT
+#include "ClassicLocale.h"
+
 #include <osgRayTrace/AreaLight>
 
 #include <osgDB/InputStream>
@@ -14,4 +16,5 @@ REGISTER_OBJECT_WRAPPER(osgRayTrace_AreaLight, new osgRayTrace::AreaLight, osgRa
     ADD_VEC3_SERIALIZER(EdgeV, osg::Vec3(0.0f, 1.0f, 0.0f));
     ADD_VEC3_SERIALIZER(Radiance, osg::Vec3(10.0f, 10.0f, 10.0f));
     ADD_BOOL_SERIALIZER(TwoSided, false);
+    writeInClassicLocale(*wrapper);
 }

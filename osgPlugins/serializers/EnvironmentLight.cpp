@@ -1,5 +1,7 @@
 // EnvironmentLight.cpp - EnvironmentLight in .osgt, .osgb and .osgx files. Layer: plugins.
 // SPDX-License-Identifier: MIT
+#include "ClassicLocale.h"
+
 #include "osgPlugins/OwnFolder.h"
 
 #include <osgRayTrace/EnvironmentLight>
@@ -18,4 +20,5 @@ REGISTER_OBJECT_WRAPPER(osgRayTrace_EnvironmentLight, new osgRayTrace::Environme
     ADD_QUAT_SERIALIZER(Rotation, osg::Quat());
     ADD_VEC3_SERIALIZER(Scale, osg::Vec3(1.0f, 1.0f, 1.0f));
     ADD_BOOL_SERIALIZER(Visible, true);
+    writeInClassicLocale(*wrapper);
 }

@@ -1,5 +1,7 @@
 // RayTraceDrawable.cpp - RayTraceDrawable in .osgt, .osgb and .osgx files. Layer: plugins.
 // SPDX-License-Identifier: MIT
+#include "ClassicLocale.h"
+
 #include <osgRayTrace/RayTraceDrawable>
 
 #include <osgDB/InputStream>
@@ -12,4 +14,5 @@ REGISTER_OBJECT_WRAPPER(osgRayTrace_RayTraceDrawable, new osgRayTrace::RayTraceD
 {
     ADD_OBJECT_SERIALIZER(Scene, osg::Node, nullptr);
     ADD_OBJECT_SERIALIZER(Settings, osgRayTrace::RayTraceSettings, nullptr);
+    writeInClassicLocale(*wrapper);
 }

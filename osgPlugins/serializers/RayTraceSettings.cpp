@@ -1,5 +1,7 @@
 // RayTraceSettings.cpp - RayTraceSettings in .osgt, .osgb and .osgx files. Layer: plugins.
 // SPDX-License-Identifier: MIT
+#include "ClassicLocale.h"
+
 #include <osgRayTrace/RayTraceSettings>
 
 #include <osg/Notify>
@@ -85,4 +87,5 @@ REGISTER_OBJECT_WRAPPER(osgRayTrace_RayTraceSettings, new osgRayTrace::RayTraceS
                         osgRayTrace::RayTraceSettings, "osg::Object osgRayTrace::RayTraceSettings")
 {
     ADD_USER_SERIALIZER(Options);
+    writeInClassicLocale(*wrapper);
 }

@@ -1,5 +1,7 @@
 // RayTracedScene.cpp - RayTracedScene in .osgt, .osgb and .osgx files. Layer: plugins.
 // SPDX-License-Identifier: MIT
+#include "ClassicLocale.h"
+
 #include <osgRayTrace/RayTracedScene>
 
 #include <osgDB/InputStream>
@@ -13,4 +15,5 @@ REGISTER_OBJECT_WRAPPER(osgRayTrace_RayTracedScene, new osgRayTrace::RayTracedSc
 {
     ADD_BOOL_SERIALIZER(Enabled, true);
     ADD_OBJECT_SERIALIZER(Settings, osgRayTrace::RayTraceSettings, nullptr);
+    writeInClassicLocale(*wrapper);
 }

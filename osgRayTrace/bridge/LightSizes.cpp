@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/LightSizes.h"
 
+#include "osgRayTrace/base/NumberText.h"
+
 #include <osg/Math>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -20,12 +21,9 @@ constexpr float kLargestDegrees = 180.0f;
 /// All of the text, finite and not negative.
 std::optional<float> parseSize(const std::string& text)
 {
-    float value = 0.0f;
-    const char* end = text.data() + text.size();
-    const auto result = std::from_chars(text.data(), end, value);
-    const bool good =
-        result.ec == std::errc() && result.ptr == end && value >= 0.0f && value <= kLargestRadius;
-    return good ? std::optional<float>(value) : std::nullopt;
+    const std::optional<float> value = parseNumber<float>(text);
+    const bool good = value && *value >= 0.0f && *value <= kLargestRadius;
+    return good ? value : std::nullopt;
 }
 
 std::string lastName(const std::string& path)

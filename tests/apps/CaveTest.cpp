@@ -4,6 +4,7 @@
 #include "apps/cave/HeadPath.h"
 #include "apps/common/Failure.h"
 #include "tests/Catch.h"
+#include "tests/CommaLocale.h"
 #include "tests/plugins/TemporaryFolder.h"
 
 #include <cmath>
@@ -327,6 +328,18 @@ TEST_CASE("our configurations are a cube around the head and a pair of eyes")
                osg::Vec3d(wall.eye == CaveEye::Left ? 32 : -32, 0, -5000))
                   .length() < 1e-6);
     }
+}
+
+TEST_CASE("numbers have a point in any locale")
+{
+    const CommaLocale commas;
+    const TemporaryFolder folder;
+    const HeadPath path =
+        HeadPath::read(written(folder, "p", "0.5 1.25 +2.5 -3e2 0 0 0\n1.5 1 2 3 0 0 0\n"));
+    CHECK(path.end() == 1.5);
+    CHECK((path.at(0.0).position - osg::Vec3d(1.25, 2.5, -300.0)).length() == 0.0);
+    CHECK(setupOf("<Near value=\" 12.5 \"/>" + std::string(kOne)).nearPlane == 12.5);
+    CHECK(errorOf("<Near value=\"12,5\"/>" + std::string(kOne)) != "");
 }
 
 TEST_CASE("a head path is read, mixed linearly, and refused by line")

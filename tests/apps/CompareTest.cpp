@@ -1,6 +1,7 @@
 // CompareTest.cpp - reports against each other, and through their files.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/CommaLocale.h"
 #include "tests/Statistics.h"
 #include "tests/apps/Reports.h"
 #include "tests/plugins/TemporaryFolder.h"
@@ -137,4 +138,23 @@ TEST_CASE("compare: single pictures are not judged", "[report]")
     const Comparison comparison = compareReports(one, other, 0.01);
     CHECK(comparison.changes.empty());
     CHECK(comparison.untested == 1);
+}
+
+TEST_CASE("reports: numbers have a point in any locale", "[report]")
+{
+    const TemporaryFolder folder;
+    const Report report = smallReport();
+    writeCsv(report, folder / "a.csv");
+    writeJson(report, folder / "a.json");
+    const CommaLocale commas;
+    writeCsv(report, folder / "b.csv");
+    writeJson(report, folder / "b.json");
+    for (const char* extension : {".csv", ".json"})
+    {
+        std::ifstream a(folder / (std::string("a") + extension));
+        std::ifstream b(folder / (std::string("b") + extension));
+        const std::string text(std::istreambuf_iterator<char>(a), {});
+        CHECK(text.size() > 100);
+        CHECK(text == std::string(std::istreambuf_iterator<char>(b), {}));
+    }
 }

@@ -1,6 +1,7 @@
 // SerializerTest.cpp - tests that our classes survive OSG's three native formats.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/CommaLocale.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
@@ -125,6 +126,45 @@ TEST_CASE("serializers: PhysicalMaterial keeps every parameter", "[plugins]")
         CHECK(valueOf(copy->getTransmissionTexture()) == 3);
         CHECK(valueOf(copy->getEmissionTexture()) == 4);
     }
+}
+
+TEST_CASE("serializers: numbers have a point in any locale", "[plugins]")
+{
+    const auto material = glass();
+    material->setRoughness(0.73f);
+    const osg::ref_ptr<RayTracedScene> scene = new RayTracedScene;
+    scene->getSettings()->setExposure(-1.5f);
+    scene->getSettings()->setPhotons(123456);
+    const osg::ref_ptr<AreaLight> light = new AreaLight;
+    light->setRadiance(osg::Vec3(12345.5f, 0.25f, 1e-7f));
+    scene->addChild(light);
+    const osg::ref_ptr<EnvironmentLight> sky = new EnvironmentLight;
+    sky->setScale(osg::Vec3(0.5f, 1.5f, 2.5f));
+    scene->addChild(sky);
+    for (const Format& format : kFormats)
+    {
+        INFO(format.extension);
+        const std::string materialText = written(*material, format);
+        const std::string sceneText = written(*scene, format);
+        const CommaLocale commas;
+        CHECK(written(*material, format) == materialText);
+        CHECK(written(*scene, format) == sceneText);
+        CHECK(roundTrip(*material, format)->getRoughness() == 0.73f);
+        const auto copy = roundTrip(*scene, format);
+        CHECK(copy->getSettings()->getExposure() == -1.5f);
+        CHECK(dynamic_cast<AreaLight&>(*copy->getChild(0)).getRadiance() == light->getRadiance());
+        CHECK(dynamic_cast<EnvironmentLight&>(*copy->getChild(1)).getScale() == sky->getScale());
+    }
+}
+
+TEST_CASE("serializers: the stream of the host keeps its locale", "[plugins]")
+{
+    const CommaLocale commas;
+    std::ostringstream stream;
+    REQUIRE(readerWriter(kFormats[0]).writeObject(*glass(), stream, optionsOf(kFormats[0])).success());
+    stream.str("");
+    stream << 0.5;
+    CHECK(stream.str() == "0,5");
 }
 
 TEST_CASE("serializers: objects at their defaults stay at them", "[plugins]")

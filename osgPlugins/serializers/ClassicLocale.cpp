@@ -1,0 +1,67 @@
+// ClassicLocale.cpp - a serializer around another one. Layer: plugins.
+// SPDX-License-Identifier: MIT
+#include "ClassicLocale.h"
+
+#include <osgDB/InputStream>
+#include <osgDB/OutputStream>
+#include <osgDB/Serializer>
+
+#include <locale>
+
+namespace
+{
+
+/// What exchangeLocale takes and leaves: manipulators have no arguments.
+thread_local std::locale otherLocale;
+
+/// A manipulator reaches the stream that numbers go through, which is not the file's in XML.
+std::ios_base& exchangeLocale(std::ios_base& stream)
+{
+    otherLocale = stream.imbue(otherLocale);
+    return stream;
+}
+
+class ClassicLocaleSerializer : public osgDB::BaseSerializer
+{
+public:
+    explicit ClassicLocaleSerializer(osgDB::BaseSerializer* serializer)
+        : osgDB::BaseSerializer(serializer->getUsage()), _serializer(serializer)
+    {
+    }
+
+    bool set(osg::Object& object, void* value) override { return _serializer->set(object, value); }
+    bool get(const osg::Object& object, void* value) override
+    {
+        return _serializer->get(object, value);
+    }
+    /// Readers take a point in any locale.
+    bool read(osgDB::InputStream& stream, osg::Object& object) override
+    {
+        return _serializer->read(stream, object);
+    }
+    const std::string& getName() const override { return _serializer->getName(); }
+    osgDB::IntLookup* getIntLookup() override { return _serializer->getIntLookup(); }
+
+    /// Serializers of objects within come through here again, while the locale is the classic one.
+    bool write(osgDB::OutputStream& stream, const osg::Object& object) override
+    {
+        otherLocale = std::locale::classic();
+        stream << exchangeLocale;
+        const std::locale before = otherLocale;
+        const bool written = _serializer->write(stream, object);
+        otherLocale = before;
+        stream << exchangeLocale;
+        return written;
+    }
+
+private:
+    osg::ref_ptr<osgDB::BaseSerializer> _serializer;
+};
+
+} // namespace
+
+void writeInClassicLocale(osgDB::ObjectWrapper& wrapper)
+{
+    for (osg::ref_ptr<osgDB::BaseSerializer>& serializer : wrapper.getSerializerList())
+        serializer = new ClassicLocaleSerializer(serializer.get());
+}
