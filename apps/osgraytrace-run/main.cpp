@@ -14,7 +14,8 @@
 namespace
 {
 
-constexpr int kUsage = 1, kNoLibrary = 2, kCannotStart = 127; // the last as shells have it
+constexpr int kUsage = 1, kNoLibrary = 2, kCannotWrite = 4;
+constexpr int kCannotStart = 127; // as shells have it
 
 constexpr long kMostPasses = 1 << 24;
 
@@ -30,8 +31,8 @@ constexpr const char* kHelp =
     "  OSGRAYTRACE_TOGGLE_KEY  key that switches ray tracing off and on: F1 to F12, or a character "
     "(F9)\n"
     "\n"
-    "Exit code: that of PROGRAM; 1 usage, 2 our library is missing, 127 PROGRAM cannot be "
-    "started.\n";
+    "Exit code: that of PROGRAM; 1 usage, 2 our library is missing, 4 this cannot be printed,\n"
+    "127 PROGRAM cannot be started.\n";
 
 std::optional<std::filesystem::path> ourLibrary()
 {
@@ -77,7 +78,8 @@ int main(int argc, char** argv)
     }
     if (argc <= first || help)
     {
-        (help ? std::cout : std::cerr) << kHelp;
+        (help ? std::cout : std::cerr) << kHelp << std::flush;
+        if (!std::cout) return kCannotWrite;
         return help ? 0 : kUsage;
     }
     const auto library = ourLibrary();

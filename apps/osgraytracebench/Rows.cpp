@@ -23,10 +23,15 @@ bool Row::meets() const
     return true;
 }
 
+void endIfInterrupted()
+{
+    if (app::isInterrupted()) throw Interrupted();
+}
+
 void Rows::push_back(Row row)
 {
     _list.push_back(std::move(row));
-    if (app::isInterrupted()) throw Interrupted();
+    endIfInterrupted();
 }
 
 void printRows(const Rows& rows)

@@ -26,16 +26,19 @@ struct Row
     bool meets() const;
 };
 
-/// What Rows throws: a signal has come.
+/// A signal has come: no more shall be measured.
 struct Interrupted
 {
 };
+
+/// Throws Interrupted if one has.
+void endIfInterrupted();
 
 /// Of what is measured one after the other.
 class Rows
 {
 public:
-    /// Throws Interrupted if no more shall be measured.
+    /// Ends as endIfInterrupted, with the row.
     void push_back(Row row);
 
     const std::vector<Row>& list() const { return _list; }

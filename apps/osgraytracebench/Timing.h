@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "apps/osgraytracebench/Rows.h"
+
 #include <time.h>
 
 #include <algorithm>
@@ -51,7 +53,7 @@ using Stopwatch = double (*)(const std::function<void()>&);
 /// For work on so many threads: of one alone its own time, of more that on the wall.
 inline Stopwatch stopwatchFor(int threads) { return threads == 1 ? threadSecondsOf : secondsOf; }
 
-/// Runs the two in turn, after one turn that is not counted.
+/// Runs the two in turn, after one turn that is not counted. Throws Interrupted after a signal.
 inline PairedTimes timePair(int runs, const std::function<void()>& first,
                             const std::function<void()>& second, Stopwatch stopwatch = secondsOf)
 {
@@ -60,6 +62,7 @@ inline PairedTimes timePair(int runs, const std::function<void()>& first,
     std::vector<double> firsts, seconds, ratios;
     for (int i = 0; i < runs; ++i)
     {
+        endIfInterrupted();
         firsts.push_back(stopwatch(first));
         seconds.push_back(stopwatch(second));
         ratios.push_back(firsts.back() / seconds.back());

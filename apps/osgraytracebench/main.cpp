@@ -35,9 +35,13 @@ constexpr int kCompareUsage = 2;
 
 /// A mode that makes rows. What can fail without measuring fails first; a signal leaves the rows so
 /// far.
-int runRows(const std::function<void(Rows&)>& measure, const std::string& json)
+int runRows(const std::function<void(Rows&)>& measure, const std::string& json,
+            const std::string& pictures = {})
 {
-    if (!json.empty()) app::checkOutputs({{"--json", json}});
+    std::vector<app::Output> outputs;
+    if (!json.empty()) outputs.push_back({"--json", json});
+    if (!pictures.empty()) outputs.push_back({"--pictures", pictures + "/picture.png"});
+    app::checkOutputs(outputs);
     const app::OrderlyEnd end;
     Rows rows;
     try
@@ -49,6 +53,8 @@ int runRows(const std::function<void(Rows&)>& measure, const std::string& json)
         std::fprintf(stderr, "%s: %s: the rest was not measured\n", kProgram,
                      app::interruptionName().c_str());
     }
+    if (rows.list().empty() && app::isInterrupted())
+        throw app::Failure(app::interruptionCode(), "there are no rows yet");
     if (rows.list().empty())
         throw app::Failure(app::kUsage, "--only: nothing that is measured has this in its name");
     printRows(rows);
@@ -179,11 +185,13 @@ struct CommandLine
         if (photons)
             return runRows([&](Rows& rows) { measurePhotons(photonsOptions, rows); }, json);
         if (reproject)
-            return runRows([&](Rows& rows) { measureReprojection(reprojectOptions, rows); }, json);
+            return runRows([&](Rows& rows) { measureReprojection(reprojectOptions, rows); }, json,
+                           reprojectOptions.pictures);
         if (compare) return runCompare(before, after, falseAlarmRate);
         app::addPluginPath();
         if (upsample)
-            return runRows([&](Rows& rows) { measureUpsampling(models, pictures, rows); }, json);
+            return runRows([&](Rows& rows) { measureUpsampling(models, pictures, rows); }, json,
+                           pictures);
         return runReport(options);
     }
 

@@ -111,7 +111,7 @@ TEST_CASE("bench photons: wrong usage is refused", "[apps]")
     // Before it measures for minutes.
     const Outcome unwritable = osgraytrace(folder, "limit --json nowhere/rows.json");
     CHECK(unwritable.exitCode == 4);
-    CHECK(unwritable.errors == "osgraytracebench: cannot write nowhere/rows.json\n");
+    CHECK(unwritable.errors == "osgraytracebench: cannot write nowhere/rows.json: there is no folder nowhere\n");
     CHECK(osgraytrace(folder, "limit --json .").exitCode == 4);
     CHECK(folder.fileNames().empty());
 }
@@ -122,7 +122,7 @@ TEST_CASE("bench photons: a signal leaves the rows that were measured", "[apps]"
     {
         const TemporaryFolder folder;
         RunningProgram program(folder / ".", {OSGRAYTRACE_TEST_PROGRAM, "photons", "--width", "0",
-                                              "--json", "rows.json", "--runs", "1000", "--photons",
+                                              "--json", "rows.json", "--runs", "50", "--photons",
                                               "20000"});
         std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
         program.signal(SIGTERM);

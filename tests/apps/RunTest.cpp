@@ -44,6 +44,7 @@ TEST_CASE("osgraytrace-run: wrong usage", "[apps]")
 {
     CHECK(run("").exitCode == 1);
     CHECK(run("--help").exitCode == 0);
+    CHECK(run("--help >/dev/full )", "(").exitCode == 4);
     CHECK(run("--help").output.find("OSGRAYTRACE_TOGGLE_KEY") != std::string::npos);
     for (const char* wrong : {"--passes 0 ", "--passes many ", "--max-passes 16777217 "})
         CHECK(run(wrong + kForeign).exitCode == 1);
