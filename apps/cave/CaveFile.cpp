@@ -4,12 +4,12 @@
 
 #include "apps/common/Failure.h"
 #include "osgRayTrace/base/NumberText.h"
+#include "osgRayTrace/base/TextFile.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 
@@ -38,34 +38,36 @@ bool hasHost(const std::string& hosts, const std::string& host)
 /// Children of blocks with this name go to the end of what is around the block, if kept.
 template <class Keeps> void unwrap(CaveElement& parent, const char* name, const Keeps& keeps)
 {
-    std::deque<CaveElement>& children = parent.children;
-    for (std::size_t i = 0; i < children.size();)
+    std::deque<CaveElement> left = std::move(parent.children);
+    parent.children.clear();
+    for (; !left.empty(); left.pop_front())
     {
-        if (children[i].name != name)
+        CaveElement& child = left.front();
+        if (child.name != name)
         {
-            unwrap(children[i], name, keeps);
-            ++i;
+            unwrap(child, name, keeps);
+            parent.children.push_back(std::move(child));
             continue;
         }
-        CaveElement block = std::move(children[i]);
-        children.erase(children.begin() + static_cast<std::ptrdiff_t>(i));
-        if (keeps(block))
-            std::move(block.children.begin(), block.children.end(), std::back_inserter(children));
+        std::deque<CaveElement> inner = std::move(child.children);
+        if (keeps(child)) std::move(inner.begin(), inner.end(), std::back_inserter(left));
     }
 }
 
 /// In the order of the file.
 void takeIncludes(CaveElement& parent, std::vector<CaveElement>& includes)
 {
-    for (auto child = parent.children.begin(); child != parent.children.end();)
+    std::deque<CaveElement> all = std::move(parent.children);
+    parent.children.clear();
+    for (CaveElement& child : all)
     {
-        if (child->name != "INCLUDE")
+        if (child.name == "INCLUDE")
         {
-            takeIncludes(*child++, includes);
+            includes.push_back(std::move(child));
             continue;
         }
-        includes.push_back(std::move(*child));
-        child = parent.children.erase(child);
+        takeIncludes(child, includes);
+        parent.children.push_back(std::move(child));
     }
 }
 
@@ -89,16 +91,30 @@ std::string includedFile(const CaveElement& include)
 }
 
 /// "Name" or "Name:suffix", which asks for name="suffix".
-bool matches(const CaveElement& element, const std::string& step)
+struct Step
 {
-    const std::size_t colon = step.find(':');
-    if (colon == std::string::npos) return element.name == step;
+    explicit Step(const std::string& text)
+        : element(text.substr(0, text.find(':'))),
+          hasName(element.size() < text.size()),
+          name(hasName ? text.substr(element.size() + 1) : "")
+    {
+    }
+
+    std::string element;
+    bool hasName;
+    std::string name;
+};
+
+bool matches(const CaveElement& element, const Step& step)
+{
+    if (element.name != step.element) return false;
+    if (!step.hasName) return true;
     const std::string* name = element.attribute("name");
-    return element.name == step.substr(0, colon) && name && *name == step.substr(colon + 1);
+    return name && *name == step.name;
 }
 
 /// Depth first, with other ways tried where one leads to nothing.
-const CaveElement* findBelow(const CaveElement& parent, const std::vector<std::string>& steps,
+const CaveElement* findBelow(const CaveElement& parent, const std::vector<Step>& steps,
                              std::size_t step, const std::string& attribute)
 {
     for (const CaveElement& child : parent.children)
@@ -130,11 +146,15 @@ CaveFile::CaveFile(const std::string& file, const std::string& host)
 
 void CaveFile::load(const std::string& file, const std::string& host)
 {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file))
-        throw Failure(kCannotLoad, "cannot read " + file);
-    const std::string text(std::istreambuf_iterator<char>(stream), {});
-    CaveElement root = parseCave(text, file);
+    const engine::FileText read = engine::readTextFile(file, kMostCaveBytes);
+    if (!read.error.empty()) throw Failure(kCannotLoad, "cannot read " + file + ": " + read.error);
+    if (read.text.size() > _bytesLeft)
+        throw Failure(kCannotLoad, "cannot read " + file +
+                                       ": with the files before it there are "
+                                       "more than " +
+                                       std::to_string(kMostCaveBytes) + " bytes");
+    _bytesLeft -= read.text.size();
+    CaveElement root = parseCave(read.text, file, _partsLeft);
     unwrap(root, "COCONFIG", [](const CaveElement&) { return true; });
     unwrap(root, "GLOBAL", [](const CaveElement&) { return true; });
     unwrap(root, "LOCAL",
@@ -158,10 +178,10 @@ void CaveFile::load(const std::string& file, const std::string& host)
 std::optional<CaveFile::Value> CaveFile::find(const std::string& path,
                                               const std::string& attribute) const
 {
-    std::vector<std::string> steps;
+    std::vector<Step> steps;
     std::istringstream names(path);
     for (std::string step; std::getline(names, step, '.');)
-        steps.push_back(step);
+        steps.emplace_back(step);
     for (const CaveElement& root : _roots)
         if (const CaveElement* element = findBelow(root, steps, 0, attribute))
             return Value{*element->attribute(attribute), element};

@@ -26,9 +26,13 @@ struct CaveElement
     const std::string* attribute(const std::string& attributeName) const;
 };
 
-/// The elements of a text, below one that stands for the file. Throws Failure(kCannotLoad) with the
-/// file and the line.
-CaveElement parseCave(const std::string& text, const std::string& file);
+/// What a configuration may hold, files that it includes among it: none of a real one comes near.
+constexpr std::size_t kMostCaveBytes = std::size_t(4) << 20;
+constexpr std::size_t kMostCaveParts = 50000; ///< elements and attributes
+
+/// The elements of a text, below one that stands for the file. partsLeft: elements and attributes
+/// that there may be; less what there are. Throws Failure(kCannotLoad) with the file and the line.
+CaveElement parseCave(const std::string& text, const std::string& file, std::size_t& partsLeft);
 
 /// A file and those that it includes, for one host: GLOBAL is unwrapped, LOCAL where its list of
 /// hosts has this one.
@@ -36,7 +40,8 @@ class CaveFile
 {
 public:
     /// Included files are looked for beside the one that names them, then in CALVR_CONFIG_DIR.
-    /// Throws Failure(kCannotLoad).
+    /// Throws Failure(kCannotLoad), for what is no regular file and for more than kMostCaveBytes or
+    /// kMostCaveParts as well.
     CaveFile(const std::string& file, const std::string& host);
 
     struct Value
@@ -70,6 +75,7 @@ private:
     void load(const std::string& file, const std::string& host);
 
     std::deque<CaveElement> _roots; ///< a file each
+    std::size_t _bytesLeft = kMostCaveBytes, _partsLeft = kMostCaveParts;
 };
 
 } // namespace osgRayTrace::app

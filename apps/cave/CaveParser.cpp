@@ -17,7 +17,10 @@ constexpr std::size_t kDeepest = 64;
 class Parser
 {
 public:
-    Parser(const std::string& text, const std::string& file) : _text(text), _file(file) {}
+    Parser(const std::string& text, const std::string& file, std::size_t& partsLeft)
+        : _text(text), _file(file), _partsLeft(partsLeft)
+    {
+    }
 
     CaveElement parse()
     {
@@ -97,8 +100,17 @@ private:
         if (atEnd() || take() != '>') fail(_line, "</" + name + " has no >");
     }
 
+    /// One more element or attribute.
+    void countPart()
+    {
+        if (_partsLeft-- == 0)
+            fail(_line, "there are more than " + std::to_string(kMostCaveParts) +
+                            " elements and attributes");
+    }
+
     void parseElement(CaveElement& parent, std::size_t depth)
     {
+        countPart();
         CaveElement element;
         element.line = _line;
         element.file = _file;
@@ -128,6 +140,7 @@ private:
                 return false;
             }
             const int line = _line;
+            countPart();
             const std::string name = takeName();
             if (name.empty())
                 fail(line, "<" + element.name + ">: '" + _text[_at] + "' begins no attribute");
@@ -172,15 +185,16 @@ private:
 
     const std::string& _text;
     const std::string& _file;
+    std::size_t& _partsLeft;
     std::size_t _at = 0;
     int _line = 1;
 };
 
 } // namespace
 
-CaveElement parseCave(const std::string& text, const std::string& file)
+CaveElement parseCave(const std::string& text, const std::string& file, std::size_t& partsLeft)
 {
-    return Parser(text, file).parse();
+    return Parser(text, file, partsLeft).parse();
 }
 
 } // namespace osgRayTrace::app

@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <map>
 
@@ -18,16 +19,31 @@ namespace
 {
 
 constexpr int kMostPixels = 32768;
-constexpr int kMost = 100; // windows, channels, screens
+constexpr int kMost = 256;                             // windows, channels, screens
+constexpr int64_t kMostTotalPixels = int64_t(1) << 28; // of all windows, and of all walls
 
 /// How many there are: numbered from 0 on without a gap.
 int countOf(const CaveFile& file, const std::string& path, const std::string& cap)
 {
-    const int most = file.integer(cap, "value", kMost, 0, 100000);
+    const int most = file.integer(cap, "value", 100, 0, 100000);
     int count = 0;
     while (count < most && file.find(path + ":" + std::to_string(count), "name"))
-        ++count;
+        if (++count > kMost)
+            throw Failure(kCannotLoad, file.name() + ": there are more than " +
+                                           std::to_string(kMost) + " of " + path);
     return count;
+}
+
+/// T: with a width and a height.
+template <class T>
+void checkTotal(const std::string& file, const std::vector<T>& parts, const char* what)
+{
+    int64_t pixels = 0;
+    for (const T& part : parts)
+        pixels += int64_t(part.width) * part.height;
+    if (pixels <= kMostTotalPixels) return;
+    throw Failure(kCannotLoad, file + ": all " + what + " together have " + std::to_string(pixels) +
+                                   " pixels, more than " + std::to_string(kMostTotalPixels));
 }
 
 CavePose poseOf(const CaveFile& file, const std::string& path, const char* x, const char* y,
@@ -158,6 +174,8 @@ CaveSetup caveSetup(const CaveFile& file)
         setup.windows.push_back(windowOf(file, i));
     for (int i = 0; i < screens; ++i)
         setup.walls.push_back(wallOf(file, i, channels, windows));
+    checkTotal(file.name(), setup.windows, "windows");
+    checkTotal(file.name(), setup.walls, "channels");
     setup.head = poseOf(file, "ViewerPosition", "x", "y", "z");
     setup.separation = file.number("Stereo", "separation", 64.0);
     if (!file.flag("EyeSeparation", "value", true)) setup.separation = 0.0;

@@ -4,18 +4,21 @@
 
 #include "apps/common/Failure.h"
 #include "osgRayTrace/base/NumberText.h"
+#include "osgRayTrace/base/TextFile.h"
 
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 namespace osgRayTrace::app
 {
 
+constexpr std::size_t kMostBytes = std::size_t(16) << 20;
+
 HeadPath HeadPath::read(const std::string& file)
 {
-    std::ifstream stream(file);
-    if (!stream) throw Failure(kCannotLoad, "cannot read " + file);
+    const engine::FileText read = engine::readTextFile(file, kMostBytes);
+    if (!read.error.empty()) throw Failure(kCannotLoad, "cannot read " + file + ": " + read.error);
+    std::istringstream stream(read.text);
     HeadPath path;
     std::string text;
     for (int line = 1; std::getline(stream, text); ++line)

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "ModelFiles.h"
 
+#include "osgRayTrace/base/TextFile.h"
+
 #include <osg/Group>
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 #include <osgDB/Options>
 #include <osgDB/Registry>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -50,6 +53,9 @@ osg::ref_ptr<osg::Node> readModel(const std::string& file)
 {
     // Names with further extensions are for pseudo-loaders and may be no files themselves.
     const std::string found = osgDB::findDataFile(file);
+    const std::string irregularity = found.empty() ? "" : engine::irregularityOf(found);
+    if (!irregularity.empty() && !std::filesystem::is_directory(found)) // some plugins read folders
+        throw Failure(kCannotLoad, "cannot load " + file + ": " + irregularity);
     if (!found.empty() && osgDB::getLowerCaseFileExtension(found) == "osgt" && isCutShort(found))
     {
         throw Failure(kCannotLoad, "cannot load " + file + ": it is cut short");

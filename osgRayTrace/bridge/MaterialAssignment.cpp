@@ -45,15 +45,14 @@ const MaterialRule* MaterialAssignment::ruleFor(const osg::NodePath& path,
                                                 const GraphState& state) const
 {
     for (auto node = path.rbegin(); node != path.rend() && !_library->nodes.empty(); ++node)
-        if (const MaterialRule* rule = findRule(_library->nodes, (*node)->getName())) return rule;
+        if (const MaterialRule* rule = _library->nodes.find((*node)->getName())) return rule;
     if (const auto* material = state.attribute<osg::Material>(kMaterialSlot))
-        if (const MaterialRule* rule = findRule(_library->materials, material->getName()))
-            return rule;
+        if (const MaterialRule* rule = _library->materials.find(material->getName())) return rule;
     const osg::Texture2D* texture = textureOf(state);
     if (!texture || !texture->getImage()) return nullptr;
     const std::string& file = texture->getImage()->getFileName();
-    if (const MaterialRule* rule = findRule(_library->textures, file)) return rule;
-    return findRule(_library->textures, osgDB::getSimpleFileName(file));
+    if (const MaterialRule* rule = _library->textures.find(file)) return rule;
+    return _library->textures.find(osgDB::getSimpleFileName(file));
 }
 
 const osg::StateSet& MaterialAssignment::stateSetOf(const MaterialRule& rule, uint32_t number,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/MaterialLibrary.h"
 
+#include "osgRayTrace/base/TextFile.h"
 #include "osgRayTrace/bridge/WarnOnce.h"
 
 #include <nlohmann/json.hpp>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 
 namespace osgRayTrace::engine
@@ -190,14 +190,15 @@ private:
 
     bool beginMaterial(const std::string& name)
     {
-        const auto isIt = [&name](const MaterialRule& rule) { return rule.pattern == name; };
         if (name.empty()) return fail("a name is empty");
-        if (std::any_of(_rules->begin(), _rules->end(), isIt))
-            return fail("'" + name + "' is there twice");
-        _pattern = name;
         _material = new PhysicalMaterial;
         _material->setName(name);
-        _rules->push_back({_group, name, _material, true});
+        _rule = _rules->add({_group, name, _material, true});
+        if (!_rule) return fail("'" + name + "' is there twice");
+        if (_rules->patterns() > kMostPatterns)
+            return fail("'" + name + "': more than " + std::to_string(kMostPatterns) +
+                        " names with '*'");
+        _pattern = name;
         _given.clear();
         return true;
     }
@@ -210,7 +211,7 @@ private:
         if (std::find(_given.begin(), _given.end(), name) != _given.end())
             return fail("'" + name + "' is there twice");
         _given.push_back(name);
-        if (name == "baseColor") _rules->back().keepsColor = false;
+        if (name == "baseColor") _rule->keepsColor = false;
         return true;
     }
 
@@ -249,7 +250,8 @@ private:
     int _depth = 0;
     bool _inArray = false;
     std::shared_ptr<MaterialLibrary> _library = std::make_shared<MaterialLibrary>();
-    std::vector<MaterialRule>* _rules = nullptr;
+    MaterialRuleList* _rules = nullptr;
+    MaterialRule* _rule = nullptr;
     osg::ref_ptr<PhysicalMaterial> _material;
     const Parameter* _parameter = nullptr;
     Values _values;
@@ -286,16 +288,21 @@ bool matchesPattern(const std::string& pattern, const std::string& name)
     return pattern.find_first_not_of('*', p) == std::string::npos;
 }
 
-const MaterialRule* findRule(const std::vector<MaterialRule>& rules, const std::string& name)
+MaterialRule* MaterialRuleList::add(MaterialRule rule)
 {
-    if (name.empty()) return nullptr;
-    const MaterialRule* found = nullptr;
-    for (const MaterialRule& rule : rules)
-    {
-        if (rule.pattern == name) return &rule;
-        if (!found && matchesPattern(rule.pattern, name)) found = &rule;
-    }
-    return found;
+    if (!_byName.try_emplace(rule.pattern, _rules.size()).second) return nullptr;
+    if (rule.pattern.find('*') != std::string::npos) _patterns.push_back(_rules.size());
+    return &_rules.emplace_back(std::move(rule));
+}
+
+const MaterialRule* MaterialRuleList::find(const std::string& name) const
+{
+    if (name.empty() || _rules.empty()) return nullptr;
+    if (const auto named = _byName.find(name); named != _byName.end())
+        return &_rules[named->second];
+    for (const std::size_t pattern : _patterns)
+        if (matchesPattern(_rules[pattern].pattern, name)) return &_rules[pattern];
+    return nullptr;
 }
 
 MaterialLibraryResult parseMaterialLibrary(const std::string& text, const std::string& fileName)
@@ -310,16 +317,9 @@ MaterialLibraryResult parseMaterialLibrary(const std::string& text, const std::s
 MaterialLibraryResult readMaterialLibrary(const std::string& fileName)
 {
     const std::string found = osgDB::findDataFile(fileName);
-    std::ifstream stream(found, std::ios::binary);
-    if (found.empty() || !stream) return {nullptr, fileName + ": there is no such file"};
-    std::string text;
-    char buffer[4096];
-    while (stream.read(buffer, sizeof buffer) || stream.gcount() > 0)
-    {
-        text.append(buffer, static_cast<std::size_t>(stream.gcount()));
-        if (text.size() > kMostBytes) return {nullptr, fileName + ": more than 16 MiB"};
-    }
-    return parseMaterialLibrary(text, fileName);
+    const FileText read = readTextFile(found.empty() ? fileName : found, kMostBytes);
+    if (!read.error.empty()) return {nullptr, fileName + ": " + read.error};
+    return parseMaterialLibrary(read.text, fileName);
 }
 
 std::shared_ptr<const MaterialLibrary> MaterialLibraryFile::materials(const std::string& fileName,

@@ -16,8 +16,10 @@
 
 #include <osg/Node>
 
+#include <deque>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -31,14 +33,38 @@ struct MaterialRule
     bool keepsColor = true;                        ///< there is no baseColor
 };
 
+/// Names with "*" in a group: each name of the scene that is no name of the group is compared with
+/// all of these. Other names cost the same however many they are.
+constexpr std::size_t kMostPatterns = 1024;
+
+/// The rules of a group, in the order of the file.
+class MaterialRuleList
+{
+public:
+    /// Null if there is a rule of this pattern.
+    MaterialRule* add(MaterialRule rule);
+
+    /// The best rule for a name; null: none. It lives as long as the list.
+    const MaterialRule* find(const std::string& name) const;
+
+    std::size_t patterns() const { return _patterns.size(); } ///< with "*"
+    bool empty() const { return _rules.empty(); }
+    std::size_t size() const { return _rules.size(); }
+    const MaterialRule& operator[](std::size_t i) const { return _rules[i]; }
+    auto begin() const { return _rules.begin(); }
+    auto end() const { return _rules.end(); }
+
+private:
+    std::deque<MaterialRule> _rules;
+    std::unordered_map<std::string, std::size_t> _byName;
+    std::vector<std::size_t> _patterns; ///< those with "*"
+};
+
 /// Immutable once it is made.
 struct MaterialLibrary
 {
-    std::vector<MaterialRule> nodes, materials, textures; ///< in the order of the file
+    MaterialRuleList nodes, materials, textures;
 };
-
-/// The best rule for a name; null: none. Rules live as long as the list.
-const MaterialRule* findRule(const std::vector<MaterialRule>& rules, const std::string& name);
 
 /// True if '*' in pattern can stand for characters so that it is the name.
 bool matchesPattern(const std::string& pattern, const std::string& name);

@@ -7,6 +7,7 @@
 #include <osg/Group>
 #include <osgDB/WriteFile>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <limits>
@@ -92,6 +93,16 @@ TEST_CASE("osgraytrace: what cannot be loaded ends with 2", "[apps]")
     refuses(2, "missing.osgt -o x.png", "cannot load missing.osgt: there is no such file");
     refuses(2, kBox + " missing.osgt -o x.png", "cannot load missing.osgt");
     refuses(2, kBox + " -o x.png --reference missing.exr", "cannot load missing.exr");
+}
+
+TEST_CASE("osgraytrace: what has no end ends with 2, and nobody waits for it", "[apps]")
+{
+    const TemporaryFolder pipes;
+    for (const char* name : {"m.osgt", "m.json"})
+        REQUIRE(mkfifo((pipes / name).c_str(), 0600) == 0);
+    refuses(2, pipes / "m.osgt" + " -o x.png", "m.osgt: is a pipe");
+    refuses(2, kBox + " -o x.png --materials " + pipes / "m.json", "m.json: is a pipe");
+    refuses(2, kBox + " -o x.png --materials /dev/zero", "/dev/zero: is a device");
 }
 
 TEST_CASE("osgraytrace: a model that is cut short ends with 2, wherever it was cut", "[apps]")

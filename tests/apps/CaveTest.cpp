@@ -7,7 +7,10 @@
 #include "tests/CommaLocale.h"
 #include "tests/plugins/TemporaryFolder.h"
 
+#include <sys/stat.h>
+
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <random>
 
@@ -167,6 +170,75 @@ TEST_CASE("what is wrong is named with its line")
         deep += "<A>";
     check(deep, ":1:", "too deep");
     CHECK_THROWS_AS(CaveFile("/nowhere/c.xml", "me"), Failure);
+}
+
+TEST_CASE("what has no end, or no measure, is refused")
+{
+    const TemporaryFolder folder;
+    const auto fileError = [](const std::string& file)
+    {
+        try
+        {
+            CaveFile(file, "me");
+        }
+        catch (const Failure& failure)
+        {
+            CHECK(failure.code() == kCannotLoad);
+            return std::string(failure.what());
+        }
+        return std::string();
+    };
+    REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    CHECK(contains(fileError("/dev/zero"), "cannot read /dev/zero: is a device"));
+    CHECK(contains(fileError(folder / "pipe"), "pipe: is a pipe"));
+    CHECK(contains(fileError(folder / "."), "is a directory"));
+    CHECK(contains(fileError(written(folder, "c.xml", "<INCLUDE>pipe</INCLUDE>")),
+                   "pipe: is a pipe"));
+    CHECK_THROWS_AS(HeadPath::read("/dev/zero"), Failure);
+    CHECK_THROWS_AS(HeadPath::read(folder / "pipe"), Failure);
+    CHECK_THROWS_AS(HeadPath::read(folder / "."), Failure);
+    std::filesystem::create_symlink(folder / "c.xml", folder / "link.xml");
+    written(folder, "c.xml", kOne);
+    CHECK(fileError(folder / "link.xml") == "");
+
+    const std::string blanks(kMostCaveBytes, ' ');
+    CHECK(fileError(written(folder, "full.xml", blanks)) == "");
+    CHECK(contains(fileError(written(folder, "more.xml", blanks + " ")),
+                   "has more than 4194304 bytes"));
+    CHECK(contains(fileError(written(folder, "both.xml", "<INCLUDE>full.xml</INCLUDE>")),
+                   "with the files before it there are more than 4194304 bytes"));
+}
+
+TEST_CASE("elements, windows and pixels are bounded, and all that is within costs little")
+{
+    std::string text = kOne;
+    for (int i = 0; i < 12000; ++i) // blocks that are unwrapped one by one
+        text += "<LOCAL host=\"me\"><A/></LOCAL><LOCAL/>\n";
+    CHECK(errorOf(text) == "");
+    for (int i = 0; i < 12000; ++i)
+        text += "<A/>\n";
+    CHECK(contains(errorOf(text), "there are more than 50000 elements and attributes"));
+
+    std::string attributes = "<A";
+    for (int i = 0; i < 60000; ++i)
+        attributes += " a=\"\"";
+    CHECK(contains(errorOf(attributes + "/>" + kOne), "more than 50000 elements and attributes"));
+
+    std::string windows = "<NumWindows value=\"100000\"/><WindowConfig>";
+    for (int i = 0; i < 257; ++i)
+        windows += "<Window name=\"" + std::to_string(i) + "\"/>";
+    CHECK(contains(errorOf(windows + "</WindowConfig>" + kOne),
+                   "there are more than 256 of WindowConfig.Window"));
+
+    const std::string large = "<WindowConfig><Window name=\"0\" width=\"32768\" "
+                              "height=\"8192\"/></WindowConfig>";
+    CHECK(errorOf(large + kOne) == "");
+    CHECK(contains(errorOf("<WindowConfig><Window name=\"1\"/></WindowConfig>" + large + kOne),
+                   "all windows together have 268675456 pixels, more than 268435456"));
+    CHECK(contains(errorOf("<ChannelConfig><Channel name=\"0\" width=\"32768\" "
+                           "height=\"32768\"/></ChannelConfig>" +
+                           std::string(kOne)),
+                   "all channels together have 1073741824 pixels"));
 }
 
 TEST_CASE("a configuration with any bytes damaged is read or refused")

@@ -3,10 +3,13 @@
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 #include "tests/bridge/Messages.h"
+#include "tests/plugins/TemporaryFolder.h"
 
 #include <osg/Image>
 #include <osg/Material>
 #include <osg/Texture2D>
+
+#include <sys/stat.h>
 
 #include <limits>
 
@@ -158,6 +161,51 @@ TEST_CASE("material files: patterns", "[bridge]")
     CHECK_FALSE(matchesPattern("a*b*c", "a c b"));
     CHECK_FALSE(matchesPattern("", "x"));
     CHECK(matchesPattern("*ab", "aab"));
+}
+
+TEST_CASE("material files: very many names are no more than many names", "[bridge]")
+{
+    // With each name compared with each other one this takes minutes.
+    constexpr int kNames = 200000;
+    std::string text = "{ \"nodes\": {\n";
+    for (int i = 0; i < kNames; ++i)
+        text += "\"part " + std::to_string(i) + "\": {},\n";
+    text += "\"part 7*\": {} } }";
+    const MaterialLibraryResult result = parseMaterialLibrary(text, "m.json");
+    REQUIRE(result.error == "");
+    const MaterialRuleList& nodes = result.library->nodes;
+    REQUIRE(nodes.size() == kNames + 1);
+    int wrong = 0;
+    for (int i = 0; i < kNames; ++i)
+        wrong += nodes.find(nodes[std::size_t(i)].pattern) != &nodes[std::size_t(i)];
+    CHECK(wrong == 0);
+    CHECK(nodes.find("part 7 of 9") == &nodes[kNames]);
+    CHECK(nodes.find("part") == nullptr);
+    CHECK_THAT(errorOf(text.substr(0, text.size() - 4) + ",\n\"part 5\": {} } }"),
+               Contains("m.json:200003: nodes: 'part 5' is there twice"));
+}
+
+TEST_CASE("material files: names with stars are bounded", "[bridge]")
+{
+    const auto withPatterns = [](std::size_t count)
+    {
+        std::string text = "{ \"nodes\": {";
+        for (std::size_t i = 0; i < count; ++i)
+            text += "\n\"*part " + std::to_string(i) + "\": {},";
+        return text + "\n\"plain\": {} } }";
+    };
+    CHECK(errorOf(withPatterns(kMostPatterns)) == "");
+    CHECK_THAT(errorOf(withPatterns(kMostPatterns + 1)),
+               Contains("m.json:1026: nodes: '*part 1024': more than 1024 names with '*'"));
+}
+
+TEST_CASE("material files: what has no end is refused", "[bridge]")
+{
+    CHECK_THAT(readMaterialLibrary("/dev/zero").error, Contains("/dev/zero: is a device"));
+    const TemporaryFolder folder;
+    REQUIRE(mkfifo((folder / "pipe.json").c_str(), 0600) == 0);
+    CHECK_THAT(readMaterialLibrary(folder / "pipe.json").error, Contains("pipe.json: is a pipe"));
+    CHECK_THAT(readMaterialLibrary(folder / ".").error, Contains("is a directory"));
 }
 
 TEST_CASE("material files: nodes win over materials over textures, names over patterns", "[bridge]")

@@ -84,7 +84,7 @@ bool isIn(float value, float low, float high)
     return value >= low && value <= high;
 }
 
-void checkRules(const std::vector<MaterialRule>& rules)
+void checkRules(const MaterialRuleList& rules)
 {
     for (const MaterialRule& rule : rules)
     {
@@ -95,7 +95,7 @@ void checkRules(const std::vector<MaterialRule>& rules)
         for (int c = 0; c < 3; ++c)
             good = good && isIn(m.getBaseColor()[c], 0, 1) && isIn(m.getEmission()[c], 0, 1e30f);
         CHECK(good);
-        findRule(rules, "cow.osg");
+        rules.find("cow.osg");
     }
 }
 

@@ -3,6 +3,8 @@
 #include "apps/osgraytracebench/report/Reference.h"
 
 #include "apps/common/Output.h"
+#include "apps/common/Failure.h"
+#include "osgRayTrace/base/TextFile.h"
 
 #include <nlohmann/json.hpp>
 
@@ -38,6 +40,8 @@ bool readValues(std::ifstream& stream, std::vector<double>& values, std::size_t 
 /// Nothing if the file is not there, is damaged, or is of another scene or plan.
 bool readCached(const std::string& stem, const ordered_json& wanted, Reference& reference)
 {
+    for (const char* ending : {".json", ".f64"})
+        if (!engine::irregularityOf(stem + ending).empty()) return false;
     std::ifstream text(stem + ".json"), values(stem + ".f64", std::ios::binary);
     if (!text || !values) return false;
     const ordered_json found = ordered_json::parse(text, nullptr, false);

@@ -4,6 +4,7 @@
 
 #include "apps/common/Failure.h"
 #include "apps/common/Output.h"
+#include "osgRayTrace/base/TextFile.h"
 
 #include <nlohmann/json.hpp>
 
@@ -233,11 +234,13 @@ void writeCsv(const Report& report, const std::string& file)
 
 Report readJson(const std::string& file)
 {
-    std::ifstream stream(file);
-    if (!stream) throw app::Failure(app::kCannotLoad, "cannot read " + file);
+    constexpr std::size_t kMostBytes = std::size_t(256) << 20;
+    const engine::FileText read = engine::readTextFile(file, kMostBytes);
+    if (!read.error.empty())
+        throw app::Failure(app::kCannotLoad, "cannot read " + file + ": " + read.error);
     try
     {
-        const ordered_json json = ordered_json::parse(stream);
+        const ordered_json json = ordered_json::parse(read.text);
         if (json.at("format") != kFormat)
             throw app::Failure(app::kCannotLoad, file + " is a report of another format");
         Report report;

@@ -15,12 +15,12 @@
 #include "apps/osgraytracebench/report/SamplerStudy.h"
 #include "apps/osgraytracebench/report/ScheduleStudy.h"
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/base/TextFile.h"
 #include "osgRayTrace/integrators/Integrator.h"
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 namespace osgRayTrace::bench
 {
@@ -180,12 +180,16 @@ bool wanted(const ReportOptions& options, const char* study)
     return options.only.empty() || std::string(study).find(options.only) == 0;
 }
 
+constexpr std::size_t kMostExpectationBytes = std::size_t(16) << 20;
+
 std::string expectationsOf(const ReportOptions& options)
 {
     if (options.expectations.empty()) return builtInExpectations();
-    std::ifstream stream(options.expectations);
-    if (!stream) throw app::Failure(app::kCannotLoad, "cannot read " + options.expectations);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
+    engine::FileText read = engine::readTextFile(options.expectations, kMostExpectationBytes);
+    if (!read.error.empty())
+        throw app::Failure(app::kCannotLoad,
+                           "cannot read " + options.expectations + ": " + read.error);
+    return std::move(read.text);
 }
 
 /// Says all of them; returns how many are not met.
