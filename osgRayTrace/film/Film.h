@@ -35,8 +35,10 @@ using TileRgba = RgbaLanes[kTileBlocks];
 
 /// Passes 0, 2, 4, ... go to the first half, the others to the second. The halves are sampled
 /// independently, so for the mean m = (a + b)/2 of their means the variance estimate (a - b)^2/4 is
-/// unbiased [Rousselle12, sect. 3]; see errorScale for an odd number of passes. Tiles are independent: different threads may write different tiles.
-/// Sums of a bounded number of passes are float, their totals double.
+/// unbiased [Rousselle12, sect. 3]; see errorScale for an odd number of passes. What photons blur,
+/// which are looked up in discs, both halves have: that bias is not in the estimate. Tiles are
+/// independent: different threads may write different tiles. Sums of a bounded number of passes are
+/// float, their totals double.
 class Film
 {
 public:

@@ -35,13 +35,38 @@ struct HitPointBlock
              ending = 0; ///< see Bounce, SurfaceLanes
 };
 
-/// Of one tile, for all passes in which camera paths are the same.
+/// Passes of one half of the film that gather at the hit points of the same camera paths. The noise
+/// of paths, of where they are in the pixel and of what glossy surfaces make of them, falls with
+/// the number of such groups alone, and to follow a path takes no more than a tenth of a pass:
+/// longer groups cost more than they save.
+constexpr int kPathPasses = 2;
+
+/// Number of the camera paths of a pass: that of the pass which has them where each has its own.
+/// Paths of a half are numbered one after the other, as their points fill the pixel evenly in that
+/// order, and halves of the film have paths of their own, so that the difference between their
+/// means shows the noise of paths, too.
+inline int sharedPaths(int pass)
+{
+    const int half = pass & 1;
+    return pass / (2 * kPathPasses) * 2 + half;
+}
+
+/// Hit points of one tile for one half of the film, kept for the passes that share them.
 struct HitPoints
 {
-    bool traced = false;               ///< the paths were followed; otherwise all else is empty
+    uint32_t paths = kInvalid; ///< PassKey::index of the camera paths; kInvalid: there are none
     std::vector<HitPointBlock> blocks; ///< by number of bounces
     std::vector<Bsdf> bsdfs;
     std::vector<RgbaLanes> seen; ///< kTileBlocks of the light that the paths met by themselves
+
+    /// Leaves the memory for the next paths.
+    void clear()
+    {
+        paths = kInvalid;
+        blocks.clear();
+        bsdfs.clear();
+        seen.clear();
+    }
 
     std::size_t bytes() const
     {

@@ -26,7 +26,7 @@ struct PassContext
     Mat3 eyeFromEngine{1.0f};                   ///< rotation into the view's axes
     RenderOptions options;                      ///< integrator is the chosen one, never Automatic
     PassKey key;
-    PassKey pathKey;                            ///< of camera paths; key, but of the first pass for PPM
+    PassKey pathKey;                            ///< of camera paths; for PPM that of sharedPaths()
     bool wantsDepth = true;                     ///< of the first pass
     bool throughCentres = false;                ///< camera rays are those of firstHits
 
@@ -99,7 +99,8 @@ struct TileResult
     TileCounts counts;
     TileDiagnostics* diagnostics = nullptr; ///< null: nobody wants them
     GatheredPhotons* gathered = nullptr;    ///< needed if photonUse
-    HitPoints* hitPoints = nullptr; ///< camera paths stay the same: theirs, followed if not traced yet
+    HitPoints* hitPoints =
+        nullptr; ///< of passes that share camera paths: followed if pathKey is another
 };
 
 /// One pass for one tile of one view. Stateless: any thread may call it for any tile.

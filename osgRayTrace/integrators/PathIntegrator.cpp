@@ -162,21 +162,23 @@ void readSums(const RgbaLanes* rgba, Tile& tile)
     }
 }
 
-/// The passes of [Hachisuka08, sect. 4]: camera paths once, then photons and light at what they found.
+/// The passes of [Hachisuka08, sect. 4]: camera paths once, then photons and light at what they
+/// found, until the pass has other paths.
 void gatherOnly(Tile& tile, PhotonUse use)
 {
     HitPoints& hits = *tile.result.hitPoints;
-    if (hits.traced)
+    const uint32_t paths = tile.context.pathKey.index;
+    if (hits.paths == paths)
         readSums(hits.seen.data(), tile);
     else
     {
-        hits = HitPoints(); // of paths that ran out of memory there may be some
+        hits.clear();
         tracePaths(tile, use);
         hits.seen.resize(kTileBlocks);
         writeSums(tile, hits.seen.data());
         hits.blocks.shrink_to_fit();
         hits.bsdfs.shrink_to_fit();
-        hits.traced = true;
+        hits.paths = paths;
     }
     gatherAtHitPoints(tile, hits);
 }

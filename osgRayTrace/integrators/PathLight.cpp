@@ -128,15 +128,6 @@ void sampleOneLight(Tile& tile, PathBlock& block, const Bounce& bounce, uint32_t
     addLight(tile, block, bounce, samples, visible, bounce.ending);
 }
 
-/// Light samples change from pass to pass also where the camera path does not.
-UintLanes lightSeeds(const PassContext& context, const PathBlock& block)
-{
-    UintLanes seeds;
-    for (int i = 0; i < kLanes; ++i)
-        seeds[i] = block.seed[i] ^ context.key.seed ^ context.pathKey.seed;
-    return seeds;
-}
-
 /// All soft lights are sampled, each at points of its own.
 UintLanes seedsOfLight(const UintLanes& seeds, uint32_t light)
 {
@@ -152,7 +143,7 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
 {
     const LightTable& table = tile.context.traced->lights();
     const LaneMask lanes = bounce.diffuse | bounce.general;
-    const UintLanes seeds = lightSeeds(tile.context, block);
+    const UintLanes& seeds = block.seed;
     for (const auto& [index, weight] : tile.deltaLights)
     {
         const Light& light = (*tile.context.lights)[index];

@@ -147,7 +147,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
         else
             _firstRadii.assign(_pixels, 0.0f);
         if (context.options.integrator == IntegratorKind::Ppm)
-            _hitPoints.resize(_pixels / kTilePixels);
+            _hitPoints.resize(2 * _pixels / kTilePixels);
     }
     if (_idle)
     {
@@ -205,9 +205,11 @@ PhotonNote PhotonState::note() const
     return _limited ? PhotonNote::RadiusLimited : PhotonNote::None;
 }
 
-HitPoints* PhotonState::hitPoints(int tile)
+HitPoints* PhotonState::hitPoints(int tile, int pass)
 {
-    return _hitPoints.empty() ? nullptr : &_hitPoints[static_cast<std::size_t>(tile)];
+    if (_hitPoints.empty()) return nullptr;
+    const std::size_t half = (pass & 1) ? _hitPoints.size() / 2 : 0;
+    return &_hitPoints[half + static_cast<std::size_t>(tile)];
 }
 
 std::size_t PhotonState::viewBytes() const
@@ -244,7 +246,7 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
     if (gathered.seenStride) _seen[static_cast<std::size_t>(tile)] = squaresOf(gathered.seen, rgba);
     // By tile, so that no thread's luck decides which are kept.
-    if (HitPoints* hits = hitPoints(tile);
+    if (HitPoints* hits = hitPoints(tile, pass);
         hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())
         *hits = HitPoints();
     if (!_local)

@@ -56,10 +56,10 @@ public:
 
     bool active() const { return _pass != nullptr; }
 
-    /// The tile's hit points if camera paths are the same in each pass, as those of Ppm; else null.
-    /// What a tile has of them goes if it is more than its share of kMostHitPointBytes: its paths
-    /// are followed again then.
-    HitPoints* hitPoints(int tile);
+    /// The tile's hit points for the half of the film that the pass belongs to, if passes share
+    /// camera paths, as those of Ppm do; else null. What a tile has of them goes if it is more than
+    /// its share of kMostHitPointBytes: its paths are followed again then.
+    HitPoints* hitPoints(int tile, int pass);
     static constexpr std::size_t kMostHitPointBytes = std::size_t(1) << 29;
 
     /// Radii for the tile before its pass; and what it found. For the local schedule that is added
@@ -99,7 +99,7 @@ private:
     std::size_t _pixels = 0;                  ///< of all tiles
     std::vector<float> _firstRadii;           ///< tile, pixel; 0: not known; empty if local
     std::vector<LocalStatistics> _statistics; ///< half, tile, pixel; empty unless local
-    std::vector<HitPoints> _hitPoints; ///< tile; empty unless paths are the same in each pass
+    std::vector<HitPoints> _hitPoints;        ///< half, tile; empty unless passes share paths
     std::vector<std::vector<SeenSquares>>
         _seen;                        ///< tile; of the pass at work; empty unless it is learnt from
     std::vector<double> _seenSquares; ///< of all those passes: see PhotonPasses::noteSeen

@@ -140,11 +140,11 @@ PassContext RenderSession::Implementation::contextOfPass(int pass) const
     context.options = filmOptions;
     context.options.integrator = progress.integrator;
     context.key = passKey(filmSeed, pass);
-    context.pathKey = progress.integrator == IntegratorKind::Ppm ? passKey(filmSeed, 0) : context.key;
+    const bool sharesPaths = progress.integrator == IntegratorKind::Ppm;
+    const int paths = sharesPaths ? sharedPaths(pass) : pass;
+    context.pathKey = passKey(filmSeed, paths);
     context.wantsDepth = pass == 0;
-    // Photon mapping with fixed hit points follows the first pass's camera paths in all of them.
-    const bool firstPaths = pass == 0 || progress.integrator == IntegratorKind::Ppm;
-    context.throughCentres = filmOptions.centredFirstPass && firstPaths;
+    context.throughCentres = filmOptions.centredFirstPass && paths == 0;
     return context;
 }
 
@@ -161,7 +161,7 @@ TileCounts RenderSession::Implementation::renderTile(const PassContext& context,
     {
         photons.begin(tile, film.tilePasses(tile), gathered);
         result.gathered = &gathered;
-        result.hitPoints = photons.hitPoints(tile);
+        result.hitPoints = photons.hitPoints(tile, film.tilePasses(tile));
     }
     SurfaceBlock met[kTileBlocks];
     const bool keeps = context.wantsDepth && surfaces.view.width > 0;

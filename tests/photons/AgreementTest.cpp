@@ -37,9 +37,7 @@ void checkAgreement(const std::vector<ComparedScene>& scenes)
             const double p = welchTest(path, kRuns, photons, kRuns);
             CAPTURE(scene.name, int(kind), path.mean(), path.standardError(), photons.mean(),
                     photons.standardError(), p, threshold);
-            // PPM's hit points stay: the noise of where they are in the pixels does, too.
-            const double noise = kind == IntegratorKind::Ppm ? 0.04 : 0.015;
-            CHECK(photons.standardError() < noise * path.mean());
+            CHECK(photons.standardError() < 0.015 * path.mean());
             CHECK(p > threshold);
         }
     }

@@ -64,9 +64,7 @@ void checkAgreement(const char* name, const SceneBuilder& builder, int times = 1
         const Estimate photons = meanOf(traced, roomView(), photonOptions(kind), 24 * times);
         const double spread = std::hypot(path.standardError(), photons.standardError());
         CAPTURE(name, int(kind), path.mean(), photons.mean(), spread);
-        // PPM keeps its camera paths: by glossy surfaces their noise does not fall with passes.
-        const bool fixedNoise = times > 1 && kind == IntegratorKind::Ppm;
-        CHECK(photons.standardError() < (fixedNoise ? 0.02 : 0.01) * path.mean());
+        CHECK(photons.standardError() < 0.01 * path.mean());
         CHECK(std::abs(path.mean() - photons.mean()) <= 4.0 * spread);
     }
 }

@@ -116,6 +116,43 @@ void checkErrors(const std::shared_ptr<const TracedScene>& traced, IntegratorKin
     }
 }
 
+/// The same for integrators with photons, with the standard deviation over the seeds for the true
+/// error: the halves of an image cannot tell what discs of photons blur.
+void checkPhotonErrors(const std::shared_ptr<const TracedScene>& traced, IntegratorKind kind,
+                       const View& view, int passes)
+{
+    constexpr uint32_t kSeeds = 60;
+    RenderOptions options = optionsOf(kind, 4);
+    options.lightSamples = 1;
+    options.photons = 3000;
+    RenderSession session(std::make_shared<Workers>());
+    session.setScene(traced);
+    session.setView(view);
+    StopRule rule;
+    rule.passes = passes;
+    std::vector<std::vector<float>> images;
+    std::vector<double> sum(4 * static_cast<std::size_t>(view.width * view.height));
+    Errors errors;
+    for (options.seed = 0; options.seed < kSeeds; ++options.seed)
+    {
+        session.setOptions(options);
+        REQUIRE(session.render(rule).passes == passes);
+        const double estimate = session.estimateRelativeError();
+        errors.estimated += estimate * estimate / kSeeds;
+        images.push_back(session.resolveRadiance());
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += double(images.back()[i]);
+    }
+    std::vector<float> mean;
+    for (const double value : sum)
+        mean.push_back(static_cast<float>(value / kSeeds));
+    for (const std::vector<float>& image : images)
+        errors.actual += relativeSquaredError(image, mean, view.width) / (kSeeds - 1.0);
+    const double estimated = std::sqrt(errors.estimated), actual = std::sqrt(errors.actual);
+    CAPTURE(int(kind), passes, estimated, actual, estimated / actual);
+    CHECK(estimated / actual == Approx(1.0).margin(0.2));
+}
+
 const IntegratorKind kBoth[] = {IntegratorKind::Path, IntegratorKind::Whitted};
 
 } // namespace
@@ -152,4 +189,22 @@ TEST_CASE("error estimate: and of a caustic, once its error is below what is see
 {
     checkErrors(glassSphere(), IntegratorKind::Path, viewOfSphere(24), {16, 64});
     checkErrors(glassSphere(), IntegratorKind::Whitted, viewOfSphere(24), {16, 64});
+}
+
+TEST_CASE("error estimate: and with photons, of camera paths as well as of light",
+          "[render][statistics]")
+{
+    // What antialiases the light's edges, and what a glossy floor spreads, is the noise of camera
+    // paths: PPM claimed 2 to 60 times too little where the halves of its image shared them.
+    SceneBuilder glossyBox = cornellBox();
+    Material glossy = mirror(Vec3(0.9f));
+    glossy.roughness = 0.45f;
+    glossyBox.add(quadMesh({549, 1, 1}, {-548, 0, 0}, {0, 0, 557}), glossy);
+    for (const IntegratorKind kind : {IntegratorKind::Ppm, IntegratorKind::Sppm})
+        for (const int passes : {2, 5, 16, 40})
+        {
+            checkPhotonErrors(cornellBox().build(), kind, viewOfLight(24), passes);
+            checkPhotonErrors(glossyBox.build(), kind, viewWithoutLight(24), passes);
+            checkPhotonErrors(glassSphere(), kind, viewOfSphere(24), passes);
+        }
 }

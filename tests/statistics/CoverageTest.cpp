@@ -123,7 +123,27 @@ void checkCoverage(const std::shared_ptr<const TracedScene>& traced, const View&
     checkShare(whole.share95(), 0.95, whole.trials);
 }
 
-/// Green of a pixel of each tile: pixels of different tiles are independent, whatever the integrator.
+/// The green of one pixel of each tile: pixels of different tiles have camera paths of their own,
+/// whatever the integrator.
+struct PixelEstimate
+{
+    double mean, error;
+};
+
+std::vector<PixelEstimate> pixelEstimates(const RenderSession& session)
+{
+    const std::vector<float> image = session.resolveRadiance(),
+                             errors = session.resolveChannel(Channel::Error);
+    std::vector<PixelEstimate> pixels;
+    for (int tile = 0; tile < kTiles * kTiles; ++tile)
+    {
+        const int x = tile % kTiles * kTile + 5, y = tile / kTiles * kTile + 9;
+        const auto pixel = static_cast<std::size_t>(y * kSize + x);
+        pixels.push_back({double(image[4 * pixel + 1]), double(errors[3 * pixel + 1])});
+    }
+    return pixels;
+}
+
 /// The two halves of one pixel are one degree of freedom.
 void checkPixelCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
                         RenderOptions options, int passes)
@@ -131,10 +151,6 @@ void checkPixelCoverage(const std::shared_ptr<const TracedScene>& traced, const 
     RenderSession session(std::make_shared<Workers>());
     session.setScene(traced);
     session.setView(view);
-    struct Pixel
-    {
-        double mean, error;
-    };
     const auto rendered = [&](uint32_t seed, int count)
     {
         options.seed = seed;
@@ -142,23 +158,14 @@ void checkPixelCoverage(const std::shared_ptr<const TracedScene>& traced, const 
         StopRule rule;
         rule.passes = count;
         REQUIRE(session.render(rule).passes == count);
-        const std::vector<float> image = session.resolveRadiance(),
-                                 errors = session.resolveChannel(Channel::Error);
-        std::vector<Pixel> pixels;
-        for (int tile = 0; tile < kTiles * kTiles; ++tile)
-        {
-            const int x = tile % kTiles * kTile + 5, y = tile / kTiles * kTile + 9;
-            const auto pixel = static_cast<std::size_t>(y * kSize + x);
-            pixels.push_back({double(image[4 * pixel + 1]), double(errors[3 * pixel + 1])});
-        }
-        return pixels;
+        return pixelEstimates(session);
     };
-    const std::vector<Pixel> truth = rendered(99999, 128 * passes);
+    const std::vector<PixelEstimate> truth = rendered(99999, 128 * passes);
 
     int trials = 0, in68 = 0, in95 = 0;
     for (uint32_t seed = 0; seed < kSeeds; ++seed)
     {
-        const std::vector<Pixel> pixels = rendered(seed, passes);
+        const std::vector<PixelEstimate> pixels = rendered(seed, passes);
         for (std::size_t i = 0; i < pixels.size(); ++i)
         {
             const double p = studentTail((pixels[i].mean - truth[i].mean) / pixels[i].error, 1.0);
@@ -167,6 +174,43 @@ void checkPixelCoverage(const std::shared_ptr<const TracedScene>& traced, const 
             in95 += p > 0.05;
         }
     }
+    CAPTURE(passes, int(options.integrator), trials);
+    checkShare(double(in68) / trials, 0.6827, trials);
+    checkShare(double(in95) / trials, 0.95, trials);
+}
+
+/// Integrators with photons: the truth is the expectation of the image after so many passes, the
+/// mean over all seeds. How far it is from the light itself, because photons are looked up in
+/// discs, the halves of an image cannot tell.
+void checkPhotonCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
+                         RenderOptions options, int passes)
+{
+    RenderSession session(std::make_shared<Workers>());
+    session.setScene(traced);
+    session.setView(view);
+    StopRule rule;
+    rule.passes = passes;
+    std::vector<std::vector<PixelEstimate>> seeds;
+    std::vector<double> truth(kTiles * kTiles, 0.0);
+    for (uint32_t seed = 0; seed < kSeeds; ++seed)
+    {
+        options.seed = seed;
+        session.setOptions(options);
+        REQUIRE(session.render(rule).passes == passes);
+        seeds.push_back(pixelEstimates(session));
+        for (std::size_t i = 0; i < truth.size(); ++i)
+            truth[i] += seeds.back()[i].mean / kSeeds;
+    }
+
+    int trials = 0, in68 = 0, in95 = 0;
+    for (const std::vector<PixelEstimate>& pixels : seeds)
+        for (std::size_t i = 0; i < truth.size(); ++i)
+        {
+            const double p = studentTail((pixels[i].mean - truth[i]) / pixels[i].error, 1.0);
+            ++trials;
+            in68 += p > 1.0 - 0.6827;
+            in95 += p > 0.05;
+        }
     CAPTURE(passes, int(options.integrator), trials);
     checkShare(double(in68) / trials, 0.6827, trials);
     checkShare(double(in95) / trials, 0.95, trials);
@@ -206,6 +250,24 @@ TEST_CASE("coverage: path tracing whose pixels share nothing", "[statistics]")
 {
     for (const int passes : {4, 5, 16})
         checkCoverage(boxWithoutLoans().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4), passes);
+}
+
+TEST_CASE("coverage: photons, seen by paths that glossy surfaces spread", "[statistics]")
+{
+    // A glossy floor: most of the noise of its pixels is that of camera paths, which passes of PPM
+    // share.
+    SceneBuilder box = cornellBox();
+    Material glossy = mirror(Vec3(0.9f));
+    glossy.roughness = 0.45f;
+    box.add(quadMesh({549, 1, 1}, {-548, 0, 0}, {0, 0, 557}), glossy);
+    const auto traced = box.build();
+    for (const IntegratorKind kind : {IntegratorKind::Ppm, IntegratorKind::Sppm})
+    {
+        RenderOptions options = optionsOf(kind, 4);
+        options.photons = 3000;
+        for (const int passes : {4, 5, 16, 40})
+            checkPhotonCoverage(traced, withoutLight(), options, passes);
+    }
 }
 
 TEST_CASE("coverage: Whitted's ray tracer with Sobol points", "[statistics]")
