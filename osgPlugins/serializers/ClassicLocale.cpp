@@ -14,11 +14,32 @@ namespace
 /// What exchangeLocale takes and leaves: manipulators have no arguments.
 thread_local std::locale otherLocale;
 
-/// A manipulator reaches the stream that numbers go through, which is not the file's in XML.
 std::ios_base& exchangeLocale(std::ios_base& stream)
 {
     otherLocale = stream.imbue(otherLocale);
     return stream;
+}
+
+/// Shows a stream's iterator, which osgDB shows to derived classes alone.
+struct OpenStream : osgDB::OutputStream
+{
+    static std::ios_base& textOf(osgDB::OutputStream& stream)
+    {
+        return *(stream.*(&OpenStream::_out))->getStream();
+    }
+};
+
+/// Gives the stream that numbers go through another locale; returns the one it had. In XML that is
+/// a stream of osgDB's own, which manipulators reach; elsewhere a manipulator would write an
+/// indentation.
+std::locale setLocale(osgDB::OutputStream& stream, const std::locale& locale)
+{
+    const osgDB::Options* options = stream.getOptions();
+    const bool xml = options && options->getPluginStringData("fileType") == "XML";
+    if (!xml) return OpenStream::textOf(stream).imbue(locale);
+    otherLocale = locale;
+    stream << exchangeLocale;
+    return otherLocale;
 }
 
 class ClassicLocaleSerializer : public osgDB::BaseSerializer
@@ -45,12 +66,9 @@ public:
     /// Serializers of objects within come through here again, while the locale is the classic one.
     bool write(osgDB::OutputStream& stream, const osg::Object& object) override
     {
-        otherLocale = std::locale::classic();
-        stream << exchangeLocale;
-        const std::locale before = otherLocale;
+        const std::locale before = setLocale(stream, std::locale::classic());
         const bool written = _serializer->write(stream, object);
-        otherLocale = before;
-        stream << exchangeLocale;
+        setLocale(stream, before);
         return written;
     }
 

@@ -4,6 +4,7 @@
 #include "tests/Catch.h"
 #include "tests/api/Picks.h"
 #include "tests/apps/Program.h"
+#include "tests/apps/RunningProgram.h"
 
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
@@ -13,6 +14,7 @@
 
 #include <cmath>
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace osgRayTrace;
@@ -248,6 +250,28 @@ TEST_CASE("a wall that the head is behind has no picture, and is named")
     CHECK_FALSE(osgDB::fileExists(folder / "w-0.png"));
     for (const char* other : {"w-1.png", "w-2.png", "w-3.png"})
         CHECK(osgDB::fileExists(folder / other));
+}
+
+TEST_CASE("a signal ends the viewer's pictures, which are written")
+{
+    for (int milliseconds = 500; milliseconds < 40000; milliseconds *= 2)
+    {
+        const TemporaryFolder folder;
+        REQUIRE(osgDB::writeNodeFile(*shell(), folder / "shell.osgt"));
+        std::ofstream(folder / "cube.xml") << configuration();
+        RunningProgram program(folder / ".",
+                               {OSGRAYTRACE_TEST_PROGRAM, "--cave", "cube.xml", "--max-passes",
+                                "16777216", "--output", "w.png", "shell.osgt"});
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        program.signal(SIGTERM);
+        CHECK(program.wait() == 143);
+        if (!osgDB::fileExists(folder / "w-0.png")) continue; // it had not begun yet
+        CHECK(program.printed().find("osgraytraceviewer: SIGTERM: pictures of ") != std::string::npos);
+        for (const char* file : {"w-0.png", "w-1.png", "w-2.png", "w-3.png"})
+            CHECK(osgDB::readRefImageFile(folder / file));
+        return;
+    }
+    FAIL("no picture was begun within 40 s");
 }
 
 TEST_CASE("the viewer refuses what is no CAVE")
