@@ -62,8 +62,7 @@ DepthRange depthsOf(osg::Node& scene, const osg::Matrixd& view)
     return range;
 }
 
-osg::Matrixd projectionOf(const Placement& placement, const osg::Matrixd& view, double aspect,
-                          const DepthRange& depths)
+osg::Matrixd projectionOf(const Placement& placement, double aspect, const DepthRange& depths)
 {
     const double zFar = depths.farthest > 0.0 ? depths.farthest * 1.001 : 1.0;
     const double zNear = std::max(depths.nearest * 0.999, zFar * kNearFarRatio);
@@ -93,7 +92,7 @@ Camera cameraOf(const Options& options, osg::Node& scene)
     Camera camera;
     camera.clearColor = storedClearColor(scene).value_or(kOsgViewerClearColor);
     camera.view = osg::Matrixd::lookAt(placement.eye, placement.center, placement.up);
-    camera.projection = projectionOf(placement, camera.view, aspect, depthsOf(scene, camera.view));
+    camera.projection = projectionOf(placement, aspect, depthsOf(scene, camera.view));
     return camera;
 }
 

@@ -163,11 +163,37 @@ std::vector<Quad> boxQuads(const osg::Vec3& low, const osg::Vec3& high)
     };
 }
 
+namespace
+{
+
+void makeEmpty(osg::Group& scene, const std::string& name)
+{
+    scene.setName(name);
+    scene.getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::OFF);
+    osg::ref_ptr<osg::LightModel> ambient = new osg::LightModel;
+    ambient->setAmbientIntensity(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f));
+    scene.getStateSet()->setAttribute(ambient.get());
+
+    osg::ref_ptr<osg::ClearNode> background = new osg::ClearNode;
+    background->setName("background");
+    background->setClearColor(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    scene.addChild(background.get());
+}
+
+} // namespace
+
+osg::ref_ptr<osg::Group> newGraph(const std::string& name)
+{
+    osg::ref_ptr<osg::Group> graph = new osg::Group;
+    makeEmpty(*graph, name);
+    return graph;
+}
+
 osg::ref_ptr<osg::MatrixTransform> newScene(const std::string& name, const SceneView& stored,
                                             const SceneView& home)
 {
     osg::ref_ptr<osg::MatrixTransform> scene = new osg::MatrixTransform(turnedTo(home));
-    scene->setName(name);
+    makeEmpty(*scene, name);
     scene->setDataVariance(osg::Object::DYNAMIC); // osgUtil's optimizer would turn geometry alone
     const double halfHeight =
         (home.center - home.eye).length() * std::tan(osg::DegreesToRadians(0.5 * home.fovyDegrees));
@@ -175,16 +201,6 @@ osg::ref_ptr<osg::MatrixTransform> newScene(const std::string& name, const Scene
     // The base class adds nothing to the initial bound, in place of the children's bounds.
     scene->setComputeBoundingSphereCallback(new osg::Node::ComputeBoundingSphereCallback);
     scene->setCullingActive(false);
-
-    scene->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::OFF);
-    osg::ref_ptr<osg::LightModel> ambient = new osg::LightModel;
-    ambient->setAmbientIntensity(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f));
-    scene->getStateSet()->setAttribute(ambient.get());
-
-    osg::ref_ptr<osg::ClearNode> background = new osg::ClearNode;
-    background->setName("background");
-    background->setClearColor(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
-    scene->addChild(background.get());
     scene->addChild(cameraView(stored).get());
     return scene;
 }

@@ -72,6 +72,9 @@ struct SceneView
 
 /// An empty scene on a black background that area lights and emission alone light: osgviewer's
 /// headlight is off, and the rasterizer shows the materials' ambient colours.
+osg::ref_ptr<osg::Group> newGraph(const std::string& name);
+
+/// The same for a file that viewers open.
 ///
 /// stored: where osgraytrace and osgraytraceviewer look from unless they are told otherwise.
 /// home: what a viewer shows that knows of no stored view, as osgviewer. The home position of

@@ -11,12 +11,12 @@
 namespace
 {
 
-/// What exchangeLocale takes and leaves: manipulators have no arguments.
-thread_local std::locale otherLocale;
+/// Where exchangeLocale takes a locale from and leaves the stream's: manipulators have no arguments.
+thread_local std::locale* otherLocale = nullptr;
 
 std::ios_base& exchangeLocale(std::ios_base& stream)
 {
-    otherLocale = stream.imbue(otherLocale);
+    *otherLocale = stream.imbue(*otherLocale);
     return stream;
 }
 
@@ -37,9 +37,10 @@ std::locale setLocale(osgDB::OutputStream& stream, const std::locale& locale)
     const osgDB::Options* options = stream.getOptions();
     const bool xml = options && options->getPluginStringData("fileType") == "XML";
     if (!xml) return OpenStream::textOf(stream).imbue(locale);
-    otherLocale = locale;
+    std::locale exchanged = locale;
+    otherLocale = &exchanged;
     stream << exchangeLocale;
-    return otherLocale;
+    return exchanged;
 }
 
 class ClassicLocaleSerializer : public osgDB::BaseSerializer

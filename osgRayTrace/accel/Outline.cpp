@@ -48,8 +48,8 @@ std::vector<Box> boxesOf(const Mesh& mesh, const Box& bounds)
     for (int axis = 0; axis < 3; ++axis)
     {
         const float size = bounds.high[axis] - bounds.low[axis];
-        const float cells = static_cast<float>(n) / size;
-        if (size < kInfinity && cells < kInfinity) scale[axis] = cells;
+        const float cellsPerLength = static_cast<float>(n) / size;
+        if (size < kInfinity && cellsPerLength < kInfinity) scale[axis] = cellsPerLength;
     }
     for (const Vec3& p : mesh.positions)
     {

@@ -32,7 +32,7 @@ struct FrameBudget
     /// than this of the seconds; OpenGL enlarges the rest of the way.
     double upsampleShare = 0.15;
     /// If not null, it says what the view traces, as all views do, and the seconds are for all of them.
-    std::shared_ptr<FrameAgreement> agreement;
+    std::shared_ptr<FrameAgreement> agreement = nullptr;
     uint64_t frameNumber = 0; ///< for the agreement; see AgreedFrame
     bool again = false;
 };

@@ -90,6 +90,7 @@ TEST_CASE("a moved instance keeps its mesh, a changed material changes only itse
     osg::ref_ptr<osg::Material> material = new osg::Material;
     graph.transform->getOrCreateStateSet()->setAttribute(material);
     material->setColorMode(osg::Material::OFF);
+    material->setDiffuse(osg::Material::FRONT_AND_BACK, {0.0f, 1.0f, 0.0f, 1.0f});
     const auto before = graph.convert();
     REQUIRE(before->meshes.size() == 1);
     REQUIRE(before->materials.size() == 2);

@@ -44,7 +44,7 @@ osg::ref_ptr<osg::LightSource> lamp(const osg::Vec4& position)
 osg::ref_ptr<osg::Group> litFloor(const std::string& name, const data::Quad& floor,
                                   const osg::Vec4& light)
 {
-    osg::ref_ptr<osg::Group> graph = data::newScene(name);
+    const osg::ref_ptr<osg::Group> graph = data::newGraph(name);
     const osg::ref_ptr<PhysicalMaterial> grey = data::lambert(Vec3(kAlbedo, kAlbedo, kAlbedo));
     graph->addChild(data::surface("floor", {floor}, grey.get()).get());
     graph->addChild(lamp(light).get());

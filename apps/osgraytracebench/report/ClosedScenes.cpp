@@ -94,7 +94,7 @@ ReportScene furnaceScene(double albedo)
     const osg::ref_ptr<PhysicalMaterial> wall =
         data::lambert(Vec3(reflected, reflected, reflected));
     wall->setEmission(Vec3(1, 1, 1));
-    const osg::ref_ptr<osg::Group> graph = data::newScene("furnace");
+    const osg::ref_ptr<osg::Group> graph = data::newGraph("furnace");
     graph->addChild(
         data::surface("room", data::boxQuads(Vec3(-1, -1, -1), Vec3(1, 1, 1)), wall.get()).get());
 
@@ -118,7 +118,7 @@ ReportScene furnaceScene(double albedo)
 ReportScene integratingSphereScene()
 {
     const float albedo = static_cast<float>(kSphereAlbedo);
-    const osg::ref_ptr<osg::Group> graph = data::newScene("integrating sphere");
+    const osg::ref_ptr<osg::Group> graph = data::newGraph("integrating sphere");
     osg::ref_ptr<osg::Geode> wall = new osg::Geode;
     wall->getOrCreateStateSet()->setAttribute(data::lambert(Vec3(albedo, albedo, albedo)).get());
     wall->addDrawable(fineSphere().get());

@@ -135,7 +135,7 @@ PlaneLighting roundBlockerLighting()
 
 osg::ref_ptr<osg::Group> planeGraph(const PlaneLighting& lighting)
 {
-    osg::ref_ptr<osg::Group> graph = data::newScene("plane");
+    const osg::ref_ptr<osg::Group> graph = data::newGraph("plane");
     const data::Quad plane{Vec3(-20, -20, 0), Vec3(20, -20, 0), Vec3(20, 20, 0), Vec3(-20, 20, 0)};
     const osg::ref_ptr<PhysicalMaterial> grey = data::lambert(Vec3(kAlbedo, kAlbedo, kAlbedo));
     graph->addChild(data::surface("plane", {plane}, grey.get()).get());

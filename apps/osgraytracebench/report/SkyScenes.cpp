@@ -79,7 +79,7 @@ ReportScene sunnySkyScene()
     scene.name = "s9-sunny-sky";
     scene.title =
         "S9: a plane and a black ball under a sky, whose sun is one pixel with half of the light";
-    osg::ref_ptr<osg::Group> graph = data::newScene("sunny sky");
+    const osg::ref_ptr<osg::Group> graph = data::newGraph("sunny sky");
     const data::Quad plane{Vec3(-20, -20, 0), Vec3(20, -20, 0), Vec3(20, 20, 0), Vec3(-20, 20, 0)};
     const auto albedo = static_cast<float>(kAlbedo);
     graph->addChild(

@@ -57,7 +57,7 @@ ReportScene scene(const std::string& name, const std::string& title, double heig
     ReportScene scene;
     scene.name = name;
     scene.title = title;
-    osg::ref_ptr<osg::Group> graph = data::newScene("plane");
+    const osg::ref_ptr<osg::Group> graph = data::newGraph("plane");
     const data::Quad plane{Vec3(-20, -20, 0), Vec3(20, -20, 0), Vec3(20, 20, 0), Vec3(-20, 20, 0)};
     const osg::ref_ptr<PhysicalMaterial> grey = data::lambert(Vec3(kAlbedo, kAlbedo, kAlbedo));
     graph->addChild(data::surface("plane", {plane}, grey.get()).get());
