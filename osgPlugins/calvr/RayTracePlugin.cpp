@@ -10,6 +10,7 @@
 
 #include <osg/Notify>
 
+#include <cstdio>
 #include <exception>
 
 CVRPLUGIN(osgRayTrace::calvr::RayTracePlugin)
@@ -155,8 +156,9 @@ void RayTracePlugin::menuCallback(cvr::MenuItem* item)
                 _menu->clicked(item);
                 if (_menu->isFreeze(item))
                     cvr::TrackingManager::instance()->setUpdateHeadTracking(!_menu->isFrozen());
-                if (_menu->isReport(item))
-                    OSG_NOTICE << _root->scene().getConversionReport() << std::flush;
+                if (!_menu->isReport(item)) return;
+                OSG_NOTICE << _root->scene().getConversionReport() << std::flush;
+                std::fflush(stdout); // which OSG writes it to, and which may be a file
             });
 }
 

@@ -384,7 +384,7 @@ bool ViewTracer::traceAgreedImage(const FrameWork& work, double budget)
             const double now = _now();
             double none = -std::numeric_limits<double>::infinity();
             if (start.compare_exchange_strong(none, now)) return false;
-            return now - none > FrameAgreement::kFarTooLong * budget;
+            return now - none > FrameAgreement::farTooLong(budget);
         };
     return renderImage(work.divider, rule);
 }

@@ -35,6 +35,9 @@ class FrameAgreement::Member
     TileCosts costs;
     double photonSeconds = 0.0;                ///< of its last frame in which it moved
     double afterMoved = 0.0, afterStill = 0.0; ///< that a frame takes beside tracing
+    /// Of its last frames at rest at full resolution, each a tenth less than the next: so few tiles
+    /// as are traced in a frame may each seem dear by chance.
+    double stillTiles = 0.0, stillSeconds = 0.0;
     int upsampleDivider = 1;
     uint64_t frame = 0; ///< its last one, as _frameCount had it
 
@@ -188,6 +191,10 @@ void FrameAgreement::end(Member& member, const TracedPart& traced, double now)
     member.upsampleDivider = traced.upsampleDivider;
     member.costs.note(1, traced.full.tiles, share * traced.full.seconds);
     member.costs.note(2, traced.reduced.tiles, share * traced.reduced.seconds);
+    constexpr double kFading = 0.9;
+    member.stillTiles = member.moved ? 0.0 : kFading * member.stillTiles + traced.full.tiles;
+    member.stillSeconds =
+        member.moved ? 0.0 : kFading * member.stillSeconds + share * traced.full.seconds;
     if (member.moved) member.photonSeconds = share * traced.photonSeconds;
     if (traced.full.tiles + traced.reduced.tiles > 0)
     {
@@ -249,7 +256,13 @@ FrameWork FrameAgreement::plan(double seconds, bool degrade)
     const double passes = kFilled * whileMoving / passSeconds(work.divider);
     work.passes = static_cast<int>(std::clamp(std::floor(passes), 1.0, double(kMostPasses)));
     const double atRest = std::max(seconds - afterStill, kLeastShare * seconds);
-    work.progress = progressWithin(kFilled * atRest, passSeconds(1));
+    double wholePass = 0.0;
+    for (const std::shared_ptr<Member>& view : views)
+        wholePass +=
+            view->stillTiles >= 1.0
+                ? tilesOf(view->width, view->height) * view->stillSeconds / view->stillTiles
+                : view->costs.passSeconds(view->width, view->height, 1);
+    work.progress = progressWithin(kFilled * atRest, wholePass);
     return work;
 }
 

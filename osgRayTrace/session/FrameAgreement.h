@@ -62,7 +62,7 @@ struct TracedPart
 /// The first image of a view that came when others were there already is of the first divider or
 /// coarser, as nobody knows what it costs.
 ///
-/// A view whose tracing has taken kFarTooLong times the time of all is given up, or ends with the
+/// A view whose tracing has taken farTooLong() is given up, or ends with the
 /// passes that it has: it, and those that are traced after it in this frame, take less. That frame
 /// alone is not alike in all views.
 ///
@@ -74,7 +74,13 @@ class FrameAgreement
 {
 public:
     static constexpr int kForget = 8;
-    static constexpr double kFarTooLong = 10.0;
+
+    /// After which tracing is given up, if all have so many seconds. Not less: other programs may
+    /// stop one view for long, and all are to be alike.
+    static constexpr double farTooLong(double seconds)
+    {
+        return seconds > 0.1 ? 10.0 * seconds : 1.0;
+    }
 
     /// A view's part in the agreement, which ends with the last reference to it.
     class Member;
