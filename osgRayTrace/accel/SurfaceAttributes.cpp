@@ -62,6 +62,8 @@ MaterialPoint materialPointOf(const SurfaceRecord& record, const MaterialRecord&
     point.front = front;
     point.uv = interpolateUv(record, primitive, u, v);
     point.uv1 = interpolate(record, record.uvs1, primitive, u, v, Vec2(0.0f));
+    point.r = interpolate(record, record.rs, primitive, u, v, 0.0f);
+    point.r1 = interpolate(record, record.rs1, primitive, u, v, 0.0f);
     point.vertexColor = interpolateColor(record, primitive, u, v);
     point.direction = direction;
     if (material.generated) setGenerated(record, primitive, u, v, point);

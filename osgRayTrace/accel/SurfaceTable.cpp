@@ -16,7 +16,8 @@ template <class T> const T* dataOf(const SharedArray<T>& array)
 MeshArrays arraysOf(const Mesh& mesh)
 {
     return {dataOf(mesh.triangles), dataOf(mesh.positions), dataOf(mesh.normals),
-            dataOf(mesh.uvs),       dataOf(mesh.uvs1),      dataOf(mesh.colors)};
+            dataOf(mesh.uvs),       dataOf(mesh.uvs1),      dataOf(mesh.rs),
+            dataOf(mesh.rs1),       dataOf(mesh.colors)};
 }
 
 } // namespace

@@ -17,6 +17,8 @@ struct MeshArrays
     const Vec3* normals = nullptr;
     const Vec2* uvs = nullptr;
     const Vec2* uvs1 = nullptr;
+    const float* rs = nullptr;
+    const float* rs1 = nullptr;
     const Vec4* colors = nullptr;
 };
 

@@ -172,8 +172,16 @@ KeptArrays GeometryCache::keptArrays(Entry& before, Fingerprint& now)
         if (!isSame(then[i], now[i])) return kept;
     if (isSame(then[kNormals], now[kNormals])) kept.normals = before.mesh->normals;
     if (isSame(then[kColors], now[kColors])) kept.colors = before.mesh->colors;
-    if (isSame(then[kUvs], now[kUvs])) kept.uvs = before.mesh->uvs;
-    if (isSame(then[kUvs1], now[kUvs1])) kept.uvs1 = before.mesh->uvs1;
+    if (isSame(then[kUvs], now[kUvs]))
+    {
+        kept.uvs = before.mesh->uvs;
+        kept.rs = before.mesh->rs;
+    }
+    if (isSame(then[kUvs1], now[kUvs1]))
+    {
+        kept.uvs1 = before.mesh->uvs1;
+        kept.rs1 = before.mesh->rs1;
+    }
     return kept;
 }
 

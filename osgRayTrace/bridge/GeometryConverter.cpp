@@ -320,6 +320,8 @@ ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& 
         mesh->uvs1 = fits(kept.uvs1)
                          ? kept.uvs1
                          : reader.textureCoordinates(geometry.getTexCoordArray(1), result.counts);
+    mesh->rs = fits(kept.rs) ? kept.rs : reader.thirdCoordinates(geometry.getTexCoordArray(0));
+    mesh->rs1 = fits(kept.rs1) ? kept.rs1 : reader.thirdCoordinates(geometry.getTexCoordArray(1));
     mesh->colors =
         fits(kept.colors) ? kept.colors : reader.colors(geometry.getColorArray(), result.counts);
     if (request.lift != 0.0f) mesh->positions = lifted(*mesh, request.lift);

@@ -59,6 +59,7 @@ struct KeptArrays
     SharedArray<Vec3> normals;
     SharedArray<Vec2> uvs;
     SharedArray<Vec2> uvs1;
+    SharedArray<float> rs, rs1;
     SharedArray<Vec4> colors;
 };
 

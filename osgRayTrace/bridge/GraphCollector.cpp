@@ -68,14 +68,16 @@ StateStack statesAbove(const ConversionInput& input)
     StateStack states(rootState(input));
     for (const osg::ref_ptr<const osg::StateSet>& stateSet : input.inheritedState)
         states.push(*stateSet);
+    states.forgetMasks();
     return states;
 }
 
 GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
-                               ConversionReport& report)
+                               const TextureConverter& textures, ConversionReport& report)
     : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN),
       _input(input),
       _vertices(vertices),
+      _textures(textures),
       _report(report),
       _worldFromLocal(1),
       _cullStack(input.view),

@@ -111,8 +111,9 @@ StateStack statesAbove(const ConversionInput& input);
 class GraphCollector : public osg::NodeVisitor
 {
 public:
+    /// textures: what was converted before.
     GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
-                   ConversionReport& report);
+                   const TextureConverter& textures, ConversionReport& report);
 
     /// Visits the last node of a path from the root, in the place and the state that it has there. The others
     /// are of the plain classes that GraphWatch knows. False: it cannot be placed.
@@ -168,6 +169,7 @@ private:
 
     const ConversionInput& _input;
     SoftwareVertices& _vertices;
+    const TextureConverter& _textures;
     ConversionReport& _report;
     std::vector<osg::Matrixd> _worldFromLocal; // the stack of transforms, never empty
     ReferenceCullStack _cullStack;

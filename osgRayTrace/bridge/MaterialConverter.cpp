@@ -11,6 +11,7 @@
 
 #include <osg/AlphaFunc>
 #include <osg/BlendFunc>
+#include <osg/ColorMask>
 #include <osg/CullFace>
 #include <osg/FrontFace>
 #include <osg/ClipPlane>
@@ -22,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <typeinfo>
 
 namespace osgRayTrace::engine
 {
@@ -232,6 +234,27 @@ Blending blendingOf(const GraphState& state)
                                                                            : Blending::Other;
 }
 
+const osg::StateAttribute* programOf(const GraphState& state)
+{
+    const osg::StateAttribute* attribute = state.attributes[kProgramSlot];
+    const auto* program = dynamic_cast<const osg::Program*>(attribute);
+    const bool empty =
+        program && typeid(*program) == typeid(osg::Program) && program->getNumShaders() == 0;
+    if (attribute && !empty) return attribute;
+    return state.isOn(kAssemblyProgramBit) ? state.attributes[kAssemblyProgramSlot] : nullptr;
+}
+
+bool masksColor(const GraphState& state)
+{
+    const auto* mask = state.attribute<osg::ColorMask>(kColorMaskSlot);
+    return mask && !(mask->getRedMask() && mask->getGreenMask() && mask->getBlueMask());
+}
+
+bool usesStencil(const GraphState& state)
+{
+    return state.isOn(kStencilBit) && state.attributes[kStencilSlot];
+}
+
 float polygonLift(const GraphState& state)
 {
     constexpr float kMostLayers = 64.0f;
@@ -415,8 +438,9 @@ void MaterialConverter::decode(Material& material) const
 
 void MaterialConverter::countApproximations(const GraphState& state)
 {
-    const auto* program = state.attribute<osg::Program>(kProgramSlot);
-    if (program && !program->isFixedFunction()) _report.count("approximated.shader");
+    if (programOf(state)) _report.count("approximated.shader");
+    if (usesStencil(state)) _report.count("approximated.stencil");
+    if (masksColor(state)) _report.count("approximated.color-mask");
     const Blending blending = blendingOf(state);
     if (blending == Blending::Additive || blending == Blending::Other)
         _report.count("approximated.blending");

@@ -32,6 +32,16 @@ enum class Blending
 };
 Blending blendingOf(const GraphState& state);
 
+/// The program that draws instead of OpenGL's fixed function; null: none does. Also one of a class of its own,
+/// as virtual programs are, and a vertex or fragment program of ARB's.
+const osg::StateAttribute* programOf(const GraphState& state);
+
+/// A colour mask that leaves out a channel.
+bool masksColor(const GraphState& state);
+
+/// A stencil test: it compares, or it writes what others are compared with.
+bool usesStencil(const GraphState& state);
+
 /// Layers that glPolygonOffset lifts the faces by, towards the viewer. 0: none. The offset's units count,
 /// or its factor if it has none.
 float polygonLift(const GraphState& state);

@@ -67,6 +67,10 @@ private:
         for (int column = 0; column < 4 && mapping.transformed; ++column)
             for (int row = 0; row < 4; ++row)
                 add(mapping.matrix[column][row]);
+        _values.push_back(mapping.partly ? 1u + static_cast<uint32_t>(mapping.own) : 0u);
+        for (int column = 0; column < 4 && mapping.partly; ++column)
+            for (int row = 0; row < 4; ++row)
+                add(mapping.ownMatrix[column][row]);
     }
 
     std::vector<uint32_t> _values;

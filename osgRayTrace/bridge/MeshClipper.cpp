@@ -17,6 +17,7 @@ struct Vertices
 {
     std::vector<Vec3> positions, normals;
     std::vector<Vec2> uvs, uvs1;
+    std::vector<float> rs, rs1;
     std::vector<Vec4> colors;
 };
 
@@ -115,6 +116,8 @@ private:
         appendNormal(_vertices.normals, a, b, t);
         appendBetween(_vertices.uvs, a, b, t);
         appendBetween(_vertices.uvs1, a, b, t);
+        appendBetween(_vertices.rs, a, b, t);
+        appendBetween(_vertices.rs1, a, b, t);
         appendBetween(_vertices.colors, a, b, t);
         return next;
     }
@@ -129,7 +132,7 @@ private:
 void clip(Mesh& mesh, const std::vector<Vec4d>& planes)
 {
     Vertices vertices{copyOf(mesh.positions), copyOf(mesh.normals), copyOf(mesh.uvs), copyOf(mesh.uvs1),
-                      copyOf(mesh.colors)};
+                      copyOf(mesh.rs), copyOf(mesh.rs1), copyOf(mesh.colors)};
     std::vector<UVec3> triangles = copyOf(mesh.triangles);
     for (const Vec4d& plane : planes)
         triangles = PlaneCut(plane, vertices).keptOf(triangles);
@@ -140,6 +143,8 @@ void clip(Mesh& mesh, const std::vector<Vec4d>& planes)
     mesh.normals = std::move(vertices.normals);
     mesh.uvs = std::move(vertices.uvs);
     mesh.uvs1 = std::move(vertices.uvs1);
+    mesh.rs = std::move(vertices.rs);
+    mesh.rs1 = std::move(vertices.rs1);
     mesh.colors = std::move(vertices.colors);
     mesh.triangles = std::move(triangles);
 }

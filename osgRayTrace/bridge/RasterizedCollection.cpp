@@ -72,7 +72,7 @@ const char* GraphCollector::rasterizedReason(const osg::Geometry& geometry, bool
     const osg::StateAttribute* poses =
         isPosed && stateSet ? stateSet->getAttribute(osg::StateAttribute::PROGRAM) : nullptr;
     if (stateSet) _states.push(*stateSet);
-    const char* reason = rasterizedState(_states.states()[_states.top()], poses);
+    const char* reason = rasterizedState(_states.states()[_states.top()], _textures, poses);
     if (stateSet) _states.pop();
     const DrawHint hint = hintOf(getNodePath());
     if (hint == DrawHint::Rasterize) return "rasterized.hint";

@@ -359,7 +359,7 @@ TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const Geo
 uint32_t SceneBuilder::treatment(uint32_t state, const ConversionCounts& counts)
 {
     std::optional<Treatment>& known = _treatments[state];
-    if (!known) known = treatmentOf(_graph.states[state]);
+    if (!known) known = treatmentOf(_graph.states[state], _caches.textures);
     Treatment wanted = *known;
     wanted.counts = counts;
     return _made.index.treatment(wanted);

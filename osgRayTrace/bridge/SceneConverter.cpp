@@ -147,7 +147,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
 
     ConversionReport report;
     state.caches.vertices.begin();
-    GraphCollector collector(input, state.caches.vertices, report);
+    GraphCollector collector(input, state.caches.vertices, state.caches.textures, report);
     if (input.root) input.root->accept(collector);
     CollectedGraph graph = collector.take();
 

@@ -25,10 +25,10 @@ bool Treatment::operator==(const Treatment& other) const
     return values(*this) == values(other);
 }
 
-Treatment treatmentOf(const GraphState& state)
+Treatment treatmentOf(const GraphState& state, const TextureConverter& textures)
 {
     Treatment treatment;
-    treatment.rasterized = rasterizedState(state, nullptr);
+    treatment.rasterized = rasterizedState(state, textures, nullptr);
     treatment.restart = restartOf(state).key();
     treatment.lift = polygonLift(state);
     treatment.physical = state.attributes[kPhysicalMaterialSlot] != nullptr;

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/ConversionReport.h"
 #include "osgRayTrace/bridge/StateStack.h"
+#include "osgRayTrace/bridge/TextureConverter.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <osg/Geometry>
@@ -31,7 +32,8 @@ struct Treatment
     bool operator==(const Treatment& other) const;
 };
 
-Treatment treatmentOf(const GraphState& state);
+/// textures: as in rasterizedState.
+Treatment treatmentOf(const GraphState& state, const TextureConverter& textures);
 
 struct TracedUse
 {

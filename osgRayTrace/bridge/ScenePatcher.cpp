@@ -132,7 +132,7 @@ bool ScenePatcher::restateUse(const RestatedUse& use, StateStack& states,
     const GraphState& state = states.states()[states.top()];
     for (; pushed > 0; --pushed)
         states.pop();
-    Treatment treatment = treatmentOf(state);
+    Treatment treatment = treatmentOf(state, _caches.textures);
     const Treatment& before = _made.index.treatments[traced.treatment];
     if (traced.instance == kInvalid) return treatment == before;
     const Vec3d& origin = _scene->origin;
@@ -289,7 +289,7 @@ bool ScenePatcher::add(const GraphSplice& splice)
 {
     if (_input.materials) return false; // rules look at names
     ConversionReport report;
-    GraphCollector collector(_input, _caches.vertices, report);
+    GraphCollector collector(_input, _caches.vertices, _caches.textures, report);
     if (!collector.collectAt(fromRoot(splice.added, _input.root))) return false;
     CollectedGraph graph = collector.take();
     const LightSources& lights = graph.lights;
@@ -318,7 +318,7 @@ bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeome
     const bool automatic = _input.colorRule == RayTraceSettings::AUTOMATIC_COLOR;
     for (const GeometryUse& use : geometry.uses)
     {
-        const Treatment treatment = treatmentOf(graph.states[use.state]);
+        const Treatment treatment = treatmentOf(graph.states[use.state], _caches.textures);
         if (treatment.physical && automatic && _scene->displayReferred) return false;
         if (treatment.setsColor && !_made.setsColor) return false;
         if (treatment.hasAmbient && treatment.ambient != _scene->ambient) return false;

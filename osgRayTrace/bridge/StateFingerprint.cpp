@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/StateFingerprint.h"
 
+#include "osgRayTrace/bridge/TextureConverter.h"
 #include "osgRayTrace/bridge/TextureFormats.h"
 
 #include <osgRayTrace/PhysicalMaterial>
@@ -9,6 +10,7 @@
 #include <osg/AlphaFunc>
 #include <osg/BlendFunc>
 #include <osg/ClipPlane>
+#include <osg/ColorMask>
 #include <osg/CullFace>
 #include <osg/FrontFace>
 #include <osg/LightModel>
@@ -48,16 +50,15 @@ void addPhysicalMaterial(Digest& digest, const PhysicalMaterial& material)
     }
 }
 
-/// Of the frame, not of the scene; osgViewer has its own in each frame.
-bool isOfTheFrame(const osg::StateAttribute& attribute)
+/// Of the frame, not of the scene; osgViewer has its own in each frame, in a state set of no node.
+bool isOfTheFrame(const osg::StateAttribute& attribute, bool ofNode)
 {
     return attribute.getType() == osg::StateAttribute::VIEWPORT ||
-           attribute.getType() == osg::StateAttribute::COLORMASK;
+           (attribute.getType() == osg::StateAttribute::COLORMASK && !ofNode);
 }
 
 void addAttribute(Digest& digest, const osg::StateAttribute& attribute)
 {
-    if (isOfTheFrame(attribute)) return;
     digest.addObject(&attribute);
     if (const auto* material = dynamic_cast<const osg::Material*>(&attribute))
         addMaterial(digest, *material);
@@ -98,13 +99,16 @@ void addAttribute(Digest& digest, const osg::StateAttribute& attribute)
         digest.add(plane->getClipPlaneNum(), plane->getClipPlane());
     else if (const auto* front = dynamic_cast<const osg::FrontFace*>(&attribute))
         digest.add(front->getMode());
+    else if (const auto* mask = dynamic_cast<const osg::ColorMask*>(&attribute))
+        digest.add(mask->getRedMask(), mask->getGreenMask(), mask->getBlueMask());
 }
 
-void addAttributes(Digest& digest, const osg::StateSet::AttributeList& attributes)
+void addAttributes(Digest& digest, const osg::StateSet::AttributeList& attributes, bool ofNode)
 {
     for (const auto& item : attributes)
     {
-        if (!isOfTheFrame(*item.second.first)) digest.add(item.second.second);
+        if (isOfTheFrame(*item.second.first, ofNode)) continue;
+        digest.add(item.second.second);
         addAttribute(digest, *item.second.first);
     }
 }
@@ -130,6 +134,7 @@ void addTexture(Digest& digest, const osg::Texture& texture)
     digest.add(texture.getWrap(osg::Texture::WRAP_S), texture.getWrap(osg::Texture::WRAP_T),
                texture.getFilter(osg::Texture::MAG_FILTER), internalFormatOf(texture, nullptr),
                texture.getInternalFormatMode());
+    digest.add(texture.getWrap(osg::Texture::WRAP_R), isOnlyInOpenGL(texture));
     for (int c = 0; c < 4; ++c)
         digest.add(texture.getBorderColor()[c]);
     for (unsigned int i = 0; i < texture.getNumImages(); ++i)
@@ -155,12 +160,13 @@ void addTexGen(Digest& digest, const osg::TexGen& texGen)
 
 void addStateSet(Digest& digest, const osg::StateSet& stateSet)
 {
+    const bool ofNode = stateSet.getNumParents() > 0;
     addModes(digest, stateSet.getModeList());
-    addAttributes(digest, stateSet.getAttributeList());
+    addAttributes(digest, stateSet.getAttributeList(), ofNode);
     for (const auto& modes : stateSet.getTextureModeList())
         addModes(digest, modes);
     for (const auto& attributes : stateSet.getTextureAttributeList())
-        addAttributes(digest, attributes);
+        addAttributes(digest, attributes, ofNode);
 }
 
 } // namespace osgRayTrace::engine

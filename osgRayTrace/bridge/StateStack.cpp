@@ -7,10 +7,12 @@
 #include <osg/BlendFunc>
 #include <osg/ClipPlane>
 #include <osg/Fog>
+#include <osg/FragmentProgram>
 #include <osg/Light>
 #include <osg/TexGen>
 #include <osg/TextureCubeMap>
 #include <osg/TextureRectangle>
+#include <osg/VertexProgram>
 
 #include <algorithm>
 #include <optional>
@@ -46,6 +48,11 @@ std::optional<unsigned int> modeBit(osg::StateAttribute::GLMode mode)
         return kFixedRestartBit;
     case GL_POLYGON_OFFSET_FILL:
         return kPolygonOffsetBit;
+    case GL_STENCIL_TEST:
+        return kStencilBit;
+    case GL_VERTEX_PROGRAM_ARB:
+    case GL_FRAGMENT_PROGRAM_ARB:
+        return kAssemblyProgramBit;
     default:
         return std::nullopt;
     }
@@ -65,11 +72,6 @@ std::optional<UnitBit> unitBit(osg::StateAttribute::GLMode mode)
         return kCubeMapBit;
     case GL_TEXTURE_RECTANGLE:
         return kRectangleBit;
-    case GL_TEXTURE_GEN_S:
-    case GL_TEXTURE_GEN_T:
-    case GL_TEXTURE_GEN_R:
-    case GL_TEXTURE_GEN_Q:
-        return kTexGenBit;
     default:
         return std::nullopt;
     }
@@ -81,7 +83,6 @@ std::optional<unsigned int> textureModeBit(osg::StateAttribute::GLMode mode, std
     if (!bit) return std::nullopt;
     if (unit < kUnits)
         return static_cast<unsigned int>(kTextureUnitBit + unit * kUnitBits + *bit);
-    if (*bit == kTexGenBit) return std::nullopt;
     return static_cast<unsigned int>(
         std::min<std::size_t>(kHigherTextureBit + unit - kUnits, kModeBitEnd - 1));
 }
@@ -109,6 +110,13 @@ std::optional<AttributeSlot> attributeSlot(osg::StateAttribute::Type type)
         return kFrontFaceSlot;
     case osg::StateAttribute::POLYGONOFFSET:
         return kPolygonOffsetSlot;
+    case osg::StateAttribute::STENCIL:
+        return kStencilSlot;
+    case osg::StateAttribute::COLORMASK:
+        return kColorMaskSlot;
+    case osg::StateAttribute::VERTEXPROGRAM:
+    case osg::StateAttribute::FRAGMENTPROGRAM:
+        return kAssemblyProgramSlot;
     case osg::StateAttribute::PRIMITIVERESTARTINDEX:
         return kPrimitiveRestartSlot;
     case osg::StateAttribute::CLIPPLANE:
@@ -191,9 +199,28 @@ void applyMoreLights(GraphState& state, const osg::StateSet::ModeList& modes)
     state.moreLights = std::move(lights);
 }
 
+/// GL_TEXTURE_GEN_S and the three that follow it.
+void applyGeneration(GraphState& state, unsigned int unit, const osg::StateSet::ModeList& modes)
+{
+    for (unsigned int coordinate = 0; coordinate < kTextureCoordinates; ++coordinate)
+    {
+        const auto mode = modes.find(GL_TEXTURE_GEN_S + coordinate);
+        const auto bit = static_cast<uint8_t>(1u << coordinate);
+        uint8_t& on = state.generated[unit];
+        uint8_t& overrides = state.generatedOverride[unit];
+        if (mode == modes.end() || !replaces((overrides & bit) != 0, mode->second)) continue;
+        const auto set = [bit](uint8_t& bits, bool value)
+        { bits = static_cast<uint8_t>(value ? bits | bit : bits & ~bit); };
+        set(on, (mode->second & osg::StateAttribute::ON) != 0);
+        set(overrides, (mode->second & osg::StateAttribute::OVERRIDE) != 0);
+    }
+}
+
 void applyTextures(GraphState& state, const osg::StateSet& stateSet)
 {
     const osg::StateSet::TextureModeList& modes = stateSet.getTextureModeList();
+    for (unsigned int unit = 0; unit < std::min<std::size_t>(kUnits, modes.size()); ++unit)
+        applyGeneration(state, unit, modes[unit]);
     for (std::size_t unit = 0; unit < modes.size(); ++unit)
         applyModes(state, modes[unit],
                    [unit](osg::StateAttribute::GLMode mode) { return textureModeBit(mode, unit); });
@@ -225,6 +252,18 @@ void StateStack::push(const osg::StateSet& stateSet)
     const auto [entry, isNew] = _known.try_emplace({top(), &stateSet}, number);
     if (isNew) _states.push_back(applied(_states[top()], stateSet));
     _stack.push_back(entry->second);
+}
+
+void StateStack::forgetMasks()
+{
+    GraphState& state = _states[top()];
+    for (const AttributeSlot slot : {kStencilSlot, kColorMaskSlot})
+    {
+        state.attributes[slot] = nullptr;
+        state.attributesOverride &= ~(1u << slot);
+    }
+    state.modesOn &= ~(uint64_t(1) << kStencilBit);
+    state.modesOverride &= ~(uint64_t(1) << kStencilBit);
 }
 
 } // namespace osgRayTrace::engine

@@ -30,8 +30,10 @@ enum ModeBit : unsigned int
     kClipPlaneBit,     ///< and the bits that follow: kClipPlanes of them
     kClipPlaneBitEnd = kClipPlaneBit + kClipPlanes,
     kPolygonOffsetBit = kClipPlaneBitEnd,
-    kTextureUnitBit,   ///< of unit 0: see UnitBit; then those of unit 1
-    kHigherTextureBit = kTextureUnitBit + 12, ///< any texture target of units 2, 3, ...: up to bit 63
+    kStencilBit,
+    kAssemblyProgramBit, ///< GL_VERTEX_PROGRAM_ARB or GL_FRAGMENT_PROGRAM_ARB
+    kTextureUnitBit,     ///< of unit 0: see UnitBit; then those of unit 1
+    kHigherTextureBit = kTextureUnitBit + 10, ///< any texture target of units 2, 3, ...: up to bit 63
     kModeBitEnd = 64,
 };
 
@@ -43,11 +45,11 @@ enum UnitBit : unsigned int
     kTexture3DBit,
     kCubeMapBit,
     kRectangleBit,
-    kTexGenBit, ///< any of S, T, R, Q
     kUnitBits,
 };
 
 constexpr unsigned int kUnits = 2; ///< that are followed
+constexpr unsigned int kTextureCoordinates = 4; ///< S, T, R, Q
 static_assert(kTextureUnitBit + kUnits * kUnitBits == kHigherTextureBit, "bits of the units");
 
 /// The attributes that matter here.
@@ -65,6 +67,9 @@ enum AttributeSlot : unsigned int
     kCullFaceSlot,
     kFrontFaceSlot,
     kPolygonOffsetSlot,
+    kStencilSlot,
+    kColorMaskSlot,
+    kAssemblyProgramSlot, ///< osg::VertexProgram or osg::FragmentProgram: the last one met
     kUnitSlot, ///< of unit 0: see UnitSlot; then those of unit 1
     kAttributeSlots = kUnitSlot + 8,
 };
@@ -97,11 +102,17 @@ struct GraphState
     std::array<const osg::StateAttribute*, kAttributeSlots> attributes{};
     uint32_t attributesOverride = 0; ///< bit: AttributeSlot
     std::shared_ptr<const LightModes> moreLights; ///< null: none were set
+    std::array<uint8_t, kUnits> generated{}; ///< bit n: coordinate n of the unit is generated
+    std::array<uint8_t, kUnits> generatedOverride{};
 
     bool isOn(unsigned int modeBit) const { return (modesOn >> modeBit & 1u) != 0; }
     bool isOn(unsigned int unit, UnitBit bit) const
     {
         return isOn(kTextureUnitBit + unit * kUnitBits + bit);
+    }
+    bool generates(unsigned int unit, unsigned int coordinate) const
+    {
+        return (generated[unit] >> coordinate & 1u) != 0;
     }
     bool usesHigherTextures() const { return modesOn >> kHigherTextureBit != 0; }
 
@@ -125,6 +136,10 @@ public:
 
     void push(const osg::StateSet& stateSet);
     void pop() { _stack.pop_back(); }
+
+    /// Stencil and colour mask that were pushed up to now hold for all of the picture alike, traced or not:
+    /// from here on they are none.
+    void forgetMasks();
 
     /// Number of the current state in states().
     uint32_t top() const { return _stack.back(); }

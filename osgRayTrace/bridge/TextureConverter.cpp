@@ -7,6 +7,12 @@
 #include "osgRayTrace/bridge/PixelDecoder.h"
 #include "osgRayTrace/bridge/TextureFormats.h"
 
+#include <osg/Texture1D>
+#include <osg/Texture2D>
+#include <osg/Texture3D>
+#include <osg/TextureCubeMap>
+#include <osg/TextureRectangle>
+
 #include <algorithm>
 #include <cmath>
 
@@ -68,6 +74,11 @@ bool isCube(const osg::Texture& texture)
     return texture.getTextureTarget() == GL_TEXTURE_CUBE_MAP;
 }
 
+bool isVolume(const osg::Texture& texture)
+{
+    return texture.getTextureTarget() == GL_TEXTURE_3D;
+}
+
 unsigned int imageCount(const osg::Texture& texture)
 {
     return isCube(texture) ? 6u : 1u;
@@ -80,17 +91,20 @@ std::string nameOf(const osg::Texture& texture, const osg::Image& image)
 }
 
 /// More than the engine takes, or than osg::Image can address in the 32 bits of its offsets.
-bool isTooLarge(const osg::Image& image)
+bool isTooLarge(const osg::Image& image, int slices)
 {
     constexpr int64_t kMostTexels = int64_t(1) << 28, kMostBytes = (int64_t(1) << 32) - 1;
-    return int64_t(image.s()) * image.t() > kMostTexels ||
-           int64_t(image.getRowStepInBytes()) * image.t() > kMostBytes;
+    const int64_t rows = int64_t(image.t()) * slices;
+    return image.s() > kMostTexels || rows > kMostTexels || image.s() * rows > kMostTexels ||
+           int64_t(image.getRowStepInBytes()) > kMostBytes ||
+           int64_t(image.getRowStepInBytes()) * rows > kMostBytes;
 }
 
 void fillMagenta(Texture& texture)
 {
     texture.width = 1;
     texture.height = 1;
+    texture.depth = 0;
     texture.cube = false;
     texture.floats.clear();
     texture.bytes = {255, 0, 255, 255};
@@ -133,7 +147,53 @@ bool decodeCube(const osg::Texture& source, Texture& texture)
     return true;
 }
 
+/// Puts the slices of a 3-D image one after the other.
+bool decodeVolume(const osg::Image& image, Texture& texture)
+{
+    if (image.isCompressed()) return false;
+    for (int r = 0; r < image.r(); ++r)
+    {
+        const osg::ref_ptr<osg::Image> slice = new osg::Image; // of the same memory, only read
+        slice->setImage(image.s(), image.t(), 1, image.getInternalTextureFormat(),
+                        image.getPixelFormat(), image.getDataType(),
+                        const_cast<unsigned char*>(image.data(0, 0, r)), osg::Image::NO_DELETE,
+                        static_cast<int>(image.getPacking()), image.getRowLength());
+        Texture one;
+        if (!decodePixels(*slice, one)) return false;
+        texture.width = one.width;
+        texture.height = one.height;
+        texture.bytes.insert(texture.bytes.end(), one.bytes.begin(), one.bytes.end());
+        texture.floats.insert(texture.floats.end(), one.floats.begin(), one.floats.end());
+    }
+    texture.depth = image.r();
+    return texture.depth > 0;
+}
+
+template <class T> bool isFilledByCallback(const osg::Texture& texture)
+{
+    const auto* filled = dynamic_cast<const T*>(&texture);
+    return filled && filled->getSubloadCallback();
+}
+
+bool decodeTexture(const osg::Texture& source, Texture& texture)
+{
+    if (isCube(source)) return decodeCube(source, texture);
+    const osg::Image& image = *source.getImage(0);
+    return isVolume(source) ? decodeVolume(image, texture) : decodePixels(image, texture);
+}
+
 } // namespace
+
+bool isOnlyInOpenGL(const osg::Texture& texture)
+{
+    if (isFilledByCallback<osg::Texture2D>(texture) || isFilledByCallback<osg::Texture3D>(texture) ||
+        isFilledByCallback<osg::TextureRectangle>(texture) ||
+        isFilledByCallback<osg::TextureCubeMap>(texture) ||
+        isFilledByCallback<osg::Texture1D>(texture))
+        return true;
+    const osg::Image* image = texture.getImage(0);
+    return !(image && image->data()) && texture.getTextureWidth() > 0;
+}
 
 void TextureConverter::begin(bool linear, Stamp stamp)
 {
@@ -220,20 +280,32 @@ std::shared_ptr<Texture> TextureConverter::converted(const osg::Texture& texture
         report.warn(what, "texture '" + result->name + "'", message);
         fillMagenta(*result);
     };
-    if (isTooLarge(image))
+    if (isTooLarge(image, isVolume(texture) ? image.r() : 1))
         bad("approximated.texture-size", "more than 2^28 texels or 4 GiB, shown in magenta");
-    else if (isCube(texture) ? !decodeCube(texture, *result) : !decodePixels(image, *result))
+    else if (!decodeTexture(texture, *result))
         bad("approximated.pixel-format", "pixel format cannot be read, shown in magenta");
-    if (image.r() > 1) report.count("approximated.texture-layers");
     result->decodeSrgb = decode && !result->bytes.empty();
     result->linearFilter = !isNearest(texture.getFilter(osg::Texture::MAG_FILTER));
     result->wrapS = wrapOf(texture, osg::Texture::WRAP_S);
     result->wrapT = wrapOf(texture, osg::Texture::WRAP_T);
+    result->wrapR = wrapOf(texture, osg::Texture::WRAP_R);
     if (texture.getTextureTarget() == GL_TEXTURE_1D) result->wrapT = TextureWrap::ClampToEdge;
     result->border = borderOf(texture);
     setChannels(internalFormatOf(texture, &image), image.getPixelFormat(), *result);
     result->changed = _stamp;
     return result;
+}
+
+bool TextureConverter::knows(const osg::Texture& texture) const
+{
+    for (const bool decode : {false, true})
+    {
+        const auto known = _entries.find({&texture, decode});
+        if (known != _entries.end() && known->second.converted &&
+            known->second.texture.get() == &texture)
+            return true;
+    }
+    return false;
 }
 
 /// Also true if the image was given up after it went to OpenGL (setUnRefImageDataAfterApply): what
@@ -244,7 +316,9 @@ bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture& texture
     const Texture& old = *entry.converted;
     if (old.linearFilter == isNearest(texture.getFilter(osg::Texture::MAG_FILTER)) ||
         old.wrapS != wrapOf(texture, osg::Texture::WRAP_S) ||
-        (old.wrapT != wrapOf(texture, osg::Texture::WRAP_T) && old.height > 1) || old.border != borderOf(texture))
+        (old.wrapT != wrapOf(texture, osg::Texture::WRAP_T) && old.height > 1) ||
+        (old.depth > 0 && old.wrapR != wrapOf(texture, osg::Texture::WRAP_R)) ||
+        old.border != borderOf(texture))
         return false;
     const osg::Image* first = texture.getImage(0);
     if (first && entry.internalFormat != internalFormatOf(texture, first)) return false;

@@ -25,6 +25,10 @@ enum class TextureContent
     Data,  ///< roughness and the like: never decoded
 };
 
+/// True if OpenGL has texels of it, or will have, and it has no image: a camera renders to it, or whoever fills
+/// it does so by OpenGL. Not so of a texture whose file is missing, which OpenGL does not show either.
+bool isOnlyInOpenGL(const osg::Texture& texture);
+
 /// Keeps converted textures between snapshots, as long as they are used and their images unchanged.
 class TextureConverter
 {
@@ -37,8 +41,11 @@ public:
 
     /// Index into all(); kInvalid if there is nothing to sample (no image on the CPU). A
     /// format that cannot be read becomes magenta.
-    /// 1-D, 2-D, rectangle and cube textures; of arrays and 3-D textures the first layer.
+    /// 1-D, 2-D, 3-D, rectangle and cube textures; of arrays the first layer.
     uint32_t index(const osg::Texture* texture, TextureContent content, ConversionReport& report);
+
+    /// True if it was converted, though it may have given up its image since.
+    bool knows(const osg::Texture& texture) const;
 
     /// Of this snapshot.
     const Texture& at(uint32_t index) const { return *_textures[index]; }

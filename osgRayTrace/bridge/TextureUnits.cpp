@@ -114,33 +114,64 @@ public:
     /// same.
     bool setMapping(const osg::Texture& texture, TextureMapping& mapping) const
     {
-        osg::Matrixd matrix;
-        mapping.coordinates = _unit == 0 ? TextureCoordinates::Uv0 : TextureCoordinates::Uv1;
-        const auto* own = _state.attribute<osg::TexGen>(_unit, kTexGenSlot);
-        const bool generates = _state.isOn(_unit, kTexGenBit);
-        if (generates && own)
-            matrix = generation(*own, _placement.engineFromLocal, mapping);
-        else if (generates && _placement.texGens && (*_placement.texGens)[_unit].texGen)
-            matrix = placedGeneration((*_placement.texGens)[_unit], mapping);
-        else if (generates)
-            return false;
+        osg::Matrixd matrix, own;
+        mapping.own = _unit == 0 ? TextureCoordinates::Uv0 : TextureCoordinates::Uv1;
+        mapping.coordinates = mapping.own;
+        if (_state.generated[_unit] != 0)
+        {
+            const auto* set = _state.attribute<osg::TexGen>(_unit, kTexGenSlot);
+            if (set)
+                matrix = generation(*set, _placement.engineFromLocal, mapping);
+            else if (_placement.texGens && (*_placement.texGens)[_unit].texGen)
+                matrix = placedGeneration((*_placement.texGens)[_unit], mapping);
+            else
+                return false;
+            mapping.partly = keepGenerated(texture, matrix, own);
+        }
 
+        osg::Matrixd after;
         bool normalized = texture.getTextureTarget() != GL_TEXTURE_RECTANGLE;
         if (const auto* transform = _state.attribute<osg::TexMat>(_unit, kTextureMatrixSlot))
         {
-            matrix.postMult(transform->getMatrix());
+            after = transform->getMatrix();
             normalized = normalized || transform->getScaleByTextureRectangleSize();
         }
         const osg::Image* image = texture.getImage(0);
         if (!normalized && image && image->s() > 0 && image->t() > 0)
-            matrix.postMultScale(osg::Vec3d(1.0 / image->s(), 1.0 / image->t(), 1.0));
+            after.postMultScale(osg::Vec3d(1.0 / image->s(), 1.0 / image->t(), 1.0));
+        matrix.postMult(after);
         if (!matrix.valid()) return false;
-        mapping.transformed = !matrix.isIdentity();
+        mapping.transformed = mapping.partly || !matrix.isIdentity();
         mapping.matrix = toMat4(matrix);
+        if (mapping.partly) mapping.ownMatrix = toMat4(own * after);
         return true;
     }
 
 private:
+    /// Takes from the matrix what is not generated and puts it into own, which is applied to what the mesh has.
+    /// False if there is nothing of the kind that the texture looks at. q is 1 if it is not generated.
+    bool keepGenerated(const osg::Texture& texture, osg::Matrixd& matrix, osg::Matrixd& own) const
+    {
+        const GLenum target = texture.getTextureTarget();
+        const bool usesThree = target == GL_TEXTURE_3D || target == GL_TEXTURE_CUBE_MAP;
+        const unsigned int used = target == GL_TEXTURE_1D ? 1 : usesThree ? 3 : 2;
+        bool partly = false;
+        own.makeScale(0.0, 0.0, 0.0);
+        own(3, 3) = 0.0;
+        for (unsigned int c = 0; c < kTextureCoordinates; ++c)
+        {
+            const bool isQ = c + 1 == kTextureCoordinates;
+            if (_state.generates(_unit, c) || (!isQ && c >= used)) continue;
+            const int column = static_cast<int>(c);
+            for (int k = 0; k < 4; ++k)
+                matrix(k, column) = isQ && k == 3 ? 1.0 : 0.0;
+            if (isQ) continue;
+            own(column, column) = 1.0;
+            partly = true;
+        }
+        return partly;
+    }
+
     /// Object linear planes are those of the object, whoever set them.
     osg::Matrixd placedGeneration(const PlacedTexGen& placed, TextureMapping& mapping) const
     {
@@ -167,6 +198,16 @@ void setEnvironment(const GraphState& state, unsigned int unit, TextureEnvironme
 }
 
 } // namespace
+
+bool looksIntoOpenGL(const GraphState& state, const TextureConverter& textures)
+{
+    for (unsigned int unit = 0; unit < kUnits; ++unit)
+    {
+        const osg::Texture* texture = enabledTexture(state, unit);
+        if (texture && isOnlyInOpenGL(*texture) && !textures.knows(*texture)) return true;
+    }
+    return false;
+}
 
 bool combinesTextures(const GraphState& state)
 {

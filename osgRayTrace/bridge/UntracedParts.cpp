@@ -7,7 +7,6 @@
 
 #include <osg/ClipPlane>
 #include <osg/PolygonMode>
-#include <osg/Program>
 #include <osgText/TextBase>
 
 #include <cstring>
@@ -48,11 +47,14 @@ const char* untracedCamera(const osg::Camera& camera)
     return nullptr;
 }
 
-const char* rasterizedState(const GraphState& state, const osg::StateAttribute* poses)
+const char* rasterizedState(const GraphState& state, const TextureConverter& textures,
+                            const osg::StateAttribute* poses)
 {
-    const auto* program = state.attribute<osg::Program>(kProgramSlot);
-    if (program && program->getNumShaders() > 0 && program != poses)
-        return "rasterized.shader-program";
+    const osg::StateAttribute* program = programOf(state);
+    if (program && program != poses) return "rasterized.shader-program";
+    if (usesStencil(state)) return "rasterized.stencil";
+    if (masksColor(state)) return "rasterized.color-mask";
+    if (looksIntoOpenGL(state, textures)) return "rasterized.texture-without-image";
     const auto* polygons = state.attribute<osg::PolygonMode>(kPolygonModeSlot);
     if (polygons && polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
         return "rasterized.polygon-mode";

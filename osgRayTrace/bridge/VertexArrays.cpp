@@ -272,6 +272,24 @@ SharedArray<Vec2> VertexReader::textureCoordinates(const osg::Array* array,
     return values;
 }
 
+SharedArray<float> VertexReader::thirdCoordinates(const osg::Array* array) const
+{
+    if (!isReadable(array) || array->getDataSize() < 3) return {};
+    std::vector<float> values(_map.vertexCount, 0.0f);
+    bool any = false;
+    const RowSelection rows{values.size(), _map.rows.empty() ? nullptr : _map.rows.data()};
+    forEachRow(*array, rows,
+               [&](std::size_t i, const Vec4d& row)
+               {
+                   const Vec3d coordinates = Vec3d(row) / row.w;
+                   if (!isWithin(coordinates, kLargestCoordinate)) return;
+                   values[i] = static_cast<float>(coordinates.z);
+                   any = any || values[i] != 0.0f;
+               });
+    if (!any) return {};
+    return values;
+}
+
 SharedArray<Vec4> VertexReader::colors(const osg::Array* array, ConversionCounts& counts) const
 {
     const osg::Array::Binding binding = bindingOf(array);

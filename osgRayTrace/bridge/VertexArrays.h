@@ -46,6 +46,9 @@ public:
     /// s/q and t/q. Counts repaired coordinates.
     SharedArray<Vec2> textureCoordinates(const osg::Array* array, ConversionCounts& counts) const;
 
+    /// r/q; empty if all of them are 0, as they are where arrays have two components.
+    SharedArray<float> thirdCoordinates(const osg::Array* array) const;
+
     /// Only colours that vary: a single one is part of the material. Counts repaired colours.
     SharedArray<Vec4> colors(const osg::Array* array, ConversionCounts& counts) const;
 

@@ -42,8 +42,8 @@ enum class TextureEnvironment : uint8_t
 /// What a unit's texture coordinates are made of [OpenGL21, sect. 2.11.4].
 enum class TextureCoordinates : uint8_t
 {
-    Uv0,           ///< (u, v, 0, 1) of Mesh::uvs
-    Uv1,           ///< (u, v, 0, 1) of Mesh::uvs1
+    Uv0,           ///< (u, v, r, 1) of Mesh::uvs and rs
+    Uv1,           ///< (u, v, r, 1) of Mesh::uvs1 and rs1
     Position,      ///< (p, 1) in engine space: object and eye linear, which the converter puts into matrix
     SphereMap,     ///< (s, t, 0, 1); depends on the eye, as do those below: see textureCoordinates
     ReflectionMap, ///< (r, 1)
@@ -56,6 +56,10 @@ struct TextureMapping
     TextureCoordinates coordinates = TextureCoordinates::Uv0;
     bool transformed = false; ///< else matrix is the identity and not looked at
     Mat4 matrix{1.0f};
+    /// Some coordinates are generated and others are the mesh's: ownMatrix * what own says is added.
+    bool partly = false;
+    TextureCoordinates own = TextureCoordinates::Uv0;
+    Mat4 ownMatrix{0.0f};
 };
 
 /// Texture unit 1, applied to what unit 0 leaves.
@@ -190,23 +194,25 @@ enum class TextureWrap : uint8_t
     ClampToBorder,
 };
 
-/// A decoded 2-D image, RGBA, row 0 at the bottom. Exactly one of the two arrays is filled.
+/// A decoded image, RGBA, row 0 at the bottom. Exactly one of the two arrays is filled.
 struct Texture
 {
     std::string name;
     int width = 0;
+    int depth = 0;                ///< slices of a 3-D image, one after the other; 0: it is a 2-D image
     int height = 0;               ///< of a cube map 6*width: its faces in OpenGL's order, +x at the bottom
     bool cube = false;            ///< looked up by a direction, wrap modes do not matter
     bool hasColor = true;         ///< false: alpha only, colours pass unchanged
     bool hasAlpha = true;         ///< false: alpha passes unchanged
     bool opaque = false;          ///< all alpha is 1
     Vec4 border{0.0f};            ///< in the texture's own encoding
-    std::vector<uint8_t> bytes;   ///< width*height*4
-    std::vector<float> floats;    ///< width*height*4, always linear
+    std::vector<uint8_t> bytes;   ///< width*height*4, of each slice
+    std::vector<float> floats;    ///< the same, always linear
     bool decodeSrgb = false;      ///< bytes only: RGB is sRGB encoded, decode to linear
     bool linearFilter = true;     ///< else nearest
     TextureWrap wrapS = TextureWrap::Repeat;
     TextureWrap wrapT = TextureWrap::Repeat;
+    TextureWrap wrapR = TextureWrap::Repeat; ///< of 3-D images
     Stamp changed = 0;
 };
 

@@ -23,6 +23,7 @@ struct Mesh
     SharedArray<Vec3> normals;    ///< unit, one a position; empty: the geometric normal is used
     SharedArray<Vec2> uvs;        ///< texture unit 0, one a position; may be empty
     SharedArray<Vec2> uvs1;       ///< texture unit 1; may be empty
+    SharedArray<float> rs, rs1;   ///< third coordinates of units 0 and 1; empty: 0
     SharedArray<Vec4> colors;     ///< RGBA vertex colours, one a position; may be empty
     /// Its positions have changed before and its triangles have not: they are the same array then. Its
     /// BVH is made so that it can be refitted.

@@ -23,9 +23,9 @@ Vec4 source(TextureCoordinates coordinates, const TexturePoint& p)
     switch (coordinates)
     {
     case TextureCoordinates::Uv0:
-        return Vec4(p.uv, 0.0f, 1.0f);
+        return Vec4(p.uv, p.r, 1.0f);
     case TextureCoordinates::Uv1:
-        return Vec4(p.uv1, 0.0f, 1.0f);
+        return Vec4(p.uv1, p.r1, 1.0f);
     case TextureCoordinates::Position:
         return Vec4(p.position, 1.0f);
     case TextureCoordinates::SphereMap:
@@ -43,7 +43,9 @@ Vec4 source(TextureCoordinates coordinates, const TexturePoint& p)
 Vec4 textureCoordinates(const TextureMapping& mapping, const TexturePoint& point)
 {
     const Vec4 coordinates = source(mapping.coordinates, point);
-    return mapping.transformed ? mapping.matrix * coordinates : coordinates;
+    if (!mapping.transformed) return coordinates;
+    const Vec4 mapped = mapping.matrix * coordinates;
+    return mapping.partly ? mapped + mapping.ownMatrix * source(mapping.own, point) : mapped;
 }
 
 } // namespace osgRayTrace::engine

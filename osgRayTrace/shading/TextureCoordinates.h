@@ -12,6 +12,7 @@ struct TexturePoint
 {
     Vec2 uv{0.0f};
     Vec2 uv1{0.0f};
+    float r = 0.0f, r1 = 0.0f; ///< the third ones
 
     // Unset unless the mapping is generated.
     Vec3 position{0.0f};

@@ -55,13 +55,15 @@ Vec4 borderOf(const Texture& texture)
     return color;
 }
 
-Vec4 texel(const Texture& texture, int x, int y)
+/// slice: within the image.
+Vec4 texel(const Texture& texture, int x, int y, int slice = 0)
 {
     if ((hasBorder(texture.wrapS) && (x < 0 || x >= texture.width)) ||
         (hasBorder(texture.wrapT) && (y < 0 || y >= texture.height)))
         return borderOf(texture);
     const std::size_t at =
-        4 * (static_cast<std::size_t>(wrapped(y, texture.height, texture.wrapT)) *
+        4 * ((static_cast<std::size_t>(slice) * static_cast<std::size_t>(texture.height) +
+              static_cast<std::size_t>(wrapped(y, texture.height, texture.wrapT))) *
                  static_cast<std::size_t>(texture.width) +
              static_cast<std::size_t>(wrapped(x, texture.width, texture.wrapS)));
     if (!texture.floats.empty())
@@ -120,28 +122,52 @@ Vec4 sampleCube(const Texture& texture, Vec3 r)
     return glm::mix(low, high, fy);
 }
 
-} // namespace
-
-Vec4 sampleTexture(const Texture& texture, Vec2 uv)
+/// Filtered within a slice.
+Vec4 sampleSlice(const Texture& texture, Vec2 uv, int slice)
 {
     const float x = texels(uv.x, texture.width, texture.wrapS);
     const float y = texels(uv.y, texture.height, texture.wrapT);
     if (!texture.linearFilter)
         return texel(texture, nearest(x, texture.width, texture.wrapS),
-                     nearest(y, texture.height, texture.wrapT));
+                     nearest(y, texture.height, texture.wrapT), slice);
 
     const float x0 = std::floor(x - 0.5f), y0 = std::floor(y - 0.5f);
     const float fx = x - 0.5f - x0, fy = y - 0.5f - y0;
     const int ix = static_cast<int>(x0), iy = static_cast<int>(y0);
-    const Vec4 bottom = texel(texture, ix, iy) * (1.0f - fx) + texel(texture, ix + 1, iy) * fx;
-    const Vec4 top = texel(texture, ix, iy + 1) * (1.0f - fx) + texel(texture, ix + 1, iy + 1) * fx;
+    const Vec4 bottom =
+        texel(texture, ix, iy, slice) * (1.0f - fx) + texel(texture, ix + 1, iy, slice) * fx;
+    const Vec4 top =
+        texel(texture, ix, iy + 1, slice) * (1.0f - fx) + texel(texture, ix + 1, iy + 1, slice) * fx;
     return bottom * (1.0f - fy) + top * fy;
+}
+
+Vec4 sampleVolume(const Texture& texture, Vec3 str)
+{
+    const auto slice = [&](int z)
+    {
+        if (hasBorder(texture.wrapR) && (z < 0 || z >= texture.depth)) return borderOf(texture);
+        return sampleSlice(texture, Vec2(str), wrapped(z, texture.depth, texture.wrapR));
+    };
+    const float z = texels(str.z, texture.depth, texture.wrapR);
+    if (!texture.linearFilter) return slice(nearest(z, texture.depth, texture.wrapR));
+    const float z0 = std::floor(z - 0.5f), fz = z - 0.5f - z0;
+    const int iz = static_cast<int>(z0);
+    return slice(iz) * (1.0f - fz) + slice(iz + 1) * fz;
+}
+
+} // namespace
+
+Vec4 sampleTexture(const Texture& texture, Vec2 uv)
+{
+    return sampleSlice(texture, uv, 0);
 }
 
 Vec4 sampleTexture(const Texture& texture, Vec4 coordinates)
 {
     if (texture.cube) return sampleCube(texture, Vec3(coordinates));
     const float q = coordinates.w;
+    if (texture.depth > 0)
+        return sampleVolume(texture, q == 1.0f ? Vec3(coordinates) : Vec3(coordinates) / q);
     return sampleTexture(texture, q == 1.0f ? Vec2(coordinates) : Vec2(coordinates) / q);
 }
 

@@ -50,6 +50,9 @@ TEST_CASE("report: the hash of a scene changes with all that its picture can", "
         [](Scene&, Material& m) { m.mapping.coordinates = TextureCoordinates::Uv1; },
         [](Scene&, Material& m) { m.mapping.transformed = true; },
         [](Scene&, Material& m) { m.mapping.matrix[3][0] = 0.5f; },
+        [](Scene&, Material& m) { m.mapping.partly = true; },
+        [](Scene&, Material& m) { m.mapping.own = TextureCoordinates::Uv1; },
+        [](Scene&, Material& m) { m.mapping.ownMatrix[3][0] = 0.5f; },
         [](Scene&, Material& m) { m.second.texture = 0; },
         [](Scene&, Material& m) { m.second.environment = TextureEnvironment::Add; },
         [](Scene&, Material& m) { m.second.mapping.matrix[3][0] = 0.5f; },
@@ -58,6 +61,24 @@ TEST_CASE("report: the hash of a scene changes with all that its picture can", "
             const auto mesh = sameMesh(s);
             mesh->uvs1 = std::vector<Vec2>(4, Vec2(0.5f));
             s.meshes[0] = mesh;
+        },
+        [&](Scene& s, Material&)
+        {
+            const auto mesh = sameMesh(s);
+            mesh->rs = std::vector<float>(4, 0.5f);
+            s.meshes[0] = mesh;
+        },
+        [&](Scene& s, Material&)
+        {
+            const auto other = sameTexture();
+            other->depth = 1;
+            s.textures[0] = other;
+        },
+        [&](Scene& s, Material&)
+        {
+            const auto other = sameTexture();
+            other->wrapR = TextureWrap::Mirror;
+            s.textures[0] = other;
         },
         [&](Scene& s, Material&)
         {

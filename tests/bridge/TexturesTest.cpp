@@ -6,6 +6,10 @@
 
 #include <osgRayTrace/PhysicalMaterial>
 
+#include <osg/ColorMask>
+#include <osg/FragmentProgram>
+#include <osg/Program>
+#include <osg/Stencil>
 #include <osg/TexEnv>
 #include <osg/TexEnvCombine>
 #include <osg/TexGen>
@@ -313,15 +317,6 @@ TEST_CASE("textures that cannot be sampled are left out and counted", "[bridge]"
         CHECK(soleMaterial(result).baseColorTexture == kInvalid);
         CHECK(countOf(result, "approximated.texture-without-image") == 1);
     }
-    SECTION("layers of a volume")
-    {
-        const auto volume =
-            new osg::Texture3D(imageOf<uint8_t>(1, 1, GL_RED, GL_UNSIGNED_BYTE, {9}));
-        volume->getImage()->allocateImage(1, 1, 2, GL_RED, GL_UNSIGNED_BYTE);
-        const ConversionResult result = convertGraph(texturedGeometry(volume));
-        CHECK(soleMaterial(result).baseColorTexture == 0);
-        CHECK(countOf(result, "approximated.texture-layers") == 1);
-    }
     SECTION("higher units")
     {
         const auto geometry = triangleGeometry();
@@ -392,4 +387,198 @@ TEST_CASE("texture modes that compress: the base format is OpenGL's", "[bridge]"
     CHECK(converted(osg::Texture::USE_S3TC_DXT1_COMPRESSION) == Bytes{10, 20, 30, 40});
     CHECK(converted(osg::Texture::USE_S3TC_DXT5_COMPRESSION) == Bytes{10, 20, 30, 40});
     CHECK(converted(osg::Texture::USE_S3TC_DXT1c_COMPRESSION) == Bytes{10, 20, 30, 255});
+}
+
+TEST_CASE("3-D textures: all slices, and the third coordinate of the mesh", "[bridge]")
+{
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(1, 2, 3, GL_LUMINANCE, GL_UNSIGNED_BYTE);
+    for (int i = 0; i < 6; ++i)
+        *image->data(0, i % 2, i / 2) = static_cast<unsigned char>(10 * i);
+    const osg::ref_ptr<osg::Texture3D> volume = new osg::Texture3D(image);
+    volume->setWrap(osg::Texture::WRAP_R, osg::Texture::MIRROR);
+    const auto geometry = texturedGeometry(volume);
+    const osg::ref_ptr<osg::Vec3Array> coordinates = new osg::Vec3Array(3);
+    (*coordinates)[1] = osg::Vec3(1, 2, 3);
+    geometry->setTexCoordArray(0, coordinates);
+    SceneConverter converter;
+    ConversionResult result = converter.convert(inputFor(geometry));
+    const Texture& texture = *result.scene->textures.at(0);
+    CHECK((texture.width == 1 && texture.height == 2 && texture.depth == 3));
+    REQUIRE(texture.bytes.size() == 24);
+    CHECK(texture.bytes[4 * 5] == 50);
+    CHECK(texture.wrapR == TextureWrap::Mirror);
+    CHECK(soleMesh(result).uvs[1] == Vec2(1, 2));
+    REQUIRE(soleMesh(result).rs.size() == 3);
+    CHECK(soleMesh(result).rs[1] == 3);
+    CHECK(soleMesh(result).rs1.empty());
+
+    volume->setWrap(osg::Texture::WRAP_R, osg::Texture::REPEAT);
+    result = converter.convert(inputFor(geometry));
+    CHECK(result.scene->textures.at(0)->wrapR == TextureWrap::Repeat);
+    // Homogeneous ones are divided; where all are 0 there are none.
+    const osg::ref_ptr<osg::Vec4Array> projective = new osg::Vec4Array(3);
+    (*projective)[0].set(0, 0, 6, 2);
+    (*projective)[1].w() = (*projective)[2].w() = 1;
+    geometry->setTexCoordArray(0, projective);
+    CHECK(soleMesh(converter.convert(inputFor(geometry))).rs[0] == 3);
+    (*projective)[0].z() = 0;
+    projective->dirty();
+    CHECK(soleMesh(converter.convert(inputFor(geometry))).rs.empty());
+}
+
+namespace
+{
+
+/// With OpenGL beside it.
+ConversionResult convertForViewer(SceneConverter& converter, osg::Node* root)
+{
+    ConversionInput input = inputFor(root);
+    input.rasterizesRest = true;
+    return converter.convert(input);
+}
+
+ConversionResult convertForViewer(osg::Node* root)
+{
+    SceneConverter converter;
+    return convertForViewer(converter, root);
+}
+
+struct Filler : osg::Texture2D::SubloadCallback
+{
+    void load(const osg::Texture2D&, osg::State&) const override {}
+    void subload(const osg::Texture2D&, osg::State&) const override {}
+};
+
+} // namespace
+
+TEST_CASE("textures that only OpenGL has leave their geometry to it", "[bridge]")
+{
+    const char* const reason = "rasterized.texture-without-image";
+    const auto rendered = []
+    {
+        const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+        texture->setTextureSize(64, 64);
+        texture->setInternalFormat(GL_RGBA);
+        return texture;
+    };
+    SECTION("a camera's")
+    {
+        const auto root = texturedGeometry(rendered());
+        const ConversionResult result = convertForViewer(root);
+        CHECK(countOf(result, reason) == 1);
+        CHECK(result.rasterized);
+        CHECK(result.scene->instances.empty());
+        CHECK(countOf(convertGraph(root), "approximated.texture-without-image") == 1);
+    }
+    SECTION("in unit 1, too; not if it is off, or the file of an image is missing")
+    {
+        const auto root = texturedGeometry(smallTexture());
+        root->getStateSet()->setTextureAttributeAndModes(1, rendered(), kOn);
+        CHECK(countOf(convertForViewer(root), reason) == 1);
+        root->getStateSet()->setTextureMode(1, GL_TEXTURE_2D, osg::StateAttribute::OFF);
+        CHECK(countOf(convertForViewer(root), reason) == 0);
+        CHECK(convertForViewer(texturedGeometry(new osg::Texture2D)).scene->instances.size() == 1);
+    }
+    SECTION("what a callback fills")
+    {
+        const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+        texture->setSubloadCallback(new Filler);
+        CHECK(countOf(convertForViewer(texturedGeometry(texture)), reason) == 1);
+    }
+    SECTION("not what was converted before its image was given up")
+    {
+        const auto texture = smallTexture();
+        const auto root = texturedGeometry(texture);
+        SceneConverter converter;
+        convertForViewer(converter, root);
+        texture->setImage(nullptr);
+        texture->setTextureSize(1, 1); // as OSG notes it when it uploads
+        const ConversionResult result = convertForViewer(converter, root);
+        CHECK(countOf(result, reason) == 0);
+        CHECK(soleMaterial(result).baseColorTexture == 0);
+        CHECK(countOf(convertForViewer(root), reason) == 1);
+    }
+}
+
+namespace
+{
+
+/// As virtual programs are: its shaders are its own.
+struct VirtualProgram : osg::Program
+{
+    META_StateAttribute(test, VirtualProgram, PROGRAM) VirtualProgram() = default;
+    VirtualProgram(const VirtualProgram& other, const osg::CopyOp& copy) : osg::Program(other, copy)
+    {
+    }
+};
+
+struct OtherProgram : osg::StateAttribute
+{
+    META_StateAttribute(test, OtherProgram, PROGRAM) OtherProgram() = default;
+    OtherProgram(const OtherProgram& other, const osg::CopyOp& copy)
+        : osg::StateAttribute(other, copy)
+    {
+    }
+    int compare(const osg::StateAttribute& other) const override { return &other == this ? 0 : 1; }
+};
+
+} // namespace
+
+TEST_CASE("programs of any class, stencils and colour masks leave their geometry to OpenGL",
+          "[bridge]")
+{
+    const auto counted = [](const osg::ref_ptr<osg::Geometry>& geometry, const std::string& what)
+    {
+        const ConversionResult result = convertForViewer(geometry);
+        CHECK(result.scene->instances.size() == (countOf(result, "rasterized." + what) == 0));
+        return countOf(result, "rasterized." + what);
+    };
+    const auto geometry = triangleGeometry();
+    osg::StateSet& state = *geometry->getOrCreateStateSet();
+    SECTION("programs")
+    {
+        CHECK(counted(geometry, "shader-program") == 0);
+        state.setAttribute(new osg::Program); // the fixed function
+        CHECK(counted(geometry, "shader-program") == 0);
+        state.setAttribute(new VirtualProgram);
+        CHECK(counted(geometry, "shader-program") == 1);
+        CHECK(countOf(convertGraph(geometry), "approximated.shader") == 1);
+        state.setAttribute(new OtherProgram);
+        CHECK(counted(geometry, "shader-program") == 1);
+    }
+    SECTION("ARB's programs")
+    {
+        state.setAttribute(new osg::FragmentProgram);
+        CHECK(counted(geometry, "shader-program") == 0); // not enabled
+        state.setMode(GL_FRAGMENT_PROGRAM_ARB, kOn);
+        CHECK(counted(geometry, "shader-program") == 1);
+    }
+    SECTION("stencil")
+    {
+        state.setAttribute(new osg::Stencil);
+        CHECK(counted(geometry, "stencil") == 0);
+        state.setMode(GL_STENCIL_TEST, kOn);
+        CHECK(counted(geometry, "stencil") == 1);
+        CHECK(countOf(convertGraph(geometry), "approximated.stencil") == 1);
+    }
+    SECTION("colour mask")
+    {
+        const osg::ref_ptr<osg::ColorMask> mask = new osg::ColorMask(true, true, true, false);
+        state.setAttribute(mask);
+        CHECK(counted(geometry, "color-mask") == 0);
+        mask->setMask(true, false, true, true);
+        CHECK(counted(geometry, "color-mask") == 1);
+        CHECK(countOf(convertGraph(geometry), "approximated.color-mask") == 1);
+    }
+    SECTION("not those above the scene, which hold for its picture")
+    {
+        const osg::ref_ptr<osg::StateSet> above = new osg::StateSet;
+        above->setAttributeAndModes(new osg::Stencil, kOn | osg::StateAttribute::OVERRIDE);
+        above->setAttribute(new osg::ColorMask(true, false, false, true));
+        ConversionInput input = inputFor(geometry);
+        input.rasterizesRest = true;
+        input.inheritedState = {above};
+        CHECK(SceneConverter().convert(input).scene->instances.size() == 1);
+    }
 }

@@ -5,6 +5,7 @@
 
 #include <osg/BlendFunc>
 #include <osg/ClipNode>
+#include <osg/ColorMask>
 #include <osg/LightSource>
 #include <osg/LineWidth>
 #include <osg/MatrixTransform>
@@ -12,6 +13,8 @@
 #include <osg/PolygonMode>
 #include <osg/PositionAttitudeTransform>
 #include <osg/Program>
+#include <osg/Stencil>
+#include <osg/Texture2D>
 #include <osgText/Text>
 
 #include <atomic>
@@ -252,6 +255,49 @@ TEST_CASE("rasterized parts: states that OpenGL draws", "[gl]")
         state->setAttributeAndModes(program.get());
         checkSame({ball});
     }
+    SECTION("a colour mask")
+    {
+        state->setAttribute(new osg::ColorMask(true, false, true, true));
+        checkSame({ball});
+    }
+    SECTION("a stencil that one writes and the other is cut out by, in bins of their own")
+    {
+        osg::ref_ptr<osg::Stencil> writes = new osg::Stencil;
+        writes->setFunction(osg::Stencil::ALWAYS, 1, ~0u);
+        writes->setOperation(osg::Stencil::KEEP, osg::Stencil::KEEP, osg::Stencil::REPLACE);
+        state->setAttributeAndModes(writes.get());
+        state->setAttribute(new osg::ColorMask(false, false, false, false));
+        state->setRenderBinDetails(2, "RenderBin");
+        osg::ref_ptr<osg::Stencil> cut = new osg::Stencil;
+        cut->setFunction(osg::Stencil::EQUAL, 1, ~0u);
+        const osg::ref_ptr<osg::Node> wall =
+            at(osg::Vec3(0, 0, 1.6f), unlitSquare(1.5f, osg::Vec4(0.9f, 0.9f, 0.2f, 1.0f)).get());
+        wall->getOrCreateStateSet()->setAttributeAndModes(cut.get());
+        wall->getStateSet()->setRenderBinDetails(3, "RenderBin");
+        checkSame({ball, wall});
+    }
+}
+
+TEST_CASE("rasterized parts: a texture that a camera of the graph renders", "[gl]")
+{
+    const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+    texture->setTextureSize(64, 64);
+    texture->setInternalFormat(GL_RGBA);
+    texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
+    const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setRenderOrder(osg::Camera::PRE_RENDER);
+    camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+    camera->attach(osg::Camera::COLOR_BUFFER, texture.get());
+    camera->setViewport(0, 0, 64, 64);
+    camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    camera->setProjectionMatrixAsOrtho2D(-1, 1, -1, 1);
+    camera->setClearColor(osg::Vec4(0.9f, 0.2f, 0.2f, 1.0f));
+    camera->addChild(unlitSquare(0.5f, osg::Vec4(0.2f, 0.9f, 0.9f, 1.0f)));
+    const osg::ref_ptr<osg::Geometry> screen = osg::createTexturedQuadGeometry(
+        osg::Vec3(-1.5f, -1.0f, 0.4f), osg::Vec3(2, 0, 0), osg::Vec3(0, 2, 0));
+    screen->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture.get());
+    screen->getStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    checkSame({camera, screen});
 }
 
 // Conversion keeps what it leaves to OSG; that must not keep the decorator.

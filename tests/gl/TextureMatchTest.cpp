@@ -7,6 +7,7 @@
 #include <osg/TexGenNode>
 #include <osg/TexMat>
 #include <osg/Texture1D>
+#include <osg/Texture3D>
 #include <osg/TextureCubeMap>
 #include <osg/TextureRectangle>
 
@@ -345,4 +346,97 @@ TEST_CASE("match: textures that OpenGL compresses", "[gl]")
         const auto root = groupOf({unlit(square(3.5f, osg::Vec4(0.2f, 0.5f, 0.8f, 1.0f))), front});
         checkMatch(std::string("compressed-") + mode.name, root);
     }
+}
+
+namespace
+{
+
+/// Each slice of other colours.
+osg::ref_ptr<osg::Texture3D> volume(osg::Texture::WrapMode wrap, osg::Texture::FilterMode filter)
+{
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(4, 4, 4, GL_RGB, GL_UNSIGNED_BYTE);
+    for (int i = 0; i < 64; ++i)
+        image->setColor(osg::Vec4(0.2f + 0.25f * float(i % 4), i / 16 % 2 ? 0.2f : 0.9f,
+                                  0.1f + 0.2f * float(i / 16) + 0.05f * float(i / 4 % 4), 1.0f),
+                        i % 4, i / 4 % 4, i / 16);
+    osg::ref_ptr<osg::Texture3D> texture = new osg::Texture3D(image);
+    for (const auto direction : {osg::Texture::WRAP_S, osg::Texture::WRAP_T, osg::Texture::WRAP_R})
+        texture->setWrap(direction, wrap);
+    texture->setFilter(osg::Texture::MIN_FILTER, filter);
+    texture->setFilter(osg::Texture::MAG_FILTER, filter);
+    texture->setResizeNonPowerOfTwoHint(false);
+    texture->setBorderColor(osg::Vec4d(0.1, 0.9, 0.3, 1.0));
+    return texture;
+}
+
+} // namespace
+
+TEST_CASE("match: 3-D textures, with three coordinates", "[gl][coverage]")
+{
+    const std::pair<const char*, osg::Texture::WrapMode> modes[] = {
+        {"repeat", osg::Texture::REPEAT},
+        {"mirror", osg::Texture::MIRROR},
+        {"clamp", osg::Texture::CLAMP},
+        {"clamp-to-edge", osg::Texture::CLAMP_TO_EDGE},
+        {"clamp-to-border", osg::Texture::CLAMP_TO_BORDER}};
+    for (const auto& [name, mode] : modes)
+        for (const auto filter : {osg::Texture::LINEAR, osg::Texture::NEAREST})
+        {
+            const auto geometry = unlit(square(3.0f));
+            const auto& flat = static_cast<osg::Vec2Array&>(*geometry->getTexCoordArray(0));
+            const osg::ref_ptr<osg::Vec3Array> coordinates = new osg::Vec3Array;
+            for (const osg::Vec2& c : flat)
+                coordinates->push_back(
+                    osg::Vec3(c.x() * 1.3f - 0.1f, c.y(), c.x() + c.y() * 1.7f - 0.6f));
+            geometry->setTexCoordArray(0, coordinates);
+            geometry->getStateSet()->setTextureAttributeAndModes(0, volume(mode, filter));
+            checkMatch(std::string("texture-3d-") + name +
+                           (filter == osg::Texture::NEAREST ? "-nearest" : ""),
+                       geometry);
+        }
+}
+
+TEST_CASE("match: some coordinates generated, the others of the mesh", "[gl][coverage]")
+{
+    const osg::ref_ptr<osg::TexGen> texGen = texGenOf(osg::TexGen::OBJECT_LINEAR);
+    texGen->setPlane(osg::TexGen::S, osg::Vec4(0.1f, 0.3f, 0.0f, 0.2f));
+    texGen->setPlane(osg::TexGen::R, osg::Vec4(0.2f, 0.1f, 0.0f, 0.4f));
+    const auto geometry = unlit(square(3.0f));
+    osg::StateSet& state = *geometry->getStateSet();
+    state.setTextureAttribute(0, texGen);
+    SECTION("R of a 3-D texture, below a texture matrix")
+    {
+        state.setTextureAttributeAndModes(0, volume(osg::Texture::REPEAT, osg::Texture::LINEAR));
+        state.setTextureMode(0, GL_TEXTURE_GEN_R, kOn);
+        checkMatch("texgen-r", geometry);
+        state.setTextureAttribute(0,
+                                  new osg::TexMat(osg::Matrixd::rotate(0.4, osg::Vec3d(1, 2, 0)) *
+                                                  osg::Matrixd::translate(0.1, 0.2, 0.3)));
+        checkMatch("texgen-r-matrix", geometry);
+    }
+    SECTION("S of a 2-D texture, in a place of its own")
+    {
+        state.setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
+        state.setTextureMode(0, GL_TEXTURE_GEN_S, kOn);
+        checkMatch("texgen-s", placed(osg::Matrixd::rotate(0.3, osg::Vec3d(0, 0, 1)), geometry));
+    }
+    SECTION("S of a sphere map")
+    {
+        state.setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
+        texGen->setMode(osg::TexGen::SPHERE_MAP);
+        state.setTextureMode(0, GL_TEXTURE_GEN_S, kOn);
+        checkMatch("texgen-s-sphere-map", geometry, obliquely());
+    }
+}
+
+TEST_CASE("match: a cube map with coordinates of the mesh", "[gl][coverage]")
+{
+    const auto geometry = unlit(square(3.0f));
+    const osg::ref_ptr<osg::Vec3Array> coordinates = new osg::Vec3Array;
+    for (const osg::Vec2& c : static_cast<osg::Vec2Array&>(*geometry->getTexCoordArray(0)))
+        coordinates->push_back(osg::Vec3(c.x() * 2 - 1, c.y() * 2 - 1, 1.2f - c.x()));
+    geometry->setTexCoordArray(0, coordinates);
+    geometry->getStateSet()->setTextureAttributeAndModes(0, cubeMap(16));
+    checkMatch("cube-map-own-coordinates", geometry);
 }

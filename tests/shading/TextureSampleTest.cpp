@@ -6,6 +6,7 @@
 #include "osgRayTrace/shading/TextureSample.h"
 
 #include <cmath>
+#include <vector>
 
 using namespace osgRayTrace::engine;
 
@@ -109,4 +110,39 @@ TEST_CASE("texture: any coordinate is safe", "[shading]")
             }
         }
     }
+}
+
+TEST_CASE("texture: 3-D images, between slices and beyond them", "[shading]")
+{
+    Texture texture = ramp(true, TextureWrap::ClampToEdge);
+    texture.depth = 3;
+    const std::vector<float> slice = texture.floats;
+    for (int z = 1; z < 3; ++z)
+        for (std::size_t i = 0; i < slice.size(); ++i)
+            texture.floats.push_back(i % 4 == 2 ? 0.5f + 0.1f * float(z) : slice[i]);
+    texture.border = Vec4(0.0f, 0.0f, 0.9f, 0.0f);
+    const auto blue = [&texture](float r, float q = 1.0f)
+    { return sampleTexture(texture, Vec4(0.5f * q, 0.5f * q, r * q, q)).z; };
+    texture.wrapR = TextureWrap::ClampToEdge;
+    CHECK(blue(0.5f / 3) == Approx(0.5));
+    CHECK(blue(0.5f) == Approx(0.6));
+    CHECK(blue(2.0f / 3) == Approx(0.65));
+    CHECK(blue(2.0f / 3, 4.0f) == Approx(0.65));
+    CHECK(blue(-2.0f) == Approx(0.5));
+    CHECK(blue(2.0f) == Approx(0.7));
+    CHECK(blue(std::nanf("")) == Approx(0.5));
+    CHECK(sampleTexture(texture, Vec4(0.5f, 0.25f, 0.5f, 1.0f)).x == Approx(0.15));
+    texture.wrapR = TextureWrap::Repeat;
+    CHECK(blue(1.5f) == Approx(0.6));
+    CHECK(blue(0.0f) == Approx(0.6)); // between the last and the first
+    texture.wrapR = TextureWrap::Mirror;
+    CHECK(blue(1.0f + 0.5f / 3) == Approx(0.7));
+    texture.wrapR = TextureWrap::ClampToBorder;
+    CHECK(blue(5.0f) == Approx(0.9));
+    CHECK(blue(1.0f) == Approx(0.8));
+    texture.linearFilter = false;
+    CHECK(blue(0.34f) == Approx(0.6));
+    CHECK(blue(-0.01f) == Approx(0.9));
+    texture.wrapR = TextureWrap::Clamp;
+    CHECK(blue(9.0f) == Approx(0.7)); // with the nearest texel there is no border
 }

@@ -64,6 +64,9 @@ void hashMapping(Hasher& hasher, const TextureMapping& mapping)
     hasher.add(mapping.coordinates);
     hasher.add(mapping.transformed);
     hasher.add(mapping.matrix);
+    hasher.add(mapping.partly);
+    hasher.add(mapping.own);
+    hasher.add(mapping.ownMatrix);
 }
 
 /// Of fixed-function materials, and what lets rays pass.
@@ -117,13 +120,14 @@ void hashMaterial(Hasher& hasher, const Material& material)
 
 void hashTexture(Hasher& hasher, const Texture& texture)
 {
-    for (const int value : {texture.width, texture.height})
+    for (const int value : {texture.width, texture.height, texture.depth})
         hasher.add(value);
     for (const bool flag : {texture.cube, texture.hasColor, texture.hasAlpha, texture.decodeSrgb,
                             texture.linearFilter})
         hasher.add(flag);
     hasher.add(texture.wrapS);
     hasher.add(texture.wrapT);
+    hasher.add(texture.wrapR);
     hasher.add(texture.border);
     hasher.addAll(texture.bytes);
     hasher.addAll(texture.floats);
@@ -158,6 +162,8 @@ void hashScene(Hasher& hasher, const Scene& scene)
         hasher.addAll(mesh->normals);
         hasher.addAll(mesh->uvs);
         hasher.addAll(mesh->uvs1);
+        hasher.addAll(mesh->rs);
+        hasher.addAll(mesh->rs1);
         hasher.addAll(mesh->colors);
     }
     for (const Instance& instance : scene.instances)
