@@ -103,8 +103,8 @@ private:
 std::string readPixelBytes(std::istream& stream, const RgbeOrder& order)
 {
     constexpr std::size_t kBlock = std::size_t(1) << 20;
-    const std::size_t most = static_cast<std::size_t>(order.lines) *
-                             (8 * static_cast<std::size_t>(order.length) + 8);
+    const std::size_t most =
+        static_cast<std::size_t>(order.lines) * (8 * static_cast<std::size_t>(order.length) + 8);
     std::string bytes;
     while (bytes.size() < most && stream)
     {

@@ -11,10 +11,10 @@
 
 #include <osg/AlphaFunc>
 #include <osg/BlendFunc>
+#include <osg/ClipPlane>
 #include <osg/ColorMask>
 #include <osg/CullFace>
 #include <osg/FrontFace>
-#include <osg/ClipPlane>
 #include <osg/LightModel>
 #include <osg/Material>
 #include <osg/PolygonMode>

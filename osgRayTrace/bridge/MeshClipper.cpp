@@ -131,8 +131,9 @@ private:
 
 void clip(Mesh& mesh, const std::vector<Vec4d>& planes)
 {
-    Vertices vertices{copyOf(mesh.positions), copyOf(mesh.normals), copyOf(mesh.uvs), copyOf(mesh.uvs1),
-                      copyOf(mesh.rs), copyOf(mesh.rs1), copyOf(mesh.colors)};
+    Vertices vertices{copyOf(mesh.positions), copyOf(mesh.normals), copyOf(mesh.uvs),
+                      copyOf(mesh.uvs1),      copyOf(mesh.rs),      copyOf(mesh.rs1),
+                      copyOf(mesh.colors)};
     std::vector<UVec3> triangles = copyOf(mesh.triangles);
     for (const Vec4d& plane : planes)
         triangles = PlaneCut(plane, vertices).keptOf(triangles);

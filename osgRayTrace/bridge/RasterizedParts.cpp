@@ -107,6 +107,34 @@ void placeState(const osg::Node& node, osgUtil::CullVisitor& visitor)
     }
 }
 
+/// A colour mask leaves channels of what is there before, which is our picture then: DisplayTexture
+/// draws it in bin 1. Whoever has chosen a bin has chosen an order.
+bool mixesWithPicture(const RasterizedPart& part)
+{
+    bool masks = false;
+    for (const osg::ref_ptr<osg::Node>& node : part.path)
+    {
+        const osg::StateSet* stateSet = node->getStateSet();
+        if (!stateSet) continue;
+        if (stateSet->useRenderBinDetails()) return false;
+        masks = masks || stateSet->getAttribute(osg::StateAttribute::COLORMASK);
+    }
+    return masks;
+}
+
+/// Never freed: threads may cull while the process ends.
+const osg::StateSet* stateAfterPicture()
+{
+    static const osg::StateSet* const stateSet = []
+    {
+        auto* after = new osg::StateSet;
+        after->ref();
+        after->setRenderBinDetails(2, "RenderBin");
+        return after;
+    }();
+    return stateSet;
+}
+
 } // namespace
 
 osg::ref_ptr<osg::Geometry> withoutTriangles(const osg::Geometry& geometry)
@@ -143,7 +171,12 @@ void cullParts(const RasterizedParts& parts, osgUtil::CullVisitor& visitor)
             if (visitor.validNodeMask(node)) placeState(node, visitor);
         }
         else
+        {
+            const bool after = mixesWithPicture(part);
+            if (after) visitor.pushStateSet(stateAfterPicture());
             (part.inPlace ? *part.inPlace : node).accept(visitor);
+            if (after) visitor.popStateSet();
+        }
     }
 }
 

@@ -186,7 +186,8 @@ bool decodeTexture(const osg::Texture& source, Texture& texture)
 
 bool isOnlyInOpenGL(const osg::Texture& texture)
 {
-    if (isFilledByCallback<osg::Texture2D>(texture) || isFilledByCallback<osg::Texture3D>(texture) ||
+    if (isFilledByCallback<osg::Texture2D>(texture) ||
+        isFilledByCallback<osg::Texture3D>(texture) ||
         isFilledByCallback<osg::TextureRectangle>(texture) ||
         isFilledByCallback<osg::TextureCubeMap>(texture) ||
         isFilledByCallback<osg::Texture1D>(texture))

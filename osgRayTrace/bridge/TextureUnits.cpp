@@ -148,8 +148,9 @@ public:
     }
 
 private:
-    /// Takes from the matrix what is not generated and puts it into own, which is applied to what the mesh has.
-    /// False if there is nothing of the kind that the texture looks at. q is 1 if it is not generated.
+    /// Takes from the matrix what is not generated and puts it into own, which is applied to what
+    /// the mesh has. False if there is nothing of the kind that the texture looks at. q is 1 if it
+    /// is not generated.
     bool keepGenerated(const osg::Texture& texture, osg::Matrixd& matrix, osg::Matrixd& own) const
     {
         const GLenum target = texture.getTextureTarget();

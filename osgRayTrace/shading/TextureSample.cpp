@@ -136,8 +136,8 @@ Vec4 sampleSlice(const Texture& texture, Vec2 uv, int slice)
     const int ix = static_cast<int>(x0), iy = static_cast<int>(y0);
     const Vec4 bottom =
         texel(texture, ix, iy, slice) * (1.0f - fx) + texel(texture, ix + 1, iy, slice) * fx;
-    const Vec4 top =
-        texel(texture, ix, iy + 1, slice) * (1.0f - fx) + texel(texture, ix + 1, iy + 1, slice) * fx;
+    const Vec4 top = texel(texture, ix, iy + 1, slice) * (1.0f - fx) +
+                     texel(texture, ix + 1, iy + 1, slice) * fx;
     return bottom * (1.0f - fy) + top * fy;
 }
 

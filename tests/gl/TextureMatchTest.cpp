@@ -423,10 +423,12 @@ TEST_CASE("match: some coordinates generated, the others of the mesh", "[gl][cov
     }
     SECTION("S of a sphere map")
     {
-        state.setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
-        texGen->setMode(osg::TexGen::SPHERE_MAP);
-        state.setTextureMode(0, GL_TEXTURE_GEN_S, kOn);
-        checkMatch("texgen-s-sphere-map", geometry, obliquely());
+        const auto ball = fineSphere(1.5f);
+        osg::StateSet& ofBall = *ball->getOrCreateStateSet();
+        ofBall.setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
+        ofBall.setTextureAttribute(0, texGenOf(osg::TexGen::SPHERE_MAP));
+        ofBall.setTextureMode(0, GL_TEXTURE_GEN_S, kOn);
+        checkMatch("texgen-s-sphere-map", ball, obliquely());
     }
 }
 

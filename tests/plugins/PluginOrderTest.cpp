@@ -11,8 +11,9 @@
 
 using namespace osgRayTrace::engine::test;
 
-TEST_CASE("plugins: with any of ours loaded, .hdr files are read by ours, whatever folder comes first",
-          "[plugins]")
+TEST_CASE(
+    "plugins: with any of ours loaded, .hdr files are read by ours, whatever folder comes first",
+    "[plugins]")
 {
     const TemporaryFolder folder;
     const std::string version = osgDB::Registry::instance()->createLibraryNameForExtension("hdr");
