@@ -8,6 +8,7 @@
 #include "osgRayTrace/ShownView.h"
 #include "osgRayTrace/bridge/DepthSlices.h"
 #include "osgRayTrace/bridge/PageRequests.h"
+#include "osgRayTrace/bridge/PathBudget.h"
 #include "osgRayTrace/bridge/RasterizedPicker.h"
 #include "osgRayTrace/bridge/ScenePicker.h"
 #include "osgRayTrace/bridge/SceneUpdater.h"
@@ -42,12 +43,36 @@ struct BoundsVisitor : osg::ComputeBoundsVisitor
     BoundsVisitor() : osg::ComputeBoundsVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
     using osg::ComputeBoundsVisitor::apply;
 
+    void apply(osg::Group& node) override
+    {
+        if (!isTooMuch(node)) traverse(node);
+    }
+
+    void apply(osg::Transform& node) override
+    {
+        if (!isTooMuch(node)) osg::ComputeBoundsVisitor::apply(node);
+    }
+
     /// All levels: which one is active depends on the view.
     void apply(osg::LOD& node) override
     {
+        if (isTooMuch(node)) return;
         for (unsigned int i = 0; i < node.getNumChildren(); ++i)
-            node.getChild(i)->accept(*this);
+            if (const osg::ref_ptr<osg::Node> child = node.getChild(i)) child->accept(*this);
     }
+
+private:
+    /// True after too many paths: then the node counts by its sphere, which OSG keeps.
+    bool isTooMuch(osg::Node& node)
+    {
+        if (_budget.take()) return false;
+        osg::BoundingBox box;
+        if (node.getBound().valid()) box.expandBy(node.getBound());
+        applyBoundingBox(box);
+        return true;
+    }
+
+    engine::PathBudget _budget;
 };
 
 } // namespace

@@ -4,6 +4,8 @@
 
 #include <osg/NodeVisitor>
 
+#include <set>
+
 namespace osgRayTrace::app
 {
 
@@ -17,10 +19,11 @@ struct FindTracedScene : osg::NodeVisitor
     void apply(osg::Group& node) override
     {
         if (!found) found = dynamic_cast<RayTracedScene*>(&node);
-        if (!found) traverse(node);
+        if (!found && visited.insert(&node).second) traverse(node); // on one of its paths
     }
 
     osg::ref_ptr<RayTracedScene> found;
+    std::set<osg::ref_ptr<osg::Group>> visited;
 };
 
 } // namespace

@@ -6,6 +6,8 @@
 #include <osg/ClearNode>
 #include <osg/NodeVisitor>
 
+#include <set>
+
 namespace osgRayTrace::app
 {
 
@@ -18,6 +20,12 @@ template <typename NodeClass> class FindFirst : public osg::NodeVisitor
 public:
     FindFirst() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
 
+    /// Each once, however many paths there are to it.
+    void apply(osg::Node& node) override
+    {
+        if (!found && _visited.insert(&node).second) traverse(node);
+    }
+
     void apply(NodeClass& node) override
     {
         if (!found) worldFromNode = osg::computeLocalToWorld(getNodePath());
@@ -27,6 +35,9 @@ public:
 
     osg::ref_ptr<NodeClass> found;
     osg::Matrixd worldFromNode;
+
+private:
+    std::set<osg::ref_ptr<osg::Node>> _visited;
 };
 
 } // namespace

@@ -16,6 +16,7 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <set>
 
 namespace osgRayTrace::app
 {
@@ -41,9 +42,10 @@ bool holdsTracedScene(osg::Node& node)
         void apply(osg::Group& group) override
         {
             found = found || dynamic_cast<RayTracedScene*>(&group);
-            if (!found) traverse(group);
+            if (!found && visited.insert(&group).second) traverse(group); // on one of its paths
         }
         bool found = false;
+        std::set<osg::ref_ptr<osg::Group>> visited;
     } find;
     node.accept(find);
     return find.found;

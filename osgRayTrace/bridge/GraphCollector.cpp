@@ -248,7 +248,7 @@ void GraphCollector::apply(osg::Billboard& node)
     ++_opaque;
     for (unsigned int i = 0; i < node.getNumDrawables(); ++i)
     {
-        osg::Drawable* drawable = node.getDrawable(i);
+        const osg::ref_ptr<osg::Drawable> drawable = node.getDrawable(i);
         if (!drawable || i >= positions)
         {
             _report.count("not-traced.billboard-child");
@@ -275,6 +275,7 @@ void GraphCollector::apply(osg::Drawable& drawable)
 
 void GraphCollector::apply(osg::Geometry& geometry)
 {
+    if (isTooMuch(geometry)) return;
     const osg::Geometry& posed = _vertices.posed(geometry, getNodePath());
     const bool isPosed = &posed != &geometry;
     if (_input.rasterizesRest && rasterizes(geometry, isPosed)) return;
@@ -319,7 +320,7 @@ float GraphCollector::getDistanceToViewPoint(const osg::Vec3& position, bool use
 
 void GraphCollector::traverseChildren(osg::Node& node)
 {
-    if (isTooDeep(node)) return;
+    if (isTooDeep(node) || isTooMuch(node)) return;
     const bool opaque = &node != _input.root && kindOf(node) == NodeKind::Opaque;
     _opaque += opaque;
     traverse(node);
@@ -335,6 +336,26 @@ bool GraphCollector::isTooDeep(const osg::Node& node)
         _report.warn("skipped.too-deep", "node '" + node.getName() + "'",
                      "lies below " + std::to_string(kDeepestPath - 1) +
                          " others, its children are skipped");
+    return true;
+}
+
+/// True, counted and named if the paths that are taken are so many already. OSG draws the node, unless
+/// its own traversal would not end either.
+bool GraphCollector::isTooMuch(osg::Node& node)
+{
+    if (_visits.take()) return false;
+    const uint64_t most = _rasterizedVisits.left();
+    const uint64_t count = _counts.of(node, most, kDeepestPath);
+    const std::string object = "node '" + path() + "'";
+    const std::string limit = "comes after " + std::to_string(kMostPaths) + " paths to nodes, ";
+    if (_input.rasterizesRest && count <= most)
+    {
+        _rasterizedVisits = PathBudget(most - count);
+        _report.warn("rasterized.too-many-paths", object, limit + "left to OSG with all below it");
+        rasterize();
+    }
+    else
+        _report.warn("skipped.too-many-paths", object, limit + "left out with all below it");
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/ClipPlanes.h"
 #include "osgRayTrace/bridge/MaterialAssignment.h"
 #include "osgRayTrace/bridge/NodeTree.h"
+#include "osgRayTrace/bridge/PathBudget.h"
 #include "osgRayTrace/bridge/SceneConverter.h"
 #include "osgRayTrace/bridge/SceneExtent.h"
 #include "osgRayTrace/bridge/SoftwareVertices.h"
@@ -151,6 +152,7 @@ public:
 private:
     void traverseChildren(osg::Node& node);
     bool isTooDeep(const osg::Node& node);
+    bool isTooMuch(osg::Node& node);
     bool pushState(osg::Node& node);
     bool pushMatrix(const osg::Matrixd& worldFromLocal);
     void traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node& node);
@@ -173,6 +175,9 @@ private:
     ConversionReport& _report;
     std::vector<osg::Matrixd> _worldFromLocal; // the stack of transforms, never empty
     ReferenceCullStack _cullStack;
+    PathBudget _visits;
+    PathBudget _rasterizedVisits; // that OSG makes in each frame for what is left out
+    PathCounts _counts;
     int _opaque = 0; // nodes around that GraphWatch does not look into
     StateStack _states;
     MaterialAssignment _materials; ///< keeps what it adds to the states

@@ -34,11 +34,12 @@ class FingerprintVisitor : public osg::NodeVisitor
 {
 public:
     FingerprintVisitor(const ViewingConditions& conditions, const osg::Matrixd& sceneFromLocal,
-                       KeptObjects* kept, BufferVersions* versions)
+                       KeptObjects* kept, BufferVersions* versions, PathBudget& budget)
         : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN),
           _digest(kept),
           _kept(kept),
           _versions(versions),
+          _budget(budget),
           _eye(conditions.eye),
           _view(conditions.view),
           _cullStack(conditions.view),
@@ -113,6 +114,7 @@ public:
 
     void apply(osg::Geometry& geometry) override
     {
+        if (!_budget.take()) return;
         addDrawable(geometry);
         _digest.add(geometry.getDrawCallback() != nullptr);
         for (const float weight : SoftwareVertices::weightsOf(geometry))
@@ -151,7 +153,7 @@ private:
         _digest.addObject(&node);
         _digest.add(ownHint(node));
         addStateSetOf(node);
-        if (getNodePath().size() < kDeepestPath) traverse(node);
+        if (getNodePath().size() < kDeepestPath && _budget.take()) traverse(node);
         _digest.add(kEnd);
     }
 
@@ -191,6 +193,7 @@ private:
     Digest _digest;
     KeptObjects* _kept;
     BufferVersions* _versions;
+    PathBudget& _budget;
     osg::Vec3d _eye;
     std::optional<ReferenceView> _view;
     ReferenceCullStack _cullStack;
@@ -202,10 +205,11 @@ private:
 
 uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions,
                           const osg::Matrixd& sceneFromLocal, KeptObjects* kept,
-                          BufferVersions* versions)
+                          BufferVersions* versions, PathBudget* budget)
 {
     if (versions) versions->begin();
-    FingerprintVisitor visitor(conditions, sceneFromLocal, kept, versions);
+    PathBudget own;
+    FingerprintVisitor visitor(conditions, sceneFromLocal, kept, versions, budget ? *budget : own);
     root.accept(visitor);
     if (versions) versions->end();
     return visitor.value();

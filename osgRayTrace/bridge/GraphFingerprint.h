@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/ObjectIdentity.h"
+#include "osgRayTrace/bridge/PathBudget.h"
 #include "osgRayTrace/bridge/ViewingConditions.h"
 
 #include <osg/Matrixd>
@@ -22,8 +23,10 @@ class BufferVersions;
 /// unseen: that is what dirtyScene() is for. Reads the graph only.
 /// sceneFromLocal: of the place that root is at. kept: as in Digest. versions: stand for the modified
 /// counts of arrays and primitive sets, so that equal values are no change; slower.
+/// budget: what lies beyond it goes unseen; null: one of its own.
 uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions,
                           const osg::Matrixd& sceneFromLocal = osg::Matrixd(),
-                          KeptObjects* kept = nullptr, BufferVersions* versions = nullptr);
+                          KeptObjects* kept = nullptr, BufferVersions* versions = nullptr,
+                          PathBudget* budget = nullptr);
 
 } // namespace osgRayTrace::engine

@@ -164,6 +164,8 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
         _inheritedKept = std::move(kept);
     }
     if (_anyMoved || _anyRestated) findChanged(changes);
+    // Nodes that the watch has not seen may be among those that came up.
+    if (_graph.truncated && !changes.none()) changes.convert = changes.record = true;
     _recorded = true;
     return changes;
 }
@@ -189,11 +191,13 @@ bool GraphWatch::isAsItWas(WatchedNode& node)
 bool GraphWatch::isOpaqueAsItWas(WatchedNode& node)
 {
     WatchedOpaque& opaque = _graph.opaques[node.item];
-    const uint64_t print = graphFingerprint(*node.node, _plain, opaque.sceneFromLocal);
+    PathBudget budget(opaque.budget), again(opaque.budget);
+    const uint64_t print = graphFingerprint(*node.node, _plain, opaque.sceneFromLocal, nullptr,
+                                            nullptr, &budget);
     if (print == node.print) return true;
     if (!opaque.versions) opaque.versions = std::make_unique<BufferVersions>();
     const uint64_t contents = graphFingerprint(*node.node, _plain, opaque.sceneFromLocal, nullptr,
-                                               opaque.versions.get());
+                                               opaque.versions.get(), &again);
     const bool same = opaque.contents == contents;
     opaque.contents = contents;
     if (same) node.print = print;

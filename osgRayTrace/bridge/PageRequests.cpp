@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/PageRequests.h"
 
+#include "osgRayTrace/bridge/PathBudget.h"
+
 #include <osg/Camera>
 #include <osg/PagedLOD>
 #include <osg/Projection>
@@ -85,11 +87,14 @@ private:
     void traverseAs(VisitorType type, osg::Node& node)
     {
         if (!node.asGroup() || std::strcmp(node.className(), "TerrainTile") == 0) return;
+        if (!_budget.take()) return;
         const VisitorType outer = getVisitorType();
         setVisitorType(type);
         traverse(node);
         setVisitorType(outer);
     }
+
+    PathBudget _budget;
 };
 
 } // namespace
@@ -99,7 +104,7 @@ void requestPages(osg::Group& scene, osgUtil::CullVisitor& visitor)
     if (!visitor.getViewport() || !visitor.getProjectionMatrix()) return;
     PageVisitor pages(visitor);
     for (unsigned int i = 0; i < scene.getNumChildren(); ++i)
-        scene.getChild(i)->accept(pages);
+        if (const osg::ref_ptr<osg::Node> child = scene.getChild(i)) child->accept(pages);
 }
 
 } // namespace osgRayTrace::engine

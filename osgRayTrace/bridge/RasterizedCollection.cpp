@@ -47,11 +47,11 @@ bool GraphCollector::leavesGroup(osg::Node& node)
 /// Its children, whatever its own traverse does.
 void GraphCollector::traverseGroup(osg::Group& group)
 {
-    if (isTooDeep(group)) return;
+    if (isTooDeep(group) || isTooMuch(group)) return;
     const bool pushed = pushState(group);
     ++_opaque;
     for (unsigned int i = 0; i < group.getNumChildren(); ++i)
-        group.getChild(i)->accept(*this);
+        if (const osg::ref_ptr<osg::Node> child = group.getChild(i)) child->accept(*this);
     --_opaque;
     if (pushed) _states.pop();
 }

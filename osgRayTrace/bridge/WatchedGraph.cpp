@@ -105,6 +105,11 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
         return;
     }
     if (depth > kDeepestPath) return;
+    if (nodes.size() >= kMostWatched)
+    {
+        truncated = true;
+        return;
+    }
     WatchedNode entry;
     entry.node = &node;
     entry.kind = kindOf(node);
@@ -124,7 +129,10 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
         entry.item = static_cast<uint32_t>(opaques.size());
         WatchedOpaque& opaque = opaques.emplace_back();
         opaque.sceneFromLocal = sceneFromParent;
-        entry.print = graphFingerprint(node, conditions, sceneFromParent, &opaque.kept);
+        opaque.budget = _opaqueBudget.left();
+        entry.print = graphFingerprint(node, conditions, sceneFromParent, &opaque.kept, nullptr,
+                                       &_opaqueBudget);
+        truncated |= _opaqueBudget.left() == 0;
         push(entry);
         return;
     }
@@ -154,7 +162,8 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
     push(entry);
     if (const osg::Group* group = node.asGroup())
         for (unsigned int i = 0; i < childrenOf(*group).size(); ++i)
-            if (osg::Node* child = childrenOf(*group)[i].get(); child && isOn(entry.kind, *group, i))
+            if (const osg::ref_ptr<osg::Node> child = childrenOf(*group)[i];
+                child && isOn(entry.kind, *group, i))
                 append(*child, index, inner, depth + 1, conditions);
     nodes[index].end = static_cast<uint32_t>(nodes.size());
 }

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/BufferContents.h"
 #include "osgRayTrace/bridge/NodePrints.h"
 #include "osgRayTrace/bridge/ObjectIdentity.h"
+#include "osgRayTrace/bridge/PathBudget.h"
 #include "osgRayTrace/bridge/ViewingConditions.h"
 
 #include <osg/Geometry>
@@ -23,6 +24,9 @@ namespace osgRayTrace::engine
 
 constexpr uint32_t kNowhere = 0xffffffffu;
 constexpr uint32_t kOutermost = kNowhere >> 2; ///< of WatchedPlace::outer
+
+/// More than a conversion takes, as the watch also looks at what that leaves to OSG.
+constexpr std::size_t kMostWatched = 2 * kMostPaths;
 
 /// A node on one path, see WatchedGraph::nodes.
 struct WatchedNode
@@ -107,6 +111,7 @@ struct WatchedOpaque
 
     osg::Matrixd sceneFromLocal;
     KeptObjects kept; ///< of its print
+    std::size_t budget = 0; ///< for its print
     std::optional<uint64_t> contents;         ///< its print by versions, as of the last change
     std::unique_ptr<BufferVersions> versions; ///< null: it has not changed
 };
@@ -129,6 +134,7 @@ struct WatchedGraph
     const osg::Node* owner = nullptr; ///< the decorator, if any: it owns what watches it
     std::size_t repeats = 0;          ///< nodes with repeated set
     unsigned int traversalMask = 0xffffffffu;
+    bool truncated = false; ///< there are more than kMostWatched
     std::size_t firstDepth = 1; ///< nodes on the path to the first one, with it
 
     bool isVisible(const osg::Node& node) const
@@ -179,6 +185,7 @@ private:
     std::unordered_map<const void*, uint32_t> _stateOf, _geometryOf;
     std::unordered_map<const osg::Node*, bool> _known; ///< while a whole graph is appended
     std::vector<uint32_t> _freeStates, _freeGeometries;
+    PathBudget _opaqueBudget{kMostWatched}; ///< of all opaque nodes together
     std::size_t _gonePlaces = 0;
 };
 
