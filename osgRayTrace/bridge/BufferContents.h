@@ -1,5 +1,5 @@
-// BufferContents.h - whether the values of arrays have changed, whatever their modified counts say. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// BufferContents.h - whether the values of arrays have changed, whatever their modified counts say.
+// Layer: bridge. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/bridge/ObjectIdentity.h"
@@ -14,8 +14,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Animations of osgAnimation's write their arrays and mark them as modified in each frame, also where
-/// nothing moves. So where a modified count has changed the values decide.
+/// Animations of osgAnimation's write their arrays and mark them as modified in each frame, also
+/// where nothing moves. So where a modified count has changed the values decide.
 
 /// A hash of memory: blocks of 64 bytes that differ in one word never have the same.
 uint64_t contentHash(const void* data, std::size_t bytes);

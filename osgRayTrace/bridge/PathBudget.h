@@ -1,5 +1,5 @@
-// PathBudget.h - an end for traversals of graphs whose shared parts are on too many paths. Layer: bridge.
-// SPDX-License-Identifier: MIT
+// PathBudget.h - an end for traversals of graphs whose shared parts are on too many paths. Layer:
+// bridge. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osg/Group>
@@ -12,9 +12,9 @@
 namespace osgRayTrace::engine
 {
 
-/// Groups and geometries that a conversion visits, each once for every path to it. Forty groups with
-/// the next one twice below each have 2^40 paths: no traversal of them ends. Real scenes have some
-/// hundred thousand. A million instances take a gigabyte.
+/// Groups and geometries that a conversion visits, each once for every path to it. Forty groups
+/// with the next one twice below each have 2^40 paths: no traversal of them ends. Real scenes have
+/// some hundred thousand. A million instances take a gigabyte.
 constexpr std::size_t kMostPaths = std::size_t(1) << 22;
 
 /// What is left for one traversal.
@@ -32,13 +32,13 @@ private:
     std::size_t _left;
 };
 
-/// Numbers of visits that a traversal of all children would make below nodes, each node counted once:
-/// in a time that is linear in nodes, however many paths there are.
+/// Numbers of visits that a traversal of all children would make below nodes, each node counted
+/// once: in a time that is linear in nodes, however many paths there are.
 class PathCounts
 {
 public:
-    /// The node's own visit included; enough is enough: not above most + 1. Levels below the depth count
-    /// as one.
+    /// The node's own visit included; enough is enough: not above most + 1. Levels below the depth
+    /// count as one.
     uint64_t of(osg::Node& node, uint64_t most, std::size_t depth)
     {
         const osg::Group* const group = node.asGroup();

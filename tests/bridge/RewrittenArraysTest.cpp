@@ -1,5 +1,5 @@
-// RewrittenArraysTest.cpp - arrays that are marked as modified with the values that they had. Layer: tests.
-// SPDX-License-Identifier: MIT
+// RewrittenArraysTest.cpp - arrays that are marked as modified with the values that they had.
+// Layer: tests. SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/BufferContents.h"
 
 #include "tests/Catch.h"
@@ -14,7 +14,8 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// As osgAnimation does it: positions are written and marked in each frame, whether or not they move.
+/// As osgAnimation does it: positions are written and marked in each frame, whether or not they
+/// move.
 void rewrite(LiveGraph& graph, float height)
 {
     for (int i = 0; i < LiveGraph::kObjects; ++i)
