@@ -12,6 +12,7 @@
 #include <osgRayTrace/AreaLight>
 
 #include <algorithm>
+#include <utility>
 
 namespace osgRayTrace::engine
 {
@@ -99,6 +100,7 @@ bool ScenePatcher::restate(const std::vector<RestatedUse>& uses)
                                 _caches.textures, report);
     for (const RestatedUse& use : uses)
         if (!restateUse(use, states, converter, report)) return false;
+    if (_recolors && setsColor() != _made.setsColor) return false; // a rule of all materials
     for (const auto& [instance, material] : _restated)
         _made.materials.release(_scene->instances[instance].material);
     for (const auto& [index, material] : _restated)
@@ -113,13 +115,23 @@ bool ScenePatcher::restate(const std::vector<RestatedUse>& uses)
     return true;
 }
 
+/// Whether a state of the scene makes another colour current: see MaterialRules.
+bool ScenePatcher::setsColor() const
+{
+    const std::vector<Treatment>& treatments = _made.index.treatments;
+    for (const auto& [geometry, traced] : _made.index.geometries)
+        for (const TracedUse& use : traced.uses)
+            if (use.treatment != kInvalid && treatments[use.treatment].setsColor) return true;
+    return false;
+}
+
 bool ScenePatcher::restateUse(const RestatedUse& use, StateStack& states,
                               MaterialConverter& converter, ConversionReport& report)
 {
     const auto found = _made.index.geometries.find(use.geometry);
     if (found == _made.index.geometries.end() || !found->second.patchable) return false;
     if (found->second.uses.size() != use.uses) return false;
-    const TracedUse& traced = found->second.uses[use.use];
+    TracedUse& traced = found->second.uses[use.use];
     if (traced.treatment == kInvalid) return false;
 
     int pushed = 0;
@@ -133,7 +145,7 @@ bool ScenePatcher::restateUse(const RestatedUse& use, StateStack& states,
     for (; pushed > 0; --pushed)
         states.pop();
     Treatment treatment = treatmentOf(state, _caches.textures);
-    const Treatment& before = _made.index.treatments[traced.treatment];
+    const Treatment before = _made.index.treatments[traced.treatment];
     if (traced.instance == kInvalid) return treatment == before;
     const Vec3d& origin = _scene->origin;
     report = ConversionReport();
@@ -142,7 +154,14 @@ bool ScenePatcher::restateUse(const RestatedUse& use, StateStack& states,
         {use.worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z),
          &_made.texGens});
     treatment.counts = report.counts();
+    const bool setsColor = std::exchange(treatment.setsColor, before.setsColor);
     if (!(treatment == before)) return false;
+    if (setsColor != before.setsColor)
+    {
+        _recolors = true;
+        treatment.setsColor = setsColor;
+        traced.treatment = _made.index.treatment(treatment);
+    }
     if (!sameMaterial(material, _made.materials[_scene->instances[traced.instance].material]))
         _restated.emplace_back(traced.instance, material);
     return true;

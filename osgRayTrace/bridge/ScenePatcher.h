@@ -48,6 +48,7 @@ private:
                      const GraphSplice& splice);
     bool moveAndDeform(const GraphChanges& changes);
     bool restate(const std::vector<RestatedUse>& uses);
+    bool setsColor() const;
     bool restateUse(const RestatedUse& use, StateStack& states, MaterialConverter& converter,
                     ConversionReport& report);
     bool relightLamps();
@@ -67,6 +68,7 @@ private:
     int64_t _geometries = 0, _instances = 0;
     bool _changed = false;
     bool _leftFlat = false;
+    bool _recolors = false; ///< a use has begun or ceased to set the current colour
     bool _spliced = false;
 };
 

@@ -61,7 +61,7 @@ struct Tile
     TileResult& result;
     TileCounts& counts;
     TileDiagnostics* diagnostics;
-    std::vector<SampledLight> deltaLights; ///< of the pass
+    SampledLights deltaLights; ///< of the pass
     int left, bottom;
     PixelSums sums;
     PathQueue paths;

@@ -144,8 +144,9 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
     const LightTable& table = tile.context.traced->lights();
     const LaneMask lanes = bounce.diffuse | bounce.general;
     const UintLanes& seeds = block.seed;
-    for (const auto& [index, weight] : tile.deltaLights)
+    for (std::size_t k = 0; k < tile.deltaLights.size(); ++k)
     {
+        const auto [index, weight] = tile.deltaLights[k];
         const Light& light = (*tile.context.lights)[index];
         FloatLanes u, v;
         if (isSoft(light))

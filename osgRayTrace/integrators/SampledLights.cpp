@@ -25,17 +25,12 @@ double offsetOf(const PassKey& key)
 
 /// choose(u): one of the lights in proportion to power, and its probability.
 template <class Choose>
-std::vector<SampledLight> sampledLights(const std::vector<uint32_t>& lights, std::size_t most,
-                                        const PassKey& key, const Choose& choose)
+SampledLights sampledLights(const std::vector<uint32_t>& lights, std::size_t most,
+                            const PassKey& key, const Choose& choose)
 {
+    if (lights.size() <= most) return SampledLights(lights);
     std::vector<SampledLight> sampled;
-    sampled.reserve(std::min(lights.size(), most));
-    if (lights.size() <= most)
-    {
-        for (const uint32_t light : lights)
-            sampled.push_back({light, 1.0f});
-        return sampled;
-    }
+    sampled.reserve(most);
     const double offset = offsetOf(key);
     for (std::size_t j = 0; j < most; ++j)
     {
@@ -48,7 +43,7 @@ std::vector<SampledLight> sampledLights(const std::vector<uint32_t>& lights, std
         else
             sampled.push_back({choice.light, weight});
     }
-    return sampled;
+    return SampledLights(std::move(sampled));
 }
 
 std::size_t mostAreaLights(const RenderOptions& options)
@@ -73,14 +68,14 @@ int samplesOfEach(const RenderOptions& options, std::size_t lights)
     return side * side;
 }
 
-std::vector<SampledLight> sampledAreaLights(const PassContext& context)
+SampledLights sampledAreaLights(const PassContext& context)
 {
     const LightTable& table = context.traced->lights();
     return sampledLights(table.areaLights(), mostAreaLights(context.options), context.key,
                          [&table](float u) { return table.chooseAreaLight(u); });
 }
 
-std::vector<SampledLight> sampledDeltaLights(const PassContext& context)
+SampledLights sampledDeltaLights(const PassContext& context)
 {
     const LightTable& table = context.traced->lights();
     return sampledLights(table.deltaLights(), kMostDeltaLights, context.key,

@@ -6,6 +6,7 @@
 #include "osgRayTrace/integrators/RenderOptions.h"
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -30,6 +31,26 @@ struct SampledLight
     float weight = 1.0f;
 };
 
+/// The lights that a pass takes samples of: all of a table's list, for which no memory is needed, or
+/// some of them. The list must outlive this.
+class SampledLights
+{
+public:
+    explicit SampledLights(const std::vector<uint32_t>& all) : _all(&all) {}
+    explicit SampledLights(std::vector<SampledLight> some) : _some(std::move(some)) {}
+
+    std::size_t size() const { return _all ? _all->size() : _some.size(); }
+    bool empty() const { return size() == 0; }
+    SampledLight operator[](std::size_t k) const
+    {
+        return _all ? SampledLight{(*_all)[k], 1.0f} : _some[k];
+    }
+
+private:
+    const std::vector<uint32_t>* _all = nullptr; ///< null: some are sampled
+    std::vector<SampledLight> _some;
+};
+
 /// Samples that a point takes in a pass of each of so many area lights: whole squares where the
 /// strategy has cells.
 int samplesOfEach(const RenderOptions& options, std::size_t lights);
@@ -38,8 +59,8 @@ int samplesOfEach(const RenderOptions& options, std::size_t lights);
 /// points that are evenly spaced in the sum of all powers, and moved from pass to pass by the
 /// golden section, so that the expected light is that of all, and successive passes choose others
 /// [systematic sampling: Cochran77, ch. 8]. The same for all points of a pass.
-std::vector<SampledLight> sampledAreaLights(const PassContext& context);
-std::vector<SampledLight> sampledDeltaLights(const PassContext& context);
+SampledLights sampledAreaLights(const PassContext& context);
+SampledLights sampledDeltaLights(const PassContext& context);
 
 /// How many lights of a scene a pass samples.
 struct SampledLightCounts

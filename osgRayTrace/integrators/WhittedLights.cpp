@@ -92,7 +92,7 @@ void addSample(WhittedTile& tile, ShadingBlock* blocks, int count, float scale, 
 void addAreaLights(WhittedTile& tile, ShadingBlock* blocks, int count)
 {
     const PassContext& context = tile.context;
-    const std::vector<SampledLight>& lights = tile.areaLights;
+    const SampledLights& lights = tile.areaLights;
     const LightGrid& grid = tile.areaGrid;
     for (std::size_t k = 0; k < lights.size(); ++k)
     {
@@ -175,8 +175,9 @@ void addDeltaLights(WhittedTile& tile, ShadingBlock& block)
     const LightTable& table = tile.context.traced->lights();
     std::size_t number = tile.areaLights.size() + (table.shiningEnvironment() ? 1 : 0);
     FloatLanes u, v;
-    for (const SampledLight& sampled : tile.deltaLights)
+    for (std::size_t k = 0; k < tile.deltaLights.size(); ++k)
     {
+        const SampledLight sampled = tile.deltaLights[k];
         if (!isSoft((*tile.context.lights)[sampled.light]))
         {
             addDeltaLight(tile, block, sampled.light, sampled.weight, u, v);

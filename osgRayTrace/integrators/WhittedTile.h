@@ -81,10 +81,10 @@ struct WhittedTile
     /// Of the delta lights, those with a size.
     std::size_t softLights() const
     {
-        return static_cast<std::size_t>(
-            std::count_if(deltaLights.begin(), deltaLights.end(),
-                          [this](const SampledLight& sampled)
-                          { return isSoft((*context.lights)[sampled.light]); }));
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < deltaLights.size(); ++k)
+            count += isSoft((*context.lights)[deltaLights[k].light]);
+        return count;
     }
 
     void add(uint32_t pixel, Vec3 radiance)
@@ -104,7 +104,7 @@ struct WhittedTile
 
     const PassContext& context;
     TileResult& result;
-    std::vector<SampledLight> areaLights, deltaLights; ///< of the pass
+    SampledLights areaLights, deltaLights; ///< of the pass
     LightGrid areaGrid, environmentGrid, softGrid;
     std::vector<SecondaryRay> stack;
     ShadingBlock group[kGroup];

@@ -203,8 +203,9 @@ void RenderSession::Implementation::preparePhotons(PassContext& context, int pas
 }
 
 /// Adds one pass to every tile that does not have it yet, and shows it. False if some still do not.
-bool RenderSession::Implementation::renderPass(const PassContext& context, const Integrator& integrator,
-                                               const StopRule& rule, const DisplayTarget* display)
+bool RenderSession::Implementation::renderPass(const PassContext& context,
+                                               const Integrator& integrator, const StopRule& rule,
+                                               const DisplayTarget* display)
 {
     const int pass = film.passes();
     const auto tiles = static_cast<std::size_t>(film.tileCount());
@@ -218,42 +219,57 @@ bool RenderSession::Implementation::renderPass(const PassContext& context, const
     unshown.resize(tiles);
     film.beginPass();
     const bool partial = rule.over || rule.newTiles < std::numeric_limits<int>::max();
-    workers->forEach(
-        partial ? order.places() : tiles,
-        [&](std::size_t index)
+    const auto renderOne = [&](std::size_t index)
+    {
+        // Workers begin at several places at once; an order has to be kept by all of them together.
+        if (partial) index = order.tile(next.fetch_add(1, std::memory_order_relaxed));
+        if (index == tiles) return;
+        const int tile = static_cast<int>(index);
+        bool renders = film.tilePasses(tile) == pass &&
+                       !cancelled.load(std::memory_order_relaxed) &&
+                       !over.load(std::memory_order_relaxed);
+        if (renders && rule.over && rule.over(begun.load(std::memory_order_relaxed), 0.0))
         {
-            // Workers begin at several places at once; an order has to be kept by all of them together.
-            if (partial) index = order.tile(next.fetch_add(1, std::memory_order_relaxed));
-            if (index == tiles) return;
-            const int tile = static_cast<int>(index);
-            bool renders = film.tilePasses(tile) == pass && !cancelled.load(std::memory_order_relaxed) &&
-                           !over.load(std::memory_order_relaxed);
-            if (renders && rule.over && rule.over(begun.load(std::memory_order_relaxed), 0.0))
-            {
-                renders = false;
-                over = true;
-            }
-            // Not one more, however many threads come here at once.
-            if (renders && begun.fetch_add(1, std::memory_order_relaxed) >= rule.newTiles)
-            {
-                begun.fetch_sub(1, std::memory_order_relaxed);
-                renders = false;
-                over = true;
-            }
-            if (renders) tileCounts[index] = renderTile(context, integrator, tile);
-            if (renders) unshown[index] = 1;
-            if (display && (unshown[index] || !display->holdsImage)) resolveTile(*display, tile);
-            if (display) unshown[index] = 0;
-        });
-    for (const TileCounts& counts : tileCounts)
+            renders = false;
+            over = true;
+        }
+        // Not one more, however many threads come here at once.
+        if (renders && begun.fetch_add(1, std::memory_order_relaxed) >= rule.newTiles)
+        {
+            begun.fetch_sub(1, std::memory_order_relaxed);
+            renders = false;
+            over = true;
+        }
+        if (renders) tileCounts[index] = renderTile(context, integrator, tile);
+        if (renders) unshown[index] = 1;
+        if (display && (unshown[index] || !display->holdsImage)) resolveTile(*display, tile);
+        if (display) unshown[index] = 0;
+    };
+    try
+    {
+        workers->forEach(partial ? order.places() : tiles, renderOne);
+    }
+    catch (...)
+    {
+        addTileCounts(); // those tiles keep the pass
+        throw;
+    }
+    addTileCounts();
+    progress.newTiles = begun;
+    return film.passes() > pass;
+}
+
+/// What the tiles of a pass were counted to take.
+void RenderSession::Implementation::addTileCounts()
+{
+    for (TileCounts& counts : tileCounts)
     {
         progress.rays.camera += counts.cameraRays;
         progress.rays.shadow += counts.shadowRays;
         progress.rays.secondary += counts.secondaryRays;
         progress.droppedSamples += counts.droppedSamples;
+        counts = TileCounts();
     }
-    progress.newTiles = begun;
-    return film.passes() > pass;
 }
 
 RenderProgress RenderSession::Implementation::run(

@@ -27,6 +27,7 @@ struct RenderSession::Implementation
                     const DisplayTarget* display);
     void preparePhotons(PassContext& context, int pass);
     double estimateError() const;
+    void addTileCounts();
     double imageShare() const;
     RenderProgress run(const StopRule& rule, const std::function<bool(const RenderProgress&)>& keepGoing,
                        const DisplayTarget* display);

@@ -4,6 +4,8 @@
 #include "tests/photons/PhotonMeans.h"
 #include "tests/photons/PhotonScenes.h"
 
+#include "osgRayTrace/integrators/HitPoints.h"
+
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
 
@@ -33,7 +35,8 @@ void checkAgreement(const std::vector<ComparedScene>& scenes)
             // brightly.
             const bool caustics = kind == IntegratorKind::PhotonCaustics;
             options.photonRadius = static_cast<float>((caustics ? 0.01 : 0.004) * scene.size);
-            const Estimate photons = meanOf(scene.traced, scene.view, options, 12);
+            const int passes = kind == IntegratorKind::Ppm ? 12 * kPathPasses : 12; // equal paths
+            const Estimate photons = meanOf(scene.traced, scene.view, options, passes);
             const double p = welchTest(path, kRuns, photons, kRuns);
             CAPTURE(scene.name, int(kind), path.mean(), path.standardError(), photons.mean(),
                     photons.standardError(), p, threshold);

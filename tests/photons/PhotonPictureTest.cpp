@@ -4,6 +4,8 @@
 #include "tests/EngineScenes.h"
 #include "tests/Statistics.h"
 
+#include "osgRayTrace/integrators/HitPoints.h"
+
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
 
@@ -61,7 +63,9 @@ void checkAgreement(const char* name, const SceneBuilder& builder, int times = 1
     for (const IntegratorKind kind :
          {IntegratorKind::Sppm, IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
     {
-        const Estimate photons = meanOf(traced, roomView(), photonOptions(kind), 24 * times);
+        const int sharing = kind == IntegratorKind::Ppm ? kPathPasses : 1; // of as many paths
+        const Estimate photons =
+            meanOf(traced, roomView(), photonOptions(kind), 24 * times * sharing);
         const double spread = std::hypot(path.standardError(), photons.standardError());
         CAPTURE(name, int(kind), path.mean(), photons.mean(), spread);
         CHECK(photons.standardError() < 0.01 * path.mean());
