@@ -425,7 +425,8 @@ TEST_CASE("equal views: traced by several threads at once they agree, too", "[br
     std::mutex mutex;
     std::condition_variable arrived;
     int waiting = 0, frame = -1;
-    double begun = 0.0, worst = 0.0;
+    double begun = 0.0;
+    std::vector<double> taken; // by frames
     // The swap of a frame waits for all windows.
     const auto barrier = [&]
     {
@@ -435,7 +436,7 @@ TEST_CASE("equal views: traced by several threads at once they agree, too", "[br
         waiting = 0;
         frame = next;
         ++cave.number;
-        if (next > 5) worst = std::max(worst, cave.clock - begun);
+        if (next > 5) taken.push_back(cave.clock - begun);
         begun = cave.clock;
         arrived.notify_all();
     };
@@ -459,5 +460,8 @@ TEST_CASE("equal views: traced by several threads at once they agree, too", "[br
         CHECK(allSame(shown[std::size_t(i)]));
     }
     CHECK(shown.back()[0].divider == 1);
-    CHECK(worst < 1.5 * kBudget); // who is charged for what is not told exactly
+    // Who is charged for what is not told exactly, and by the scheduler's luck a frame may be late.
+    const auto median = taken.begin() + static_cast<std::ptrdiff_t>(taken.size() / 2);
+    std::nth_element(taken.begin(), median, taken.end());
+    CHECK(*median < 1.2 * kBudget);
 }
