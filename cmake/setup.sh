@@ -1,5 +1,6 @@
 # setup.sh - what run.sh and test.sh share: finds the source, installs what is missing, builds.
-# Sourced by bash. Sets ROOT, the source folder. SPDX-License-Identifier: MIT
+# Sourced by bash. Sets ROOT, the source folder.
+# SPDX-License-Identifier: MIT
 
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 

@@ -4,7 +4,8 @@
 # threads and the drawable's under ThreadSanitizer (what that does not see of OSG: tests/RaceSuppressions.txt).
 # OSGRAYTRACE_FUZZ_SEEDS=<number> takes that many random inputs.
 # Sample models of OpenSceneGraph are found by OSG_FILE_PATH, or in a folder openscenegraph-data beside
-# or near the source; tests that need them are skipped without. SPDX-License-Identifier: MIT
+# or near the source; tests that need them are skipped without.
+# SPDX-License-Identifier: MIT
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 

@@ -269,10 +269,10 @@ void DisplayTexture::show(osg::Image* color, osg::Image* depth)
     modified();
 }
 
-/// OSG makes its lists of a context's deleted programs and shaders when the first one is deleted, in
-/// whatever thread that happens and without a lock, while the context's own thread may go through them:
-/// osg::ContextData::get() of OSG 3.6.5. Views that nobody draws any more are forgotten by the next one to
-/// draw, which may be of another context.
+/// OSG makes its lists of a context's deleted programs and shaders when the first one is deleted,
+/// in whatever thread that happens and without a lock, while the context's own thread may go
+/// through them: osg::ContextData::get() of OSG 3.6.5. Views that nobody draws any more are
+/// forgotten by the next one to draw, which may be of another context.
 static void makeDeletionLists(osg::State& state)
 {
     const osg::ref_ptr<osg::Program> program = new osg::Program;

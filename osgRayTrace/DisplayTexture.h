@@ -39,8 +39,8 @@ public:
     /// view's size.
     void resize(int width, int height, bool full);
 
-    /// Once, memory for pictures of full size: the system takes long to hand it out, and the frame in which a
-    /// view comes to rest has no time for that.
+    /// Once, memory for pictures of full size: the system takes long to hand it out, and the frame
+    /// in which a view comes to rest has no time for that.
     void reserve(int width, int height);
     int width() const { return _shown->width; }
     int height() const { return _shown->height; }

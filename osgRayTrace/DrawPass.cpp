@@ -68,9 +68,9 @@ std::optional<engine::PassIdentity> passIdentity(osgUtil::CullVisitor& visitor)
     pass.renderStage = visitor.getCurrentRenderStage();
     pass.contextId = visitor.getState() ? visitor.getState()->getContextID() : 0;
     pass.frameNumber = visitor.getFrameStamp() ? visitor.getFrameStamp()->getFrameNumber() : 0;
-    pass.view = engine::viewFromMatrices(*visitor.getModelViewMatrix(), *visitor.getProjectionMatrix(),
-                                         static_cast<int>(viewport->width()),
-                                         static_cast<int>(viewport->height()));
+    pass.view = engine::viewFromMatrices(
+        *visitor.getModelViewMatrix(), *visitor.getProjectionMatrix(),
+        static_cast<int>(viewport->width()), static_cast<int>(viewport->height()));
     return pass;
 }
 
@@ -93,8 +93,8 @@ engine::FrameBudget frameBudget(const osg::Camera* camera, const RayTraceSetting
     if (camera) own = userNumber(*camera, "osgRayTrace.frameBudget");
     const double milliseconds = own.value_or(double(settings.getFrameBudget()));
     budget.seconds = std::isfinite(milliseconds) ? 1e-3 * std::max(0.0, milliseconds) : 0.0;
-    const bool agrees = settings.getEqualViews() &&
-                        settings.getPresentation() == RayTraceSettings::FRAME_LOCKED;
+    const bool agrees =
+        settings.getEqualViews() && settings.getPresentation() == RayTraceSettings::FRAME_LOCKED;
     if (agrees && !own && budget.seconds > 0.0) budget.agreement = agreement;
     return budget;
 }

@@ -182,7 +182,8 @@ const std::vector<OptionRow>& optionTable()
         switchRow("degrade-while-moving", &S::getDegradeWhileMoving, &S::setDegradeWhileMoving,
                   "The frame budget may reduce the resolution of moving views"),
         switchRow("equal-views", &S::getEqualViews, &S::setEqualViews,
-                  "All views of a scene take the same passes and resolution in a frame, and share the frame "
+                  "All views of a scene take the same passes and resolution in a frame, and share "
+                  "the frame "
                   "budget: for CAVEs"),
         numberRow("passes-per-frame", kPassesPerFrameRange, &S::getPassesPerFrame,
                   &S::setPassesPerFrame, "Passes in each frame of a viewer without a frame budget"),

@@ -84,8 +84,8 @@ struct RayTraceDrawable::Implementation
     std::shared_ptr<engine::FrameAgreement> agreement = std::make_shared<engine::FrameAgreement>();
     std::atomic<bool> paused{false};
 
-    mutable std::mutex mutex;        // draw threads write, any thread reads
-    engine::TraceReport report;      ///< of the view drawn last
+    mutable std::mutex mutex;   // draw threads write, any thread reads
+    engine::TraceReport report; ///< of the view drawn last
     std::shared_ptr<ShownView> lastView;
     std::weak_ptr<const engine::TracedScene> untraceable; ///< failed before it gave any image
 
@@ -155,7 +155,8 @@ void RayTraceDrawable::Implementation::fail(engine::StatusCode code, const char*
 }
 
 /// Nothing was drawn: the children take its place.
-void RayTraceDrawable::Implementation::failToDraw(engine::StatusCode code, const char* message) noexcept
+void RayTraceDrawable::Implementation::failToDraw(engine::StatusCode code,
+                                                  const char* message) noexcept
 {
     fail(code, message);
     const engine::SceneVersion version = scene.version();
@@ -314,7 +315,8 @@ void RayTraceDrawable::drawImplementation(osg::RenderInfo& renderInfo) const
     }
     catch (...)
     {
-        _implementation->failToDraw(engine::StatusCode::DeviceFailure, "a view could not be traced");
+        _implementation->failToDraw(engine::StatusCode::DeviceFailure,
+                                    "a view could not be traced");
     }
 }
 
@@ -339,7 +341,8 @@ void RayTraceDrawable::noteView(osgUtil::CullVisitor& visitor)
     try
     {
         _implementation->scene.noteView(stage ? stage->getCamera() : nullptr,
-                                        visitor.getFrameStamp(), engine::viewingConditions(visitor));
+                                        visitor.getFrameStamp(),
+                                        engine::viewingConditions(visitor));
         if (const auto pass = passIdentity(visitor)) _implementation->views.note(*pass);
     }
     catch (const std::exception& error)
@@ -391,7 +394,8 @@ bool RayTraceDrawable::pick(RayIntersector& ray, osgUtil::IntersectionVisitor& v
         auto hits = picker.pick(local.getStart(), local.getEnd(), bound, limit);
         for (auto& hit : engine::pickRasterized(*version.pickIndex, visitor, ray))
             hits.push_back(std::move(hit));
-        if (limit == osgUtil::Intersector::LIMIT_ONE || limit == osgUtil::Intersector::LIMIT_NEAREST)
+        if (limit == osgUtil::Intersector::LIMIT_ONE ||
+            limit == osgUtil::Intersector::LIMIT_NEAREST)
         {
             std::sort(hits.begin(), hits.end());
             if (hits.size() > 1) hits.resize(1);

@@ -72,8 +72,9 @@ private:
     const osg::CullSettings::InheritanceMask _inheritance;
 };
 
-/// Goes through a scene before its first frame and uploads all of it. Textures may be set to let go of their images then,
-/// which are needed here; what OSG goes on drawing is uploaded when it is drawn.
+/// Goes through a scene before its first frame and uploads all of it. Textures may be set to let go
+/// of their images then, which are needed here; what OSG goes on drawing is uploaded when it is
+/// drawn.
 bool uploads(const osg::NodeVisitor& visitor)
 {
     const auto* objects = dynamic_cast<const osgUtil::GLObjectsVisitor*>(&visitor);

@@ -390,7 +390,7 @@ osg::ref_ptr<osg::Image> Renderer::getColorImage() const
         {
             const engine::RenderSession& session = *self.session;
             return engine::pixelImage(self.denoises() ? self.denoisedImage().radiance
-                                                                       : session.resolveRadiance(),
+                                                      : session.resolveRadiance(),
                                       session.width(), session.height(), GL_RGBA);
         });
 }
@@ -408,7 +408,8 @@ osg::ref_ptr<osg::Image> Renderer::getDisplayImage() const
                 self.session->width(), self.session->height(), GL_RGBA, GL_UNSIGNED_BYTE);
             if (!image) return image;
             if (self.denoises())
-                engine::showImage(self.denoisedImage(), toneMap, *self.workers, image->data(), nullptr);
+                engine::showImage(self.denoisedImage(), toneMap, *self.workers, image->data(),
+                                  nullptr);
             else
                 self.session->resolveDisplay(toneMap, image->data(), nullptr);
             engine::blendOver(*image, self.clearColor);

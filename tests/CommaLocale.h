@@ -5,7 +5,8 @@
 #include <locale>
 #include <string>
 
-/// While it lives: streams that are made get it. Made here, as a machine need not have any such locale.
+/// While it lives: streams that are made get it. Made here, as a machine need not have any such
+/// locale.
 class CommaLocale
 {
 public:

@@ -1,5 +1,6 @@
 // CaveParser.cpp - elements and attributes, leniently; what cannot be meant is refused. Layer:
-// apps. SPDX-License-Identifier: MIT
+// apps.
+// SPDX-License-Identifier: MIT
 #include "apps/cave/CaveFile.h"
 
 #include "apps/common/Failure.h"

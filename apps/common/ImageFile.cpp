@@ -1,5 +1,6 @@
 // ImageFile.cpp - libpng's simplified API, and libjpeg with an error handler that returns.
-// Layer: apps. SPDX-License-Identifier: MIT
+// Layer: apps.
+// SPDX-License-Identifier: MIT
 #include "apps/common/ImageFile.h"
 
 #include "apps/common/Output.h"

@@ -1,5 +1,6 @@
 // SceneDataHook.cpp - osgViewer::View::setSceneData, with the scene below a RayTracedScene. Layer:
-// apps. SPDX-License-Identifier: MIT
+// apps.
+// SPDX-License-Identifier: MIT
 //
 // Preloaded, this definition is found before that of libosgViewer, which it calls.
 #include "ToggleKey.h"

@@ -23,7 +23,8 @@ bool ToggleKey::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdap
     osg::ref_ptr<RayTracedScene> scene;
     if (!_scene.lock(scene)) return false;
     scene->setEnabled(!scene->getEnabled());
-    OSG_NOTICE << "osgRayTrace: ray tracing is " << (scene->getEnabled() ? "on" : "off") << std::endl;
+    OSG_NOTICE << "osgRayTrace: ray tracing is " << (scene->getEnabled() ? "on" : "off")
+               << std::endl;
     action.requestRedraw();
     return true;
 }

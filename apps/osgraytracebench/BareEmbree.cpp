@@ -37,18 +37,19 @@ std::vector<RTCRay16> packetsOf(const std::vector<RTCRay>& rays)
     return packets;
 }
 
-alignas(64) const int kAllValid[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+alignas(64) const
+    int kAllValid[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
 
 /// Calls body(first, last) for ranges of size elements on the workers' threads.
 template <class Body>
 void inChunks(const engine::Workers& workers, std::size_t size, std::size_t chunk, const Body& body)
 {
-    workers.forEach((size + chunk - 1) / chunk, [&](std::size_t i)
-                    { body(i * chunk, std::min(size, (i + 1) * chunk)); });
+    workers.forEach((size + chunk - 1) / chunk,
+                    [&](std::size_t i) { body(i * chunk, std::min(size, (i + 1) * chunk)); });
 }
 
-void closestHits(const engine::Workers& workers, RTCScene scene, const std::vector<RTCRay16>& packets,
-                 bool coherent)
+void closestHits(const engine::Workers& workers, RTCScene scene,
+                 const std::vector<RTCRay16>& packets, bool coherent)
 {
     inChunks(workers, packets.size(), kChunkPackets,
              [&](std::size_t first, std::size_t last)
@@ -83,7 +84,8 @@ void occlusion(const engine::Workers& workers, RTCScene scene, const std::vector
              });
 }
 
-void closestHitsSingly(const engine::Workers& workers, RTCScene scene, const std::vector<RTCRay>& rays)
+void closestHitsSingly(const engine::Workers& workers, RTCScene scene,
+                       const std::vector<RTCRay>& rays)
 {
     inChunks(workers, rays.size(), kChunkPackets * 16,
              [&](std::size_t first, std::size_t last)
@@ -100,7 +102,8 @@ void closestHitsSingly(const engine::Workers& workers, RTCScene scene, const std
              });
 }
 
-void occlusionSingly(const engine::Workers& workers, RTCScene scene, const std::vector<RTCRay>& rays)
+void occlusionSingly(const engine::Workers& workers, RTCScene scene,
+                     const std::vector<RTCRay>& rays)
 {
     inChunks(workers, rays.size(), kChunkPackets * 16,
              [&](std::size_t first, std::size_t last)
@@ -118,8 +121,10 @@ void occlusionSingly(const engine::Workers& workers, RTCScene scene, const std::
 } // namespace
 
 BarePackets::BarePackets(const RecordedRays& rays)
-    : _camera(packetsOf(rays.camera)), _secondary(packetsOf(rays.secondary)),
-      _shadow(packetsOf(rays.shadow)), _scene(rays.scene)
+    : _camera(packetsOf(rays.camera)),
+      _secondary(packetsOf(rays.secondary)),
+      _shadow(packetsOf(rays.shadow)),
+      _scene(rays.scene)
 {
 }
 

@@ -8,8 +8,8 @@
 namespace osgRayTrace::bench
 {
 
-/// The same rays as full packets of sixteen, loaded and traced in chunks, on all of the workers' threads.
-/// The coherent flag is set as the engine sets it: on camera rays only.
+/// The same rays as full packets of sixteen, loaded and traced in chunks, on all of the workers'
+/// threads. The coherent flag is set as the engine sets it: on camera rays only.
 class BarePackets
 {
 public:

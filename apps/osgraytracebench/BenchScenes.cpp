@@ -27,7 +27,8 @@ uint32_t addDiffuse(Scene& scene, Vec3 albedo)
     return static_cast<uint32_t>(scene.materials.size() - 1);
 }
 
-void addQuad(Scene& scene, Vec3 a, Vec3 b, Vec3 c, Vec3 d, uint32_t material, uint32_t light = kInvalid)
+void addQuad(Scene& scene, Vec3 a, Vec3 b, Vec3 c, Vec3 d, uint32_t material,
+             uint32_t light = kInvalid)
 {
     auto mesh = std::make_shared<Mesh>();
     std::vector<Vec3> positions;
@@ -91,10 +92,13 @@ BenchScene cornellBox(int width, int height)
     const uint32_t red = addDiffuse(*scene, {0.65f, 0.05f, 0.05f});
     const uint32_t green = addDiffuse(*scene, {0.12f, 0.45f, 0.15f});
     addQuad(*scene, {552.8f, 0, 0}, {0, 0, 0}, {0, 0, 559.2f}, {549.6f, 0, 559.2f}, white);
-    addQuad(*scene, {556, 548.8f, 0}, {556, 548.8f, 559.2f}, {0, 548.8f, 559.2f}, {0, 548.8f, 0}, white);
-    addQuad(*scene, {549.6f, 0, 559.2f}, {0, 0, 559.2f}, {0, 548.8f, 559.2f}, {556, 548.8f, 559.2f}, white);
+    addQuad(*scene, {556, 548.8f, 0}, {556, 548.8f, 559.2f}, {0, 548.8f, 559.2f}, {0, 548.8f, 0},
+            white);
+    addQuad(*scene, {549.6f, 0, 559.2f}, {0, 0, 559.2f}, {0, 548.8f, 559.2f}, {556, 548.8f, 559.2f},
+            white);
     addQuad(*scene, {0, 0, 559.2f}, {0, 0, 0}, {0, 548.8f, 0}, {0, 548.8f, 559.2f}, green);
-    addQuad(*scene, {552.8f, 0, 0}, {549.6f, 0, 559.2f}, {556, 548.8f, 559.2f}, {556, 548.8f, 0}, red);
+    addQuad(*scene, {552.8f, 0, 0}, {549.6f, 0, 559.2f}, {556, 548.8f, 559.2f}, {556, 548.8f, 0},
+            red);
     addBlock(*scene, {{130, 0, 65}, {82, 0, 225}, {240, 0, 272}, {290, 0, 114}}, 165.0f, white);
     addBlock(*scene, {{423, 0, 247}, {265, 0, 296}, {314, 0, 456}, {472, 0, 406}}, 330.0f, white);
     addLight(*scene, {343, 548.7f, 227}, {0, 0, 105}, {-130, 0, 0}, {17, 12, 4}); // looks down
@@ -112,14 +116,15 @@ osg::ref_ptr<osg::Geometry> displacedSphereGeometry()
     const auto point = [](double theta, double phi)
     {
         const double radius = 1.0 + 0.02 * std::sin(40.0 * theta) * std::sin(40.0 * phi);
-        return osg::Vec3d(radius * std::sin(theta) * std::cos(phi), radius * std::sin(theta) * std::sin(phi),
-                          radius * std::cos(theta));
+        return osg::Vec3d(radius * std::sin(theta) * std::cos(phi),
+                          radius * std::sin(theta) * std::sin(phi), radius * std::cos(theta));
     };
     for (int row = 0; row <= kRows; ++row)
     {
         for (int column = 0; column <= kColumns; ++column)
         {
-            const double theta = osg::PI * (row + 0.25) / (kRows + 0.5), phi = 2.0 * osg::PI * column / kColumns;
+            const double theta = osg::PI * (row + 0.25) / (kRows + 0.5),
+                         phi = 2.0 * osg::PI * column / kColumns;
             const osg::Vec3d p = point(theta, phi);
             osg::Vec3d n = (point(theta + 1e-4, phi) - p) ^ (point(theta, phi + 1e-4) - p);
             n.normalize();

@@ -19,12 +19,12 @@ struct BenchScene
     engine::View view; ///< the scene fills it
 };
 
-/// The Cornell box from its published measurements, diffuse, seen from within so that it fills a frame of
-/// any aspect ratio.
+/// The Cornell box from its published measurements, diffuse, seen from within so that it fills a
+/// frame of any aspect ratio.
 BenchScene cornellBox(int width, int height);
 
-/// A sphere of about a million triangles, displaced by waves, under an area light, seen so that it fills
-/// the frame.
+/// A sphere of about a million triangles, displaced by waves, under an area light, seen so that it
+/// fills the frame.
 BenchScene displacedSphere(int width, int height);
 
 /// The geometry of displacedSphere: indexed triangles with vertex normals.

@@ -1,5 +1,6 @@
 // FeatureScenes.cpp - pairs of scenes that give one picture, one of them with a feature. Layer:
-// apps. SPDX-License-Identifier: MIT
+// apps.
+// SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/FeatureScenes.h"
 
 #include <functional>

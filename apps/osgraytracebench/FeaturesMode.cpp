@@ -96,13 +96,18 @@ Ratio ratioOf(OnePass& with, OnePass& without)
 
 std::string namesOf(const SceneTraits& traits)
 {
-    const std::pair<const char*, bool> all[] = {
-        {"instances", traits.instances},         {"smoothNormals", traits.smoothNormals},
-        {"textures", traits.textures},           {"vertexColors", traits.vertexColors},
-        {"fixedFunction", traits.fixedFunction}, {"physical", traits.physical},
-        {"specular", traits.specular},           {"transmission", traits.transmission},
-        {"deltaLights", traits.deltaLights},     {"areaLights", traits.areaLights},
-        {"blended", traits.blended},             {"environment", traits.environment}};
+    const std::pair<const char*, bool> all[] = {{"instances", traits.instances},
+                                                {"smoothNormals", traits.smoothNormals},
+                                                {"textures", traits.textures},
+                                                {"vertexColors", traits.vertexColors},
+                                                {"fixedFunction", traits.fixedFunction},
+                                                {"physical", traits.physical},
+                                                {"specular", traits.specular},
+                                                {"transmission", traits.transmission},
+                                                {"deltaLights", traits.deltaLights},
+                                                {"areaLights", traits.areaLights},
+                                                {"blended", traits.blended},
+                                                {"environment", traits.environment}};
     std::string names;
     for (const auto& [name, on] : all)
         if (on) names += (names.empty() ? "" : " ") + std::string(name);

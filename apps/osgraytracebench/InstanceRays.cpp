@@ -1,5 +1,6 @@
 // InstanceRays.cpp - rays through ten thousand instances against Embree's own instances. Layer:
-// apps. SPDX-License-Identifier: MIT
+// apps.
+// SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/InstanceRays.h"
 
 #include "apps/osgraytracebench/Timing.h"

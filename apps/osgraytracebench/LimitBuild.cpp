@@ -25,7 +25,8 @@ namespace
 constexpr int kRuns = 9;
 
 /// One copy of the vertices and indices into Embree's buffers, and its build.
-void buildBare(RTCDevice device, const osg::Vec3Array& vertices, const osg::DrawElementsUInt& indices)
+void buildBare(RTCDevice device, const osg::Vec3Array& vertices,
+               const osg::DrawElementsUInt& indices)
 {
     RTCScene scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
@@ -75,17 +76,21 @@ void measureBuild(Rows& rows)
     rows.push_back({"1 M triangles: graph / Embree", times.ratio, "times", Goal::AtMost, 1.5});
 
     // Below a transform the arrays cannot be shared: the engine has its own copy of them.
-    osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrix::translate(1, 2, 3));
+    osg::ref_ptr<osg::MatrixTransform> moved =
+        new osg::MatrixTransform(osg::Matrix::translate(1, 2, 3));
     moved->addChild(graph);
-    for (osg::Node* node : {static_cast<osg::Node*>(graph.get()), static_cast<osg::Node*>(moved.get())})
+    for (osg::Node* node :
+         {static_cast<osg::Node*>(graph.get()), static_cast<osg::Node*>(moved.get())})
     {
-        const std::string name = node == graph ? "1 M triangles, shared: " : "1 M triangles, moved: ";
+        const std::string name =
+            node == graph ? "1 M triangles, shared: " : "1 M triangles, moved: ";
         const double before = residentBytes();
         const Built built = buildGraph(node, workers);
         const double embree = static_cast<double>(built.traced->statistics().embreeBytes);
         rows.push_back({name + "Embree's memory", embree / triangles, "bytes/triangle"});
-        rows.push_back({name + "memory beyond Embree's", (residentBytes() - before - embree) / triangles,
-                        "bytes/triangle", Goal::AtMost, 60.0});
+        rows.push_back({name + "memory beyond Embree's",
+                        (residentBytes() - before - embree) / triangles, "bytes/triangle",
+                        Goal::AtMost, 60.0});
     }
 }
 

@@ -22,9 +22,10 @@ constexpr int kRuns = 15;
 class FrameSource
 {
 public:
-    FrameSource(const BenchScene& bench, const RenderOptions& options, std::shared_ptr<Workers> workers,
-                std::shared_ptr<const TracedScene> traced)
-        : _session(std::move(workers)), _options(options),
+    FrameSource(const BenchScene& bench, const RenderOptions& options,
+                std::shared_ptr<Workers> workers, std::shared_ptr<const TracedScene> traced)
+        : _session(std::move(workers)),
+          _options(options),
           _rgba(4 * static_cast<std::size_t>(bench.view.width * bench.view.height)),
           _depth(static_cast<std::size_t>(bench.view.width * bench.view.height))
     {
@@ -68,7 +69,10 @@ Recorded record(const BenchScene& bench, const RenderOptions& options)
     return recorded;
 }
 
-double millions(std::size_t rays, double seconds) { return static_cast<double>(rays) / seconds * 1e-6; }
+double millions(std::size_t rays, double seconds)
+{
+    return static_cast<double>(rays) / seconds * 1e-6;
+}
 
 void measureFrame(const std::string& name, const BenchScene& bench, double goal, Rows& rows)
 {
@@ -80,8 +84,8 @@ void measureFrame(const std::string& name, const BenchScene& bench, double goal,
     const BarePackets bare(recorded.rays);
     auto workers = std::make_shared<Workers>();
     FrameSource source(bench, options, workers, recorded.traced);
-    const PairedTimes times =
-        timePair(kRuns, [&] { bare.trace(*workers); }, [&] { source.frame(); });
+    const PairedTimes times = timePair(
+        kRuns, [&] { bare.trace(*workers); }, [&] { source.frame(); });
     rows.push_back({name + ": bare packets", millions(rays, times.first), "Mrays/s"});
     rows.push_back({name + ": whole frame", millions(rays, times.second), "Mrays/s"});
     rows.push_back({name + ": whole frame", times.second * 1e3, "ms"});
@@ -89,9 +93,10 @@ void measureFrame(const std::string& name, const BenchScene& bench, double goal,
 
     auto one = std::make_shared<Workers>(1);
     FrameSource alone(bench, options, one, recorded.traced);
-    const PairedTimes threads = timePair(kRuns, [&] { alone.frame(); }, [&] { source.frame(); });
-    rows.push_back({name + ": " + std::to_string(workers->threads()) + " threads / 1", threads.ratio,
-                    "times", Goal::AtLeast, workers->threads() == 2 ? 1.9 : 0.0});
+    const PairedTimes threads = timePair(
+        kRuns, [&] { alone.frame(); }, [&] { source.frame(); });
+    rows.push_back({name + ": " + std::to_string(workers->threads()) + " threads / 1",
+                    threads.ratio, "times", Goal::AtLeast, workers->threads() == 2 ? 1.9 : 0.0});
 }
 
 void measurePath(const std::string& name, const BenchScene& bench, double goal, Rows& rows)
@@ -100,12 +105,12 @@ void measurePath(const std::string& name, const BenchScene& bench, double goal, 
     options.integrator = IntegratorKind::Path;
     options.maxBounces = 5;
     const Recorded recorded = record(bench, options);
-    const std::size_t rays = recorded.rays.camera.size() + recorded.rays.secondary.size() +
-                             recorded.rays.shadow.size();
+    const std::size_t rays =
+        recorded.rays.camera.size() + recorded.rays.secondary.size() + recorded.rays.shadow.size();
     auto workers = std::make_shared<Workers>();
     FrameSource source(bench, options, workers, recorded.traced);
-    const PairedTimes times =
-        timePair(kRuns, [&] { traceSingly(recorded.rays, *workers); }, [&] { source.frame(); });
+    const PairedTimes times = timePair(
+        kRuns, [&] { traceSingly(recorded.rays, *workers); }, [&] { source.frame(); });
     rows.push_back({name + ": bare single rays", millions(rays, times.first), "Mrays/s"});
     rows.push_back({name + ": path tracing, 5 bounces", millions(rays, times.second), "Mrays/s"});
     rows.push_back({name + ": path / bare", times.ratio, "of bare rate", Goal::AtLeast, goal});
@@ -115,12 +120,14 @@ void measurePath(const std::string& name, const BenchScene& bench, double goal, 
 
 void measureLimit(const std::string& only, Rows& rows)
 {
-    const auto wanted = [&](const std::string& name) { return name.find(only) != std::string::npos; };
+    const auto wanted = [&](const std::string& name)
+    { return name.find(only) != std::string::npos; };
     if (wanted("box 1920x1080")) measureFrame("box 1920x1080", cornellBox(1920, 1080), 0.55, rows);
     if (wanted("sphere 1920x1080"))
         measureFrame("sphere 1920x1080", displacedSphere(1920, 1080), 0.75, rows);
     if (wanted("box 640x360")) measurePath("box 640x360", cornellBox(640, 360), 0.60, rows);
-    if (wanted("sphere 640x360")) measurePath("sphere 640x360", displacedSphere(640, 360), 0.60, rows);
+    if (wanted("sphere 640x360"))
+        measurePath("sphere 640x360", displacedSphere(640, 360), 0.60, rows);
     if (wanted("1 M triangles")) measureBuild(rows);
 }
 

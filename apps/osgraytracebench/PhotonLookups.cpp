@@ -1,5 +1,6 @@
 // PhotonLookups.cpp - look-ups of photons and the building of maps against a plain grid. Layer:
-// apps. SPDX-License-Identifier: MIT
+// apps.
+// SPDX-License-Identifier: MIT
 #include "apps/common/Failure.h"
 #include "apps/osgraytracebench/BenchScenes.h"
 #include "apps/osgraytracebench/PhotonsMode.h"
@@ -244,7 +245,8 @@ void measurePhotonLookups(const PhotonsOptions& options, Rows& rows)
 {
     const BenchScene bench = cornellBox(kSide, kSide);
     const auto traced = TracedScene::build(bench.scene, std::make_shared<Workers>(1));
-    const std::vector<Photon> photons = photonsOn(*bench.scene, static_cast<std::size_t>(options.photons));
+    const std::vector<Photon> photons =
+        photonsOn(*bench.scene, static_cast<std::size_t>(options.photons));
     const std::vector<PhotonQuery> queries = queriesOf(bench, *traced);
     measureRadius(photons, queries, 4.0f, options.runs, rows);
     measureRadius(photons, queries, 2.3f, options.runs, rows);

@@ -48,7 +48,8 @@ void measureTracing(const std::string& name, CornellKind kind, PhotonUse use,
         throw app::Failure(app::kCannotRender, "no photon was traced");
     const BarePackets packets(recorded);
     const PairedTimes modes = timePair(
-        benchOptions.runs, [&] { packets.trace(*one); }, [&] { traceSingly(recorded, *one); }, threadSecondsOf);
+        benchOptions.runs, [&] { packets.trace(*one); }, [&] { traceSingly(recorded, *one); },
+        threadSecondsOf);
     const bool singly = modes.ratio > 1.0;
     const std::size_t rays =
         recorded.camera.size() + recorded.secondary.size() + recorded.shadow.size();
@@ -79,9 +80,12 @@ void measureTracing(const std::string& name, CornellKind kind, PhotonUse use,
 void measurePhotonRays(const PhotonsOptions& options, Rows& rows)
 {
     measureTracing("tracing, box", CornellKind::Diffuse, PhotonUse::Indirect, options, rows);
-    measureTracing("tracing, box with mirror", CornellKind::Mirror, PhotonUse::Indirect, options, rows);
-    measureTracing("tracing, box with glass", CornellKind::Glass, PhotonUse::Indirect, options, rows);
-    measureTracing("tracing, caustics of glass", CornellKind::Glass, PhotonUse::Caustics, options, rows);
+    measureTracing("tracing, box with mirror", CornellKind::Mirror, PhotonUse::Indirect, options,
+                   rows);
+    measureTracing("tracing, box with glass", CornellKind::Glass, PhotonUse::Indirect, options,
+                   rows);
+    measureTracing("tracing, caustics of glass", CornellKind::Glass, PhotonUse::Caustics, options,
+                   rows);
 }
 
 } // namespace osgRayTrace::bench

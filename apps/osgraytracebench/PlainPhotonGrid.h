@@ -1,5 +1,6 @@
 // PlainPhotonGrid.h - photons in hashed cells, the plain way: the yardstick of look-ups. Layer:
-// apps. SPDX-License-Identifier: MIT
+// apps.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/photons/PhotonMap.h"

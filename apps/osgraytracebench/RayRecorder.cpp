@@ -39,7 +39,8 @@ std::vector<RTCRay>& closestHitList(const RTCIntersectContext* context)
 }
 
 template <class Packet>
-void takeDown(const int* valid, int width, RTCScene scene, const Packet& packet, std::vector<RTCRay>& list)
+void takeDown(const int* valid, int width, RTCScene scene, const Packet& packet,
+              std::vector<RTCRay>& list)
 {
     recording->scene = scene;
     for (int i = 0; i < width; ++i)
@@ -52,54 +53,58 @@ void takeDown(const int* valid, int width, RTCScene scene, const Packet& packet,
 extern "C"
 {
 
-void __real_rtcIntersect16(const int*, RTCScene, RTCIntersectContext*, RTCRayHit16*);
-void __real_rtcIntersect8(const int*, RTCScene, RTCIntersectContext*, RTCRayHit8*);
-void __real_rtcIntersect1(RTCScene, RTCIntersectContext*, RTCRayHit*);
-void __real_rtcOccluded16(const int*, RTCScene, RTCIntersectContext*, RTCRay16*);
-void __real_rtcOccluded8(const int*, RTCScene, RTCIntersectContext*, RTCRay8*);
-void __real_rtcOccluded1(RTCScene, RTCIntersectContext*, RTCRay*);
+    void __real_rtcIntersect16(const int*, RTCScene, RTCIntersectContext*, RTCRayHit16*);
+    void __real_rtcIntersect8(const int*, RTCScene, RTCIntersectContext*, RTCRayHit8*);
+    void __real_rtcIntersect1(RTCScene, RTCIntersectContext*, RTCRayHit*);
+    void __real_rtcOccluded16(const int*, RTCScene, RTCIntersectContext*, RTCRay16*);
+    void __real_rtcOccluded8(const int*, RTCScene, RTCIntersectContext*, RTCRay8*);
+    void __real_rtcOccluded1(RTCScene, RTCIntersectContext*, RTCRay*);
 
-void __wrap_rtcIntersect16(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRayHit16* rays)
-{
-    if (!tracing && recording) takeDown(valid, 16, scene, rays->ray, closestHitList(context));
-    const Tracing now;
-    __real_rtcIntersect16(valid, scene, context, rays);
-}
+    void __wrap_rtcIntersect16(const int* valid, RTCScene scene, RTCIntersectContext* context,
+                               RTCRayHit16* rays)
+    {
+        if (!tracing && recording) takeDown(valid, 16, scene, rays->ray, closestHitList(context));
+        const Tracing now;
+        __real_rtcIntersect16(valid, scene, context, rays);
+    }
 
-void __wrap_rtcIntersect8(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRayHit8* rays)
-{
-    if (!tracing && recording) takeDown(valid, 8, scene, rays->ray, closestHitList(context));
-    const Tracing now;
-    __real_rtcIntersect8(valid, scene, context, rays);
-}
+    void __wrap_rtcIntersect8(const int* valid, RTCScene scene, RTCIntersectContext* context,
+                              RTCRayHit8* rays)
+    {
+        if (!tracing && recording) takeDown(valid, 8, scene, rays->ray, closestHitList(context));
+        const Tracing now;
+        __real_rtcIntersect8(valid, scene, context, rays);
+    }
 
-void __wrap_rtcIntersect1(RTCScene scene, RTCIntersectContext* context, RTCRayHit* ray)
-{
-    if (!tracing && recording) closestHitList(context).push_back(ray->ray);
-    const Tracing now;
-    __real_rtcIntersect1(scene, context, ray);
-}
+    void __wrap_rtcIntersect1(RTCScene scene, RTCIntersectContext* context, RTCRayHit* ray)
+    {
+        if (!tracing && recording) closestHitList(context).push_back(ray->ray);
+        const Tracing now;
+        __real_rtcIntersect1(scene, context, ray);
+    }
 
-void __wrap_rtcOccluded16(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* rays)
-{
-    if (!tracing && recording) takeDown(valid, 16, scene, *rays, recording->shadow);
-    const Tracing now;
-    __real_rtcOccluded16(valid, scene, context, rays);
-}
+    void __wrap_rtcOccluded16(const int* valid, RTCScene scene, RTCIntersectContext* context,
+                              RTCRay16* rays)
+    {
+        if (!tracing && recording) takeDown(valid, 16, scene, *rays, recording->shadow);
+        const Tracing now;
+        __real_rtcOccluded16(valid, scene, context, rays);
+    }
 
-void __wrap_rtcOccluded8(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay8* rays)
-{
-    if (!tracing && recording) takeDown(valid, 8, scene, *rays, recording->shadow);
-    const Tracing now;
-    __real_rtcOccluded8(valid, scene, context, rays);
-}
+    void __wrap_rtcOccluded8(const int* valid, RTCScene scene, RTCIntersectContext* context,
+                             RTCRay8* rays)
+    {
+        if (!tracing && recording) takeDown(valid, 8, scene, *rays, recording->shadow);
+        const Tracing now;
+        __real_rtcOccluded8(valid, scene, context, rays);
+    }
 
-void __wrap_rtcOccluded1(RTCScene scene, RTCIntersectContext* context, RTCRay* ray)
-{
-    if (!tracing && recording) recording->shadow.push_back(*ray);
-    const Tracing now;
-    __real_rtcOccluded1(scene, context, ray);
-}
+    void __wrap_rtcOccluded1(RTCScene scene, RTCIntersectContext* context, RTCRay* ray)
+    {
+        if (!tracing && recording) recording->shadow.push_back(*ray);
+        const Tracing now;
+        __real_rtcOccluded1(scene, context, ray);
+    }
 
 } // extern "C"
 #pragma GCC visibility pop
@@ -107,8 +112,14 @@ void __wrap_rtcOccluded1(RTCScene scene, RTCIntersectContext* context, RTCRay* r
 namespace osgRayTrace::bench
 {
 
-RayRecorder::RayRecorder(RecordedRays& rays) { recording = &rays; }
+RayRecorder::RayRecorder(RecordedRays& rays)
+{
+    recording = &rays;
+}
 
-RayRecorder::~RayRecorder() { recording = nullptr; }
+RayRecorder::~RayRecorder()
+{
+    recording = nullptr;
+}
 
 } // namespace osgRayTrace::bench

@@ -18,9 +18,9 @@ struct RecordedRays
     RTCScene scene = nullptr;      ///< what they were traced in
 };
 
-/// While it lives, rays of this process's calls of Embree are taken down. The linker puts it between the
-/// engine and Embree (--wrap), so that the engine need not know of it. One at a time, and one thread that
-/// traces: the order of rays is the order of calls.
+/// While it lives, rays of this process's calls of Embree are taken down. The linker puts it
+/// between the engine and Embree (--wrap), so that the engine need not know of it. One at a time,
+/// and one thread that traces: the order of rays is the order of calls.
 class RayRecorder
 {
 public:

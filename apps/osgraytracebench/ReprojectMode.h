@@ -1,5 +1,6 @@
 // ReprojectMode.h - what a moving view gains from the samples of its earlier frames, and what they
-// cost. Layer: apps. SPDX-License-Identifier: MIT
+// cost. Layer: apps.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "apps/osgraytracebench/Rows.h"

@@ -16,9 +16,12 @@ bool Row::meets() const
 {
     switch (goal)
     {
-    case Goal::None: return true;
-    case Goal::AtLeast: return value >= bound;
-    case Goal::AtMost: return value <= bound;
+    case Goal::None:
+        return true;
+    case Goal::AtLeast:
+        return value >= bound;
+    case Goal::AtMost:
+        return value <= bound;
     }
     return true;
 }
@@ -54,7 +57,8 @@ void writeRows(const Rows& rows, const std::string& file)
         nlohmann::ordered_json entry{{"name", row.name}, {"value", row.value}, {"unit", row.unit}};
         entry["goal"] = nullptr;
         if (row.goal != Goal::None)
-            entry["goal"] = (row.goal == Goal::AtLeast ? ">= " : "<= ") + nlohmann::json(row.bound).dump();
+            entry["goal"] =
+                (row.goal == Goal::AtLeast ? ">= " : "<= ") + nlohmann::json(row.bound).dump();
         entry["meets"] = row.meets();
         list.push_back(entry);
     }

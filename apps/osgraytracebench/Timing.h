@@ -51,7 +51,10 @@ struct PairedTimes
 using Stopwatch = double (*)(const std::function<void()>&);
 
 /// For work on so many threads: of one alone its own time, of more that on the wall.
-inline Stopwatch stopwatchFor(int threads) { return threads == 1 ? threadSecondsOf : secondsOf; }
+inline Stopwatch stopwatchFor(int threads)
+{
+    return threads == 1 ? threadSecondsOf : secondsOf;
+}
 
 /// Runs the two in turn, after one turn that is not counted. Throws Interrupted after a signal.
 inline PairedTimes timePair(int runs, const std::function<void()>& first,

@@ -59,7 +59,8 @@ void addPair(Rows& rows, const std::string& what, const std::string& yardstick,
     rows.push_back({what + " / " + yardstick, times.ratio, "times", Goal::AtMost, goal});
 }
 
-/// An edit that is not to be in proportion to the scene. The last row: beyond the walk, which finds it.
+/// An edit that is not to be in proportion to the scene. The last row: beyond the walk, which finds
+/// it.
 void addEdit(Rows& rows, LiveScene& live, const std::string& what, double walk, double whole,
              const std::function<void()>& edit)
 {

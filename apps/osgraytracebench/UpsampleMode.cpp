@@ -234,7 +234,8 @@ void measure(Rows& rows, const Subject& subject, const std::string& pictures)
 
 } // namespace
 
-void measureUpsampling(const std::vector<std::string>& models, const std::string& pictures, Rows& rows)
+void measureUpsampling(const std::vector<std::string>& models, const std::string& pictures,
+                       Rows& rows)
 {
     const auto workers = std::make_shared<Workers>();
     const BenchScene box = cornellBox(kWidth, kHeight);

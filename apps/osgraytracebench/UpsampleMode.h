@@ -14,6 +14,7 @@ namespace osgRayTrace::bench
 /// quarter of the width: the error against the full size as blocks, linear between pixels and along
 /// edges, and the CPU time of the parts, of one thread. pictures: a folder for them as well; empty:
 /// none.
-void measureUpsampling(const std::vector<std::string>& models, const std::string& pictures, Rows& rows);
+void measureUpsampling(const std::vector<std::string>& models, const std::string& pictures,
+                       Rows& rows);
 
 } // namespace osgRayTrace::bench

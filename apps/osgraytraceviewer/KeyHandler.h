@@ -25,8 +25,8 @@ public:
     /// The keys, for the on-screen help and --help.
     void getUsage(osg::ApplicationUsage& usage) const override;
 
-    /// The view is to stay where it is, so that its image converges: the manipulator has been taken from it, and who
-    /// else moves it asks here.
+    /// The view is to stay where it is, so that its image converges: the manipulator has been taken
+    /// from it, and who else moves it asks here.
     bool isFrozen() const { return _frozen; }
 
 private:

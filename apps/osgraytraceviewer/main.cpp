@@ -40,7 +40,6 @@ const char* const kPasses = "--passes"; ///< the same, as osgraytrace has it
 
 using Assignments = std::vector<std::pair<std::string, std::string>>;
 
-
 void describe(osg::ApplicationUsage& usage)
 {
     const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
@@ -153,7 +152,8 @@ Models readModels(const std::vector<std::string>& names, const Assignments& assi
     return models;
 }
 
-/// The walls of a CAVE show one picture, unless the environment or the command line wants otherwise.
+/// The walls of a CAVE show one picture, unless the environment or the command line wants
+/// otherwise.
 Assignments wallSettings(Assignments assignments)
 {
     if (!std::getenv("OSGRAYTRACE_EQUAL_VIEWS"))

@@ -1,5 +1,6 @@
 // Grids.cpp - lattices under an area light, for soft shadows of many edges. Part of the scene
-// generator. SPDX-License-Identifier: MIT
+// generator.
+// SPDX-License-Identifier: MIT
 #include "Scenes.h"
 #include "Surfaces.h"
 

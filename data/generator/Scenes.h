@@ -1,5 +1,6 @@
 // Scenes.h - our own scenes; data/README.md says where each comes from. Part of the scene
-// generator. SPDX-License-Identifier: MIT
+// generator.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osg/Group>
@@ -35,8 +36,8 @@ osg::ref_ptr<osg::Group> prism();
 /// Balls of chrome, glass, plaster and rough gold on a terrace below sky.exr. Metres, z up.
 osg::ref_ptr<osg::Group> terrace();
 
-/// The sky of it: 128 x 64 pixels, one of which is the sun, with half of the light. Returns what is wrong, or
-/// nothing.
+/// The sky of it: 128 x 64 pixels, one of which is the sun, with half of the light. Returns what is
+/// wrong, or nothing.
 std::string writeSky(const std::string& path);
 
 /// A closed room whose walls all emit 1/2 and reflect 1/2: seen from within, radiance is 1

@@ -1,5 +1,6 @@
 // Terrace.cpp - things on a terrace in the sun, and the sky around them. Part of the scene
-// generator. SPDX-License-Identifier: MIT
+// generator.
+// SPDX-License-Identifier: MIT
 #include "Scenes.h"
 #include "Surfaces.h"
 

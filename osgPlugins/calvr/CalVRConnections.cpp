@@ -1,5 +1,6 @@
 // CalVRConnections.cpp - calls of ComController, which takes what it sends as not const. Layer:
-// plugins. SPDX-License-Identifier: MIT
+// plugins.
+// SPDX-License-Identifier: MIT
 #include "CalVRConnections.h"
 
 #include <cvrKernel/ComController.h>

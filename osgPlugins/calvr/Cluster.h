@@ -1,5 +1,6 @@
 // Cluster.h - what the nodes of a cluster tell each other, so that their walls match. Layer:
-// plugins. SPDX-License-Identifier: MIT
+// plugins.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osgRayTrace/FrameWork>

@@ -1,5 +1,6 @@
 // RoomLights.h - the lights that shine from beside a traced node, in its coordinates. Layer:
-// plugins. SPDX-License-Identifier: MIT
+// plugins.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osg/Group>

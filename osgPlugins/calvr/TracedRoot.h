@@ -1,5 +1,6 @@
 // TracedRoot.h - a node of somebody else's graph, put under ray tracing and taken out again. Layer:
-// plugins. SPDX-License-Identifier: MIT
+// plugins.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "RoomLights.h"

@@ -20,13 +20,14 @@ constexpr std::size_t kMaxNameLength = 255;
 constexpr long long kMaxScanlinesInChunk = 256;
 constexpr long long kOffsetBytes = 8; ///< of a chunk in the table that follows the headers
 
-/// How much smaller a file can be than its pixels. Deflate writes a bit or more for 129 bytes (a ratio of
-/// 1032 at most, and PXR24 leaves out a quarter first), Huffman codes of PIZ less; DWA has runs below that.
+/// How much smaller a file can be than its pixels. Deflate writes a bit or more for 129 bytes (a
+/// ratio of 1032 at most, and PXR24 leaves out a quarter first), Huffman codes of PIZ less; DWA has
+/// runs below that.
 constexpr long long kLargestRatio = 2048;
 constexpr long long kLargestDwaRatio = 1 << 16;
 
-/// Pixels of a display window for which a file need not be of any length: what lies outside of its data
-/// window is 0.
+/// Pixels of a display window for which a file need not be of any length: what lies outside of its
+/// data window is 0.
 constexpr long long kFreePixels = 1LL << 24;
 
 const char* const kTruncated = "the file ends within its header";
@@ -136,7 +137,8 @@ private:
         if (attribute == "chunkCount" && size == 4) part.chunkCount = signedNumber();
         if (attribute == "compression" && size == 1)
             part.compression = static_cast<std::uint8_t>(_stream.get());
-        if (attribute == "channels") part.pixelBytes = pixelBytes(_stream.tellg() + std::istream::off_type(size));
+        if (attribute == "channels")
+            part.pixelBytes = pixelBytes(_stream.tellg() + std::istream::off_type(size));
         if (attribute == "tiles" && size == 9)
         {
             part.tileWidth = signedNumber();

@@ -38,8 +38,8 @@ enum class ExrCompression
 
 /// The display window of the first part, scanlines or tiles: what lies outside is cut off, what the
 /// file leaves out is 0. Only the channels in wanted, unless it is empty. Integers become floats.
-/// At most 2^28 pixels, 2^20 a side and 2^30 values, and no more than a file of this length can hold.
-/// Bad input leaves image as it was.
+/// At most 2^28 pixels, 2^20 a side and 2^30 values, and no more than a file of this length can
+/// hold. Bad input leaves image as it was.
 std::string readExr(const std::string& path, ExrImage& image,
                     const std::vector<std::string>& wanted = {});
 

@@ -11,7 +11,8 @@
 namespace
 {
 
-/// Where exchangeLocale takes a locale from and leaves the stream's: manipulators have no arguments.
+/// Where exchangeLocale takes a locale from and leaves the stream's: manipulators have no
+/// arguments.
 thread_local std::locale* otherLocale = nullptr;
 
 std::ios_base& exchangeLocale(std::ios_base& stream)

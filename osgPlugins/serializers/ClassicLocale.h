@@ -1,5 +1,6 @@
 // ClassicLocale.h - numbers in text files with a point, whatever the process's locale. Layer:
-// plugins. SPDX-License-Identifier: MIT
+// plugins.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osgDB/ObjectWrapper>

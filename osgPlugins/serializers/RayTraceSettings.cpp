@@ -19,7 +19,8 @@
 
 static bool isPlain(char c)
 {
-    const bool alphanumeric = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    const bool alphanumeric =
+        (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
     return alphanumeric || std::strchr("-+_.,;:=/*", c) != nullptr;
 }
 
@@ -41,7 +42,8 @@ static std::string valueOf(const std::string& word)
     for (std::size_t i = 0; i < word.size(); ++i)
     {
         unsigned int code = 0;
-        const bool coded = word[i] == '%' && std::sscanf(word.substr(i + 1, 2).c_str(), "%2x", &code) == 1;
+        const bool coded =
+            word[i] == '%' && std::sscanf(word.substr(i + 1, 2).c_str(), "%2x", &code) == 1;
         value += coded ? static_cast<char>(code) : word[i];
         if (coded) i += 2;
     }

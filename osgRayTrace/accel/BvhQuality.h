@@ -1,5 +1,6 @@
 // BvhQuality.h - how much a refitted BVH has suffered from the deformation of its mesh. Layer:
-// accel; private to it. SPDX-License-Identifier: MIT
+// accel; private to it.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/scene/Mesh.h"
@@ -19,8 +20,8 @@ public:
     explicit BvhQuality(const Mesh& mesh);
 
     /// Area of the groups' boxes by that of the mesh's box, relative to what it was: 1 for a mesh
-    /// that only moved, turned by right angles or was scaled; infinity for one that was a point or a
-    /// line, whose order says nothing, and is no more. mesh has the same triangles.
+    /// that only moved, turned by right angles or was scaled; infinity for one that was a point or
+    /// a line, whose order says nothing, and is no more. mesh has the same triangles.
     double degradation(const Mesh& mesh) const;
 
 private:

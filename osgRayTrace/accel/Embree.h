@@ -20,7 +20,8 @@ namespace osgRayTrace::engine
 static_assert(sizeof(RayBlock) == sizeof(RTCRay16), "RayBlock is an RTCRay16");
 static_assert(sizeof(RayHitBlock) == sizeof(RTCRayHit16), "RayHitBlock is an RTCRayHit16");
 static_assert(offsetof(RayBlock, tFar) == offsetof(RTCRay16, tfar), "fields in Embree's order");
-static_assert(offsetof(RayHitBlock, primitive) == offsetof(RTCRayHit16, hit) + offsetof(RTCHit16, primID),
+static_assert(offsetof(RayHitBlock, primitive) ==
+                  offsetof(RTCRayHit16, hit) + offsetof(RTCHit16, primID),
               "fields in Embree's order");
 
 #if OSGRAYTRACE_EMBREE == 4
@@ -98,8 +99,7 @@ public:
         rtcInitIntersectArguments(&_intersect);
         rtcInitOccludedArguments(&_occluded);
         _intersect.context = _occluded.context = &_context;
-        if (coherent)
-            _intersect.flags = _occluded.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+        if (coherent) _intersect.flags = _occluded.flags = RTC_RAY_QUERY_FLAG_COHERENT;
 #else
         rtcInitIntersectContext(&_context);
         if (coherent) _context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -119,7 +119,10 @@ public:
     {
         rtcIntersect4(valid, scene, rays, &_intersect);
     }
-    void intersect1(RTCScene scene, RTCRayHit* ray) { rtcIntersect1(scene, ray, &_intersect); }
+    void intersect1(RTCScene scene, RTCRayHit* ray)
+    {
+        rtcIntersect1(scene, ray, &_intersect);
+    }
     void occluded16(const int* valid, RTCScene scene, RTCRay16* rays)
     {
         rtcOccluded16(valid, scene, rays, &_occluded);
@@ -132,7 +135,10 @@ public:
     {
         rtcOccluded4(valid, scene, rays, &_occluded);
     }
-    void occluded1(RTCScene scene, RTCRay* ray) { rtcOccluded1(scene, ray, &_occluded); }
+    void occluded1(RTCScene scene, RTCRay* ray)
+    {
+        rtcOccluded1(scene, ray, &_occluded);
+    }
 
 private:
     RTCIntersectArguments _intersect;
@@ -151,7 +157,10 @@ private:
     {
         rtcIntersect4(valid, scene, &_context, rays);
     }
-    void intersect1(RTCScene scene, RTCRayHit* ray) { rtcIntersect1(scene, &_context, ray); }
+    void intersect1(RTCScene scene, RTCRayHit* ray)
+    {
+        rtcIntersect1(scene, &_context, ray);
+    }
     void occluded16(const int* valid, RTCScene scene, RTCRay16* rays)
     {
         rtcOccluded16(valid, scene, &_context, rays);
@@ -164,7 +173,10 @@ private:
     {
         rtcOccluded4(valid, scene, &_context, rays);
     }
-    void occluded1(RTCScene scene, RTCRay* ray) { rtcOccluded1(scene, &_context, ray); }
+    void occluded1(RTCScene scene, RTCRay* ray)
+    {
+        rtcOccluded1(scene, &_context, ray);
+    }
 
 private:
     FilterContext _context;

@@ -14,8 +14,7 @@ EmbreeDevice::EmbreeDevice()
 {
     // Without "threads" Embree leaves TBB's own settings alone, and so the host's.
     _device = rtcNewDevice(nullptr);
-    if (!_device)
-        throw EngineError(StatusCode::DeviceFailure, "Embree could not be initialized");
+    if (!_device) throw EngineError(StatusCode::DeviceFailure, "Embree could not be initialized");
     rtcSetDeviceErrorFunction(_device, &EmbreeDevice::onError, this);
     rtcSetDeviceMemoryMonitorFunction(_device, &EmbreeDevice::onMemory, this);
     if (rtcGetDeviceProperty(_device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
@@ -49,7 +48,8 @@ void EmbreeDevice::onError(void* self, RTCError code, const char* text) noexcept
     std::lock_guard<std::mutex> lock(device->_mutex);
     device->_outOfMemory |= code == RTC_ERROR_OUT_OF_MEMORY;
     if (*device->_error) return; // those that follow from it say less
-    std::snprintf(device->_error, sizeof(device->_error), "%s", text && *text ? text : "unknown error");
+    std::snprintf(device->_error, sizeof(device->_error), "%s",
+                  text && *text ? text : "unknown error");
 }
 
 bool EmbreeDevice::onMemory(void* self, ssize_t bytes, bool)

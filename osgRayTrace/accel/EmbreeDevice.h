@@ -1,4 +1,5 @@
-// EmbreeDevice.h - an Embree device with its errors and its memory counted. Layer: accel; private to it.
+// EmbreeDevice.h - an Embree device with its errors and its memory counted. Layer: accel; private
+// to it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -40,7 +41,8 @@ private:
     int _nativeWidth = 1;
     std::atomic<int64_t> _bytes{0};
     std::mutex _mutex; // what follows: any thread that calls Embree
-    char _error[128] = ""; ///< the first one; no std::string, which may need the memory that is gone
+    char _error[128] =
+        ""; ///< the first one; no std::string, which may need the memory that is gone
     bool _outOfMemory = false;
 };
 

@@ -13,22 +13,22 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Embree's distances are products of three lengths: beyond these they overflow or vanish. The engine's
-/// directions of length 1 are far inside.
+/// Embree's distances are products of three lengths: beyond these they overflow or vanish. The
+/// engine's directions of length 1 are far inside.
 constexpr float kLargestDirection = 1e6f;
 constexpr float kSmallestDirection = 1e-6f;
 
 /// Of so many rays or fewer a packet does not pay on incoherent rays.
 constexpr int kFewRays = 2;
 
-OSGRAYTRACE_INLINE bool traceable(float reach, float ox, float oy, float oz, float dx, float dy, float dz,
-                                  float tNear, float tFar)
+OSGRAYTRACE_INLINE bool traceable(float reach, float ox, float oy, float oz, float dx, float dy,
+                                  float dz, float tNear, float tFar)
 {
     // Comparisons with NaN are false, so each of them refuses it. No branches: this runs on lanes.
     const float origin = std::fabs(ox) + std::fabs(oy) + std::fabs(oz);
     const float direction = std::fabs(dx) + std::fabs(dy) + std::fabs(dz);
-    return (origin < reach) & (direction > kSmallestDirection) &
-           (direction < kLargestDirection) & (tNear >= 0.0f) & (tNear <= tFar);
+    return (origin < reach) & (direction > kSmallestDirection) & (direction < kLargestDirection) &
+           (tNear >= 0.0f) & (tNear <= tFar);
 }
 
 /// Embree's "valid" array: -1 for lanes that are active and traceable. Returns the active others.
@@ -39,8 +39,9 @@ LaneMask checkRays(const RayBlock& ray, float reach, LaneMask active, Lanes<int>
     OSGRAYTRACE_SIMD_OR(refused)
     for (int i = 0; i < kLanes; ++i)
     {
-        const bool ok = traceable(reach, ray.originX[i], ray.originY[i], ray.originZ[i], ray.directionX[i],
-                                  ray.directionY[i], ray.directionZ[i], ray.tNear[i], ray.tFar[i]);
+        const bool ok =
+            traceable(reach, ray.originX[i], ray.originY[i], ray.originZ[i], ray.directionX[i],
+                      ray.directionY[i], ray.directionZ[i], ray.tNear[i], ray.tFar[i]);
         const uint32_t good = maskOf(ok);
         valid[i] = static_cast<int>(good & laneBit(active, i));
         refused |= bitOfLane(~good, i);
@@ -73,7 +74,8 @@ template <class Packet, int Width> void loadRays(const RayBlock& block, int firs
     std::memcpy(packet.flags, &block.flags[first], bytes);
 }
 
-template <class Packet, int Width> void storeHits(const Packet& packet, int first, RayHitBlock& block)
+template <class Packet, int Width>
+void storeHits(const Packet& packet, int first, RayHitBlock& block)
 {
     const std::size_t bytes = Width * sizeof(float);
     std::memcpy(&block.ray.tFar[first], packet.ray.tfar, bytes);
@@ -110,10 +112,9 @@ RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar)
 
 RTCRay singleRay(const RayBlock& block, int lane)
 {
-    return singleRay(
-        Vec3(block.originX[lane], block.originY[lane], block.originZ[lane]),
-        Vec3(block.directionX[lane], block.directionY[lane], block.directionZ[lane]),
-        block.tNear[lane], block.tFar[lane]);
+    return singleRay(Vec3(block.originX[lane], block.originY[lane], block.originZ[lane]),
+                     Vec3(block.directionX[lane], block.directionY[lane], block.directionZ[lane]),
+                     block.tNear[lane], block.tFar[lane]);
 }
 
 } // namespace
@@ -139,8 +140,8 @@ void Intersector::query(RayHitBlock& block, const Lanes<int>& valid, LaneMask ac
 {
     const auto scene = static_cast<RTCScene>(_scene);
     QueryArguments arguments(coherence == Coherence::Coherent, _filter, rule);
-    const bool packets = coherence == Coherence::Coherent ||
-                         (_nativeWidth == 16 && !areFew(active));
+    const bool packets =
+        coherence == Coherence::Coherent || (_nativeWidth == 16 && !areFew(active));
     if (packets && _nativeWidth == 16)
     {
         arguments.intersect16(valid.v, scene, reinterpret_cast<RTCRayHit16*>(&block));
@@ -197,8 +198,8 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
     Lanes<int> valid;
     const LaneMask refused = checkRays(block, _reach, active, valid);
 
-    // Never the coherent flag here: it makes occlusion packets slower, and with instances Embree 3.13.5
-    // may not return at all.
+    // Never the coherent flag here: it makes occlusion packets slower, and with instances
+    // Embree 3.13.5 may not return at all.
     QueryArguments query(false, _filter);
     if (_nativeWidth == 16 && !areFew(active))
     {
@@ -234,7 +235,8 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
 std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar,
                                            HitRule rule) const
 {
-    if (!traceable(_reach, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tNear, tFar))
+    if (!traceable(_reach, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
+                   tNear, tFar))
         return std::nullopt;
     RTCRayHit single;
     single.ray = singleRay(origin, direction, tNear, tFar);
@@ -254,7 +256,8 @@ std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tN
 
 bool Intersector::occluded(Vec3 origin, Vec3 direction, float tNear, float tFar) const
 {
-    if (!traceable(_reach, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tNear, tFar))
+    if (!traceable(_reach, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
+                   tNear, tFar))
         return true;
     RTCRay single = singleRay(origin, direction, tNear, tFar);
     QueryArguments query(false, _filter);

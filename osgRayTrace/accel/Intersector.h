@@ -4,8 +4,8 @@
 
 #include "osgRayTrace/accel/RayBlock.h"
 
-#include <memory>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace osgRayTrace::engine
@@ -22,8 +22,9 @@ struct HitRule
 {
     bool culls = false;        ///< a camera ray: culled faces are not there
     bool keepsBlended = false; ///< blended surfaces are hit whatever their alpha; else by chance
-    bool fromLight = false;    ///< goes the way that light does: it meets faces of which one side is culled
-    bool solid = false;        ///< every surface is hit, wherever it is transparent or culled
+    bool fromLight =
+        false; ///< goes the way that light does: it meets faces of which one side is culled
+    bool solid = false; ///< every surface is hit, wherever it is transparent or culled
 };
 constexpr HitRule kCameraRays{true, false, false, false};
 constexpr HitRule kPhotonRays{false, false, true, false};
@@ -38,21 +39,22 @@ struct Hit
     float t = kInfinity;
 };
 
-/// Thread safe. A ray that is not finite, has a zero or huge direction, or tNear > tFar or NaN is not
-/// traced: it hits nothing, and is counted by the caller through the returned mask.
+/// Thread safe. A ray that is not finite, has a zero or huge direction, or tNear > tFar or NaN is
+/// not traced: it hits nothing, and is counted by the caller through the returned mask.
 class Intersector
 {
 public:
-    /// Opaque handle of an RTCScene; used by TracedScene. Rays whose origin is farther than reach from the
-    /// scene's are refused. filter is kept; null: no geometry asks it.
+    /// Opaque handle of an RTCScene; used by TracedScene. Rays whose origin is farther than reach
+    /// from the scene's are refused. filter is kept; null: no geometry asks it.
     Intersector(void* embreeScene, int nativeWidth, float reach, const HitFilter* filter = nullptr);
 
-    /// Closest hits of the active lanes; geometry is kInvalid in the others. Returns the lanes whose ray was
-    /// refused (geometry is kInvalid there, too).
+    /// Closest hits of the active lanes; geometry is kInvalid in the others. Returns the lanes
+    /// whose ray was refused (geometry is kInvalid there, too).
     LaneMask closestHits(RayHitBlock& block, LaneMask active, Coherence coherence,
                          HitRule rule = {}) const;
 
-    /// Sets tFar to -infinity in the active lanes that are occluded. Refused rays count as occluded.
+    /// Sets tFar to -infinity in the active lanes that are occluded. Refused rays count as
+    /// occluded.
     LaneMask occlusion(RayBlock& block, LaneMask active) const;
 
     std::optional<Hit> closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar,

@@ -1,5 +1,6 @@
 // Outline.h - boxes around the parts of a mesh, and how far it reaches where it is placed. Layer:
-// accel; private to it. SPDX-License-Identifier: MIT
+// accel; private to it.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/base/Lanes.h"

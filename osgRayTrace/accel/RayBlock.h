@@ -8,8 +8,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Rays of occlusion queries: origin + t*direction for t in [tNear, tFar], direction of length about 1.
-/// After the query tFar is -infinity where something is in the way.
+/// Rays of occlusion queries: origin + t*direction for t in [tNear, tFar], direction of length
+/// about 1. After the query tFar is -infinity where something is in the way.
 struct RayBlock
 {
     FloatLanes originX, originY, originZ;
@@ -32,8 +32,8 @@ struct RayHitBlock
     UintLanes instance;
 };
 
-/// Index into Scene::instances of the surface hit: instances are attached by their own index, those that
-/// are placed by a transform as instances.
+/// Index into Scene::instances of the surface hit: instances are attached by their own index, those
+/// that are placed by a transform as instances.
 OSGRAYTRACE_INLINE uint32_t hitInstance(uint32_t embreeGeometry, uint32_t embreeInstance)
 {
     return embreeInstance != kInvalid ? embreeInstance : embreeGeometry;

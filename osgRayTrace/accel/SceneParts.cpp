@@ -52,8 +52,8 @@ template <class Part> std::shared_ptr<Part> PartPool::shared(std::unique_ptr<Par
     return {part.release(), giveBackTo};
 }
 
-std::unique_ptr<Prototype> PartPool::build(const std::shared_ptr<const Mesh>& mesh,
-                                           bool filtered, BuildCounts& counts)
+std::unique_ptr<Prototype> PartPool::build(const std::shared_ptr<const Mesh>& mesh, bool filtered,
+                                           BuildCounts& counts)
 {
     auto built = std::make_unique<Prototype>();
     built->device = _device;

@@ -1,5 +1,6 @@
 // SceneParts.h - the BVHs that a TracedScene is made of, and who may change them. Layer: accel;
-// private to it. SPDX-License-Identifier: MIT
+// private to it.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/accel/BvhQuality.h"

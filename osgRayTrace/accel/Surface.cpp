@@ -15,16 +15,17 @@ namespace
 constexpr float kOffsetScale = 32.0f * 0x1p-24f;
 constexpr float kEdgeScale = 8.0f * 0x1p-24f;
 
-/// Rays whose cosine is above kSteep begin on their very point if the offset is no more than this share of the
-/// triangle's edges: the way that they skip, four offsets at most, then hides nothing.
+/// Rays whose cosine is above kSteep begin on their very point if the offset is no more than this
+/// share of the triangle's edges: the way that they skip, four offsets at most, then hides nothing.
 constexpr float kFineOffset = 1e-4f;
 constexpr float kSteep = 0.25f;
 constexpr float kNever = 2.0f;
 
-constexpr float kSmallestLift = 4.0f;       ///< [error bounds]
-constexpr float kShortestNormal2 = 1e-12f;  ///< squared length below which a normal is none
-/// Squared cosine of 40 degrees. A facet that a vertex normal leaves by more is no piece of a smooth surface,
-/// but a side of a body whose edges were averaged: two sides of a box make 45 degrees.
+constexpr float kSmallestLift = 4.0f;      ///< [error bounds]
+constexpr float kShortestNormal2 = 1e-12f; ///< squared length below which a normal is none
+/// Squared cosine of 40 degrees. A facet that a vertex normal leaves by more is no piece of a
+/// smooth surface, but a side of a body whose edges were averaged: two sides of a box make 45
+/// degrees.
 constexpr float kLargestTurn2 = 0.5868f;
 
 void store(Vec3Lanes& lanes, int i, Vec3 value)
@@ -34,7 +35,10 @@ void store(Vec3Lanes& lanes, int i, Vec3 value)
     lanes.z[i] = value.z;
 }
 
-float largestOf(Vec3 v) { return std::max(std::fabs(v.x), std::max(std::fabs(v.y), std::fabs(v.z))); }
+float largestOf(Vec3 v)
+{
+    return std::max(std::fabs(v.x), std::max(std::fabs(v.y), std::fabs(v.z)));
+}
 
 float transformMagnitude(const Affine& m, Vec3 a, Vec3 b, Vec3 c)
 {
@@ -43,7 +47,8 @@ float transformMagnitude(const Affine& m, Vec3 a, Vec3 b, Vec3 c)
     return vertex * row + largestOf(m.translation);
 }
 
-OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primitive, int i, TriangleLanes& lanes)
+OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primitive, int i,
+                                     TriangleLanes& lanes)
 {
     const UVec3 t = record.triangles[primitive];
     Vec3 a = record.positions[t.x];
@@ -69,7 +74,8 @@ OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primi
     if (record.placed)
     {
         const Mat3 normalFromLocal = normalMatrix(record.placed->engineFromLocal.linear);
-        // Interpolation comes after normalisation in OpenGL, so vertex normals keep equal weights here.
+        // Interpolation comes after normalisation in OpenGL, so vertex normals keep equal weights
+        // here.
         na = glm::normalize(normalFromLocal * na);
         nb = glm::normalize(normalFromLocal * nb);
         nc = glm::normalize(normalFromLocal * nc);
@@ -97,17 +103,18 @@ OSGRAYTRACE_INLINE float inversePowerOfTwo(float x)
     return result;
 }
 
-/// The plane of a triangle: its unit normal on the counter-clockwise side, 0 for a triangle without area; and
-/// the error bound of points on it. Numbers and no struct: one that is made in a loop over lanes and
-/// passed on is kept in memory, lane after lane, and the loop then becomes no vector code.
-OSGRAYTRACE_INLINE void planeOf(float ax, float ay, float az, float bx, float by, float bz, float cx,
-                                float cy, float cz, float transformBound, float& normalX,
+/// The plane of a triangle: its unit normal on the counter-clockwise side, 0 for a triangle without
+/// area; and the error bound of points on it. Numbers and no struct: one that is made in a loop
+/// over lanes and passed on is kept in memory, lane after lane, and the loop then becomes no vector
+/// code.
+OSGRAYTRACE_INLINE void planeOf(float ax, float ay, float az, float bx, float by, float bz,
+                                float cx, float cy, float cz, float transformBound, float& normalX,
                                 float& normalY, float& normalZ, float& offset, float& steep)
 {
     const float e1x = bx - ax, e1y = by - ay, e1z = bz - az;
     const float e2x = cx - ax, e2y = cy - ay, e2z = cz - az;
-    // Edges are scaled to about 1 first, by a power of two: the product of micrometre edges would be
-    // denormal.
+    // Edges are scaled to about 1 first, by a power of two: the product of micrometre edges would
+    // be denormal.
     const float edge1 = largestOf(e1x, e1y, e1z), edge2 = largestOf(e2x, e2y, e2z);
     const float edge = edge1 > edge2 ? edge1 : edge2;
     const float scale = inversePowerOfTwo(edge);
@@ -128,19 +135,19 @@ OSGRAYTRACE_INLINE void planeOf(float ax, float ay, float az, float bx, float by
     steep = select(offset <= kFineOffset * edge, kSteep, kNever);
 }
 
-/// Everything about lane i of a surface but its interpolated normal. Returns all bits if the ray comes
-/// from the front.
-OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, float nx, float ny, float nz,
-                                       float offset, float steep, float ax, float ay, float az, float bx,
-                                       float by, float bz, float cx, float cy, float cz,
-                                       SurfaceLanes& s)
+/// Everything about lane i of a surface but its interpolated normal. Returns all bits if the ray
+/// comes from the front.
+OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, float nx, float ny,
+                                       float nz, float offset, float steep, float ax, float ay,
+                                       float az, float bx, float by, float bz, float cx, float cy,
+                                       float cz, SurfaceLanes& s)
 {
     const float u = block.u[i], v = block.v[i], w = 1.0f - u - v;
     s.position.x[i] = w * ax + u * bx + v * cx;
     s.position.y[i] = w * ay + u * by + v * cy;
     s.position.z[i] = w * az + u * bz + v * cz;
-    const float cosine = nx * block.ray.directionX[i] + ny * block.ray.directionY[i] +
-                         nz * block.ray.directionZ[i];
+    const float cosine =
+        nx * block.ray.directionX[i] + ny * block.ray.directionY[i] + nz * block.ray.directionZ[i];
     const float side = select(cosine > 0.0f, -1.0f, 1.0f);
     s.geometricNormal.x[i] = nx * side;
     s.geometricNormal.y[i] = ny * side;
@@ -165,8 +172,9 @@ void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
         const float cx = t.c.x[i], cy = t.c.y[i], cz = t.c.z[i];
         float nx, ny, nz, offset, steep;
         planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[i], nx, ny, nz, offset, steep);
-        front |= bitOfLane(setSurface(block, i, nx, ny, nz, offset, steep, ax, ay, az, bx, by, bz, cx, cy, cz, s),
-                           i);
+        front |= bitOfLane(
+            setSurface(block, i, nx, ny, nz, offset, steep, ax, ay, az, bx, by, bz, cx, cy, cz, s),
+            i);
     }
     s.front = front;
 }
@@ -184,13 +192,15 @@ void geometryOfOne(const RayHitBlock& block, const LastTriangle& last, SurfaceLa
     LaneMask front = 0;
     OSGRAYTRACE_SIMD_OR(front)
     for (int i = 0; i < kLanes; ++i)
-        front |= bitOfLane(setSurface(block, i, nx, ny, nz, offset, steep, ax, ay, az, bx, by, bz, cx, cy, cz, s),
-                           i);
+        front |= bitOfLane(
+            setSurface(block, i, nx, ny, nz, offset, steep, ax, ay, az, bx, by, bz, cx, cy, cz, s),
+            i);
     s.front = front;
 }
 
 OSGRAYTRACE_KERNEL
-void interpolateNormals(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth, SurfaceLanes& s)
+void interpolateNormals(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth,
+                        SurfaceLanes& s)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
@@ -209,16 +219,17 @@ void interpolateNormals(const RayHitBlock& block, const TriangleLanes& t, LaneMa
     }
 }
 
-/// The terms of the lift that one vertex adds to: how far the point is below the vertex's tangent plane,
-/// along its normal n of any length, on the side of the sign.
+/// The terms of the lift that one vertex adds to: how far the point is below the vertex's tangent
+/// plane, along its normal n of any length, on the side of the sign.
 struct TangentLift
 {
     float scale;     ///< times n is the way to the tangent plane; 0 if the point is above it
     uint32_t usable; ///< n is about that of the facet
 };
 
-OSGRAYTRACE_INLINE TangentLift tangentLift(float px, float py, float pz, float vx, float vy, float vz,
-                                           float nx, float ny, float nz, float gx, float gy, float gz)
+OSGRAYTRACE_INLINE TangentLift tangentLift(float px, float py, float pz, float vx, float vy,
+                                           float vz, float nx, float ny, float nz, float gx,
+                                           float gy, float gz)
 {
     const float length2 = nx * nx + ny * ny + nz * nz;
     const float cosine = nx * gx + ny * gy + nz * gz;
@@ -226,15 +237,16 @@ OSGRAYTRACE_INLINE TangentLift tangentLift(float px, float py, float pz, float v
     TangentLift result;
     // Both signs change with n: the lift is to the ray's side, where g is, whichever way n looks.
     const float below = select(height * cosine < 0.0f, -height, 0.0f);
-    result.usable = maskOf(length2 > kShortestNormal2) & maskOf(cosine * cosine > kLargestTurn2 * length2);
+    result.usable =
+        maskOf(length2 > kShortestNormal2) & maskOf(cosine * cosine > kLargestTurn2 * length2);
     result.scale = below / select(length2 > kShortestNormal2, length2, 1.0f);
     return result;
 }
 
-/// Moves points, from where rays start, onto the tangent planes of the vertices, weighted as the vertices are
-/// [Hanika21]. On a sphere this is as far above the sphere as the facet is below it, enough for
-/// every ray above the plane of the shading normal to clear the facets around. On hollow sides nothing
-/// moves.
+/// Moves points, from where rays start, onto the tangent planes of the vertices, weighted as the
+/// vertices are [Hanika21]. On a sphere this is as far above the sphere as the facet is below it,
+/// enough for every ray above the plane of the shading normal to clear the facets around. On hollow
+/// sides nothing moves.
 OSGRAYTRACE_KERNEL
 void lift(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth, SurfaceLanes& s)
 {
@@ -246,12 +258,12 @@ void lift(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth, Sur
         const float px = s.position.x[i], py = s.position.y[i], pz = s.position.z[i];
         const float gx = s.geometricNormal.x[i], gy = s.geometricNormal.y[i],
                     gz = s.geometricNormal.z[i];
-        const TangentLift a = tangentLift(px, py, pz, t.a.x[i], t.a.y[i], t.a.z[i], t.na.x[i], t.na.y[i],
-                                          t.na.z[i], gx, gy, gz);
-        const TangentLift b = tangentLift(px, py, pz, t.b.x[i], t.b.y[i], t.b.z[i], t.nb.x[i], t.nb.y[i],
-                                          t.nb.z[i], gx, gy, gz);
-        const TangentLift c = tangentLift(px, py, pz, t.c.x[i], t.c.y[i], t.c.z[i], t.nc.x[i], t.nc.y[i],
-                                          t.nc.z[i], gx, gy, gz);
+        const TangentLift a = tangentLift(px, py, pz, t.a.x[i], t.a.y[i], t.a.z[i], t.na.x[i],
+                                          t.na.y[i], t.na.z[i], gx, gy, gz);
+        const TangentLift b = tangentLift(px, py, pz, t.b.x[i], t.b.y[i], t.b.z[i], t.nb.x[i],
+                                          t.nb.y[i], t.nb.z[i], gx, gy, gz);
+        const TangentLift c = tangentLift(px, py, pz, t.c.x[i], t.c.y[i], t.c.z[i], t.nc.x[i],
+                                          t.nc.y[i], t.nc.z[i], gx, gy, gz);
         const float wa = w * a.scale, wb = u * b.scale, wc = v * c.scale;
         const float x = wa * t.na.x[i] + wb * t.nb.x[i] + wc * t.nc.x[i];
         const float y = wa * t.na.y[i] + wb * t.nb.y[i] + wc * t.nc.y[i];
@@ -320,7 +332,10 @@ void clearLane(TriangleLanes& lanes, int i)
     lanes.transformBound[i] = 0.0f;
 }
 
-bool isMirrored(const SurfaceRecord& record) { return record.placed && record.placed->mirrored; }
+bool isMirrored(const SurfaceRecord& record)
+{
+    return record.placed && record.placed->mirrored;
+}
 
 /// The outside of a body stays its outside under a transform that reverses the winding.
 void turnMirrored(LaneMask lanes, SurfaceLanes& s)
@@ -347,8 +362,9 @@ void setLast(const SurfaceTable& table, const RayHitBlock& block, int lane, Last
     last.smooth = loadTriangle(record, last.primitive, 0, t);
     last.mirrored = isMirrored(record);
     last.material = record.material;
-    planeOf(t.a.x[0], t.a.y[0], t.a.z[0], t.b.x[0], t.b.y[0], t.b.z[0], t.c.x[0], t.c.y[0], t.c.z[0],
-            t.transformBound[0], last.normal.x, last.normal.y, last.normal.z, last.offset, last.steep);
+    planeOf(t.a.x[0], t.a.y[0], t.a.z[0], t.b.x[0], t.b.y[0], t.b.z[0], t.c.x[0], t.c.y[0],
+            t.c.z[0], t.transformBound[0], last.normal.x, last.normal.y, last.normal.z, last.offset,
+            last.steep);
     if (last.smooth)
     {
         broadcast(t.a, t.b, t.c);
@@ -364,8 +380,8 @@ bool isOn(const LastTriangle& last, const RayHitBlock& block, int lane)
 }
 
 /// Adds the interpolated normals, on the outside of the body.
-void finishNormals(const RayHitBlock& block, const TriangleLanes& triangles, LaneMask smooth, LaneMask mirrored,
-                   RayStart start, SurfaceLanes& surface)
+void finishNormals(const RayHitBlock& block, const TriangleLanes& triangles, LaneMask smooth,
+                   LaneMask mirrored, RayStart start, SurfaceLanes& surface)
 {
     if (mirrored) turnMirrored(mirrored, surface);
     if (!smooth) return;
@@ -374,19 +390,20 @@ void finishNormals(const RayHitBlock& block, const TriangleLanes& triangles, Lan
 }
 
 /// surfacesOf where all hits are on one triangle.
-void surfacesOfOne(const RayHitBlock& block, const LastTriangle& triangle, RayStart start, SurfaceLanes& surface)
+void surfacesOfOne(const RayHitBlock& block, const LastTriangle& triangle, RayStart start,
+                   SurfaceLanes& surface)
 {
     geometryOfOne(block, triangle, surface);
     std::fill_n(surface.instance.v, kLanes, triangle.sceneInstance);
     std::fill_n(surface.material.v, kLanes, triangle.material);
-    finishNormals(block, triangle.lanes, triangle.smooth ? kAllLanes : 0, triangle.mirrored ? kAllLanes : 0,
-                  start, surface);
+    finishNormals(block, triangle.lanes, triangle.smooth ? kAllLanes : 0,
+                  triangle.mirrored ? kAllLanes : 0, start, surface);
 }
 
 } // namespace
 
-void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active, SurfaceLanes& surface,
-                RayStart start, LastTriangle* last)
+void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active,
+                SurfaceLanes& surface, RayStart start, LastTriangle* last)
 {
     const LaneMask hits = hitLanes(block, active);
     surface.hits = hits;
@@ -412,7 +429,8 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
         }
         const uint32_t instance = hitInstance(block.geometry[i], block.instance[i]);
         const SurfaceRecord& record = table[instance];
-        smooth |= static_cast<LaneMask>(loadTriangle(record, block.primitive[i], i, triangles)) << i;
+        smooth |= static_cast<LaneMask>(loadTriangle(record, block.primitive[i], i, triangles))
+                  << i;
         mirrored |= static_cast<LaneMask>(isMirrored(record)) << i;
         surface.instance[i] = instance;
         surface.material[i] = record.material;
@@ -432,8 +450,8 @@ void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lan
         const float sx = surface.shadingNormal.x[i], sy = surface.shadingNormal.y[i],
                     sz = surface.shadingNormal.z[i];
         const float sign = sx * gx + sy * gy + sz * gz < 0.0f ? -1.0f : 1.0f;
-        const float towards = sign * (sx * ray.directionX[i] + sy * ray.directionY[i] +
-                                      sz * ray.directionZ[i]);
+        const float towards =
+            sign * (sx * ray.directionX[i] + sy * ray.directionY[i] + sz * ray.directionZ[i]);
         const bool use = towards < -1e-4f;
         normal.x[i] = select(use, sx * sign, gx);
         normal.y[i] = select(use, sy * sign, gy);

@@ -20,9 +20,9 @@ struct SurfaceLanes
     UintLanes instance;        ///< index into Scene::instances; undefined outside of hits
     UintLanes material;        ///< index into Scene::materials
     LaneMask hits = 0;
-    LaneMask front = 0;        ///< the ray comes from the mesh's counter-clockwise side
-    LaneMask lifted = 0;       ///< hits whose position is above their triangle: see RayStart
-    Vec3Lanes onTriangle;      ///< position if it were not lifted; unset if no lane is
+    LaneMask front = 0;   ///< the ray comes from the mesh's counter-clockwise side
+    LaneMask lifted = 0;  ///< hits whose position is above their triangle: see RayStart
+    Vec3Lanes onTriangle; ///< position if it were not lifted; unset if no lane is
 };
 
 /// Where the rays of a smooth triangle that leave it on the ray's side start.
@@ -54,12 +54,14 @@ inline void dropLift(SurfaceLanes& surface, LaneMask lanes)
 /// What is read from the meshes, lane by lane; everything after it is arithmetic on lanes.
 struct TriangleLanes
 {
-    Vec3Lanes a, b, c;         ///< vertices, engine space
-    Vec3Lanes na, nb, nc;      ///< vertex normals, engine space, any length; zero: geometric normal
-    FloatLanes transformBound; ///< magnitude of what was added up to place the vertices; 0 if not placed
+    Vec3Lanes a, b, c;    ///< vertices, engine space
+    Vec3Lanes na, nb, nc; ///< vertex normals, engine space, any length; zero: geometric normal
+    FloatLanes
+        transformBound; ///< magnitude of what was added up to place the vertices; 0 if not placed
 };
 
-/// The triangle that all hits of an earlier block were on: the next one is often on the same. Of one scene.
+/// The triangle that all hits of an earlier block were on: the next one is often on the same. Of
+/// one scene.
 struct LastTriangle
 {
     uint32_t geometry = kInvalid, instance = kInvalid, primitive = kInvalid; ///< Embree's
@@ -70,22 +72,25 @@ struct LastTriangle
     TriangleLanes lanes; ///< in the first lane; in all if smooth
 };
 
-/// The surfaces at the hits of block's active lanes. Lanes without a hit are zero where they are floats.
-/// A point is k * 2^-24 * sum(max |vertex coordinate| * |normal|) off its triangle at most; k = 32 leaves
-/// 1.5e-6 false hits at worst, and none on translated scenes (measured with Embree 3.13.5). Added to it is
-/// Embree's own error of the distance to the plane, 8 * 2^-24 * longest edge: a plane through the origin
-/// has no coordinates to err by.
+/// The surfaces at the hits of block's active lanes. Lanes without a hit are zero where they are
+/// floats. A point is k * 2^-24 * sum(max |vertex coordinate| * |normal|) off its triangle at most;
+/// k = 32 leaves 1.5e-6 false hits at worst, and none on translated scenes (measured with
+/// Embree 3.13.5). Added to it is Embree's own error of the distance to the plane, 8 * 2^-24 *
+/// longest edge: a plane through the origin has no coordinates to err by.
 ///
-/// RayStart::Smooth is against the terminator of the facets, which shows where the shading normals still
-/// see a light that the facet turns its back to: where the light is, for these lanes, is a matter of the
-/// shading normal alone. Flat facets and hollow sides are not lifted.
+/// RayStart::Smooth is against the terminator of the facets, which shows where the shading normals
+/// still see a light that the facet turns its back to: where the light is, for these lanes, is a
+/// matter of the shading normal alone. Flat facets and hollow sides are not lifted.
 ///
-/// last: makes it cheaper for blocks of neighbouring rays, and changes nothing else; null: for a block alone.
-void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active, SurfaceLanes& surface,
-                RayStart start = RayStart::Triangle, LastTriangle* last = nullptr);
+/// last: makes it cheaper for blocks of neighbouring rays, and changes nothing else; null: for a
+/// block alone.
+void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active,
+                SurfaceLanes& surface, RayStart start = RayStart::Triangle,
+                LastTriangle* last = nullptr);
 
-/// The shading normal turned to the side that the ray comes from; the geometric normal where the two
-/// disagree so much that the ray would come from behind. Of all lanes, those without a hit included.
+/// The shading normal turned to the side that the ray comes from; the geometric normal where the
+/// two disagree so much that the ray would come from behind. Of all lanes, those without a hit
+/// included.
 void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lanes& normal);
 
 } // namespace osgRayTrace::engine

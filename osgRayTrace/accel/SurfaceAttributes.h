@@ -1,5 +1,6 @@
 // SurfaceAttributes.h - what a mesh has at its vertices, at a hit: where its material is asked for.
-// Layer: accel. SPDX-License-Identifier: MIT
+// Layer: accel.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/accel/SurfaceTable.h"

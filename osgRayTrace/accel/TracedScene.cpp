@@ -24,8 +24,8 @@ namespace
 /// Embree's coordinates must stay below 1.8e18, also those of rays in the local space of instances.
 constexpr double kLargestCoordinate = 1e18;
 
-/// How far from the engine's origin a ray may start so that Embree can take it to the instance's local
-/// space; 0 if Embree, which does so in float, cannot use the transform.
+/// How far from the engine's origin a ray may start so that Embree can take it to the instance's
+/// local space; 0 if Embree, which does so in float, cannot use the transform.
 double reachOf(const Affine& m)
 {
     double largest = 0.0, columnProduct = 1.0;
@@ -42,11 +42,13 @@ double reachOf(const Affine& m)
     const glm::dmat3 localFromEngine = glm::inverse(glm::dmat3(m.linear));
     double enlargement = 1.0; // largest sum of a row
     for (int row = 0; row < 3; ++row)
-        enlargement = std::max(enlargement, std::fabs(localFromEngine[0][row]) + std::fabs(localFromEngine[1][row]) +
+        enlargement = std::max(enlargement, std::fabs(localFromEngine[0][row]) +
+                                                std::fabs(localFromEngine[1][row]) +
                                                 std::fabs(localFromEngine[2][row]));
     const double reach = kLargestCoordinate / enlargement;
-    const double distance = std::max({std::fabs(double(m.translation.x)), std::fabs(double(m.translation.y)),
-                                      std::fabs(double(m.translation.z))});
+    const double distance =
+        std::max({std::fabs(double(m.translation.x)), std::fabs(double(m.translation.y)),
+                  std::fabs(double(m.translation.z))});
     if (!(enlargement < 2e9) || !isFinite(m.translation) || distance > 0.5 * reach) return 0.0;
     return reach - distance;
 }
@@ -107,8 +109,7 @@ struct MaterialPart
 bool serves(const FlatPart::Members& has, const FlatPart::Members& wanted)
 {
     return std::equal(has.begin(), has.end(), wanted.begin(), wanted.end(),
-                      [](const FlatPart::Member& a, const FlatPart::Member& b)
-                      {
+                      [](const FlatPart::Member& a, const FlatPart::Member& b) {
                           return a.instance == b.instance && a.mesh == b.mesh &&
                                  (a.filtered || !b.filtered);
                       });
@@ -123,9 +124,9 @@ struct TracedScene::Implementation
     using Prototypes = std::vector<std::shared_ptr<const Prototype>>;
     std::shared_ptr<const Prototypes> prototypes; ///< by mesh; null: not needed
     std::size_t prototypeCount = 0;
-    std::shared_ptr<const FlatPart> flat;                     ///< null: there is none
-    std::shared_ptr<const RootPart> root;                     ///< null: the flat part is all
-    std::vector<float> reaches; ///< by instance: of reachOf(), if it is placed
+    std::shared_ptr<const FlatPart> flat; ///< null: there is none
+    std::shared_ptr<const RootPart> root; ///< null: the flat part is all
+    std::vector<float> reaches;           ///< by instance: of reachOf(), if it is placed
     std::unique_ptr<Intersector> intersector;
     SurfaceTable surfaces;
     std::shared_ptr<const MaterialPart> materials;
@@ -194,8 +195,8 @@ void TracedScene::Implementation::findAttached()
     }
 }
 
-/// All BVHs of the previous scene, if they do as they are: edits of materials and lights get away with less
-/// than a look at each instance. What asks the filter in vain does no harm.
+/// All BVHs of the previous scene, if they do as they are: edits of materials and lights get away
+/// with less than a look at each instance. What asks the filter in vain does no harm.
 bool TracedScene::Implementation::takeStructures(const Implementation* old)
 {
     if (!samePlaces || attached != old->attached) return false;
@@ -309,8 +310,7 @@ void TracedScene::Implementation::makeRoot(const Implementation* old, BuildCount
         placement.outline = prototype.outline ? &*prototype.outline : nullptr;
         placement.engineFromLocal = &instance.engineFromLocal;
         placement.instance = static_cast<uint32_t>(i);
-        placement.print =
-            printOf(prototype.serial, placement.instance, instance.engineFromLocal);
+        placement.print = printOf(prototype.serial, placement.instance, instance.engineFromLocal);
         placements.push_back(placement);
     }
     if (placements.empty() && flat) return;
@@ -333,8 +333,8 @@ void TracedScene::Implementation::makeTables(const Implementation* old)
     sameMaterials = old && scene->changed > stamp && scene->textures == old->scene->textures &&
                     scene->displayReferred == old->scene->displayReferred &&
                     sameParts(scene->materials, old->scene->materials, stamp);
-    const bool sameTraits = sameMaterials && sameMeshes &&
-                            sameParts(scene->lights, old->scene->lights, stamp);
+    const bool sameTraits =
+        sameMaterials && sameMeshes && sameParts(scene->lights, old->scene->lights, stamp);
     materials = sameMaterials ? old->materials : std::make_shared<const MaterialPart>(*scene);
     lights = std::make_unique<LightTable>(*scene, old ? old->lights.get() : nullptr);
     traits = sameTraits ? old->traits : sceneTraits(*scene, sameMeshes ? &old->traits : nullptr);
@@ -388,8 +388,8 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     EmbreeDevice& device = *built.pool->device();
     RTCScene top = (built.root ? built.root->scene : built.flat->scene).get();
     built.filter = std::make_unique<HitFilter>(built.surfaces, built.materials->table);
-    built.intersector = std::make_unique<Intersector>(top, device.nativeWidth(), built.reach(),
-                                                      built.filter.get());
+    built.intersector =
+        std::make_unique<Intersector>(top, device.nativeWidth(), built.reach(), built.filter.get());
 
     BuildStatistics& statistics = built.statistics;
     statistics.builtMeshes = counts.built;
@@ -402,13 +402,37 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     return traced;
 }
 
-const Scene& TracedScene::scene() const { return *_implementation->scene; }
-const SceneTraits& TracedScene::traits() const { return _implementation->traits; }
-const Intersector& TracedScene::intersector() const { return *_implementation->intersector; }
-const SurfaceTable& TracedScene::surfaces() const { return _implementation->surfaces; }
-const MaterialTable& TracedScene::materials() const { return _implementation->materials->table; }
-const LightTable& TracedScene::lights() const { return *_implementation->lights; }
-const BuildStatistics& TracedScene::statistics() const { return _implementation->statistics; }
-uint64_t TracedScene::embreeBytes() const { return _implementation->pool->device()->bytes(); }
+const Scene& TracedScene::scene() const
+{
+    return *_implementation->scene;
+}
+const SceneTraits& TracedScene::traits() const
+{
+    return _implementation->traits;
+}
+const Intersector& TracedScene::intersector() const
+{
+    return *_implementation->intersector;
+}
+const SurfaceTable& TracedScene::surfaces() const
+{
+    return _implementation->surfaces;
+}
+const MaterialTable& TracedScene::materials() const
+{
+    return _implementation->materials->table;
+}
+const LightTable& TracedScene::lights() const
+{
+    return *_implementation->lights;
+}
+const BuildStatistics& TracedScene::statistics() const
+{
+    return _implementation->statistics;
+}
+uint64_t TracedScene::embreeBytes() const
+{
+    return _implementation->pool->device()->bytes();
+}
 
 } // namespace osgRayTrace::engine

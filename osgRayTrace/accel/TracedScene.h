@@ -30,16 +30,16 @@ struct BuildStatistics
     size_t invalidInstances = 0; ///< left out: transform singular, not finite, or out of range
 };
 
-/// Immutable once built; sessions share it. Reuses from previous what did not change (may be null), and
-/// changes what neither previous nor anybody else uses any more. Meshes that are not placed are in one flat
-/// BVH; where there are others, it is one of the instances of the top level.
+/// Immutable once built; sessions share it. Reuses from previous what did not change (may be null),
+/// and changes what neither previous nor anybody else uses any more. Meshes that are not placed are
+/// in one flat BVH; where there are others, it is one of the instances of the top level.
 class TracedScene
 {
 public:
     /// Throws EngineError (OutOfMemory, DeviceFailure).
-    static std::shared_ptr<const TracedScene> build(std::shared_ptr<const Scene> scene,
-                                                    std::shared_ptr<Workers> workers,
-                                                    std::shared_ptr<const TracedScene> previous = {});
+    static std::shared_ptr<const TracedScene>
+    build(std::shared_ptr<const Scene> scene, std::shared_ptr<Workers> workers,
+          std::shared_ptr<const TracedScene> previous = {});
     ~TracedScene();
 
     const Scene& scene() const;
@@ -50,8 +50,8 @@ public:
     const LightTable& lights() const;
     const BuildStatistics& statistics() const;
 
-    /// What the device holds now, as Embree reports it: for this scene, for others made from it or that it
-    /// was made from, and spare parts for the next ones. Any thread.
+    /// What the device holds now, as Embree reports it: for this scene, for others made from it or
+    /// that it was made from, and spare parts for the next ones. Any thread.
     uint64_t embreeBytes() const;
 
 private:

@@ -1,4 +1,5 @@
-// Lanes.h - plain arrays of sixteen values, and how loops over them become vector code. Layer: base.
+// Lanes.h - plain arrays of sixteen values, and how loops over them become vector code. Layer:
+// base.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -18,9 +19,9 @@
 #define OSGRAYTRACE_SIMD_OR(mask)
 #endif
 
-/// Before a function whose loops are worth a version for each vector width; the loader picks one for the
-/// CPU at hand, so a build for distribution uses AVX-512 or AVX2 where there is.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) &&     \
+/// Before a function whose loops are worth a version for each vector width; the loader picks one
+/// for the CPU at hand, so a build for distribution uses AVX-512 or AVX2 where there is.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) &&    \
     !defined(OSGRAYTRACE_NO_CLONES)
 #define OSGRAYTRACE_KERNEL                                                                         \
     __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
@@ -56,18 +57,27 @@ template <class T> struct alignas(64) Lanes
 using FloatLanes = Lanes<float>;
 using UintLanes = Lanes<uint32_t>;
 
-/// All bits set where the condition holds. Conditions are joined by & and | of these: compilers do not
-/// vectorize a mix of conditions on floats and on integers.
-OSGRAYTRACE_INLINE uint32_t maskOf(bool condition) { return 0u - static_cast<uint32_t>(condition); }
+/// All bits set where the condition holds. Conditions are joined by & and | of these: compilers do
+/// not vectorize a mix of conditions on floats and on integers.
+OSGRAYTRACE_INLINE uint32_t maskOf(bool condition)
+{
+    return 0u - static_cast<uint32_t>(condition);
+}
 
 /// maskOf(lane i is in lanes)
-OSGRAYTRACE_INLINE uint32_t laneBit(LaneMask lanes, int i) { return 0u - ((lanes >> i) & 1u); }
+OSGRAYTRACE_INLINE uint32_t laneBit(LaneMask lanes, int i)
+{
+    return 0u - ((lanes >> i) & 1u);
+}
 
 /// Bit i if mask is set in lane i.
-OSGRAYTRACE_INLINE LaneMask bitOfLane(uint32_t mask, int i) { return mask & (1u << i); }
+OSGRAYTRACE_INLINE LaneMask bitOfLane(uint32_t mask, int i)
+{
+    return mask & (1u << i);
+}
 
-/// a where the mask is set, else b, without a branch that the compiler could move the making of a or b
-/// into: that would keep the loop around it from being vectorized.
+/// a where the mask is set, else b, without a branch that the compiler could move the making of a
+/// or b into: that would keep the loop around it from being vectorized.
 OSGRAYTRACE_INLINE float select(uint32_t mask, float a, float b)
 {
     uint32_t bitsA, bitsB;
@@ -96,7 +106,10 @@ struct Vec3Lanes
     FloatLanes x, y, z;
 };
 
-inline Vec3 laneOf(const Vec3Lanes& lanes, int i) { return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]); }
+inline Vec3 laneOf(const Vec3Lanes& lanes, int i)
+{
+    return Vec3(lanes.x[i], lanes.y[i], lanes.z[i]);
+}
 
 inline void setLane(Vec3Lanes& lanes, int i, Vec3 value)
 {

@@ -17,8 +17,9 @@
 namespace osgRayTrace::engine
 {
 
-/// Zeros in values, size of them, on huge pages where the system has some to spare: a frame writes each
-/// tile's part at once, and with small pages each would miss the translation buffer. Throws std::bad_alloc.
+/// Zeros in values, size of them, on huge pages where the system has some to spare: a frame writes
+/// each tile's part at once, and with small pages each would miss the translation buffer. Throws
+/// std::bad_alloc.
 template <class T> void allocateLarge(std::vector<T>& values, std::size_t size)
 {
     std::vector<T>().swap(values);

@@ -33,7 +33,10 @@ struct Affine
     Vec3 translation{0.0f};
 };
 
-inline Vec3 transformPoint(const Affine& m, Vec3 p) { return m.linear * p + m.translation; }
+inline Vec3 transformPoint(const Affine& m, Vec3 p)
+{
+    return m.linear * p + m.translation;
+}
 
 /// Takes normals where linear takes points: its inverse transpose. In double, since shears and
 /// uneven scales cancel. Not normalised.
@@ -43,8 +46,14 @@ inline Mat3 normalMatrix(const Mat3& linear)
 }
 
 /// Rec. 709 luminance of a linear RGB radiance.
-inline float luminance(Vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+inline float luminance(Vec3 c)
+{
+    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+}
 
-inline bool isFinite(Vec3 v) { return v.x - v.x == 0.0f && v.y - v.y == 0.0f && v.z - v.z == 0.0f; }
+inline bool isFinite(Vec3 v)
+{
+    return v.x - v.x == 0.0f && v.y - v.y == 0.0f && v.z - v.z == 0.0f;
+}
 
 } // namespace osgRayTrace::engine

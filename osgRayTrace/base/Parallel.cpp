@@ -29,25 +29,43 @@ class FlushDenormals
 {
 public:
 #if defined(__SSE__)
-    FlushDenormals() : _saved(_mm_getcsr()) { _mm_setcsr(_saved | 0x8040u); }
-    ~FlushDenormals() { _mm_setcsr(_saved); }
+    FlushDenormals() : _saved(_mm_getcsr())
+    {
+        _mm_setcsr(_saved | 0x8040u);
+    }
+    ~FlushDenormals()
+    {
+        _mm_setcsr(_saved);
+    }
 
 private:
     unsigned int _saved;
 #endif
 };
 
-/// Tells ThreadSanitizer what it cannot see in a TBB that is not sanitized: all before a loop (or a run,
-/// whose body another thread of a busy arena may take over) happens before its bodies, and those before all
-/// after it; between bodies there is no order.
+/// Tells ThreadSanitizer what it cannot see in a TBB that is not sanitized: all before a loop (or a
+/// run, whose body another thread of a busy arena may take over) happens before its bodies, and
+/// those before all after it; between bodies there is no order.
 class LoopOrder
 {
 public:
 #if defined(__SANITIZE_THREAD__)
-    LoopOrder() { __tsan_release(&_begin); }
-    ~LoopOrder() { __tsan_acquire(&_end); }
-    void enterBody() { __tsan_acquire(&_begin); }
-    void leaveBody() { __tsan_release(&_end); }
+    LoopOrder()
+    {
+        __tsan_release(&_begin);
+    }
+    ~LoopOrder()
+    {
+        __tsan_acquire(&_end);
+    }
+    void enterBody()
+    {
+        __tsan_acquire(&_begin);
+    }
+    void leaveBody()
+    {
+        __tsan_release(&_end);
+    }
 
 private:
     char _begin = 0, _end = 0;
@@ -68,8 +86,9 @@ private:
     LoopOrder& _order;
 };
 
-/// Threads that may be inside at once beside those that it has. Who finds no place would have to wait for
-/// the loops of others: a scene could not be updated while a view is traced in the background.
+/// Threads that may be inside at once beside those that it has. Who finds no place would have to
+/// wait for the loops of others: a scene could not be updated while a view is traced in the
+/// background.
 constexpr int kCallers = 8;
 
 } // namespace

@@ -1,4 +1,5 @@
-// Status.h - the outcome of an operation on a resource, and the exception inside the engine. Layer: base.
+// Status.h - the outcome of an operation on a resource, and the exception inside the engine. Layer:
+// base.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -1,5 +1,6 @@
 // BackgroundThreads.cpp - threads of our own, none of which outlives the process's orderly end.
-// Layer: bridge. SPDX-License-Identifier: MIT
+// Layer: bridge.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/BackgroundThreads.h"
 
 #include "osgRayTrace/base/NeverDestroyed.h"

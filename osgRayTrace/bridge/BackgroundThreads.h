@@ -1,5 +1,6 @@
 // BackgroundThreads.h - threads of our own, none of which outlives the process's orderly end.
-// Layer: bridge. SPDX-License-Identifier: MIT
+// Layer: bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <functional>

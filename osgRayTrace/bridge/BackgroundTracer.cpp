@@ -1,5 +1,6 @@
 // BackgroundTracer.cpp - traces a view on a thread of its own, for draw to take the newest image.
-// Layer: bridge. SPDX-License-Identifier: MIT
+// Layer: bridge.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/BackgroundTracer.h"
 
 #include "osgRayTrace/bridge/BackgroundThreads.h"

@@ -1,5 +1,6 @@
 // BackgroundTracer.h - traces a view on a thread of its own, for draw to take the newest image.
-// Layer: bridge. SPDX-License-Identifier: MIT
+// Layer: bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/bridge/ViewTracer.h"

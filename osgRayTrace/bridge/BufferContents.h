@@ -1,5 +1,6 @@
 // BufferContents.h - whether the values of arrays have changed, whatever their modified counts say.
-// Layer: bridge. SPDX-License-Identifier: MIT
+// Layer: bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/bridge/ObjectIdentity.h"

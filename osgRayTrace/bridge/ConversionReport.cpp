@@ -21,7 +21,8 @@ struct Wording
 
 constexpr Wording kGeometryWordings[] = {
     {"skipped.index-out-of-range", "triangles with an index beyond the vertex array, skipped"},
-    {"skipped.not-finite", "triangles with a vertex that is NaN, infinite or out of range, skipped"},
+    {"skipped.not-finite",
+     "triangles with a vertex that is NaN, infinite or out of range, skipped"},
     {"skipped.deprecated-data",
      "per-primitive bindings or array indices: call fixDeprecatedData, skipped"},
     {"skipped.vertex-type", "vertex array of an unknown type, skipped"},

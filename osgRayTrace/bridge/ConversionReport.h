@@ -26,7 +26,8 @@ namespace osgRayTrace::engine
 /// approximated things that are traced, but not with all that OpenGL would do (a drawable or an
 ///              object)
 /// unused       what does nothing in OpenGL either: light-replaced, by the next one of its number
-/// not-traced   things that have no triangles, or that are not part of the scene as seen by a ray; OSG draws
+/// not-traced   things that have no triangles, or that are not part of the scene as seen by a ray;
+/// OSG draws
 ///              them where there is a viewer
 /// rasterized   things that have triangles and that OSG draws all the same, in a viewer
 /// missing      files that could not be read, by what they are for; paths are "FILE" or "FILE, for

@@ -33,7 +33,7 @@ struct ConversionCaches
         uint32_t instance = kInvalid;
         Light light;
     };
-    std::vector<Quad> areaLights; ///< in the order of the traversal
+    std::vector<Quad> areaLights;                  ///< in the order of the traversal
     std::vector<std::shared_ptr<const Mesh>> flat; ///< all meshes that are not placed
     uint64_t flatVertices = 0;
     int flatBuilds = 0;     ///< of a large flat BVH that something has left
@@ -54,7 +54,7 @@ struct ConvertedGraph
     ConversionCounts lightCounts; ///< of setLights
     PlacedTexGens texGens;
     std::vector<uint32_t> instanceGaps, meshGaps; ///< what was removed left them
-    uint32_t emptyMesh = kInvalid; ///< index of the mesh that gaps are instances of
+    uint32_t emptyMesh = kInvalid;                ///< index of the mesh that gaps are instances of
 };
 
 /// A mesh without triangles: an instance of it is none.

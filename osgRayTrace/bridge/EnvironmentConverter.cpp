@@ -140,8 +140,9 @@ std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& sourc
     light.kind = LightKind::Environment;
     light.radiance = {source.getScale().x(), source.getScale().y(), source.getScale().z()};
     if (limitScale(_brightest, light.radiance))
-        report.warn("repaired.environment-scale", name,
-                    "its scale makes pixels brighter than 1e30, taken as what makes the brightest that");
+        report.warn(
+            "repaired.environment-scale", name,
+            "its scale makes pixels brighter than 1e30, taken as what makes the brightest that");
     light.environment.image = _image;
     light.environment.visible = source.getVisible();
     bool plain = true;

@@ -78,7 +78,8 @@ bool readOthers(const osg::Image& image, bool decodeSrgb, ReplacedPixels& replac
 {
     Texture texture;
     if (!decodePixels(image, texture)) return false;
-    const bool mayNotBeFinite = image.getDataType() == GL_FLOAT || image.getDataType() == GL_HALF_FLOAT;
+    const bool mayNotBeFinite =
+        image.getDataType() == GL_FLOAT || image.getDataType() == GL_HALF_FLOAT;
     if (mayNotBeFinite && !image.isCompressed()) // whose data type says nothing
         replaced.notFinite += countNotFinite(image);
     for (std::size_t i = 0; i < pixels.radiance.size(); ++i)
@@ -186,7 +187,8 @@ environmentFromCube(const std::vector<const osg::Image*>& images, bool decodeSrg
     std::array<Pixels, 6> faces;
     for (std::size_t f = 0; f < 6; ++f)
     {
-        if (!images[f] || !read(*images[f], decodeSrgb, kMostOfFace, replaced, faces[f])) return nullptr;
+        if (!images[f] || !read(*images[f], decodeSrgb, kMostOfFace, replaced, faces[f]))
+            return nullptr;
         if (faces[f].width != faces[f].height || faces[f].width != faces[0].width) return nullptr;
     }
     constexpr int kPoints = 4; // a side of a pixel

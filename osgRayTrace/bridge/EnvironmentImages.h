@@ -29,7 +29,8 @@ struct ReplacedPixels
 std::shared_ptr<const EnvironmentImage>
 environmentFromImage(const osg::Image& image, bool decodeSrgb, ReplacedPixels& replaced);
 
-/// Six square faces of one size in the order of osg::TextureCubeMap::Face, of 2^25 pixels at most; else null.
+/// Six square faces of one size in the order of osg::TextureCubeMap::Face, of 2^25 pixels at most;
+/// else null.
 std::shared_ptr<const EnvironmentImage>
 environmentFromCube(const std::vector<const osg::Image*>& faces, bool decodeSrgb,
                     ReplacedPixels& replaced);

@@ -47,8 +47,8 @@ bool GeometryCache::BufferPrint::operator==(const BufferPrint& other) const
     return values(*this) == values(other);
 }
 
-/// The values decide if the modified count or the place of the data alone differs; what was compared is
-/// remembered in both.
+/// The values decide if the modified count or the place of the data alone differs; what was
+/// compared is remembered in both.
 bool GeometryCache::isSame(BufferPrint& then, BufferPrint& now)
 {
     if (then == now)
@@ -66,8 +66,8 @@ bool GeometryCache::isSame(BufferPrint& then, BufferPrint& now)
     return true;
 }
 
-/// Compares all, also behind what differs, so that the contents of all that is modified are known the
-/// next time.
+/// Compares all, also behind what differs, so that the contents of all that is modified are known
+/// the next time.
 bool GeometryCache::isSame(Fingerprint& then, Fingerprint& now)
 {
     if (then.size() != now.size()) return false;
@@ -96,16 +96,17 @@ GeometryCache::Fingerprint GeometryCache::fingerprintOf(const osg::Geometry& geo
     const auto add = [&prints](const osg::BufferData* buffer, unsigned int kind) -> BufferPrint&
     { return prints.emplace_back(printOf(buffer, kind)); };
     // In the order of the indices above.
-    for (const osg::Array* array : {positionArray(geometry), geometry.getNormalArray(),
-                                    geometry.getColorArray(), geometry.getTexCoordArray(0),
-                                    geometry.getTexCoordArray(1)})
+    for (const osg::Array* array :
+         {positionArray(geometry), geometry.getNormalArray(), geometry.getColorArray(),
+          geometry.getTexCoordArray(0), geometry.getTexCoordArray(1)})
         add(array, static_cast<unsigned int>(osg::getBinding(array)));
     for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i)
     {
         const osg::PrimitiveSet* set = geometry.getPrimitiveSet(i);
         if (!set) continue;
         BufferPrint& print = add(set, set->getMode());
-        if (hasTriangles(*set)) print.count = set->getNumIndices(); // others may lack what they count
+        if (hasTriangles(*set))
+            print.count = set->getNumIndices(); // others may lack what they count
         print.ranges = rangesPrint(*set);
     }
     return prints;
@@ -161,8 +162,8 @@ void GeometryCache::noteLiveness(const osg::Geometry& geometry, Liveness livenes
     known.liveness = std::max(known.liveness, liveness);
 }
 
-/// Positions changed alone, as a rule. Not if values were repaired, which may have been by positions, or
-/// if vertices were split, which is by primitive sets: then counts or sizes say so.
+/// Positions changed alone, as a rule. Not if values were repaired, which may have been by
+/// positions, or if vertices were split, which is by primitive sets: then counts or sizes say so.
 KeptArrays GeometryCache::keptArrays(Entry& before, Fingerprint& now)
 {
     KeptArrays kept;
@@ -198,8 +199,8 @@ std::shared_ptr<const Mesh> GeometryCache::mesh(const osg::Geometry& geometry, u
         fingerprint = fingerprintOf(geometry);
         sameArrays = had && isSame(entry.fingerprint, fingerprint);
     }
-    const bool known = sameArrays && entry.variance == geometry.getDataVariance() &&
-                       entry.request == request;
+    const bool known =
+        sameArrays && entry.variance == geometry.getDataVariance() && entry.request == request;
     if (!known)
     {
         if (fingerprint.empty()) fingerprint = entry.fingerprint;
@@ -245,7 +246,8 @@ const VertexBounds& GeometryCache::bounds(const osg::Geometry& geometry)
     return entry.bounds;
 }
 
-/// Of an array that was exchanged; others that have it get them again. Not if somebody looks at them.
+/// Of an array that was exchanged; others that have it get them again. Not if somebody looks at
+/// them.
 void GeometryCache::dropBounds(const BufferPrint& positions)
 {
     if (!positions.buffer) return;
@@ -253,7 +255,8 @@ void GeometryCache::dropBounds(const BufferPrint& positions)
     if (known != _bounds.end() && known->second.used != _stamp) _bounds.erase(known);
 }
 
-/// Uses have no variants of their own where it is called, or they are forgotten with the next conversion.
+/// Uses have no variants of their own where it is called, or they are forgotten with the next
+/// conversion.
 void GeometryCache::drop(const osg::Geometry* geometry)
 {
     const auto entry = _entries.find({geometry, kOwnVariant});

@@ -27,8 +27,8 @@ enum class Liveness : uint8_t
 };
 
 /// A geometry is taken as unchanged while its arrays and primitive sets are the same objects with
-/// the same modified counts, sizes and addresses, or the same values where these differ: call dirty()
-/// on an array whose values were changed.
+/// the same modified counts, sizes and addresses, or the same values where these differ: call
+/// dirty() on an array whose values were changed.
 class GeometryCache
 {
 public:
@@ -44,7 +44,8 @@ public:
                                      const MeshRequest& request, const std::string& path,
                                      ConversionReport& report);
 
-    /// Null: it was not asked for in the last snapshot. The request of its shared mesh, and what it gave.
+    /// Null: it was not asked for in the last snapshot. The request of its shared mesh, and what it
+    /// gave.
     const MeshRequest* lastRequest(const osg::Geometry& geometry) const;
     const ConversionCounts& lastCounts(const osg::Geometry& geometry) const;
 
@@ -77,9 +78,9 @@ private:
         unsigned int modified = 0;
         const void* data = nullptr;
         std::size_t bytes = 0;
-        unsigned int kind = 0;  // binding of an array, mode of a primitive set
-        unsigned int count = 0; // vertices of a primitive set
-        uint64_t ranges = 0;    // see rangesPrint
+        unsigned int kind = 0;            // binding of an array, mode of a primitive set
+        unsigned int count = 0;           // vertices of a primitive set
+        uint64_t ranges = 0;              // see rangesPrint
         std::optional<uint64_t> contents; // of one that was found modified: see contentsPrint
 
         bool operator==(const BufferPrint& other) const; ///< but for contents
@@ -102,7 +103,8 @@ private:
     {
         std::size_t operator()(const Key& key) const
         {
-            return std::hash<const void*>()(key.first) + key.second * std::size_t(0x9e3779b97f4a7c15);
+            return std::hash<const void*>()(key.first) +
+                   key.second * std::size_t(0x9e3779b97f4a7c15);
         }
     };
 

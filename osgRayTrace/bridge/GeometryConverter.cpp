@@ -125,7 +125,8 @@ SharedArray<UVec3> checkedTriangles(TriangleList& list, const osg::Geometry& geo
     const bool sound = judge.allSound(list.data(), list.size());
     // Turned back, the front of a triangle stays its front.
     const bool mirrored = request.transform && isMirrored(*request.transform);
-    if (sound && list.source && !mirrored && !request.copies && geometry.getDataVariance() != osg::Object::DYNAMIC &&
+    if (sound && list.source && !mirrored && !request.copies &&
+        geometry.getDataVariance() != osg::Object::DYNAMIC &&
         list.source->getDataVariance() != osg::Object::DYNAMIC)
         return shareIndices(*list.source);
 
@@ -169,8 +170,8 @@ SharedArray<Vec3> completed(Normals& normals, const Mesh& mesh, ConversionCounts
     return values;
 }
 
-/// True if the corners are so nearly in one line that rounding decides which way the face looks, as at the
-/// poles of OSG's own spheres. face: the cross product of two edges from a.
+/// True if the corners are so nearly in one line that rounding decides which way the face looks, as
+/// at the poles of OSG's own spheres. face: the cross product of two edges from a.
 bool hasNoSide(Vec3d face, Vec3d a, Vec3d b, Vec3d c)
 {
     const double edge = std::max(glm::length(b - a), glm::length(c - a));
@@ -197,12 +198,13 @@ uint64_t oppositeNormals(const Mesh& mesh)
     return count;
 }
 
-/// Thickness of a layer, of the largest coordinate: some hundred times the rounding of hit points, and a
-/// hundredth of a pixel where the whole mesh is in view.
+/// Thickness of a layer, of the largest coordinate: some hundred times the rounding of hit points,
+/// and a hundredth of a pixel where the whole mesh is in view.
 constexpr float kLayer = 0x1p-16f;
 
-/// Raises all faces on their front side, so that a decal is hit before what it lies on. OpenGL moves the
-/// depth towards the viewer instead, on either side; seen from behind the order is the other one here.
+/// Raises all faces on their front side, so that a decal is hit before what it lies on. OpenGL
+/// moves the depth towards the viewer instead, on either side; seen from behind the order is the
+/// other one here.
 SharedArray<Vec3> lifted(const Mesh& mesh, float layers)
 {
     std::vector<Vec3d> directions(mesh.positions.size(), Vec3d(0.0));
@@ -298,8 +300,7 @@ ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& 
     const VertexReader reader(geometry, request, map);
     Positions positions = reader.positions(*vertices);
     auto mesh = std::make_shared<Mesh>();
-    mesh->triangles =
-        checkedTriangles(list, geometry, positions, request, result.counts);
+    mesh->triangles = checkedTriangles(list, geometry, positions, request, result.counts);
     if (mesh->triangles.empty()) return result;
 
     mesh->positions = std::move(positions.values);

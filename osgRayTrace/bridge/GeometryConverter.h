@@ -64,10 +64,10 @@ struct KeptArrays
 };
 
 /// Every triangle of the mesh is sound: indices in range, vertices finite and, transformed, at most
-/// 1e18 in magnitude, area not zero; the others are dropped and counted. Without usable normals the mesh
-/// has none, that is flat facets (OpenGL would light all of it with the last normal that some other
-/// object used). Where layout, transform and DataVariance allow it the mesh shares the OSG arrays
-/// and keeps them alive; nobody may then write to them while a Scene holds the mesh.
+/// 1e18 in magnitude, area not zero; the others are dropped and counted. Without usable normals the
+/// mesh has none, that is flat facets (OpenGL would light all of it with the last normal that some
+/// other object used). Where layout, transform and DataVariance allow it the mesh shares the OSG
+/// arrays and keeps them alive; nobody may then write to them while a Scene holds the mesh.
 ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request,
                               const KeptArrays& kept = {});
 

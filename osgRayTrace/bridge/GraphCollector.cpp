@@ -217,11 +217,12 @@ void GraphCollector::apply(osg::ProxyNode& node)
 void GraphCollector::apply(osg::TexGenNode& node)
 {
     const bool inScene = node.getReferenceFrame() == osg::TexGenNode::RELATIVE_RF;
-    if (!inScene) _report.count("approximated.absolute-texgen"); // eye space in OpenGL, world space here
+    if (!inScene)
+        _report.count("approximated.absolute-texgen"); // eye space in OpenGL, world space here
     if (node.getTexGen() && node.getTextureUnit() < kUnits)
-        _graph.texGens[node.getTextureUnit()] = {
-            node.getTexGen(),
-            inScene ? engineFromLocal() : osg::Matrixd::translate(-_input.origin)};
+        _graph.texGens[node.getTextureUnit()] = {node.getTexGen(),
+                                                 inScene ? engineFromLocal()
+                                                         : osg::Matrixd::translate(-_input.origin)};
     rasterize(RasterizedPart::PlaceState);
     apply(static_cast<osg::Node&>(node));
 }
@@ -339,8 +340,8 @@ bool GraphCollector::isTooDeep(const osg::Node& node)
     return true;
 }
 
-/// True, counted and named if the paths that are taken are so many already. OSG draws the node, unless
-/// its own traversal would not end either.
+/// True, counted and named if the paths that are taken are so many already. OSG draws the node,
+/// unless its own traversal would not end either.
 bool GraphCollector::isTooMuch(osg::Node& node)
 {
     if (_visits.take()) return false;

@@ -30,15 +30,16 @@
 namespace osgRayTrace::engine
 {
 
-/// Nodes on a path from the root; what is deeper is skipped. Traversals are recursive, in OSG as here: a
-/// transform takes about 400 bytes of stack, more in debug builds, and threads may have little.
+/// Nodes on a path from the root; what is deeper is skipped. Traversals are recursive, in OSG as
+/// here: a transform takes about 400 bytes of stack, more in debug builds, and threads may have
+/// little.
 constexpr std::size_t kDeepestPath = 5000;
 
 /// One path to a drawable.
 struct GeometryUse
 {
-    osg::Matrixd engineFromLocal; ///< affine, finite, invertible; see applyUnit
-    uint32_t state = 0;           ///< index into CollectedGraph::states
+    osg::Matrixd engineFromLocal;    ///< affine, finite, invertible; see applyUnit
+    uint32_t state = 0;              ///< index into CollectedGraph::states
     uint32_t path = NodeTree::kNone; ///< in CollectedGraph::paths, if ConversionInput::picks
 };
 
@@ -90,18 +91,18 @@ struct CollectedGraph
     std::vector<CollectedGeometry> geometries; ///< in order of their first use
     LightSources lights;
     std::vector<GraphState> states;
-    PlacedTexGens texGens;                     ///< the last of each unit, as OpenGL keeps them
+    PlacedTexGens texGens; ///< the last of each unit, as OpenGL keeps them
     ClipPlanes clipPlanes;
     std::optional<osg::Vec4>
-        clearColor;     ///< of the last osg::ClearNode, if ConversionInput::rasterizesRest
-    bool paged = false; ///< see ConversionResult
+        clearColor;             ///< of the last osg::ClearNode, if ConversionInput::rasterizesRest
+    bool paged = false;         ///< see ConversionResult
     RasterizedParts rasterized; ///< if ConversionInput::rasterizesRest
     NodeTree paths;             ///< if ConversionInput::picks
     std::vector<uint32_t> rasterizedPaths; ///< of rasterized, likewise
 };
 
-/// The collector knows the origin of engine space, but not its unit yet: it leaves lengths as they are
-/// in the world. This puts all matrices into units of Scene::unit.
+/// The collector knows the origin of engine space, but not its unit yet: it leaves lengths as they
+/// are in the world. This puts all matrices into units of Scene::unit.
 void applyUnit(double unit, CollectedGraph& graph);
 
 /// State above the scene graph, as osgViewer and osgUtil::SceneView set it, and what is inherited.
@@ -116,8 +117,8 @@ public:
     GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
                    const TextureConverter& textures, ConversionReport& report);
 
-    /// Visits the last node of a path from the root, in the place and the state that it has there. The others
-    /// are of the plain classes that GraphWatch knows. False: it cannot be placed.
+    /// Visits the last node of a path from the root, in the place and the state that it has there.
+    /// The others are of the plain classes that GraphWatch knows. False: it cannot be placed.
     bool collectAt(const osg::NodePath& path);
 
     /// What was found; call once, after the traversal.

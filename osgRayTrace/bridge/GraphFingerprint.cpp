@@ -6,8 +6,8 @@
 #include "osgRayTrace/bridge/DrawHint.h"
 #include "osgRayTrace/bridge/GraphCollector.h"
 #include "osgRayTrace/bridge/NodePrints.h"
-#include "osgRayTrace/bridge/StateFingerprint.h"
 #include "osgRayTrace/bridge/SoftwareVertices.h"
+#include "osgRayTrace/bridge/StateFingerprint.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
@@ -131,7 +131,8 @@ public:
     float getDistanceToEyePoint(const osg::Vec3& point, bool useLodScale) const override
     {
         const float scale = useLodScale && _view ? _view->lodScale : 1.0f;
-        const osg::Vec3d eye = _eye * osg::Matrixd::inverse(_sceneFromLocal); // as in a cull traversal
+        const osg::Vec3d eye =
+            _eye * osg::Matrixd::inverse(_sceneFromLocal); // as in a cull traversal
         return static_cast<float>((osg::Vec3d(point) - eye).length()) * scale;
     }
 

@@ -21,8 +21,8 @@ class BufferVersions;
 /// values of the attributes and lights that are traced; those of the inherited state included.
 /// Vertex data that is written without Array::dirty(), and images without Image::dirty(), go
 /// unseen: that is what dirtyScene() is for. Reads the graph only.
-/// sceneFromLocal: of the place that root is at. kept: as in Digest. versions: stand for the modified
-/// counts of arrays and primitive sets, so that equal values are no change; slower.
+/// sceneFromLocal: of the place that root is at. kept: as in Digest. versions: stand for the
+/// modified counts of arrays and primitive sets, so that equal values are no change; slower.
 /// budget: what lies beyond it goes unseen; null: one of its own.
 uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions,
                           const osg::Matrixd& sceneFromLocal = osg::Matrixd(),

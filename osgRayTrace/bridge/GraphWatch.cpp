@@ -18,8 +18,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// So far ahead memory is fetched, by the offsets of what is read in it [OSG 3.6.5 on 64 bits]: for others it is
-/// slower, but not wrong.
+/// So far ahead memory is fetched, by the offsets of what is read in it [OSG 3.6.5 on 64 bits]: for
+/// others it is slower, but not wrong.
 constexpr std::size_t kAhead = 16;
 constexpr int kGroupBytes[] = {64, 200, 264, 328};
 constexpr int kGeometryBytes[] = {64, 200, 332, 392, 440};
@@ -192,8 +192,8 @@ bool GraphWatch::isOpaqueAsItWas(WatchedNode& node)
 {
     WatchedOpaque& opaque = _graph.opaques[node.item];
     PathBudget budget(opaque.budget), again(opaque.budget);
-    const uint64_t print = graphFingerprint(*node.node, _plain, opaque.sceneFromLocal, nullptr,
-                                            nullptr, &budget);
+    const uint64_t print =
+        graphFingerprint(*node.node, _plain, opaque.sceneFromLocal, nullptr, nullptr, &budget);
     if (print == node.print) return true;
     if (!opaque.versions) opaque.versions = std::make_unique<BufferVersions>();
     const uint64_t contents = graphFingerprint(*node.node, _plain, opaque.sceneFromLocal, nullptr,

@@ -1,5 +1,6 @@
 // GraphWatch.h - finds what has changed in a scene graph, in next to no time if nothing has. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/bridge/GraphChanges.h"
@@ -9,9 +10,9 @@
 namespace osgRayTrace::engine
 {
 
-/// A graph as it was seen last: see WatchedGraph. A look compares its nodes one after the other, without
-/// a traversal. Nodes of the plain classes are known one by one; of any other node (level of
-/// detail, billboard, a class of the application's own) only whether anything in it and below it
+/// A graph as it was seen last: see WatchedGraph. A look compares its nodes one after the other,
+/// without a traversal. Nodes of the plain classes are known one by one; of any other node (level
+/// of detail, billboard, a class of the application's own) only whether anything in it and below it
 /// has changed: see graphFingerprint, also for what goes unseen. Bounds are not looked at.
 class GraphWatch
 {

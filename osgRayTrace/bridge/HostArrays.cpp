@@ -1,5 +1,6 @@
 // HostArrays.cpp - arrays of the host that a scene reads in place, and who frees them. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// bridge.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/HostArrays.h"
 
 #include "osgRayTrace/base/NeverDestroyed.h"

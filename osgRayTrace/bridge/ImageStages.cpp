@@ -1,5 +1,6 @@
 // ImageStages.cpp - what is done to a view's images between accumulation and display. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// bridge.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/ImageStages.h"
 
 #include "osgRayTrace/accel/TracedScene.h"

@@ -83,8 +83,7 @@ std::optional<Light> convertLight(const osg::Light& source, const osg::Matrixd& 
     light.attenuationConstant = source.getConstantAttenuation();
     // Given for world lengths, evaluated with engine lengths.
     light.attenuationLinear = static_cast<float>(source.getLinearAttenuation() * unit);
-    light.attenuationQuadratic =
-        static_cast<float>(source.getQuadraticAttenuation() * unit * unit);
+    light.attenuationQuadratic = static_cast<float>(source.getQuadraticAttenuation() * unit * unit);
     light.spotExponent = source.getSpotExponent();
     light.spotCosCutoff = cosCutoff(source.getSpotCutoff());
     return isFiniteLight(light) ? std::optional<Light>(light) : std::nullopt;

@@ -19,7 +19,8 @@ namespace
 
 const osg::Texture2D* textureOf(const GraphState& state)
 {
-    return state.isOn(0, kTexture2DBit) ? state.attribute<osg::Texture2D>(0, kTextureSlot) : nullptr;
+    return state.isOn(0, kTexture2DBit) ? state.attribute<osg::Texture2D>(0, kTextureSlot)
+                                        : nullptr;
 }
 
 float linear(float value)

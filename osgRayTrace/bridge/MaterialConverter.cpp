@@ -372,14 +372,14 @@ void MaterialConverter::applyOpacity(Material& material, const GraphState& state
     if (test && state.isOn(kAlphaTestBit))
     {
         material.alphaTest = comparisonOf(test->getFunction());
-        material.alphaReference =
-            std::clamp(finiteOr(test->getReferenceValue(), 0.0f), 0.0f, 1.0f);
+        material.alphaReference = std::clamp(finiteOr(test->getReferenceValue(), 0.0f), 0.0f, 1.0f);
     }
     if (!material.blended && material.alphaTest == AlphaTest::Always)
         material.alpha = material.back.alpha = 1.0f;
 }
 
-/// A transform that mirrors turns the winding that OpenGL sees, and not what is outside for the mesh.
+/// A transform that mirrors turns the winding that OpenGL sees, and not what is outside for the
+/// mesh.
 void MaterialConverter::applyFaces(Material& material, const GraphState& state,
                                    const SurfacePlacement& placement) const
 {
@@ -389,7 +389,8 @@ void MaterialConverter::applyFaces(Material& material, const GraphState& state,
     const bool clockwise = front && front->getMode() == osg::FrontFace::CLOCKWISE;
     material.clockwise = clockwise != isMirrored(placement.engineFromLocal);
     // Lamps are sampled on both sides: rays that meet them by chance must find both, too.
-    const bool isLamp = material.model == MaterialModel::Physical && material.emission != Vec3(0.0f);
+    const bool isLamp =
+        material.model == MaterialModel::Physical && material.emission != Vec3(0.0f);
     material.cullsAllRays = _rules.cullAllRays && material.culling != FaceCulling::None && !isLamp;
 }
 

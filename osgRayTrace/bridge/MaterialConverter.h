@@ -14,9 +14,9 @@ namespace osgRayTrace::engine
 /// What of a geometry decides on its material.
 struct SurfaceInputs
 {
-    bool hasVertexColors = false; ///< colours that vary over it
-    bool hasOverallColor = false; ///< one colour for all of it
-    Vec4 overallColor{1.0f};      ///< as OpenGL gets it, not decoded
+    bool hasVertexColors = false;       ///< colours that vary over it
+    bool hasOverallColor = false;       ///< one colour for all of it
+    Vec4 overallColor{1.0f};            ///< as OpenGL gets it, not decoded
     bool hasTextureCoordinates = false; ///< of unit 0
 };
 
@@ -32,8 +32,8 @@ enum class Blending
 };
 Blending blendingOf(const GraphState& state);
 
-/// The program that draws instead of OpenGL's fixed function; null: none does. Also one of a class of its own,
-/// as virtual programs are, and a vertex or fragment program of ARB's.
+/// The program that draws instead of OpenGL's fixed function; null: none does. Also one of a class
+/// of its own, as virtual programs are, and a vertex or fragment program of ARB's.
 const osg::StateAttribute* programOf(const GraphState& state);
 
 /// A colour mask that leaves out a channel.
@@ -42,8 +42,8 @@ bool masksColor(const GraphState& state);
 /// A stencil test: it compares, or it writes what others are compared with.
 bool usesStencil(const GraphState& state);
 
-/// Layers that glPolygonOffset lifts the faces by, towards the viewer. 0: none. The offset's units count,
-/// or its factor if it has none.
+/// Layers that glPolygonOffset lifts the faces by, towards the viewer. 0: none. The offset's units
+/// count, or its factor if it has none.
 float polygonLift(const GraphState& state);
 
 /// What all materials of a scene have in common.

@@ -1,5 +1,6 @@
 // MaterialLibrary.h - physical materials for models that know none, by names in them. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// bridge.
+// SPDX-License-Identifier: MIT
 //
 // A JSON file:
 //   { "nodes":     { "windscreen": { "transmission": 1, "roughness": 0, "baseColor": [1, 1, 1] } },

@@ -27,8 +27,7 @@ Material gap()
 
 uint32_t MaterialList::add(const Material& material)
 {
-    const auto next =
-        _gaps.empty() ? static_cast<uint32_t>(_materials.size()) : _gaps.back();
+    const auto next = _gaps.empty() ? static_cast<uint32_t>(_materials.size()) : _gaps.back();
     const auto [known, isNew] = _known.try_emplace(materialValues(material), next);
     const uint32_t index = known->second;
     if (!isNew)
@@ -68,9 +67,8 @@ std::vector<bool> MaterialList::usedTextures(std::size_t count) const
         if (texture < used.size()) used[texture] = true;
     };
     for (const Material& m : _materials)
-        for (const uint32_t texture :
-             {m.baseColorTexture, m.metallicRoughnessTexture, m.transmissionTexture,
-              m.emissionTexture, m.second.texture})
+        for (const uint32_t texture : {m.baseColorTexture, m.metallicRoughnessTexture,
+                                       m.transmissionTexture, m.emissionTexture, m.second.texture})
             use(texture);
     return used;
 }

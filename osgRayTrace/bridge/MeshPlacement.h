@@ -1,5 +1,6 @@
 // MeshPlacement.h - a mesh in coordinates of its own and the transform that places it. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/bridge/SceneExtent.h"

@@ -1,5 +1,6 @@
-// NodePrints.cpp - what is read of each class, without a virtual call where many nodes are of it. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// NodePrints.cpp - what is read of each class, without a virtual call where many nodes are of it.
+// Layer: bridge.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/NodePrints.h"
 
 #include "osgRayTrace/bridge/BufferContents.h"
@@ -113,7 +114,8 @@ BufferLayout layoutOf(const osg::BufferData& data)
     }
     else if (const osg::PrimitiveSet* set = data.asPrimitiveSet())
     {
-        if (hasTriangles(*set)) layout.count = set->getNumIndices(); // others may lack what they count
+        if (hasTriangles(*set))
+            layout.count = set->getNumIndices(); // others may lack what they count
         layout.kind = set->getMode();
         layout.ranges = rangesPrint(*set);
     }
@@ -306,7 +308,8 @@ uint64_t bufferPrint(BufferKind kind, const osg::BufferData& data)
         return elementsPrint<osg::DrawElementsUShort>(data);
     case BufferKind::Arrays:
     {
-        const auto& set = static_cast<const osg::DrawArrays&>(data); // whose setFirst has no dirty()
+        const auto& set =
+            static_cast<const osg::DrawArrays&>(data); // whose setFirst has no dirty()
         return valuePrint(set.getModifiedCount() ^ static_cast<unsigned int>(set.getCount()) << 16,
                           static_cast<std::size_t>(uint32_t(set.getFirst())),
                           reinterpret_cast<const void*>(uintptr_t(uint32_t(set.getCount()))),

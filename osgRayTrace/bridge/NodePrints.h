@@ -1,5 +1,6 @@
-// NodePrints.h - numbers made of the values of a node, a light or an array, to tell whether they have
-// changed. Layer: bridge. SPDX-License-Identifier: MIT
+// NodePrints.h - numbers made of the values of a node, a light or an array, to tell whether they
+// have changed. Layer: bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/bridge/ObjectIdentity.h"

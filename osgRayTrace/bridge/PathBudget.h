@@ -1,5 +1,6 @@
 // PathBudget.h - an end for traversals of graphs whose shared parts are on too many paths. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osg/Group>

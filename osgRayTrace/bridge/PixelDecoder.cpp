@@ -233,8 +233,8 @@ bool decodePacked(const osg::Image& image, const Packing& packing, Texture& text
                 const int bits = packing.bits[c];
                 if (!packing.reversed) low -= bits;
                 const uint32_t largest = (1u << bits) - 1u;
-                values[c] = static_cast<uint8_t>(((pixel >> low & largest) * 255u + largest / 2) /
-                                                 largest);
+                values[c] =
+                    static_cast<uint8_t>(((pixel >> low & largest) * 255u + largest / 2) / largest);
                 if (packing.reversed) low += bits;
             }
             for (int c = 0; c < 4; ++c)

@@ -21,8 +21,8 @@ public:
     {
     }
 
-    /// False if the graph must be converted again: something looks different from what it did before
-    /// in more than its place and its shape.
+    /// False if the graph must be converted again: something looks different from what it did
+    /// before in more than its place and its shape.
     bool move(const MovedUse& use);
     bool deform(const osg::Geometry& geometry);
 

@@ -86,7 +86,8 @@ PrimitiveNumbers::PrimitiveNumbers(const osg::Geometry& geometry, const Primitiv
 {
     const osg::Array* vertices = positionArray(geometry);
     _vertexCount = vertices ? vertices->getNumElements() : 0;
-    const bool cut = mesh.positions.size() != _vertexCount; // as many triangles may have come as went
+    const bool cut =
+        mesh.positions.size() != _vertexCount; // as many triangles may have come as went
     if (!cut && isPlainList(geometry, restart, mesh)) return;
 
     TriangleList list = trianglesOf(geometry, _vertexCount, restart, true);

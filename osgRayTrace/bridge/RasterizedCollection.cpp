@@ -9,7 +9,8 @@
 namespace osgRayTrace::engine
 {
 
-/// True if OSG has to draw something in it: then all of it, as it is the billboard that places its drawables.
+/// True if OSG has to draw something in it: then all of it, as it is the billboard that places its
+/// drawables.
 bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
 {
     bool leaves = false;
@@ -25,8 +26,9 @@ bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
     return leaves;
 }
 
-/// True if the group is of a kit that draws its children in a way of its own, by a cull traversal only: OSG
-/// draws it where there is OpenGL, and its children stand for it elsewhere, or if an effect is hinted to be traced.
+/// True if the group is of a kit that draws its children in a way of its own, by a cull traversal
+/// only: OSG draws it where there is OpenGL, and its children stand for it elsewhere, or if an
+/// effect is hinted to be traced.
 bool GraphCollector::leavesGroup(osg::Node& node)
 {
     const bool effect = isFrom(&node, "osgFX"), volume = isFrom(&node, "osgVolume");
@@ -65,7 +67,8 @@ void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
     _graph.rasterizedPaths.push_back(pickPath());
 }
 
-/// Why the geometry at the end of the path is drawn by OpenGL where there is one; null: it is traced.
+/// Why the geometry at the end of the path is drawn by OpenGL where there is one; null: it is
+/// traced.
 const char* GraphCollector::rasterizedReason(const osg::Geometry& geometry, bool isPosed)
 {
     const osg::StateSet* stateSet = geometry.getStateSet();

@@ -36,7 +36,8 @@ struct RasterizedPart
 /// In the order of the traversal. Immutable once it is published.
 using RasterizedParts = std::vector<RasterizedPart>;
 
-/// The rest of a geometry whose triangles are traced: a shallow copy, so arrays are shared. Null: nothing.
+/// The rest of a geometry whose triangles are traced: a shallow copy, so arrays are shared. Null:
+/// nothing.
 osg::ref_ptr<osg::Geometry> withoutTriangles(const osg::Geometry& geometry);
 
 /// The last node of this path, which begins with what stands for the decorator and the decorator.

@@ -1,5 +1,6 @@
 // ReferenceView.h - the view that levels of detail, billboards and the like are converted for.
-// Layer: bridge. SPDX-License-Identifier: MIT
+// Layer: bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osg/CullStack>

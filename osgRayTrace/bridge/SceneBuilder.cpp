@@ -144,8 +144,8 @@ void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
                  "coordinates below a transform");
 }
 
-/// What comes into a scene gets BVHs of its own, unless it is so much that the flat one may as well be
-/// built again.
+/// What comes into a scene gets BVHs of its own, unless it is so much that the flat one may as well
+/// be built again.
 void SceneBuilder::noteNew()
 {
     uint64_t vertices = 0;
@@ -154,7 +154,8 @@ void SceneBuilder::noteNew()
     _newJoinFlat = vertices >= _caches.flatVertices;
 }
 
-/// Used more often than once, or not still: what has moved or deformed since it came will do so again.
+/// Used more often than once, or not still: what has moved or deformed since it came will do so
+/// again.
 bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
 {
     const osg::Geometry& geometry = *collected.geometry;
@@ -166,7 +167,8 @@ bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
     if (_rules.comparable && last && !cache.hasSameArrays(geometry))
         cache.noteLiveness(geometry, Liveness::Deforms);
     else if (_rules.comparable && once && own &&
-             last->transform != requestFor(collected, collected.uses.front().engineFromLocal).transform)
+             last->transform !=
+                 requestFor(collected, collected.uses.front().engineFromLocal).transform)
         cache.noteLiveness(geometry, Liveness::Moves);
     else if (once && (_caches.dissolved || (_rules.comparable && !last && !_newJoinFlat)))
         cache.noteLiveness(geometry, Liveness::Moves);
@@ -320,7 +322,8 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
 {
     TracedGeometry& traced = _made.index.at(*geometry.geometry);
     const MeshRequest* request = _caches.geometries.lastRequest(*geometry.geometry);
-    if (!request || traced.uses.empty() || polygonLift(_graph.states[use.state]) != 0.0f) return false;
+    if (!request || traced.uses.empty() || polygonLift(_graph.states[use.state]) != 0.0f)
+        return false;
     osg::Matrixd localFromMesh;
     if (request->transform) localFromMesh = osg::Matrixd::inverse(*request->transform);
     const uint32_t other = traced.uses.front().instance;
@@ -347,9 +350,8 @@ TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const Geo
 {
     const GraphState& state = _graph.states[use.state];
     _materialReport = ConversionReport();
-    instance.material = _made.materials.add(
-        _materials.material(state, surfaceInputs(*geometry.geometry),
-                            {use.engineFromLocal, &_graph.texGens}));
+    instance.material = _made.materials.add(_materials.material(
+        state, surfaceInputs(*geometry.geometry), {use.engineFromLocal, &_graph.texGens}));
     _report.addHere(_materialReport);
     setAmbient(state);
     instance.changed = _rules.now;

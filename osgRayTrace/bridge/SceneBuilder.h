@@ -20,8 +20,8 @@ struct BuildRules
     Stamp now = 0;
 };
 
-/// Adds what was collected to a Scene: of the whole graph to a new one, or of what came later to a copy of
-/// the last one.
+/// Adds what was collected to a Scene: of the whole graph to a new one, or of what came later to a
+/// copy of the last one.
 class SceneBuilder
 {
 public:
@@ -32,14 +32,15 @@ public:
     /// A new scene, all of it.
     void build();
 
-    /// Of all uses of the graph's geometries in turn, kInvalid for what is not traced. After build().
+    /// Of all uses of the graph's geometries in turn, kInvalid for what is not traced. After
+    /// build().
     const std::vector<uint32_t>& instances() const { return _instances; }
 
     /// One more geometry, which gets a BVH of its own.
     void add(const CollectedGeometry& geometry);
 
-    /// Of one that is there and placed: one more path, before the use of this number. False: it cannot be
-    /// placed.
+    /// Of one that is there and placed: one more path, before the use of this number. False: it
+    /// cannot be placed.
     bool addUse(const CollectedGeometry& geometry, const GeometryUse& use, uint32_t before);
 
 private:
@@ -76,7 +77,7 @@ private:
     MaterialConverter _materials;
     std::vector<std::optional<Treatment>> _treatments; ///< by state
     std::vector<uint32_t> _instances;
-    const osg::LightModel* _lightModel = nullptr;      // the first one met
+    const osg::LightModel* _lightModel = nullptr; // the first one met
 };
 
 /// A visible one, for a scene without any.

@@ -107,7 +107,7 @@ struct SceneConverter::Implementation
     std::shared_ptr<const Scene> last;
     ConversionResult lastResult;
     uint64_t forgotten = 0; ///< meshes that were made before the caches were emptied
-    bool ordinary = false; ///< unit is 1, and stays so as long as lengths are ordinary
+    bool ordinary = false;  ///< unit is 1, and stays so as long as lengths are ordinary
     Stamp stamp = 0;
 };
 
@@ -217,8 +217,7 @@ std::optional<ConversionResult> SceneConverter::patch(const GraphChanges& change
     result.counts["converted.light"] =
         state.last->lights.size() - viewerLights(state.made.lightCounts);
     result.emptyInstances = state.made.instanceGaps.size();
-    result.emptyMeshes =
-        state.made.meshGaps.size() + (state.made.emptyMesh == kInvalid ? 0 : 1);
+    result.emptyMeshes = state.made.meshGaps.size() + (state.made.emptyMesh == kInvalid ? 0 : 1);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;

@@ -68,8 +68,8 @@ struct ConversionInput : ConversionSettings
     bool lighting = true; ///< GL_LIGHTING above the root: off in osg::View's NO_LIGHT mode
     /// State above the root, the outermost first: of a cull traversal. Empty: osgViewer's defaults.
     std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState;
-    /// What OpenGL draws better goes on being drawn by it, see ConversionResult::rasterized. Else there is
-    /// no OpenGL, and everything with triangles is traced.
+    /// What OpenGL draws better goes on being drawn by it, see ConversionResult::rasterized. Else
+    /// there is no OpenGL, and everything with triangles is traced.
     bool rasterizesRest = false;
     bool picks = false; ///< what rays hit is looked up: see ConversionResult::pickIndex
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as shown
@@ -103,8 +103,9 @@ public:
     /// itself.
     ConversionResult convert(const ConversionInput& input);
 
-    /// The last scene with these changes alone redone; the scene itself if they change nothing. Nothing: call
-    /// convert(). The graph has no other changes since the last call of either, which did not throw.
+    /// The last scene with these changes alone redone; the scene itself if they change nothing.
+    /// Nothing: call convert(). The graph has no other changes since the last call of either, which
+    /// did not throw.
     std::optional<ConversionResult> patch(const GraphChanges& changes);
 
     /// Meshes that were made from arrays, ever.

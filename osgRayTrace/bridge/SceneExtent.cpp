@@ -1,5 +1,6 @@
 // SceneExtent.cpp - how large a scene is, and its unit of length for float arithmetic. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// bridge.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/SceneExtent.h"
 
 #include "osgRayTrace/bridge/ArrayReader.h"
@@ -93,7 +94,8 @@ double LengthCounts::limit() const
     return std::ldexp(1.0, std::prev(beyond)->first + 1);
 }
 
-/// The tiny parts of a scene of ordinary size do not make it a tiny scene: they are too small to be seen.
+/// The tiny parts of a scene of ordinary size do not make it a tiny scene: they are too small to be
+/// seen.
 LengthCounts LengthCounts::ordinary() const
 {
     uint64_t all = 0, ordinary = 0;
@@ -120,8 +122,8 @@ double LengthCounts::unit() const
 
 bool LengthCounts::areOrdinary() const
 {
-    return _counts.empty() || (_counts.begin()->first >= kSmallestExtent &&
-                               _counts.rbegin()->first <= kLargestExtent);
+    return _counts.empty() ||
+           (_counts.begin()->first >= kSmallestExtent && _counts.rbegin()->first <= kLargestExtent);
 }
 
 bool isOrdinaryLength(double length)

@@ -1,4 +1,5 @@
-// SceneLights.h - the lights of a Scene, from those of the graph and from what shines. Layer: bridge.
+// SceneLights.h - the lights of a Scene, from those of the graph and from what shines. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 

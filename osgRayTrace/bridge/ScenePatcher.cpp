@@ -205,8 +205,7 @@ void ScenePatcher::takeMaterials()
             _scene->materials[index] = all[index];
             _scene->materials[index].changed = _now;
         }
-        _caches.textures.keepOnly(
-            _made.materials.usedTextures(_caches.textures.all().size()));
+        _caches.textures.keepOnly(_made.materials.usedTextures(_caches.textures.all().size()));
         _changed = true;
     }
     if (_scene->textures == _caches.textures.all()) return;
@@ -285,7 +284,8 @@ bool ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
     return true;
 }
 
-/// Whether no other use has this treatment: what it alone decides for all of the scene would change.
+/// Whether no other use has this treatment: what it alone decides for all of the scene would
+/// change.
 bool ScenePatcher::isLastOf(uint32_t treatment) const
 {
     for (const auto& [geometry, traced] : _made.index.geometries)

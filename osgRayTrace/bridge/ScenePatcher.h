@@ -1,4 +1,5 @@
-// ScenePatcher.h - a new Scene from the last one, with nothing redone but what has changed. Layer: bridge.
+// ScenePatcher.h - a new Scene from the last one, with nothing redone but what has changed. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,8 +14,8 @@
 namespace osgRayTrace::engine
 {
 
-/// For one patch. What it does to made and caches belongs to the scene that patch() returns; if that is none, to
-/// no scene: then the graph must be converted again.
+/// For one patch. What it does to made and caches belongs to the scene that patch() returns; if
+/// that is none, to no scene: then the graph must be converted again.
 class ScenePatcher
 {
 public:

@@ -212,7 +212,8 @@ void ScenePicker::placeOnSurface(const engine::Hit& found, double ratio, Hit& hi
     const UVec3& t = mesh.triangles[found.primitive];
     Vec3d normal = glm::cross(Vec3d(mesh.positions[t.y]) - Vec3d(mesh.positions[t.x]),
                               Vec3d(mesh.positions[t.z]) - Vec3d(mesh.positions[t.x]));
-    if (instance.placed) normal = glm::dmat3(normalMatrix(instance.engineFromLocal.linear)) * normal;
+    if (instance.placed)
+        normal = glm::dmat3(normalMatrix(instance.engineFromLocal.linear)) * normal;
     hit.ratio = ratio;
     hit.localIntersectionPoint = _localStart + (_localEnd - _localStart) * ratio;
     hit.localIntersectionNormal =

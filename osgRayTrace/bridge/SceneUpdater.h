@@ -33,7 +33,8 @@ struct SceneVersion
     std::shared_ptr<PhotonPasses> photons; ///< of all views
     osg::ref_ptr<const RayTraceSettings> settings;
     std::shared_ptr<const RasterizedParts> rasterized; ///< for OSG to draw; null: as scene
-    std::shared_ptr<const PickIndex> pickIndex; ///< null: nobody has picked since something came or went
+    std::shared_ptr<const PickIndex>
+        pickIndex;      ///< null: nobody has picked since something came or went
     bool paged = false; ///< see ConversionResult
 };
 
@@ -54,10 +55,10 @@ public:
     /// serve near things and far ones, see kOriginDistance. Draw threads.
     void noteDrawn(const ObjectName& camera, const osg::Vec3d& eye, double nearDistance);
 
-    /// Takes the settings over and redoes what changed of the graph, of the settings or of the noted
-    /// conditions; once for a frame number, unless the latter did. Null root: no
-    /// scene. Update and cull threads. Does not throw: a failure leaves the last version and is in
-    /// the statistics.
+    /// Takes the settings over and redoes what changed of the graph, of the settings or of the
+    /// noted conditions; once for a frame number, unless the latter did. Null root: no scene.
+    /// Update and cull threads. Does not throw: a failure leaves the last version and is in the
+    /// statistics.
     void update(osg::Node* root, const RayTraceSettings& settings,
                 const osg::FrameStamp* frameStamp);
 
@@ -69,8 +70,8 @@ public:
     /// thread.
     void setDirty();
 
-    /// The version as of the last frame with its pickIndex, which is made from now on; as of now if no view
-    /// was noted. start: of the ray, in the scene. Threads that may look at the graph.
+    /// The version as of the last frame with its pickIndex, which is made from now on; as of now if
+    /// no view was noted. start: of the ray, in the scene. Threads that may look at the graph.
     SceneVersion versionToPick(osg::Node* root, const RayTraceSettings& settings,
                                const osg::Vec3d& start);
 
@@ -109,11 +110,11 @@ private:
                       const ViewingConditions& conditions);
     ConversionResult convert(osg::Node& root, const ViewingConditions& conditions);
     void build(const ConversionResult& conversion);
-    void publish(std::shared_ptr<const TracedScene> scene,
-                 const ConversionResult& conversion, const Statistics& statistics);
+    void publish(std::shared_ptr<const TracedScene> scene, const ConversionResult& conversion,
+                 const Statistics& statistics);
     void fail(const char* message) noexcept;
 
-    HostArraysRelease _release; // after all that holds arrays
+    HostArraysRelease _release;     // after all that holds arrays
     mutable std::mutex _notedMutex; // cull and draw threads write, update reads
     Noted _noted;
 
@@ -126,7 +127,8 @@ private:
     std::mutex _updateMutex; // all below; one update or cull thread at a time
     SceneConverter _converter;
     Requests _asked; ///< and not yet heard: what comes before may throw
-    osg::ref_ptr<const RayTraceSettings> _settings; ///< as they were in the last update: the same copy until they change
+    osg::ref_ptr<const RayTraceSettings>
+        _settings; ///< as they were in the last update: the same copy until they change
     osg::ref_ptr<const RayTraceSettings> _settingsOf; ///< whose copy that is
     unsigned int _settingsCount = 0;                  ///< of its changes then
     std::shared_ptr<Workers> _workers;

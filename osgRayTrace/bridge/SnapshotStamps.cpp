@@ -82,8 +82,8 @@ std::shared_ptr<const Scene> stampChanges(std::shared_ptr<Scene> scene,
     unchanged &= stampParts(scene->lights, old.lights, now, sameValue);
     unchanged &= stampParts(scene->instances, old.instances, now, sameInstance);
     unchanged &= scene->meshes == old.meshes && scene->textures == old.textures;
-    unchanged &= scene->origin == old.origin && scene->unit == old.unit && scene->ambient == old.ambient &&
-                 scene->background == old.background &&
+    unchanged &= scene->origin == old.origin && scene->unit == old.unit &&
+                 scene->ambient == old.ambient && scene->background == old.background &&
                  scene->displayReferred == old.displayReferred;
     scene->changed = now;
     return unchanged ? previous : scene;

@@ -152,8 +152,7 @@ void addLight(Digest& digest, const osg::Light& light)
 void addTexGen(Digest& digest, const osg::TexGen& texGen)
 {
     digest.add(texGen.getMode());
-    for (const auto coordinate :
-         {osg::TexGen::S, osg::TexGen::T, osg::TexGen::R, osg::TexGen::Q})
+    for (const auto coordinate : {osg::TexGen::S, osg::TexGen::T, osg::TexGen::R, osg::TexGen::Q})
         for (int k = 0; k < 4; ++k)
             digest.add(texGen.getPlane(coordinate)[k]);
 }

@@ -1,5 +1,6 @@
 // StateFingerprint.h - the values of state sets and lights, as far as they are traced. Layer:
-// bridge. SPDX-License-Identifier: MIT
+// bridge.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/bridge/Digest.h"

@@ -81,8 +81,7 @@ std::optional<unsigned int> textureModeBit(osg::StateAttribute::GLMode mode, std
 {
     const std::optional<UnitBit> bit = unitBit(mode);
     if (!bit) return std::nullopt;
-    if (unit < kUnits)
-        return static_cast<unsigned int>(kTextureUnitBit + unit * kUnitBits + *bit);
+    if (unit < kUnits) return static_cast<unsigned int>(kTextureUnitBit + unit * kUnitBits + *bit);
     return static_cast<unsigned int>(
         std::min<std::size_t>(kHigherTextureBit + unit - kUnits, kModeBitEnd - 1));
 }

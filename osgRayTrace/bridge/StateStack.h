@@ -26,14 +26,15 @@ enum ModeBit : unsigned int
     kCullFaceBit,
     kFogBit,
     kPrimitiveRestartBit,
-    kFixedRestartBit,  ///< primitive restart at the largest index of the type
-    kClipPlaneBit,     ///< and the bits that follow: kClipPlanes of them
+    kFixedRestartBit, ///< primitive restart at the largest index of the type
+    kClipPlaneBit,    ///< and the bits that follow: kClipPlanes of them
     kClipPlaneBitEnd = kClipPlaneBit + kClipPlanes,
     kPolygonOffsetBit = kClipPlaneBitEnd,
     kStencilBit,
     kAssemblyProgramBit, ///< GL_VERTEX_PROGRAM_ARB or GL_FRAGMENT_PROGRAM_ARB
     kTextureUnitBit,     ///< of unit 0: see UnitBit; then those of unit 1
-    kHigherTextureBit = kTextureUnitBit + 10, ///< any texture target of units 2, 3, ...: up to bit 63
+    kHigherTextureBit =
+        kTextureUnitBit + 10, ///< any texture target of units 2, 3, ...: up to bit 63
     kModeBitEnd = 64,
 };
 
@@ -48,7 +49,7 @@ enum UnitBit : unsigned int
     kUnitBits,
 };
 
-constexpr unsigned int kUnits = 2; ///< that are followed
+constexpr unsigned int kUnits = 2;              ///< that are followed
 constexpr unsigned int kTextureCoordinates = 4; ///< S, T, R, Q
 static_assert(kTextureUnitBit + kUnits * kUnitBits == kHigherTextureBit, "bits of the units");
 
@@ -70,7 +71,7 @@ enum AttributeSlot : unsigned int
     kStencilSlot,
     kColorMaskSlot,
     kAssemblyProgramSlot, ///< osg::VertexProgram or osg::FragmentProgram: the last one met
-    kUnitSlot, ///< of unit 0: see UnitSlot; then those of unit 1
+    kUnitSlot,            ///< of unit 0: see UnitSlot; then those of unit 1
     kAttributeSlots = kUnitSlot + 8,
 };
 
@@ -100,9 +101,9 @@ struct GraphState
     uint64_t modesOn = 0;
     uint64_t modesOverride = 0;
     std::array<const osg::StateAttribute*, kAttributeSlots> attributes{};
-    uint32_t attributesOverride = 0; ///< bit: AttributeSlot
+    uint32_t attributesOverride = 0;              ///< bit: AttributeSlot
     std::shared_ptr<const LightModes> moreLights; ///< null: none were set
-    std::array<uint8_t, kUnits> generated{}; ///< bit n: coordinate n of the unit is generated
+    std::array<uint8_t, kUnits> generated{};      ///< bit n: coordinate n of the unit is generated
     std::array<uint8_t, kUnits> generatedOverride{};
 
     bool isOn(unsigned int modeBit) const { return (modesOn >> modeBit & 1u) != 0; }
@@ -137,8 +138,8 @@ public:
     void push(const osg::StateSet& stateSet);
     void pop() { _stack.pop_back(); }
 
-    /// Stencil and colour mask that were pushed up to now hold for all of the picture alike, traced or not:
-    /// from here on they are none.
+    /// Stencil and colour mask that were pushed up to now hold for all of the picture alike, traced
+    /// or not: from here on they are none.
     void forgetMasks();
 
     /// Number of the current state in states().

@@ -1,4 +1,5 @@
-// TextureConverter.cpp - texture targets, wrap and filter modes, and the cache of textures. Layer: bridge.
+// TextureConverter.cpp - texture targets, wrap and filter modes, and the cache of textures. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/TextureConverter.h"
 
@@ -45,8 +46,7 @@ Vec4 borderOf(const osg::Texture& texture)
     const osg::Vec4d& color = texture.getBorderColor();
     Vec4 border(0.0f);
     for (int c = 0; c < 4; ++c)
-        if (std::isfinite(color[c]))
-            border[c] = static_cast<float>(std::clamp(color[c], 0.0, 1.0));
+        if (std::isfinite(color[c])) border[c] = static_cast<float>(std::clamp(color[c], 0.0, 1.0));
     return border;
 }
 
@@ -213,8 +213,8 @@ uint32_t TextureConverter::index(const osg::Texture* texture, TextureContent con
     const bool color = content == TextureContent::Color;
     const bool decode = color && (_linear || isSrgb(*texture));
     Entry& entry = _entries[{texture, decode}];
-    const bool current = (entry.looked == _stamp && entry.texture.get() == texture) ||
-                         isCurrent(entry, *texture);
+    const bool current =
+        (entry.looked == _stamp && entry.texture.get() == texture) || isCurrent(entry, *texture);
     if (!current && !convert(entry, *texture, decode, report)) return kInvalid;
     entry.looked = _stamp;
     if (entry.index == kInvalid && !_gaps.empty())

@@ -25,8 +25,9 @@ enum class TextureContent
     Data,  ///< roughness and the like: never decoded
 };
 
-/// True if OpenGL has texels of it, or will have, and it has no image: a camera renders to it, or whoever fills
-/// it does so by OpenGL. Not so of a texture whose file is missing, which OpenGL does not show either.
+/// True if OpenGL has texels of it, or will have, and it has no image: a camera renders to it, or
+/// whoever fills it does so by OpenGL. Not so of a texture whose file is missing, which OpenGL does
+/// not show either.
 bool isOnlyInOpenGL(const osg::Texture& texture);
 
 /// Keeps converted textures between snapshots, as long as they are used and their images unchanged.
@@ -36,7 +37,8 @@ public:
     /// Begins a snapshot. stamp is that of textures converted now.
     void begin(bool linear, Stamp stamp);
 
-    /// Goes on with the last snapshot: indices stay, and what has changed is converted in its place.
+    /// Goes on with the last snapshot: indices stay, and what has changed is converted in its
+    /// place.
     void resume(Stamp stamp) { _stamp = stamp; }
 
     /// Index into all(); kInvalid if there is nothing to sample (no image on the CPU). A

@@ -30,8 +30,8 @@ struct SurfacePlacement
     const PlacedTexGens* texGens = nullptr; ///< null: none
 };
 
-/// True if a unit that is enabled has a texture that only OpenGL has; not so what textures has converted
-/// before its image was given up.
+/// True if a unit that is enabled has a texture that only OpenGL has; not so what textures has
+/// converted before its image was given up.
 bool looksIntoOpenGL(const GraphState& state, const TextureConverter& textures);
 
 /// True if a unit that is enabled has a texture combiner, which we have no counterpart of.

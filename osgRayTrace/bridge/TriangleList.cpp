@@ -102,7 +102,8 @@ const char* untracedMode(GLenum mode)
     }
 }
 
-/// Counts what osg::TemplatePrimitiveFunctor calls: a quad is one primitive, as is each triangle of a fan.
+/// Counts what osg::TemplatePrimitiveFunctor calls: a quad is one primitive, as is each triangle of
+/// a fan.
 class PrimitiveCounter : public osg::PrimitiveIndexFunctor
 {
 public:
@@ -236,7 +237,8 @@ private:
         if (elements->empty()) return true;
         const auto* index = &elements->front();
         using Index = typename Elements::value_type;
-        const uint32_t end = _restart.atLargest ? std::numeric_limits<Index>::max() : _restart.index;
+        const uint32_t end =
+            _restart.atLargest ? std::numeric_limits<Index>::max() : _restart.index;
         const std::size_t size = elements->size();
         for (std::size_t first = 0; first <= size;)
         {
@@ -251,8 +253,7 @@ private:
         return true;
     }
 
-    template <class Index>
-    void appendPrimitives(GLenum mode, std::size_t count, const Index& index)
+    template <class Index> void appendPrimitives(GLenum mode, std::size_t count, const Index& index)
     {
         grow(triangleCount(mode, count));
         if (mode != GL_POLYGON || !appendConcave(count, index))
@@ -308,7 +309,7 @@ private:
     std::size_t _vertexCount;
     const PrimitiveRestart& _restart;
     const bool _numbered;
-    uint32_t _primitives = 0; // so far
+    uint32_t _primitives = 0;      // so far
     std::vector<Vec3d> _positions; // if there are polygons
 };
 

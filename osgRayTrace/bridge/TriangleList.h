@@ -37,7 +37,8 @@ struct TriangleList
     std::vector<UVec3> triangles;     ///< filled if source is null
     std::vector<std::size_t> setEnds; ///< one a primitive set: end of its triangles
     ConversionCounts counts;          ///< primitive sets without triangles, and dropped triangles
-    /// Of each triangle the primitive it is of, numbered as osgUtil's intersectors do; if asked for.
+    /// Of each triangle the primitive it is of, numbered as osgUtil's intersectors do; if asked
+    /// for.
     std::vector<uint32_t> primitives;
 
     const UVec3* data() const;
@@ -45,9 +46,9 @@ struct TriangleList
 };
 
 /// Triangles, strips, fans, quads, quad strips and polygons of DrawArrays, MultiDrawArrays,
-/// DrawArrayLengths and DrawElements. Sets of other kinds are counted. Concave polygons are cut into
-/// triangles; OpenGL leaves open what it does with them, and draws fans. numbered: with the numbers of
-/// primitives, and then source is not set.
+/// DrawArrayLengths and DrawElements. Sets of other kinds are counted. Concave polygons are cut
+/// into triangles; OpenGL leaves open what it does with them, and draws fans. numbered: with the
+/// numbers of primitives, and then source is not set.
 TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount,
                          const PrimitiveRestart& restart, bool numbered = false);
 

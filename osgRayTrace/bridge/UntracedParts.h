@@ -26,8 +26,8 @@ const char* untracedLeaf(const osg::Node& node);
 /// Why the content of a camera in the graph is not a part of the scene around it; null: it is.
 const char* untracedCamera(const osg::Camera& camera);
 
-/// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced. textures: what
-/// was converted before. poses: a program that only does what was done in software.
+/// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced.
+/// textures: what was converted before. poses: a program that only does what was done in software.
 const char* rasterizedState(const GraphState& state, const TextureConverter& textures,
                             const osg::StateAttribute* poses);
 

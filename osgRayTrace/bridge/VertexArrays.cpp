@@ -307,7 +307,8 @@ SharedArray<Vec4> VertexReader::colors(const osg::Array* array, ConversionCounts
     forEachRow(*array, rowsOfBinding(*array, IntegerMeaning::Normalized),
                [&](std::size_t i, const Vec4d& row)
                {
-                   if (!isWithin(Vec3d(row), kLargestCoordinate) || !(std::fabs(row.w) <= kLargestCoordinate))
+                   if (!isWithin(Vec3d(row), kLargestCoordinate) ||
+                       !(std::fabs(row.w) <= kLargestCoordinate))
                        return;
                    Vec4 color(row);
                    for (int c = 0; c < 3 && _request.decodeColors; ++c)

@@ -32,28 +32,30 @@ struct PassIdentity
 /// A view is a camera, a context and an eye, and the viewport where one pass draws several. The eye
 /// is the place of the render stage among those that draw for the camera in this frame: neither
 /// matrices nor traversal masks nor cull visitors tell eyes apart in all of OSG's and its
-/// frameworks' stereo modes. If one of them does not draw in a frame, a view at rest is known by its
-/// matrices. What draws the scene several times in one pass has a view for each time. A view whose
-/// viewport changes (a window is resized) keeps its state.
+/// frameworks' stereo modes. If one of them does not draw in a frame, a view at rest is known by
+/// its matrices. What draws the scene several times in one pass has a view for each time. A view
+/// whose viewport changes (a window is resized) keeps its state.
 ///
 /// Passes of a frame that differ in nothing but their depths, DepthSlices, share one state.
 ///
 /// What was not drawn for kExpiry rounds is forgotten; a round ends when some view draws for the
-/// second time. Of what drew once and no more only the last kMostSingles are kept: who makes a camera for
-/// each picture never ends a round.
+/// second time. Of what drew once and no more only the last kMostSingles are kept: who makes a
+/// camera for each picture never ends a round.
 ///
 /// Thread safe; the states are shared, and may outlive their entry while a draw thread uses them.
 template <class State> class ViewRegistry
 {
 public:
     static constexpr uint64_t kExpiry = 120; ///< rounds
-    static constexpr std::size_t kMostTimes = 8; ///< that a pass draws the scene, each a view of its own
+    static constexpr std::size_t kMostTimes =
+        8; ///< that a pass draws the scene, each a view of its own
     static constexpr std::size_t kMostSingles = 32; ///< of a context that drew once
 
     struct Pass
     {
         std::shared_ptr<State> state;
-        bool shared = false; ///< another slice of this frame has drawn: its picture is this one's, too
+        bool shared =
+            false; ///< another slice of this frame has drawn: its picture is this one's, too
         std::vector<View> slices; ///< of this frame or the last; one: there are no others
     };
 
@@ -109,8 +111,9 @@ public:
     {
         std::vector<Entry> gone; // destroyed without the lock
         std::lock_guard<std::mutex> lock(_mutex);
-        const auto others = std::partition(_entries.begin(), _entries.end(), [&](const Entry& entry)
-                                           { return entry.pass.contextId != contextId; });
+        const auto others =
+            std::partition(_entries.begin(), _entries.end(),
+                           [&](const Entry& entry) { return entry.pass.contextId != contextId; });
         std::move(others, _entries.end(), std::back_inserter(gone));
         _entries.erase(others, _entries.end());
         const auto ofFrame = [&](const CameraFrame& f) { return f.pass.contextId == contextId; };
@@ -194,8 +197,8 @@ private:
         return nullptr;
     }
 
-    /// All slices of the picture that are known: of this frame, those that are noted, and if these are
-    /// not all, as cull may come after draw, those of the last frame.
+    /// All slices of the picture that are known: of this frame, those that are noted, and if these
+    /// are not all, as cull may come after draw, those of the last frame.
     std::vector<View> allSlices(const Entry& entry, const PassIdentity& pass) const
     {
         std::vector<View> slices = {pass.view};
@@ -209,7 +212,8 @@ private:
         for (const View& slice : entry.slices)
             add(slice);
         for (const PassIdentity& noted : _noted)
-            if (noted.frameNumber == pass.frameNumber && noted.contextId == pass.contextId) add(noted.view);
+            if (noted.frameNumber == pass.frameNumber && noted.contextId == pass.contextId)
+                add(noted.view);
         if (entry.lastSlices.size() <= slices.size()) return slices;
         for (const View& last : entry.lastSlices)
             add(withDepthOf(pass.view, last)); // the picture may have moved since
@@ -218,7 +222,8 @@ private:
 
     bool sameView(const Entry& entry, const PassIdentity& pass, std::size_t eye) const
     {
-        return sameCamera(entry.pass, pass) && entry.eye == eye && entry.pass.viewport == pass.viewport;
+        return sameCamera(entry.pass, pass) && entry.eye == eye &&
+               entry.pass.viewport == pass.viewport;
     }
 
     /// How often the view has drawn the scene in this frame, each time from elsewhere.
@@ -230,8 +235,8 @@ private:
         return std::min(times, kMostTimes - 1);
     }
 
-    /// The view itself; one of the camera's at rest whose eye is not the same for this frame; or one of
-    /// the same eye that did not draw in this frame, whose viewport changed.
+    /// The view itself; one of the camera's at rest whose eye is not the same for this frame; or
+    /// one of the same eye that did not draw in this frame, whose viewport changed.
     Entry* find(const PassIdentity& pass, std::size_t eye)
     {
         const std::size_t time = timesDrawn(pass, eye);
@@ -243,15 +248,18 @@ private:
             if (sameView(entry, pass, eye) && resting && sameFrame(entry.pass, pass)) return &entry;
             if (sameView(entry, pass, eye) && entry.time == time) itself = &entry;
             if (sameFrame(entry.pass, pass)) continue;
-            if (entry.pass.viewport == pass.viewport && resting && pass.frameNumber) atRest = &entry;
-            if (entry.eye == eye && entry.time == time && entry.pass.frameNumber != pass.frameNumber)
+            if (entry.pass.viewport == pass.viewport && resting && pass.frameNumber)
+                atRest = &entry;
+            if (entry.eye == eye && entry.time == time &&
+                entry.pass.frameNumber != pass.frameNumber)
                 moved = &entry;
         }
         if (itself && (!atRest || sameRays(itself->pass.view, pass.view))) return itself;
         return atRest ? atRest : moved;
     }
 
-    /// Before a new view is made: of those of its context that drew once the last kMostSingles - 1 stay.
+    /// Before a new view is made: of those of its context that drew once the last kMostSingles - 1
+    /// stay.
     void forgetSingles(const PassIdentity& pass)
     {
         const auto single = [&](const Entry& entry)
@@ -261,7 +269,8 @@ private:
         const auto oldest = std::find_if(_entries.begin(), _entries.end(), single);
         const PassIdentity gone = oldest->pass;
         _entries.erase(oldest);
-        const auto itsFrame = [&](const CameraFrame& frame) { return sameCamera(frame.pass, gone); };
+        const auto itsFrame = [&](const CameraFrame& frame)
+        { return sameCamera(frame.pass, gone); };
         const auto its = [&](const Entry& entry) { return sameCamera(entry.pass, gone); };
         if (std::none_of(_entries.begin(), _entries.end(), its) && !sameCamera(gone, pass))
             _frames.erase(std::remove_if(_frames.begin(), _frames.end(), itsFrame), _frames.end());

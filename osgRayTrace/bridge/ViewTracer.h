@@ -31,7 +31,8 @@ struct FrameBudget
     /// Reduced images are upsampled along edges, to the largest size for which that takes no more
     /// than this of the seconds; OpenGL enlarges the rest of the way.
     double upsampleShare = 0.15;
-    /// If not null, it says what the view traces, as all views do, and the seconds are for all of them.
+    /// If not null, it says what the view traces, as all views do, and the seconds are for all of
+    /// them.
     std::shared_ptr<FrameAgreement> agreement = nullptr;
     uint64_t frameNumber = 0; ///< for the agreement; see AgreedFrame
     bool again = false;
@@ -217,8 +218,8 @@ private:
     std::shared_ptr<FrameAgreement> _agreement; ///< of this frame; null: none
     std::shared_ptr<FrameAgreement::Member> _member;
     TracedPart _part; ///< of this frame
-    /// What the image at rest shall have of full resolution, in parts of a pass; none before the view has
-    /// moved under the agreement.
+    /// What the image at rest shall have of full resolution, in parts of a pass; none before the
+    /// view has moved under the agreement.
     std::optional<int64_t> _agreedProgress;
 
     // What the display holds

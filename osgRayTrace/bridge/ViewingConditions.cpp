@@ -47,9 +47,9 @@ PositionedLight firstLight(osgUtil::RenderStage& stage)
     return found;
 }
 
-/// A state set of no node is SceneView's own, to which its draw adds a colour mask while the next update
-/// reads: copied in cull, before that draw. Those of nodes stay themselves, so that the next update sees
-/// what the application changes in them.
+/// A state set of no node is SceneView's own, to which its draw adds a colour mask while the next
+/// update reads: copied in cull, before that draw. Those of nodes stay themselves, so that the next
+/// update sees what the application changes in them.
 osg::ref_ptr<const osg::StateSet> unchanging(const osg::StateSet& stateSet)
 {
     if (stateSet.getNumParents() > 0) return &stateSet;
@@ -76,7 +76,8 @@ osg::Vec3d xyz(const osg::Vec4& v)
     return {v.x(), v.y(), v.z()};
 }
 
-/// Positions went through the eye space of their pass, and so were rounded as the eye's distance is.
+/// Positions went through the eye space of their pass, and so were rounded as the eye's distance
+/// is.
 bool sameLight(const osg::Light* a, const osg::Light* b, const osg::Vec3d& eye)
 {
     if (!a || !b) return a == b;

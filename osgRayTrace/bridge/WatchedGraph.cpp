@@ -67,13 +67,14 @@ void WatchedGraph::setState(uint32_t& state, const osg::StateSet* stateSet)
 
 void WatchedGraph::setBuffers(uint32_t index)
 {
-    forEachBuffer(*geometries[index].geometry,
-                  [this, index](const osg::BufferData* data, bool shape)
-                  {
-                      if (!data) return;
-                      const BufferKind kind = bufferKindOf(*data);
-                      buffers.push_back({keep(data), bufferPrint(kind, *data), index, kind, shape, {}});
-                  });
+    forEachBuffer(
+        *geometries[index].geometry,
+        [this, index](const osg::BufferData* data, bool shape)
+        {
+            if (!data) return;
+            const BufferKind kind = bufferKindOf(*data);
+            buffers.push_back({keep(data), bufferPrint(kind, *data), index, kind, shape, {}});
+        });
 }
 
 /// Some may be gone by now.
@@ -83,8 +84,8 @@ void WatchedGraph::resetBuffers(const std::vector<uint32_t>& exchanged)
     std::vector<bool> isExchanged(geometries.size());
     for (const uint32_t index : exchanged)
         isExchanged[index] = geometries[index].geometry != nullptr;
-    buffers.erase(std::remove_if(buffers.begin(), buffers.end(), [&](const WatchedBuffer& b)
-                                 { return isExchanged[b.geometry]; }),
+    buffers.erase(std::remove_if(buffers.begin(), buffers.end(),
+                                 [&](const WatchedBuffer& b) { return isExchanged[b.geometry]; }),
                   buffers.end());
     for (uint32_t index = 0; index < geometries.size(); ++index)
         if (isExchanged[index]) setBuffers(index);
@@ -261,7 +262,8 @@ std::vector<Kept<osg::Node>> WatchedGraph::erase(uint32_t at)
         ++_gonePlaces;
     }
     if (_freeGeometries.size() > freeGeometries)
-        buffers.erase(std::remove_if(buffers.begin(), buffers.end(), [this](const WatchedBuffer& b)
+        buffers.erase(std::remove_if(buffers.begin(), buffers.end(),
+                                     [this](const WatchedBuffer& b)
                                      { return !geometries[b.geometry].geometry; }),
                       buffers.end());
     for (uint32_t outer = nodes[at].parent; outer != kNowhere; outer = nodes[outer].parent)
@@ -316,8 +318,9 @@ void WatchedGraph::dropGonePlaces()
 
 bool WatchedGraph::isRepeated(const osg::Node& node) const
 {
-    return repeats > 0 && std::count_if(nodes.begin(), nodes.end(), [&node](const WatchedNode& n)
-                                        { return n.node == &node; }) > 1;
+    return repeats > 0 &&
+           std::count_if(nodes.begin(), nodes.end(),
+                         [&node](const WatchedNode& n) { return n.node == &node; }) > 1;
 }
 
 bool WatchedGraph::isRepeatedElsewhere(uint32_t at) const
@@ -328,7 +331,8 @@ bool WatchedGraph::isRepeatedElsewhere(uint32_t at) const
     for (uint32_t i = at; i < end; ++i)
         if (nodes[i].kind != NodeKind::Geometry) inside[nodes[i].node] = true;
     for (uint32_t i = 0; i < nodes.size(); ++i)
-        if ((i < at || i >= end) && nodes[i].kind != NodeKind::Geometry && inside.count(nodes[i].node))
+        if ((i < at || i >= end) && nodes[i].kind != NodeKind::Geometry &&
+            inside.count(nodes[i].node))
             return true;
     return false;
 }

@@ -75,7 +75,7 @@ struct WatchedBuffer
     uint64_t print = 0;
     uint32_t geometry = 0;
     BufferKind kind = BufferKind::Other;
-    bool shape = false; ///< positions, normals or primitives
+    bool shape = false;      ///< positions, normals or primitives
     BufferContents contents; ///< as of the last change of the print
 };
 
@@ -110,8 +110,8 @@ struct WatchedOpaque
     WatchedOpaque& operator=(WatchedOpaque&&) = default;
 
     osg::Matrixd sceneFromLocal;
-    KeptObjects kept; ///< of its print
-    std::size_t budget = 0; ///< for its print
+    KeptObjects kept;                         ///< of its print
+    std::size_t budget = 0;                   ///< for its print
     std::optional<uint64_t> contents;         ///< its print by versions, as of the last change
     std::unique_ptr<BufferVersions> versions; ///< null: it has not changed
 };
@@ -134,7 +134,7 @@ struct WatchedGraph
     const osg::Node* owner = nullptr; ///< the decorator, if any: it owns what watches it
     std::size_t repeats = 0;          ///< nodes with repeated set
     unsigned int traversalMask = 0xffffffffu;
-    bool truncated = false; ///< there are more than kMostWatched
+    bool truncated = false;     ///< there are more than kMostWatched
     std::size_t firstDepth = 1; ///< nodes on the path to the first one, with it
 
     bool isVisible(const osg::Node& node) const

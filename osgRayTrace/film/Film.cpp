@@ -42,7 +42,10 @@ void scaled(const float* __restrict sums, float scale, float* __restrict out)
         out[i] = sums[i] * scale;
 }
 
-float* floatsOf(TileRgba& values) { return values[0].r.v; }
+float* floatsOf(TileRgba& values)
+{
+    return values[0].r.v;
+}
 
 /// Of one channel of a tile.
 struct HalfSums
@@ -51,11 +54,11 @@ struct HalfSums
     double first = 0.0, second = 0.0;
 };
 
-/// Lane by lane, so that the loop needs no order of its additions; in double, where squares of bright
-/// values have room.
+/// Lane by lane, so that the loop needs no order of its additions; in double, where squares of
+/// bright values have room.
 OSGRAYTRACE_KERNEL
-void sumLanes(const float* __restrict first, const float* __restrict second, double* __restrict squares,
-              double* __restrict firsts, double* __restrict seconds)
+void sumLanes(const float* __restrict first, const float* __restrict second,
+              double* __restrict squares, double* __restrict firsts, double* __restrict seconds)
 {
     for (int b = 0; b < kTileBlocks; ++b)
     {
@@ -113,7 +116,8 @@ void Film::reset(int width, int height)
         const auto tiles = static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY);
         try
         {
-            // Values are written before they are read, tile by tile: by the first pass of each half.
+            // Values are written before they are read, tile by tile: by the first pass of each
+            // half.
             _sums = UnclearedArray<RgbaLanes>(tiles * 2 * kTileBlocks);
             _depth = UnclearedArray<float>(tiles * kTilePixels);
             _passes.assign(tiles, 0);
@@ -138,10 +142,15 @@ int Film::passes() const
 
 float* Film::sums(int tile, int half)
 {
-    return _sums[(static_cast<std::size_t>(tile) * 2 + static_cast<std::size_t>(half)) * kTileBlocks].r.v;
+    return _sums[(static_cast<std::size_t>(tile) * 2 + static_cast<std::size_t>(half)) *
+                 kTileBlocks]
+        .r.v;
 }
 
-const float* Film::sums(int tile, int half) const { return const_cast<Film*>(this)->sums(tile, half); }
+const float* Film::sums(int tile, int half) const
+{
+    return const_cast<Film*>(this)->sums(tile, half);
+}
 
 void Film::beginPass()
 {
@@ -237,9 +246,10 @@ float Film::errorScale(int tile) const
     const int passes = tilePasses(tile);
     if (passes < 2) return 0.0f;
     if (passes % 2 == 0) return 0.5f;
-    // One half has n passes and a mean of variance V, the other one pass more, of variance s^2 alone.
-    // V is s^2 / n of independent passes and up to s^2 / n^2 of points that fill the square evenly,
-    // whose mean a last one makes worse: s^2 / n^1.5 is taken, about 3 % of variance from either.
+    // One half has n passes and a mean of variance V, the other one pass more, of variance s^2
+    // alone. V is s^2 / n of independent passes and up to s^2 / n^2 of points that fill the square
+    // evenly, whose mean a last one makes worse: s^2 / n^1.5 is taken, about 3 % of variance from
+    // either.
     const double n = passes / 2, last = n * std::sqrt(n); // s^2 / V
     const double variance = (2.0 * n * n + last) / ((2.0 * n + 1.0) * (2.0 * n + 1.0));
     const double difference = (n * n + last) / ((n + 1.0) * (n + 1.0)) + 1.0;

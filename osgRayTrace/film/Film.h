@@ -12,17 +12,26 @@
 namespace osgRayTrace::engine
 {
 
-constexpr int kTileSize = 16;                       ///< pixels a side
+constexpr int kTileSize = 16; ///< pixels a side
 constexpr int kTilePixels = kTileSize * kTileSize;
-constexpr int kBlockSize = 4;                       ///< a block of lanes is 4 x 4 pixels
+constexpr int kBlockSize = 4; ///< a block of lanes is 4 x 4 pixels
 constexpr int kTileBlocks = kTilePixels / kLanes;
 
 /// Of an image's side.
-inline int tilesAlong(int pixels) { return (pixels + kTileSize - 1) / kTileSize; }
+inline int tilesAlong(int pixels)
+{
+    return (pixels + kTileSize - 1) / kTileSize;
+}
 
 /// Position of a lane of a block within its tile, in pixels.
-OSGRAYTRACE_INLINE int laneX(int block, int lane) { return (block & 3) * kBlockSize + (lane & 3); }
-OSGRAYTRACE_INLINE int laneY(int block, int lane) { return (block >> 2) * kBlockSize + (lane >> 2); }
+OSGRAYTRACE_INLINE int laneX(int block, int lane)
+{
+    return (block & 3) * kBlockSize + (lane & 3);
+}
+OSGRAYTRACE_INLINE int laneY(int block, int lane)
+{
+    return (block >> 2) * kBlockSize + (lane >> 2);
+}
 
 /// RGBA of the pixels of a block.
 struct RgbaLanes
@@ -61,17 +70,21 @@ public:
     /// Before the tiles of a pass, alone.
     void beginPass();
 
-    /// Where the next pass of a tile can be written without a copy, kTileBlocks blocks; null if its half
-    /// has passes already: then addPass. Completed by finishPass.
+    /// Where the next pass of a tile can be written without a copy, kTileBlocks blocks; null if its
+    /// half has passes already: then addPass. Completed by finishPass.
     RgbaLanes* firstPassStorage(int tile);
     void finishPass(int tile);
 
     /// Adds the next pass of a tile.
     void addPass(int tile, const RgbaLanes* values);
 
-    /// Window depth of the tile's pixels, lanes of block b at b*kLanes. Written with its first pass.
+    /// Window depth of the tile's pixels, lanes of block b at b*kLanes. Written with its first
+    /// pass.
     float* depth(int tile) { return &_depth[static_cast<std::size_t>(tile) * kTilePixels]; }
-    const float* depth(int tile) const { return &_depth[static_cast<std::size_t>(tile) * kTilePixels]; }
+    const float* depth(int tile) const
+    {
+        return &_depth[static_cast<std::size_t>(tile) * kTilePixels];
+    }
 
     /// Mean radiance of a tile's passes; transparent black before the first.
     void mean(int tile, TileRgba& values) const;
@@ -79,15 +92,17 @@ public:
     /// Means of the two halves; needs two passes.
     void halfMeans(int tile, TileRgba& first, TileRgba& second) const;
 
-    /// Factor of |a - b| that makes it the standard error of the mean of all passes, a and b the halves'
-    /// means: 1/2, and about that for an odd number of passes, as the halves then differ in size. 0 below two.
+    /// Factor of |a - b| that makes it the standard error of the mean of all passes, a and b the
+    /// halves' means: 1/2, and about that for an odd number of passes, as the halves then differ in
+    /// size. 0 below two.
     float errorScale(int tile) const;
 
-    /// Estimate of the sum over the tile's pixels and RGB of (x - r)^2 / (R^2 + 0.01), and the number of terms;
-    /// x is this image, r the converged one, R the mean of r over the pixels of the tile, channel by channel.
-    /// Needs two passes. R is not known but taken from x; the tile has so many samples that this matters only
-    /// where errors are greater than what is seen: a pixel's own r, or that of a block of 4 x 4, would be
-    /// as noisy as the error at a light's edge, and hide most of it.
+    /// Estimate of the sum over the tile's pixels and RGB of (x - r)^2 / (R^2 + 0.01), and the
+    /// number of terms; x is this image, r the converged one, R the mean of r over the pixels of
+    /// the tile, channel by channel. Needs two passes. R is not known but taken from x; the tile
+    /// has so many samples that this matters only where errors are greater than what is seen: a
+    /// pixel's own r, or that of a block of 4 x 4, would be as noisy as the error at a light's
+    /// edge, and hide most of it.
     struct ErrorSum
     {
         double sum = 0.0;
@@ -108,9 +123,9 @@ private:
     int _tilesX = 0;
     int _tilesY = 0;
     UnclearedArray<RgbaLanes> _sums; ///< tile, half, block
-    std::vector<double> _totals;   ///< the same; empty until a half has kFoldPasses
-    UnclearedArray<float> _depth;  ///< tile, block, lane
-    std::vector<int> _passes;      ///< a tile
+    std::vector<double> _totals;     ///< the same; empty until a half has kFoldPasses
+    UnclearedArray<float> _depth;    ///< tile, block, lane
+    std::vector<int> _passes;        ///< a tile
 };
 
 } // namespace osgRayTrace::engine

@@ -20,8 +20,7 @@ OSGRAYTRACE_INLINE float exp2Lanes(float x)
     const float whole = static_cast<float>(static_cast<int>(x + (x < 0.0f ? -0.5f : 0.5f)));
     const float f = x - whole;
     const float series =
-        1.0f +
-        f * (0.693121045f + f * (0.240223490f + f * (0.0559219758f + f * 0.00966636852f)));
+        1.0f + f * (0.693121045f + f * (0.240223490f + f * (0.0559219758f + f * 0.00966636852f)));
     const int exponent = (static_cast<int>(whole) + 127) * (1 << 23);
     float scale;
     std::memcpy(&scale, &exponent, sizeof(scale));
@@ -49,7 +48,8 @@ OSGRAYTRACE_INLINE float log2Lanes(float x)
 /// sRGB encoding of a value in [0,1].
 OSGRAYTRACE_INLINE float encodeLanes(float x)
 {
-    const float power = 1.055f * exp2Lanes(log2Lanes(x < 1e-4f ? 1e-4f : x) * (1.0f / 2.4f)) - 0.055f;
+    const float power =
+        1.055f * exp2Lanes(log2Lanes(x < 1e-4f ? 1e-4f : x) * (1.0f / 2.4f)) - 0.055f;
     return select(x <= 0.0031308f, 12.92f * x, power);
 }
 
@@ -132,7 +132,8 @@ template <class Write> void forEachPixel(const Film& film, int tile, const Write
             static_cast<std::size_t>(bottom + y) * static_cast<std::size_t>(film.width()) +
             static_cast<std::size_t>(left);
         for (int x = 0; x < columns; ++x)
-            write(row + static_cast<std::size_t>(x), (y >> 2) * 4 + (x >> 2), (y & 3) * 4 + (x & 3));
+            write(row + static_cast<std::size_t>(x), (y >> 2) * 4 + (x >> 2),
+                  (y & 3) * 4 + (x & 3));
     }
 }
 
@@ -147,7 +148,8 @@ template <class T> void copyRows(const Film& film, int tile, const T* lanes, T* 
 {
     if (!isWhole(film, tile))
     {
-        forEachPixel(film, tile, [&](std::size_t pixel, int block, int lane)
+        forEachPixel(film, tile,
+                     [&](std::size_t pixel, int block, int lane)
                      { image[pixel] = lanes[block * kLanes + lane]; });
         return;
     }
@@ -190,7 +192,8 @@ void resolveTileRadiance(const Film& film, int tile, bool displayReferred, float
                  });
 }
 
-void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint8_t* image, float* depth)
+void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint8_t* image,
+                        float* depth)
 {
     TileRgba values;
     UintLanes packed[kTileBlocks];
@@ -234,8 +237,8 @@ void displayPixels(const float* rgba, std::size_t count, float exposureEv, uint8
         for (std::size_t b = 0; b < whole; ++b)
             splitPixels(rgba + 4 * (first + b * kLanes), kLanes, values[b]);
         if (whole < kTileBlocks)
-            splitPixels(rgba + 4 * (first + whole * kLanes), static_cast<int>(pixels - whole * kLanes),
-                        values[whole]);
+            splitPixels(rgba + 4 * (first + whole * kLanes),
+                        static_cast<int>(pixels - whole * kLanes), values[whole]);
         packEncoded(values, std::exp2(exposureEv), packed);
         std::memcpy(image + 4 * first, packed, 4 * pixels);
     }

@@ -16,7 +16,8 @@ void resolveTileRadiance(const Film& film, int tile, bool displayReferred, float
 void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint8_t* image,
                         float* depth);
 
-/// Display values of linear pixels, premultiplied RGBA, 4 floats each: as resolveTileDisplay makes them.
+/// Display values of linear pixels, premultiplied RGBA, 4 floats each: as resolveTileDisplay makes
+/// them.
 void displayPixels(const float* rgba, std::size_t count, float exposureEv, uint8_t* image);
 
 /// Window depths of the first pass, 1 float a pixel; 1 where there is none.

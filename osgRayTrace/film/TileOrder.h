@@ -9,8 +9,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Its multiples modulo count are all numbers below count, once each, and successive ones lie far apart: the
-/// golden section of count, or the next below it that shares no factor with it.
+/// Its multiples modulo count are all numbers below count, once each, and successive ones lie far
+/// apart: the golden section of count, or the next below it that shares no factor with it.
 inline std::size_t evenStride(std::size_t count)
 {
     auto stride = static_cast<std::size_t>(0.6180339887 * static_cast<double>(count));
@@ -19,8 +19,8 @@ inline std::size_t evenStride(std::size_t count)
     return std::max<std::size_t>(stride, 1);
 }
 
-/// All tiles of an image, square groups of them one after the other and these spread over the image: the
-/// larger they are, the more of the few tiles that a call makes lie together.
+/// All tiles of an image, square groups of them one after the other and these spread over the
+/// image: the larger they are, the more of the few tiles that a call makes lie together.
 class TileOrder
 {
 public:

@@ -5,9 +5,10 @@
 namespace osgRayTrace::engine
 {
 
-/// Display value = encode(2^exposureEv * linear), clamped to [0,1]; encode is sRGB's transfer function
-/// [IEC61966]. A display-referred image is decoded to linear first, so exposure 0 shows it unchanged.
-/// Colours that are multiplied with alpha are divided by it first and multiplied again last.
+/// Display value = encode(2^exposureEv * linear), clamped to [0,1]; encode is sRGB's transfer
+/// function [IEC61966]. A display-referred image is decoded to linear first, so exposure 0 shows it
+/// unchanged. Colours that are multiplied with alpha are divided by it first and multiplied again
+/// last.
 struct ToneMap
 {
     float exposureEv = 0.0f;

@@ -1,5 +1,6 @@
 // BsdfGather.cpp - what surfaces of any kind make of the photons around sixteen points. Layer:
-// integrators. SPDX-License-Identifier: MIT
+// integrators.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/HitShading.h"
 #include "osgRayTrace/integrators/PhotonGather.h"
 #include "osgRayTrace/shading/BsdfLanes.h"

@@ -12,8 +12,8 @@ namespace
 {
 
 OSGRAYTRACE_KERNEL
-void pixelPoints(const PassKey& key, int left, int bottom, bool centres, FloatLanes& x, FloatLanes& y,
-                 UintLanes& seeds)
+void pixelPoints(const PassKey& key, int left, int bottom, bool centres, FloatLanes& x,
+                 FloatLanes& y, UintLanes& seeds)
 {
     const PassKey k = key;
     OSGRAYTRACE_SIMD
@@ -86,9 +86,12 @@ void planeDistances(const CameraRays& camera, int left, int bottom, const Surfac
         const float oz = c.origin.z + x * c.originDx.z + y * c.originDy.z;
         const float nx = surface.geometricNormal.x[i], ny = surface.geometricNormal.y[i],
                     nz = surface.geometricNormal.z[i];
-        const float hx = surface.position.x[i], hy = surface.position.y[i], hz = surface.position.z[i];
-        const float s = (nx * (hx - ox) + ny * (hy - oy) + nz * (hz - oz)) / (nx * dx + ny * dy + nz * dz);
-        // Where the plane is seen edge-on the centre may miss it by far: then the sample's own depth.
+        const float hx = surface.position.x[i], hy = surface.position.y[i],
+                    hz = surface.position.z[i];
+        const float s =
+            (nx * (hx - ox) + ny * (hy - oy) + nz * (hz - oz)) / (nx * dx + ny * dy + nz * dz);
+        // Where the plane is seen edge-on the centre may miss it by far: then the sample's own
+        // depth.
         const float d2 = dx * dx + dy * dy + dz * dz;
         const float sHit = ((hx - ox) * dx + (hy - oy) * dy + (hz - oz) * dz) / d2;
         const bool usable = (s > 0.5f * sHit) & (s < 2.0f * sHit);
@@ -97,8 +100,8 @@ void planeDistances(const CameraRays& camera, int left, int bottom, const Surfac
 }
 
 OSGRAYTRACE_KERNEL
-void windowDepths(const CameraRays& camera, int left, int bottom, LaneMask hits, const FloatLanes& along,
-                  float* __restrict depth)
+void windowDepths(const CameraRays& camera, int left, int bottom, LaneMask hits,
+                  const FloatLanes& along, float* __restrict depth)
 {
     const CameraRays c = camera;
     const uint32_t parallel = maskOf(c.orthographic);
@@ -133,8 +136,8 @@ void centreRayLanes(const CameraRays& camera, int left, int bottom, int block, R
     raysThrough(camera, x, y, rays.ray);
 }
 
-void depthLanes(const CameraRays& camera, int left, int bottom, int block, const SurfaceLanes& surface,
-                FloatLanes& along, float* depth)
+void depthLanes(const CameraRays& camera, int left, int bottom, int block,
+                const SurfaceLanes& surface, FloatLanes& along, float* depth)
 {
     const int blockLeft = left + laneX(block, 0), blockBottom = bottom + laneY(block, 0);
     if (surface.lifted)

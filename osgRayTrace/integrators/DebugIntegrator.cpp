@@ -29,7 +29,8 @@ Vec3 albedo(const PassContext& context, const RayHitBlock& rays, const SurfaceLa
            emissionTowardsRay(context, rays, surface, i);
 }
 
-Vec3 uvColor(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface, int i)
+Vec3 uvColor(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
+             int i)
 {
     const SurfaceRecord& record = context.traced->surfaces()[surface.instance[i]];
     const Vec2 uv = interpolateUv(record, rays.primitive[i], rays.u[i], rays.v[i]);
@@ -41,13 +42,19 @@ Vec3 channelColor(const PassContext& context, const RayHitBlock& rays, const Sur
 {
     switch (context.options.debugChannel)
     {
-    case DebugChannel::Normal: return facingNormal(rays, surface, i) * 0.5f + 0.5f;
-    case DebugChannel::Uv: return uvColor(context, rays, surface, i);
-    case DebugChannel::Id: return idColor(surface.instance[i]);
-    case DebugChannel::Albedo: return albedo(context, rays, surface, i);
-    case DebugChannel::Depth: return Vec3(depth);
+    case DebugChannel::Normal:
+        return facingNormal(rays, surface, i) * 0.5f + 0.5f;
+    case DebugChannel::Uv:
+        return uvColor(context, rays, surface, i);
+    case DebugChannel::Id:
+        return idColor(surface.instance[i]);
+    case DebugChannel::Albedo:
+        return albedo(context, rays, surface, i);
+    case DebugChannel::Depth:
+        return Vec3(depth);
     case DebugChannel::Dropped:
-    case DebugChannel::Cost: break;
+    case DebugChannel::Cost:
+        break;
     }
     return Vec3(0.0f);
 }
@@ -57,7 +64,8 @@ void showDiagnostics(const PassContext& context, int left, int bottom, TileResul
 {
     constexpr float kFullCost = 64.0f;
     PassContext inner = context;
-    inner.options.integrator = chooseIntegrator(IntegratorKind::Automatic, context.traced->traits());
+    inner.options.integrator =
+        chooseIntegrator(IntegratorKind::Automatic, context.traced->traits());
     TileDiagnostics diagnostics;
     result.diagnostics = &diagnostics;
     newIntegrator(inner.options.integrator)->renderTile(inner, left, bottom, result);
@@ -91,7 +99,8 @@ void DebugIntegrator::renderTile(const PassContext& context, int left, int botto
         FloatLanes along;
         alignas(64) float depth[kLanes];
         cameraRayLanes(context.camera, context.key, left, bottom, b, false, rays, seeds);
-        context.traced->intersector().closestHits(rays, kAllLanes, Coherence::Coherent, kCameraRays);
+        context.traced->intersector().closestHits(rays, kAllLanes, Coherence::Coherent,
+                                                  kCameraRays);
         result.counts.cameraRays += kLanes;
         surfacesOf(context.traced->surfaces(), rays, kAllLanes, surface);
         depthLanes(context.camera, left, bottom, b, surface, along, depth);

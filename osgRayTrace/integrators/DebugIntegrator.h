@@ -8,12 +8,13 @@ namespace osgRayTrace::engine
 {
 
 /// The debug channel as colours: normals as (n + 1)/2, texture coordinates modulo 1, ids as hashed
-/// colours, albedo, window depth; dropped samples as white pixels and cost as rays / 64, both of the
-/// integrator that AUTOMATIC chooses.
+/// colours, albedo, window depth; dropped samples as white pixels and cost as rays / 64, both of
+/// the integrator that AUTOMATIC chooses.
 class DebugIntegrator : public Integrator
 {
 public:
-    void renderTile(const PassContext& context, int left, int bottom, TileResult& result) const override;
+    void renderTile(const PassContext& context, int left, int bottom,
+                    TileResult& result) const override;
 };
 
 } // namespace osgRayTrace::engine

@@ -34,9 +34,11 @@ Vec3 linearAlbedo(const Scene& scene, const Vec3& albedo)
     return Vec3(nearlyLinear(albedo.x), nearlyLinear(albedo.y), nearlyLinear(albedo.z));
 }
 
-Bsdf seenBsdf(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface, int i)
+Bsdf seenBsdf(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
+              int i)
 {
-    return context.traced->materials().bsdf(surface.material[i], materialPoint(context, rays, surface, i));
+    return context.traced->materials().bsdf(surface.material[i],
+                                            materialPoint(context, rays, surface, i));
 }
 
 /// What its material tells.
@@ -56,8 +58,8 @@ SurfaceSample seenMaterial(const PassContext& context, const RayHitBlock& rays,
 /// take(lane, value) for all lanes that hit something. value(lane): by material and side if
 /// isConstant(record): blocks see few materials, most of which are the same wherever they are seen.
 template <class IsConstant, class ValueOf, class Take>
-void forEachMaterial(const PassContext& context, const SurfaceLanes& surface, const IsConstant& isConstant,
-                     const ValueOf& valueOf, const Take& take)
+void forEachMaterial(const PassContext& context, const SurfaceLanes& surface,
+                     const IsConstant& isConstant, const ValueOf& valueOf, const Take& take)
 {
     const MaterialTable& materials = context.traced->materials();
     uint32_t known = kInvalid;
@@ -158,7 +160,8 @@ void firstHitLanes(const PassContext& context, int left, int bottom, int block, 
     const Scene& scene = context.traced->scene();
     forEachMaterial(
         context, hits.surface, isConstant,
-        [&](int i) { return linearAlbedo(scene, bsdfAlbedo(seenBsdf(context, hits.rays, hits.surface, i))); },
+        [&](int i)
+        { return linearAlbedo(scene, bsdfAlbedo(seenBsdf(context, hits.rays, hits.surface, i))); },
         [&](int i, const Vec3& albedo) { setLane(hits.albedo, i, albedo); });
 }
 
@@ -186,7 +189,8 @@ void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits
     }
 }
 
-void firstSamples(const PassContext& context, int left, int bottom, SurfaceSample (&samples)[kTilePixels])
+void firstSamples(const PassContext& context, int left, int bottom,
+                  SurfaceSample (&samples)[kTilePixels])
 {
     for (int b = 0; b < kTileBlocks; ++b)
     {
@@ -211,16 +215,17 @@ void setSurfaces(const PassContext& context, const RayHitBlock& rays, const Surf
 } // namespace
 
 /// Not inlined: most passes do not want them, and shall not pay for its stack.
-[[gnu::noinline]] static void noteSamples(const PassContext& context, int block, const RayHitBlock& rays,
-                                          const SurfaceLanes& surface, TileResult& result)
+[[gnu::noinline]] static void noteSamples(const PassContext& context, int block,
+                                          const RayHitBlock& rays, const SurfaceLanes& surface,
+                                          TileResult& result)
 {
     Vec3Lanes normal;
     facingNormalLanes(rays.ray, surface, normal);
     setSamples(context, rays, surface, normal, result.samples + block * kLanes);
 }
 
-void noteFirstHits(const PassContext& context, int left, int bottom, int block, const RayHitBlock& rays,
-                   const SurfaceLanes& surface, TileResult& result)
+void noteFirstHits(const PassContext& context, int left, int bottom, int block,
+                   const RayHitBlock& rays, const SurfaceLanes& surface, TileResult& result)
 {
     if (!context.wantsDepth) return;
     FloatLanes along;

@@ -9,7 +9,8 @@ namespace osgRayTrace::engine
 {
 
 FixedFunctionPoint fixedFunctionPoint(const PassContext& context, const RayHitBlock& rays,
-                                      const SurfaceLanes& surface, int i, const MaterialPoint& point)
+                                      const SurfaceLanes& surface, int i,
+                                      const MaterialPoint& point)
 {
     const MaterialTable& materials = context.traced->materials();
     const Material& material = *materials[surface.material[i]].material;
@@ -19,14 +20,14 @@ FixedFunctionPoint fixedFunctionPoint(const PassContext& context, const RayHitBl
     p.normal = laneOf(surface.shadingNormal, i);
     if (material.twoSidedLighting && !front) p.normal = -p.normal;
     p.halfAxis = context.towardsViewer;
-    if (material.localViewer)
-        p.halfAxis = -directionOf(rays.ray, i);
+    if (material.localViewer) p.halfAxis = -directionOf(rays.ray, i);
     p.separateSpecular = material.separateSpecular;
     p.textures = materials.textures(material, point);
     return p;
 }
 
-void addLight(FixedFunctionPoint& p, const Light& light, Vec3 wi, float attenuation, float visibility)
+void addLight(FixedFunctionPoint& p, const Light& light, Vec3 wi, float attenuation,
+              float visibility)
 {
     Vec3 sum = light.ambient * p.colors.ambient;
     const float cosine = glm::dot(p.normal, wi);

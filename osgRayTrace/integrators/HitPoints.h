@@ -1,5 +1,6 @@
 // HitPoints.h - where the camera paths of a tile gather light, kept from pass to pass. Layer:
-// integrators. SPDX-License-Identifier: MIT
+// integrators.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/base/Lanes.h"

@@ -76,8 +76,9 @@ inline void setRay(RayBlock& ray, int i, const RayBegin& begin, Vec3 direction, 
     ray.tNear[i] = begin.tNear;
 }
 
-/// Of a ray that leaves the surface towards wi: of the point itself, from where it is clear of the surface, if
-/// it is steep; else of the point above. Off a large plane that one sees 0.002 % more of a light.
+/// Of a ray that leaves the surface towards wi: of the point itself, from where it is clear of the
+/// surface, if it is steep; else of the point above. Off a large plane that one sees 0.002 % more
+/// of a light.
 inline RayBegin leave(const SurfaceLanes& surface, int i, Vec3 wi, const Vec3Lanes& points)
 {
     const Vec3 n = laneOf(surface.geometricNormal, i);
@@ -92,15 +93,16 @@ inline RayBegin leave(const SurfaceLanes& surface, int i, Vec3 wi)
     return leave(surface, i, wi, surface.position);
 }
 
-/// True if the direction is on the ray's side of the surface as light goes: of the facet, or for lifted
-/// lanes of the shading normal alone, on whose side it must be in both cases.
+/// True if the direction is on the ray's side of the surface as light goes: of the facet, or for
+/// lifted lanes of the shading normal alone, on whose side it must be in both cases.
 inline bool isAbove(const SurfaceLanes& surface, int i, Vec3 wi)
 {
     return ((surface.lifted >> i) & 1u) || glm::dot(wi, laneOf(surface.geometricNormal, i)) > 0.0f;
 }
 
-/// As leave and isAbove, but of the facet in any case: for mirror-like lobes. There is no terminator in
-/// them, and what they would see from above the facet no photon could bring the other way.
+/// As leave and isAbove, but of the facet in any case: for mirror-like lobes. There is no
+/// terminator in them, and what they would see from above the facet no photon could bring the other
+/// way.
 inline RayBegin leaveFacet(const SurfaceLanes& surface, int i, Vec3 wi)
 {
     return leave(surface, i, wi, trianglePoints(surface));

@@ -14,12 +14,15 @@ std::unique_ptr<Integrator> newIntegrator(IntegratorKind kind)
     switch (kind)
     {
     case IntegratorKind::Automatic:
-    case IntegratorKind::Whitted: return std::make_unique<WhittedIntegrator>();
+    case IntegratorKind::Whitted:
+        return std::make_unique<WhittedIntegrator>();
     case IntegratorKind::Path:
     case IntegratorKind::Ppm:
     case IntegratorKind::Sppm:
-    case IntegratorKind::PhotonCaustics: return std::make_unique<PathIntegrator>();
-    case IntegratorKind::Debug: return std::make_unique<DebugIntegrator>();
+    case IntegratorKind::PhotonCaustics:
+        return std::make_unique<PathIntegrator>();
+    case IntegratorKind::Debug:
+        return std::make_unique<DebugIntegrator>();
     }
     return nullptr;
 }
@@ -38,9 +41,12 @@ PhotonUse photonUse(IntegratorKind kind)
     switch (kind)
     {
     case IntegratorKind::Ppm:
-    case IntegratorKind::Sppm: return PhotonUse::Indirect;
-    case IntegratorKind::PhotonCaustics: return PhotonUse::Caustics;
-    default: return PhotonUse::None;
+    case IntegratorKind::Sppm:
+        return PhotonUse::Indirect;
+    case IntegratorKind::PhotonCaustics:
+        return PhotonUse::Caustics;
+    default:
+        return PhotonUse::None;
     }
 }
 

@@ -14,8 +14,9 @@ namespace
 {
 
 OSGRAYTRACE_KERNEL
-void lightPoints(LightSampling strategy, uint32_t j, uint32_t n, uint32_t samples, uint32_t passIndex,
-                 uint32_t dimension, const UintLanes& seeds, FloatLanes& u, FloatLanes& v)
+void lightPoints(LightSampling strategy, uint32_t j, uint32_t n, uint32_t samples,
+                 uint32_t passIndex, uint32_t dimension, const UintLanes& seeds, FloatLanes& u,
+                 FloatLanes& v)
 {
     switch (strategy)
     {

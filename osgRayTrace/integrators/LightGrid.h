@@ -18,7 +18,8 @@ public:
     uint32_t samples() const { return _samples; }
 
     /// Points number j, below samples(), on the light-th area light, for pixels with these seeds.
-    void draw(std::size_t light, uint32_t j, const UintLanes& seeds, FloatLanes& u, FloatLanes& v) const;
+    void draw(std::size_t light, uint32_t j, const UintLanes& seeds, FloatLanes& u,
+              FloatLanes& v) const;
 
 private:
     LightSampling _strategy;

@@ -1,5 +1,6 @@
 // PathBounce.h - what the parts of the path tracer share: a tile at work, one bounce of a block.
-// Layer: integrators. SPDX-License-Identifier: MIT
+// Layer: integrators.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/accel/Surface.h"
@@ -96,12 +97,13 @@ void dimensionPoints(const UintLanes& seeds, uint32_t passIndex, uint32_t dimens
 /// carry.
 void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface, PhotonUse use);
 
-/// What rays that left the scene bring: the environment, weighted against samples of it, without that which
-/// photons carry; to the eye and to mirrors it is seen, or else the background. number: of the bounce.
+/// What rays that left the scene bring: the environment, weighted against samples of it, without
+/// that which photons carry; to the eye and to mirrors it is seen, or else the background. number:
+/// of the bounce.
 void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int number, PhotonUse use);
 
-/// Adds what the visible lanes get from one light sample. Lanes of alone have no other chance to meet this
-/// light: it has its full weight.
+/// Adds what the visible lanes get from one light sample. Lanes of alone have no other chance to
+/// meet this light: it has its full weight.
 void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
               LaneMask visible, LaneMask alone);
 
@@ -134,7 +136,8 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use);
 /// Adds what the photons around the lanes' points send back along their rays.
 void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce);
 
-/// Appends the lanes of a bounce to the tile's hit points: what addPhotons and sampleLights read of them.
+/// Appends the lanes of a bounce to the tile's hit points: what addPhotons and sampleLights read of
+/// them.
 void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits);
 
 /// Photons and light samples at hit points that were kept: what bounces add where nothing is kept.

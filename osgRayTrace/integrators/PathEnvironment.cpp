@@ -1,5 +1,6 @@
 // PathEnvironment.cpp - light that paths get from the environment, by chance and by sampling it.
-// Layer: integrators. SPDX-License-Identifier: MIT
+// Layer: integrators.
+// SPDX-License-Identifier: MIT
 //
 // Importance, Uniform:  one direction a bounce and the ray that the surface sent on, by multiple
 // importance

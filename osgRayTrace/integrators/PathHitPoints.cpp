@@ -1,5 +1,6 @@
 // PathHitPoints.cpp - hit points of camera paths: written when paths are followed, and gathered at.
-// Layer: integrators. SPDX-License-Identifier: MIT
+// Layer: integrators.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/HitShading.h"
 #include "osgRayTrace/integrators/PathBounce.h"
 

@@ -1,5 +1,6 @@
 // PathIntegrator.cpp - unidirectional path tracing, the reference for everything else. Layer:
-// integrators. SPDX-License-Identifier: MIT
+// integrators.
+// SPDX-License-Identifier: MIT
 //
 // Estimator of the radiance along a camera ray [Kajiya86; Veach97, ch. 8 and 9]:
 //
@@ -8,10 +9,10 @@
 //   beta_{k+1} = beta_k f cos / pdfW / q
 //
 // with the power heuristic w = p_a^2 / (p_a^2 + p_b^2), y sampled on one area light chosen by
-// power, and q the survival probability of Russian roulette: 1 while beta, as it would be outside of
-// all glass, is above a bound, and beta over this bound from there on, so that beta stays where it
-// is. A q that is capped below 1 would let beta grow along paths that lose less than it does, and
-// their variance with it; beta in glass is 1/eta^2 of what comes out again. Sixteen paths are
+// power, and q the survival probability of Russian roulette: 1 while beta, as it would be outside
+// of all glass, is above a bound, and beta over this bound from there on, so that beta stays where
+// it is. A q that is capped below 1 would let beta grow along paths that lose less than it does,
+// and their variance with it; beta in glass is 1/eta^2 of what comes out again. Sixteen paths are
 // followed together; those that end are replaced by closing the ranks of the tile after each
 // bounce. What a path finds from its second surface on is shared with other pixels: PathReuse.cpp.
 #include "osgRayTrace/integrators/PathIntegrator.h"
@@ -82,7 +83,8 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     addEmission(tile, block, bounce.surface, use);
     if (number == 0)
     {
-        noteFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface, tile.result);
+        noteFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface,
+                      tile.result);
         for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
             tile.sums.a[block.pixel[__builtin_ctz(lanes)] & kPixelBits] = 1.0f;
     }

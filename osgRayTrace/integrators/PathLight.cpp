@@ -102,13 +102,14 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
     if (!general) return;
     Vec3Lanes fCos;
     FloatLanes pdfW;
-    evalTowardsLight(block.rays.ray, bounce.surface, bounce.normal, bounce.bsdfs, light.wi, general, fCos,
-                     pdfW);
+    evalTowardsLight(block.rays.ray, bounce.surface, bounce.normal, bounce.bsdfs, light.wi, general,
+                     fCos, pdfW);
     for (LaneMask lanes = general; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         if (!(pdfW[i] > 0.0f)) continue;
-        const float mis = (alone >> i) & 1u ? 1.0f : powerHeuristic(1.0f, pdfW[i] * light.weight[i]);
+        const float mis =
+            (alone >> i) & 1u ? 1.0f : powerHeuristic(1.0f, pdfW[i] * light.weight[i]);
         const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
         tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * laneOf(fCos, i) * radiance *
                                           (light.weight[i] * mis));

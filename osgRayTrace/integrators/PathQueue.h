@@ -21,12 +21,13 @@ struct PathBlock
 };
 
 /// Set once a path has left a surface that is not a mirror: from then on it does not see the
-/// background, which is a backdrop and not a light, and the environment as the light that it is, not interpolated.
+/// background, which is a backdrop and not a light, and the environment as the light that it is,
+/// not interpolated.
 constexpr uint32_t kScattered = 0x10000u;
-/// PhotonUse::Caustics. Set once photons were looked up on a rough surface; and while the last surface
-/// that scattered the path is one that photons know (that rough one, any after it, or a glossy one
-/// where the direct ones were looked up), kCausticChain too while it has met mirror-like surfaces
-/// since: light that it meets then is theirs.
+/// PhotonUse::Caustics. Set once photons were looked up on a rough surface; and while the last
+/// surface that scattered the path is one that photons know (that rough one, any after it, or a
+/// glossy one where the direct ones were looked up), kCausticChain too while it has met mirror-like
+/// surfaces since: light that it meets then is theirs.
 constexpr uint32_t kTaken = 0x80000u;
 constexpr uint32_t kGathered = 0x40000u;
 constexpr uint32_t kCausticChain = 0x20000u;

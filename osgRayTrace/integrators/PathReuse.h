@@ -12,10 +12,10 @@ namespace osgRayTrace::engine
 /// there, too: the sums of such paths are apart.
 constexpr uint32_t kLent = 0x100u;
 
-/// Pixels lend each other paths in groups, one pixel of each of the tile's blocks: pixels that share
-/// samples share their error, and next to each other they would look like a coarser picture. Which
-/// pixel of a block is in which group is random, but the same in all passes of a half: the Sobol
-/// points of a group are then as well spread as those of a pixel.
+/// Pixels lend each other paths in groups, one pixel of each of the tile's blocks: pixels that
+/// share samples share their error, and next to each other they would look like a coarser picture.
+/// Which pixel of a block is in which group is random, but the same in all passes of a half: the
+/// Sobol points of a group are then as well spread as those of a pixel.
 constexpr int kLoanGroups = kLanes;
 static_assert(kTileBlocks == kLanes, "a lane for each block");
 

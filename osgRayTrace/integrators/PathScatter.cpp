@@ -13,9 +13,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Throughput from which on paths are ended by chance. Light that comes after many bounces adds most of the noise
-/// where this is 1, and costs more than it is worth below 0.3: measured on the Cornell box, where
-/// 0.33 to 0.5 are equally good.
+/// Throughput from which on paths are ended by chance. Light that comes after many bounces adds
+/// most of the noise where this is 1, and costs more than it is worth below 0.3: measured on the
+/// Cornell box, where 0.33 to 0.5 are equally good.
 constexpr float kRouletteThroughput = 0.4f;
 
 /// Next directions of diffuse lanes: vector code. Weight is the albedo, pdfW = cos/pi. Returns the
@@ -165,7 +165,8 @@ void setOff(PathBlock& block, const Vec3Lanes& origin, const FloatLanes& tNear, 
 
         const uint32_t pixel = block.pixel[i];
         const uint32_t taken = (pixel | laneBit(rough, i)) & kTaken;
-        const uint32_t gathered = (laneBit(gathering, i) & kGathered) | (taken / kTaken * kGathered);
+        const uint32_t gathered =
+            (laneBit(gathering, i) & kGathered) | (taken / kTaken * kGathered);
         const uint32_t scattered =
             (pixel & ~(kCausticChain | kGathered)) | kScattered | taken | gathered;
         const uint32_t mirrored = pixel | ((0u - ((pixel / kGathered) & 1u)) & kCausticChain);
@@ -191,15 +192,15 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
     Vec3Lanes wi, origin;
     FloatLanes tNear, pdfW;
     Vec3Lanes weight = bounce.albedo;
-    LaneMask alive = diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, tNear, pdfW) &
-                     bounce.diffuse & ~bounce.ending;
+    LaneMask alive =
+        diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, tNear, pdfW) &
+        bounce.diffuse & ~bounce.ending;
     alive |= mirror(block, bounce, lobe, wi, origin, tNear, weight, pdfW);
     for (LaneMask lanes = bounce.general & ~bounce.smooth; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         const ShadingFrame frame(laneOf(bounce.normal, i));
-        const Vec3 wo =
-            frame.toLocal(-directionOf(block.rays.ray, i));
+        const Vec3 wo = frame.toLocal(-directionOf(block.rays.ray, i));
         const std::optional<BsdfSample> sample =
             sampleBsdf(bounce.bsdfs[i], wo, lobe[i], u[i], v[i]);
         if (!sample || (!sample->delta && ((bounce.ending >> i) & 1u))) continue;

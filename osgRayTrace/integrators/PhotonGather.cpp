@@ -1,5 +1,6 @@
-// PhotonGather.cpp - first radii, and what plain Lambert surfaces make of the photons around points.
-// Layer: integrators. SPDX-License-Identifier: MIT
+// PhotonGather.cpp - first radii, and what plain Lambert surfaces make of the photons around
+// points. Layer: integrators.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/PhotonGather.h"
 
 #include <algorithm>
@@ -11,8 +12,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Where the largest radius holds no more photons than this the radius comes from one look-up. Where it holds
-/// more it is narrowed down first, by sums that need not read the photons of a crowd.
+/// Where the largest radius holds no more photons than this the radius comes from one look-up.
+/// Where it holds more it is narrowed down first, by sums that need not read the photons of a
+/// crowd.
 constexpr std::size_t kMostReaches = 4096;
 constexpr int kNarrowings = 8; ///< of the octave that the radius is in
 

@@ -57,21 +57,23 @@ struct RenderOptions
     IntegratorKind integrator = IntegratorKind::Automatic;
     LightSampling lightSampling = LightSampling::Sobol;
     DebugChannel debugChannel = DebugChannel::Normal;
-    int lightSamples = 4;    ///< a hit and light; rounded up to a square for the n x n strategies
+    int lightSamples = 4; ///< a hit and light; rounded up to a square for the n x n strategies
     EnvironmentSampling environmentSampling = EnvironmentSampling::Importance;
     int environmentSamples = 300; ///< lights that Structured makes of the environment, at most
-    int maxBounces = 8;      ///< edges of a path after the camera ray
+    int maxBounces = 8;           ///< edges of a path after the camera ray
     bool shadows = true;
-    bool terminatorCorrection = true; ///< rays of smooth-shaded facets start as RayStart::Smooth says
-    /// The first pass looks through the middles of the pixels, where first hits are sampled: for images that
-    /// are filtered or upsampled by what is seen there.
+    bool terminatorCorrection =
+        true; ///< rays of smooth-shaded facets start as RayStart::Smooth says
+    /// The first pass looks through the middles of the pixels, where first hits are sampled: for
+    /// images that are filtered or upsampled by what is seen there.
     bool centredFirstPass = false;
     uint32_t seed = 0;
-    int photons = 1 << 16;      ///< emitted a pass
-    float photonRadius = 0.0f;  ///< of the first pass [length]; 0: from the density of the photons
+    int photons = 1 << 16;     ///< emitted a pass
+    float photonRadius = 0.0f; ///< of the first pass [length]; 0: from the density of the photons
     float photonAlpha = 2.0f / 3.0f; ///< share of the photons of a pass that are kept
     RadiusSchedule radiusSchedule = RadiusSchedule::Global;
-    bool aimAtViews = true; ///< photons are aimed at what views see, not only at what makes caustics
+    bool aimAtViews =
+        true; ///< photons are aimed at what views see, not only at what makes caustics
 
     /// True if an accumulated image made with previous cannot be continued with *this.
     bool needsRestart(const RenderOptions& previous) const
@@ -79,13 +81,12 @@ struct RenderOptions
         return integrator != previous.integrator || lightSampling != previous.lightSampling ||
                debugChannel != previous.debugChannel || lightSamples != previous.lightSamples ||
                environmentSampling != previous.environmentSampling ||
-               environmentSamples != previous.environmentSamples || maxBounces != previous.maxBounces ||
-               shadows != previous.shadows ||
+               environmentSamples != previous.environmentSamples ||
+               maxBounces != previous.maxBounces || shadows != previous.shadows ||
                terminatorCorrection != previous.terminatorCorrection || seed != previous.seed ||
                photons != previous.photons || photonRadius != previous.photonRadius ||
                photonAlpha != previous.photonAlpha || radiusSchedule != previous.radiusSchedule ||
-               aimAtViews != previous.aimAtViews ||
-               centredFirstPass != previous.centredFirstPass;
+               aimAtViews != previous.aimAtViews || centredFirstPass != previous.centredFirstPass;
     }
 };
 

@@ -1,5 +1,6 @@
 // SampledLights.h - which lights a pass samples at each surface point, where there are many. Layer:
-// integrators. SPDX-License-Identifier: MIT
+// integrators.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/base/Math.h"
@@ -31,8 +32,8 @@ struct SampledLight
     float weight = 1.0f;
 };
 
-/// The lights that a pass takes samples of: all of a table's list, for which no memory is needed, or
-/// some of them. The list must outlive this.
+/// The lights that a pass takes samples of: all of a table's list, for which no memory is needed,
+/// or some of them. The list must outlive this.
 class SampledLights
 {
 public:

@@ -1,4 +1,5 @@
-// ShadowLanes.cpp - light samples of a block of surface points and their shadow rays. Layer: integrators.
+// ShadowLanes.cpp - light samples of a block of surface points and their shadow rays. Layer:
+// integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/ShadowLanes.h"
 
@@ -29,9 +30,9 @@ struct Quad
 
 Quad quadOf(const Light& light, const LightTable& table, uint32_t index)
 {
-    return {light.corner,       light.edgeU,        light.edgeV,
-            table.normal(index), table.area(index),  table.pointOffset(index),
-            light.twoSided,     light.radiance};
+    return {light.corner,        light.edgeU,       light.edgeV,
+            table.normal(index), table.area(index), table.pointOffset(index),
+            light.twoSided,      light.radiance};
 }
 
 OSGRAYTRACE_KERNEL
@@ -44,7 +45,8 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
     OSGRAYTRACE_SIMD_OR(lit)
     for (int i = 0; i < kLanes; ++i)
     {
-        const float px = surface.position.x[i], py = surface.position.y[i], pz = surface.position.z[i];
+        const float px = surface.position.x[i], py = surface.position.y[i],
+                    pz = surface.position.z[i];
         const float nx = surface.geometricNormal.x[i], ny = surface.geometricNormal.y[i],
                     nz = surface.geometricNormal.z[i];
         const float lx = q.corner.x + u[i] * q.edgeU.x + v[i] * q.edgeV.x;
@@ -59,15 +61,16 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
         const float offset = surface.offset[i];
         const float surfaceSide = select(above >= 0.0f, offset, -offset);
 
-        const float ox = px + nx * surfaceSide, oy = py + ny * surfaceSide, oz = pz + nz * surfaceSide;
+        const float ox = px + nx * surfaceSide, oy = py + ny * surfaceSide,
+                    oz = pz + nz * surfaceSide;
         const float dx = lx + q.normal.x * lightSide - ox;
         const float dy = ly + q.normal.y * lightSide - oy;
         const float dz = lz + q.normal.z * lightSide - oz;
         const float distance = std::sqrt(dx * dx + dy * dy + dz * dz);
         const float perDistance = 1.0f / distance;
 
-        // The shadow ray is lifted off both surfaces; the geometry term is not, or the light of large
-        // surfaces would be wrong by their error bound.
+        // The shadow ray is lifted off both surfaces; the geometry term is not, or the light of
+        // large surfaces would be wrong by their error bound.
         const float inverse =
             1.0f / std::sqrt(towardsX * towardsX + towardsY * towardsY + towardsZ * towardsZ);
         const float wx = -towardsX * inverse, wy = -towardsY * inverse, wz = -towardsZ * inverse;
@@ -85,14 +88,14 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
         samples.radiance[1][i] = q.radiance.y;
         samples.radiance[2][i] = q.radiance.z;
         setRay(samples.shadow, i, ox, oy, oz, dx * perDistance, dy * perDistance, dz * perDistance,
-                     distance);
+               distance);
     }
     return lit & active;
 }
 
 /// A lane whose light sample is on an emissive mesh.
-bool meshLane(const PassContext& context, uint32_t light, float pmf, const SurfaceLanes& surface, int i,
-              float u, float v, bool through, LightLanes& samples)
+bool meshLane(const PassContext& context, uint32_t light, float pmf, const SurfaceLanes& surface,
+              int i, float u, float v, bool through, LightLanes& samples)
 {
     const LightTable& table = context.traced->lights();
     const Vec3 p = laneOf(surface.position, i);
@@ -101,8 +104,9 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf, const Surfa
     const Vec3 n = laneOf(surface.geometricNormal, i);
     if (!through && glm::dot(n, sample->wi) <= 0.0f) return false;
 
-    // Measured from where the ray starts, as the path tracer does when it meets the light by chance: far from
-    // the origin that is not where the surface is, and densities that disagree would weight light twice.
+    // Measured from where the ray starts, as the path tracer does when it meets the light by
+    // chance: far from the origin that is not where the surface is, and densities that disagree
+    // would weight light twice.
     const RayBegin begin = leave(surface, i, sample->wi);
     const Vec3 d = sample->point - begin.origin;
     const float distance = glm::length(d);
@@ -123,16 +127,16 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf, const Surfa
 
 } // namespace
 
-void areaLightLanes(const PassContext& context, uint32_t index, float pmf, const SurfaceLanes& surface,
-                    LaneMask active, LaneMask through, const FloatLanes& u, const FloatLanes& v,
-                    LightLanes& samples)
+void areaLightLanes(const PassContext& context, uint32_t index, float pmf,
+                    const SurfaceLanes& surface, LaneMask active, LaneMask through,
+                    const FloatLanes& u, const FloatLanes& v, LightLanes& samples)
 {
     const Light& light = (*context.lights)[index];
     through |= surface.lifted;
     if (light.kind == LightKind::Parallelogram)
     {
-        samples.lit = quadLanes(quadOf(light, context.traced->lights(), index), pmf, surface, active,
-                                through, u, v, samples);
+        samples.lit = quadLanes(quadOf(light, context.traced->lights(), index), pmf, surface,
+                                active, through, u, v, samples);
         return;
     }
     samples.lit = 0;
@@ -161,7 +165,8 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
         const SoftLightSample sample =
             sampleSoft(light, point, soft ? Vec2(u[i], v[i]) : Vec2(0.0f));
         if (!(sample.attenuation > 0.0f)) continue;
-        if (!((through >> i) & 1u) && glm::dot(laneOf(surface.geometricNormal, i), sample.wi) <= 0.0f)
+        if (!((through >> i) & 1u) &&
+            glm::dot(laneOf(surface.geometricNormal, i), sample.wi) <= 0.0f)
             continue;
         const RayBegin begin = leave(surface, i, sample.wi);
         Vec3 towards = sample.wi;

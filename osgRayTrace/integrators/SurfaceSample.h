@@ -1,4 +1,5 @@
-// SurfaceSample.h - what is seen in the middle of a pixel, for what is done with images. Layer: integrators.
+// SurfaceSample.h - what is seen in the middle of a pixel, for what is done with images. Layer:
+// integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -24,8 +25,9 @@ struct SurfaceSample
     float distance;  ///< along the ray [length]; infinity: nothing is hit
     Vec3 albedo;     ///< linear
     uint32_t object; ///< instance + 1; 0 where nothing is hit
-    /// By about so much may the viewer move around the point before it looks otherwise [radians]. Infinity:
-    /// it looks the same from everywhere; 0: a mirror, glass, or a layer that others are seen through.
+    /// By about so much may the viewer move around the point before it looks otherwise [radians].
+    /// Infinity: it looks the same from everywhere; 0: a mirror, glass, or a layer that others are
+    /// seen through.
     float lobe = kInfinity;
     SurfaceKind kind = SurfaceKind::Scattering;
 };

@@ -7,14 +7,14 @@
 // and a L(surface) + (1 - a) L(the ray that goes on) where a surface of opacity a is blended,
 // where direct light is the mean of f cos L V / pdfW over the samples of each area light and of the
 // environment (or the sum over its strata) plus the
-// fixed-function or physical response to each directional, point and spot light. Rays of the second line
-// go to a stack, and sixteen at a time are taken from its top.
+// fixed-function or physical response to each directional, point and spot light. Rays of the second
+// line go to a stack, and sixteen at a time are taken from its top.
 #include "osgRayTrace/integrators/WhittedIntegrator.h"
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/CameraLanes.h"
-#include "osgRayTrace/integrators/FirstHit.h"
 #include "osgRayTrace/integrators/EnvironmentLanes.h"
+#include "osgRayTrace/integrators/FirstHit.h"
 #include "osgRayTrace/integrators/WhittedTile.h"
 
 #include <cmath>
@@ -25,8 +25,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// A mirror or refracted ray weighing less than this cannot be seen in 8 bits. What counts is its weight
-/// outside of all glass: in it weights are 1/eta^2 of what comes out again.
+/// A mirror or refracted ray weighing less than this cannot be seen in 8 bits. What counts is its
+/// weight outside of all glass: in it weights are 1/eta^2 of what comes out again.
 constexpr float kSmallestWeight = 1.0f / 1024.0f;
 
 OSGRAYTRACE_KERNEL
@@ -111,7 +111,8 @@ void classify(WhittedTile& tile, ShadingBlock& block)
         const bool front = (block.surface.front >> i) & 1u;
         m.bsdfs[i] = record.constant
                          ? (front ? record.front : record.back)
-                         : materials.bsdf(material, materialPoint(tile.context, block.rays, block.surface, i));
+                         : materials.bsdf(
+                               material, materialPoint(tile.context, block.rays, block.surface, i));
         m.physical |= 1u << i;
         if (!m.bsdfs[i].transmits()) continue;
         m.through |= 1u << i;
@@ -119,12 +120,13 @@ void classify(WhittedTile& tile, ShadingBlock& block)
     }
 }
 
-void push(WhittedTile& tile, const ShadingBlock& block, int i, Vec3 direction, Vec3 weight, float etaScale)
+void push(WhittedTile& tile, const ShadingBlock& block, int i, Vec3 direction, Vec3 weight,
+          float etaScale)
 {
     const float largest = std::max(weight.x, std::max(weight.y, weight.z));
     if (!(largest * etaScale >= kSmallestWeight)) return;
-    tile.stack.push_back({leaveFacet(block.surface, i, direction), direction, weight, etaScale, block.pixel[i],
-                          hash(block.seed[i] + 0x9e3779b9u), block.depth[i] + 1});
+    tile.stack.push_back({leaveFacet(block.surface, i, direction), direction, weight, etaScale,
+                          block.pixel[i], hash(block.seed[i] + 0x9e3779b9u), block.depth[i] + 1});
 }
 
 void spawn(WhittedTile& tile, const ShadingBlock& block)
@@ -151,12 +153,12 @@ void spawn(WhittedTile& tile, const ShadingBlock& block)
     }
 }
 
-/// Behind this many blended surfaces the next one is taken as opaque. Where coordinates are so large that no
-/// offset clears a surface, a ray would meet the same one without end.
+/// Behind this many blended surfaces the next one is taken as opaque. Where coordinates are so
+/// large that no offset clears a surface, a ray would meet the same one without end.
 constexpr int kMostLayers = 256;
 
-/// Sends the rays of blended lanes on with what the surfaces let through, and leaves them the rest. Returns
-/// the lanes that are left less than they were.
+/// Sends the rays of blended lanes on with what the surfaces let through, and leaves them the rest.
+/// Returns the lanes that are left less than they were.
 LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
 {
     const MaterialTable& materials = tile.context.traced->materials();
@@ -171,8 +173,8 @@ LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
         const uint32_t material = block.surface.material[i];
         if (!materials[material].partial || !materials[material].material->blended) continue;
         if (block.layers[i] >= kMostLayers) continue;
-        const float opacity = materials.opacity(
-            material, materialPoint(tile.context, block.rays, block.surface, i));
+        const float opacity =
+            materials.opacity(material, materialPoint(tile.context, block.rays, block.surface, i));
         const Vec3 weight = laneOf(block.weight, i);
         setLane(block.weight, i, weight * opacity);
         if (opacity >= 1.0f) continue;
@@ -186,8 +188,14 @@ LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
         const bool fromCamera = (block.fromCamera >> i) & 1u;
         // What is left out of a camera ray would be missing in the coverage.
         if (!fromCamera && !(largest * block.etaScale[i] >= kSmallestWeight)) continue;
-        tile.stack.push_back({{origin, 0.0f}, direction, behind, block.etaScale[i], block.pixel[i],
-                              hash(block.seed[i] + 0x85ebca6bu), block.depth[i], fromCamera,
+        tile.stack.push_back({{origin, 0.0f},
+                              direction,
+                              behind,
+                              block.etaScale[i],
+                              block.pixel[i],
+                              hash(block.seed[i] + 0x85ebca6bu),
+                              block.depth[i],
+                              fromCamera,
                               block.layers[i] + 1});
     }
     return passed;
@@ -208,8 +216,8 @@ void addOwnLight(const WhittedTile& tile, ShadingBlock& block)
     }
 }
 
-/// Sets the radiance of all hits of some blocks of the group, anything elsewhere; pushes the rays that
-/// go on.
+/// Sets the radiance of all hits of some blocks of the group, anything elsewhere; pushes the rays
+/// that go on.
 void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
 {
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
@@ -251,11 +259,11 @@ void traceSecondary(WhittedTile& tile)
         if (fromCamera) block.fromCamera |= 1u << i;
         tile.stack.pop_back();
     }
-    traced.intersector().closestHits(block.rays, active, Coherence::Incoherent,
-                                     {fromCamera, true});
+    traced.intersector().closestHits(block.rays, active, Coherence::Incoherent, {fromCamera, true});
     tile.result.counts.secondaryRays += static_cast<uint64_t>(__builtin_popcount(active));
     countRays(tile, block, active);
-    surfacesOf(traced.surfaces(), block.rays, active, block.surface, rayStart(tile.context.options));
+    surfacesOf(traced.surfaces(), block.rays, active, block.surface,
+               rayStart(tile.context.options));
     for (LaneMask lanes = active & ~block.surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
@@ -333,8 +341,8 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
     for (ShadingBlock& block : tile.group)
         traced.intersector().closestHits(block.rays, kAllLanes, Coherence::Coherent, {true, true});
     for (ShadingBlock& block : tile.group)
-        surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface, rayStart(context.options),
-                   &tile.lastTriangle);
+        surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface,
+                   rayStart(context.options), &tile.lastTriangle);
     tile.result.counts.cameraRays += kGroup * kLanes;
     shade(tile, tile.group, kGroup);
     for (int k = 0; k < kGroup; ++k)

@@ -1,5 +1,6 @@
 // WhittedLights.cpp - light that surfaces get from lights of all kinds, sample by sample. Layer:
-// integrators. SPDX-License-Identifier: MIT
+// integrators.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/EnvironmentLanes.h"
 #include "osgRayTrace/integrators/LightBsdfs.h"
 #include "osgRayTrace/integrators/WhittedTile.h"

@@ -1,5 +1,6 @@
 // WhittedTile.h - what the parts of Whitted's integrator share: a tile at work, blocks of rays.
-// Layer: integrators. SPDX-License-Identifier: MIT
+// Layer: integrators.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/integrators/FixedFunctionLighting.h"
@@ -109,7 +110,7 @@ struct WhittedTile
     std::vector<SecondaryRay> stack;
     ShadingBlock group[kGroup];
     LastTriangle lastTriangle; ///< that a block of camera rays met
-    std::vector<Bsdf> bsdfs; ///< kLanes for each block of the group; empty until needed
+    std::vector<Bsdf> bsdfs;   ///< kLanes for each block of the group; empty until needed
     std::vector<FixedFunctionPoint> points; ///< the same
 };
 

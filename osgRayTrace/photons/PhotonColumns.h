@@ -52,7 +52,8 @@ struct PhotonColumns
     }
 };
 
-/// A vector as loops over lanes take it: GLM's own, made in the loop, keeps it from being vectorized.
+/// A vector as loops over lanes take it: GLM's own, made in the loop, keeps it from being
+/// vectorized.
 struct PlainVec3
 {
     float x, y, z;
@@ -67,8 +68,8 @@ OSGRAYTRACE_INLINE PlainVec3 plainOf(Vec3 v)
     return {v.x, v.y, v.z};
 }
 
-/// Bit mask of photon k in the disc around a position, all bits or none. Also how far it is from the
-/// disc's centre and from its plane.
+/// Bit mask of photon k in the disc around a position, all bits or none. Also how far it is from
+/// the disc's centre and from its plane.
 OSGRAYTRACE_INLINE uint32_t insideDisc(const PhotonColumns& p, int k, PlainVec3 position,
                                        PlainVec3 normal, int32_t mostEdges, float radius2,
                                        float planeDistance, float& distance2, float& off)
@@ -78,16 +79,16 @@ OSGRAYTRACE_INLINE uint32_t insideDisc(const PhotonColumns& p, int k, PlainVec3 
     off = std::fabs(dx * normal.x + dy * normal.y + dz * normal.z);
     const float side = p.wiX[k] * normal.x + p.wiY[k] * normal.y + p.wiZ[k] * normal.z;
     const uint32_t packed = p.normal[k];
-    const float turned = byteOf(packed, 0) * normal.x + byteOf(packed, 8) * normal.y +
-                         byteOf(packed, 16) * normal.z;
+    const float turned =
+        byteOf(packed, 0) * normal.x + byteOf(packed, 8) * normal.y + byteOf(packed, 16) * normal.z;
     const uint32_t shortEnough = maskOf(edgesOf(packed) <= mostEdges);
     return maskOf(distance2 <= radius2) & maskOf(off <= planeDistance) & maskOf(side > 0.0f) &
            maskOf(turned >= kLeastNormalCosine) & shortEnough;
 }
 
 /// Of photon k and a shading normal, in a disc of that normal: the ratio of its cosines.
-OSGRAYTRACE_INLINE float shadingWeight(const PhotonColumns& p, int k, uint32_t in,
-                                       PlainVec3 normal, PlainVec3 shadingNormal)
+OSGRAYTRACE_INLINE float shadingWeight(const PhotonColumns& p, int k, uint32_t in, PlainVec3 normal,
+                                       PlainVec3 shadingNormal)
 {
     const float geometric = p.wiX[k] * normal.x + p.wiY[k] * normal.y + p.wiZ[k] * normal.z;
     const float shading =

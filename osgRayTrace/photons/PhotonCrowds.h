@@ -1,5 +1,6 @@
 // PhotonCrowds.h - boxes over the photons of crowded cells, so that look-ups need not read them
-// all. Layer: photons. SPDX-License-Identifier: MIT
+// all. Layer: photons.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/base/Math.h"

@@ -117,8 +117,8 @@ void diffuseDirections(const Vec3Lanes& normal, const FloatLanes& u, const Float
 ///   |wo.n| |wi.g| / (|wo.g| |wi.n|)                              [Veach97, sect. 5.3]
 ///
 /// g the geometric normal. Directions on the other side of the surface than the sample meant are
-/// absorbed. A photon survives with the largest of its weights, so survivors keep their power as far
-/// as they can.
+/// absorbed. A photon survives with the largest of its weights, so survivors keep their power as
+/// far as they can.
 OSGRAYTRACE_KERNEL
 LaneMask leaveSurfaces(const SurfaceLanes& surface, const Vec3Lanes& normal,
                        const Scattered& scattered, const FloatLanes& roulette, FlightBlock& block)
@@ -135,8 +135,8 @@ LaneMask leaveSurfaces(const SurfaceLanes& surface, const Vec3Lanes& normal,
         const float wx = scattered.wi.x[i], wy = scattered.wi.y[i], wz = scattered.wi.z[i];
         const float side = wx * gx + wy * gy + wz * gz;
         const float leaving = wx * nx + wy * ny + wz * nz;
-        const float correction = ((dx * nx + dy * ny + dz * nz) * side) /
-                                 ((dx * gx + dy * gy + dz * gz) * leaving);
+        const float correction =
+            ((dx * nx + dy * ny + dz * nz) * side) / ((dx * gx + dy * gy + dz * gz) * leaving);
         const float size = std::fabs(correction);
         const float factor = select(size < kInfinity, size, 1.0f);
         const float red = scattered.weight.x[i] * factor, green = scattered.weight.y[i] * factor,

@@ -51,8 +51,8 @@ void loadRays(const FlightBlock& block, RayHitBlock& rays);
 /// Where photons go from the surfaces that they met, as the surface models sampled it.
 struct Scattered
 {
-    Vec3Lanes wi;     ///< unit
-    Vec3Lanes weight; ///< of the sample: f cosine / density
+    Vec3Lanes wi;       ///< unit
+    Vec3Lanes weight;   ///< of the sample: f cosine / density
     LaneMask alive = 0; ///< the others are absorbed
     LaneMask transmitted = 0;
     LaneMask mirrored = 0; ///< by mirror-like lobes

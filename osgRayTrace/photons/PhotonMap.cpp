@@ -39,8 +39,8 @@ OSGRAYTRACE_INLINE void addBlocks(const PhotonColumns& columns, uint32_t begin, 
             const uint32_t in = insideDisc(p, i, position, normal, mostEdges, radius2,
                                            planeDistance, distance2, off) &
                                 maskOf(i < left);
-            const float weight = kFlat ? select(in, 1.0f, 0.0f)
-                                       : shadingWeight(p, i, in, normal, shading);
+            const float weight =
+                kFlat ? select(in, 1.0f, 0.0f) : shadingWeight(p, i, in, normal, shading);
             s.r[i] += weight * p.r[i];
             s.g[i] += weight * p.g[i];
             s.b[i] += weight * p.b[i];
@@ -75,8 +75,8 @@ LaneMask insideLanes(const PhotonColumns& columns, uint32_t block, uint32_t end,
     for (int i = 0; i < kLanes; ++i)
     {
         float d2, o;
-        const uint32_t in = insideDisc(p, i, position, normal, mostEdges, radius2,
-                                       planeDistance, d2, o);
+        const uint32_t in =
+            insideDisc(p, i, position, normal, mostEdges, radius2, planeDistance, d2, o);
         distance2[i] = d2;
         off[i] = o;
         inside |= bitOfLane(in & maskOf(i < left), i);
@@ -99,12 +99,12 @@ float sumOf(const FloatLanes& lanes)
 
 std::size_t PhotonMap::bytes() const
 {
-    return _columns.size() * sizeof(float) + (_normal.size() + _bin.size() + _first.size()) * sizeof(uint32_t) +
-           _crowds.bytes();
+    return _columns.size() * sizeof(float) +
+           (_normal.size() + _bin.size() + _first.size()) * sizeof(uint32_t) + _crowds.bytes();
 }
 
-/// The stretches of photons that can be in the disc, in ascending order, none of them twice. Flat: a call of
-/// rangesIn would be a twentieth of a look-up.
+/// The stretches of photons that can be in the disc, in ascending order, none of them twice. Flat:
+/// a call of rangesIn would be a twentieth of a look-up.
 __attribute__((flatten)) int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
 {
     if (_count == 0 || !(query.radius >= 0.0f)) return 0;
@@ -120,8 +120,8 @@ __attribute__((flatten)) int PhotonMap::rangesOf(const PhotonQuery& query, Range
     return rangesIn(centre - reach, centre + reach, ranges);
 }
 
-/// Of the cells that a box touches. One line of cells along x is one stretch, or two where the table
-/// ends within it.
+/// Of the cells that a box touches. One line of cells along x is one stretch, or two where the
+/// table ends within it.
 int PhotonMap::rangesIn(Vec3d low, Vec3d high, Range* ranges) const
 {
     if (!(glm::all(glm::lessThanEqual(low, _high)) && glm::all(glm::greaterThanEqual(high, _low))))
@@ -262,22 +262,22 @@ void PhotonMap::find(const PhotonQuery& query, std::vector<uint32_t>& found) con
                  });
 }
 
-bool PhotonMap::findReaches(const PhotonQuery& query, std::size_t most, PhotonReaches& reaches) const
+bool PhotonMap::findReaches(const PhotonQuery& query, std::size_t most,
+                            PhotonReaches& reaches) const
 {
     std::vector<float>& reach2 = reaches._reach2;
     reach2.clear();
-    forEachFound(
-        query,
-        [&](uint32_t, LaneMask lanes, const FloatLanes& distance2, const FloatLanes& off)
-        {
-            for (; lanes; lanes &= lanes - 1)
-            {
-                const int i = __builtin_ctz(lanes);
-                const float plane = off[i] / kPlaneShare;
-                reach2.push_back(std::max(distance2[i], plane * plane));
-            }
-            return reach2.size() <= most;
-        });
+    forEachFound(query,
+                 [&](uint32_t, LaneMask lanes, const FloatLanes& distance2, const FloatLanes& off)
+                 {
+                     for (; lanes; lanes &= lanes - 1)
+                     {
+                         const int i = __builtin_ctz(lanes);
+                         const float plane = off[i] / kPlaneShare;
+                         reach2.push_back(std::max(distance2[i], plane * plane));
+                     }
+                     return reach2.size() <= most;
+                 });
     return reach2.size() <= most;
 }
 

@@ -19,11 +19,11 @@ class Workers;
 struct Photon
 {
     Vec3 position{0.0f};
-    Vec3 wi{0.0f};     ///< unit, towards where it came from
-    Vec3 power{0.0f};  ///< [W], already divided by the number of emitted photons
-    Vec3 normal{0.0f}; ///< geometric, unit, on the side of wi
-    uint32_t edges = 0; ///< of its path, from the light to here
-    bool direct = false; ///< met mirror-like surfaces only
+    Vec3 wi{0.0f};           ///< unit, towards where it came from
+    Vec3 power{0.0f};        ///< [W], already divided by the number of emitted photons
+    Vec3 normal{0.0f};       ///< geometric, unit, on the side of wi
+    uint32_t edges = 0;      ///< of its path, from the light to here
+    bool direct = false;     ///< met mirror-like surfaces only
     uint32_t bin = kInvalid; ///< of PhotonAim that it was sent to, if it was
 };
 
@@ -77,8 +77,8 @@ class PhotonReaches
 public:
     std::size_t size() const { return _reach2.size(); }
 
-    /// The largest radius of a look-up whose disc holds no more than count photons, to 5e-7 of it; infinity if
-    /// none that was found is left out. Reorders them.
+    /// The largest radius of a look-up whose disc holds no more than count photons, to 5e-7 of it;
+    /// infinity if none that was found is left out. Reorders them.
     float radiusBefore(std::size_t count);
 
 private:
@@ -123,17 +123,17 @@ public:
     /// other lanes.
     void find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& found) const;
 
-    /// The same photons, by what they are away from the place; what was in reaches is replaced. False
-    /// if there are more than most: only some of them are there then.
+    /// The same photons, by what they are away from the place; what was in reaches is replaced.
+    /// False if there are more than most: only some of them are there then.
     bool findReaches(const PhotonQuery& query, std::size_t most, PhotonReaches& reaches) const;
 
     Photon photon(uint32_t index) const;
 
     /// How many photons gather reads for a query: what it costs. Of a crowd with sums (see
-    /// PhotonCrowds) those at the rim of the disc; without them, those that it finds and a few around.
-    /// Beside crowds at most kCrowd photons of each cell that the disc touches. So a pass reads no more
-    /// than its look-ups times its photons, and by far less unless normals are interpolated and all
-    /// photons are in all discs.
+    /// PhotonCrowds) those at the rim of the disc; without them, those that it finds and a few
+    /// around. Beside crowds at most kCrowd photons of each cell that the disc touches. So a pass
+    /// reads no more than its look-ups times its photons, and by far less unless normals are
+    /// interpolated and all photons are in all discs.
     std::size_t work(const PhotonQuery& query) const;
 
 private:

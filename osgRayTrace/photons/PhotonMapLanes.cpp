@@ -1,5 +1,6 @@
 // PhotonMapLanes.cpp - sixteen look-ups at once: discs near each other read the photons around them
-// once. Layer: photons. SPDX-License-Identifier: MIT
+// once. Layer: photons.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/PhotonColumns.h"
 
 #include <cmath>

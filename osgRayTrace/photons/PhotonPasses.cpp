@@ -81,13 +81,12 @@ float densityRadius(const std::vector<Photon>& photons, const Workers& workers)
     const std::size_t neighbours = std::min<std::size_t>(kDensityPhotons, photons.size() - 1);
     const Positions positions(photons);
     std::vector<float> radii(kSamples);
-    workers.forEach(
-        kSamples,
-        [&](std::size_t s)
-        {
-            const std::size_t chosen = hash(static_cast<uint32_t>(s)) % photons.size();
-            radii[s] = std::sqrt(distance2ToNeighbour(positions, chosen, neighbours));
-        });
+    workers.forEach(kSamples,
+                    [&](std::size_t s)
+                    {
+                        const std::size_t chosen = hash(static_cast<uint32_t>(s)) % photons.size();
+                        radii[s] = std::sqrt(distance2ToNeighbour(positions, chosen, neighbours));
+                    });
     std::nth_element(radii.begin(), radii.begin() + kSamples / 2, radii.end());
     return radii[kSamples / 2];
 }

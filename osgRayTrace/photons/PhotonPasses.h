@@ -101,7 +101,7 @@ private:
 
     mutable std::mutex _mutex; // everything below
     std::shared_ptr<const TracedScene> _traced;
-    std::vector<Light> _placed;            ///< the lights, if they are others than those of the scene
+    std::vector<Light> _placed; ///< the lights, if they are others than those of the scene
     const std::vector<Light>* _lights = nullptr; ///< of the scene, or _placed
     PhotonPassOptions _options;
     std::unique_ptr<PhotonEmitter> _emitter;

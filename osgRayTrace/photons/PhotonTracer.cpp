@@ -1,5 +1,6 @@
 // PhotonTracer.cpp - follows photons from the lights to the surfaces they are stored on. Layer:
-// photons. SPDX-License-Identifier: MIT
+// photons.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/PhotonTracer.h"
 
 #include "osgRayTrace/accel/Intersector.h"
@@ -89,7 +90,7 @@ private:
     const PhotonAim* _aim;
     const PhotonPassOptions& _options;
     uint32_t _seed;
-    bool _culls; ///< there are faces of which all rays pass one side
+    bool _culls;      ///< there are faces of which all rays pass one side
     bool _shadowless; ///< there are lights without shadows
     Chunk& _chunk;
     uint32_t _first = 0; ///< photon of the chunk

@@ -1,4 +1,5 @@
-// PhotonTracer.h - follows photons from the lights to the surfaces they are stored on. Layer: photons.
+// PhotonTracer.h - follows photons from the lights to the surfaces they are stored on. Layer:
+// photons.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,7 +14,8 @@ namespace osgRayTrace::engine
 
 class Workers;
 
-/// Which photons a pass stores. Direct light is never among them: it is sampled from the eye's side.
+/// Which photons a pass stores. Direct light is never among them: it is sampled from the eye's
+/// side.
 enum class PhotonUse : uint8_t
 {
     None,
@@ -24,8 +26,8 @@ enum class PhotonUse : uint8_t
 struct PhotonPassOptions
 {
     PhotonUse use = PhotonUse::None;
-    uint32_t photons = 0;  ///< emitted a pass
-    int maxBounces = 8;    ///< edges of a path from light to eye but for the camera ray
+    uint32_t photons = 0; ///< emitted a pass
+    int maxBounces = 8;   ///< edges of a path from light to eye but for the camera ray
     uint32_t seed = 0;
     bool aimAtViews = true; ///< learn from what views see: see PhotonPasses
 };
@@ -34,7 +36,7 @@ struct TracedPhotons
 {
     std::vector<Photon> photons;
     uint64_t rays = 0;
-    uint64_t dropped = 0;  ///< not finite: left out
+    uint64_t dropped = 0;          ///< not finite: left out
     std::vector<uint32_t> emitted; ///< by bin of PhotonAim: those that were aimed there
 };
 

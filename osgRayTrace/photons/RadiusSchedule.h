@@ -11,8 +11,8 @@ namespace osgRayTrace::engine
 {
 
 /// Square of the radius of pass number pass (from 0) over that of the first: the product of
-/// (i + alpha) / (i + 1) for i = 1 to pass [Knaus11, the recurrence of the squared radii]; the product as
-/// gamma functions. Passes are independent of each other.
+/// (i + alpha) / (i + 1) for i = 1 to pass [Knaus11, the recurrence of the squared radii]; the
+/// product as gamma functions. Passes are independent of each other.
 inline double globalRadiusSquared(int pass, double alpha)
 {
     // std::lgamma also writes a sign that all threads share.
@@ -25,13 +25,14 @@ inline double globalRadiusSquared(int pass, double alpha)
     return std::exp(logGamma(n + alpha) - logGamma(1.0 + alpha) - logGamma(n + 1.0));
 }
 
-/// Statistics of a pixel that shrinks its radius by the photons that it has seen: radius reduction and flux
-/// correction [Hachisuka08, sect. 4], shared by all hit points of the pixel [Hachisuka09, sect. 4].
+/// Statistics of a pixel that shrinks its radius by the photons that it has seen: radius reduction
+/// and flux correction [Hachisuka08, sect. 4], shared by all hit points of the pixel [Hachisuka09,
+/// sect. 4].
 struct LocalStatistics
 {
-    float photons = 0.0f;  ///< N
-    float radius2 = 0.0f;  ///< R^2
-    Vec3 flux{0.0f};       ///< tau, weighted by the BSDF [W/sr]
+    float photons = 0.0f; ///< N
+    float radius2 = 0.0f; ///< R^2
+    Vec3 flux{0.0f};      ///< tau, weighted by the BSDF [W/sr]
     int passes = 0;
 };
 
@@ -47,7 +48,8 @@ inline void addPhotons(LocalStatistics& s, uint32_t count, Vec3 flux, float alph
     s.flux = (s.flux + flux) * shrink;
 }
 
-/// Radiance after these passes; each pass emits the same number of photons, of whose power flux is made.
+/// Radiance after these passes; each pass emits the same number of photons, of whose power flux is
+/// made.
 inline Vec3 localRadiance(const LocalStatistics& s)
 {
     if (s.passes == 0 || !(s.radius2 > 0.0f)) return Vec3(0.0f);

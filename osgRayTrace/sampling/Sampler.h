@@ -7,8 +7,8 @@
 namespace osgRayTrace::engine
 {
 
-/// What a dimension of a sample is used for. Each name is a two-dimensional point of its own; those from
-/// BounceFirst on repeat for each bounce, kDimensionsPerBounce apart.
+/// What a dimension of a sample is used for. Each name is a two-dimensional point of its own; those
+/// from BounceFirst on repeat for each bounce, kDimensionsPerBounce apart.
 enum Dimension : uint32_t
 {
     DimensionPixel = 0,
@@ -21,8 +21,9 @@ enum Dimension : uint32_t
 };
 constexpr uint32_t kDimensionsPerBounce = 4;
 
-/// Passes alternate between two halves with independent sequences: their difference then estimates the
-/// error of their mean without bias. Sequences of halves, pixels, dimensions and seeds are independent.
+/// Passes alternate between two halves with independent sequences: their difference then estimates
+/// the error of their mean without bias. Sequences of halves, pixels, dimensions and seeds are
+/// independent.
 struct PassKey
 {
     uint32_t seed = 0;  ///< hashed: user's seed and half

@@ -10,8 +10,8 @@
 namespace osgRayTrace::engine
 {
 
-/// sin and cos of 2*pi*turn for turn in [0,1], absolute error below 2e-7. No calls and no tables, so
-/// that loops over lanes vectorize.
+/// sin and cos of 2*pi*turn for turn in [0,1], absolute error below 2e-7. No calls and no tables,
+/// so that loops over lanes vectorize.
 OSGRAYTRACE_INLINE void sinCosTurn(float turn, float& sine, float& cosine)
 {
     // Reduced to [-1/8, 1/8] of a turn around the nearest quarter, then Taylor series.
@@ -19,7 +19,8 @@ OSGRAYTRACE_INLINE void sinCosTurn(float turn, float& sine, float& cosine)
     const float x = (turn - 0.25f * static_cast<float>(quarter)) * (2.0f * kPi);
     const float x2 = x * x;
     const float s =
-        x * (1.0f + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 * (1.0f / 362880)))));
+        x *
+        (1.0f + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 * (1.0f / 362880)))));
     const float c =
         1.0f + x2 * (-0.5f + x2 * (1.0f / 24 + x2 * (-1.0f / 720 + x2 * (1.0f / 40320))));
     const float swappedSine = (quarter & 1) ? c : s;
@@ -37,7 +38,10 @@ OSGRAYTRACE_INLINE Vec3 squareToCosineHemisphere(float u, float v)
     return Vec3(radius * cosine, radius * sine, std::sqrt(1.0f - v > 0.0f ? 1.0f - v : 0.0f));
 }
 
-inline float squareToCosineHemispherePdf(float cosTheta) { return std::max(cosTheta, 0.0f) * kInvPi; }
+inline float squareToCosineHemispherePdf(float cosTheta)
+{
+    return std::max(cosTheta, 0.0f) * kInvPi;
+}
 
 /// Uniform in the cone of directions whose 1 - cosine is below oneMinusCosine around +z:
 /// pdfW = 1 / (2 pi oneMinusCosine).

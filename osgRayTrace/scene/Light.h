@@ -27,41 +27,44 @@ struct Light
     LightKind kind = LightKind::Point;
     uint32_t number = 0; ///< osg::Light number: see isLightEnabled
 
-    /// position and direction are in view space (x right, y up, looking along -z), in world lengths: a
-    /// headlight. RenderSession places it for each view.
+    /// position and direction are in view space (x right, y up, looking along -z), in world
+    /// lengths: a headlight. RenderSession places it for each view.
     bool eyeSpace = false;
 
-    /// Directional, Point: false if nothing hides this light. It lights every surface that faces it, in
-    /// all integrators, and photons go on through surfaces on their first flight: see PhotonTracer.
+    /// Directional, Point: false if nothing hides this light. It lights every surface that faces
+    /// it, in all integrators, and photons go on through surfaces on their first flight: see
+    /// PhotonTracer.
     bool castsShadows = true;
 
-    // Directional, Point: fixed-function light colours. Diffuse 1 without attenuation gives a Lambert
-    // surface its own colour at normal incidence, that is an irradiance of pi.
+    // Directional, Point: fixed-function light colours. Diffuse 1 without attenuation gives a
+    // Lambert surface its own colour at normal incidence, that is an irradiance of pi.
     Vec3 ambient{0.0f};
     Vec3 diffuse{0.0f};
     Vec3 specular{0.0f};
-    Vec3 position{0.0f};               ///< Point, engine space
-    Vec3 direction{0.0f, 0.0f, -1.0f}; ///< unit, the way the light travels: Directional; spot axis of Point
+    Vec3 position{0.0f}; ///< Point, engine space
+    Vec3 direction{0.0f, 0.0f,
+                   -1.0f}; ///< unit, the way the light travels: Directional; spot axis of Point
     float attenuationConstant = 1.0f;
     float attenuationLinear = 0.0f;    ///< [1/length], engine units; in eye space, too
     float attenuationQuadratic = 0.0f; ///< [1/length^2], engine units
     float spotExponent = 0.0f;
-    float spotCosCutoff = -1.0f;       ///< cosine of the cut-off angle; -1: no spot
+    float spotCosCutoff = -1.0f; ///< cosine of the cut-off angle; -1: no spot
 
     // With a size they cast soft shadows, and stay invisible: see SoftLight.h.
-    float radius = 0.0f;               ///< Point: of a sphere [length], engine units; in eye space, too
-    float sine = 0.0f;                 ///< Directional: of the half-angle of a disc on the sky, [0,1]
+    float radius = 0.0f; ///< Point: of a sphere [length], engine units; in eye space, too
+    float sine = 0.0f;   ///< Directional: of the half-angle of a disc on the sky, [0,1]
 
-    // Parallelogram: the image of (u, v) in [0,1]^2 is corner + u*edgeU + v*edgeV; the front side is
-    // cross(edgeU, edgeV). Mesh: radiance is the material's emission, the front that of its triangles.
+    // Parallelogram: the image of (u, v) in [0,1]^2 is corner + u*edgeU + v*edgeV; the front side
+    // is cross(edgeU, edgeV). Mesh: radiance is the material's emission, the front that of its
+    // triangles.
     Vec3 corner{0.0f};
     Vec3 edgeU{1.0f, 0.0f, 0.0f};
     Vec3 edgeV{0.0f, 1.0f, 0.0f};
-    Vec3 radiance{0.0f};               ///< [W/(m^2 sr)]
+    Vec3 radiance{0.0f}; ///< [W/(m^2 sr)]
     bool twoSided = false;
-    uint32_t instance = kInvalid;      ///< the geometry that rays hit: Parallelogram and Mesh
+    uint32_t instance = kInvalid; ///< the geometry that rays hit: Parallelogram and Mesh
 
-    Environment environment;           ///< Environment: its image, which radiance multiplies
+    Environment environment; ///< Environment: its image, which radiance multiplies
 
     Stamp changed = 0;
 };

@@ -1,4 +1,5 @@
-// Material.h - how a surface reflects and emits: the physical and the fixed-function model. Layer: scene.
+// Material.h - how a surface reflects and emits: the physical and the fixed-function model. Layer:
+// scene.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -18,7 +19,8 @@ enum class MaterialModel : uint8_t
     Physical,      ///< glTF 2.0's: base colour, metallic, roughness; and transmission, ior
 };
 
-/// What the vertex colour replaces (osg::Material::ColorMode; without osg::Material: AmbientAndDiffuse).
+/// What the vertex colour replaces (osg::Material::ColorMode; without osg::Material:
+/// AmbientAndDiffuse).
 enum class VertexColorUse : uint8_t
 {
     None,
@@ -44,7 +46,8 @@ enum class TextureCoordinates : uint8_t
 {
     Uv0,           ///< (u, v, r, 1) of Mesh::uvs and rs
     Uv1,           ///< (u, v, r, 1) of Mesh::uvs1 and rs1
-    Position,      ///< (p, 1) in engine space: object and eye linear, which the converter puts into matrix
+    Position,      ///< (p, 1) in engine space: object and eye linear, which the converter puts into
+                   ///< matrix
     SphereMap,     ///< (s, t, 0, 1); depends on the eye, as do those below: see textureCoordinates
     ReflectionMap, ///< (r, 1)
     NormalMap,     ///< (n, 1)
@@ -56,7 +59,8 @@ struct TextureMapping
     TextureCoordinates coordinates = TextureCoordinates::Uv0;
     bool transformed = false; ///< else matrix is the identity and not looked at
     Mat4 matrix{1.0f};
-    /// Some coordinates are generated and others are the mesh's: ownMatrix * what own says is added.
+    /// Some coordinates are generated and others are the mesh's: ownMatrix * what own says is
+    /// added.
     bool partly = false;
     TextureCoordinates own = TextureCoordinates::Uv0;
     Mat4 ownMatrix{0.0f};
@@ -85,7 +89,8 @@ enum class AlphaTest : uint8_t
 };
 
 /// Faces that camera rays pass by. Shadow, mirror and light rays meet them all the same, unless
-/// Material::cullsAllRays says so: a room whose walls are culled so that one can look in stays a closed room.
+/// Material::cullsAllRays says so: a room whose walls are culled so that one can look in stays a
+/// closed room.
 enum class FaceCulling : uint8_t
 {
     None,
@@ -115,39 +120,40 @@ struct Material
     Vec3 ambient{0.2f};
     Vec3 diffuse{0.8f};
     Vec3 specular{0.0f};
-    float shininess = 0.0f;              ///< 0 to 128
-    bool lit = true;                     ///< GL_LIGHTING; false: the colour is shown as it is
-    bool twoSidedLighting = false;       ///< the normal is turned to the viewer before lighting
-    uint32_t lightMask = 0xffffffffu;    ///< bit n: osg::Light number n is enabled here
+    float shininess = 0.0f;           ///< 0 to 128
+    bool lit = true;                  ///< GL_LIGHTING; false: the colour is shown as it is
+    bool twoSidedLighting = false;    ///< the normal is turned to the viewer before lighting
+    uint32_t lightMask = 0xffffffffu; ///< bit n: osg::Light number n is enabled here
     std::vector<uint32_t>
         moreLights; ///< bit n of word k: number 32 (k + 1) + n; the last word is not 0
     VertexColorUse vertexColorUse = VertexColorUse::None;
     TextureEnvironment textureEnvironment = TextureEnvironment::Modulate; ///< of unit 0
-    Vec4 environmentColor{0.0f};         ///< of TextureEnvironment::Blend
-    TextureMapping mapping;              ///< of unit 0
+    Vec4 environmentColor{0.0f}; ///< of TextureEnvironment::Blend
+    TextureMapping mapping;      ///< of unit 0
     SecondTexture second;
-    bool separateSpecular = false;       ///< highlights are added after the textures
-    bool localViewer = false;            ///< highlights look to the viewer's place, not along its axis
-    bool hasBack = false;                ///< two-sided lighting with other colours on the back
+    bool separateSpecular = false; ///< highlights are added after the textures
+    bool localViewer = false;      ///< highlights look to the viewer's place, not along its axis
+    bool hasBack = false;          ///< two-sided lighting with other colours on the back
     FaceColors back;
 
     // Physical [glTF20, sect. 3.9 and KHR_materials_transmission, KHR_materials_ior].
     Vec3 baseColor{1.0f};
     float metallic = 0.0f;
-    float roughness = 1.0f;              ///< perceptual; alpha = roughness^2
-    float transmission = 0.0f;           ///< share of the dielectric base that is clear
+    float roughness = 1.0f;    ///< perceptual; alpha = roughness^2
+    float transmission = 0.0f; ///< share of the dielectric base that is clear
     float ior = 1.5f;
 
-    Vec3 emission{0.0f};                 ///< Physical: radiance [W/(m^2 sr)]; FixedFunction: GL emission
+    Vec3 emission{0.0f}; ///< Physical: radiance [W/(m^2 sr)]; FixedFunction: GL emission
 
     // How much of the surface is there: see MaterialTable::opacity.
     float alpha = 1.0f;
-    bool blended = false;                ///< alpha is the opacity; else it is just tested
+    bool blended = false; ///< alpha is the opacity; else it is just tested
     AlphaTest alphaTest = AlphaTest::Always;
     float alphaReference = 0.0f;
     FaceCulling culling = FaceCulling::None;
-    bool cullsAllRays = false;           ///< all rays from the eye pass them by the culled side; light the other way
-    bool clockwise = false;              ///< what OpenGL calls the front is the mesh's clockwise side
+    bool cullsAllRays =
+        false; ///< all rays from the eye pass them by the culled side; light the other way
+    bool clockwise = false; ///< what OpenGL calls the front is the mesh's clockwise side
 
     // Textures: indices into Scene::textures or kInvalid.
     uint32_t baseColorTexture = kInvalid; ///< FixedFunction: unit 0; Physical: times baseColor
@@ -173,8 +179,12 @@ inline bool isLightEnabled(const Material& m, uint32_t number)
     return word < m.moreLights.size() && (m.moreLights[word] >> number % 32 & 1u) != 0;
 }
 
-/// An index this close to 1 cannot be seen, and its microfacet normals drown in rounding: taken for 1.
-inline float usableIor(float ior) { return ior > 1.0f - 1e-4f && ior < 1.0f + 1e-4f ? 1.0f : ior; }
+/// An index this close to 1 cannot be seen, and its microfacet normals drown in rounding: taken
+/// for 1.
+inline float usableIor(float ior)
+{
+    return ior > 1.0f - 1e-4f && ior < 1.0f + 1e-4f ? 1.0f : ior;
+}
 
 /// True if light passes the surface as if nothing were there, for all that is known without its
 /// textures. Not traced: rays towards lights without area would have to be bent by nothing.
@@ -190,7 +200,7 @@ enum class TextureWrap : uint8_t
     Repeat,
     ClampToEdge,
     Mirror,
-    Clamp,         ///< OpenGL's first one: half of the filter's last step is border
+    Clamp, ///< OpenGL's first one: half of the filter's last step is border
     ClampToBorder,
 };
 
@@ -199,17 +209,17 @@ struct Texture
 {
     std::string name;
     int width = 0;
-    int depth = 0;                ///< slices of a 3-D image, one after the other; 0: it is a 2-D image
-    int height = 0;               ///< of a cube map 6*width: its faces in OpenGL's order, +x at the bottom
-    bool cube = false;            ///< looked up by a direction, wrap modes do not matter
-    bool hasColor = true;         ///< false: alpha only, colours pass unchanged
-    bool hasAlpha = true;         ///< false: alpha passes unchanged
-    bool opaque = false;          ///< all alpha is 1
-    Vec4 border{0.0f};            ///< in the texture's own encoding
-    std::vector<uint8_t> bytes;   ///< width*height*4, of each slice
-    std::vector<float> floats;    ///< the same, always linear
-    bool decodeSrgb = false;      ///< bytes only: RGB is sRGB encoded, decode to linear
-    bool linearFilter = true;     ///< else nearest
+    int depth = 0;        ///< slices of a 3-D image, one after the other; 0: it is a 2-D image
+    int height = 0;       ///< of a cube map 6*width: its faces in OpenGL's order, +x at the bottom
+    bool cube = false;    ///< looked up by a direction, wrap modes do not matter
+    bool hasColor = true; ///< false: alpha only, colours pass unchanged
+    bool hasAlpha = true; ///< false: alpha passes unchanged
+    bool opaque = false;  ///< all alpha is 1
+    Vec4 border{0.0f};    ///< in the texture's own encoding
+    std::vector<uint8_t> bytes; ///< width*height*4, of each slice
+    std::vector<float> floats;  ///< the same, always linear
+    bool decodeSrgb = false;    ///< bytes only: RGB is sRGB encoded, decode to linear
+    bool linearFilter = true;   ///< else nearest
     TextureWrap wrapS = TextureWrap::Repeat;
     TextureWrap wrapT = TextureWrap::Repeat;
     TextureWrap wrapR = TextureWrap::Repeat; ///< of 3-D images

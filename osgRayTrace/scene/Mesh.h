@@ -17,16 +17,17 @@ using Stamp = uint64_t;
 /// Indexed triangles. Immutable once it is part of a Scene.
 struct Mesh
 {
-    std::string name;             ///< node path, for messages
-    SharedArray<Vec3> positions;  ///< finite; Embree reads 4 bytes past the last one: see padPositions
+    std::string name; ///< node path, for messages
+    SharedArray<Vec3>
+        positions; ///< finite; Embree reads 4 bytes past the last one: see padPositions
     SharedArray<UVec3> triangles; ///< each index < positions.size()
     SharedArray<Vec3> normals;    ///< unit, one a position; empty: the geometric normal is used
     SharedArray<Vec2> uvs;        ///< texture unit 0, one a position; may be empty
     SharedArray<Vec2> uvs1;       ///< texture unit 1; may be empty
     SharedArray<float> rs, rs1;   ///< third coordinates of units 0 and 1; empty: 0
     SharedArray<Vec4> colors;     ///< RGBA vertex colours, one a position; may be empty
-    /// Its positions have changed before and its triangles have not: they are the same array then. Its
-    /// BVH is made so that it can be refitted.
+    /// Its positions have changed before and its triangles have not: they are the same array then.
+    /// Its BVH is made so that it can be refitted.
     bool deforms = false;
     Stamp changed = 0;
 };
@@ -34,12 +35,12 @@ struct Mesh
 /// A mesh placed in the scene with a material. There may be very many: no more here than is needed.
 struct Instance
 {
-    uint32_t mesh = 0;            ///< index into Scene::meshes
-    uint32_t material = 0;        ///< index into Scene::materials
-    uint32_t light = kInvalid;    ///< index into Scene::lights if it emits, else kInvalid
-    bool placed = false;          ///< false: positions are in engine space already, transform unused
-    bool mirrored = false;        ///< determinant < 0: the winding is reversed
-    Affine engineFromLocal;       ///< used if placed; invertible and finite (the converter checks)
+    uint32_t mesh = 0;         ///< index into Scene::meshes
+    uint32_t material = 0;     ///< index into Scene::materials
+    uint32_t light = kInvalid; ///< index into Scene::lights if it emits, else kInvalid
+    bool placed = false;       ///< false: positions are in engine space already, transform unused
+    bool mirrored = false;     ///< determinant < 0: the winding is reversed
+    Affine engineFromLocal;    ///< used if placed; invertible and finite (the converter checks)
     Stamp changed = 0;
 };
 

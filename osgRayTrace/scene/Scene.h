@@ -12,13 +12,14 @@
 namespace osgRayTrace::engine
 {
 
-/// Plain data, no behaviour. A new version of the scene is a new Scene that shares the unchanged parts;
-/// a pass that runs is never changed under its feet.
+/// Plain data, no behaviour. A new version of the scene is a new Scene that shares the unchanged
+/// parts; a pass that runs is never changed under its feet.
 struct Scene
 {
     // Between world and engine space: pEngine = (pWorld - origin) / unit.
     Vec3d origin{0.0}; ///< world position of the engine's origin
-    double unit = 1.0; ///< world length of one engine unit: a power of two; 1 unless floats would fail
+    double unit =
+        1.0; ///< world length of one engine unit: a power of two; 1 unless floats would fail
 
     std::vector<std::shared_ptr<const Mesh>> meshes;
     std::vector<Instance> instances;

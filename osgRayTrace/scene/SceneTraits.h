@@ -9,19 +9,19 @@ namespace osgRayTrace::engine
 
 struct SceneTraits
 {
-    bool instances = false;        ///< some instance is placed by a transform
-    bool smoothNormals = false;    ///< some mesh has vertex normals
+    bool instances = false;     ///< some instance is placed by a transform
+    bool smoothNormals = false; ///< some mesh has vertex normals
     bool textures = false;
     bool vertexColors = false;
-    bool blended = false;          ///< some surface lets light through by its alpha
-    bool fixedFunction = false;    ///< some material is FixedFunction
-    bool physical = false;         ///< some material is Physical and more than a lamp
-    bool specular = false;         ///< mirror-like reflection somewhere
+    bool blended = false;       ///< some surface lets light through by its alpha
+    bool fixedFunction = false; ///< some material is FixedFunction
+    bool physical = false;      ///< some material is Physical and more than a lamp
+    bool specular = false;      ///< mirror-like reflection somewhere
     bool transmission = false;
-    bool deltaLights = false;      ///< directional or point lights
-    bool areaLights = false;       ///< parallelogram or mesh lights
-    bool environment = false;      ///< light from all around
-    size_t triangles = 0;          ///< counted once for each instance
+    bool deltaLights = false; ///< directional or point lights
+    bool areaLights = false;  ///< parallelogram or mesh lights
+    bool environment = false; ///< light from all around
+    size_t triangles = 0;     ///< counted once for each instance
 };
 
 /// alike: of a scene with the same instances of the same meshes; null: none is known.

@@ -23,11 +23,12 @@ bool isFinite(const CameraRays& rays)
     return engine::isFinite(rays.origin) && engine::isFinite(rays.originDx) &&
            engine::isFinite(rays.originDy) && engine::isFinite(rays.direction) &&
            engine::isFinite(rays.directionDx) && engine::isFinite(rays.directionDy) &&
-           std::isfinite(rays.depthSlope) && std::isfinite(rays.depthDx) && std::isfinite(rays.depthDy);
+           std::isfinite(rays.depthSlope) && std::isfinite(rays.depthDx) &&
+           std::isfinite(rays.depthDy);
 }
 
-/// Clip z of the near plane of a perspective view: of -1 and 1 the one nearer to the eye. Reversed depth
-/// has it at 1; an infinite far plane has w = 0.
+/// Clip z of the near plane of a perspective view: of -1 and 1 the one nearer to the eye. Reversed
+/// depth has it at 1; an infinite far plane has w = 0.
 template <class PlanePoint> double nearPlaneZ(const PlanePoint& planePoint, const Vec4d& pole)
 {
     const Vec3d eye = Vec3d(pole) / pole.w;
@@ -46,7 +47,8 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
     if (view.width <= 0 || view.height <= 0) return std::nullopt;
     if (!isFinite(view.viewFromWorld) || !isFinite(view.clipFromView)) return std::nullopt;
 
-    // The translation to the engine's origin is folded into the view matrix, where large numbers cancel.
+    // The translation to the engine's origin is folded into the view matrix, where large numbers
+    // cancel.
     Mat4d viewFromEngine = view.viewFromWorld;
     viewFromEngine[3] = view.viewFromWorld * Vec4d(sceneOrigin, 1.0);
     // View space is measured in engine units, too: p = unit * q turns clip coordinates into
@@ -60,8 +62,10 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
     if (!isFinite(viewFromClip) || !isFinite(engineFromView)) return std::nullopt;
 
     // Points of the plane clip z are affine in the pixel position, in homogeneous view coordinates.
-    const auto planePoint = [&](double x, double y, double z)
-    { return viewFromClip * Vec4d(2.0 * x / view.width - 1.0, 2.0 * y / view.height - 1.0, z, 1.0); };
+    const auto planePoint = [&](double x, double y, double z) {
+        return viewFromClip *
+               Vec4d(2.0 * x / view.width - 1.0, 2.0 * y / view.height - 1.0, z, 1.0);
+    };
     const Vec4d pole = viewFromClip * Vec4d(0.0, 0.0, 1.0, 0.0);
     const bool orthographic = std::abs(pole.w) <= 1e-14 * glm::length(Vec3d(pole));
 
@@ -88,8 +92,8 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
     }
     else
     {
-        // dir = N.xyz * E.w - E.xyz * N.w, linear in the pixel position because E is one point. Dividing
-        // by E.w and by N.w at the first pixel makes s = 1 the near plane.
+        // dir = N.xyz * E.w - E.xyz * N.w, linear in the pixel position because E is one point.
+        // Dividing by E.w and by N.w at the first pixel makes s = 1 the near plane.
         const Vec3d eye = Vec3d(pole) / pole.w;
         const auto direction = [&](const Vec4d& n) { return (Vec3d(n) - eye * n.w) / near00.w; };
         rays.origin = Vec3(engineFromView * Vec4d(eye, 1.0));
@@ -97,8 +101,8 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
         rays.directionDx = Vec3(rotation * direction(nearDx));
         rays.directionDy = Vec3(rotation * direction(nearDy));
         rays.nearS = 1.0f;
-        // Clip coordinates of N are (x, y, nearZ, 1) / N.w, those of E (0, 0, 1, 0) / E.w: w grows by
-        // 1 / near00.w with s, z begins at 1 / E.w.
+        // Clip coordinates of N are (x, y, nearZ, 1) / N.w, those of E (0, 0, 1, 0) / E.w: w grows
+        // by 1 / near00.w with s, z begins at 1 / E.w.
         rays.depthSlope = static_cast<float>(0.5 * near00.w / pole.w);
         rays.depthDx = static_cast<float>(nearDx.w / near00.w);
         rays.depthDy = static_cast<float>(nearDy.w / near00.w);

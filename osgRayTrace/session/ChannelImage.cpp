@@ -117,11 +117,13 @@ void setSurfaceSamples(const SurfaceSample* tile, int left, int bottom, int widt
     }
 }
 
-void surfaceSamples(const PassContext& context, const Workers& workers, std::vector<SurfaceSample>& samples)
+void surfaceSamples(const PassContext& context, const Workers& workers,
+                    std::vector<SurfaceSample>& samples)
 {
     const int tilesX = (context.width + kTileSize - 1) / kTileSize;
     const int tilesY = (context.height + kTileSize - 1) / kTileSize;
-    samples.resize(static_cast<std::size_t>(context.width) * static_cast<std::size_t>(context.height));
+    samples.resize(static_cast<std::size_t>(context.width) *
+                   static_cast<std::size_t>(context.height));
     workers.forEach(static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY),
                     [&](std::size_t index)
                     {
@@ -129,7 +131,8 @@ void surfaceSamples(const PassContext& context, const Workers& workers, std::vec
                         const int bottom = static_cast<int>(index) / tilesX * kTileSize;
                         SurfaceSample tile[kTilePixels];
                         firstSamples(context, left, bottom, tile);
-                        setSurfaceSamples(tile, left, bottom, context.width, context.height, samples);
+                        setSurfaceSamples(tile, left, bottom, context.width, context.height,
+                                          samples);
                     });
 }
 

@@ -18,6 +18,7 @@ void setSurfaceSamples(const SurfaceSample* tile, int left, int bottom, int widt
                        std::vector<SurfaceSample>& samples);
 
 /// See RenderSession::surfaceSamples.
-void surfaceSamples(const PassContext& context, const Workers& workers, std::vector<SurfaceSample>& samples);
+void surfaceSamples(const PassContext& context, const Workers& workers,
+                    std::vector<SurfaceSample>& samples);
 
 } // namespace osgRayTrace::engine

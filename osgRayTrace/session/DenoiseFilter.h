@@ -1,5 +1,6 @@
 // DenoiseFilter.h - takes noise out of an image of few samples, along the edges of what is seen.
-// Layer: session. SPDX-License-Identifier: MIT
+// Layer: session.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/session/ShownImage.h"

@@ -1,5 +1,6 @@
 // DenoiseNoOidn.cpp - stands for DenoiseOidn.cpp where the build did not find Open Image Denoise.
-// Layer: session. SPDX-License-Identifier: MIT
+// Layer: session.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/DenoiseOidn.h"
 
 namespace osgRayTrace::engine

@@ -1,5 +1,6 @@
 // DenoiseOidn.cpp - Open Image Denoise in place of the filter; the one file that includes it, built
-// where it was found. Layer: session. SPDX-License-Identifier: MIT
+// where it was found. Layer: session.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/DenoiseOidn.h"
 
 #include "osgRayTrace/base/LargeArray.h"

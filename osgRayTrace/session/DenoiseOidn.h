@@ -1,5 +1,6 @@
 // DenoiseOidn.h - Open Image Denoise in place of the filter, where the build found it. Layer:
-// session. SPDX-License-Identifier: MIT
+// session.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/session/ShownImage.h"

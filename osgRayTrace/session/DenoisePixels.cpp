@@ -1,5 +1,6 @@
 // DenoisePixels.cpp - the denoiser's first step and its last: from pixels to cells and back. Layer:
-// session. SPDX-License-Identifier: MIT
+// session.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/DenoiseCells.h"
 
 #include <algorithm>

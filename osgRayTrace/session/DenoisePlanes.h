@@ -1,5 +1,6 @@
 // DenoisePlanes.h - the arrays that the denoiser works on: pixels, and cells of two by two of them.
-// Layer: session. SPDX-License-Identifier: MIT
+// Layer: session.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/base/Lanes.h"

@@ -1,5 +1,6 @@
 // FrameAgreement.cpp - what all views cost together, and what they may therefore trace. Layer:
-// session. SPDX-License-Identifier: MIT
+// session.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/FrameAgreement.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // FramePlan.h - how much of a view is traced in a frame, going by what tracing has cost. Layer:
-// session. SPDX-License-Identifier: MIT
+// session.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <functional>

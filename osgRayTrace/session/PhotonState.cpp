@@ -41,11 +41,12 @@ float pixelWidth(const PassContext& context, int width, int height)
     return widths[widths.size() / 2];
 }
 
-constexpr std::size_t kNotedPixels = 16384; ///< about as many of a pass are learnt from,
+constexpr std::size_t kNotedPixels = 16384;  ///< about as many of a pass are learnt from,
 constexpr std::size_t kMostNotedStride = 16; ///< and no fewer than one of these
 
-/// Sums by bin of the squares of what single photons added, relative to the radiance of the tile as in
-/// RenderProgress::relativeError: dim places matter, too. There may be thousands of photons for each bin.
+/// Sums by bin of the squares of what single photons added, relative to the radiance of the tile as
+/// in RenderProgress::relativeError: dim places matter, too. There may be thousands of photons for
+/// each bin.
 std::vector<SeenSquares> squaresOf(const std::vector<SeenPhoton>& seen, const RgbaLanes* rgba)
 {
     float sum = 0.0f;

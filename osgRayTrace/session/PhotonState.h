@@ -45,13 +45,13 @@ public:
     void prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context, int pass,
                  const Workers& workers);
 
-    /// After a pass that is whole: what it saw of its photons. Before the view's next pass, so that views
-    /// which take turns know of each other when photons are aimed.
+    /// After a pass that is whole: what it saw of its photons. Before the view's next pass, so that
+    /// views which take turns know of each other when photons are aimed.
     void finish(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
                 int pass);
 
-    /// What prepare will take at least for a pass, going by the last photons that were traced; 0 for
-    /// photons that are kept.
+    /// What prepare will take at least for a pass, going by the last photons that were traced; 0
+    /// for photons that are kept.
     double secondsOf(int pass) const;
 
     bool active() const { return _pass != nullptr; }

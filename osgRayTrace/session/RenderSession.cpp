@@ -25,16 +25,18 @@ double secondsSince(Clock::time_point begin)
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// The scene's lights with those of eye space placed for the view. Empty if there are none of these:
-/// there may be millions of the others, and they are good as they are.
+/// The scene's lights with those of eye space placed for the view. Empty if there are none of
+/// these: there may be millions of the others, and they are good as they are.
 std::vector<Light> placedLights(const Scene& scene, const View& view)
 {
     const auto isEyeSpace = [](const Light& light) { return light.eyeSpace; };
     if (std::none_of(scene.lights.begin(), scene.lights.end(), isEyeSpace)) return {};
     std::vector<Light> lights = scene.lights;
     const Mat4d worldFromView = glm::inverse(view.viewFromWorld);
-    const auto placed = [&](const Vec3& position)
-    { return Vec3((Vec3d(worldFromView * Vec4d(Vec3d(position), 1.0)) - scene.origin) / scene.unit); };
+    const auto placed = [&](const Vec3& position) {
+        return Vec3((Vec3d(worldFromView * Vec4d(Vec3d(position), 1.0)) - scene.origin) /
+                    scene.unit);
+    };
     for (Light& light : lights)
     {
         if (!light.eyeSpace) continue;
@@ -76,7 +78,8 @@ Mat3 eyeFromEngine(const View& view)
 bool RenderSession::Implementation::begin()
 {
     const bool sameScene = scene == filmScene;
-    const bool sameSize = view.width == film.width() && view.height == film.height(); // not after a failure
+    const bool sameSize =
+        view.width == film.width() && view.height == film.height(); // not after a failure
     const bool restart =
         !sameScene || !sameSize || view != filmView || options.needsRestart(filmOptions);
     progress.restarted = restart;
@@ -88,14 +91,16 @@ bool RenderSession::Implementation::begin()
     }
     if (!restart) return true;
 
-    const std::optional<CameraRays> rays = cameraRays(view, scene->scene().origin, scene->scene().unit);
+    const std::optional<CameraRays> rays =
+        cameraRays(view, scene->scene().origin, scene->scene().unit);
     if (!rays)
     {
         progress.status = {StatusCode::InvalidView,
                            "the view has no size, or matrices that cannot be inverted"};
         return false;
     }
-    std::vector<Light> placed = engine::placedLights(scene->scene(), view); // before the film changes: it may throw
+    std::vector<Light> placed =
+        engine::placedLights(scene->scene(), view); // before the film changes: it may throw
     std::vector<EnvironmentStratum> made;
     const PlacedEnvironment* environment = scene->lights().shiningEnvironment();
     if (environment && options.environmentSampling == EnvironmentSampling::Structured)
@@ -117,12 +122,14 @@ bool RenderSession::Implementation::begin()
     hasSamples = false;
     if (options.centredFirstPass && progress.integrator != IntegratorKind::Debug)
     {
-        samples.resize(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
+        samples.resize(static_cast<std::size_t>(view.width) *
+                       static_cast<std::size_t>(view.height));
         hasSamples = true;
     }
     if (!keepsSurfaces) surfaces = lastSurfaces = SurfaceMap();
     surfaces.view = View();
-    if (keepsSurfaces && progress.integrator != IntegratorKind::Debug) beginSurfaceMap(view, surfaces);
+    if (keepsSurfaces && progress.integrator != IntegratorKind::Debug)
+        beginSurfaceMap(view, surfaces);
     return true;
 }
 
@@ -167,15 +174,18 @@ TileCounts RenderSession::Implementation::renderTile(const PassContext& context,
     const bool keeps = context.wantsDepth && surfaces.view.width > 0;
     if (keeps) result.surfaces = met;
     const bool keepsSamples = context.wantsDepth && hasSamples;
-    const std::unique_ptr<SurfaceSample[]> seen(keepsSamples ? new SurfaceSample[kTilePixels] : nullptr);
+    const std::unique_ptr<SurfaceSample[]> seen(keepsSamples ? new SurfaceSample[kTilePixels]
+                                                             : nullptr);
     result.samples = seen.get();
     integrator.renderTile(context, film.tileX(tile), film.tileY(tile), result);
     for (int b = 0; keeps && b < kTileBlocks; ++b)
         setBlock(film.tileX(tile) + laneX(b, 0), film.tileY(tile) + laneY(b, 0), met[b], surfaces);
     if (keepsSamples)
-        setSurfaceSamples(seen.get(), film.tileX(tile), film.tileY(tile), film.width(), film.height(), samples);
+        setSurfaceSamples(seen.get(), film.tileX(tile), film.tileY(tile), film.width(),
+                          film.height(), samples);
     if (photons.active())
-        photons.end(tile, film.tilePasses(tile), gathered, context.options.photonAlpha, result.rgba);
+        photons.end(tile, film.tilePasses(tile), gathered, context.options.photonAlpha,
+                    result.rgba);
     if (context.wantsDepth) std::copy(result.depth, result.depth + kTilePixels, film.depth(tile));
     if (inFilm)
         film.finishPass(tile);
@@ -272,9 +282,10 @@ void RenderSession::Implementation::addTileCounts()
     }
 }
 
-RenderProgress RenderSession::Implementation::run(
-    const StopRule& rule, const std::function<bool(const RenderProgress&)>& keepGoing,
-    const DisplayTarget* display)
+RenderProgress
+RenderSession::Implementation::run(const StopRule& rule,
+                                   const std::function<bool(const RenderProgress&)>& keepGoing,
+                                   const DisplayTarget* display)
 {
     cancelled = false;
     unshown.clear();
@@ -335,7 +346,8 @@ void RenderSession::Implementation::showRest(const DisplayTarget& display)
                      });
 }
 
-RenderSession::RenderSession(std::shared_ptr<Workers> workers, std::shared_ptr<PhotonPasses> photons)
+RenderSession::RenderSession(std::shared_ptr<Workers> workers,
+                             std::shared_ptr<PhotonPasses> photons)
     : _implementation(std::make_unique<Implementation>(std::move(workers), std::move(photons)))
 {
 }
@@ -347,13 +359,25 @@ void RenderSession::setScene(std::shared_ptr<const TracedScene> scene)
     _implementation->scene = std::move(scene);
 }
 
-void RenderSession::setView(const View& view) { _implementation->view = view; }
+void RenderSession::setView(const View& view)
+{
+    _implementation->view = view;
+}
 
-void RenderSession::setOptions(const RenderOptions& options) { _implementation->options = options; }
+void RenderSession::setOptions(const RenderOptions& options)
+{
+    _implementation->options = options;
+}
 
-void RenderSession::setKeepsSurfaces(bool keeps) { _implementation->keepsSurfaces = keeps; }
+void RenderSession::setKeepsSurfaces(bool keeps)
+{
+    _implementation->keepsSurfaces = keeps;
+}
 
-void RenderSession::setSequence(uint32_t sequence) { _implementation->sequence = sequence; }
+void RenderSession::setSequence(uint32_t sequence)
+{
+    _implementation->sequence = sequence;
+}
 
 RenderProgress RenderSession::render(const StopRule& rule,
                                      const std::function<bool(const RenderProgress&)>& keepGoing,
@@ -377,7 +401,10 @@ RenderProgress RenderSession::render(const StopRule& rule,
     }
 }
 
-void RenderSession::cancel() { _implementation->cancelled = true; }
+void RenderSession::cancel()
+{
+    _implementation->cancelled = true;
+}
 
 void RenderSession::clear()
 {
@@ -401,8 +428,17 @@ int RenderSession::tilesLeft() const
     return left;
 }
 
-const RenderProgress& RenderSession::progress() const { return _implementation->progress; }
-int RenderSession::width() const { return _implementation->film.width(); }
-int RenderSession::height() const { return _implementation->film.height(); }
+const RenderProgress& RenderSession::progress() const
+{
+    return _implementation->progress;
+}
+int RenderSession::width() const
+{
+    return _implementation->film.width();
+}
+int RenderSession::height() const
+{
+    return _implementation->film.height();
+}
 
 } // namespace osgRayTrace::engine

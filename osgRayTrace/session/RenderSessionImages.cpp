@@ -1,5 +1,6 @@
 // RenderSessionImages.cpp - a session's image as others want it: display values, radiance,
-// channels. Layer: session. SPDX-License-Identifier: MIT
+// channels. Layer: session.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/RenderSessionState.h"
 
 #include "osgRayTrace/base/NeverDestroyed.h"

@@ -29,7 +29,8 @@ struct RenderSession::Implementation
     double estimateError() const;
     void addTileCounts();
     double imageShare() const;
-    RenderProgress run(const StopRule& rule, const std::function<bool(const RenderProgress&)>& keepGoing,
+    RenderProgress run(const StopRule& rule,
+                       const std::function<bool(const RenderProgress&)>& keepGoing,
                        const DisplayTarget* display);
     void finishSurfaces();
     void resolve(const DisplayTarget& display, bool over) const;
@@ -57,7 +58,7 @@ struct RenderSession::Implementation
     std::vector<EnvironmentStratum> strata;
     Film film;
     std::vector<SurfaceSample> samples; // of its pixels, if it has them
-    bool hasSamples = false; // or will, with its first pass
+    bool hasSamples = false;            // or will, with its first pass
     SurfaceMap surfaces, lastSurfaces;
     PhotonState photons;
     RenderProgress progress;
@@ -65,7 +66,8 @@ struct RenderSession::Implementation
     std::vector<uint8_t> unshown;       // tiles with passes of this call that the display lacks
     int photonsCounted = 0;             // passes whose photon rays are in progress
 
-    std::atomic<bool> cancelled{false}; // cancel(): any thread; render(): the session's and the workers
+    std::atomic<bool> cancelled{
+        false}; // cancel(): any thread; render(): the session's and the workers
 };
 
 } // namespace osgRayTrace::engine

@@ -1,5 +1,6 @@
 // Reprojection.h - an accumulated image of one view, carried to where its surfaces are in another.
-// Layer: session. SPDX-License-Identifier: MIT
+// Layer: session.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/session/SurfaceMap.h"

@@ -10,8 +10,8 @@
 namespace osgRayTrace::engine
 {
 
-void showImage(const ShownImage& image, const ToneMap& toneMap, const Workers& workers, uint8_t* rgba,
-               float* depth)
+void showImage(const ShownImage& image, const ToneMap& toneMap, const Workers& workers,
+               uint8_t* rgba, float* depth)
 {
     const auto width = static_cast<std::size_t>(image.width);
     workers.forEach(static_cast<std::size_t>(image.height),
@@ -19,7 +19,8 @@ void showImage(const ShownImage& image, const ToneMap& toneMap, const Workers& w
                     {
                         displayPixels(&image.radiance[4 * row * width], width, toneMap.exposureEv,
                                       rgba + 4 * row * width);
-                        if (depth) std::copy_n(&image.depth[row * width], width, depth + row * width);
+                        if (depth)
+                            std::copy_n(&image.depth[row * width], width, depth + row * width);
                     });
 }
 

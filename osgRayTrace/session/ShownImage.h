@@ -1,4 +1,5 @@
-// ShownImage.h - a view's image on its way to the display, where more is done to it than a tone map. Layer: session.
+// ShownImage.h - a view's image on its way to the display, where more is done to it than a tone
+// map. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -29,11 +30,12 @@ struct UpsampleCounts
     uint64_t traced = 0; ///< pixels of the full size whose first hit was traced
     uint64_t unlike = 0; ///< of these: whose surface none of the four pixels around it sees
     double edges = 0.0;  ///< share of the small image's cells that are at edges,
-    double around = 0.0; ///< and that are at edges or beside them: what would be traced without a limit
+    double around =
+        0.0; ///< and that are at edges or beside them: what would be traced without a limit
 };
 
 /// Display values of the image, 4 bytes a pixel, and its depths, which may be null.
-void showImage(const ShownImage& image, const ToneMap& toneMap, const Workers& workers, uint8_t* rgba,
-               float* depth);
+void showImage(const ShownImage& image, const ToneMap& toneMap, const Workers& workers,
+               uint8_t* rgba, float* depth);
 
 } // namespace osgRayTrace::engine

@@ -1,5 +1,6 @@
 // SurfaceMap.h - where the surfaces of a view's pixels are, as pixels of another view ask for it.
-// Layer: session. SPDX-License-Identifier: MIT
+// Layer: session.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/integrators/Integrator.h"

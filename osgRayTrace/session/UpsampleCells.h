@@ -35,7 +35,8 @@ struct UpsampleCells
     /// What is thin is missed between the pixels that see it: so cells beside an edge are not taken
     /// for smooth either.
     std::vector<uint8_t> smooth;
-    double edges = 0.0, around = 0.0; ///< shares of the cells: not smooth; or beside one that is not
+    double edges = 0.0,
+           around = 0.0; ///< shares of the cells: not smooth; or beside one that is not
 };
 
 /// camera: of the large image. mostEdges: the largest share of the cells that is not to be smooth.

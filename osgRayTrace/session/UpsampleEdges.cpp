@@ -1,5 +1,6 @@
 // UpsampleEdges.cpp - blocks of pixels at edges: first hits traced, radiance from pixels alike.
-// Layer: session. SPDX-License-Identifier: MIT
+// Layer: session.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/UpsampleEdges.h"
 
 #include "osgRayTrace/integrators/CameraLanes.h"

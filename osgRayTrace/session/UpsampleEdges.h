@@ -1,5 +1,6 @@
 // UpsampleEdges.h - blocks of pixels at edges: first hits traced, radiance from pixels alike.
-// Layer: session. SPDX-License-Identifier: MIT
+// Layer: session.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/integrators/Integrator.h"

@@ -1,5 +1,6 @@
 // ViewHistory.cpp - what earlier views of a session's image leave to the present one. Layer:
-// session. SPDX-License-Identifier: MIT
+// session.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/ViewHistory.h"
 
 #include "osgRayTrace/base/Lanes.h"

@@ -64,8 +64,8 @@ LobePmf lobePmf(const Bsdf& bsdf, Vec3 wo, float fresnelO)
     const float below = 1.0f - coatAlbedo(bsdf, wo.z, fresnelO);
     LobePmf pmf;
     pmf.base = luminance(bsdf.diffuse) * below;
-    pmf.interface = luminance(reflectionFresnel(bsdf, wo.z, fresnelO)) +
-                    luminance(bsdf.transmission) * below;
+    pmf.interface =
+        luminance(reflectionFresnel(bsdf, wo.z, fresnelO)) + luminance(bsdf.transmission) * below;
     const float sum = pmf.base + pmf.interface;
     if (!(sum > 0.0f)) return {};
     pmf.base /= sum;
@@ -102,7 +102,8 @@ void addReflection(const Bsdf& bsdf, Vec3 wo, float fresnelO, Vec3 wi, float pmf
     const float fresnelH = interfaceFresnel(bsdf, cosH);
     pmf *= refractsSmoothly(bsdf, wo) ? reflectedShare(bsdf, wo.z, fresnelO)
                                       : reflectedShare(bsdf, cosH, fresnelH);
-    value.fCos += reflectionFresnel(bsdf, cosH, fresnelH) * (d * ggxG2(wo, wi, bsdf.alpha) / (4.0f * wo.z));
+    value.fCos +=
+        reflectionFresnel(bsdf, cosH, fresnelH) * (d * ggxG2(wo, wi, bsdf.alpha) / (4.0f * wo.z));
     value.pdfW += pmf * ggxG1(wo, bsdf.alpha) * d / (4.0f * wo.z);
 }
 
@@ -199,8 +200,9 @@ std::optional<BsdfSample> sampleBsdf(const Bsdf& bsdf, Vec3 wo, float uLobe, flo
                                     bsdf.transmits() ? interfaceFresnel(bsdf, cosH) : 0.0f);
         const bool reflect = share >= 1.0f || uLobe < pmf.base + pmf.interface * share;
         if (reflect ? bsdf.isSmooth() : smooth)
-            return sampleSmooth(bsdf, wo, fresnelO, pmf.interface * (reflect ? share : 1.0f - share),
-                                reflect, transport);
+            return sampleSmooth(bsdf, wo, fresnelO,
+                                pmf.interface * (reflect ? share : 1.0f - share), reflect,
+                                transport);
         if (reflect)
         {
             sample.wi = h * (2.0f * cosH) - wo;

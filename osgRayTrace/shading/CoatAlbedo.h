@@ -1,5 +1,6 @@
 // CoatAlbedo.h - what a rough dielectric interface reflects in all directions together. Layer:
-// shading. SPDX-License-Identifier: MIT
+// shading.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/base/Lanes.h"

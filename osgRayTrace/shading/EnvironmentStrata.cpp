@@ -111,8 +111,8 @@ void Stratification::fillCells(const EnvironmentMap& map)
         { return map.direction(0.5 * image.width, row / partsY); };
         const Vec3d middle = on(y + 0.5);
         const double solidAngle = (on(y + 1.0).z - on(y).z) * 2.0 * kPi / width;
-        const Vec3* row =
-            &image.radiance[static_cast<std::size_t>(y / partsY) * static_cast<std::size_t>(image.width)];
+        const Vec3* row = &image.radiance[static_cast<std::size_t>(y / partsY) *
+                                          static_cast<std::size_t>(image.width)];
         for (int x = 0; x < width; ++x)
         {
             const Vec3d& e = onEquator[static_cast<std::size_t>(x)];

@@ -1,5 +1,6 @@
 // EnvironmentStrata.h - an environment as a few distant lights, by structured importance sampling.
-// Layer: shading. SPDX-License-Identifier: MIT
+// Layer: shading.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/shading/EnvironmentMap.h"
@@ -16,8 +17,8 @@ struct EnvironmentStratum
     Vec3 integral{0.0f};              ///< of radiance over its solid angle
 };
 
-/// count of them, up to rounding all light of the image [Agarwal03]. None of a black one; fewer only if the light
-/// comes from fewer cells than that (see below).
+/// count of them, up to rounding all light of the image [Agarwal03]. None of a black one; fewer
+/// only if the light comes from fewer cells than that (see below).
 ///
 /// Hierarchical thresholding [Agarwal03, sect. 3.2]: layers of radiance between multiples of its
 /// standard deviation, six of them, and the connected regions of each. A region gets strata in
@@ -27,10 +28,11 @@ struct EnvironmentStratum
 /// farthest point from all before it [Hochbaum85]; each pixel belongs to the nearest one of its
 /// region.
 ///
-/// Deviations: the direction is the mean over a stratum, weighted by luminance, not its centre, so that the sun
-/// stays where it is. Images of more than 512 x 256 pixels are first brought together to about that, each cell
-/// with its own mean direction, and pixels of images below 256 x 128 are cut up to that: they are patches with a
-/// size, not points. A region gets no more strata than it has cells.
+/// Deviations: the direction is the mean over a stratum, weighted by luminance, not its centre, so
+/// that the sun stays where it is. Images of more than 512 x 256 pixels are first brought together
+/// to about that, each cell with its own mean direction, and pixels of images below 256 x 128 are
+/// cut up to that: they are patches with a size, not points. A region gets no more strata than it
+/// has cells.
 std::vector<EnvironmentStratum> environmentStrata(const EnvironmentMap& map, int count);
 
 } // namespace osgRayTrace::engine

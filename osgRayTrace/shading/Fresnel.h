@@ -10,14 +10,16 @@
 namespace osgRayTrace::engine
 {
 
-/// Unpolarized reflectance of a dielectric for an angle of incidence with cosine cosThetaI >= 0, eta the
-/// index on the far side over that on the near side. 1 on total internal reflection. [Walter07, eq. 22]
-/// Without branches, for loops over lanes.
+/// Unpolarized reflectance of a dielectric for an angle of incidence with cosine cosThetaI >= 0,
+/// eta the index on the far side over that on the near side. 1 on total internal reflection.
+/// [Walter07, eq. 22] Without branches, for loops over lanes.
 OSGRAYTRACE_INLINE float fresnelDielectric(float cosThetaI, float eta)
 {
     const float c = std::fabs(cosThetaI);
-    // Near the critical angle next to nothing is left of c^2: in double, or the root of it has 3 digits.
-    const auto g2 = static_cast<float>((double(eta) - 1.0) * (double(eta) + 1.0) + double(c) * double(c));
+    // Near the critical angle next to nothing is left of c^2: in double, or the root of it has 3
+    // digits.
+    const auto g2 =
+        static_cast<float>((double(eta) - 1.0) * (double(eta) + 1.0) + double(c) * double(c));
     const float g = std::sqrt(select(g2 > 0.0f, g2, 0.0f));
     // g - c would lose digits for indices near 1: (g^2 - c^2) / (g + c) keeps them.
     const float gMinusC = (eta - 1.0f) * (eta + 1.0f) / (g + c);
@@ -29,8 +31,8 @@ OSGRAYTRACE_INLINE float fresnelDielectric(float cosThetaI, float eta)
     return select(eta == 1.0f, 0.0f, partial);
 }
 
-/// Reflectance averaged over cosine-weighted incidence: int 2 F(c) c dc, by quadrature to about 1e-4. Used to
-/// couple a diffuse base to its coat. Not for inner loops.
+/// Reflectance averaged over cosine-weighted incidence: int 2 F(c) c dc, by quadrature to about
+/// 1e-4. Used to couple a diffuse base to its coat. Not for inner loops.
 float fresnelDielectricAverage(float eta);
 
 /// How far Schlick's approximation is from normal to grazing incidence, for a cosine >= 0.
@@ -40,7 +42,8 @@ OSGRAYTRACE_INLINE float schlickShare(float cosTheta)
     return m2 * m2 * m;
 }
 
-/// Schlick's approximation between the reflectances at normal and at grazing incidence [Schlick94, eq. 24].
+/// Schlick's approximation between the reflectances at normal and at grazing incidence [Schlick94,
+/// eq. 24].
 inline Vec3 fresnelSchlick(float cosTheta, Vec3 f0, float f90)
 {
     return f0 + (Vec3(f90) - f0) * schlickShare(std::fmax(cosTheta, 0.0f));

@@ -14,8 +14,8 @@ namespace osgRayTrace::engine
 /// Below this width a surface is treated as perfectly smooth.
 constexpr float kSmoothAlpha = 1e-3f;
 
-/// Density of microfacet normals [1/sr] [Walter07, eq. 33], from the tangential part of h, which keeps its
-/// digits near the peak.
+/// Density of microfacet normals [1/sr] [Walter07, eq. 33], from the tangential part of h, which
+/// keeps its digits near the peak.
 inline float evalGgx(Vec3 h, float alpha)
 {
     const float tangential2 = h.x * h.x + h.y * h.y;
@@ -34,7 +34,10 @@ inline float ggxLambda(Vec3 w, float alpha)
 }
 
 /// Masking of one direction [Heitz14, eq. 43].
-inline float ggxG1(Vec3 w, float alpha) { return 1.0f / (1.0f + ggxLambda(w, alpha)); }
+inline float ggxG1(Vec3 w, float alpha)
+{
+    return 1.0f / (1.0f + ggxLambda(w, alpha));
+}
 
 /// Height-correlated masking and shadowing of two directions on the same side [Heitz14, eq. 99].
 inline float ggxG2(Vec3 wo, Vec3 wi, float alpha)

@@ -29,9 +29,13 @@ float lengthOf(Vec3 v)
     return length2 < 1e38f ? std::sqrt(length2) : static_cast<float>(glm::length(Vec3d(v)));
 }
 
-float sumAbs(Vec3 v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
+float sumAbs(Vec3 v)
+{
+    return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
+}
 
-/// Index of the entry of a cumulative distribution that u in [0,1) falls into, and u rescaled to it.
+/// Index of the entry of a cumulative distribution that u in [0,1) falls into, and u rescaled to
+/// it.
 std::size_t pick(const std::vector<float>& cumulative, float& u)
 {
     const auto at = std::upper_bound(cumulative.begin(), cumulative.end() - 1, u);
@@ -67,7 +71,8 @@ LightTable::Record LightTable::parallelogram(const Light& light)
     Record record;
     record.area = static_cast<float>(glm::length(perpendicular));
     record.normal = Vec3(perpendicular / glm::length(perpendicular));
-    record.offset = kOffsetScale * (sumAbs(light.corner) + sumAbs(light.edgeU) + sumAbs(light.edgeV));
+    record.offset =
+        kOffsetScale * (sumAbs(light.corner) + sumAbs(light.edgeU) + sumAbs(light.edgeV));
     return record;
 }
 
@@ -136,14 +141,16 @@ EmissiveMesh LightTable::meshOf(const Scene& scene, const Light& light, Record& 
         if (instance.placed)
             for (Vec3& q : p)
                 q = transformPoint(instance.engineFromLocal, q);
-        EmissiveMesh::Triangle triangle{p[0], p[1] - p[0], p[2] - p[0], Vec2(0.0f), Vec2(0.0f), Vec2(0.0f)};
+        EmissiveMesh::Triangle triangle{p[0],       p[1] - p[0], p[2] - p[0],
+                                        Vec2(0.0f), Vec2(0.0f),  Vec2(0.0f)};
         if (!mesh.uvs.empty())
         {
             triangle.ua = mesh.uvs[t.x];
             triangle.uab = mesh.uvs[t.y] - triangle.ua;
             triangle.uac = mesh.uvs[t.z] - triangle.ua;
         }
-        const double area = 0.5 * glm::length(glm::cross(glm::dvec3(triangle.ab), glm::dvec3(triangle.ac)));
+        const double area =
+            0.5 * glm::length(glm::cross(glm::dvec3(triangle.ab), glm::dvec3(triangle.ac)));
         if (!(area > 0.0)) continue;
         emissive.triangles.push_back(triangle);
         largest = std::max(largest, sumAbs(p[0]) + sumAbs(triangle.ab) + sumAbs(triangle.ac));
@@ -193,7 +200,8 @@ std::optional<LightPoint> LightTable::samplePoint(uint32_t index, float u, float
     return LightPoint{t.a + u * t.ab + v * t.ac, normal, t.ua + u * t.uab + v * t.uac, from.offset};
 }
 
-std::optional<AreaLightSample> LightTable::sampleArea(uint32_t index, Vec3 p, float u, float v) const
+std::optional<AreaLightSample> LightTable::sampleArea(uint32_t index, Vec3 p, float u,
+                                                      float v) const
 {
     const std::optional<LightPoint> point = samplePoint(index, u, v);
     if (!point) return std::nullopt;
@@ -202,8 +210,8 @@ std::optional<AreaLightSample> LightTable::sampleArea(uint32_t index, Vec3 p, fl
                     light.twoSided || light.kind == LightKind::Mesh);
 }
 
-std::optional<AreaLightSample> LightTable::sampleAt(uint32_t index, Vec3 p, Vec3 q, Vec3 normal, Vec2 uv,
-                                                    bool twoSided) const
+std::optional<AreaLightSample> LightTable::sampleAt(uint32_t index, Vec3 p, Vec3 q, Vec3 normal,
+                                                    Vec2 uv, bool twoSided) const
 {
     const Vec3 d = q - p;
     const float distance2 = glm::dot(d, d);

@@ -15,29 +15,29 @@ namespace osgRayTrace::engine
 /// A point on an area light as seen from a point to be lit.
 struct AreaLightSample
 {
-    Vec3 wi{0.0f};        ///< unit, from the lit point towards the light
+    Vec3 wi{0.0f}; ///< unit, from the lit point towards the light
     float distance = 0.0f;
     float cosThetaL = 0.0f; ///< cosine at the light, > 0 on an emitting side
-    Vec2 uv{0.0f};        ///< texture coordinates there
-    float pdfW = 0.0f;    ///< [1/sr] with respect to the lit point
-    Vec3 point{0.0f};     ///< on the light
-    Vec3 normal{0.0f};    ///< unit, of the light there; of either side
-    float offset = 0.0f;  ///< distance off the light's plane that is clear of its own surface
+    Vec2 uv{0.0f};          ///< texture coordinates there
+    float pdfW = 0.0f;      ///< [1/sr] with respect to the lit point
+    Vec3 point{0.0f};       ///< on the light
+    Vec3 normal{0.0f};      ///< unit, of the light there; of either side
+    float offset = 0.0f;    ///< distance off the light's plane that is clear of its own surface
 };
 
 /// A point on an area light.
 struct LightPoint
 {
     Vec3 position{0.0f};
-    Vec3 normal{0.0f}; ///< unit, of the front
-    Vec2 uv{0.0f};     ///< texture coordinates there
+    Vec3 normal{0.0f};   ///< unit, of the front
+    Vec2 uv{0.0f};       ///< texture coordinates there
     float offset = 0.0f; ///< along the normal: clears the light's own surface
 };
 
 /// What a directional, point or spot light sends to a point.
 struct DeltaLightSample
 {
-    Vec3 wi{0.0f};        ///< unit, towards the light
+    Vec3 wi{0.0f}; ///< unit, towards the light
     float distance = kInfinity;
     float attenuation = 0.0f; ///< distance and spot terms [OpenGL21, eq. 2.2, 2.3]
 };
@@ -47,7 +47,7 @@ struct EmissiveMesh
 {
     struct Triangle
     {
-        Vec3 a, ab, ac;  ///< engine space
+        Vec3 a, ab, ac; ///< engine space
         Vec2 ua, uab, uac;
     };
     std::vector<Triangle> triangles;
@@ -58,7 +58,8 @@ struct EmissiveMesh
 class LightTable
 {
 public:
-    /// previous: of the last snapshot, whose tables of the environment are taken over if they can be; or null.
+    /// previous: of the last snapshot, whose tables of the environment are taken over if they can
+    /// be; or null.
     explicit LightTable(const Scene& scene, const LightTable* previous = nullptr);
 
     const std::vector<uint32_t>& areaLights() const { return _areaLights; }
@@ -94,7 +95,8 @@ public:
     /// The same of the point, spot and directional lights, in proportion to their colours.
     Choice chooseDeltaLight(float u) const;
 
-    /// A point on an area light, uniform by area. u, v in [0,1). Nothing if it is seen from its dark side.
+    /// A point on an area light, uniform by area. u, v in [0,1). Nothing if it is seen from its
+    /// dark side.
     std::optional<AreaLightSample> sampleArea(uint32_t light, Vec3 p, float u, float v) const;
 
     /// The point that sampleArea would look at, seen from nowhere in particular: density 1 / area.
@@ -126,15 +128,15 @@ private:
     std::vector<uint32_t> _areaLights;
     std::vector<uint32_t> _deltaLights;
     std::unique_ptr<const PlacedEnvironment> _environment;
-    std::vector<uint32_t> _slots;      ///< a light: its record
-    std::vector<Record> _records;      ///< first that of all lights that are never sampled
-    std::vector<float> _cumulative;    ///< an area light; the last is 1
+    std::vector<uint32_t> _slots;        ///< a light: its record
+    std::vector<Record> _records;        ///< first that of all lights that are never sampled
+    std::vector<float> _cumulative;      ///< an area light; the last is 1
     std::vector<float> _deltaCumulative; ///< the same of delta lights
-    std::vector<EmissiveMesh> _meshes; ///< of records of LightKind::Mesh
+    std::vector<EmissiveMesh> _meshes;   ///< of records of LightKind::Mesh
 };
 
-/// What a point light loses over a distance [OpenGL21, eq. 2.2], and what a spot sends the way of a unit
-/// direction over what it sends along its axis [OpenGL21, eq. 2.3].
+/// What a point light loses over a distance [OpenGL21, eq. 2.2], and what a spot sends the way of a
+/// unit direction over what it sends along its axis [OpenGL21, eq. 2.3].
 float distanceTerm(const Light& light, float distance);
 float spotTerm(const Light& light, Vec3 direction);
 

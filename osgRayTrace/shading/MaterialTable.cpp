@@ -18,37 +18,52 @@ bool passes(AlphaTest test, float value, float reference)
 {
     switch (test)
     {
-    case AlphaTest::Never: return false;
-    case AlphaTest::Less: return value < reference;
-    case AlphaTest::Equal: return value == reference;
-    case AlphaTest::LessOrEqual: return value <= reference;
-    case AlphaTest::Greater: return value > reference;
-    case AlphaTest::NotEqual: return value != reference;
-    case AlphaTest::GreaterOrEqual: return value >= reference;
-    case AlphaTest::Always: return true;
+    case AlphaTest::Never:
+        return false;
+    case AlphaTest::Less:
+        return value < reference;
+    case AlphaTest::Equal:
+        return value == reference;
+    case AlphaTest::LessOrEqual:
+        return value <= reference;
+    case AlphaTest::Greater:
+        return value > reference;
+    case AlphaTest::NotEqual:
+        return value != reference;
+    case AlphaTest::GreaterOrEqual:
+        return value >= reference;
+    case AlphaTest::Always:
+        return true;
     }
     return true;
 }
 
-float maxComponent(Vec3 v) { return std::max(v.x, std::max(v.y, v.z)); }
+float maxComponent(Vec3 v)
+{
+    return std::max(v.x, std::max(v.y, v.z));
+}
 
-Vec3 clampUnit(Vec3 v) { return glm::clamp(v, 0.0f, 1.0f); }
+Vec3 clampUnit(Vec3 v)
+{
+    return glm::clamp(v, 0.0f, 1.0f);
+}
 
-/// What an interface of index 1.5 reflects at normal incidence: so much highlight any surface keeps.
+/// What an interface of index 1.5 reflects at normal incidence: so much highlight any surface
+/// keeps.
 constexpr float kLeastHighlight = 0.04f;
 
-/// GGX reflectance that sends back as much light as a highlight of OpenGL's of colour 1 [OpenGL21, eq. 2.1],
-/// from a sphere that is lit and seen from the same far point: there the highlight is cos^s, with a mean of
-/// 2/(s+2) over the sphere's disc, and GGX is D G2 / (4 cos) [Walter07, eq. 20] of alpha^2 = 2/(s+2), with
-/// the mean that is integrated here. 8/(s+2) for large s, 4 for s = 0.
+/// GGX reflectance that sends back as much light as a highlight of OpenGL's of colour 1 [OpenGL21,
+/// eq. 2.1], from a sphere that is lit and seen from the same far point: there the highlight is
+/// cos^s, with a mean of 2/(s+2) over the sphere's disc, and GGX is D G2 / (4 cos) [Walter07, eq.
+/// 20] of alpha^2 = 2/(s+2), with the mean that is integrated here. 8/(s+2) for large s, 4 for s =
+/// 0.
 double highlightReflectance(double shininess)
 {
     const double s = std::max(shininess, 0.01); // the limit, without cancellation
     const double alpha2 = 2.0 / (s + 2.0), alpha = std::sqrt(alpha2);
     const double k2 = 1.0 + alpha2, k = std::sqrt(k2);
     const double logarithm = std::log((k + 1.0) * (k - alpha) / ((k - 1.0) * (k + alpha)));
-    const double integral =
-        (1.0 / alpha2 - alpha) / (2.0 * k2) + logarithm / (4.0 * k2 * k);
+    const double integral = (1.0 / alpha2 - alpha) / (2.0 * k2) + logarithm / (4.0 * k2 * k);
     const double mean = alpha2 / (2.0 * (1.0 - alpha2)) * integral;
     return alpha2 / mean;
 }
@@ -67,7 +82,8 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
 {
     for (const Material& material : scene.materials)
     {
-        const bool glass = material.model == MaterialModel::Physical && material.transmission > 0.0f;
+        const bool glass =
+            material.model == MaterialModel::Physical && material.transmission > 0.0f;
         const float ior = usableIor(material.ior);
         const Coat outside = coatOf(material, ior);
         _coats.push_back({outside, glass ? coatOf(material, 1.0f / ior) : outside});
@@ -78,8 +94,9 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
         MaterialRecord record;
         record.material = &material;
         record.fixedFunction = material.model == MaterialModel::FixedFunction;
-        record.constant = !isTextured(material) && !material.hasBack &&
-                          (!record.fixedFunction || material.vertexColorUse == VertexColorUse::None);
+        record.constant =
+            !isTextured(material) && !material.hasBack &&
+            (!record.fixedFunction || material.vertexColorUse == VertexColorUse::None);
         record.sameLobes = material.metallicRoughnessTexture == kInvalid &&
                            material.transmissionTexture == kInvalid &&
                            material.vertexColorUse != VertexColorUse::Specular &&
@@ -91,8 +108,8 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
             point.front = false;
             record.back = bsdf(i, point);
         }
-        record.plainDiffuse = record.constant && record.front.isDiffuse() &&
-                              !(record.fixedFunction && !material.lit);
+        record.plainDiffuse =
+            record.constant && record.front.isDiffuse() && !(record.fixedFunction && !material.lit);
         record.emits = material.emission != Vec3(0.0f) || (record.fixedFunction && !material.lit) ||
                        material.vertexColorUse == VertexColorUse::Emission ||
                        (material.hasBack && material.back.emission != Vec3(0.0f));
@@ -124,8 +141,7 @@ MaterialTable::Coat MaterialTable::coatOf(const Material& m, float eta) const
 {
     if (m.model != MaterialModel::Physical) return {0.0f, {}}; // it has none
     Coat coat{fresnelDielectricAverage(eta), {}};
-    const bool base = eta != 1.0f && m.metallic < 1.0f &&
-                      m.baseColor != Vec3(0.0f) &&
+    const bool base = eta != 1.0f && m.metallic < 1.0f && m.baseColor != Vec3(0.0f) &&
                       (m.transmission < 1.0f || m.transmissionTexture != kInvalid);
     const float roughness = std::clamp(m.roughness, 0.0f, 1.0f);
     if (!base || roughness * roughness < kSmoothAlpha) return coat;
@@ -239,7 +255,8 @@ float MaterialTable::opacity(uint32_t material, const MaterialPoint& point) cons
     return m.blended ? alpha : 1.0f;
 }
 
-/// False if every ray that meets the surface hits it, for all that is known without looking at points.
+/// False if every ray that meets the surface hits it, for all that is known without looking at
+/// points.
 bool MaterialTable::isPartial(const Material& m) const
 {
     if (m.culling != FaceCulling::None) return true;
@@ -264,7 +281,8 @@ FaceColors fixedFunctionColors(const Material& material, const Vec4& vertexColor
     const Vec3 rgb(vertexColor);
     if (!material.lit)
     {
-        // Without lighting OpenGL shows the primary colour; the converter puts a constant one in diffuse.
+        // Without lighting OpenGL shows the primary colour; the converter puts a constant one in
+        // diffuse.
         if (material.vertexColorUse != VertexColorUse::None)
         {
             colors.diffuse = rgb;
@@ -274,14 +292,21 @@ FaceColors fixedFunctionColors(const Material& material, const Vec4& vertexColor
     }
     switch (material.vertexColorUse)
     {
-    case VertexColorUse::None: break;
-    case VertexColorUse::Ambient: colors.ambient = rgb; break;
+    case VertexColorUse::None:
+        break;
+    case VertexColorUse::Ambient:
+        colors.ambient = rgb;
+        break;
     case VertexColorUse::Diffuse:
         colors.diffuse = rgb;
         colors.alpha = vertexColor.w;
         break;
-    case VertexColorUse::Specular: colors.specular = rgb; break;
-    case VertexColorUse::Emission: colors.emission = rgb; break;
+    case VertexColorUse::Specular:
+        colors.specular = rgb;
+        break;
+    case VertexColorUse::Emission:
+        colors.emission = rgb;
+        break;
     case VertexColorUse::AmbientAndDiffuse:
         colors.ambient = colors.diffuse = rgb;
         colors.alpha = vertexColor.w;
@@ -299,8 +324,10 @@ Vec4 applyTextureEnvironment(const TextureTerms::Term& texture, Vec4 lit)
     {
     case TextureEnvironment::Modulate:
         return Vec4(texture.hasColor ? from * color : from, lit.w * alpha);
-    case TextureEnvironment::Replace: return Vec4(kept, texture.hasAlpha ? alpha : lit.w);
-    case TextureEnvironment::Decal: return Vec4(glm::mix(from, kept, alpha), lit.w);
+    case TextureEnvironment::Replace:
+        return Vec4(kept, texture.hasAlpha ? alpha : lit.w);
+    case TextureEnvironment::Decal:
+        return Vec4(glm::mix(from, kept, alpha), lit.w);
     case TextureEnvironment::Blend:
         return Vec4(texture.hasColor ? glm::mix(from, Vec3(texture.environmentColor), color) : from,
                     lit.w * alpha);

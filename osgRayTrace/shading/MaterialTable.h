@@ -16,21 +16,22 @@ namespace osgRayTrace::engine
 struct MaterialPoint : TexturePoint
 {
     Vec4 vertexColor{1.0f};
-    bool front = true; ///< seen from the counter-clockwise side: decides inside and outside of glass
+    bool front =
+        true; ///< seen from the counter-clockwise side: decides inside and outside of glass
 };
 
 struct MaterialRecord
 {
     const Material* material = nullptr;
-    Bsdf front;               ///< seen from outside; exact if constant
-    Bsdf back;                ///< seen from inside; differs for transmissive surfaces
-    bool constant = true;     ///< neither textures nor vertex colours
+    Bsdf front;                ///< seen from outside; exact if constant
+    Bsdf back;                 ///< seen from inside; differs for transmissive surfaces
+    bool constant = true;      ///< neither textures nor vertex colours
     bool sameLobes = true;     ///< lobes, not colours, are those of front and back at each point
     bool plainDiffuse = false; ///< constant, and nothing but a Lambert base
     bool fixedFunction = false;
-    bool emits = false;       ///< emission, or an unlit fixed-function colour
-    bool generated = false;   ///< texture coordinates need the point's position, normal and direction
-    bool partial = false;     ///< some rays pass it: see opacity and Material::culling
+    bool emits = false;     ///< emission, or an unlit fixed-function colour
+    bool generated = false; ///< texture coordinates need the point's position, normal and direction
+    bool partial = false;   ///< some rays pass it: see opacity and Material::culling
 };
 
 /// The texture units of a fixed-function material, looked up at a point.
@@ -54,22 +55,24 @@ public:
 
     const MaterialRecord& operator[](uint32_t material) const { return _records[material]; }
 
-    /// The physical surface model at a point. Fixed-function materials: diffuse is the Lambert base, the
-    /// highlight a GGX reflection of alpha = sqrt(2/(shininess+2)) [Walter07, sect. 5.2], textured as OpenGL
-    /// does. A sphere that is lit from the eye is on average as bright by it as by OpenGL's highlight, so its
-    /// reflectance is about specular * 8/(shininess+2). No more light leaves than comes: the highlight is
-    /// limited to what the largest component of diffuse leaves of 1, but not to less than the 0.04 of an
-    /// interface of index 1.5; where they do not go together diffuse is scaled down by as much.
+    /// The physical surface model at a point. Fixed-function materials: diffuse is the Lambert
+    /// base, the highlight a GGX reflection of alpha = sqrt(2/(shininess+2)) [Walter07, sect. 5.2],
+    /// textured as OpenGL does. A sphere that is lit from the eye is on average as bright by it as
+    /// by OpenGL's highlight, so its reflectance is about specular * 8/(shininess+2). No more light
+    /// leaves than comes: the highlight is limited to what the largest component of diffuse leaves
+    /// of 1, but not to less than the 0.04 of an interface of index 1.5; where they do not go
+    /// together diffuse is scaled down by as much.
     Bsdf bsdf(uint32_t material, const MaterialPoint& point) const;
 
-    /// Radiance that leaves the surface by itself: emission, or the colour of unlit fixed-function ones.
+    /// Radiance that leaves the surface by itself: emission, or the colour of unlit fixed-function
+    /// ones.
     Vec3 emission(uint32_t material, const MaterialPoint& point) const;
 
     /// Those of a fixed-function material at a point.
     TextureTerms textures(const Material& material, const MaterialPoint& point) const;
 
-    /// Share of the light that the surface stops at a point: 0 where the alpha test fails, alpha if the
-    /// material is blended (straight alpha, source alpha and one minus it), else 1. In [0, 1].
+    /// Share of the light that the surface stops at a point: 0 where the alpha test fails, alpha if
+    /// the material is blended (straight alpha, source alpha and one minus it), else 1. In [0, 1].
     float opacity(uint32_t material, const MaterialPoint& point) const;
 
 private:
@@ -84,7 +87,7 @@ private:
     std::vector<MaterialRecord> _records;
     struct Coat
     {
-        float average; ///< of a smooth one
+        float average;                     ///< of a smooth one
         std::shared_ptr<CoatAlbedo> rough; ///< if it may be, over a base
     };
     Coat coatOf(const Material& material, float eta) const;
@@ -92,7 +95,8 @@ private:
 };
 
 /// Those of the seen face after the vertex colour has replaced what it replaces.
-FaceColors fixedFunctionColors(const Material& material, const Vec4& vertexColor, bool front = true);
+FaceColors fixedFunctionColors(const Material& material, const Vec4& vertexColor,
+                               bool front = true);
 
 /// OpenGL's idea of the front, where lighting has two sides.
 inline bool isFrontFace(const Material& material, bool counterClockwise)

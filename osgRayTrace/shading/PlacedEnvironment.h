@@ -1,5 +1,6 @@
 // PlacedEnvironment.h - the environment of a scene, turned and scaled as its light says. Layer:
-// shading. SPDX-License-Identifier: MIT
+// shading.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/scene/Light.h"

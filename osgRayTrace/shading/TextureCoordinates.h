@@ -1,5 +1,6 @@
 // TextureCoordinates.h - where in its texture a unit looks, at a point of a surface. Layer:
-// shading. SPDX-License-Identifier: MIT
+// shading.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/scene/Material.h"

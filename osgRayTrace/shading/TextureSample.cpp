@@ -78,8 +78,8 @@ Vec4 texel(const Texture& texture, int x, int y, int slice = 0)
     return Vec4(b[0], b[1], b[2], b[3]) * (1.0f / 255.0f);
 }
 
-/// A coordinate in texels, within what an int holds; NaN becomes 0. TextureWrap::Clamp keeps it within
-/// the image [OpenGL21, sect. 3.8.7].
+/// A coordinate in texels, within what an int holds; NaN becomes 0. TextureWrap::Clamp keeps it
+/// within the image [OpenGL21, sect. 3.8.7].
 float texels(float coordinate, int size, TextureWrap wrap)
 {
     if (wrap == TextureWrap::Clamp) coordinate = std::fmin(std::fmax(coordinate, 0.0f), 1.0f);
@@ -118,7 +118,8 @@ Vec4 sampleCube(const Texture& texture, Vec3 r)
               y1 = y0 + 1 < size ? y0 + 1 : y0;
     const float fx = x - float(x0), fy = y - float(y0);
     const Vec4 low = glm::mix(texel(texture, x0, bottom + y0), texel(texture, x1, bottom + y0), fx);
-    const Vec4 high = glm::mix(texel(texture, x0, bottom + y1), texel(texture, x1, bottom + y1), fx);
+    const Vec4 high =
+        glm::mix(texel(texture, x0, bottom + y1), texel(texture, x1, bottom + y1), fx);
     return glm::mix(low, high, fy);
 }
 

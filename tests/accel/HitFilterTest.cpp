@@ -1,5 +1,6 @@
 // HitFilterTest.cpp - surfaces of opacity a stop a share a of all rays, culled faces those of the
-// camera. SPDX-License-Identifier: MIT
+// camera.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 #include "tests/Rays.h"

@@ -1,5 +1,6 @@
 // SurfaceTest.cpp - surface points lie on their triangles, and rays that leave them do not hit
-// them. SPDX-License-Identifier: MIT
+// them.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 #include "tests/Rays.h"
@@ -402,10 +403,12 @@ TEST_CASE("surface: lifts are the same in blocks of one triangle and of several,
     }
 }
 
-TEST_CASE("surface: blocks that follow on others on the same triangle are as they are alone", "[accel]")
+TEST_CASE("surface: blocks that follow on others on the same triangle are as they are alone",
+          "[accel]")
 {
-    // One triangle of four bodies, so that all have the same number: seen in any order, so that each
-    // follows on itself and on all others, on a block without hits and on one that is on two of them.
+    // One triangle of four bodies, so that all have the same number: seen in any order, so that
+    // each follows on itself and on all others, on a block without hits and on one that is on two
+    // of them.
     const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0.25f}};
     auto flat = newMesh(corners, {{0, 1, 2}}), smooth = newMesh(corners, {{0, 1, 2}});
     smooth->normals = std::vector<Vec3>{{-0.3f, -0.3f, 1}, {0.3f, 0, 1}, {0, 0.3f, 1}};
@@ -413,7 +416,8 @@ TEST_CASE("surface: blocks that follow on others on the same triangle are as the
     for (int body = 0; body < 4; ++body)
     {
         const float grey = 0.2f * static_cast<float>(1 + body);
-        Instance& instance = builder.scene->instances[builder.add(body % 2 ? smooth : flat, lambert(Vec3(grey)))];
+        Instance& instance =
+            builder.scene->instances[builder.add(body % 2 ? smooth : flat, lambert(Vec3(grey)))];
         instance.placed = true;
         instance.mirrored = body > 1;
         instance.engineFromLocal.linear = Mat3(body > 1 ? -1 : 1, 0, 0, 0, 1, 0, 0, 0, 1);
@@ -437,7 +441,8 @@ TEST_CASE("surface: blocks that follow on others on the same triangle are as the
         traced->intersector().closestHits(block, kAllLanes, Coherence::Coherent);
         SurfaceLanes alone, surface;
         surfacesOf(traced->surfaces(), block, kAllLanes, alone, RayStart::Smooth);
-        reused += alone.hits && block.geometry[0] == last.geometry && block.instance[0] == last.instance;
+        reused +=
+            alone.hits && block.geometry[0] == last.geometry && block.instance[0] == last.instance;
         surfacesOf(traced->surfaces(), block, kAllLanes, surface, RayStart::Smooth, &last);
         CAPTURE(k, body);
         REQUIRE(surface.hits == (body == 4 ? 0u : kAllLanes));

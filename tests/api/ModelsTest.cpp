@@ -1,5 +1,6 @@
 // ModelsTest.cpp - real models are converted and traced by each integrator; OSG_FILE_PATH leads to
-// the sample data. Layer: tests. SPDX-License-Identifier: MIT
+// the sample data. Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
 #include <osgRayTrace/Renderer>

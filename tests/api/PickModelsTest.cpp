@@ -1,5 +1,6 @@
 // PickModelsTest.cpp - picks in real models as osgUtil does; OSG_FILE_PATH leads to the sample
-// data. Layer: tests. SPDX-License-Identifier: MIT
+// data. Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/api/Picks.h"
 

@@ -127,7 +127,8 @@ TEST_CASE("a plane that makes as many triangles as it takes leaves the numbers o
     const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     for (const float left : {-1.0f, 2.0f, -4.0f}) // cut in two, whole, taken
-        for (const osg::Vec3& corner : {osg::Vec3(0, 0, 0), osg::Vec3(2, -1, 0), osg::Vec3(2, 1, 0)})
+        for (const osg::Vec3& corner :
+             {osg::Vec3(0, 0, 0), osg::Vec3(2, -1, 0), osg::Vec3(2, 1, 0)})
             vertices->push_back(corner + osg::Vec3(left, 0, 0));
     geometry->setVertexArray(vertices);
     geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 9));

@@ -1,5 +1,6 @@
 // Picks.h - the same segment by osgUtil's intersector and by ours, and how the two agree. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osgRayTrace/RayIntersector>

@@ -1,5 +1,6 @@
 // RayIntersectorTest.cpp - picks in small graphs as osgUtil does, or as RayIntersector says. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/api/PickScenes.h"
 

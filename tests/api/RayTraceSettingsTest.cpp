@@ -155,8 +155,8 @@ TEST_CASE("settings: sizes of single lights are checked", "[api][settings]")
         CHECK(settings->set("light-sizes", good));
         CHECK(settings->getLightSizes() == good);
     }
-    for (const char* bad : {"key", "key=", "=1", "key=-1", "key=nan", "key=inf", "key=1e39", "key=1,",
-                            "key=1x", "key= 1", ",", "key=1,,x=2"})
+    for (const char* bad : {"key", "key=", "=1", "key=-1", "key=nan", "key=inf", "key=1e39",
+                            "key=1,", "key=1x", "key= 1", ",", "key=1,,x=2"})
     {
         INFO(bad);
         CHECK_FALSE(settings->set("light-sizes", bad));

@@ -125,7 +125,8 @@ TEST_CASE("renderer: sizes and matrices that cannot be are refused", "[api][rend
     CHECK(sameBytes(before, renderer->getColorImage())); // the last good image stays
 }
 
-TEST_CASE("renderer: an empty scene shows exactly the clear colour", "[api][renderer][stability 21]")
+TEST_CASE("renderer: an empty scene shows exactly the clear colour",
+          "[api][renderer][stability 21]")
 {
     const auto renderer = rendererOf(new osg::Group);
     for (const auto rule : {RayTraceSettings::DISPLAY_REFERRED, RayTraceSettings::LINEAR})
@@ -313,8 +314,9 @@ TEST_CASE("renderer: cancelled in its first pass, it has the tiles there are", "
 {
     const auto renderer = rendererOf(room());
     renderer->setSize(640, 480);
-    renderer->setViewMatrix(osg::Matrix::lookAt(
-        osg::Vec3d(1.0, 1.0, 1.5), osg::Vec3d(1.0, 1.0, 0.0), osg::Vec3d(0.0, 1.0, 0.0))); // all floor
+    renderer->setViewMatrix(osg::Matrix::lookAt(osg::Vec3d(1.0, 1.0, 1.5),
+                                                osg::Vec3d(1.0, 1.0, 0.0),
+                                                osg::Vec3d(0.0, 1.0, 0.0))); // all floor
     renderer->setClearColor(osg::Vec4(1.0f, 0.0f, 0.0f, 1.0f));
     renderer->getSettings()->setIntegrator(RayTraceSettings::WHITTED);
     renderer->getSettings()->setLightSamples(4096);
@@ -571,7 +573,8 @@ TEST_CASE("renderer: culled faces cast shadows, or are there for no ray", "[api]
     scene->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::ON);
     const auto renderer = rendererOf(scene);
     renderer->setHeadlight(false);
-    renderer->setViewMatrix(osg::Matrix::lookAt(osg::Vec3d(0, 0, 6), osg::Vec3d(), osg::Vec3d(0, 1, 0)));
+    renderer->setViewMatrix(
+        osg::Matrix::lookAt(osg::Vec3d(0, 0, 6), osg::Vec3d(), osg::Vec3d(0, 1, 0)));
     renderer->getSettings()->setIntegrator(RayTraceSettings::WHITTED);
     const auto shown = [&]
     {
@@ -603,13 +606,15 @@ TEST_CASE("renderer: the headlight is osgViewer's", "[api][renderer]")
     CHECK(lit - unlit == Approx(0.64 * 255.0).margin(1.0));
 }
 
-TEST_CASE("renderer: denoised images are smoother, and what was accumulated stays", "[api][renderer][denoise]")
+TEST_CASE("renderer: denoised images are smoother, and what was accumulated stays",
+          "[api][renderer][denoise]")
 {
     const osg::ref_ptr<osg::Group> scene = room();
     const osg::ref_ptr<Renderer> renderer = rendererOf(scene.get());
     renderer->getSettings()->setMaxPasses(1);
     REQUIRE(renderer->render());
-    const osg::ref_ptr<osg::Image> color = renderer->getColorImage(), display = renderer->getDisplayImage();
+    const osg::ref_ptr<osg::Image> color = renderer->getColorImage(),
+                                   display = renderer->getDisplayImage();
     CHECK(renderer->getStatistics().denoiseMilliseconds == 0.0);
 
     renderer->getSettings()->setDenoise(RayTraceSettings::FILTER);
@@ -622,7 +627,8 @@ TEST_CASE("renderer: denoised images are smoother, and what was accumulated stay
         double sum = 0.0;
         for (int y = 4; y < 12; ++y)
             for (int x = 12; x < 36; ++x)
-                sum += std::abs(floats(image)[4 * (48 * y + x)] - floats(image)[4 * (48 * y + x + 1)]);
+                sum +=
+                    std::abs(floats(image)[4 * (48 * y + x)] - floats(image)[4 * (48 * y + x + 1)]);
         return sum;
     };
     CHECK(roughness(*filtered) < 0.5 * roughness(*color));

@@ -1,5 +1,6 @@
 // BadInputTest.cpp - osgraytrace refuses what it cannot do: one clear line, the right exit code, no
-// file. SPDX-License-Identifier: MIT
+// file.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
 
@@ -66,7 +67,8 @@ TEST_CASE("osgraytrace: wrong usage ends with 1", "[apps]")
     refuses(1, kBox + " -o x.png --size -8 8", "--size");
     refuses(1, kBox + " -o x.png --size 100000 100000", "2^28");
     refuses(1, kBox + " -o x.png --size 8.5 8", "--size");
-    refuses(1, kBox + " -o x.png --integrator fast", "auto, whitted, path, ppm, sppm, photon-caustics, debug");
+    refuses(1, kBox + " -o x.png --integrator fast",
+            "auto, whitted, path, ppm, sppm, photon-caustics, debug");
     refuses(1, kBox + " -o x.png --light-sampling grid",
             "random, uniform-jitter, stratified, sobol");
     refuses(1, kBox + " -o x.png --light-samples 0", "1 .. 4096");

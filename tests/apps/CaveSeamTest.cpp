@@ -154,21 +154,24 @@ TEST_CASE("four walls stitched together are one panorama, without a seam")
     CHECK(edges / edgeCount < 0.6 / 255.0);
 }
 
-TEST_CASE("processes that show a wall each have the pixels of one that shows all, photons and edges")
+TEST_CASE(
+    "processes that show a wall each have the pixels of one that shows all, photons and edges")
 {
-    // Two walls side by side, one process each, as the nodes of a cluster; one process for both; and one
-    // wall as wide as the two.
+    // Two walls side by side, one process each, as the nodes of a cluster; one process for both;
+    // and one wall as wide as the two.
     const TemporaryFolder folder;
     const auto wall = [](int number, int pixels, int width, int centre)
     {
         const std::string name = " name=\"" + std::to_string(number) + "\"";
         const std::string size = " width=\"" + std::to_string(pixels) + "\" height=\"48\"";
-        return "<WindowConfig><Window" + name + size + "/></WindowConfig><ChannelConfig><Channel" + name +
-               size + " windowIndex=\"" + std::to_string(number) + "\"/></ChannelConfig><ScreenConfig><Screen" +
-               name + " width=\"" + std::to_string(width) + "\" height=\"3000\" originX=\"" +
-               std::to_string(centre) + "\" originY=\"1500\" originZ=\"0\"/></ScreenConfig>";
+        return "<WindowConfig><Window" + name + size + "/></WindowConfig><ChannelConfig><Channel" +
+               name + size + " windowIndex=\"" + std::to_string(number) +
+               "\"/></ChannelConfig><ScreenConfig><Screen" + name + " width=\"" +
+               std::to_string(width) + "\" height=\"3000\" originX=\"" + std::to_string(centre) +
+               "\" originY=\"1500\" originZ=\"0\"/></ScreenConfig>";
     };
-    const std::string rest = "<Near value=\"50\"/><Far value=\"100000\"/><SceneSize value=\"9000\"/>";
+    const std::string rest =
+        "<Near value=\"50\"/><Far value=\"100000\"/><SceneSize value=\"9000\"/>";
     std::ofstream(folder / "left.xml") << wall(0, 24, 1500, -750) << rest;
     std::ofstream(folder / "right.xml") << wall(0, 24, 1500, 750) << rest;
     std::ofstream(folder / "both.xml") << wall(0, 24, 1500, -750) << wall(1, 24, 1500, 750) << rest;
@@ -176,7 +179,8 @@ TEST_CASE("processes that show a wall each have the pixels of one that shows all
     const auto pictures = [&](const std::string& name, int count)
     {
         const Outcome outcome = osgraytrace(
-            folder, "--cave " + name + ".xml --head 100 -200 50 0 0 0 --integrator ppm --photons 20000" +
+            folder, "--cave " + name +
+                        ".xml --head 100 -200 50 0 0 0 --integrator ppm --photons 20000" +
                         " --seed 7 --aim-at-views false --max-passes 6 --output " + name + ".png " +
                         dataFile("cornell_box_glass.osgt"));
         INFO(name << ": " << outcome.errors);
@@ -212,8 +216,9 @@ TEST_CASE("processes that show a wall each have the pixels of one that shows all
         CHECK(different == 0);
         CHECK(lit > n * height / 4);
     }
-    // Along the edge the walls have, on either side, the values of the wide one, but for the noise of a
-    // pixel's own samples: 4 standard errors, a false alarm in 16,000 choices of the seed for each side.
+    // Along the edge the walls have, on either side, the values of the wide one, but for the noise
+    // of a pixel's own samples: 4 standard errors, a false alarm in 16,000 choices of the seed for
+    // each side.
     for (int w = 0; w < 2; ++w)
     {
         double sum = 0.0, squares = 0.0;
@@ -222,8 +227,9 @@ TEST_CASE("processes that show a wall each have the pixels of one that shows all
             for (int x = 0; x < 4; ++x)
             {
                 const int column = w == 0 ? n - 1 - x : x;
-                const double difference = (pixel(*alone[w], column, y) - pixel(*whole, column + w * n, y)) *
-                                          osg::Vec3d(1.0, 1.0, 1.0) / 3.0;
+                const double difference =
+                    (pixel(*alone[w], column, y) - pixel(*whole, column + w * n, y)) *
+                    osg::Vec3d(1.0, 1.0, 1.0) / 3.0;
                 sum += difference;
                 squares += difference * difference;
                 ++count;
@@ -266,7 +272,8 @@ TEST_CASE("a signal ends the viewer's pictures, which are written")
         program.signal(SIGTERM);
         CHECK(program.wait() == 143);
         if (!osgDB::fileExists(folder / "w-0.png")) continue; // it had not begun yet
-        CHECK(program.printed().find("osgraytraceviewer: SIGTERM: pictures of ") != std::string::npos);
+        CHECK(program.printed().find("osgraytraceviewer: SIGTERM: pictures of ") !=
+              std::string::npos);
         for (const char* file : {"w-0.png", "w-1.png", "w-2.png", "w-3.png"})
             CHECK(osgDB::readRefImageFile(folder / file));
         return;

@@ -1,5 +1,6 @@
 // ForeignProgram.cpp - a program that knows OpenSceneGraph alone. Says what its views show. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include <osg/Group>
 #include <osgViewer/CompositeViewer>
 #include <osgViewer/Viewer>

@@ -1,5 +1,6 @@
 // OutputTest.cpp - what osgraytrace writes over, what it leaves, and what it says if it cannot
-// write. SPDX-License-Identifier: MIT
+// write.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
 

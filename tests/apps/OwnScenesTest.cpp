@@ -1,5 +1,6 @@
 // OwnScenesTest.cpp - our own scenes as viewers open them that know of no stored view, and without
-// their files. SPDX-License-Identifier: MIT
+// their files.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
 

@@ -111,7 +111,8 @@ TEST_CASE("bench photons: wrong usage is refused", "[apps]")
     // Before it measures for minutes.
     const Outcome unwritable = osgraytrace(folder, "limit --json nowhere/rows.json");
     CHECK(unwritable.exitCode == 4);
-    CHECK(unwritable.errors == "osgraytracebench: cannot write nowhere/rows.json: there is no folder nowhere\n");
+    CHECK(unwritable.errors ==
+          "osgraytracebench: cannot write nowhere/rows.json: there is no folder nowhere\n");
     CHECK(osgraytrace(folder, "limit --json .").exitCode == 4);
     CHECK(folder.fileNames().empty());
 }
@@ -121,9 +122,9 @@ TEST_CASE("bench photons: a signal leaves the rows that were measured", "[apps]"
     for (int milliseconds = 250; milliseconds < 20000; milliseconds *= 2)
     {
         const TemporaryFolder folder;
-        RunningProgram program(folder / ".", {OSGRAYTRACE_TEST_PROGRAM, "photons", "--width", "0",
-                                              "--json", "rows.json", "--runs", "50", "--photons",
-                                              "20000"});
+        RunningProgram program(folder / ".",
+                               {OSGRAYTRACE_TEST_PROGRAM, "photons", "--width", "0", "--json",
+                                "rows.json", "--runs", "50", "--photons", "20000"});
         std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
         program.signal(SIGTERM);
         CHECK(program.wait() == 143);
@@ -141,7 +142,8 @@ TEST_CASE("bench photons: a signal leaves the rows that were measured", "[apps]"
 TEST_CASE("bench photons: what cannot be printed ends with 4", "[apps]")
 {
     const TemporaryFolder folder;
-    const Outcome outcome = osgraytrace(folder, "photons " + kFew + "--only lookup >/dev/full )", "(");
+    const Outcome outcome =
+        osgraytrace(folder, "photons " + kFew + "--only lookup >/dev/full )", "(");
     CHECK(outcome.exitCode == 4);
     CHECK(outcome.errors.find("cannot write to standard output") != std::string::npos);
 }

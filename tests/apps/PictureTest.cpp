@@ -119,18 +119,20 @@ TEST_CASE("osgraytrace: EXR channels are those asked for", "[apps]")
     CHECK(exr.find("error.R")->values[pixel] > 0.0f);
 }
 
-// The grids of the paper's Figures 1 to 3. Errors differ by factors of 1.2 and more from one strategy to
-// the next; over the 19,200 pixels they vary by some 2 %.
-TEST_CASE("osgraytrace: on the grids Sobol points have the least error, random ones the most", "[apps]")
+// The grids of the paper's Figures 1 to 3. Errors differ by factors of 1.2 and more from one
+// strategy to the next; over the 19,200 pixels they vary by some 2 %.
+TEST_CASE("osgraytrace: on the grids Sobol points have the least error, random ones the most",
+          "[apps]")
 {
     const TemporaryFolder folder;
-    const std::string grids = dataFile("grids.osgt") +
-                              " --integrator whitted --light-samples 16 --size 160 120 ";
+    const std::string grids =
+        dataFile("grids.osgt") + " --integrator whitted --light-samples 16 --size 160 120 ";
     REQUIRE(osgraytrace(folder, grids + "--passes 128 -o r.exr").exitCode == 0);
     const auto error = [&](const std::string& strategy)
     {
-        const Outcome outcome = osgraytrace(folder, grids + "--passes 4 --seed 5 --light-sampling " +
-                                                        strategy + " -o x.exr --reference r.exr");
+        const Outcome outcome =
+            osgraytrace(folder, grids + "--passes 4 --seed 5 --light-sampling " + strategy +
+                                    " -o x.exr --reference r.exr");
         REQUIRE(outcome.exitCode == 0);
         return measuresIn(outcome.output).relMse;
     };
@@ -152,8 +154,9 @@ TEST_CASE("osgraytrace: --reference compares with a file of the same picture", "
     CHECK(same.relMse == 0.0);
     CHECK(same.meanRatio == 1.0);
 
-    // Another seed: noise, but the same mean. The light is a few bright pixels, whose edges carry most of
-    // the mean's noise: over 300 seeds its standard deviation is 2.7 %, so 4 sigma of a ratio are 15 %.
+    // Another seed: noise, but the same mean. The light is a few bright pixels, whose edges carry
+    // most of the mean's noise: over 300 seeds its standard deviation is 2.7 %, so 4 sigma of a
+    // ratio are 15 %.
     const Outcome other =
         osgraytrace(folder, kBox + kQuick + "--seed 7 -o x.exr --reference r.exr --stats s.json");
     const Measures noise = measuresIn(other.output);

@@ -76,8 +76,7 @@ TEST_CASE("osgraytrace --materials: glass by a name, and errors with their line"
 {
     const TemporaryFolder folder, models;
     const std::string town = writeScene(models, true);
-    const auto write = [&](const std::string& text)
-    { std::ofstream(models / "m.json") << text; };
+    const auto write = [&](const std::string& text) { std::ofstream(models / "m.json") << text; };
     const std::string run = town + " --size 8 8 --passes 1 -o x.exr --stats s.json --materials '" +
                             models / "m.json" + "'";
 

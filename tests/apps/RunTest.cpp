@@ -1,5 +1,6 @@
 // RunTest.cpp - osgraytrace-run puts ray tracing above the scenes of a program of others. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "Program.h" // runs osgraytrace-run here
 #include "tests/Catch.h"
 

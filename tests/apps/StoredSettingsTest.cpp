@@ -1,5 +1,6 @@
 // StoredSettingsTest.cpp - what a scene brings with it besides surfaces, and what osgraytrace says
-// of pictures. SPDX-License-Identifier: MIT
+// of pictures.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
 

@@ -1,5 +1,6 @@
 // ViewerTest.cpp - what osgraytraceviewer says over its picture, and which keys it takes. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "apps/common/ErrorText.h"
 #include "apps/osgraytraceviewer/KeyHandler.h"
 #include "apps/osgraytraceviewer/StatusLine.h"

@@ -1,5 +1,6 @@
 // BackgroundTracerTest.cpp - a worker that is held at the looks it takes at its clock: who waits
-// for it, what it hands over, when it sleeps. Layer: tests. SPDX-License-Identifier: MIT
+// for it, what it hands over, when it sleeps. Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 

@@ -1,5 +1,6 @@
 // ContextStateTest.cpp - conversion asks nothing of OpenGL: a program of its own, which never has a
-// context. SPDX-License-Identifier: MIT
+// context.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 

@@ -1,5 +1,6 @@
 // ConversionReportTest.cpp - what the user is told: counts, where, and each reason once. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 #include "tests/bridge/Messages.h"

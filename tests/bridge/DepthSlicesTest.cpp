@@ -1,5 +1,6 @@
 // DepthSlicesTest.cpp - one picture for slices of depth: planes and depths against matrices. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/DepthSlices.h"
 
 #include "tests/Catch.h"

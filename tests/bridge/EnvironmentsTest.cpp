@@ -251,13 +251,14 @@ TEST_CASE("environment light: a scale that no float can hold is limited and name
     CHECK(radiance.z == 1e38f); // of nothing
 }
 
-// It is read as blocks: a type of floats must not have their bytes searched for such as are not finite.
+// It is read as blocks: a type of floats must not have their bytes searched for such as are not
+// finite.
 TEST_CASE("environment light: the data type of a compressed image does not matter", "[bridge]")
 {
     std::vector<unsigned char> blocks(1024, 0xff);
     osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->setImage(8, 4, 1, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_FLOAT,
-                    blocks.data(), osg::Image::NO_DELETE);
+    image->setImage(8, 4, 1, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_COMPRESSED_RGB_S3TC_DXT1_EXT,
+                    GL_FLOAT, blocks.data(), osg::Image::NO_DELETE);
     SkyScene scene(image);
     const ConversionResult result = scene.convert();
     CHECK(countOf(result, "converted.environment-light") == 1);

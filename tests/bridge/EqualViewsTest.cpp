@@ -1,5 +1,6 @@
 // EqualViewsTest.cpp - the walls of a CAVE under one frame budget: what they cost differs, what
-// they show does not. SPDX-License-Identifier: MIT
+// they show does not.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 

@@ -1,5 +1,6 @@
 // GraphEditor.h - random edits of a scene graph that replace objects by others of the same size.
-// Layer: tests. SPDX-License-Identifier: MIT
+// Layer: tests.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osg/Geometry>

@@ -196,10 +196,8 @@ TEST_CASE("shared geometry becomes one mesh with placed instances, single use is
     CHECK_FALSE(instances[1].mirrored);
     CHECK(instances[2].mirrored);
     const Mat3 normalFromLocal = normalMatrix(instances[2].engineFromLocal.linear);
-    CHECK(glm::length(normalFromLocal * Vec3(1.0f, 0.0f, 0.0f) -
-                      Vec3(-1.0f, 0.0f, 0.0f)) < 1e-6f);
-    CHECK(glm::length(normalFromLocal * Vec3(0.0f, 1.0f, 0.0f) -
-                      Vec3(0.0f, 0.5f, 0.0f)) < 1e-6f);
+    CHECK(glm::length(normalFromLocal * Vec3(1.0f, 0.0f, 0.0f) - Vec3(-1.0f, 0.0f, 0.0f)) < 1e-6f);
+    CHECK(glm::length(normalFromLocal * Vec3(0.0f, 1.0f, 0.0f) - Vec3(0.0f, 0.5f, 0.0f)) < 1e-6f);
     CHECK_FALSE(instances[0].placed);
     CHECK(visibleAt(result) == std::vector<float>{3.0f, 1.0f, 5.0f}); // those in place come first
 }

@@ -1,5 +1,6 @@
 // LiveGraph.cpp - a small scene graph that is edited, and a view of it without OpenGL. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "tests/bridge/LiveGraph.h"
 
 #include <osg/Geometry>

@@ -1,5 +1,6 @@
 // LiveLightsTest.cpp - lights of all kinds that are edited, and transforms above them. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"
 

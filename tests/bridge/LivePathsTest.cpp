@@ -1,5 +1,6 @@
 // LivePathsTest.cpp - nodes that come and go: on which of several paths, how many, with which
-// state. Layer: tests. SPDX-License-Identifier: MIT
+// state. Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"
 

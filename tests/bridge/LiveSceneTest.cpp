@@ -1,5 +1,6 @@
 // LiveSceneTest.cpp - what is redone for each kind of edit, and that the picture is that of a fresh
-// conversion. SPDX-License-Identifier: MIT
+// conversion.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"
 

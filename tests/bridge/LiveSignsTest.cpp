@@ -1,5 +1,6 @@
 // LiveSignsTest.cpp - edits that are easily missed, and requests that are easily lost. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"
 
@@ -64,7 +65,7 @@ TEST_CASE("live signs: vertex arrays that are exchanged in each frame do not pil
     CHECK(view.statistics().patches == 12);
     const auto alive = std::count_if(arrays.begin(), arrays.end(),
                                      [](const auto& array) { return array.valid(); });
-    CHECK(alive <= 3); // its own, and those of meshes that the last version has
+    CHECK(alive <= 3);     // its own, and those of meshes that the last version has
     graph.deform(2, 0.3f); // the last one is watched
     CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
     CHECK(view.statistics().patches == 13);

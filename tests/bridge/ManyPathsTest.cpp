@@ -1,5 +1,6 @@
 // ManyPathsTest.cpp - shared subgraphs with more paths than any traversal could follow, and nodes
-// that change the graph while it is traversed. Layer: tests. SPDX-License-Identifier: MIT
+// that change the graph while it is traversed. Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/GraphFingerprint.h"
 #include "osgRayTrace/bridge/GraphWatch.h"
 #include "osgRayTrace/bridge/PathBudget.h"

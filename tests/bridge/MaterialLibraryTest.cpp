@@ -141,7 +141,8 @@ TEST_CASE("material files: what is wrong is named, with its line", "[bridge]")
     CHECK_THAT(parameterError("\"roughness\": null"), Contains("expected, not null"));
     CHECK_THAT(parameterError("\"roughness\": true"), Contains("expected, not true or false"));
     CHECK_THAT(parameterError("\"roughness\": {}"), Contains("expected, not an object"));
-    CHECK_THAT(parameterError("\"roughness\": 1e999"), Contains("m.json:3: number overflow parsing '1e999'"));
+    CHECK_THAT(parameterError("\"roughness\": 1e999"),
+               Contains("m.json:3: number overflow parsing '1e999'"));
     CHECK_THAT(parameterError("\"ior\": 2,\n \"ior\": 2"),
                Contains("m.json:4: nodes: 'cow': 'ior' is there twice"));
     CHECK_THAT(readMaterialLibrary("no such file.json").error,

@@ -132,7 +132,8 @@ TEST_CASE("polygon offset is reported where its back can be seen", "[bridge]")
 {
     const auto geometry = triangleGeometry();
     osg::StateSet* state = geometry->getOrCreateStateSet();
-    const auto reported = [&] { return countOf(convertGraph(geometry), "approximated.polygon-offset"); };
+    const auto reported = [&]
+    { return countOf(convertGraph(geometry), "approximated.polygon-offset"); };
     state->setAttribute(new osg::PolygonOffset(1.0f, 1.0f));
     CHECK(reported() == 0);
     state->setMode(GL_POLYGON_OFFSET_FILL, kOn);

@@ -1,5 +1,6 @@
 // MovingViewTest.cpp - a view that moves takes along what it has accumulated, and nothing that is
-// wrong. SPDX-License-Identifier: MIT
+// wrong.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/ViewTracer.h"
 
 #include "tests/Catch.h"

@@ -63,14 +63,15 @@ ViewingConditions conditionsOf(const ConversionInput& input)
     return conditions;
 }
 
-/// Whether the watch of a graph with the node in it has it converted again, when it is viewed so and then
-/// so, and changed in between. If it has, the next look finds nothing.
+/// Whether the watch of a graph with the node in it has it converted again, when it is viewed so
+/// and then so, and changed in between. If it has, the next look finds nothing.
 template <class Change>
 bool watchSees(osg::Node* node, const ViewingConditions& before, const ViewingConditions& after,
                const Change& change)
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;
-    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrix::rotate(0.3, 1, 0, 0));
+    osg::ref_ptr<osg::MatrixTransform> place =
+        new osg::MatrixTransform(osg::Matrix::rotate(0.3, 1, 0, 0));
     root->addChild(place);
     place->addChild(node);
     GraphWatch watch;
@@ -178,8 +179,9 @@ TEST_CASE(
             return graphFingerprint(*node, conditionsOf(viewedFrom(node, {5.0, 6.0, 7.0}, up)));
         };
         const bool printed = print({0, 0, 1}) != print({0, 1, 0});
-        const auto upright = [&](const osg::Vec3d& up)
-        { return conditionsOf(viewedFrom(node, {5.0, 6.0, 7.0}, up)); };
+        const auto upright = [&](const osg::Vec3d& up) {
+            return conditionsOf(viewedFrom(node, {5.0, 6.0, 7.0}, up));
+        };
         CHECK(watchSees(node, upright({0, 0, 1}), upright({0, 1, 0}), kNoChange) == printed);
         return printed;
     };
@@ -214,7 +216,8 @@ TEST_CASE(
     const uint64_t before = graphFingerprint(*clip, ViewingConditions());
     clip->getClipPlane(0)->setClipPlane(1.0, 0.0, 0.0, 0.1);
     CHECK(graphFingerprint(*clip, ViewingConditions()) != before);
-    CHECK(watchSees(clip, {}, {}, [&] { clip->getClipPlane(0)->setClipPlane(1.0, 0.0, 0.0, 0.2); }));
+    CHECK(
+        watchSees(clip, {}, {}, [&] { clip->getClipPlane(0)->setClipPlane(1.0, 0.0, 0.0, 0.2); }));
 }
 
 TEST_CASE("nodes: what hides things from a view only hides nothing", "[bridge]")

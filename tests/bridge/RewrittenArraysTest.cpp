@@ -1,5 +1,6 @@
 // RewrittenArraysTest.cpp - arrays that are marked as modified with the values that they had.
-// Layer: tests. SPDX-License-Identifier: MIT
+// Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/BufferContents.h"
 
 #include "tests/Catch.h"

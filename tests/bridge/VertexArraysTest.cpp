@@ -135,7 +135,8 @@ TEST_CASE("arrays in the right layout are shared, not copied", "[bridge]")
         CHECK(mesh.colors.data() == colors->getDataPointer());
     }
 
-    SECTION("the scene keeps them alive; they go by the thread that updates, whoever used them last")
+    SECTION(
+        "the scene keeps them alive; they go by the thread that updates, whoever used them last")
     {
         osg::observer_ptr<osg::Array> array = geometry->getVertexArray();
         geometry->setVertexArray(new osg::Vec3Array);

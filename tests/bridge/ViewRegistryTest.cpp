@@ -211,14 +211,16 @@ TEST_CASE("view registry: slices of an eye's depths share its state, eyes do not
     CHECK_FALSE(acquireSlice(registry, at(pass(2, 1, 5), near)).shared);
 }
 
-TEST_CASE("view registry: slices that are culled before the first draws are known to it", "[bridge]")
+TEST_CASE("view registry: slices that are culled before the first draws are known to it",
+          "[bridge]")
 {
     Registry registry;
     for (uint64_t frame = 1; frame < 4; ++frame)
     {
         // The head moves, and the planes with it.
         const double eye = 0.1 * double(frame), middle = 10.0 + double(frame);
-        const View far = viewAt(eye, middle, 100.0), near = viewAt(eye, 1.0 / double(frame), middle);
+        const View far = viewAt(eye, middle, 100.0),
+                   near = viewAt(eye, 1.0 / double(frame), middle);
         registry.note(at(pass(1, 1, frame), far));
         registry.note(at(pass(2, 1, frame), near));
         const auto a = acquireSlice(registry, at(pass(1, 1, frame), far));

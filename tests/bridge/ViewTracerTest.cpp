@@ -1,5 +1,6 @@
 // ViewTracerTest.cpp - frames under a budget, by a clock that each tile moves on: what is shown is
-// whole. SPDX-License-Identifier: MIT
+// whole.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 

@@ -1,5 +1,6 @@
 // AllocationFailureTest.cpp - every allocation of a render fails once: a message, and no harm done.
-// Layer: tests. SPDX-License-Identifier: MIT
+// Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "CountedMemory.h"
 #include "tests/Catch.h"
 

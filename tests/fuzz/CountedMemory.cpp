@@ -29,13 +29,15 @@ AddressRange drivers[16]; // written before armed, read while it is
 
 void addDriver(const dl_phdr_info& info)
 {
-    // When an operator new fails within its parallel build Embree 3.13.5 frees what it still uses (one run in
-    // fifteen crashed in rtcReleaseDevice): its memory is refused through its memory monitor instead.
+    // When an operator new fails within its parallel build Embree 3.13.5 frees what it still uses
+    // (one run in fifteen crashed in rtcReleaseDevice): its memory is refused through its memory
+    // monitor instead.
     for (const char* name :
          {"libLLVM", "libOSMesa", "swrast_dri", "libGL", "libEGL", "libembree", "libtbb"})
     {
         if (!std::strstr(info.dlpi_name, name)) continue;
-        AddressRange* free = std::find_if(drivers, drivers + 15, [](auto& r) { return r.end == 0; });
+        AddressRange* free =
+            std::find_if(drivers, drivers + 15, [](auto& r) { return r.end == 0; });
         free->begin = info.dlpi_addr;
         for (int i = 0; i < info.dlpi_phnum; ++i)
             free->end = std::max<uintptr_t>(free->end, info.dlpi_addr + info.dlpi_phdr[i].p_vaddr +

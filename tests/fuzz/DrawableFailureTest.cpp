@@ -1,5 +1,6 @@
 // DrawableFailureTest.cpp - allocations of a viewer's frame fail: the scene stays visible. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "CountedMemory.h"
 #include "tests/Catch.h"
 #include "tests/gl/TestViewer.h"

@@ -1,5 +1,6 @@
 // ExrFuzzTest.cpp - damaged OpenEXR files: an image or an error, and memory within reason. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "CountedMemory.h"
 #include "FuzzSeeds.h"
 #include "tests/Catch.h"

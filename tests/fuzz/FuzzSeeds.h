@@ -40,7 +40,8 @@ private:
 /// Ways to damage a file.
 constexpr int kDamages = 5;
 
-/// Cuts the file off, or changes bytes or a bit of it, or takes bytes out, or puts zeros in. It is not empty.
+/// Cuts the file off, or changes bytes or a bit of it, or takes bytes out, or puts zeros in. It is
+/// not empty.
 void damageBytes(std::string& file, int way, Dice& dice);
 
 /// A sanitizer's share of the seeds: 1 without one.

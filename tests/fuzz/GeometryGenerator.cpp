@@ -1,5 +1,6 @@
 // GeometryGenerator.cpp - geometries that OpenGL and the converter should refuse, and some that are
-// right. Layer: tests. SPDX-License-Identifier: MIT
+// right. Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "GeometryGenerator.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // GraphGenerator.cpp - scene graphs of random nodes, matrices, states, lights and geometries.
-// Layer: tests. SPDX-License-Identifier: MIT
+// Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "GraphGenerator.h"
 
 #include "GeometryGenerator.h"
@@ -135,15 +136,19 @@ private:
         osg::ref_ptr<osgAnimation::RigGeometry> made = new osgAnimation::RigGeometry;
         const osg::ref_ptr<osg::Geometry> source = randomGeometry(_dice);
         made->setSourceGeometry(_dice.oneIn(8) ? nullptr : source.get());
-        if (_dice.oneIn(2)) made->setRigTransformImplementation(new osgAnimation::RigTransformHardware);
-        if (_graph.bounded || _dice.oneIn(2)) made->setComputeBoundingBoxCallback(new BoundOfVertices);
-        osg::ref_ptr<osgAnimation::VertexInfluenceMap> influences = new osgAnimation::VertexInfluenceMap;
+        if (_dice.oneIn(2))
+            made->setRigTransformImplementation(new osgAnimation::RigTransformHardware);
+        if (_graph.bounded || _dice.oneIn(2))
+            made->setComputeBoundingBoxCallback(new BoundOfVertices);
+        osg::ref_ptr<osgAnimation::VertexInfluenceMap> influences =
+            new osgAnimation::VertexInfluenceMap;
         const osg::Array* vertices = source->getVertexArray();
         const auto count = vertices ? static_cast<int>(vertices->getNumElements()) : 0;
         const char* names[] = {"bone 0", "bone 1", "", "no such bone"};
         for (int i = _dice.below(2 * count + 4); i > 0; --i)
         {
-            const unsigned int vertex = _dice.oneIn(100) || count == 0 ? _dice.bits() : unsigned(_dice.below(count));
+            const unsigned int vertex =
+                _dice.oneIn(100) || count == 0 ? _dice.bits() : unsigned(_dice.below(count));
             (*influences)[_dice.oneOf(names)].push_back(
                 osgAnimation::VertexIndexWeight(vertex, strangeFloat(_dice, 1.0, 30)));
         }
@@ -171,16 +176,20 @@ private:
 
     osg::ref_ptr<osg::Node> morph()
     {
-        osg::ref_ptr<osgAnimation::MorphGeometry> made = new osgAnimation::MorphGeometry(*randomGeometry(_dice));
-        if (_graph.bounded || _dice.oneIn(2)) made->setComputeBoundingBoxCallback(new BoundOfVertices);
+        osg::ref_ptr<osgAnimation::MorphGeometry> made =
+            new osgAnimation::MorphGeometry(*randomGeometry(_dice));
+        if (_graph.bounded || _dice.oneIn(2))
+            made->setComputeBoundingBoxCallback(new BoundOfVertices);
         for (int i = _dice.below(3); i > 0; --i)
-            made->addMorphTarget(_dice.oneIn(9) ? nullptr
-                                                : (_dice.oneIn(2) ? osg::ref_ptr<osg::Geometry>(
-                                                                        new osg::Geometry(*made))
-                                                                  : randomGeometry(_dice))
-                                                      .get(),
+            made->addMorphTarget(_dice.oneIn(9)
+                                     ? nullptr
+                                     : (_dice.oneIn(2)
+                                            ? osg::ref_ptr<osg::Geometry>(new osg::Geometry(*made))
+                                            : randomGeometry(_dice))
+                                           .get(),
                                  strangeFloat(_dice, 1.0, 9));
-        if (!_dice.oneIn(4)) made->setMorphTransformImplementation(new osgAnimation::MorphTransformHardware);
+        if (!_dice.oneIn(4))
+            made->setMorphTransformImplementation(new osgAnimation::MorphTransformHardware);
         if (_dice.oneIn(4)) made->setMethod(osgAnimation::MorphGeometry::RELATIVE);
         if (_dice.oneIn(4)) made->setVertexSource(new osg::Vec3Array(_dice.below(9)));
         if (_dice.oneIn(4)) made->setNormalSource(new osg::Vec3Array(_dice.below(9)));
@@ -193,9 +202,10 @@ private:
         osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
         const int rarity = _dice.oneIn(3) ? 3 : 1 << 30;
         for (int i = _dice.below(4); i > 0; --i)
-            clip->addClipPlane(new osg::ClipPlane(
-                static_cast<unsigned int>(_dice.below(9)), _dice.strange(1.0, rarity),
-                _dice.strange(1.0, rarity), _dice.strange(1.0, rarity), _dice.strange(0.5, rarity)));
+            clip->addClipPlane(
+                new osg::ClipPlane(static_cast<unsigned int>(_dice.below(9)),
+                                   _dice.strange(1.0, rarity), _dice.strange(1.0, rarity),
+                                   _dice.strange(1.0, rarity), _dice.strange(0.5, rarity)));
         if (_dice.oneIn(4)) clip->setReferenceFrame(osg::ClipNode::ABSOLUTE_RF);
         return clip;
     }
@@ -205,7 +215,8 @@ private:
         osg::ref_ptr<osg::AutoTransform> made = new osg::AutoTransform;
         made->setAutoRotateMode(static_cast<osg::AutoTransform::AutoRotateMode>(_dice.below(4)));
         made->setAutoScaleToScreen(_dice.oneIn(2));
-        made->setPosition(osg::Vec3d(_dice.strange(1.0, 9), _dice.strange(1.0, 9), _dice.strange(1.0, 9)));
+        made->setPosition(
+            osg::Vec3d(_dice.strange(1.0, 9), _dice.strange(1.0, 9), _dice.strange(1.0, 9)));
         if (_dice.oneIn(3)) made->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
         return made;
     }
@@ -268,7 +279,8 @@ private:
         const auto strange = [&](double size) { return _dice.strange(size, rarity); };
         light->setRotation(osg::Quat(strange(1.0), strange(1.0), strange(1.0), strange(1.0)));
         if (_dice.oneIn(2))
-            light->setScale(osg::Vec3(strangeFloat(_dice, 2.0, rarity), strangeFloat(_dice, 2.0, rarity),
+            light->setScale(osg::Vec3(strangeFloat(_dice, 2.0, rarity),
+                                      strangeFloat(_dice, 2.0, rarity),
                                       strangeFloat(_dice, 2.0, rarity)));
         light->setVisible(_dice.oneIn(2));
         return light;

@@ -1,5 +1,6 @@
 // GraphGenerator.h - scene graphs of random nodes, matrices, states, lights and geometries. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "FuzzSeeds.h"

@@ -1,5 +1,6 @@
 // HdrFuzzTest.cpp - damaged Radiance pictures: an image or an error, and memory within reason.
-// Layer: tests. SPDX-License-Identifier: MIT
+// Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "CountedMemory.h"
 #include "FuzzSeeds.h"
 #include "tests/plugins/HdrFiles.h"

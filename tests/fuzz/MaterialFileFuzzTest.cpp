@@ -1,5 +1,6 @@
 // MaterialFileFuzzTest.cpp - damaged material files: a library with values in range, or an error
-// that says where. Layer: tests. SPDX-License-Identifier: MIT
+// that says where. Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "FuzzSeeds.h"
 #include "tests/Catch.h"
 

@@ -70,7 +70,8 @@ void requireSoundVariants(const osg::Geometry& geometry, const ConvertedMesh& wh
     cut.clipPlanes = {Vec4d(1.0, 0.3, -0.2, 0.1), Vec4d(-0.4, 1.0, 0.6, 0.5)};
     const ConvertedMesh clipped = convertGeometry(geometry, cut);
     if (!whole.mesh) REQUIRE(!clipped.mesh);
-    if (whole.mesh && !clipped.mesh) REQUIRE(countIn(clipped.counts, "not-traced.clipped-away") == 1);
+    if (whole.mesh && !clipped.mesh)
+        REQUIRE(countIn(clipped.counts, "not-traced.clipped-away") == 1);
     if (clipped.mesh)
     {
         REQUIRE(faultOf(*clipped.mesh) == "");
@@ -115,7 +116,8 @@ void requireSound(const Light& light)
         REQUIRE((p.x >= 0.0f && p.y >= 0.0f && p.z >= 0.0f));
         REQUIRE((isFinite(p) && isFinite(placed)));
     }
-    const Mat3 axes = light.environment.mapFromEngine * glm::transpose(light.environment.mapFromEngine);
+    const Mat3 axes =
+        light.environment.mapFromEngine * glm::transpose(light.environment.mapFromEngine);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
             REQUIRE(std::fabs(axes[i][k] - (i == k ? 1.0f : 0.0f)) < 1e-4f);
@@ -255,7 +257,7 @@ TEST_CASE("fuzz: ten thousand scene graphs are converted for changing views", "[
                 });
     const auto count = static_cast<uint64_t>(seedCount(10000 * sanitizerShare()));
     CHECK(traced > count / 2);
-    CHECK(cut > count / 50);   // clip planes are met
+    CHECK(cut > count / 50);    // clip planes are met
     CHECK(posed > count / 100); // and poses that must be refused
     CHECK(skies > count / 20);
     CHECK(noSkies > count / 50);
@@ -266,37 +268,39 @@ TEST_CASE("fuzz: any scene graph is converted, built and rendered, and stays fin
     osg::setNotifyLevel(osg::FATAL);
     const auto workers = std::make_shared<Workers>(2);
     uint64_t seen = 0;
-    constexpr EnvironmentSampling kSamplings[] = {
-        EnvironmentSampling::Importance, EnvironmentSampling::Structured, EnvironmentSampling::Uniform};
-    forEachSeed(kGraphs,
-                [&](uint32_t seed)
-                {
-                    Dice dice(seed);
-                    const RandomGraph graph = randomGraph(dice);
-                    ConversionInput input;
-                    input.root = graph.root.get();
-                    input.eye = osg::Vec3d(2.0, 1.5, 5.0);
-                    if (dice.oneIn(3)) input.origin = input.eye;
-                    input.rasterizesRest = graph.bounded && dice.oneIn(3);
-                    if (dice.oneIn(2)) input.view = randomView(dice, input.eye);
-                    SceneConverter converter;
-                    const ConversionResult result = converter.convert(input);
-                    requireSound(result);
-                    // As in the next frame: nothing has changed.
-                    REQUIRE(converter.convert(input).scene->instances.size() ==
-                            result.scene->instances.size());
-                    if (graph.bounded)
-                        REQUIRE(graphFingerprint(*graph.root, ViewingConditions()) ==
-                                graphFingerprint(*graph.root, ViewingConditions()));
+    constexpr EnvironmentSampling kSamplings[] = {EnvironmentSampling::Importance,
+                                                  EnvironmentSampling::Structured,
+                                                  EnvironmentSampling::Uniform};
+    forEachSeed(
+        kGraphs,
+        [&](uint32_t seed)
+        {
+            Dice dice(seed);
+            const RandomGraph graph = randomGraph(dice);
+            ConversionInput input;
+            input.root = graph.root.get();
+            input.eye = osg::Vec3d(2.0, 1.5, 5.0);
+            if (dice.oneIn(3)) input.origin = input.eye;
+            input.rasterizesRest = graph.bounded && dice.oneIn(3);
+            if (dice.oneIn(2)) input.view = randomView(dice, input.eye);
+            SceneConverter converter;
+            const ConversionResult result = converter.convert(input);
+            requireSound(result);
+            // As in the next frame: nothing has changed.
+            REQUIRE(converter.convert(input).scene->instances.size() ==
+                    result.scene->instances.size());
+            if (graph.bounded)
+                REQUIRE(graphFingerprint(*graph.root, ViewingConditions()) ==
+                        graphFingerprint(*graph.root, ViewingConditions()));
 
-                    const auto traced = TracedScene::build(result.scene, workers);
-                    uint64_t triangles = 0;
-                    for (const Instance& instance : result.scene->instances)
-                        triangles += result.scene->meshes[instance.mesh]->triangles.size();
-                    REQUIRE(traced->traits().triangles == triangles);
-                    seen += requireFinitePass(traced, workers, IntegratorKind::Whitted,
-                                              kSamplings[seed % 3]);
-                    requireFinitePass(traced, workers, IntegratorKind::Path, kSamplings[seed / 3 % 3]);
-                });
+            const auto traced = TracedScene::build(result.scene, workers);
+            uint64_t triangles = 0;
+            for (const Instance& instance : result.scene->instances)
+                triangles += result.scene->meshes[instance.mesh]->triangles.size();
+            REQUIRE(traced->traits().triangles == triangles);
+            seen +=
+                requireFinitePass(traced, workers, IntegratorKind::Whitted, kSamplings[seed % 3]);
+            requireFinitePass(traced, workers, IntegratorKind::Path, kSamplings[seed / 3 % 3]);
+        });
     CHECK(seen > static_cast<uint64_t>(seedCount(kGraphs)) / 4);
 }

@@ -1,15 +1,16 @@
 // StateGenerator.cpp - state sets, textures and lights with values that nobody would set. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "StateGenerator.h"
 
 #include <osgRayTrace/PhysicalMaterial>
 
-#include <osg/ClipPlane>
-#include <osg/PrimitiveRestartIndex>
 #include <osg/BlendFunc>
+#include <osg/ClipPlane>
 #include <osg/LightModel>
 #include <osg/Material>
 #include <osg/PolygonMode>
+#include <osg/PrimitiveRestartIndex>
 #include <osg/TexEnv>
 #include <osg/TexEnvCombine>
 #include <osg/TexGen>
@@ -180,10 +181,14 @@ osg::ref_ptr<osg::StateSet> randomStateSet(Dice& dice)
     if (dice.oneIn(2)) stateSet->setAttribute(randomPhysical(dice), randomMode(dice));
     if (dice.oneIn(2)) addTextures(*stateSet, dice);
     if (dice.oneIn(3)) stateSet->setMode(GL_LIGHTING, randomMode(dice));
-    if (dice.oneIn(9)) stateSet->setAttribute(new osg::PrimitiveRestartIndex(static_cast<unsigned int>(dice.below(300))));
+    if (dice.oneIn(9))
+        stateSet->setAttribute(
+            new osg::PrimitiveRestartIndex(static_cast<unsigned int>(dice.below(300))));
     if (dice.oneIn(9)) stateSet->setMode(GL_PRIMITIVE_RESTART, randomMode(dice));
     if (dice.oneIn(9)) stateSet->setMode(0x8D69, randomMode(dice)); // at the largest index
-    if (dice.oneIn(9)) stateSet->setAttributeAndModes(new osg::ClipPlane(static_cast<unsigned int>(dice.below(10))));
+    if (dice.oneIn(9))
+        stateSet->setAttributeAndModes(
+            new osg::ClipPlane(static_cast<unsigned int>(dice.below(10))));
     if (dice.oneIn(3)) stateSet->setAttributeAndModes(new osg::BlendFunc, randomMode(dice));
     if (dice.oneIn(6))
         stateSet->setAttribute(

@@ -1,5 +1,6 @@
 // StateGenerator.h - state sets, textures and lights with values that nobody would set. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "FuzzSeeds.h"

@@ -84,7 +84,8 @@ TEST_CASE("background: the picture at rest is that of a frame-locked view, bit b
     TestViewer view(kSize, kSize, scene.get());
     const auto isDone = [&]
     {
-        const Statistics now = statistics(*scene); // a budget may give a slow machine fewer pixels at first
+        const Statistics now =
+            statistics(*scene); // a budget may give a slow machine fewer pixels at first
         return now.passes == 6 && now.resolutionDivider == 1;
     };
     REQUIRE(framesUntil(view, isDone));

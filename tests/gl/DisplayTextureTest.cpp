@@ -1,5 +1,6 @@
 // DisplayTextureTest.cpp - a picture of which parts are copied to OpenGL shows what a whole one
-// does. Layer: tests. SPDX-License-Identifier: MIT
+// does. Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/DisplayTexture.h"
 #include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/film/TileOrder.h"

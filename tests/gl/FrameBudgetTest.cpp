@@ -1,5 +1,6 @@
 // FrameBudgetTest.cpp - frame budgets in a viewer: whose they are, and what is seen under them.
-// Layer: tests. SPDX-License-Identifier: MIT
+// Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "TestViewer.h"
 #include "tests/Catch.h"
 

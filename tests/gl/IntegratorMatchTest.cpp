@@ -1,6 +1,7 @@
 // IntegratorMatchTest.cpp - classic materials send back as much light, of the same hue, whoever
 // computes it: OpenGL, WHITTED or PATH. Layer: tests. Set OSG_FILE_PATH to OpenSceneGraph's sample
-// models. SPDX-License-Identifier: MIT
+// models.
+// SPDX-License-Identifier: MIT
 #include "MatchPictures.h"
 
 #include <osg/LightModel>

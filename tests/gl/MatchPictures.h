@@ -31,8 +31,8 @@ struct MatchSetup
     int width = 120, height = 90;
     int samples =
         4; ///< a pixel and axis, of the rasterized picture; squared, passes of the traced one
-    bool homeView = false;                      ///< osgviewer's, else TestViewer's
-    std::function<void(TestViewer&)> view = {}; ///< further changes
+    bool homeView = false;                                ///< osgviewer's, else TestViewer's
+    std::function<void(TestViewer&)> view = {};           ///< further changes
     std::function<void(RayTraceSettings&)> settings = {}; ///< of the traced picture
 };
 

@@ -411,24 +411,24 @@ TEST_CASE("pairs: effects and solid text are drawn as before", "[gl]")
 {
     // Of OSG's data. Another font may have faces that lie in each other: then there is no text.
     const bool hasFont = !osgDB::findDataFile("fonts/arial.ttf").empty();
-    const PicturePair pair = checkSame(
-        "effects",
-        [hasFont]
-        {
-            osg::ref_ptr<osgFX::Cartoon> cartoon = new osgFX::Cartoon;
-            cartoon->addChild(sphere(osg::Vec3(), 0.8f, kRed));
-            osg::ref_ptr<osgText::Text3D> text = new osgText::Text3D;
-            text->setCharacterSize(0.9f, 0.3f);
-            if (hasFont) text->setFont("fonts/arial.ttf");
-            text->setText(hasFont ? "AB" : "");
-            text->setColor(kGreen);
-            osg::ref_ptr<osg::Group> lit = group({text});
-            return group({at(-0.8, 0.0, 0.0, cartoon.get()),
-                          at(osg::Matrix::rotate(1.5, osg::Vec3d(1, 0, 0)) *
-                                 osg::Matrix::translate(0.6, 0.0, 0.0),
-                             lit.get()),
-                          at(0.0, 1.5, -1.0, box(kGrey, 2.0f).get())});
-        });
+    const PicturePair pair =
+        checkSame("effects",
+                  [hasFont]
+                  {
+                      osg::ref_ptr<osgFX::Cartoon> cartoon = new osgFX::Cartoon;
+                      cartoon->addChild(sphere(osg::Vec3(), 0.8f, kRed));
+                      osg::ref_ptr<osgText::Text3D> text = new osgText::Text3D;
+                      text->setCharacterSize(0.9f, 0.3f);
+                      if (hasFont) text->setFont("fonts/arial.ttf");
+                      text->setText(hasFont ? "AB" : "");
+                      text->setColor(kGreen);
+                      osg::ref_ptr<osg::Group> lit = group({text});
+                      return group({at(-0.8, 0.0, 0.0, cartoon.get()),
+                                    at(osg::Matrix::rotate(1.5, osg::Vec3d(1, 0, 0)) *
+                                           osg::Matrix::translate(0.6, 0.0, 0.0),
+                                       lit.get()),
+                                    at(0.0, 1.5, -1.0, box(kGrey, 2.0f).get())});
+                  });
     CHECK(pair.count("rasterized.effect") == 1);
     CHECK(pair.count("not-traced.text") == 1);
 }

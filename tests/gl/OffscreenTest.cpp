@@ -119,8 +119,8 @@ void requireQuad(FrameCapture& capture, int width, int height)
     REQUIRE(depthAt(0, 0) == 1.0f);
 }
 
-/// Without what malloc keeps for later: whether a freed image is used again or cut up depends on the
-/// order in which the threads of Mesa free theirs, and on a busy machine none was used again.
+/// Without what malloc keeps for later: whether a freed image is used again or cut up depends on
+/// the order in which the threads of Mesa free theirs, and on a busy machine none was used again.
 std::size_t residentBytes()
 {
 #if defined(__GLIBC__)

@@ -1,5 +1,6 @@
 // OpacityMatchTest.cpp - blending, alpha test, culled faces and polygon offset look as OpenGL draws
-// them. SPDX-License-Identifier: MIT
+// them.
+// SPDX-License-Identifier: MIT
 #include "StateScenes.h"
 
 #include <osg/AlphaFunc>

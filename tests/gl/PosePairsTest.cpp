@@ -1,5 +1,6 @@
 // PosePairsTest.cpp - what poses move, and pictures that change, traced and rasterized. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "PicturePair.h"
 #include "tests/Catch.h"
 

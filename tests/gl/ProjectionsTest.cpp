@@ -1,5 +1,6 @@
 // ProjectionsTest.cpp - edges and depths of any projection are those that OpenGL draws. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "TestViewer.h"
 #include "tests/Catch.h"
 

@@ -349,7 +349,8 @@ TEST_CASE("drawable: exposure changes the picture without tracing anew", "[gl]")
     CHECK(passes(*scene) == 1);
 }
 
-TEST_CASE("drawable: denoising changes the picture without tracing anew, and follows the view", "[gl][denoise]")
+TEST_CASE("drawable: denoising changes the picture without tracing anew, and follows the view",
+          "[gl][denoise]")
 {
     osg::ref_ptr<osg::Group> room = new osg::Group;
     room->addChild(sphere(osg::Vec3(), 2.0f, osg::Vec4(0.7f, 0.5f, 0.3f, 1.0f)));
@@ -422,8 +423,14 @@ TEST_CASE("traced scene: what cannot be traced is rasterized, until told to try 
     view.camera().setViewport(0, 0, kSize, kSize);
     view.camera().addFinalDrawCallback(view.capture.get());
     CHECK(pixel(*view.frames(), kMiddle, kMiddle) == kGreenPixel);
-    SECTION("dirtyScene") { scene->dirtyScene(); }
-    SECTION("setEnabled") { scene->setEnabled(true); }
+    SECTION("dirtyScene")
+    {
+        scene->dirtyScene();
+    }
+    SECTION("setEnabled")
+    {
+        scene->setEnabled(true);
+    }
     CHECK(pixel(*view.frames(), kMiddle, kMiddle) != kGreenPixel);
     CHECK(scene->getDrawable()->getStatistics().ok);
 }

@@ -1,5 +1,6 @@
 // TextureMatchTest.cpp - textures look as OpenGL draws them: coordinates, wrap modes, environments,
-// formats. SPDX-License-Identifier: MIT
+// formats.
+// SPDX-License-Identifier: MIT
 #include "StateScenes.h"
 
 #include <osg/TexEnv>

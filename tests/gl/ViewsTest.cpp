@@ -1,5 +1,6 @@
 // ViewsTest.cpp - several views at once: eyes, viewports, nested cameras, slices of depth. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "DepthPartition.h"
 #include "TestViewer.h"
 #include "tests/Catch.h"
@@ -387,8 +388,6 @@ TEST_CASE("views: what a second eye costs with photons", "[.][second-eye]")
         both += secondsOf(true);
     }
     std::cout << (integrator == RayTraceSettings::PPM ? "ppm" : "photon-caustics") << ", stereo at "
-              << size << " x " << size << ", " << photons
-              << " photons a pass: " << both / mono << " times the CPU time of mono, "
-              << mono / 12.0 << " s a pass"
-              << std::endl;
+              << size << " x " << size << ", " << photons << " photons a pass: " << both / mono
+              << " times the CPU time of mono, " << mono / 12.0 << " s a pass" << std::endl;
 }

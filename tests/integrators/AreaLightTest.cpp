@@ -1,5 +1,6 @@
 // AreaLightTest.cpp - irradiance of square lights against Lambert's closed form, by every
-// estimator. SPDX-License-Identifier: MIT
+// estimator.
+// SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
 using namespace osgRayTrace::engine;

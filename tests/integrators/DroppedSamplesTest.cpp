@@ -1,4 +1,5 @@
-// DroppedSamplesTest.cpp - samples that are no numbers, or too large to be summed, are black and counted.
+// DroppedSamplesTest.cpp - samples that are no numbers, or too large to be summed, are black and
+// counted.
 // SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 

@@ -219,7 +219,8 @@ TEST_CASE("furnace: nothing is seen of white and clear things under an even sky"
                   .agrees(1.0, 1e-3));
 }
 
-TEST_CASE("environment: all ways to sample it have the same mean", "[integrators][statistics][long]")
+TEST_CASE("environment: all ways to sample it have the same mean",
+          "[integrators][statistics][long]")
 {
     SceneBuilder builder = blocks();
     builder.addQuadLight({1, 1, 3}, {0, 1, 0}, {1, 0, 0}, Vec3(3.0f)); // beside other lights
@@ -277,7 +278,8 @@ TEST_CASE("environment: with a sun, importance sampling needs twenty times less"
     CHECK(uniform * uniformRays > 20.0 * importance * importanceRays);
 }
 
-TEST_CASE("environment: without one mirrors show the background, and it lights nothing", "[integrators]")
+TEST_CASE("environment: without one mirrors show the background, and it lights nothing",
+          "[integrators]")
 {
     for (const float roughness : {0.0f, 0.05f, 1.0f})
     {

@@ -1,5 +1,6 @@
 // FixedFunctionTest.cpp - OpenGL's lighting equations, with shadows, as Whitted's tracer evaluates
-// them. SPDX-License-Identifier: MIT
+// them.
+// SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
 using namespace osgRayTrace::engine;

@@ -1,5 +1,6 @@
 // ManyLightsTest.cpp - scenes of more lights than a pass samples: its work is bounded, its mean
-// right. SPDX-License-Identifier: MIT
+// right.
+// SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
 #include "osgRayTrace/integrators/SampledLights.h"

@@ -1,5 +1,6 @@
 // OpacityTest.cpp - a pane of opacity a leaves 1 - a of the light: to camera, mirror, shadow and
-// photon rays. SPDX-License-Identifier: MIT
+// photon rays.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 #include "tests/Statistics.h"

@@ -1,5 +1,6 @@
 // SoftLightTest.cpp - lights with a size, by every estimator: irradiance, shadows, the limit of
-// none. SPDX-License-Identifier: MIT
+// none.
+// SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
 using namespace osgRayTrace::engine;

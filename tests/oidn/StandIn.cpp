@@ -1,4 +1,5 @@
-// StandIn.cpp - stands in for Open Image Denoise in tests. SPDX-License-Identifier: MIT
+// StandIn.cpp - stands in for Open Image Denoise in tests.
+// SPDX-License-Identifier: MIT
 #include "tests/oidn/StandIn.h"
 
 #include <OpenImageDenoise/oidn.h>

@@ -1,5 +1,6 @@
 // StandIn.h - stands in for Open Image Denoise in tests: checks how it is called, and denoises with
-// a mean of 3 x 3 pixels. SPDX-License-Identifier: MIT
+// a mean of 3 x 3 pixels.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // DeterminismTest.cpp - photon pictures depend on the seed alone; and what millions of photons in
-// one place or a single one make of them. SPDX-License-Identifier: MIT
+// one place or a single one make of them.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 

@@ -1,5 +1,6 @@
 // EmissionShapeTest.cpp - where photons leave lights, which way, and that all of their power
-// arrives. SPDX-License-Identifier: MIT
+// arrives.
+// SPDX-License-Identifier: MIT
 #include "tests/photons/PhotonMeans.h"
 
 #include "osgRayTrace/photons/PhotonTracer.h"

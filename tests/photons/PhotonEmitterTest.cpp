@@ -39,8 +39,8 @@ Flux emitted(const SceneBuilder& builder, float aimedShare, bool learnt = false)
     return emittedFlux(emitter, 23, aim.get());
 }
 
-/// Demands the analytic flux without aiming, with two shares of it and with weights, and that the ball gets
-/// the same.
+/// Demands the analytic flux without aiming, with two shares of it and with weights, and that the
+/// ball gets the same.
 void checkFlux(const SceneBuilder& builder, double expected)
 {
     const Flux plain = emitted(builder, 0.0f);
@@ -63,8 +63,8 @@ constexpr double kPiD = 3.14159265358979323846;
 
 } // namespace
 
-// Each call of checkFlux: four means within 4 standard errors and three differences; a false alarm of all twelve calls has a
-// probability of 5e-3 at most.
+// Each call of checkFlux: four means within 4 standard errors and three differences; a false alarm
+// of all twelve calls has a probability of 5e-3 at most.
 TEST_CASE("photon emission: a parallelogram, one side and two", "[photons][statistics]")
 {
     for (const bool twoSided : {false, true})

@@ -1,5 +1,6 @@
 // PhotonMeans.h - what tests of photons estimate: the mean of pictures, and the flux that leaves
-// lights. SPDX-License-Identifier: MIT
+// lights.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "tests/Catch.h"

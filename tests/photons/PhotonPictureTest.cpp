@@ -57,7 +57,8 @@ Estimate meanOf(const std::shared_ptr<const TracedScene>& traced, const View& vi
 void checkAgreement(const char* name, const SceneBuilder& builder, int times = 1)
 {
     const auto traced = builder.build();
-    const Estimate path = meanOf(traced, roomView(), photonOptions(IntegratorKind::Path), 64 * times);
+    const Estimate path =
+        meanOf(traced, roomView(), photonOptions(IntegratorKind::Path), 64 * times);
     REQUIRE(path.mean() > 0.05);
     CHECK(path.standardError() < 0.008 * path.mean()); // it converges: a difference of 5 % is seen
     for (const IntegratorKind kind :

@@ -67,7 +67,8 @@ uint32_t countOf(const PhotonMap& map, PhotonQuery query, float radius)
 
 } // namespace
 
-TEST_CASE("photon radius: look-ups with it hold the photons asked for, and larger ones more", "[photons]")
+TEST_CASE("photon radius: look-ups with it hold the photons asked for, and larger ones more",
+          "[photons]")
 {
     const std::vector<Photon> photons = cloud(100000);
     const PhotonMap map(photons, 0.05f, Workers(1));
@@ -99,7 +100,8 @@ TEST_CASE("photon radius: look-ups with it hold the photons asked for, and large
     CHECK(many > 50);
 }
 
-TEST_CASE("photon radius: where photons lie on a lattice, where there are many and none", "[photons]")
+TEST_CASE("photon radius: where photons lie on a lattice, where there are many and none",
+          "[photons]")
 {
     const Workers workers(1);
     const PhotonMap map = halfLit(workers);
@@ -117,20 +119,27 @@ TEST_CASE("photon radius: where photons lie on a lattice, where there are many a
     CHECK(radiusOf(PhotonMap(), queryAt(0.0f), 0.001f, 1.0f) == 1.0f);
 }
 
-TEST_CASE("photon radius: the photons that chose it are right in the mean", "[photons][statistics][long]")
+TEST_CASE("photon radius: the photons that chose it are right in the mean",
+          "[photons][statistics][long]")
 {
-    // Random photons on an even floor, anew for each of 40,000 discs; bounds that no disc meets, that half of
-    // them meet below, above, and on both sides; and so many that the radius is narrowed down first.
+    // Random photons on an even floor, anew for each of 40,000 discs; bounds that no disc meets,
+    // that half of them meet below, above, and on both sides; and so many that the radius is
+    // narrowed down first.
     const struct
     {
         int photons;
         float least, largest; ///< in radii that hold 16 photons in the mean
-    } cases[] = {{400, 0.01f, 4.0f}, {400, 1.0f, 4.0f}, {400, 0.01f, 1.0f}, {400, 0.9f, 1.1f}, {12000, 0.01f, 20.0f}};
+    } cases[] = {{400, 0.01f, 4.0f},
+                 {400, 1.0f, 4.0f},
+                 {400, 0.01f, 1.0f},
+                 {400, 0.9f, 1.1f},
+                 {12000, 0.01f, 20.0f}};
     const Workers workers(1);
     for (const auto& c : cases)
     {
         Uniform uniform(5);
-        const float usual = std::sqrt(16.0f / (kPi * static_cast<float>(c.photons))); // on a square of area 1
+        const float usual =
+            std::sqrt(16.0f / (kPi * static_cast<float>(c.photons))); // on a square of area 1
         const int discs = c.photons > 1000 ? 4000 : 40000;
         double sum = 0.0, squares = 0.0;
         for (int disc = 0; disc < discs; ++disc)
@@ -153,7 +162,8 @@ TEST_CASE("photon radius: the photons that chose it are right in the mean", "[ph
         const double error = std::sqrt((squares / discs - mean * mean) / discs);
         CAPTURE(c.photons, c.least, c.largest, mean, error);
         CHECK(std::abs(mean - 1.0) < 4.0 * error);
-        CHECK(error < (c.photons > 1000 ? 0.005 : 0.0015)); // the next photon counted as well: 1/16 more
+        CHECK(error <
+              (c.photons > 1000 ? 0.005 : 0.0015)); // the next photon counted as well: 1/16 more
     }
 }
 

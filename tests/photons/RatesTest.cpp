@@ -1,5 +1,6 @@
 // RatesTest.cpp - how fast the error of rendered photon maps falls: slopes, bias and variance by
-// the formulas. SPDX-License-Identifier: MIT
+// the formulas.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
 #include "tests/photons/Nephroid.h"

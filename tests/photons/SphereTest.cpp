@@ -1,5 +1,6 @@
 // SphereTest.cpp - an integrating sphere and a diffuse room by photons: uniform, and the same both
-// ways. SPDX-License-Identifier: MIT
+// ways.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 #include "tests/PValues.h"

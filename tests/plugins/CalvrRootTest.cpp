@@ -1,5 +1,6 @@
 // CalvrRootTest.cpp - tests of a node that is put under ray tracing and taken out again, without
-// CalVR. SPDX-License-Identifier: MIT
+// CalVR.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
 #include "osgPlugins/calvr/TracedRoot.h"

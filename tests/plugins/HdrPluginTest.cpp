@@ -1,5 +1,6 @@
 // HdrPluginTest.cpp - osgdb_hdr: what Radiance's files say, and what OSG's own plugin made of them.
-// Layer: tests. SPDX-License-Identifier: MIT
+// Layer: tests.
+// SPDX-License-Identifier: MIT
 #include "HdrFiles.h"
 #include "tests/Catch.h"
 #include "tests/plugins/TemporaryFolder.h"

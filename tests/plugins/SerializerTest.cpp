@@ -161,7 +161,8 @@ TEST_CASE("serializers: the stream of the host keeps its locale", "[plugins]")
 {
     const CommaLocale commas;
     std::ostringstream stream;
-    REQUIRE(readerWriter(kFormats[0]).writeObject(*glass(), stream, optionsOf(kFormats[0])).success());
+    REQUIRE(
+        readerWriter(kFormats[0]).writeObject(*glass(), stream, optionsOf(kFormats[0])).success());
     stream.str("");
     stream << 0.5;
     CHECK(stream.str() == "0,5");
@@ -384,8 +385,9 @@ TEST_CASE("serializers: a truncated file is refused or read in part, not fatal",
     for (const Format& format : kFormats)
     {
         const std::string text = written(*scene, format);
-        // Not every length: where a binary file ends just before the count of a list of OSG's own (its state
-        // set, at byte 128), OSG 3.6.5 loops over a count that it has not read, for hours. An odd step misses it.
+        // Not every length: where a binary file ends just before the count of a list of OSG's own
+        // (its state set, at byte 128), OSG 3.6.5 loops over a count that it has not read, for
+        // hours. An odd step misses it.
         const size_t step = text.size() / 113 | 1;
         for (size_t length = 0; length < text.size(); length += step)
         {

@@ -1,5 +1,6 @@
 // UniformityTest.cpp - points of every strategy are uniform over pixels, passes and dimensions,
-// alone and in pairs. SPDX-License-Identifier: MIT
+// alone and in pairs.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
 

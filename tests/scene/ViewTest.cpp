@@ -164,8 +164,7 @@ TEST_CASE("camera rays: within a thousandth of a pixel for every kind of project
     }
 }
 
-TEST_CASE("camera rays: what floats cannot hold, and no more than that",
-          "[scene][stability 18]")
+TEST_CASE("camera rays: what floats cannot hold, and no more than that", "[scene][stability 18]")
 {
     // A component of a direction of length 1 is rounded by up to 2^-25: h pixels of a view of angle
     // a see that as 2^-25 h / a, 1.6e-3 at 0.02 radians; a wall beside the eye, seen at 6 degrees,
@@ -246,7 +245,8 @@ TEST_CASE("camera rays: orthographic rays start on the near plane and are parall
     CHECK(forward.z == Approx(-1.0));
 }
 
-TEST_CASE("camera rays: window depths along rays are those of the matrix, whichever way depth runs", "[scene]")
+TEST_CASE("camera rays: window depths along rays are those of the matrix, whichever way depth runs",
+          "[scene]")
 {
     const Mat4d perspective = glm::perspective(0.8, 1.5, 0.25, 40.0);
     const Mat4d parallel = glm::ortho(-2.0, 3.0, -1.0, 2.0, 0.25, 40.0);
@@ -283,9 +283,8 @@ TEST_CASE("camera rays: window depths along rays are those of the matrix, whiche
                 const Vec4d p = view.viewFromWorld * Vec4d(ray.origin + s * ray.direction, 1.0);
                 CHECK(p.z < 0.0); // away from the eye
                 const Vec4d clip = view.clipFromView * p;
-                const double change = rays->orthographic
-                                          ? s
-                                          : 1.0 / s - 1.0 - x * rays->depthDx - y * rays->depthDy;
+                const double change =
+                    rays->orthographic ? s : 1.0 / s - 1.0 - x * rays->depthDx - y * rays->depthDy;
                 CHECK(rays->nearDepth + rays->depthSlope * change ==
                       Approx(0.5 + 0.5 * clip.z / clip.w).margin(1e-6));
             }
@@ -350,7 +349,8 @@ TEST_CASE("stability 3: camera rays of a scaled world in a scaled unit are the s
         for (std::size_t i = 0; i < projections.size(); ++i)
         {
             CAPTURE(unit, i);
-            const auto rays = cameraRays(viewOf(projections[i], viewFromWorld), origin * unit, unit);
+            const auto rays =
+                cameraRays(viewOf(projections[i], viewFromWorld), origin * unit, unit);
             const auto expected = cameraRays(viewOf(ordinary[i], kLookAt), origin);
             REQUIRE((rays && expected));
             CHECK(rays->orthographic == expected->orthographic);
@@ -362,9 +362,8 @@ TEST_CASE("stability 3: camera rays of a scaled world in a scaled unit are the s
             CHECK(rays->nearDepth == expected->nearDepth);
             CHECK(rays->depthSlope == expected->depthSlope);
             // Clip coordinates may have a common factor.
-            const float factor = rays->wRow == Vec4(0, 0, 0, rays->wRow.w)
-                                     ? rays->wRow.w / expected->wRow.w
-                                     : 1.0f;
+            const float factor =
+                rays->wRow == Vec4(0, 0, 0, rays->wRow.w) ? rays->wRow.w / expected->wRow.w : 1.0f;
             CHECK(rays->wRow == expected->wRow * factor);
             CHECK(rays->depthRow == expected->depthRow * factor);
         }

@@ -1,5 +1,6 @@
 // DeterminismTest.cpp - images do not depend on threads, on the order of tiles or on where the
-// world is. SPDX-License-Identifier: MIT
+// world is.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 

@@ -196,7 +196,8 @@ TEST_CASE("interrupted passes: over is asked before passes, with the photons' ti
     CHECK(ahead.empty()); // the first four are kept
 }
 
-TEST_CASE("interrupted passes: so many tiles as are allowed, by any number of threads, and the same image",
+TEST_CASE("interrupted passes: so many tiles as are allowed, by any number of threads, and the "
+          "same image",
           "[session]")
 {
     Room whole(IntegratorKind::Path);

@@ -1,5 +1,6 @@
 // ShownImageTest.cpp - images that take the long way to the display are those that take the short
-// one. SPDX-License-Identifier: MIT
+// one.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/ToneMap.h"
 #include "osgRayTrace/session/SurfaceMap.h"
 

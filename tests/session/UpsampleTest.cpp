@@ -1,5 +1,6 @@
 // UpsampleTest.cpp - images of fewer pixels at full size: edges, depths and colours are those of a
-// full-size image. SPDX-License-Identifier: MIT
+// full-size image.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 

@@ -1,5 +1,6 @@
 // EnvironmentMapTest.cpp - directions towards environments: their distribution, poles, seam,
-// extremes. SPDX-License-Identifier: MIT
+// extremes.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Environments.h"
 #include "tests/Statistics.h"

@@ -1,5 +1,6 @@
 // EnvironmentStrataTest.cpp - structured importance sampling: light is kept, strata are where it
-// is. SPDX-License-Identifier: MIT
+// is.
+// SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/EnvironmentStrata.h"
 
 #include "tests/Catch.h"

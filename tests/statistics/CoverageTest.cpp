@@ -240,16 +240,18 @@ SceneBuilder boxWithoutLoans()
 
 TEST_CASE("coverage: path tracing with Sobol points", "[statistics]")
 {
-    // Pixels of a tile lend each other paths: the error of each is known, but not that of their sum.
+    // Pixels of a tile lend each other paths: the error of each is known, but not that of their
+    // sum.
     for (const int passes : {4, 5, 16})
-        checkPixelCoverage(cornellBox().build(), withoutLight(),
-                           optionsOf(IntegratorKind::Path, 4), passes);
+        checkPixelCoverage(cornellBox().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),
+                           passes);
 }
 
 TEST_CASE("coverage: path tracing whose pixels share nothing", "[statistics]")
 {
     for (const int passes : {4, 5, 16})
-        checkCoverage(boxWithoutLoans().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4), passes);
+        checkCoverage(boxWithoutLoans().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),
+                      passes);
 }
 
 TEST_CASE("coverage: photons, seen by paths that glossy surfaces spread", "[statistics]")

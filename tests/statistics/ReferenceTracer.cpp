@@ -1,5 +1,6 @@
 // ReferenceTracer.cpp - a path tracer that shares nothing with the integrators but surfaces and
-// rays. SPDX-License-Identifier: MIT
+// rays.
+// SPDX-License-Identifier: MIT
 #include "tests/statistics/ReferenceTracer.h"
 
 #include "tests/Statistics.h"

@@ -1,6 +1,6 @@
 // TileComparisonTest.cpp - different estimators of the same light, compared tile by tile on ten
-// scenes with Welch's test (Jung, Hanika, Dachsbacher, JCGT 9(2), 2020). SPDX-License-Identifier:
-// MIT
+// scenes with Welch's test (Jung, Hanika, Dachsbacher, JCGT 9(2), 2020).
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/PValues.h"
 #include "tests/statistics/ReferenceTracer.h"

@@ -24,9 +24,10 @@ enum class CausticKind
 };
 
 /// The scenes of data/ that path tracing alone hardly renders: by path tracing and photons, against
-/// PHOTON_CAUSTICS with four times as many photons. Its bias is of the same kind, only smaller; PATH,
-/// which has none, says by its mean what is left of it. What the rings' rims mirror of the lamp is
-/// smaller than a pixel: it scatters with all methods alike, and may hide what the photons do.
+/// PHOTON_CAUSTICS with four times as many photons. Its bias is of the same kind, only smaller;
+/// PATH, which has none, says by its mean what is left of it. What the rings' rims mirror of the
+/// lamp is smaller than a pixel: it scatters with all methods alike, and may hide what the photons
+/// do.
 ReportScene causticScene(CausticKind kind);
 
 /// Lattices below an area light: direct light by all strategies.

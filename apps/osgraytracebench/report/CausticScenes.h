@@ -1,5 +1,6 @@
 // CausticScenes.h - light that comes by mirrors, with a formula: what paths cannot find. Layer:
-// apps. SPDX-License-Identifier: MIT
+// apps.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "apps/osgraytracebench/report/ReportScene.h"

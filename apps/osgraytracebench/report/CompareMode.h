@@ -1,5 +1,6 @@
 // CompareMode.h - osgraytracebench compare: which rows of two reports differ by more than their
-// noise. Layer: apps. SPDX-License-Identifier: MIT
+// noise. Layer: apps.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "apps/osgraytracebench/report/Report.h"

@@ -87,7 +87,8 @@ double biasSquare(const ReportRow& row)
 }
 
 /// Methods with a kernel are biased, less from pass to pass: the mean by no more than so much, the
-/// square of the pixels' bias by so much or to a share of that of the first row, the error along a slope.
+/// square of the pixels' bias by so much or to a share of that of the first row, the error along a
+/// slope.
 void checkKernels(const Report& report, const json& wanted, std::vector<Verdict>& verdicts)
 {
     std::vector<const ReportLine*> checked;
@@ -119,8 +120,8 @@ void checkKernels(const Report& report, const json& wanted, std::vector<Verdict>
         if (entry.contains("bias_square"))
         {
             const double most = entry.at("bias_square");
-            verdicts.push_back({text("squared bias of %s: %.3g, wanted at most %g", nameOf(*line).c_str(),
-                                     biasSquare(last), most),
+            verdicts.push_back({text("squared bias of %s: %.3g, wanted at most %g",
+                                     nameOf(*line).c_str(), biasSquare(last), most),
                                 biasSquare(last) <= most});
         }
         if (entry.contains("slope"))

@@ -1,5 +1,6 @@
 // Flip.h - the difference that a viewer sees between two pictures shown in turn [Andersson20].
-// Layer: apps. SPDX-License-Identifier: MIT
+// Layer: apps.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <vector>

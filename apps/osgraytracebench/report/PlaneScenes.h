@@ -1,5 +1,6 @@
 // PlaneScenes.h - a plane under an area light, with and without an occluder: direct light that has
-// a formula. Layer: apps. SPDX-License-Identifier: MIT
+// a formula. Layer: apps.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "apps/osgraytracebench/report/PolygonLight.h"

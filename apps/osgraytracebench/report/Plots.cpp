@@ -141,8 +141,8 @@ std::string plot(const std::vector<Curve>& curves, const std::vector<Guide>& gui
         script << "$curve" << c << " using 1:3:4 with filledcurves lc rgb '" << colour
                << "' notitle, $curve" << c << " using 1:2 with "
                << (c > 0 && curves[c - 1].exact ? "points" : "linespoints lw 2")
-               << " pt 7 ps 0.5 lc rgb '" << colour << "' title '" << curves[c].name << "' noenhanced"
-               << (c + 1 < curves.size() ? ", " : "\n");
+               << " pt 7 ps 0.5 lc rgb '" << colour << "' title '" << curves[c].name
+               << "' noenhanced" << (c + 1 < curves.size() ? ", " : "\n");
     }
     return svgPart(gnuplot(script.str()));
 }

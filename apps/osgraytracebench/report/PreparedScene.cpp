@@ -139,9 +139,9 @@ void hashLight(Hasher& hasher, const Light& light)
     for (const Vec3& v : {light.ambient, light.diffuse, light.specular, light.position,
                           light.direction, light.corner, light.edgeU, light.edgeV, light.radiance})
         hasher.add(v);
-    for (const float value : {light.attenuationConstant, light.attenuationLinear,
-                              light.attenuationQuadratic, light.spotExponent, light.spotCosCutoff,
-                              light.radius, light.sine})
+    for (const float value :
+         {light.attenuationConstant, light.attenuationLinear, light.attenuationQuadratic,
+          light.spotExponent, light.spotCosCutoff, light.radius, light.sine})
         hasher.add(value);
     hasher.add(light.eyeSpace);
     hasher.add(light.castsShadows);

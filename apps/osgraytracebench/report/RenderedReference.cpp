@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/report/Reference.h"
 
-#include "apps/common/Output.h"
 #include "apps/common/Failure.h"
+#include "apps/common/Output.h"
 #include "osgRayTrace/base/TextFile.h"
 
 #include <nlohmann/json.hpp>

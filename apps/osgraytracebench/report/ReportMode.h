@@ -12,7 +12,7 @@ struct ReportOptions
 {
     std::string folder = "report";
     bool quick = false;
-    double longest = 8.0;           ///< longest budget [s]
+    double longest = 8.0;            ///< longest budget [s]
     int width = 0;                   ///< of pictures [pixels]; 0: 32 if quick, else 128
     std::string only;                ///< scenes whose name holds this
     std::vector<std::string> models; ///< measured in place of the report's own scenes

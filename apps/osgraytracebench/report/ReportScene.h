@@ -48,7 +48,7 @@ struct ReportScene
     osg::Matrixd projection;
     double aspect = 1.0; ///< width / height
     osg::Vec4 clearColor{0.0f, 0.0f, 0.0f, 1.0f};
-    bool headlight = false;            ///< of osgViewer
+    bool headlight = false; ///< of osgViewer
     engine::LightSizes lightSizes;
     std::vector<Method> methods;       ///< those that are right for it
     std::vector<Placement> placements; ///< the first is the scene itself

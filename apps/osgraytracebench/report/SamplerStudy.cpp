@@ -15,9 +15,9 @@ namespace osgRayTrace::bench
 namespace
 {
 
-constexpr int kSide = 16;       ///< pixels of a receiver: independent runs
-constexpr double kPixel = 1e-6; ///< of the light's side
-constexpr int kGroups = 16;     ///< of pixels: their scatter gives the standard errors
+constexpr int kSide = 16;         ///< pixels of a receiver: independent runs
+constexpr double kPixel = 1e-6;   ///< of the light's side
+constexpr int kGroups = 16;       ///< of pixels: their scatter gives the standard errors
 constexpr int kFewestFitted = 16; ///< slopes are those of larger numbers
 constexpr uint32_t kSeed = 1;
 

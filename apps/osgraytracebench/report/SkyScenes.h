@@ -1,5 +1,6 @@
 // SkyScenes.h - a plane under an environment: light from all around that has a formula. Layer:
-// apps. SPDX-License-Identifier: MIT
+// apps.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "apps/osgraytracebench/report/ReportScene.h"

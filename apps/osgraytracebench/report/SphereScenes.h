@@ -1,4 +1,5 @@
-// SphereScenes.h - a plane under a point light with a radius: soft light that has a formula. Layer: apps.
+// SphereScenes.h - a plane under a point light with a radius: soft light that has a formula. Layer:
+// apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 

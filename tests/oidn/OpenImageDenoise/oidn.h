@@ -1,6 +1,7 @@
 // oidn.h - not Open Image Denoise: a stand-in for tests that declares what DenoiseOidn.cpp calls,
 // as its documentation has it. OIDN_VERSION_MAJOR, 1 or 2, is given by CMake; the names of setters
-// depend on it. StandIn.h tells what it does. SPDX-License-Identifier: MIT
+// depend on it. StandIn.h tells what it does.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstddef>

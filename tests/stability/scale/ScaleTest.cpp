@@ -1,5 +1,6 @@
 // ScaleTest.cpp - the same scene as small as an atom and as large as the solar system. Layer:
-// tests. SPDX-License-Identifier: MIT
+// tests.
+// SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/stability/scale/ScaledScene.h"
 
