@@ -1,9 +1,14 @@
 # Checks that each include points to its own layer or one left of it, and the few rules beside that:
 #   base < sampling < film < scene < shading < accel < photons < integrators < session < bridge < API
 #        < offscreen < osgPlugins < apps
+#   - inside three layers, folders have an order, too; files of the layer itself are "":
+#       bridge: common < geometry < appearance/textures < appearance/lights < appearance/materials
+#               < graph < changes < pick < convert < update
+#       session: image < denoise < upsample < "" < history < view
+#       integrators: shared < whitted, path, debug (which do not include each other) < ""
 #   - the bridge converts the classes of the API: it includes their public headers, nothing else of it
 #   - accel alone includes Embree (and apps/osgraytracebench, which measures against it)
-#   - base/Parallel.cpp alone includes TBB, session/DenoiseOidn.cpp alone Open Image Denoise
+#   - base/Parallel.cpp alone includes TBB, session/denoise/DenoiseOidn.cpp alone Open Image Denoise
 #   - base to session include neither OpenSceneGraph nor OpenGL
 #   - DisplayTexture and offscreen alone call OpenGL
 #   - a public header includes only public headers, OpenSceneGraph and the C++ library
@@ -12,6 +17,12 @@ cmake_minimum_required(VERSION 3.24)
 
 set(LAYERS base sampling film scene shading accel photons integrators session bridge API offscreen osgPlugins apps)
 set(ENGINE base sampling film scene shading accel photons integrators session)
+# Folders of a layer, each of which includes those left of it. "root" is the layer's own folder.
+set(FOLDERS_bridge common geometry appearance/textures appearance/lights appearance/materials
+    graph changes pick convert update view)
+set(FOLDERS_session image denoise upsample root history view)
+set(FOLDERS_integrators shared whitted path debug root)
+set(PEERS_integrators whitted path debug)
 set(PUBLIC_HEADER "^osgRayTrace/(offscreen/)?[A-Za-z]+$")
 set(offences 0)
 
@@ -33,6 +44,30 @@ function(layer_of path result)
     set(${result} "${layer}" PARENT_SCOPE)
 endfunction()
 
+# Folder of a path inside its layer: "root" for the layer's own.
+function(room_of path layer result)
+    get_filename_component(room "${path}" DIRECTORY)
+    string(REGEX REPLACE "^osgRayTrace/${layer}/?" "" room "${room}")
+    if(room STREQUAL "")
+        set(room root)
+    endif()
+    set(${result} "${room}" PARENT_SCOPE)
+endfunction()
+
+macro(check_room file layer target)
+    room_of("${file}" "${layer}" room)
+    room_of("${target}" "${layer}" targetRoom)
+    list(FIND FOLDERS_${layer} "${room}" roomRank)
+    list(FIND FOLDERS_${layer} "${targetRoom}" targetRoomRank)
+    if(roomRank LESS 0 OR targetRoomRank LESS 0)
+        report("${file}" "includes ${target}: one of them lies in no known folder of ${layer}")
+    elseif(targetRoomRank GREATER roomRank)
+        report("${file}" "folder ${room} of ${layer} includes ${target} of ${targetRoom}, right of it")
+    elseif(room IN_LIST PEERS_${layer} AND targetRoom IN_LIST PEERS_${layer} AND NOT room STREQUAL targetRoom)
+        report("${file}" "folder ${room} of ${layer} includes ${target} of its peer ${targetRoom}")
+    endif()
+endmacro()
+
 macro(check_include file layer include)
     # A path without a folder is a neighbour.
     set(target "${include}")
@@ -53,6 +88,10 @@ macro(check_include file layer include)
         endif()
     endif()
 
+    if(DEFINED FOLDERS_${layer} AND target MATCHES "^osgRayTrace/${layer}/")
+        check_room("${file}" "${layer}" "${target}")
+    endif()
+
     if(include MATCHES "^embree[34]?/" AND NOT layer STREQUAL "accel"
        AND NOT file MATCHES "^apps/osgraytracebench/")
         report("${file}" "includes Embree (${include}); accel alone may")
@@ -60,8 +99,8 @@ macro(check_include file layer include)
     if(include MATCHES "^(oneapi/)?tbb[/.]" AND NOT file STREQUAL "osgRayTrace/base/Parallel.cpp")
         report("${file}" "includes TBB (${include}); base/Parallel.cpp alone may")
     endif()
-    if(include MATCHES "^OpenImageDenoise/" AND NOT file STREQUAL "osgRayTrace/session/DenoiseOidn.cpp")
-        report("${file}" "includes Open Image Denoise (${include}); session/DenoiseOidn.cpp alone may")
+    if(include MATCHES "^OpenImageDenoise/" AND NOT file STREQUAL "osgRayTrace/session/denoise/DenoiseOidn.cpp")
+        report("${file}" "includes Open Image Denoise (${include}); session/denoise/DenoiseOidn.cpp alone may")
     endif()
     if(include MATCHES "^(osg[A-Z]?[A-Za-z]*|OpenThreads|GL|GLES.*|EGL)/" AND NOT include MATCHES "^osgRayTrace/"
        AND layer IN_LIST ENGINE)

@@ -1,8 +1,8 @@
-# Checks that osgRayTrace/README.md, the map of the code, names each header of the library.
+# Checks that osgRayTrace/docs/architecture.md, the map of the code, names each header of the library.
 # Usage: cmake -D ROOT=<source folder> -P CheckMap.cmake; fails and names the headers that are missing.
 cmake_minimum_required(VERSION 3.24)
 
-file(READ "${ROOT}/osgRayTrace/README.md" map)
+file(READ "${ROOT}/osgRayTrace/docs/architecture.md" map)
 file(GLOB_RECURSE files LIST_DIRECTORIES false "${ROOT}/osgRayTrace/*")
 list(FILTER files INCLUDE REGEX "/[A-Za-z]+(\\.h)?$")
 set(missing "")
@@ -14,5 +14,5 @@ foreach(file IN LISTS files)
     endif()
 endforeach()
 if(missing)
-    message(FATAL_ERROR "Not in osgRayTrace/README.md: ${missing}")
+    message(FATAL_ERROR "Not in osgRayTrace/docs/architecture.md: ${missing}")
 endif()

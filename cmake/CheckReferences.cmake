@@ -1,8 +1,8 @@
-# Checks that osgRayTrace/References.md lists each work that the code cites by a key such as [Kajiya86].
+# Checks that osgRayTrace/docs/references.md lists each work that the code cites by a key such as [Kajiya86].
 # Usage: cmake -D ROOT=<source folder> -P CheckReferences.cmake; fails and names the keys that are missing.
 cmake_minimum_required(VERSION 3.24)
 
-file(READ "${ROOT}/osgRayTrace/References.md" references)
+file(READ "${ROOT}/osgRayTrace/docs/references.md" references)
 file(GLOB_RECURSE files LIST_DIRECTORIES false
      "${ROOT}/osgRayTrace/*" "${ROOT}/osgPlugins/*" "${ROOT}/apps/*" "${ROOT}/data/generator/*")
 list(FILTER files EXCLUDE REGEX "\\.(txt|md)$")
@@ -26,6 +26,6 @@ endforeach()
 
 if(missing)
     list(REMOVE_DUPLICATES missing)
-    message(FATAL_ERROR "Cited, but not in References.md: ${missing}")
+    message(FATAL_ERROR "Cited, but not in references.md: ${missing}")
 endif()
-message(NOTICE "${count} citations found in References.md")
+message(NOTICE "${count} citations found in references.md")

@@ -30,7 +30,7 @@ install(FILES
 # One folder in which the README's commands and links work: pages, pictures, scenes and configurations.
 set(OSGRAYTRACE_SHARE_DIR "${CMAKE_INSTALL_DATADIR}/osgRayTrace")
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}")
-install(FILES osgRayTrace/README.md osgRayTrace/Coverage.md osgRayTrace/References.md
+install(FILES osgRayTrace/docs/architecture.md osgRayTrace/docs/coverage.md osgRayTrace/docs/references.md
     DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace")
 install(DIRECTORY data/ DESTINATION "${OSGRAYTRACE_SHARE_DIR}/data"
     PATTERN CMakeLists.txt EXCLUDE PATTERN generator EXCLUDE)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/AreaLight>
 
-#include "osgRayTrace/bridge/WarnOnce.h"
+#include "osgRayTrace/bridge/common/WarnOnce.h"
 #include "osgRayTrace/film/ToneMap.h"
 
 #include <osg/BoundingBox>

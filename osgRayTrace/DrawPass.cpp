@@ -4,7 +4,7 @@
 
 #include <osgRayTrace/RayTraceSettings>
 
-#include "osgRayTrace/bridge/ViewFromMatrices.h"
+#include "osgRayTrace/bridge/common/ViewFromMatrices.h"
 
 #include <osg/ValueObject>
 #include <osg/Viewport>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/ViewRegistry.h"
-#include "osgRayTrace/bridge/ViewTracer.h"
+#include "osgRayTrace/bridge/view/ViewRegistry.h"
+#include "osgRayTrace/bridge/view/ViewTracer.h"
 
 #include <osg/Camera>
 #include <osg/Matrixd>

@@ -4,7 +4,7 @@
 
 #include "osgRayTrace/base/NeverDestroyed.h"
 #include "osgRayTrace/base/NumberText.h"
-#include "osgRayTrace/bridge/LightSizes.h"
+#include "osgRayTrace/bridge/appearance/lights/LightSizes.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/PhysicalMaterial>
 
-#include "osgRayTrace/bridge/WarnOnce.h"
+#include "osgRayTrace/bridge/common/WarnOnce.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,16 +6,16 @@
 
 #include "osgRayTrace/DrawPass.h"
 #include "osgRayTrace/ShownView.h"
-#include "osgRayTrace/bridge/DepthSlices.h"
-#include "osgRayTrace/bridge/PageRequests.h"
-#include "osgRayTrace/bridge/PathBudget.h"
-#include "osgRayTrace/bridge/RasterizedPicker.h"
-#include "osgRayTrace/bridge/ScenePicker.h"
-#include "osgRayTrace/bridge/SceneUpdater.h"
-#include "osgRayTrace/bridge/StatisticsFromEngine.h"
-#include "osgRayTrace/bridge/ViewRegistry.h"
-#include "osgRayTrace/bridge/ViewingConditions.h"
-#include "osgRayTrace/bridge/WarnOnce.h"
+#include "osgRayTrace/bridge/common/ViewingConditions.h"
+#include "osgRayTrace/bridge/common/WarnOnce.h"
+#include "osgRayTrace/bridge/graph/PathBudget.h"
+#include "osgRayTrace/bridge/pick/RasterizedPicker.h"
+#include "osgRayTrace/bridge/pick/ScenePicker.h"
+#include "osgRayTrace/bridge/update/PageRequests.h"
+#include "osgRayTrace/bridge/update/SceneUpdater.h"
+#include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
+#include "osgRayTrace/bridge/view/DepthSlices.h"
+#include "osgRayTrace/bridge/view/ViewRegistry.h"
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/LOD>

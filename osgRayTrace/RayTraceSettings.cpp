@@ -3,8 +3,8 @@
 #include <osgRayTrace/RayTraceSettings>
 
 #include "osgRayTrace/OptionTable.h"
-#include "osgRayTrace/bridge/MaterialLibrary.h"
-#include "osgRayTrace/bridge/WarnOnce.h"
+#include "osgRayTrace/bridge/appearance/materials/MaterialLibrary.h"
+#include "osgRayTrace/bridge/common/WarnOnce.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -4,7 +4,8 @@
 
 #include <osgRayTrace/RayIntersector>
 
-#include "osgRayTrace/bridge/DrawHint.h"
+#include "osgRayTrace/bridge/common/SceneRoot.h"
+#include "osgRayTrace/bridge/graph/DrawHint.h"
 
 #include <osg/NodeVisitor>
 #include <osgUtil/CullVisitor>
@@ -15,35 +16,6 @@ namespace osgRayTrace
 
 namespace
 {
-
-/// Stands for the decorator without being it, so that the drawable neither owns what owns it nor
-/// meets itself below. The children do not get it as a parent: their own parents and paths stay as
-/// they are.
-class SceneRoot : public osg::Group
-{
-public:
-    explicit SceneRoot(RayTracedScene* owner) : _owner(owner) {}
-    META_Node(osgRayTrace, SceneRoot)
-
-        void traverse(osg::NodeVisitor& visitor) override
-    {
-        if (_owner) _owner->accept(visitor); // with its state and mask
-    }
-
-    osg::BoundingSphere computeBound() const override
-    {
-        return _owner ? _owner->osg::Group::computeBound() : osg::BoundingSphere();
-    }
-
-    /// Its owner goes; the drawable may be kept by others.
-    void detach() { _owner = nullptr; }
-
-private:
-    SceneRoot() = default;
-    SceneRoot(const SceneRoot& other, const osg::CopyOp& copyop) : osg::Group(other, copyop) {}
-
-    RayTracedScene* _owner = nullptr; // owns this, indirectly
-};
 
 /// Near and far planes are computed from what is drawn; a drawable without primitives counts by its
 /// bound.
@@ -85,7 +57,8 @@ bool uploads(const osg::NodeVisitor& visitor)
 
 } // namespace
 
-RayTracedScene::RayTracedScene() : _children(new SceneRoot(this)), _drawable(new RayTraceDrawable)
+RayTracedScene::RayTracedScene()
+    : _children(new engine::SceneRoot(this)), _drawable(new RayTraceDrawable)
 {
     _drawable->setScene(_children.get());
     setNumChildrenRequiringUpdateTraversal(1);
@@ -94,7 +67,7 @@ RayTracedScene::RayTracedScene() : _children(new SceneRoot(this)), _drawable(new
 RayTracedScene::RayTracedScene(const RayTracedScene& other, const osg::CopyOp& copyop)
     : osg::Group(other, copyop),
       _enabled(other._enabled),
-      _children(new SceneRoot(this)),
+      _children(new engine::SceneRoot(this)),
       _drawable(new RayTraceDrawable)
 {
     _drawable->setScene(_children.get());
@@ -104,7 +77,7 @@ RayTracedScene::RayTracedScene(const RayTracedScene& other, const osg::CopyOp& c
 
 RayTracedScene::~RayTracedScene()
 {
-    static_cast<SceneRoot*>(_children.get())->detach();
+    static_cast<engine::SceneRoot*>(_children.get())->detach();
     _drawable->releaseScene(); // others may keep it
 }
 

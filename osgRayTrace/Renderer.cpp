@@ -4,16 +4,16 @@
 
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/bridge/HomeView.h"
-#include "osgRayTrace/bridge/HostArrays.h"
-#include "osgRayTrace/bridge/PixelImage.h"
-#include "osgRayTrace/bridge/RenderOptionsFromSettings.h"
-#include "osgRayTrace/bridge/SceneConverter.h"
-#include "osgRayTrace/bridge/StatisticsFromEngine.h"
-#include "osgRayTrace/bridge/ViewFromMatrices.h"
-#include "osgRayTrace/bridge/WarnOnce.h"
-#include "osgRayTrace/session/Denoiser.h"
+#include "osgRayTrace/bridge/common/HomeView.h"
+#include "osgRayTrace/bridge/common/PixelImage.h"
+#include "osgRayTrace/bridge/common/ViewFromMatrices.h"
+#include "osgRayTrace/bridge/common/WarnOnce.h"
+#include "osgRayTrace/bridge/convert/SceneConverter.h"
+#include "osgRayTrace/bridge/geometry/HostArrays.h"
+#include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
+#include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
 #include "osgRayTrace/session/RenderSession.h"
+#include "osgRayTrace/session/denoise/Denoiser.h"
 
 #include <osg/Light>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/DisplayTexture.h"
-#include "osgRayTrace/bridge/BackgroundTracer.h"
+#include "osgRayTrace/bridge/view/BackgroundTracer.h"
 
 #include <osg/Image>
 #include <osg/RenderInfo>

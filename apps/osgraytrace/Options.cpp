@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "Options.h"
 
-#include "PictureFile.h"
+#include "PictureFormat.h"
 #include "apps/common/Failure.h"
 #include "osgRayTrace/base/NumberText.h"
 

@@ -6,8 +6,6 @@
 #include "apps/common/Output.h"
 #include "osgPlugins/exr/ExrImage.h"
 
-#include <osgDB/FileNameUtils>
-
 namespace osgRayTrace::app
 {
 
@@ -58,20 +56,6 @@ engine::ExrImage exrImageOf(const Picture& picture)
 }
 
 } // namespace
-
-std::optional<Format> formatOf(const std::string& path)
-{
-    const std::string extension = osgDB::getLowerCaseFileExtension(path);
-    if (extension == "exr") return Format::Exr;
-    if (extension == "png") return Format::Png;
-    if (extension == "jpg" || extension == "jpeg") return Format::Jpeg;
-    return std::nullopt;
-}
-
-std::string whyNotInFile(const std::string& path, int width, int height)
-{
-    return whyNotInFormat(osgDB::getLowerCaseFileExtension(path), width, height);
-}
 
 void writePicture(const std::string& path, const Picture& picture)
 {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/HitRule.h"
+#include "osgRayTrace/accel/RayBlock.h"
 
 #if __has_include(<embree4/rtcore.h>) && !__has_include(<embree3/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -16,6 +17,8 @@
 
 namespace osgRayTrace::engine
 {
+
+class HitFilter;
 
 static_assert(sizeof(RayBlock) == sizeof(RTCRay16), "RayBlock is an RTCRay16");
 static_assert(sizeof(RayHitBlock) == sizeof(RTCRayHit16), "RayHitBlock is an RTCRayHit16");

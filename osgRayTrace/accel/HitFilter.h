@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/HitRule.h"
+#include "osgRayTrace/accel/RayBlock.h"
 #include "osgRayTrace/accel/SurfaceTable.h"
 #include "osgRayTrace/shading/MaterialTable.h"
 

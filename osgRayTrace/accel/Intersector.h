@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/accel/HitRule.h"
 #include "osgRayTrace/accel/RayBlock.h"
 
 #include <cstdint>
@@ -16,18 +17,6 @@ enum class Coherence
     Coherent,   ///< camera rays: neighbours take the same way through the BVH
     Incoherent, ///< bounces
 };
-
-/// Which partial surfaces a ray meets: see HitFilter.
-struct HitRule
-{
-    bool culls = false;        ///< a camera ray: culled faces are not there
-    bool keepsBlended = false; ///< blended surfaces are hit whatever their alpha; else by chance
-    bool fromLight =
-        false; ///< goes the way that light does: it meets faces of which one side is culled
-    bool solid = false; ///< every surface is hit, wherever it is transparent or culled
-};
-constexpr HitRule kCameraRays{true, false, false, false};
-constexpr HitRule kPhotonRays{false, false, true, false};
 
 class HitFilter;
 

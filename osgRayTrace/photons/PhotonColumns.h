@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/base/Lanes.h"
-#include "osgRayTrace/photons/PhotonMap.h"
+#include "osgRayTrace/photons/Photon.h"
 
 #include <cmath>
 

@@ -1,6 +1,7 @@
 // PhotonMap.cpp - the photons around a point: look-ups in a counting-sorted grid. Layer: photons.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/PhotonColumns.h"
+#include "osgRayTrace/photons/PhotonMap.h"
 
 #include <algorithm>
 #include <cmath>

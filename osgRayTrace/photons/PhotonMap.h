@@ -5,6 +5,7 @@
 #include "osgRayTrace/base/Lanes.h"
 #include "osgRayTrace/base/LargeArray.h"
 #include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/photons/Photon.h"
 #include "osgRayTrace/photons/PhotonCrowds.h"
 
 #include <cstdint>
@@ -14,62 +15,6 @@ namespace osgRayTrace::engine
 {
 
 class Workers;
-
-/// A flux that arrived at a surface.
-struct Photon
-{
-    Vec3 position{0.0f};
-    Vec3 wi{0.0f};           ///< unit, towards where it came from
-    Vec3 power{0.0f};        ///< [W], already divided by the number of emitted photons
-    Vec3 normal{0.0f};       ///< geometric, unit, on the side of wi
-    uint32_t edges = 0;      ///< of its path, from the light to here
-    bool direct = false;     ///< met mirror-like surfaces only
-    uint32_t bin = kInvalid; ///< of PhotonAim that it was sent to, if it was
-};
-
-/// Photon paths are told apart by their number of edges up to here; longer ones count as this.
-constexpr uint32_t kMostEdges = 127;
-
-/// A disc on a surface that photons are looked for in.
-struct PhotonQuery
-{
-    Vec3 position{0.0f};
-    Vec3 normal{0.0f}; ///< geometric, unit, on the side that light is gathered from
-    Vec3 shadingNormal{
-        0.0f}; ///< unit; power is weighted by the ratio of its cosine to that of normal
-    float radius = 0.0f;
-    uint32_t mostEdges = kMostEdges; ///< photons of more are left out
-};
-
-struct PhotonSum
-{
-    Vec3 power{0.0f}; ///< [W] that arrives through the disc, each photon counted once
-    uint32_t count = 0;
-};
-
-/// Sixteen discs. Those near each other read the photons around them once.
-struct PhotonQueryLanes
-{
-    Vec3Lanes position, normal, shadingNormal; ///< see PhotonQuery
-    FloatLanes radius;
-    uint32_t mostEdges = kMostEdges;
-    LaneMask lanes = 0; ///< in use
-};
-
-PhotonQuery laneOf(const PhotonQueryLanes& queries, int i);
-
-struct PhotonSumLanes
-{
-    Vec3Lanes power; ///< undefined where the count is 0
-    UintLanes count; ///< 0 of lanes that are not in use
-};
-
-/// A photon, and the lanes whose discs it is in.
-struct FoundPhoton
-{
-    uint32_t photon;
-    LaneMask lanes;
-};
 
 /// How large discs around one place have to be to hold its photons.
 class PhotonReaches
@@ -85,12 +30,6 @@ private:
     friend class PhotonMap;
     std::vector<float> _reach2; ///< square of the radius from which on a look-up finds the photon
 };
-
-/// Photons near a corner or behind a thin wall do not belong to a surface although they are within
-/// the radius: those farther off its plane than this share of the radius are left out, as are those
-/// whose own surface is turned away by more than 60 degrees.
-constexpr float kPlaneShare = 0.25f;
-constexpr float kLeastNormalCosine = 0.5f;
 
 /// A grid over hashed cells, its photons in cell order: those of neighbouring cells along x lie one
 /// after the other [Teschner03, spatial hashing; but only y and z are hashed, and x is added].

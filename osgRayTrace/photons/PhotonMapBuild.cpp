@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/photons/PhotonColumns.h"
+#include "osgRayTrace/photons/PhotonMap.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 // once. Layer: photons.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/PhotonColumns.h"
+#include "osgRayTrace/photons/PhotonMap.h"
 
 #include <cmath>
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/photons/PhotonMap.h"
 #include "osgRayTrace/photons/PhotonTracer.h"
 
 #include <array>

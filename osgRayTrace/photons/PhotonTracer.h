@@ -3,8 +3,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/photons/Photon.h"
 #include "osgRayTrace/photons/PhotonEmitter.h"
-#include "osgRayTrace/photons/PhotonMap.h"
+#include "osgRayTrace/photons/PhotonUse.h"
 
 #include <cstdint>
 #include <vector>
@@ -13,15 +14,6 @@ namespace osgRayTrace::engine
 {
 
 class Workers;
-
-/// Which photons a pass stores. Direct light is never among them: it is sampled from the eye's
-/// side.
-enum class PhotonUse : uint8_t
-{
-    None,
-    Caustics, ///< whose first surface was mirror-like: light, specular+, surface, and on from there
-    Indirect, ///< that met any surface before
-};
 
 struct PhotonPassOptions
 {

@@ -1,6 +1,7 @@
 // PhotonState.cpp - what a view keeps for photon mapping from pass to pass. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/PhotonState.h"
+#include "osgRayTrace/integrators/IntegratorFactory.h"
 
 #include "osgRayTrace/accel/Intersector.h"
 

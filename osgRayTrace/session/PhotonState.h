@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/integrators/HitPoints.h"
-#include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/integrators/shared/HitPoints.h"
+#include "osgRayTrace/integrators/shared/Integrator.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
 #include "osgRayTrace/photons/RadiusSchedule.h"
-#include "osgRayTrace/session/RenderSession.h"
+#include "osgRayTrace/session/RenderProgress.h"
 
 #include <memory>
 #include <vector>

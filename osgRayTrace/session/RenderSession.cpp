@@ -1,11 +1,13 @@
 // RenderSession.cpp - the progressive image of one view. Layer: session.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/session/RenderSessionState.h"
+#include "osgRayTrace/session/RenderSession.h"
 
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/film/Resolve.h"
 #include "osgRayTrace/film/TileOrder.h"
-#include "osgRayTrace/session/ChannelImage.h"
+#include "osgRayTrace/integrators/IntegratorFactory.h"
+#include "osgRayTrace/session/SessionState.h"
+#include "osgRayTrace/session/image/ChannelImage.h"
 
 #include <algorithm>
 #include <chrono>
@@ -75,7 +77,7 @@ Mat3 eyeFromEngine(const View& view)
 } // namespace
 
 /// Restart or continue: decided here and nowhere else. True if there is something to render.
-bool RenderSession::Implementation::begin()
+bool SessionState::begin()
 {
     const bool sameScene = scene == filmScene;
     const bool sameSize =
@@ -133,7 +135,7 @@ bool RenderSession::Implementation::begin()
     return true;
 }
 
-PassContext RenderSession::Implementation::contextOfPass(int pass) const
+PassContext SessionState::contextOfPass(int pass) const
 {
     PassContext context;
     context.traced = filmScene.get();
@@ -156,8 +158,8 @@ PassContext RenderSession::Implementation::contextOfPass(int pass) const
 }
 
 /// Adds the next pass of a tile, in the film itself where that is possible.
-TileCounts RenderSession::Implementation::renderTile(const PassContext& context,
-                                                     const Integrator& integrator, int tile)
+TileCounts SessionState::renderTile(const PassContext& context, const Integrator& integrator,
+                                    int tile)
 {
     TileRgba local;
     TileResult result;
@@ -195,7 +197,7 @@ TileCounts RenderSession::Implementation::renderTile(const PassContext& context,
 }
 
 /// The photons of a pass, which may be one that an earlier call did not finish.
-void RenderSession::Implementation::preparePhotons(PassContext& context, int pass)
+void SessionState::preparePhotons(PassContext& context, int pass)
 {
     const Clock::time_point start = Clock::now();
     photons.prepare(filmScene, context, pass, *workers);
@@ -213,9 +215,8 @@ void RenderSession::Implementation::preparePhotons(PassContext& context, int pas
 }
 
 /// Adds one pass to every tile that does not have it yet, and shows it. False if some still do not.
-bool RenderSession::Implementation::renderPass(const PassContext& context,
-                                               const Integrator& integrator, const StopRule& rule,
-                                               const DisplayTarget* display)
+bool SessionState::renderPass(const PassContext& context, const Integrator& integrator,
+                              const StopRule& rule, const DisplayTarget* display)
 {
     const int pass = film.passes();
     const auto tiles = static_cast<std::size_t>(film.tileCount());
@@ -270,7 +271,7 @@ bool RenderSession::Implementation::renderPass(const PassContext& context,
 }
 
 /// What the tiles of a pass were counted to take.
-void RenderSession::Implementation::addTileCounts()
+void SessionState::addTileCounts()
 {
     for (TileCounts& counts : tileCounts)
     {
@@ -282,10 +283,9 @@ void RenderSession::Implementation::addTileCounts()
     }
 }
 
-RenderProgress
-RenderSession::Implementation::run(const StopRule& rule,
-                                   const std::function<bool(const RenderProgress&)>& keepGoing,
-                                   const DisplayTarget* display)
+RenderProgress SessionState::run(const StopRule& rule,
+                                 const std::function<bool(const RenderProgress&)>& keepGoing,
+                                 const DisplayTarget* display)
 {
     cancelled = false;
     unshown.clear();
@@ -326,7 +326,7 @@ RenderSession::Implementation::run(const StopRule& rule,
     return progress;
 }
 
-double RenderSession::Implementation::imageShare() const
+double SessionState::imageShare() const
 {
     if (film.passes() > 0) return 1.0;
     int made = 0;
@@ -336,7 +336,7 @@ double RenderSession::Implementation::imageShare() const
 }
 
 /// What no pass of this call has shown.
-void RenderSession::Implementation::showRest(const DisplayTarget& display)
+void SessionState::showRest(const DisplayTarget& display)
 {
     workers->forEach(unshown.size(),
                      [&](std::size_t tile)
@@ -348,7 +348,7 @@ void RenderSession::Implementation::showRest(const DisplayTarget& display)
 
 RenderSession::RenderSession(std::shared_ptr<Workers> workers,
                              std::shared_ptr<PhotonPasses> photons)
-    : _implementation(std::make_unique<Implementation>(std::move(workers), std::move(photons)))
+    : _state(std::make_unique<SessionState>(std::move(workers), std::move(photons)))
 {
 }
 
@@ -356,27 +356,27 @@ RenderSession::~RenderSession() = default;
 
 void RenderSession::setScene(std::shared_ptr<const TracedScene> scene)
 {
-    _implementation->scene = std::move(scene);
+    _state->scene = std::move(scene);
 }
 
 void RenderSession::setView(const View& view)
 {
-    _implementation->view = view;
+    _state->view = view;
 }
 
 void RenderSession::setOptions(const RenderOptions& options)
 {
-    _implementation->options = options;
+    _state->options = options;
 }
 
 void RenderSession::setKeepsSurfaces(bool keeps)
 {
-    _implementation->keepsSurfaces = keeps;
+    _state->keepsSurfaces = keeps;
 }
 
 void RenderSession::setSequence(uint32_t sequence)
 {
-    _implementation->sequence = sequence;
+    _state->sequence = sequence;
 }
 
 RenderProgress RenderSession::render(const StopRule& rule,
@@ -385,30 +385,30 @@ RenderProgress RenderSession::render(const StopRule& rule,
 {
     try
     {
-        return _implementation->run(rule, keepGoing, display);
+        return _state->run(rule, keepGoing, display);
     }
     catch (const EngineError& error)
     {
-        return failed(_implementation->progress, error.code(), error.what());
+        return failed(_state->progress, error.code(), error.what());
     }
     catch (const std::bad_alloc&)
     {
-        return failed(_implementation->progress, StatusCode::OutOfMemory, "out of memory");
+        return failed(_state->progress, StatusCode::OutOfMemory, "out of memory");
     }
     catch (const std::exception& error)
     {
-        return failed(_implementation->progress, StatusCode::DeviceFailure, error.what());
+        return failed(_state->progress, StatusCode::DeviceFailure, error.what());
     }
 }
 
 void RenderSession::cancel()
 {
-    _implementation->cancelled = true;
+    _state->cancelled = true;
 }
 
 void RenderSession::clear()
 {
-    Implementation& session = *_implementation;
+    SessionState& session = *_state;
     session.scene.reset();
     session.filmScene.reset();
     session.samples = {};
@@ -420,7 +420,7 @@ void RenderSession::clear()
 
 int RenderSession::tilesLeft() const
 {
-    const Film& film = _implementation->film;
+    const Film& film = _state->film;
     const int pass = film.passes();
     int left = 0;
     for (int tile = 0; tile < film.tileCount(); ++tile)
@@ -430,15 +430,15 @@ int RenderSession::tilesLeft() const
 
 const RenderProgress& RenderSession::progress() const
 {
-    return _implementation->progress;
+    return _state->progress;
 }
 int RenderSession::width() const
 {
-    return _implementation->film.width();
+    return _state->film.width();
 }
 int RenderSession::height() const
 {
-    return _implementation->film.height();
+    return _state->film.height();
 }
 
 } // namespace osgRayTrace::engine

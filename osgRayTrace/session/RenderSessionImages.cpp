@@ -1,14 +1,15 @@
 // RenderSessionImages.cpp - a session's image as others want it: display values, radiance,
 // channels. Layer: session.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/session/RenderSessionState.h"
+#include "osgRayTrace/session/RenderSession.h"
 
 #include "osgRayTrace/base/NeverDestroyed.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/film/Resolve.h"
-#include "osgRayTrace/integrators/FirstHit.h"
-#include "osgRayTrace/session/ChannelImage.h"
-#include "osgRayTrace/session/Upsample.h"
+#include "osgRayTrace/integrators/shared/FirstHit.h"
+#include "osgRayTrace/session/SessionState.h"
+#include "osgRayTrace/session/image/ChannelImage.h"
+#include "osgRayTrace/session/upsample/Upsample.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,7 @@ namespace osgRayTrace::engine
 {
 
 /// Of first hits of the film's view in another size; nothing without an image.
-std::optional<PassContext> RenderSession::Implementation::contextOfSize(int width, int height) const
+std::optional<PassContext> SessionState::contextOfSize(int width, int height) const
 {
     if (!filmScene || film.passes() < 1) return std::nullopt;
     View sized = filmView;
@@ -34,7 +35,7 @@ std::optional<PassContext> RenderSession::Implementation::contextOfSize(int widt
 }
 
 /// Square root of the estimated mean squared relative error.
-double RenderSession::Implementation::estimateError() const
+double SessionState::estimateError() const
 {
     if (film.passes() < 2) return std::numeric_limits<double>::infinity();
     std::vector<Film::ErrorSum> sums(static_cast<std::size_t>(film.tileCount()));
@@ -51,7 +52,7 @@ double RenderSession::Implementation::estimateError() const
 }
 
 /// over: tiles without a pass are left as they are.
-void RenderSession::Implementation::resolve(const DisplayTarget& display, bool over) const
+void SessionState::resolve(const DisplayTarget& display, bool over) const
 {
     workers->forEach(static_cast<std::size_t>(film.tileCount()),
                      [&](std::size_t index)
@@ -61,7 +62,7 @@ void RenderSession::Implementation::resolve(const DisplayTarget& display, bool o
                      });
 }
 
-void RenderSession::Implementation::resolveTile(const DisplayTarget& display, int tile) const
+void SessionState::resolveTile(const DisplayTarget& display, int tile) const
 {
     resolveTileDisplay(film, tile, display.toneMap, display.rgba, display.depth);
     if (!display.changed) return;
@@ -71,7 +72,7 @@ void RenderSession::Implementation::resolveTile(const DisplayTarget& display, in
 
 double RenderSession::estimateRelativeError() const
 {
-    return _implementation->estimateError();
+    return _state->estimateError();
 }
 
 std::vector<float> RenderSession::resolveRadiance() const
@@ -85,12 +86,11 @@ std::vector<float> RenderSession::resolveRadiance() const
 void RenderSession::resolveRows(float* radiance, float* depth,
                                 const std::function<void(std::size_t, std::size_t)>& take) const
 {
-    const Film& film = _implementation->film;
-    const bool displayReferred =
-        _implementation->filmScene && _implementation->filmScene->scene().displayReferred;
+    const Film& film = _state->film;
+    const bool displayReferred = _state->filmScene && _state->filmScene->scene().displayReferred;
     const int across = (film.width() + kTileSize - 1) / kTileSize;
     if (across == 0) return;
-    _implementation->workers->forEach(
+    _state->workers->forEach(
         static_cast<std::size_t>(film.tileCount() / across),
         [&](std::size_t row)
         {
@@ -107,24 +107,24 @@ void RenderSession::resolveRows(float* radiance, float* depth,
 
 void RenderSession::resolveDisplay(const ToneMap& toneMap, uint8_t* rgba, float* depth) const
 {
-    _implementation->resolve({toneMap, rgba, depth}, false);
+    _state->resolve({toneMap, rgba, depth}, false);
 }
 
 void RenderSession::resolveOver(const ToneMap& toneMap, uint8_t* rgba, float* depth) const
 {
-    _implementation->resolve({toneMap, rgba, depth}, true);
+    _state->resolve({toneMap, rgba, depth}, true);
 }
 
 std::vector<float> RenderSession::resolveChannel(Channel channel) const
 {
-    const Implementation& session = *_implementation;
+    const SessionState& session = *_state;
     if (!session.filmScene) return {}; // nor was there ever an image
     return channelImage(channel, session.film, session.contextOfPass(0), *session.workers);
 }
 
 ShownImage RenderSession::shownImage() const
 {
-    const Implementation& session = *_implementation;
+    const SessionState& session = *_state;
     ShownImage image;
     if (!session.filmScene || session.film.passes() < 1) return image;
     image.width = width();
@@ -138,7 +138,7 @@ ShownImage RenderSession::shownImage() const
 const std::vector<SurfaceSample>& RenderSession::surfaceSamples() const
 {
     static const NeverDestroyed<std::vector<SurfaceSample>> kNone;
-    Implementation& session = *_implementation;
+    SessionState& session = *_state;
     const bool hasImage = session.filmScene && session.film.passes() > 0;
     if (!hasImage) return *kNone;
     if (!session.hasSamples)
@@ -150,7 +150,7 @@ const std::vector<SurfaceSample>& RenderSession::surfaceSamples() const
 /// The first pass's samples are anywhere in their pixels. What is seen in the middle of a pixel
 /// decides what it is taken for, so that a pixel at an edge does not change sides from frame to
 /// frame.
-void RenderSession::Implementation::finishSurfaces()
+void SessionState::finishSurfaces()
 {
     SurfaceMap& map = surfaces;
     if (map.finished || map.view.width == 0 || film.passes() < 1) return;
@@ -183,23 +183,21 @@ void RenderSession::Implementation::finishSurfaces()
 
 const SurfaceMap& RenderSession::surfaces()
 {
-    _implementation->finishSurfaces();
-    return _implementation->surfaces;
+    _state->finishSurfaces();
+    return _state->surfaces;
 }
 
 const SurfaceMap& RenderSession::lastSurfaces() const
 {
-    return _implementation->lastSurfaces;
+    return _state->lastSurfaces;
 }
 
 UpsampleCounts RenderSession::upsample(const ShownImage& image,
                                        const std::vector<SurfaceSample>& samples, int width,
                                        int height, ShownImage& result, double mostTraced) const
 {
-    const std::optional<PassContext> full = _implementation->contextOfSize(width, height);
-    if (full)
-        return engine::upsample(image, samples, *full, mostTraced, *_implementation->workers,
-                                result);
+    const std::optional<PassContext> full = _state->contextOfSize(width, height);
+    if (full) return engine::upsample(image, samples, *full, mostTraced, *_state->workers, result);
     result = ShownImage();
     return {};
 }
@@ -209,10 +207,10 @@ UpsampleCounts RenderSession::showUpsampled(const ShownImage& image,
                                             int height, const DisplayTarget& display,
                                             double mostTraced) const
 {
-    const std::optional<PassContext> full = _implementation->contextOfSize(width, height);
+    const std::optional<PassContext> full = _state->contextOfSize(width, height);
     if (!full) return {};
     return engine::showUpsampled(image, samples, *full, mostTraced, display.toneMap,
-                                 *_implementation->workers, display.rgba, display.depth);
+                                 *_state->workers, display.rgba, display.depth);
 }
 
 } // namespace osgRayTrace::engine

@@ -1,6 +1,6 @@
 // HomeViewTest.cpp - tests that the home view is the one osgViewer opens with.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/HomeView.h"
+#include "osgRayTrace/bridge/common/HomeView.h"
 #include "tests/Catch.h"
 
 #include <osg/Geode>

@@ -1,6 +1,6 @@
 // RendererTest.cpp - tests of the renderer that needs no graphics context.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/session/DenoiseOidn.h"
+#include "osgRayTrace/session/denoise/DenoiseOidn.h"
 #include "tests/Catch.h"
 #include "tests/bridge/Messages.h"
 

@@ -4,9 +4,9 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
-#include "osgRayTrace/bridge/BackgroundThreads.h"
-#include "osgRayTrace/bridge/BackgroundTracer.h"
-#include "osgRayTrace/bridge/RenderOptionsFromSettings.h"
+#include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
+#include "osgRayTrace/bridge/view/BackgroundThreads.h"
+#include "osgRayTrace/bridge/view/BackgroundTracer.h"
 
 #include <chrono>
 #include <condition_variable>

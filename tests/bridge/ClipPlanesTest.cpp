@@ -1,6 +1,6 @@
 // ClipPlanesTest.cpp - what clip planes leave, and what they cost. Layer: tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/MeshClipper.h"
+#include "osgRayTrace/bridge/geometry/MeshClipper.h"
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 

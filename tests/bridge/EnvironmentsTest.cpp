@@ -1,6 +1,6 @@
 // EnvironmentsTest.cpp - EnvironmentLight nodes: axes, rotation, images of all kinds, wrong ones.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
 #include "osgRayTrace/shading/PlacedEnvironment.h"
 
 #include "tests/Catch.h"

@@ -1,6 +1,6 @@
 // GraphFingerprintTest.cpp - what is a change of the scene. Layer: tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
 
 #include "tests/Catch.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/SceneConverter.h"
+#include "osgRayTrace/bridge/convert/SceneConverter.h"
 
 #include <osg/Geode>
 #include <osg/Geometry>

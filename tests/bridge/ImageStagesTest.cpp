@@ -3,7 +3,7 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
-#include "osgRayTrace/bridge/ImageStages.h"
+#include "osgRayTrace/bridge/view/ImageStages.h"
 
 #include <vector>
 

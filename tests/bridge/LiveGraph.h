@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/SceneUpdater.h"
-#include "osgRayTrace/bridge/ViewTracer.h"
+#include "osgRayTrace/bridge/update/SceneUpdater.h"
+#include "osgRayTrace/bridge/view/ViewTracer.h"
 
 #include <osg/LightSource>
 #include <osg/Material>

@@ -1,10 +1,10 @@
 // ManyPathsTest.cpp - shared subgraphs with more paths than any traversal could follow, and nodes
 // that change the graph while it is traversed. Layer: tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/GraphFingerprint.h"
-#include "osgRayTrace/bridge/GraphWatch.h"
-#include "osgRayTrace/bridge/PathBudget.h"
-#include "osgRayTrace/bridge/SceneConverter.h"
+#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphWatch.h"
+#include "osgRayTrace/bridge/convert/SceneConverter.h"
+#include "osgRayTrace/bridge/graph/PathBudget.h"
 
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"

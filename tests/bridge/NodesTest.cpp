@@ -1,7 +1,7 @@
 // NodesTest.cpp - nodes that depend on the view or belong to other kits, and poses. Layer: tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/GraphFingerprint.h"
-#include "osgRayTrace/bridge/GraphWatch.h"
+#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphWatch.h"
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 

@@ -1,6 +1,6 @@
 // PolygonsTest.cpp - concave polygons and strips that restart. Layer: tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/PolygonTriangles.h"
+#include "osgRayTrace/bridge/geometry/PolygonTriangles.h"
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 

@@ -1,7 +1,7 @@
 // RewrittenArraysTest.cpp - arrays that are marked as modified with the values that they had.
 // Layer: tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/BufferContents.h"
+#include "osgRayTrace/bridge/geometry/BufferContents.h"
 
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"

@@ -3,8 +3,8 @@
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 
-#include "osgRayTrace/bridge/SceneExtent.h"
-#include "osgRayTrace/bridge/ViewingConditions.h"
+#include "osgRayTrace/bridge/common/SceneExtent.h"
+#include "osgRayTrace/bridge/common/ViewingConditions.h"
 
 #include <osgRayTrace/AreaLight>
 

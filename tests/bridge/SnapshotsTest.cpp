@@ -3,7 +3,7 @@
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 
-#include "osgRayTrace/bridge/HostArrays.h"
+#include "osgRayTrace/bridge/geometry/HostArrays.h"
 
 #include <osgRayTrace/AreaLight>
 

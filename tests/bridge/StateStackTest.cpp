@@ -1,6 +1,6 @@
 // StateStackTest.cpp - inheritance of state is that of osg::State, for any nesting.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/StateStack.h"
+#include "osgRayTrace/bridge/common/StateStack.h"
 #include "tests/Catch.h"
 
 #include <osgRayTrace/PhysicalMaterial>

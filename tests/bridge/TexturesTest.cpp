@@ -1,6 +1,6 @@
 // TexturesTest.cpp - pixel formats, texture state and what is not sampled.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/PixelDecoder.h"
+#include "osgRayTrace/bridge/appearance/textures/PixelDecoder.h"
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 

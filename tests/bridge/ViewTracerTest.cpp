@@ -4,8 +4,8 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
-#include "osgRayTrace/bridge/RenderOptionsFromSettings.h"
-#include "osgRayTrace/bridge/ViewTracer.h"
+#include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
+#include "osgRayTrace/bridge/view/ViewTracer.h"
 #include "osgRayTrace/film/ChangedTiles.h"
 #include "osgRayTrace/film/Enlarge.h"
 #include "osgRayTrace/film/Film.h"

@@ -67,7 +67,7 @@ if(NOT output MATCHES "RMSE 0\n")
 endif()
 
 # Beside the installed README lies all that the pages name: links, and files of data.
-foreach(page README.md data/README.md osgRayTrace/README.md osgRayTrace/Coverage.md)
+foreach(page README.md data/README.md osgRayTrace/docs/architecture.md osgRayTrace/docs/coverage.md)
     if(NOT EXISTS "${share}/${page}")
         message(FATAL_ERROR "${page} is not installed")
     endif()

@@ -4,7 +4,7 @@
 #include "FuzzSeeds.h"
 #include "tests/Catch.h"
 
-#include "osgRayTrace/bridge/MaterialLibrary.h"
+#include "osgRayTrace/bridge/appearance/materials/MaterialLibrary.h"
 
 #include <cctype>
 

@@ -6,9 +6,9 @@
 
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/bridge/GeometryConverter.h"
-#include "osgRayTrace/bridge/GraphFingerprint.h"
-#include "osgRayTrace/bridge/SceneConverter.h"
+#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+#include "osgRayTrace/bridge/convert/SceneConverter.h"
+#include "osgRayTrace/bridge/geometry/GeometryConverter.h"
 #include "osgRayTrace/session/RenderSession.h"
 
 #include <osg/Notify>

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
-#include "osgRayTrace/integrators/HitShading.h"
+#include "osgRayTrace/integrators/shared/HitShading.h"
 
 #include <limits>
 #include <memory>

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
-#include "osgRayTrace/integrators/SampledLights.h"
+#include "osgRayTrace/integrators/shared/SampledLights.h"
 
 #include <cmath>
 

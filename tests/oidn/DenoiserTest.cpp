@@ -1,7 +1,7 @@
 // DenoiserTest.cpp - how Open Image Denoise is called, and what takes its place where it fails.
 // StandIn.h stands for the library.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/session/Denoiser.h"
+#include "osgRayTrace/session/denoise/Denoiser.h"
 
 #include "osgRayTrace/base/Parallel.h"
 #include "tests/Catch.h"

@@ -4,7 +4,7 @@
 #include "tests/photons/PhotonMeans.h"
 #include "tests/photons/PhotonScenes.h"
 
-#include "osgRayTrace/integrators/HitPoints.h"
+#include "osgRayTrace/integrators/shared/HitPoints.h"
 
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;

@@ -4,7 +4,7 @@
 #include "tests/EngineScenes.h"
 #include "tests/Statistics.h"
 
-#include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/integrators/IntegratorFactory.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
 
 using namespace osgRayTrace::engine;

@@ -6,8 +6,8 @@
 #include "tests/shading/BsdfKinds.h"
 
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/integrators/HitShading.h"
-#include "osgRayTrace/integrators/PhotonGather.h"
+#include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/integrators/shared/PhotonGather.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include "tests/EngineScenes.h"
 #include "tests/Statistics.h"
 
-#include "osgRayTrace/integrators/HitPoints.h"
+#include "osgRayTrace/integrators/shared/HitPoints.h"
 
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;

@@ -4,7 +4,7 @@
 #include "tests/Statistics.h"
 
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/integrators/PhotonGather.h"
+#include "osgRayTrace/integrators/shared/PhotonGather.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
-#include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/integrators/IntegratorFactory.h"
 #include "osgRayTrace/scene/SceneTraits.h"
 
 using namespace osgRayTrace::engine;

@@ -1,6 +1,6 @@
 // DenoiseFilterTest.cpp - noise goes, edges stay, and a converged image is left alone.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/session/DenoiseFilter.h"
+#include "osgRayTrace/session/denoise/DenoiseFilter.h"
 
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"

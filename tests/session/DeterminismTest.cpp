@@ -6,7 +6,7 @@
 
 #include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/film/Resolve.h"
-#include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/integrators/IntegratorFactory.h"
 
 #include <tbb/global_control.h>
 

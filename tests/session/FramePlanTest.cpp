@@ -3,7 +3,7 @@
 #include "tests/Catch.h"
 
 #include "osgRayTrace/film/TileOrder.h"
-#include "osgRayTrace/session/FramePlan.h"
+#include "osgRayTrace/session/view/FramePlan.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // ReprojectionTest.cpp - samples land where their surfaces are in the other view, and nowhere else.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/session/Reprojection.h"
+#include "osgRayTrace/session/history/Reprojection.h"
 
 #include "osgRayTrace/base/Parallel.h"
 #include "tests/Catch.h"

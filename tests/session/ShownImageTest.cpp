@@ -2,7 +2,7 @@
 // one.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/ToneMap.h"
-#include "osgRayTrace/session/SurfaceMap.h"
+#include "osgRayTrace/session/image/SurfaceMap.h"
 
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"

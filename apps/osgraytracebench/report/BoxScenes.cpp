@@ -4,7 +4,7 @@
 
 #include "apps/common/StoredView.h"
 #include "data/generator/Scenes.h"
-#include "osgRayTrace/bridge/HomeView.h"
+#include "osgRayTrace/bridge/common/HomeView.h"
 
 namespace osgRayTrace::bench
 {

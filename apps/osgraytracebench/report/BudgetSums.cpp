@@ -10,8 +10,8 @@
 #include "apps/osgraytracebench/report/BudgetSums.h"
 
 #include "apps/common/ErrorMeasures.h"
+#include "apps/osgraytracebench/report/DisplayValues.h"
 #include "apps/osgraytracebench/report/Flip.h"
-#include "apps/osgraytracebench/report/Measurement.h"
 
 #include <algorithm>
 #include <cmath>

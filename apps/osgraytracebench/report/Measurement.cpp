@@ -16,7 +16,6 @@ namespace
 constexpr int kManySeeds = 8, kSomeSeeds = 4, kFewSeeds = 2;
 constexpr int kQuickSeeds = 16, kQuickKernelSeeds = 8; ///< a pass of photons takes longer
 constexpr int kFlipSeeds = 4;
-constexpr double kShownLuminance = 0.4;
 
 engine::StopRule ruleFor(const BudgetPlan& plan, double budget, double secondsSoFar)
 {
@@ -128,24 +127,6 @@ MeasuredLine measure(const ReportScene& scene, const Placement& placement, const
     for (std::size_t t = 0; t < kTargets.size(); ++t)
         line.secondsTo[t] = crossing(seconds, errors, kTargets[t]);
     return measured;
-}
-
-std::vector<float> displayValues(const Pixels& pixels, const Reference& reference)
-{
-    const double exposure = kShownLuminance / reference.meanLuminance;
-    std::vector<float> values;
-    values.reserve(pixels.rgb.size());
-    for (const float linear : pixels.rgb)
-        values.push_back(
-            std::clamp(engine::srgbFromLinear(static_cast<float>(linear * exposure)), 0.0f, 1.0f));
-    return values;
-}
-
-std::vector<float> displayValues(const Reference& reference)
-{
-    const Pixels pixels{reference.width, reference.height,
-                        std::vector<float>(reference.mean.begin(), reference.mean.end())};
-    return displayValues(pixels, reference);
 }
 
 } // namespace osgRayTrace::bench

@@ -35,8 +35,4 @@ MeasuredLine measure(const ReportScene& scene, const Placement& placement, const
                      const PreparedScene& prepared, const Reference& reference,
                      const BudgetPlan& plan);
 
-/// Display values of a picture at the exposure that brings the reference's mean luminance to 0.4.
-std::vector<float> displayValues(const Pixels& pixels, const Reference& reference);
-std::vector<float> displayValues(const Reference& reference);
-
 } // namespace osgRayTrace::bench

@@ -4,8 +4,8 @@
 
 #include "apps/osgraytracebench/Timing.h"
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/bridge/SceneConverter.h"
-#include "osgRayTrace/bridge/ViewFromMatrices.h"
+#include "osgRayTrace/bridge/common/ViewFromMatrices.h"
+#include "osgRayTrace/bridge/convert/SceneConverter.h"
 
 #include <osg/Light>
 #include <osg/MatrixTransform>

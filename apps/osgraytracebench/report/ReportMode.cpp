@@ -16,7 +16,7 @@
 #include "apps/osgraytracebench/report/ScheduleStudy.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/base/TextFile.h"
-#include "osgRayTrace/integrators/Integrator.h"
+#include "osgRayTrace/integrators/IntegratorFactory.h"
 
 #include <cstdio>
 #include <filesystem>

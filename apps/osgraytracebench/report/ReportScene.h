@@ -3,8 +3,8 @@
 #pragma once
 
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/bridge/LightSizes.h"
-#include "osgRayTrace/integrators/RenderOptions.h"
+#include "osgRayTrace/bridge/appearance/lights/LightSizes.h"
+#include "osgRayTrace/integrators/shared/RenderOptions.h"
 
 #include <osg/Group>
 #include <osg/Matrixd>

@@ -3,8 +3,8 @@
 #include "tests/Catch.h"
 #include "tests/stability/geometry/Pictured.h"
 
-#include "osgRayTrace/bridge/GraphCollector.h"
-#include "osgRayTrace/bridge/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+#include "osgRayTrace/bridge/graph/GraphCollector.h"
 
 #include <osgRayTrace/Renderer>
 

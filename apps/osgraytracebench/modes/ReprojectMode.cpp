@@ -1,0 +1,262 @@
+// ReprojectMode.cpp - error and cost of a moving view with and without reprojection. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "apps/osgraytracebench/modes/ReprojectMode.h"
+
+#include "apps/common/ErrorMeasures.h"
+#include "apps/common/ImageFile.h"
+#include "apps/osgraytracebench/Timing.h"
+#include "apps/osgraytracebench/scenes/BenchScenes.h"
+#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/bridge/view/ViewTracer.h"
+
+#include <osgRayTrace/RayTraceSettings>
+
+#include <osg/Image>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace osgRayTrace::bench
+{
+
+namespace
+{
+
+using namespace engine;
+
+constexpr int kWarmUp = 20;  ///< frames before the first that is measured
+constexpr int kMeasured = 2; ///< frames, kStride apart
+constexpr int kStride = 7;
+
+/// CPU time of all threads: what other programs take of a busy machine is not in it.
+double processSeconds()
+{
+    timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// A head that sways and looks around in the box: one to two pixels a frame at a width of 320.
+View viewAt(int frame, int width)
+{
+    const double t = frame;
+    const Vec3d eye(278.0 + 40.0 * std::sin(0.06 * t), 278.0 + 25.0 * std::sin(0.045 * t),
+                    20.0 + 8.0 * std::sin(0.03 * t));
+    const Vec3d centre(278.0 + 60.0 * std::sin(0.04 * t), 250.0, 559.0);
+    View view;
+    view.width = width;
+    view.height = width * 9 / 16;
+    view.viewFromWorld = glm::lookAt(eye, centre, Vec3d(0, 1, 0));
+    view.clipFromView =
+        glm::perspective(glm::radians(50.0), double(view.width) / view.height, 1.0, 10000.0);
+    return view;
+}
+
+/// Sixteen cells a side, of two grays, with finer ones in them.
+std::shared_ptr<const Texture> cells()
+{
+    auto made = std::make_shared<Texture>();
+    Texture& texture = *made;
+    texture.width = texture.height = 256;
+    texture.opaque = true;
+    for (int y = 0; y < 256; ++y)
+        for (int x = 0; x < 256; ++x)
+        {
+            const int coarse = ((x >> 4) + (y >> 4)) & 1, fine = ((x >> 2) ^ (y >> 2)) & 1;
+            const auto value = static_cast<uint8_t>(60 + 120 * coarse + 60 * fine);
+            texture.bytes.insert(texture.bytes.end(),
+                                 {value, value, static_cast<uint8_t>(value / 2 + 100), 255});
+        }
+    return made;
+}
+
+enum class Look
+{
+    Diffuse,
+    Glossy,
+    Textured,
+    Mirror,
+};
+
+std::shared_ptr<const TracedScene> sceneOf(Look look, const std::shared_ptr<Workers>& workers)
+{
+    auto scene = std::make_shared<Scene>(*cornellBox(16, 9).scene);
+    if (look == Look::Glossy || look == Look::Mirror)
+        for (Material& material : scene->materials)
+            if (material.model == MaterialModel::Physical && material.baseColor == Vec3(0.73f))
+            {
+                material.metallic = 1.0f;
+                material.roughness = look == Look::Glossy ? 0.5f : 0.0f;
+            }
+    if (look == Look::Textured)
+    {
+        scene->textures.push_back(cells());
+        for (Material& material : scene->materials)
+            if (material.baseColor == Vec3(0.73f))
+                material.baseColorTexture = static_cast<uint32_t>(scene->textures.size() - 1);
+        for (auto& mesh : scene->meshes)
+        {
+            auto mapped = std::make_shared<Mesh>(*mesh);
+            mapped->uvs = std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+            mesh = mapped;
+        }
+    }
+    return TracedScene::build(scene, workers);
+}
+
+/// A view that is traced frame by frame.
+struct Walker
+{
+    Walker(const std::shared_ptr<const TracedScene>& scene, const std::shared_ptr<Workers>& workers,
+           bool reproject)
+    {
+        version.scene = scene;
+        version.workers = workers;
+        version.photons = std::make_shared<PhotonPasses>();
+        version.settings = settings;
+        settings->setIntegrator(RayTraceSettings::PATH);
+        settings->setReproject(reproject);
+        settings->setMaxPasses(1 << 20);
+    }
+
+    /// CPU seconds of the frame, shown.
+    double show(const View& view)
+    {
+        rgba.resize(4 * static_cast<std::size_t>(view.width) *
+                    static_cast<std::size_t>(view.height));
+        depth.resize(rgba.size() / 4);
+        const double begin = processSeconds();
+        tracer.trace(version, view, {}, rgba.data(), depth.data());
+        if (tracer.needsResolve(version)) tracer.resolve(rgba.data(), depth.data());
+        return processSeconds() - begin;
+    }
+
+    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    SceneVersion version;
+    ViewTracer tracer;
+    std::vector<uint8_t> rgba;
+    std::vector<float> depth;
+};
+
+std::vector<float> referenceOf(const std::shared_ptr<const TracedScene>& scene,
+                               const std::shared_ptr<Workers>& workers, const View& view,
+                               int passes)
+{
+    RenderSession session(workers);
+    session.setScene(scene);
+    session.setView(view);
+    RenderOptions options;
+    options.integrator = IntegratorKind::Path;
+    options.seed = 7;
+    session.setOptions(options);
+    StopRule rule;
+    rule.passes = passes;
+    session.render(rule);
+    return session.resolveRadiance();
+}
+
+double relMse(const std::vector<float>& picture, const std::vector<float>& reference)
+{
+    app::ErrorSum sum;
+    for (std::size_t i = 0; i < picture.size(); ++i)
+        if (i % 4 != 3) sum.add(picture[i], reference[i]);
+    return sum.measures().relMse;
+}
+
+void write(const std::string& file, const View& view, const std::vector<float>& picture)
+{
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(view.width, view.height, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    for (std::size_t i = 0; i < picture.size() / 4; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            image->data()[3 * i + c] = static_cast<unsigned char>(
+                255.0 *
+                    std::pow(std::min(1.0, std::max(0.0, double(picture[4 * i + c]))), 1.0 / 2.2) +
+                0.5);
+    app::writeImageFile(file, *image);
+}
+
+void measureErrors(Rows& rows, const ReprojectOptions& options, const std::string& name, Look look,
+                   bool goal)
+{
+    const auto workers = std::make_shared<Workers>();
+    const auto scene = sceneOf(look, workers);
+    Walker with(scene, workers, true), without(scene, workers, false);
+    double errorWith = 0.0, errorWithout = 0.0, secondsWith = 0.0, secondsWithout = 0.0;
+    for (int frame = 0, measured = 0; measured < kMeasured; ++frame)
+    {
+        const View view = viewAt(frame, options.width);
+        secondsWithout += without.show(view);
+        secondsWith += with.show(view);
+        if (frame < kWarmUp + kStride * measured) continue;
+        ++measured;
+        const std::vector<float> reference = referenceOf(scene, workers, view, options.references);
+        errorWith += relMse(with.tracer.radiance(), reference) / kMeasured;
+        errorWithout += relMse(without.tracer.radiance(), reference) / kMeasured;
+        if (measured < kMeasured || options.pictures.empty()) continue;
+        const std::string stem = options.pictures + "/" + name + "-";
+        write(stem + "with.png", view, with.tracer.radiance());
+        write(stem + "without.png", view, without.tracer.radiance());
+        write(stem + "reference.png", view, reference);
+        std::vector<float> difference = with.tracer.radiance();
+        for (std::size_t i = 0; i < difference.size(); ++i)
+            difference[i] = 0.5f + difference[i] - reference[i];
+        write(stem + "difference.png", view, difference);
+    }
+    // In the time that a frame takes with reprojection there would be more passes without it.
+    const double passes = secondsWith / secondsWithout;
+    rows.push_back({name + ": relMSE without", errorWithout, ""});
+    rows.push_back({name + ": relMSE with reprojection", errorWith, ""});
+    rows.push_back(
+        {name + ": pixels reprojected", 100.0 * with.tracer.progress().reprojectedShare, "%"});
+    rows.push_back({name + ": CPU time with / without", passes, "times"});
+    rows.push_back({name + ": relMSE without / with, at equal time",
+                    errorWithout / passes / errorWith, "times", goal ? Goal::AtLeast : Goal::None,
+                    2.0});
+}
+
+/// Frames of 1920 x 1080 of the cheapest kind: what carrying, and all of the frame, takes.
+void measureCosts(Rows& rows, int threads)
+{
+    const auto workers = std::make_shared<Workers>(threads);
+    const auto scene = sceneOf(Look::Diffuse, workers);
+    Walker with(scene, workers, true), without(scene, workers, false);
+    for (Walker* walker : {&with, &without})
+        walker->settings->setIntegrator(RayTraceSettings::WHITTED);
+    std::vector<double> carried, shares, added, plain;
+    for (int frame = 0; frame < 8; ++frame)
+    {
+        const double alone = without.show(viewAt(frame, 1920));
+        const double all = with.show(viewAt(frame, 1920));
+        if (frame < 2)
+            continue; // the first that carries makes the map of the view that it leaves, too
+        carried.push_back(with.tracer.progress().reprojectSeconds);
+        shares.push_back(with.tracer.progress().reprojectedShare);
+        added.push_back(all - alone);
+        plain.push_back(alone);
+    }
+    const std::string name =
+        "1920 x 1080, " + std::to_string(threads) + (threads > 1 ? " threads: " : " thread: ");
+    rows.push_back({name + "a frame of WHITTED, CPU time", 1e3 * median(plain), "ms"});
+    rows.push_back({name + "added by reprojection, CPU time", 1e3 * median(added), "ms"});
+    rows.push_back({name + "carrying the history, on the wall", 1e3 * median(carried), "ms"});
+    rows.push_back({name + "pixels reprojected", 100.0 * median(shares), "%"});
+}
+
+} // namespace
+
+void measureReprojection(const ReprojectOptions& options, Rows& rows)
+{
+    measureErrors(rows, options, "diffuse", Look::Diffuse, true);
+    measureErrors(rows, options, "glossy", Look::Glossy, true);
+    measureErrors(rows, options, "textured", Look::Textured, true);
+    measureErrors(rows, options, "mirror", Look::Mirror, false);
+    if (!options.costs) return;
+    measureCosts(rows, 1);
+    measureCosts(rows, 2);
+}
+
+} // namespace osgRayTrace::bench

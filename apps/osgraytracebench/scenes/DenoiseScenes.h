@@ -1,0 +1,17 @@
+// DenoiseScenes.h - the boxes that the denoiser is measured in. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "apps/osgraytracebench/scenes/BenchScenes.h"
+
+namespace osgRayTrace::bench
+{
+
+/// The Cornell box with a floor of rough metal, glossy blocks and lacquered walls.
+BenchScene glossyBox(int width, int height);
+
+/// The Cornell box with pictures of tiles, of stripes and of fine noise on its walls, floor and
+/// blocks.
+BenchScene texturedBox(int width, int height);
+
+} // namespace osgRayTrace::bench

@@ -1,0 +1,54 @@
+// EnvironmentConverter.h - from EnvironmentLight to Light, its image converted once. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/common/ConversionReport.h"
+#include "osgRayTrace/scene/Light.h"
+
+#include <osg/Image>
+#include <osg/Matrixd>
+#include <osg/observer_ptr>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgRayTrace
+{
+class EnvironmentLight;
+}
+
+namespace osgRayTrace::engine
+{
+
+/// Keeps the image between snapshots as long as what it was made of is unchanged.
+class EnvironmentConverter
+{
+public:
+    /// Nothing, counted and named, if there is no image or it cannot be read. linear: 8-bit
+    /// images are decoded from sRGB. The matrix must be invertible; only its rotation counts.
+    std::optional<Light> convert(const EnvironmentLight& source,
+                                 const osg::Matrixd& engineFromLocal, bool linear,
+                                 const std::string& path, ConversionReport& report);
+
+private:
+    /// What an image was made of.
+    struct Source
+    {
+        osg::observer_ptr<const osg::Image> image;
+        unsigned int modified = 0;
+        const void* data = nullptr;
+    };
+
+    bool isCurrent(const std::vector<const osg::Image*>& images, bool linear) const;
+    void remember(const std::vector<const osg::Image*>& images, bool linear);
+
+    std::vector<Source> _sources;
+    bool _linear = false;
+    std::shared_ptr<const EnvironmentImage> _image;
+    Vec3 _brightest{0.0f};    ///< of its pixels, in each channel
+    ConversionCounts _counts; ///< of the image: they are told again with each snapshot
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,465 @@
+// MaterialConverter.cpp - what OpenGL's state says about a surface. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
+
+#include "osgRayTrace/bridge/appearance/materials/MaterialValues.h"
+#include "osgRayTrace/bridge/common/ArrayReader.h"
+#include "osgRayTrace/bridge/geometry/BoundArrays.h"
+#include "osgRayTrace/bridge/geometry/MeshPlacement.h"
+#include "osgRayTrace/film/ToneMap.h"
+
+#include <osgRayTrace/PhysicalMaterial>
+
+#include <osg/AlphaFunc>
+#include <osg/BlendFunc>
+#include <osg/ClipPlane>
+#include <osg/ColorMask>
+#include <osg/CullFace>
+#include <osg/FrontFace>
+#include <osg/LightModel>
+#include <osg/Material>
+#include <osg/PolygonMode>
+#include <osg/PolygonOffset>
+#include <osg/Program>
+
+#include <algorithm>
+#include <cmath>
+#include <typeinfo>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr auto kFront = osg::Material::FRONT;
+constexpr float kLargestShininess = 128.0f;
+
+float finiteOr(float value, float otherwise)
+{
+    return std::isfinite(value) ? value : otherwise;
+}
+
+Vec3 rgb(const osg::Vec4& color)
+{
+    return {finiteOr(color.r(), 0.0f), finiteOr(color.g(), 0.0f), finiteOr(color.b(), 0.0f)};
+}
+
+Vec3 rgb(const osg::Vec3& color)
+{
+    return {color.x(), color.y(), color.z()};
+}
+
+/// Those whose modes are on.
+void enableLights(Material& material, const GraphState& state)
+{
+    material.lightMask = static_cast<uint32_t>(state.modesOn);
+    if (!state.moreLights) return;
+    for (const auto& [number, value] : *state.moreLights)
+    {
+        if (!(value & osg::StateAttribute::ON)) continue;
+        const std::size_t word = number / 32 - 1; // numbers rise
+        material.moreLights.resize(word + 1);
+        material.moreLights[word] |= 1u << number % 32;
+    }
+}
+
+Vec3 decoded(const Vec3& color)
+{
+    return {linearFromSrgb(color.x), linearFromSrgb(color.y), linearFromSrgb(color.z)};
+}
+
+VertexColorUse vertexColorUse(osg::Material::ColorMode mode)
+{
+    switch (mode)
+    {
+    case osg::Material::AMBIENT:
+        return VertexColorUse::Ambient;
+    case osg::Material::DIFFUSE:
+        return VertexColorUse::Diffuse;
+    case osg::Material::SPECULAR:
+        return VertexColorUse::Specular;
+    case osg::Material::EMISSION:
+        return VertexColorUse::Emission;
+    case osg::Material::AMBIENT_AND_DIFFUSE:
+        return VertexColorUse::AmbientAndDiffuse;
+    default:
+        return VertexColorUse::None;
+    }
+}
+
+/// What osg::Material::apply makes OpenGL's current colour.
+const osg::Vec4& currentColorOf(const osg::Material& source)
+{
+    switch (source.getColorMode())
+    {
+    case osg::Material::AMBIENT:
+        return source.getAmbient(kFront);
+    case osg::Material::SPECULAR:
+        return source.getSpecular(kFront);
+    case osg::Material::EMISSION:
+        return source.getEmission(kFront);
+    default:
+        return source.getDiffuse(kFront);
+    }
+}
+
+const Vec3 kDefaultColor = FaceColors().diffuse;
+
+FaceColors faceColors(const osg::Material& source, osg::Material::Face face)
+{
+    FaceColors colors;
+    colors.ambient = rgb(source.getAmbient(face));
+    colors.diffuse = rgb(source.getDiffuse(face));
+    colors.specular = rgb(source.getSpecular(face));
+    colors.emission = rgb(source.getEmission(face));
+    colors.alpha = finiteOr(source.getDiffuse(face).a(), 1.0f);
+    colors.shininess =
+        std::clamp(finiteOr(source.getShininess(face), 0.0f), 0.0f, kLargestShininess);
+    return colors;
+}
+
+/// Does to all of a face what a vertex colour would do.
+void replaceColor(FaceColors& face, VertexColorUse use, const Vec4& color)
+{
+    const Vec3 value(color);
+    switch (use)
+    {
+    case VertexColorUse::None:
+        break;
+    case VertexColorUse::Ambient:
+        face.ambient = value;
+        break;
+    case VertexColorUse::Specular:
+        face.specular = value;
+        break;
+    case VertexColorUse::Emission:
+        face.emission = value;
+        break;
+    case VertexColorUse::AmbientAndDiffuse:
+        face.ambient = value;
+        face.diffuse = value;
+        face.alpha = color.w;
+        break;
+    case VertexColorUse::Diffuse:
+        face.diffuse = value;
+        face.alpha = color.w;
+        break;
+    }
+}
+
+void setFront(Material& m, const FaceColors& face)
+{
+    m.ambient = face.ambient;
+    m.diffuse = face.diffuse;
+    m.specular = face.specular;
+    m.emission = face.emission;
+    m.shininess = face.shininess;
+    m.alpha = face.alpha;
+}
+
+AlphaTest comparisonOf(osg::AlphaFunc::ComparisonFunction function)
+{
+    switch (function)
+    {
+    case osg::AlphaFunc::NEVER:
+        return AlphaTest::Never;
+    case osg::AlphaFunc::LESS:
+        return AlphaTest::Less;
+    case osg::AlphaFunc::EQUAL:
+        return AlphaTest::Equal;
+    case osg::AlphaFunc::LEQUAL:
+        return AlphaTest::LessOrEqual;
+    case osg::AlphaFunc::GREATER:
+        return AlphaTest::Greater;
+    case osg::AlphaFunc::NOTEQUAL:
+        return AlphaTest::NotEqual;
+    case osg::AlphaFunc::GEQUAL:
+        return AlphaTest::GreaterOrEqual;
+    case osg::AlphaFunc::ALWAYS:
+        return AlphaTest::Always;
+    }
+    return AlphaTest::Always;
+}
+
+FaceCulling cullingOf(const GraphState& state)
+{
+    if (!state.isOn(kCullFaceBit)) return FaceCulling::None;
+    const auto* faces = state.attribute<osg::CullFace>(kCullFaceSlot);
+    switch (faces ? faces->getMode() : osg::CullFace::BACK)
+    {
+    case osg::CullFace::FRONT:
+        return FaceCulling::Front;
+    case osg::CullFace::FRONT_AND_BACK:
+        return FaceCulling::FrontAndBack;
+    default:
+        return FaceCulling::Back;
+    }
+}
+
+} // namespace
+
+bool setsCurrentColor(const GraphState& state)
+{
+    const auto* source = state.attribute<osg::Material>(kMaterialSlot);
+    return source && rgb(currentColorOf(*source)) != kDefaultColor;
+}
+
+SurfaceInputs surfaceInputs(const osg::Geometry& geometry)
+{
+    SurfaceInputs inputs;
+    inputs.hasTextureCoordinates = isReadable(geometry.getTexCoordArray(0));
+    const osg::Array* colors = geometry.getColorArray();
+    const osg::Array::Binding binding = bindingOf(colors);
+    inputs.hasVertexColors =
+        binding == osg::Array::BIND_PER_VERTEX || binding == osg::Array::BIND_PER_PRIMITIVE_SET;
+    if (binding != osg::Array::BIND_OVERALL) return inputs;
+    forEachRow(*colors, {1, nullptr, IntegerMeaning::Normalized},
+               [&inputs](std::size_t, const Vec4d& row)
+               {
+                   inputs.overallColor = Vec4(row);
+                   inputs.hasOverallColor = isFinite(Vec3(row)) && std::isfinite(row.w);
+               });
+    return inputs;
+}
+
+Blending blendingOf(const GraphState& state)
+{
+    if (!state.isOn(kBlendBit)) return Blending::Opaque;
+    const auto* blend = state.attribute<osg::BlendFunc>(kBlendFuncSlot);
+    if (!blend) return Blending::Straight; // osgViewer's default function
+    const GLenum source = blend->getSourceRGB(), destination = blend->getDestinationRGB();
+    if (destination == GL_ZERO && source == GL_ONE) return Blending::Opaque;
+    if (destination == GL_ONE) return Blending::Additive;
+    return source == GL_SRC_ALPHA && destination == GL_ONE_MINUS_SRC_ALPHA ? Blending::Straight
+                                                                           : Blending::Other;
+}
+
+const osg::StateAttribute* programOf(const GraphState& state)
+{
+    const osg::StateAttribute* attribute = state.attributes[kProgramSlot];
+    const auto* program = dynamic_cast<const osg::Program*>(attribute);
+    const bool empty =
+        program && typeid(*program) == typeid(osg::Program) && program->getNumShaders() == 0;
+    if (attribute && !empty) return attribute;
+    return state.isOn(kAssemblyProgramBit) ? state.attributes[kAssemblyProgramSlot] : nullptr;
+}
+
+bool masksColor(const GraphState& state)
+{
+    const auto* mask = state.attribute<osg::ColorMask>(kColorMaskSlot);
+    return mask && !(mask->getRedMask() && mask->getGreenMask() && mask->getBlueMask());
+}
+
+bool usesStencil(const GraphState& state)
+{
+    return state.isOn(kStencilBit) && state.attributes[kStencilSlot];
+}
+
+float polygonLift(const GraphState& state)
+{
+    constexpr float kMostLayers = 64.0f;
+    if (!state.isOn(kPolygonOffsetBit)) return 0.0f;
+    const auto* offset = state.attribute<osg::PolygonOffset>(kPolygonOffsetSlot);
+    if (!offset) return 0.0f;
+    const float units = offset->getUnits() != 0.0f ? offset->getUnits() : offset->getFactor();
+    return std::isfinite(units) ? std::clamp(-units, -kMostLayers, kMostLayers) : 0.0f;
+}
+
+Material MaterialConverter::material(const GraphState& state, const SurfaceInputs& inputs,
+                                     const SurfacePlacement& placement)
+{
+    countApproximations(state);
+    const bool isPhysical = state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot) != nullptr;
+    Material material = isPhysical ? physical(state, inputs) : fixedFunction(state, inputs);
+    applyOpacity(material, state);
+    applyFaces(material, state, placement);
+    if (!isPhysical)
+    {
+        applyTextureUnits(material, state, placement, _textures, _report);
+        if (_rules.linear) decode(material);
+    }
+    return material;
+}
+
+Material lampMaterial(const Vec3& radiance)
+{
+    Material material;
+    material.name = "area light";
+    material.model = MaterialModel::Physical;
+    material.baseColor = Vec3(0.0f);
+    material.ior = 1.0f;
+    material.emission = radiance;
+    material.lightMask = 0; // black: no light of OpenGL changes it
+    return material;
+}
+
+Material MaterialConverter::fixedFunction(const GraphState& state,
+                                          const SurfaceInputs& inputs) const
+{
+    Material material;
+    material.lit = state.isOn(kLightingBit);
+    if (material.lit) enableLights(material, state);
+    if (const auto* model = state.attribute<osg::LightModel>(kLightModelSlot))
+    {
+        material.twoSidedLighting = material.lit && model->getTwoSided();
+        material.localViewer = material.lit && model->getLocalViewer();
+        material.separateSpecular =
+            material.lit && model->getColorControl() == osg::LightModel::SEPARATE_SPECULAR_COLOR;
+    }
+    if (const auto* source = state.attribute<osg::Material>(kMaterialSlot))
+    {
+        material.name = source->getName();
+        setFront(material, faceColors(*source, kFront));
+        material.back = faceColors(*source, osg::Material::BACK);
+        material.hasBack = material.twoSidedLighting;
+    }
+    applyColor(material, state, inputs);
+    if (material.hasBack)
+    {
+        Material back = material;
+        setFront(back, material.back);
+        back.hasBack = material.hasBack = false;
+        applyColor(back, state, inputs);
+        material.hasBack = !sameMaterial(material, back);
+        material.back = frontOf(back);
+    }
+    return material;
+}
+
+/// Without any osg::Material there is the one that osgViewer sets above the scene: OpenGL's default
+/// with AMBIENT_AND_DIFFUSE [OSG 3.6.5, StateSet::setGlobalDefaults]. osg::Material::apply makes
+/// its diffuse colour the current one, which colours geometry without a colour array.
+///
+/// At the end of a frame osg::State applies a default material that has no colour mode, of the
+/// diffuse colour 0.8 and the ambient colour 0.2, and with the next frame the viewer's. Where no
+/// other material was between them, the current colour is 0.8 all along, and from the second frame
+/// on Mesa (22.3) leaves the ambient colour at 0.2. That is what osgviewer shows, and what we do;
+/// OpenGL's specification would have 0.8.
+void MaterialConverter::applyColor(Material& material, const GraphState& state,
+                                   const SurfaceInputs& inputs) const
+{
+    const auto* source = state.attribute<osg::Material>(kMaterialSlot);
+    VertexColorUse use =
+        vertexColorUse(source ? source->getColorMode() : osg::Material::AMBIENT_AND_DIFFUSE);
+    if (!material.lit)
+    {
+        use = VertexColorUse::AmbientAndDiffuse;
+        material.specular = Vec3(0.0f);
+        material.emission = Vec3(0.0f);
+        material.shininess = 0.0f;
+    }
+    if (inputs.hasVertexColors)
+    {
+        material.vertexColorUse = use;
+        return;
+    }
+    if (inputs.hasOverallColor)
+    {
+        FaceColors face = frontOf(material);
+        replaceColor(face, use, inputs.overallColor);
+        setFront(material, face);
+    }
+    else if (use == VertexColorUse::AmbientAndDiffuse &&
+             (_rules.setsColor || material.diffuse != kDefaultColor))
+        material.ambient = material.diffuse;
+}
+
+/// Alpha that is neither blended nor tested is written by OpenGL, but nothing shows through.
+void MaterialConverter::applyOpacity(Material& material, const GraphState& state) const
+{
+    material.blended = blendingOf(state) != Blending::Opaque;
+    const auto* test = state.attribute<osg::AlphaFunc>(kAlphaFuncSlot);
+    if (test && state.isOn(kAlphaTestBit))
+    {
+        material.alphaTest = comparisonOf(test->getFunction());
+        material.alphaReference = std::clamp(finiteOr(test->getReferenceValue(), 0.0f), 0.0f, 1.0f);
+    }
+    if (!material.blended && material.alphaTest == AlphaTest::Always)
+        material.alpha = material.back.alpha = 1.0f;
+}
+
+/// A transform that mirrors turns the winding that OpenGL sees, and not what is outside for the
+/// mesh.
+void MaterialConverter::applyFaces(Material& material, const GraphState& state,
+                                   const SurfacePlacement& placement) const
+{
+    material.culling = cullingOf(state);
+    if (material.culling == FaceCulling::None && !material.twoSidedLighting) return;
+    const auto* front = state.attribute<osg::FrontFace>(kFrontFaceSlot);
+    const bool clockwise = front && front->getMode() == osg::FrontFace::CLOCKWISE;
+    material.clockwise = clockwise != isMirrored(placement.engineFromLocal);
+    // Lamps are sampled on both sides: rays that meet them by chance must find both, too.
+    const bool isLamp =
+        material.model == MaterialModel::Physical && material.emission != Vec3(0.0f);
+    material.cullsAllRays = _rules.cullAllRays && material.culling != FaceCulling::None && !isLamp;
+}
+
+Material MaterialConverter::physical(const GraphState& state, const SurfaceInputs& inputs)
+{
+    const auto& source = *state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot);
+    Material material;
+    material.name = source.getName();
+    material.model = MaterialModel::Physical;
+    enableLights(material, state);
+    material.baseColor = rgb(source.getBaseColor());
+    material.metallic = source.getMetallic();
+    material.roughness = source.getRoughness();
+    material.transmission = source.getTransmission();
+    material.ior = source.getIor();
+    material.emission = rgb(source.getEmission());
+    if (!inputs.hasTextureCoordinates)
+    {
+        if (source.getBaseColorTexture() || source.getMetallicRoughnessTexture() ||
+            source.getTransmissionTexture() || source.getEmissionTexture())
+            _report.count("approximated.no-texture-coordinates");
+        return material;
+    }
+    const auto color = TextureContent::Color;
+    const auto data = TextureContent::Data;
+    material.baseColorTexture = _textures.index(source.getBaseColorTexture(), color, _report);
+    material.emissionTexture = _textures.index(source.getEmissionTexture(), color, _report);
+    material.transmissionTexture = _textures.index(source.getTransmissionTexture(), data, _report);
+    material.metallicRoughnessTexture =
+        _textures.index(source.getMetallicRoughnessTexture(), data, _report);
+    return material;
+}
+
+void MaterialConverter::decode(Material& material) const
+{
+    material.ambient = decoded(material.ambient);
+    material.diffuse = decoded(material.diffuse);
+    material.specular = decoded(material.specular);
+    material.emission = decoded(material.emission);
+    for (Vec3* color : {&material.back.ambient, &material.back.diffuse, &material.back.specular,
+                        &material.back.emission})
+        *color = decoded(*color);
+    for (Vec4* color : {&material.environmentColor, &material.second.environmentColor})
+        *color = Vec4(decoded(Vec3(*color)), color->w);
+}
+
+void MaterialConverter::countApproximations(const GraphState& state)
+{
+    if (programOf(state)) _report.count("approximated.shader");
+    if (usesStencil(state)) _report.count("approximated.stencil");
+    if (masksColor(state)) _report.count("approximated.color-mask");
+    const Blending blending = blendingOf(state);
+    if (blending == Blending::Additive || blending == Blending::Other)
+        _report.count("approximated.blending");
+    if (state.isOn(kFogBit)) _report.count("approximated.fog");
+    const auto* plane = state.attribute<osg::ClipPlane>(kClipPlaneSlot);
+    if (plane && plane->getClipPlaneNum() < kClipPlanes &&
+        state.isOn(kClipPlaneBit + plane->getClipPlaneNum()))
+        _report.count("approximated.clip-plane-attribute");
+    if (state.usesHigherTextures()) _report.count("approximated.texture-unit");
+    if (const auto* mode = state.attribute<osg::PolygonMode>(kPolygonModeSlot))
+        if (mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL ||
+            mode->getMode(osg::PolygonMode::BACK) != osg::PolygonMode::FILL)
+            _report.count("approximated.polygon-mode");
+    const FaceCulling culling = cullingOf(state);
+    const bool backIsSeen = culling == FaceCulling::None || culling == FaceCulling::Front;
+    if (polygonLift(state) != 0.0f && backIsSeen)
+        _report.count("approximated.polygon-offset"); // right from the front only
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,338 @@
+// MaterialLibrary.cpp - reads material files, and says where they are wrong. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/appearance/materials/MaterialLibrary.h"
+
+#include "osgRayTrace/base/TextFile.h"
+#include "osgRayTrace/bridge/common/WarnOnce.h"
+
+#include <nlohmann/json.hpp>
+#include <osgDB/FileUtils>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostBytes = std::size_t(16) << 20;
+constexpr double kMostEmission = 1e30;
+
+/// Counts the lines that a parser has read.
+struct LineIterator
+{
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+
+    reference operator*() const { return *at; }
+    LineIterator& operator++()
+    {
+        if (*at == '\n') ++*line;
+        ++at;
+        return *this;
+    }
+    bool operator==(const LineIterator& other) const { return at == other.at; }
+    bool operator!=(const LineIterator& other) const { return at != other.at; }
+
+    const char* at;
+    int* line;
+};
+
+/// One parameter: a number, or three for a colour.
+struct Parameter
+{
+    const char* name;
+    std::size_t count;
+    double lowest, highest;
+    void (*set)(PhysicalMaterial&, const std::vector<double>&);
+};
+
+osg::Vec3 colorOf(const std::vector<double>& v)
+{
+    return osg::Vec3(osg::Vec3d(v[0], v[1], v[2]));
+}
+
+float numberOf(const std::vector<double>& v)
+{
+    return static_cast<float>(v[0]);
+}
+
+using Values = std::vector<double>;
+
+const Parameter kParameters[] = {
+    {"baseColor", 3, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setBaseColor(colorOf(v)); }},
+    {"metallic", 1, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setMetallic(numberOf(v)); }},
+    {"roughness", 1, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setRoughness(numberOf(v)); }},
+    {"transmission", 1, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setTransmission(numberOf(v)); }},
+    {"ior", 1, 1.0, 4.0, [](PhysicalMaterial& m, const Values& v) { m.setIor(numberOf(v)); }},
+    {"emission", 3, 0.0, kMostEmission,
+     [](PhysicalMaterial& m, const Values& v) { m.setEmission(colorOf(v)); }},
+};
+
+const Parameter* findParameter(const std::string& name)
+{
+    for (const Parameter& parameter : kParameters)
+        if (name == parameter.name) return &parameter;
+    return nullptr;
+}
+
+std::string parameterNames()
+{
+    std::string names;
+    for (const Parameter& parameter : kParameters)
+        names += (names.empty() ? "" : ", ") + std::string(parameter.name);
+    return names;
+}
+
+std::string shortNumber(double value)
+{
+    return Json(value).dump();
+}
+
+/// Takes the parser's events; false ends it. Depth 1 is the file, 2 a group, 3 a material.
+class LibraryReader : public Json::json_sax_t
+{
+public:
+    LibraryReader(const std::string& fileName, const int& line) : _fileName(fileName), _line(line)
+    {
+    }
+
+    const std::string& error() const { return _error; }
+    std::shared_ptr<MaterialLibrary> materials() { return _library; }
+
+    bool null() override { return wrongType("null"); }
+    bool boolean(bool) override { return wrongType("true or false"); }
+    bool number_integer(number_integer_t value) override { return number(double(value)); }
+    bool number_unsigned(number_unsigned_t value) override { return number(double(value)); }
+    bool number_float(number_float_t value, const string_t&) override { return number(value); }
+    bool string(string_t&) override { return wrongType("a string"); }
+    bool binary(binary_t&) override { return wrongType("binary data"); }
+
+    bool start_object(std::size_t) override
+    {
+        if (_depth >= 3 || _inArray) return wrongType("an object");
+        ++_depth;
+        return true;
+    }
+
+    bool end_object() override
+    {
+        --_depth;
+        return true;
+    }
+
+    bool start_array(std::size_t) override
+    {
+        if (_depth < 3 || _inArray || _parameter->count == 1) return wrongType("an array");
+        _inArray = true;
+        _values.clear();
+        return true;
+    }
+
+    bool end_array() override
+    {
+        _inArray = false;
+        return _values.size() == _parameter->count ? set()
+                                                   : wrongType("an array of another length");
+    }
+
+    bool key(string_t& name) override
+    {
+        _keyLine = _line;
+        if (_depth == 1) return beginGroup(name);
+        return _depth == 2 ? beginMaterial(name) : beginParameter(name);
+    }
+
+    bool parse_error(std::size_t, const std::string&, const Json::exception& exception) override
+    {
+        // "[json.exception.parse_error.101] parse error at line 3, column 7: ..."
+        const std::string text = exception.what();
+        const std::size_t bracket = text.find("] ");
+        const std::string what = bracket == std::string::npos ? text : text.substr(bracket + 2);
+        const bool hasPlace = what.find("line ") != std::string::npos; // not of numbers too large
+        _error = _fileName + (hasPlace ? ": " : ":" + std::to_string(_keyLine) + ": ") + what;
+        return false;
+    }
+
+private:
+    bool fail(const std::string& what)
+    {
+        std::string where = _fileName + ":" + std::to_string(_keyLine) + ": ";
+        if (_depth >= 2) where += _group + ": ";
+        if (_depth >= 3) where += "'" + _pattern + "': ";
+        _error = where + what;
+        return false;
+    }
+
+    bool beginGroup(const std::string& name)
+    {
+        _rules = name == "nodes"       ? &_library->nodes
+                 : name == "materials" ? &_library->materials
+                 : name == "textures"  ? &_library->textures
+                                       : nullptr;
+        if (!_rules) return fail("'" + name + "' is none of nodes, materials, textures");
+        if (!_rules->empty()) return fail("'" + name + "' is there twice");
+        _group = name;
+        return true;
+    }
+
+    bool beginMaterial(const std::string& name)
+    {
+        if (name.empty()) return fail("a name is empty");
+        _material = new PhysicalMaterial;
+        _material->setName(name);
+        _rule = _rules->add({_group, name, _material, true});
+        if (!_rule) return fail("'" + name + "' is there twice");
+        if (_rules->patterns() > kMostPatterns)
+            return fail("'" + name + "': more than " + std::to_string(kMostPatterns) +
+                        " names with '*'");
+        _pattern = name;
+        _given.clear();
+        return true;
+    }
+
+    bool beginParameter(const std::string& name)
+    {
+        _parameter = findParameter(name);
+        if (!_parameter)
+            return fail("'" + name + "' is no parameter; there are " + parameterNames());
+        if (std::find(_given.begin(), _given.end(), name) != _given.end())
+            return fail("'" + name + "' is there twice");
+        _given.push_back(name);
+        if (name == "baseColor") _rule->keepsColor = false;
+        return true;
+    }
+
+    bool number(double value)
+    {
+        if (_depth < 3 || (!_inArray && _parameter->count != 1)) return wrongType("a number");
+        if (!(value >= _parameter->lowest && value <= _parameter->highest))
+            return fail("'" + std::string(_parameter->name) + "': " + shortNumber(value) +
+                        " is not from " + shortNumber(_parameter->lowest) + " to " +
+                        shortNumber(_parameter->highest));
+        if (!_inArray) _values.clear();
+        _values.push_back(value);
+        if (_values.size() > _parameter->count) return wrongType("an array of another length");
+        return _inArray || set();
+    }
+
+    bool set()
+    {
+        _parameter->set(*_material, _values);
+        return true;
+    }
+
+    bool wrongType(const char* found)
+    {
+        if (_depth == 0) return fail(std::string("an object was expected, not ") + found);
+        if (_depth < 3)
+            return fail(std::string("an object was expected for the name, not ") + found);
+        return fail("'" + std::string(_parameter->name) +
+                    "': " + (_parameter->count == 1 ? "a number" : "an array of three numbers") +
+                    " was expected, not " + found);
+    }
+
+    const std::string& _fileName;
+    const int& _line;
+    int _keyLine = 1;
+    int _depth = 0;
+    bool _inArray = false;
+    std::shared_ptr<MaterialLibrary> _library = std::make_shared<MaterialLibrary>();
+    MaterialRuleList* _rules = nullptr;
+    MaterialRule* _rule = nullptr;
+    osg::ref_ptr<PhysicalMaterial> _material;
+    const Parameter* _parameter = nullptr;
+    Values _values;
+    std::vector<std::string> _given; ///< parameters of the material
+    std::string _group, _pattern, _error;
+};
+
+} // namespace
+
+bool matchesPattern(const std::string& pattern, const std::string& name)
+{
+    // Greedy with one point to return to: the last star can always take more.
+    std::size_t p = 0, n = 0, star = std::string::npos, taken = 0;
+    while (n < name.size())
+    {
+        if (p < pattern.size() && pattern[p] == '*')
+        {
+            star = p++;
+            taken = n;
+        }
+        else if (p < pattern.size() && pattern[p] == name[n])
+        {
+            ++p;
+            ++n;
+        }
+        else if (star != std::string::npos)
+        {
+            p = star + 1;
+            n = ++taken;
+        }
+        else
+            return false;
+    }
+    return pattern.find_first_not_of('*', p) == std::string::npos;
+}
+
+MaterialRule* MaterialRuleList::add(MaterialRule rule)
+{
+    if (!_byName.try_emplace(rule.pattern, _rules.size()).second) return nullptr;
+    if (rule.pattern.find('*') != std::string::npos) _patterns.push_back(_rules.size());
+    return &_rules.emplace_back(std::move(rule));
+}
+
+const MaterialRule* MaterialRuleList::find(const std::string& name) const
+{
+    if (name.empty() || _rules.empty()) return nullptr;
+    if (const auto named = _byName.find(name); named != _byName.end())
+        return &_rules[named->second];
+    for (const std::size_t pattern : _patterns)
+        if (matchesPattern(_rules[pattern].pattern, name)) return &_rules[pattern];
+    return nullptr;
+}
+
+MaterialLibraryResult parseMaterialLibrary(const std::string& text, const std::string& fileName)
+{
+    int line = 1;
+    LibraryReader reader(fileName, line);
+    const LineIterator begin{text.data(), &line}, end{text.data() + text.size(), &line};
+    if (Json::sax_parse(begin, end, &reader)) return {reader.materials(), {}};
+    return {nullptr, reader.error()};
+}
+
+MaterialLibraryResult readMaterialLibrary(const std::string& fileName)
+{
+    const std::string found = osgDB::findDataFile(fileName);
+    const FileText read = readTextFile(found.empty() ? fileName : found, kMostBytes);
+    if (!read.error.empty()) return {nullptr, fileName + ": " + read.error};
+    return parseMaterialLibrary(read.text, fileName);
+}
+
+std::shared_ptr<const MaterialLibrary> MaterialLibraryFile::materials(const std::string& fileName,
+                                                                      bool again)
+{
+    if (fileName == _fileName && !again) return _library;
+    _fileName = fileName;
+    _library = nullptr;
+    if (fileName == "none") return nullptr;
+    MaterialLibraryResult result = readMaterialLibrary(fileName);
+    if (!result.error.empty()) warnOnce("materials: " + result.error);
+    _library = std::move(result.library);
+    return _library;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,366 @@
+// TextureConverter.cpp - texture targets, wrap and filter modes, and the cache of textures. Layer:
+// bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
+
+#include "osgRayTrace/base/NeverDestroyed.h"
+#include "osgRayTrace/bridge/appearance/textures/MissingImages.h"
+#include "osgRayTrace/bridge/appearance/textures/PixelDecoder.h"
+#include "osgRayTrace/bridge/appearance/textures/TextureFormats.h"
+
+#include <osg/Texture1D>
+#include <osg/Texture2D>
+#include <osg/Texture3D>
+#include <osg/TextureCubeMap>
+#include <osg/TextureRectangle>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+TextureWrap wrapOf(const osg::Texture& texture, osg::Texture::WrapParameter direction)
+{
+    switch (texture.getWrap(direction))
+    {
+    case osg::Texture::REPEAT:
+        return TextureWrap::Repeat;
+    case osg::Texture::MIRROR:
+        return TextureWrap::Mirror;
+    case osg::Texture::CLAMP:
+        return TextureWrap::Clamp;
+    case osg::Texture::CLAMP_TO_BORDER:
+        return TextureWrap::ClampToBorder;
+    default:
+        return TextureWrap::ClampToEdge;
+    }
+}
+
+/// Finite, and in [0, 1] as OpenGL takes it for textures of fixed-point formats.
+Vec4 borderOf(const osg::Texture& texture)
+{
+    const osg::Vec4d& color = texture.getBorderColor();
+    Vec4 border(0.0f);
+    for (int c = 0; c < 4; ++c)
+        if (std::isfinite(color[c])) border[c] = static_cast<float>(std::clamp(color[c], 0.0, 1.0));
+    return border;
+}
+
+bool isSrgbFormat(GLint internalFormat)
+{
+    switch (internalFormat)
+    {
+    case GL_SRGB:
+    case GL_SRGB8:
+    case GL_SRGB_ALPHA:
+    case GL_SRGB8_ALPHA8:
+        return true;
+    default:
+        return false;
+    }
+}
+
+bool isNearest(osg::Texture::FilterMode mode)
+{
+    return mode == osg::Texture::NEAREST;
+}
+
+bool isCube(const osg::Texture& texture)
+{
+    return texture.getTextureTarget() == GL_TEXTURE_CUBE_MAP;
+}
+
+bool isVolume(const osg::Texture& texture)
+{
+    return texture.getTextureTarget() == GL_TEXTURE_3D;
+}
+
+unsigned int imageCount(const osg::Texture& texture)
+{
+    return isCube(texture) ? 6u : 1u;
+}
+
+std::string nameOf(const osg::Texture& texture, const osg::Image& image)
+{
+    if (!texture.getName().empty()) return texture.getName();
+    return image.getFileName().empty() ? image.getName() : image.getFileName();
+}
+
+/// More than the engine takes, or than osg::Image can address in the 32 bits of its offsets.
+bool isTooLarge(const osg::Image& image, int slices)
+{
+    constexpr int64_t kMostTexels = int64_t(1) << 28, kMostBytes = (int64_t(1) << 32) - 1;
+    const int64_t rows = int64_t(image.t()) * slices;
+    return image.s() > kMostTexels || rows > kMostTexels || image.s() * rows > kMostTexels ||
+           int64_t(image.getRowStepInBytes()) > kMostBytes ||
+           int64_t(image.getRowStepInBytes()) * rows > kMostBytes;
+}
+
+void fillMagenta(Texture& texture)
+{
+    texture.width = 1;
+    texture.height = 1;
+    texture.depth = 0;
+    texture.cube = false;
+    texture.floats.clear();
+    texture.bytes = {255, 0, 255, 255};
+}
+
+/// What OpenGL's base format lacks never reaches the texture environment [OpenGL21, table 3.22].
+void setChannels(GLint internalFormat, GLenum pixelFormat, Texture& texture)
+{
+    const TextureChannels channels = textureChannels(internalFormat, pixelFormat);
+    texture.hasColor = channels.color;
+    texture.hasAlpha = channels.alpha;
+    const bool floats = !texture.floats.empty();
+    const std::size_t count = floats ? texture.floats.size() : texture.bytes.size();
+    texture.opaque = true;
+    for (std::size_t i = 3; i < count; i += 4)
+    {
+        if (!channels.alpha)
+            floats ? (void)(texture.floats[i] = 1.0f) : (void)(texture.bytes[i] = 255);
+        else if (floats ? texture.floats[i] < 1.0f : texture.bytes[i] < 255)
+            texture.opaque = false;
+    }
+}
+
+/// Puts the faces of a cube above each other. False if they are not squares of one size and kind.
+bool decodeCube(const osg::Texture& source, Texture& texture)
+{
+    for (unsigned int face = 0; face < 6; ++face)
+    {
+        const osg::Image* image = source.getImage(face);
+        Texture one;
+        if (!image || !decodePixels(*image, one) || one.width != one.height) return false;
+        if (face > 0 && (one.width != texture.width || one.bytes.empty() != texture.bytes.empty()))
+            return false;
+        texture.width = one.width;
+        texture.bytes.insert(texture.bytes.end(), one.bytes.begin(), one.bytes.end());
+        texture.floats.insert(texture.floats.end(), one.floats.begin(), one.floats.end());
+    }
+    texture.height = 6 * texture.width;
+    texture.cube = true;
+    return true;
+}
+
+/// Puts the slices of a 3-D image one after the other.
+bool decodeVolume(const osg::Image& image, Texture& texture)
+{
+    if (image.isCompressed()) return false;
+    for (int r = 0; r < image.r(); ++r)
+    {
+        const osg::ref_ptr<osg::Image> slice = new osg::Image; // of the same memory, only read
+        slice->setImage(image.s(), image.t(), 1, image.getInternalTextureFormat(),
+                        image.getPixelFormat(), image.getDataType(),
+                        const_cast<unsigned char*>(image.data(0, 0, r)), osg::Image::NO_DELETE,
+                        static_cast<int>(image.getPacking()), image.getRowLength());
+        Texture one;
+        if (!decodePixels(*slice, one)) return false;
+        texture.width = one.width;
+        texture.height = one.height;
+        texture.bytes.insert(texture.bytes.end(), one.bytes.begin(), one.bytes.end());
+        texture.floats.insert(texture.floats.end(), one.floats.begin(), one.floats.end());
+    }
+    texture.depth = image.r();
+    return texture.depth > 0;
+}
+
+template <class T> bool isFilledByCallback(const osg::Texture& texture)
+{
+    const auto* filled = dynamic_cast<const T*>(&texture);
+    return filled && filled->getSubloadCallback();
+}
+
+bool decodeTexture(const osg::Texture& source, Texture& texture)
+{
+    if (isCube(source)) return decodeCube(source, texture);
+    const osg::Image& image = *source.getImage(0);
+    return isVolume(source) ? decodeVolume(image, texture) : decodePixels(image, texture);
+}
+
+} // namespace
+
+bool isOnlyInOpenGL(const osg::Texture& texture)
+{
+    if (isFilledByCallback<osg::Texture2D>(texture) ||
+        isFilledByCallback<osg::Texture3D>(texture) ||
+        isFilledByCallback<osg::TextureRectangle>(texture) ||
+        isFilledByCallback<osg::TextureCubeMap>(texture) ||
+        isFilledByCallback<osg::Texture1D>(texture))
+        return true;
+    const osg::Image* image = texture.getImage(0);
+    return !(image && image->data()) && texture.getTextureWidth() > 0;
+}
+
+void TextureConverter::begin(bool linear, Stamp stamp)
+{
+    _linear = linear;
+    _stamp = stamp;
+    _textures.clear();
+    _gaps.clear();
+    for (auto& [key, entry] : _entries)
+        entry.index = kInvalid;
+}
+
+uint32_t TextureConverter::index(const osg::Texture* texture, TextureContent content,
+                                 ConversionReport& report)
+{
+    if (!texture) return kInvalid;
+    const bool color = content == TextureContent::Color;
+    const bool decode = color && (_linear || isSrgb(*texture));
+    Entry& entry = _entries[{texture, decode}];
+    const bool current =
+        (entry.looked == _stamp && entry.texture.get() == texture) || isCurrent(entry, *texture);
+    if (!current && !convert(entry, *texture, decode, report)) return kInvalid;
+    entry.looked = _stamp;
+    if (entry.index == kInvalid && !_gaps.empty())
+    {
+        entry.index = _gaps.back();
+        _gaps.pop_back();
+    }
+    if (entry.index == kInvalid)
+    {
+        entry.index = static_cast<uint32_t>(_textures.size());
+        _textures.push_back(entry.converted);
+    }
+    _textures[entry.index] = entry.converted;
+    return entry.index;
+}
+
+/// Also after the image was given up, if its format alone says so.
+bool TextureConverter::isSrgb(const osg::Texture& texture) const
+{
+    const osg::Image* image = texture.getImage(0);
+    if (isSrgbFormat(internalFormatOf(texture, image))) return true;
+    const auto known = image ? _entries.end() : _entries.find({&texture, true});
+    return known != _entries.end() && known->second.texture.get() == &texture &&
+           isSrgbFormat(known->second.internalFormat);
+}
+
+/// Keeps the entry's index. False if there is nothing to sample.
+bool TextureConverter::convert(Entry& entry, const osg::Texture& texture, bool decode,
+                               ConversionReport& report)
+{
+    const uint32_t index = entry.index;
+    entry = {};
+    for (unsigned int i = 0; i < imageCount(texture); ++i)
+    {
+        const osg::Image* image = texture.getImage(i);
+        if (isMissing(image))
+        {
+            report.missing("missing.texture-image", image->getFileName(), "texture",
+                           "shown without it");
+            return false;
+        }
+        if (!image || !image->data())
+        {
+            report.count("approximated.texture-without-image");
+            return false;
+        }
+        entry.images.push_back({image, image->getModifiedCount(), image->data()});
+    }
+    entry.index = index;
+    entry.texture = &texture;
+    entry.internalFormat = internalFormatOf(texture, texture.getImage(0));
+    entry.converted = converted(texture, decode, report);
+    return true;
+}
+
+std::shared_ptr<Texture> TextureConverter::converted(const osg::Texture& texture, bool decode,
+                                                     ConversionReport& report) const
+{
+    const osg::Image& image = *texture.getImage(0);
+    auto result = std::make_shared<Texture>();
+    result->name = nameOf(texture, image);
+    const auto bad = [&](const char* what, const char* message)
+    {
+        report.warn(what, "texture '" + result->name + "'", message);
+        fillMagenta(*result);
+    };
+    if (isTooLarge(image, isVolume(texture) ? image.r() : 1))
+        bad("approximated.texture-size", "more than 2^28 texels or 4 GiB, shown in magenta");
+    else if (!decodeTexture(texture, *result))
+        bad("approximated.pixel-format", "pixel format cannot be read, shown in magenta");
+    result->decodeSrgb = decode && !result->bytes.empty();
+    result->linearFilter = !isNearest(texture.getFilter(osg::Texture::MAG_FILTER));
+    result->wrapS = wrapOf(texture, osg::Texture::WRAP_S);
+    result->wrapT = wrapOf(texture, osg::Texture::WRAP_T);
+    result->wrapR = wrapOf(texture, osg::Texture::WRAP_R);
+    if (texture.getTextureTarget() == GL_TEXTURE_1D) result->wrapT = TextureWrap::ClampToEdge;
+    result->border = borderOf(texture);
+    setChannels(internalFormatOf(texture, &image), image.getPixelFormat(), *result);
+    result->changed = _stamp;
+    return result;
+}
+
+bool TextureConverter::knows(const osg::Texture& texture) const
+{
+    for (const bool decode : {false, true})
+    {
+        const auto known = _entries.find({&texture, decode});
+        if (known != _entries.end() && known->second.converted &&
+            known->second.texture.get() == &texture)
+            return true;
+    }
+    return false;
+}
+
+/// Also true if the image was given up after it went to OpenGL (setUnRefImageDataAfterApply): what
+/// was converted before stays.
+bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture& texture) const
+{
+    if (!entry.converted || entry.texture.get() != &texture) return false;
+    const Texture& old = *entry.converted;
+    if (old.linearFilter == isNearest(texture.getFilter(osg::Texture::MAG_FILTER)) ||
+        old.wrapS != wrapOf(texture, osg::Texture::WRAP_S) ||
+        (old.wrapT != wrapOf(texture, osg::Texture::WRAP_T) && old.height > 1) ||
+        (old.depth > 0 && old.wrapR != wrapOf(texture, osg::Texture::WRAP_R)) ||
+        old.border != borderOf(texture))
+        return false;
+    const osg::Image* first = texture.getImage(0);
+    if (first && entry.internalFormat != internalFormatOf(texture, first)) return false;
+    for (unsigned int i = 0; i < entry.images.size(); ++i)
+    {
+        const osg::Image* image = texture.getImage(i);
+        const ImagePrint& print = entry.images[i];
+        if (image && (print.image.get() != image || print.modified != image->getModifiedCount() ||
+                      print.data != image->data()))
+            return false;
+    }
+    return true;
+}
+
+void TextureConverter::end()
+{
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+        entry = entry->second.index == kInvalid ? _entries.erase(entry) : std::next(entry);
+}
+
+void TextureConverter::keepOnly(const std::vector<bool>& used)
+{
+    static const NeverDestroyed<std::shared_ptr<const Texture>> kept(
+        []
+        {
+            auto texture = std::make_shared<Texture>();
+            fillMagenta(*texture);
+            return texture;
+        }());
+    const std::shared_ptr<const Texture>& nothing = *kept;
+    for (uint32_t i = 0; i < _textures.size(); ++i)
+    {
+        if (used[i] || _textures[i] == nothing) continue;
+        _textures[i] = nothing;
+        _gaps.push_back(i);
+    }
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+    {
+        const uint32_t index = entry->second.index;
+        entry = index == kInvalid || !used[index] ? _entries.erase(entry) : std::next(entry);
+    }
+}
+
+} // namespace osgRayTrace::engine

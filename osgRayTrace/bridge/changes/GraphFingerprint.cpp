@@ -1,0 +1,219 @@
+// GraphFingerprint.cpp - a cheap check whether a scene graph has changed. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+
+#include "osgRayTrace/bridge/changes/NodePrints.h"
+#include "osgRayTrace/bridge/changes/StateFingerprint.h"
+#include "osgRayTrace/bridge/geometry/BufferContents.h"
+#include "osgRayTrace/bridge/graph/DrawHint.h"
+#include "osgRayTrace/bridge/graph/GraphCollector.h"
+#include "osgRayTrace/bridge/graph/SoftwareVertices.h"
+
+#include <osgRayTrace/AreaLight>
+#include <osgRayTrace/EnvironmentLight>
+
+#include <osg/Billboard>
+#include <osg/ClipNode>
+#include <osg/Geometry>
+#include <osg/LightSource>
+#include <osg/NodeVisitor>
+#include <osg/TexGenNode>
+#include <osg/Transform>
+
+#include <optional>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Follows the children that are active for the eye, as the conversion does.
+class FingerprintVisitor : public osg::NodeVisitor
+{
+public:
+    FingerprintVisitor(const ViewingConditions& conditions, const osg::Matrixd& sceneFromLocal,
+                       KeptObjects* kept, BufferVersions* versions, PathBudget& budget)
+        : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN),
+          _digest(kept),
+          _kept(kept),
+          _versions(versions),
+          _budget(budget),
+          _eye(conditions.eye),
+          _view(conditions.view),
+          _cullStack(conditions.view),
+          _sceneFromLocal(sceneFromLocal)
+    {
+        setTraversalMask(conditions.traversalMask);
+        for (const osg::ref_ptr<const osg::StateSet>& stateSet : conditions.inheritedState)
+            addStateSet(_digest, *stateSet);
+    }
+
+    uint64_t value() const { return _digest.value(); }
+
+    void apply(osg::Node& node) override
+    {
+        if (const auto* light = dynamic_cast<const AreaLight*>(&node))
+            _digest.add(light->getCorner(), light->getEdgeU(), light->getEdgeV(),
+                        light->getRadiance(), light->getTwoSided());
+        if (dynamic_cast<const EnvironmentLight*>(&node))
+            _digest.add(lightPrint(NodeKind::Environment, node, _kept));
+        enter(node);
+    }
+
+    void apply(osg::Group& node) override { enter(node); }
+
+    void apply(osg::LightSource& node) override
+    {
+        _digest.add(node.getReferenceFrame());
+        if (node.getLight()) addLight(_digest, *node.getLight());
+        enter(node);
+    }
+
+    void apply(osg::TexGenNode& node) override
+    {
+        _digest.add(node.getReferenceFrame(), node.getTextureUnit());
+        _digest.addObject(node.getTexGen());
+        if (node.getTexGen()) addTexGen(_digest, *node.getTexGen());
+        enter(node);
+    }
+
+    void apply(osg::Transform& node) override
+    {
+        const osg::Matrixd outer = _sceneFromLocal;
+        _sceneFromLocal = worldFromLocal(node, outer, *this, _view);
+        _digest.addMatrix(_sceneFromLocal);
+        enter(node);
+        _sceneFromLocal = outer;
+    }
+
+    void apply(osg::Billboard& node) override
+    {
+        digestView();
+        _digest.add(node.getMode(), node.getAxis(), node.getNormal());
+        enter(node);
+    }
+
+    void apply(osg::ClipNode& node) override
+    {
+        if (node.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF) digestView();
+        for (const auto& plane : node.getClipPlaneList())
+            if (plane) _digest.add(plane->getClipPlaneNum(), plane->getClipPlane());
+        enter(node);
+    }
+
+    osg::CullStack* asCullStack() override { return _cullStack.at(_sceneFromLocal); }
+    const osg::CullStack* asCullStack() const override { return _cullStack.at(_sceneFromLocal); }
+
+    void apply(osg::Drawable& drawable) override
+    {
+        addDrawable(drawable);
+        traverse(drawable);
+    }
+
+    void apply(osg::Geometry& geometry) override
+    {
+        if (!_budget.take()) return;
+        addDrawable(geometry);
+        _digest.add(geometry.getDrawCallback() != nullptr);
+        for (const float weight : SoftwareVertices::weightsOf(geometry))
+            _digest.add(weight);
+        _arrays.clear();
+        geometry.getArrayList(_arrays);
+        for (const auto& array : _arrays)
+            addArray(*array);
+        for (const auto& primitives : geometry.getPrimitiveSetList())
+            if (primitives) addPrimitives(*primitives);
+        traverse(geometry);
+    }
+
+    float getDistanceToEyePoint(const osg::Vec3& point, bool useLodScale) const override
+    {
+        const float scale = useLodScale && _view ? _view->lodScale : 1.0f;
+        const osg::Vec3d eye =
+            _eye * osg::Matrixd::inverse(_sceneFromLocal); // as in a cull traversal
+        return static_cast<float>((osg::Vec3d(point) - eye).length()) * scale;
+    }
+
+    float getDistanceToViewPoint(const osg::Vec3& point, bool useLodScale) const override
+    {
+        return getDistanceToEyePoint(point, useLodScale);
+    }
+
+private:
+    /// Of what turns to the view or moves with it.
+    void digestView()
+    {
+        _digest.add(_eye);
+        if (_view) _digest.addMatrix(_view->viewFromWorld);
+    }
+
+    void enter(osg::Node& node)
+    {
+        _digest.addObject(&node);
+        _digest.add(ownHint(node));
+        addStateSetOf(node);
+        if (getNodePath().size() < kDeepestPath && _budget.take()) traverse(node);
+        _digest.add(kEnd);
+    }
+
+    void addDrawable(const osg::Drawable& drawable)
+    {
+        _digest.addObject(&drawable);
+        _digest.add(ownHint(drawable));
+        addStateSetOf(drawable);
+        const osg::BoundingBox& box = drawable.getBoundingBox();
+        _digest.add(box._min, box._max);
+    }
+
+    void addArray(const osg::Array& array)
+    {
+        if (_versions) return _digest.add(_versions->of(array));
+        _digest.addObject(&array);
+        _digest.add(array.getModifiedCount(), array.getNumElements(), array.getBinding());
+    }
+
+    void addPrimitives(const osg::PrimitiveSet& primitives)
+    {
+        if (_versions) return _digest.add(_versions->of(primitives));
+        _digest.addObject(&primitives);
+        _digest.add(primitives.getModifiedCount(), primitives.getMode(),
+                    hasTriangles(primitives) ? primitives.getNumIndices() : 0u,
+                    rangesPrint(primitives));
+    }
+
+    void addStateSetOf(const osg::Node& node)
+    {
+        _digest.addObject(node.getStateSet());
+        if (node.getStateSet()) addStateSet(_digest, *node.getStateSet());
+    }
+
+    static constexpr int kEnd = -1; // of the children: a node that moves one level up must show
+
+    Digest _digest;
+    KeptObjects* _kept;
+    BufferVersions* _versions;
+    PathBudget& _budget;
+    osg::Vec3d _eye;
+    std::optional<ReferenceView> _view;
+    ReferenceCullStack _cullStack;
+    osg::Matrixd _sceneFromLocal;
+    osg::Geometry::ArrayList _arrays;
+};
+
+} // namespace
+
+uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions,
+                          const osg::Matrixd& sceneFromLocal, KeptObjects* kept,
+                          BufferVersions* versions, PathBudget* budget)
+{
+    if (versions) versions->begin();
+    PathBudget own;
+    FingerprintVisitor visitor(conditions, sceneFromLocal, kept, versions, budget ? *budget : own);
+    root.accept(visitor);
+    if (versions) versions->end();
+    return visitor.value();
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,32 @@
+// GraphFingerprint.h - a cheap check whether a scene graph has changed. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/common/ObjectIdentity.h"
+#include "osgRayTrace/bridge/common/ViewingConditions.h"
+#include "osgRayTrace/bridge/graph/PathBudget.h"
+
+#include <osg/Matrixd>
+#include <osg/Node>
+
+#include <cstdint>
+
+namespace osgRayTrace::engine
+{
+
+class BufferVersions;
+
+/// A number that changes with the children that are active for the eye, their order and masks, with
+/// transforms, with the modified counts and bounds of geometry, with state sets, and with the
+/// values of the attributes and lights that are traced; those of the inherited state included.
+/// Vertex data that is written without Array::dirty(), and images without Image::dirty(), go
+/// unseen: that is what dirtyScene() is for. Reads the graph only.
+/// sceneFromLocal: of the place that root is at. kept: as in Digest. versions: stand for the
+/// modified counts of arrays and primitive sets, so that equal values are no change; slower.
+/// budget: what lies beyond it goes unseen; null: one of its own.
+uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions,
+                          const osg::Matrixd& sceneFromLocal = osg::Matrixd(),
+                          KeptObjects* kept = nullptr, BufferVersions* versions = nullptr,
+                          PathBudget* budget = nullptr);
+
+} // namespace osgRayTrace::engine

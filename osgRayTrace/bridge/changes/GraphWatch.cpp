@@ -1,0 +1,479 @@
+// GraphWatch.cpp - compares the nodes of a graph with what they were. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/changes/GraphWatch.h"
+
+#include "osgRayTrace/bridge/common/SceneRoot.h"
+
+#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/StateFingerprint.h"
+#include "osgRayTrace/bridge/graph/UntracedParts.h"
+
+#include <osg/NodeVisitor>
+
+#include <algorithm>
+#include <cstring>
+#include <unordered_set>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// So far ahead memory is fetched, by the offsets of what is read in it [OSG 3.6.5 on 64 bits]: for
+/// others it is slower, but not wrong.
+constexpr std::size_t kAhead = 16;
+constexpr int kGroupBytes[] = {64, 200, 264, 328};
+constexpr int kGeometryBytes[] = {64, 200, 332, 392, 440};
+constexpr int kBufferBytes[] = {72, 136};
+
+template <std::size_t N> inline void fetch(const void* object, const int (&bytes)[N])
+{
+    for (const int byte : bytes)
+        __builtin_prefetch(static_cast<const char*>(object) + byte);
+}
+
+inline void fetch(const WatchedNode& node)
+{
+    if (node.kind == NodeKind::Geometry)
+        fetch(node.node, kGeometryBytes);
+    else
+        fetch(node.node, kGroupBytes);
+}
+
+/// Each takes a walk over all that is watched: more than these take longer than a conversion.
+constexpr std::size_t kMostSplices = 256;
+
+/// What stands for the decorator has it below itself without being its parent.
+osg::Node* soleNodeBelow(osg::Node& node, unsigned int traversalMask)
+{
+    struct Finder : osg::NodeVisitor
+    {
+        Finder() : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN) {}
+        void apply(osg::Node& visited) override
+        {
+            if (getNodePath().size() > 1)
+                found = &visited;
+            else
+                traverse(visited);
+        }
+        osg::Node* found = nullptr;
+    } finder;
+    finder.setTraversalMask(traversalMask);
+    node.accept(finder);
+    return finder.found;
+}
+
+/// Converts the graph where it comes or goes, and what is around it is watched in another way.
+bool isOfTheWhole(const WatchedNode& node)
+{
+    return node.kind == NodeKind::Opaque || isLight(node.kind) || node.hint != 0;
+}
+
+uint64_t inheritedPrint(const ViewingConditions& conditions, KeptObjects* kept = nullptr)
+{
+    Digest digest(kept);
+    for (const osg::ref_ptr<const osg::StateSet>& stateSet : conditions.inheritedState)
+        addStateSet(digest, *stateSet);
+    return digest.value();
+}
+
+} // namespace
+
+void GraphWatch::forget()
+{
+    *this = GraphWatch();
+}
+
+/// What stands for the decorator is looked through: it is no parent that would know of its end.
+osg::Node* GraphWatch::firstNode(osg::Node& root) const
+{
+    if (!_graph.isVisible(root)) return nullptr;
+    return typeid(root) == typeid(SceneRoot) ? soleNodeBelow(root, _graph.traversalMask) : &root;
+}
+
+void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
+{
+    WatchedGraph before = std::move(_graph); // keeps its nodes alive until the end
+    *this = GraphWatch();
+    _graph.traversalMask = conditions.traversalMask;
+    _plain = conditions;
+    _plain.inheritedState.clear();
+    _inheritedPrint = inheritedPrint(conditions, &_inheritedKept);
+    osg::Node* const first = firstNode(root);
+    _first = first;
+    if (first)
+    {
+        _graph.owner = first == &root ? nullptr : first;
+        _graph.firstDepth = first == &root ? 1 : 2;
+        _graph.append(*first, kNowhere, osg::Matrixd(), _graph.firstDepth, _plain);
+    }
+    _graph.finish();
+    takeVersions(before);
+    _graph.nodes.shrink_to_fit();
+    _graph.kept.shrink_to_fit();
+    _graph.places.shrink_to_fit();
+    _recorded = true;
+}
+
+/// What is known of the contents of nodes that were there before.
+void GraphWatch::takeVersions(WatchedGraph& before)
+{
+    std::unordered_map<const osg::Node*, WatchedOpaque*> known;
+    for (const WatchedNode& node : before.nodes)
+        if (node.kind == NodeKind::Opaque && before.opaques[node.item].versions)
+            known.emplace(node.node, &before.opaques[node.item]);
+    if (known.empty()) return;
+    for (const WatchedNode& node : _graph.nodes)
+    {
+        if (node.kind != NodeKind::Opaque) continue;
+        const auto found = known.find(node.node);
+        if (found == known.end()) continue;
+        _graph.opaques[node.item].contents = found->second->contents;
+        _graph.opaques[node.item].versions = std::move(found->second->versions);
+        known.erase(found);
+    }
+}
+
+GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditions)
+{
+    GraphChanges changes;
+    const bool comparable = _recorded && conditions.traversalMask == _graph.traversalMask &&
+                            ObjectName(firstNode(root)) == _first;
+    _recorded = false; // until everything is seen
+    _plain.eye = conditions.eye;
+    _plain.view = conditions.view;
+    _anyMoved = _anyRestated = false;
+    _exchanged.clear();
+    ++_looks;
+    if (!comparable || !lookAtNodes(changes) || !lookAtHidden(changes))
+    {
+        changes.convert = changes.record = true;
+        return changes;
+    }
+    _graph.resetBuffers(_exchanged);
+    lookAtBuffers(changes);
+    lookAtStates();
+    lookAtLights(changes);
+    const uint64_t inherited = inheritedPrint(conditions);
+    if (inherited != _inheritedPrint)
+    {
+        changes.convert = true;
+        KeptObjects kept;
+        _inheritedPrint = inheritedPrint(conditions, &kept);
+        _inheritedKept = std::move(kept);
+    }
+    if (_anyMoved || _anyRestated) findChanged(changes);
+    // Nodes that the watch has not seen may be among those that came up.
+    if (_graph.truncated && !changes.none()) changes.convert = changes.record = true;
+    _recorded = true;
+    return changes;
+}
+
+/// Matrices apart.
+bool GraphWatch::isAsItWas(WatchedNode& node)
+{
+    if (isTransform(node.kind))
+    {
+        WatchedPlace& place = _graph.places[node.place];
+        const uint64_t print = matrixPrint(node.kind, *node.node);
+        if (print != place.print)
+        {
+            place.print = print;
+            place.moved = _anyMoved = true;
+        }
+    }
+    if (node.kind == NodeKind::Opaque) return isOpaqueAsItWas(node);
+    return node.repeated || nodePrint(node.kind, *node.node) == node.print;
+}
+
+/// Where only modified counts differ the values of arrays decide.
+bool GraphWatch::isOpaqueAsItWas(WatchedNode& node)
+{
+    WatchedOpaque& opaque = _graph.opaques[node.item];
+    PathBudget budget(opaque.budget), again(opaque.budget);
+    const uint64_t print =
+        graphFingerprint(*node.node, _plain, opaque.sceneFromLocal, nullptr, nullptr, &budget);
+    if (print == node.print) return true;
+    if (!opaque.versions) opaque.versions = std::make_unique<BufferVersions>();
+    const uint64_t contents = graphFingerprint(*node.node, _plain, opaque.sceneFromLocal, nullptr,
+                                               opaque.versions.get(), &again);
+    const bool same = opaque.contents == contents;
+    opaque.contents = contents;
+    if (same) node.print = print;
+    return same;
+}
+
+/// False if the nodes that follow may be gone, and it cannot be said which.
+bool GraphWatch::lookAtNodes(GraphChanges& changes)
+{
+    std::vector<WatchedNode>& nodes = _graph.nodes;
+    uint32_t i = 0;
+    while (i < nodes.size())
+    {
+        if (i + kAhead < nodes.size()) fetch(nodes[i + kAhead]);
+        WatchedNode& node = nodes[i];
+        if (!_graph.isVisible(*node.node))
+        {
+            if (!hide(i, changes)) return false;
+            continue; // another one is here now
+        }
+        if (node.kind == NodeKind::Geometry)
+        {
+            if (!lookAtGeometry(node.item, changes)) return false;
+        }
+        else if (!isAsItWas(node) && !redo(i, changes))
+            return false;
+        ++i;
+    }
+    return true;
+}
+
+/// Finds out what differs in a node of a known class.
+bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
+{
+    WatchedNode& node = _graph.nodes[index];
+    if (node.kind == NodeKind::Opaque || node.hint != hintPrint(*node.node)) return false;
+    if (_graph.isRepeated(*node.node)) return false;
+    const osg::StateSet* stateSet = node.node->getStateSet();
+    const osg::StateSet* before =
+        node.state == kNowhere ? nullptr : _graph.states[node.state].stateSet.get();
+    bool known = false;
+    if (stateSet != before)
+    {
+        _graph.setState(node.state, stateSet);
+        node.restated = _anyRestated = known = true;
+    }
+    const std::size_t splices = changes.splices.size();
+    if (node.node->asGroup() && !redoChildren(index, changes)) return false;
+    known |= changes.splices.size() > splices;
+    WatchedNode& now = _graph.nodes[index];
+    now.print = nodePrint(now.kind, *now.node);
+    return known;
+}
+
+/// Compares its children with those that it had, and takes out and puts in what differs.
+bool GraphWatch::redoChildren(uint32_t index, GraphChanges& changes)
+{
+    const NodeKind kind = _graph.nodes[index].kind;
+    const osg::Group& group = *_graph.nodes[index].node->asGroup();
+    const osg::NodeList& children = childrenOf(group);
+    std::unordered_set<const osg::Node*> had, has;
+    for (uint32_t i = index + 1; i < _graph.nodes[index].end; i = _graph.nodes[i].end)
+        had.insert(_graph.nodes[i].node);
+    for (unsigned int i = 0; i < children.size(); ++i)
+        if (children[i] && isOn(kind, group, i)) has.insert(children[i].get());
+    auto& hidden = _graph.hidden; // all of its own are found again
+    hidden.erase(std::remove_if(hidden.begin(), hidden.end(),
+                                [index](const HiddenNode& node) { return node.parent == index; }),
+                 hidden.end());
+
+    uint32_t at = index + 1;
+    for (unsigned int i = 0; i < children.size(); ++i)
+    {
+        osg::Node* child = children[i].get();
+        if (!child || !isOn(kind, group, i)) continue;
+        const auto isThere = [&]
+        { return at < _graph.nodes[index].end && _graph.nodes[at].node == child; };
+        while (at < _graph.nodes[index].end && !isThere() && !has.count(_graph.nodes[at].node))
+            if (!remove(at, changes)) return false;
+        if (!isThere() && had.count(child)) return false; // they are in another order
+        if (!isThere() && !add(at, *child, index, changes)) return false;
+        if (isThere()) at = _graph.nodes[at].end; // not if it is hidden
+    }
+    while (at < _graph.nodes[index].end)
+        if (!remove(at, changes)) return false;
+    return true;
+}
+
+uint32_t GraphWatch::usesBefore(uint32_t geometry, uint32_t node) const
+{
+    uint32_t count = 0;
+    if (_graph.geometries[geometry].uses == 1) return 0;
+    for (uint32_t i = 0; i < node; ++i)
+        count += _graph.nodes[i].kind == NodeKind::Geometry && _graph.nodes[i].item == geometry;
+    return count;
+}
+
+bool GraphWatch::remove(uint32_t index, GraphChanges& changes)
+{
+    if (changes.splices.size() >= kMostSplices || _graph.isRepeatedElsewhere(index)) return false;
+    GraphSplice& splice = changes.splices.emplace_back();
+    for (uint32_t i = index; i < _graph.nodes[index].end; ++i)
+    {
+        const WatchedNode& node = _graph.nodes[i];
+        if (isOfTheWhole(node)) changes.convert = changes.record = true;
+        if (node.kind != NodeKind::Geometry) continue;
+        const WatchedGeometry& watched = _graph.geometries[node.item];
+        splice.removed.push_back({watched.geometry, usesBefore(node.item, i), watched.uses});
+    }
+    splice.gone = _graph.erase(index);
+    return true;
+}
+
+bool GraphWatch::add(uint32_t at, osg::Node& node, uint32_t parent, GraphChanges& changes)
+{
+    if (changes.splices.size() >= kMostSplices) return false;
+    const std::size_t before = _graph.nodes.size();
+    _graph.insert(at, node, parent, _plain);
+    const auto count = static_cast<uint32_t>(_graph.nodes.size() - before);
+    if (count == 0) return true;
+    GraphSplice& splice = changes.splices.emplace_back();
+    splice.added = _graph.pathTo(at);
+    for (uint32_t i = at; i < at + count; ++i)
+    {
+        const WatchedNode& added = _graph.nodes[i];
+        if (isOfTheWhole(added)) changes.convert = changes.record = true;
+        if (added.kind != NodeKind::Geometry) continue;
+        const WatchedGeometry& watched = _graph.geometries[added.item];
+        splice.uses.push_back({watched.geometry, usesBefore(added.item, i), watched.uses});
+    }
+    return true;
+}
+
+/// A mask has hidden a node.
+bool GraphWatch::hide(uint32_t index, GraphChanges& changes)
+{
+    HiddenNode gone{keep(_graph.nodes[index].node), _graph.nodes[index].parent};
+    if (gone.parent == kNowhere || !remove(index, changes)) return false;
+    _graph.hidden.push_back(std::move(gone));
+    return true;
+}
+
+bool GraphWatch::lookAtHidden(GraphChanges& changes)
+{
+    std::size_t i = 0;
+    while (i < _graph.hidden.size())
+    {
+        const HiddenNode& node = _graph.hidden[i++];
+        if (!_graph.isVisible(*node.node)) continue;
+        if (!redoChildren(node.parent, changes)) return false;
+        i = 0; // they are others now
+    }
+    return true;
+}
+
+/// False if it is to be treated in another way.
+bool GraphWatch::lookAtGeometry(uint32_t index, GraphChanges& changes)
+{
+    WatchedGeometry& watched = _graph.geometries[index];
+    if (watched.looked == _looks) return true;
+    watched.looked = _looks;
+    const osg::Geometry& geometry = *watched.geometry;
+    if (treatmentPrint(geometry) != watched.treatment) return false;
+    const uint64_t arrays = arraysPrint(geometry);
+    if (geometry.getStateSet() == watched.stateSet && arrays == watched.arrays) return true;
+    _graph.setState(watched.state, geometry.getStateSet());
+    watched.stateSet = geometry.getStateSet();
+    watched.restated = _anyRestated = true;
+    if (arrays == watched.arrays) return true;
+    watched.arrays = arrays;
+    _exchanged.push_back(index);
+    changes.deformed.push_back(&geometry);
+    return true;
+}
+
+void GraphWatch::lookAtBuffers(GraphChanges& changes)
+{
+    std::vector<WatchedBuffer>& buffers = _graph.buffers;
+    const std::size_t count = buffers.size();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        if (i + kAhead < count) fetch(buffers[i + kAhead].data.get(), kBufferBytes);
+        WatchedBuffer& buffer = buffers[i];
+        const uint64_t print = bufferPrint(buffer.kind, *buffer.data);
+        if (print == buffer.print) continue;
+        buffer.print = print;
+        if (!buffer.contents.change(*buffer.data)) continue;
+        changes.convert |= !buffer.shape; // it may be a part of the material
+        const osg::Geometry* geometry = _graph.geometries[buffer.geometry].geometry;
+        if (buffer.shape && (changes.deformed.empty() || changes.deformed.back() != geometry))
+            changes.deformed.push_back(geometry);
+    }
+}
+
+void GraphWatch::lookAtStates()
+{
+    bool any = false;
+    for (WatchedState& state : _graph.states)
+    {
+        state.changed = false;
+        if (!state.stateSet) continue;
+        Digest digest;
+        addStateSet(digest, *state.stateSet);
+        state.changed = digest.value() != state.print;
+        if (!state.changed) continue;
+        any = true;
+        KeptObjects kept;
+        Digest now(&kept);
+        addStateSet(now, *state.stateSet);
+        state.print = now.value();
+        state.kept = std::move(kept);
+    }
+    if (!any) return;
+    _anyRestated = true;
+    for (WatchedNode& node : _graph.nodes)
+        if (node.state != kNowhere) node.restated |= _graph.states[node.state].changed;
+    for (WatchedGeometry& geometry : _graph.geometries)
+        if (geometry.state != kNowhere) geometry.restated |= _graph.states[geometry.state].changed;
+}
+
+void GraphWatch::lookAtLights(GraphChanges& changes)
+{
+    for (WatchedLight& light : _graph.lights)
+    {
+        const WatchedNode& node = _graph.nodes[light.node];
+        if (lightPrint(node.kind, *node.node) == light.print) continue;
+        changes.lights = true;
+        KeptObjects kept;
+        light.print = lightPrint(node.kind, *node.node, &kept);
+        light.kept = std::move(kept);
+    }
+}
+
+/// Follows what has changed down to the geometry below it.
+void GraphWatch::findChanged(GraphChanges& changes)
+{
+    for (WatchedPlace& place : _graph.places) // the outer ones come first
+    {
+        if (place.node == kNowhere) continue;
+        place.moved |= place.outer != kOutermost && _graph.places[place.outer].moved;
+        if (place.moved && place.fixed) changes.convert = changes.record = true;
+    }
+    std::unordered_map<uint32_t, osg::Matrixd> matrices; // few move
+    const auto matrixOf = [&](uint32_t place) -> const osg::Matrixd&
+    {
+        const auto [known, isNew] = matrices.try_emplace(place);
+        if (isNew) known->second = _graph.sceneFromLocal(place);
+        return known->second;
+    };
+    for (WatchedGeometry& geometry : _graph.geometries)
+        geometry.counted = 0;
+    uint32_t restatedEnd = 0;
+    for (uint32_t i = 0; i < _graph.nodes.size(); ++i)
+    {
+        WatchedNode& node = _graph.nodes[i];
+        if (node.restated) restatedEnd = std::max(restatedEnd, node.end);
+        node.restated = false;
+        bool restated = i < restatedEnd;
+        changes.convert |= restated && node.kind == NodeKind::Opaque;
+        if (node.kind != NodeKind::Geometry) continue;
+        WatchedGeometry& watched = _graph.geometries[node.item];
+        restated |= watched.restated;
+        const ChangedUse use{watched.geometry, watched.counted++, watched.uses};
+        const bool moved = node.place != kNowhere && _graph.places[node.place].moved;
+        if (changes.convert) continue;
+        if (moved) changes.moved.push_back({use, matrixOf(node.place)});
+        if (!restated) continue;
+        RestatedUse& other = changes.restated.emplace_back();
+        static_cast<ChangedUse&>(other) = use;
+        other.worldFromLocal = matrixOf(node.place);
+        other.path = _graph.pathTo(i);
+    }
+    for (WatchedPlace& place : _graph.places)
+        place.moved = false;
+    for (WatchedGeometry& geometry : _graph.geometries)
+        geometry.restated = false;
+}
+
+} // namespace osgRayTrace::engine

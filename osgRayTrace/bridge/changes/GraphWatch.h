@@ -1,0 +1,66 @@
+// GraphWatch.h - finds what has changed in a scene graph, in next to no time if nothing has. Layer:
+// bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/changes/GraphChanges.h"
+#include "osgRayTrace/bridge/changes/WatchedGraph.h"
+#include "osgRayTrace/bridge/common/ViewingConditions.h"
+
+namespace osgRayTrace::engine
+{
+
+/// A graph as it was seen last: see WatchedGraph. A look compares its nodes one after the other,
+/// without a traversal. Nodes of the plain classes are known one by one; of any other node (level
+/// of detail, billboard, a class of the application's own) only whether anything in it and below it
+/// has changed: see graphFingerprint, also for what goes unseen. Bounds are not looked at.
+class GraphWatch
+{
+public:
+    GraphWatch() = default;
+    GraphWatch(GraphWatch&&) = default;
+    GraphWatch& operator=(GraphWatch&&) = default;
+
+    /// Remembers the graph as it is.
+    void record(osg::Node& root, const ViewingConditions& conditions);
+
+    /// The next look finds everything changed; nothing of the graph is kept alive until then.
+    void forget();
+
+    /// What has changed in the graph below the same root since the last look or record(), under the
+    /// same conditions but for the eye and the inherited state.
+    GraphChanges look(osg::Node& root, const ViewingConditions& conditions);
+
+private:
+    osg::Node* firstNode(osg::Node& root) const;
+    void takeVersions(WatchedGraph& before);
+    bool lookAtNodes(GraphChanges& changes);
+    bool isAsItWas(WatchedNode& node);
+    bool isOpaqueAsItWas(WatchedNode& node);
+    bool redo(uint32_t index, GraphChanges& changes);
+    bool redoChildren(uint32_t index, GraphChanges& changes);
+    bool remove(uint32_t index, GraphChanges& changes);
+    bool add(uint32_t at, osg::Node& node, uint32_t parent, GraphChanges& changes);
+    bool hide(uint32_t index, GraphChanges& changes);
+    bool lookAtHidden(GraphChanges& changes);
+    bool lookAtGeometry(uint32_t index, GraphChanges& changes);
+    void lookAtBuffers(GraphChanges& changes);
+    void lookAtStates();
+    void lookAtLights(GraphChanges& changes);
+    void findChanged(GraphChanges& changes);
+    uint32_t usesBefore(uint32_t geometry, uint32_t node) const;
+
+    bool _recorded = false;
+    ObjectName _first;        ///< of the nodes; of none: nothing is visible
+    ViewingConditions _plain; ///< of the last look, without inherited state
+    uint64_t _inheritedPrint = 0;
+    KeptObjects _inheritedKept; ///< of the print
+    WatchedGraph _graph;
+    uint64_t _looks = 0;
+
+    // Of a look while it runs:
+    bool _anyMoved = false, _anyRestated = false;
+    std::vector<uint32_t> _exchanged; ///< geometries that have other arrays
+};
+
+} // namespace osgRayTrace::engine

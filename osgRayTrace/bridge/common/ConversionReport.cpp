@@ -1,0 +1,135 @@
+// ConversionReport.cpp - wording of the conversion's warnings. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/common/ConversionReport.h"
+
+#include "osgRayTrace/bridge/common/WarnOnce.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+struct Wording
+{
+    const char* what;
+    const char* message;
+};
+
+constexpr Wording kGeometryWordings[] = {
+    {"skipped.index-out-of-range", "triangles with an index beyond the vertex array, skipped"},
+    {"skipped.not-finite",
+     "triangles with a vertex that is NaN, infinite or out of range, skipped"},
+    {"skipped.deprecated-data",
+     "per-primitive bindings or array indices: call fixDeprecatedData, skipped"},
+    {"skipped.vertex-type", "vertex array of an unknown type, skipped"},
+    {"repaired.normal", "normals that are zero, missing or not finite, replaced by face normals"},
+    {"warned.opposite-normals", "triangles whose normals look to their back, lit by the side seen"},
+    {"repaired.color", "colours that are missing or not finite, replaced by white"},
+    {"repaired.texture-coordinate",
+     "texture coordinates that are missing or not finite, replaced by 0"},
+};
+
+const char* const kMissing = "missing.";
+
+/// Said for each geometry by warnAboutGeometry.
+bool isNamedByGeometry(const std::string& what)
+{
+    return std::any_of(std::begin(kGeometryWordings), std::end(kGeometryWordings),
+                       [&what](const Wording& wording) { return what == wording.what; });
+}
+
+bool begins(const std::string& text, const char* with)
+{
+    return text.rfind(with, 0) == 0;
+}
+
+} // namespace
+
+void ConversionReport::notePath(const std::string& what, const std::string& path)
+{
+    std::vector<std::string>& paths = _paths[what];
+    const bool isNew = std::find(paths.begin(), paths.end(), path) == paths.end();
+    if (isNew && paths.size() < kPathsKept) paths.push_back(path);
+}
+
+void ConversionReport::count(const std::string& what, uint64_t number)
+{
+    _counts[what] += number;
+    _remarks += !begins(what, "converted.");
+    if (!_place || number == 0 || begins(what, kMissing)) return; // files are named instead
+    const auto noted = _paths.find(what);
+    if (noted == _paths.end() || noted->second.size() < kPathsKept) notePath(what, _place());
+}
+
+void ConversionReport::add(const ConversionCounts& counts)
+{
+    for (const auto& [what, number] : counts)
+        count(what, number);
+}
+
+void ConversionReport::add(const ConversionReport& other)
+{
+    add(other._counts);
+    for (const auto& [what, paths] : other._paths)
+        for (const std::string& path : paths)
+            notePath(what, path);
+    _named.insert(other._named.begin(), other._named.end());
+}
+
+void ConversionReport::warn(const std::string& what, const std::string& object,
+                            const std::string& message)
+{
+    count(what);
+    _named.insert(what);
+    if (!_place) notePath(what, object);
+    warnOnce(object + ": " + message);
+}
+
+void ConversionReport::missing(const std::string& what, const std::string& file,
+                               const std::string& object, const std::string& instead)
+{
+    count(what);
+    _named.insert(what);
+    notePath(what, file);
+    warnOnce(object + " " + file + ": the file cannot be read, " + instead);
+}
+
+void ConversionReport::addHere(const ConversionReport& other)
+{
+    add(other._counts);
+    for (const auto& [what, paths] : other._paths)
+        for (const std::string& file : paths)
+            if (begins(what, kMissing)) notePath(what, _place ? file + ", for " + _place() : file);
+    _named.insert(other._named.begin(), other._named.end());
+}
+
+void warnAboutGeometry(const std::string& path, const ConversionCounts& counts)
+{
+    for (const Wording& wording : kGeometryWordings)
+    {
+        const auto found = counts.find(wording.what);
+        if (found == counts.end()) continue;
+        warnOnce("geometry '" + path + "': " + std::to_string(found->second) + " " +
+                 wording.message);
+    }
+}
+
+void warnOnceAReason(const ConversionReport& report, bool rasterizesRest)
+{
+    for (const auto& [what, number] : report.counts())
+    {
+        const bool differs = begins(what, "approximated.") || begins(what, "skipped.") ||
+                             (begins(what, "not-traced.") && !rasterizesRest);
+        if (!differs || isNamedByGeometry(what) || report.isNamed(what)) continue;
+        const auto paths = report.paths().find(what);
+        const bool placed = paths != report.paths().end() && !paths->second.empty();
+        warnOnceFor(what, what + ": " + std::to_string(number) +
+                              (placed ? ", the first is '" + paths->second.front() + "'" : ""));
+    }
+}
+
+} // namespace osgRayTrace::engine

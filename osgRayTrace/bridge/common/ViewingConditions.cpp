@@ -1,0 +1,141 @@
+// ViewingConditions.cpp - what a conversion takes from the pass. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/common/ViewingConditions.h"
+
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderStage>
+#include <osgUtil/StateGraph>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// A light of the pass as OSG keeps it: matrix takes it to the eye space of the pass.
+struct PositionedLight
+{
+    const osg::Light* light = nullptr;
+    osg::Matrixd eyeFromLight;
+};
+
+/// The first one, or what came after it with its number: OpenGL keeps the last of a number.
+PositionedLight firstLight(osgUtil::PositionalStateContainer& container, const osg::Matrixd& toEye)
+{
+    PositionedLight found;
+    for (const auto& [attribute, matrix] : container.getAttrMatrixList())
+    {
+        const auto* light = dynamic_cast<const osg::Light*>(attribute.get());
+        if (!light || (found.light && light->getLightNum() != found.light->getLightNum())) continue;
+        found = {light, matrix ? *matrix * toEye : toEye};
+    }
+    return found;
+}
+
+/// SceneView adds its light to the stage before it traverses the graph, with no matrix for a
+/// headlight and with the view matrix for a sky light. A camera in the graph inherits the container
+/// of its parent stage together with the matrix between the two eye spaces.
+PositionedLight firstLight(osgUtil::RenderStage& stage)
+{
+    PositionedLight found = firstLight(*stage.getPositionalStateContainer(), osg::Matrixd());
+    if (!found.light && stage.getInheritedPositionalStateContainer())
+        found = firstLight(*stage.getInheritedPositionalStateContainer(),
+                           stage.getInheritedPositionalStateContainerMatrix());
+    return found;
+}
+
+/// A state set of no node is SceneView's own, to which its draw adds a colour mask while the next
+/// update reads: copied in cull, before that draw. Those of nodes stay themselves, so that the next
+/// update sees what the application changes in them.
+osg::ref_ptr<const osg::StateSet> unchanging(const osg::StateSet& stateSet)
+{
+    if (stateSet.getNumParents() > 0) return &stateSet;
+    return new osg::StateSet(stateSet, osg::CopyOp::SHALLOW_COPY);
+}
+
+std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState(const osgUtil::StateGraph* graph)
+{
+    std::vector<osg::ref_ptr<const osg::StateSet>> stateSets;
+    for (; graph; graph = graph->_parent)
+        if (graph->getStateSet()) stateSets.push_back(unchanging(*graph->getStateSet()));
+    std::reverse(stateSets.begin(), stateSets.end());
+    return stateSets;
+}
+
+/// Equal but for the rounding of numbers of this size.
+bool close(const osg::Vec3d& a, const osg::Vec3d& b, double size)
+{
+    return (a - b).length() <= 1e-5 * size;
+}
+
+osg::Vec3d xyz(const osg::Vec4& v)
+{
+    return {v.x(), v.y(), v.z()};
+}
+
+/// Positions went through the eye space of their pass, and so were rounded as the eye's distance
+/// is.
+bool sameLight(const osg::Light* a, const osg::Light* b, const osg::Vec3d& eye)
+{
+    if (!a || !b) return a == b;
+
+    const osg::ref_ptr<osg::Light> moved = new osg::Light(*b);
+    const osg::Vec3d position = xyz(a->getPosition()), direction(a->getDirection());
+    const double w = a->getPosition().w(), eyeDistance = w != 0.0 ? eye.length() : 0.0;
+    if (std::abs(w - b->getPosition().w()) > 1e-5 * std::abs(w)) return false;
+    if (!close(position, xyz(b->getPosition()), position.length() + eyeDistance)) return false;
+    if (!close(direction, osg::Vec3d(b->getDirection()), direction.length())) return false;
+    moved->setPosition(a->getPosition());
+    moved->setDirection(a->getDirection());
+    return a->compare(*moved) == 0;
+}
+
+std::optional<ReferenceView> referenceView(osgUtil::CullVisitor& visitor)
+{
+    const osg::Viewport* viewport = visitor.getViewport();
+    if (!viewport || !visitor.getProjectionMatrix()) return std::nullopt;
+    return ReferenceView{*visitor.getModelViewMatrix(), *visitor.getProjectionMatrix(),
+                         viewport->width(), viewport->height(), visitor.getLODScale()};
+}
+
+} // namespace
+
+ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor)
+{
+    ViewingConditions conditions;
+    const osg::Matrixd& eyeFromScene = *visitor.getModelViewMatrix();
+    const osg::Matrixd sceneFromEye = osg::Matrixd::inverse(eyeFromScene);
+    conditions.eye = sceneFromEye.getTrans();
+    conditions.traversalMask = visitor.getTraversalMask();
+    conditions.view = referenceView(visitor);
+    conditions.inheritedState = inheritedState(visitor.getCurrentStateGraph());
+
+    osgUtil::RenderStage* stage = visitor.getCurrentRenderStage();
+    if (!stage) return conditions;
+    conditions.clearColor = stage->getClearColor();
+
+    const PositionedLight found = firstLight(*stage);
+    if (!found.light) return conditions;
+    const osg::ref_ptr<osg::Light> light = new osg::Light(*found.light);
+    conditions.lightInEyeSpace = found.eyeFromLight.isIdentity();
+    if (!conditions.lightInEyeSpace && found.eyeFromLight != eyeFromScene)
+    {
+        const osg::Matrixd sceneFromLight = found.eyeFromLight * sceneFromEye;
+        light->setPosition(sceneFromLight.preMult(osg::Vec4d(light->getPosition())));
+        light->setDirection(
+            osg::Matrixd::transform3x3(osg::Vec3d(light->getDirection()), sceneFromLight));
+    }
+    conditions.light = light;
+    return conditions;
+}
+
+bool convertAlike(const ViewingConditions& a, const ViewingConditions& b)
+{
+    return a.traversalMask == b.traversalMask && a.lightInEyeSpace == b.lightInEyeSpace &&
+           a.clearColor == b.clearColor && sameLight(a.light.get(), b.light.get(), a.eye);
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,47 @@
+// ViewingConditions.h - what a conversion takes from the pass. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/common/ReferenceView.h"
+
+#include <osg/Light>
+#include <osg/StateSet>
+#include <osg/Vec3d>
+#include <osg/Vec4>
+
+#include <vector>
+
+namespace osgUtil
+{
+class CullVisitor;
+}
+
+namespace osgRayTrace::engine
+{
+
+/// All in the scene's own coordinates: those of the node that cull has reached.
+struct ViewingConditions
+{
+    osg::Vec3d eye;
+    std::optional<ReferenceView> view; ///< none if there is no viewport
+    unsigned int traversalMask = 0xffffffffu;
+
+    /// The first light that the pass had when it came to the scene; that is osgViewer's own, which
+    /// is in no graph, unless it has none. Null: none. A copy.
+    osg::ref_ptr<const osg::Light> light;
+    bool lightInEyeSpace = true;
+
+    /// The state sets above the place, the outermost first; no thread of OSG's changes them.
+    std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState;
+
+    osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f};
+};
+
+/// Those of the visitor's pass, where it stands. Cull thread.
+ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor);
+
+/// True if a scene converted for a need not be converted again for b. The eye, the view and
+/// the inherited state are not compared; a light that only moved by rounding is the same.
+bool convertAlike(const ViewingConditions& a, const ViewingConditions& b);
+
+} // namespace osgRayTrace::engine

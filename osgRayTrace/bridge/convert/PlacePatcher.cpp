@@ -1,0 +1,190 @@
+// PlacePatcher.cpp - moves instances and exchanges meshes. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/convert/PlacePatcher.h"
+
+#include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
+#include "osgRayTrace/bridge/geometry/MeshPlacement.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Volume of the axes made unit. More than GraphCollector asks for: what is nearly flat goes its
+/// way.
+constexpr double kSmallestVolume = 1e-6;
+
+/// A mesh keeps its frame while its centre is not so many radii from its origin.
+constexpr double kFarFromOrigin = 128.0;
+
+/// One that surely is placed as it is: finite, affine and far from singular.
+bool isSound(const osg::Matrixd& m)
+{
+    for (int i = 0; i < 16; ++i)
+        if (!std::isfinite(m.ptr()[i])) return false;
+    if (m(0, 3) != 0.0 || m(1, 3) != 0.0 || m(2, 3) != 0.0 || m(3, 3) != 1.0) return false;
+    osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
+        z(m(2, 0), m(2, 1), m(2, 2));
+    x.normalize();
+    y.normalize();
+    z.normalize();
+    return std::fabs((x ^ y) * z) > kSmallestVolume;
+}
+
+/// Its coordinates are generated from places in the scene: the matrix has where the surface is.
+bool isPlaceBound(const Material& material)
+{
+    return material.mapping.coordinates == TextureCoordinates::Position ||
+           material.second.mapping.coordinates == TextureCoordinates::Position;
+}
+
+/// OpenGL's front is on the other side where a transform mirrors.
+bool dependsOnWinding(const Material& material)
+{
+    return material.culling != FaceCulling::None || material.twoSidedLighting;
+}
+
+/// OpenGL draws nothing of it: then it has no parts that are copied for that.
+bool hasTrianglesAlone(const osg::Geometry& geometry)
+{
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
+        if (!set || set->getMode() < GL_TRIANGLES || set->getMode() > GL_POLYGON) return false;
+    return true;
+}
+
+/// Of a mesh that stays in its frame.
+bool fitsFrame(const VertexBounds& bounds, const osg::Matrixd& meshFromLocal)
+{
+    if (bounds.count == 0 || areCoarseInFloat(bounds)) return false;
+    const osg::Vec3d centre =
+        osg::Vec3d(bounds.centre().x, bounds.centre().y, bounds.centre().z) * meshFromLocal;
+    const double largest = largestCoordinate(bounds, meshFromLocal);
+    return isOrdinaryLength(largest) && centre.length() <= kFarFromOrigin * largest;
+}
+
+} // namespace
+
+void PlacePatcher::touch(uint32_t index)
+{
+    Instance& instance = _scene.instances[index];
+    instance.changed = _now;
+    if (instance.light != kInvalid) _scene.lights[instance.light].changed = _now;
+    _changed = true;
+}
+
+bool PlacePatcher::move(const MovedUse& use)
+{
+    const auto found = _index.geometries.find(use.geometry);
+    if (found == _index.geometries.end() || found->second.uses.size() != use.uses) return false;
+    if (!found->second.patchable) return false;
+    const uint32_t index = found->second.uses[use.use].instance;
+    if (!isSound(use.worldFromLocal)) return false;
+    if (index == kInvalid) return true;
+    if (isPlaceBound(_scene.materials[_scene.instances[index].material])) return false;
+    const Vec3d& origin = _scene.origin;
+    return place(*use.geometry, index,
+                 use.worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z));
+}
+
+bool PlacePatcher::place(const osg::Geometry& geometry, uint32_t index,
+                         const osg::Matrixd& engineFromLocal)
+{
+    const VertexBounds& bounds = _geometries.bounds(geometry);
+    if (!isOrdinaryLength(largestCoordinate(bounds, engineFromLocal))) return false;
+    Instance& instance = _scene.instances[index];
+    const bool winding = dependsOnWinding(_scene.materials[instance.material]);
+    if (winding && !instance.placed) return false; // whether it was mirrored is not known
+    osg::Matrixd localFromMesh;
+    if (instance.placed)
+    {
+        const MeshRequest* request = _geometries.lastRequest(geometry);
+        if (!request) return false;
+        if (request->transform) localFromMesh = osg::Matrixd::inverse(*request->transform);
+    }
+    else
+    {
+        const MeshFrame frame = meshFrame(bounds);
+        if (!fitsFrame(bounds, frame.meshFromLocal)) return false;
+        _geometries.noteLiveness(geometry, Liveness::Moves);
+        const MeshRequest* last = _geometries.lastRequest(geometry);
+        if (!last) return false;
+        MeshRequest request = *last;
+        request.transform.reset();
+        if (!frame.meshFromLocal.isIdentity()) request.transform = frame.meshFromLocal;
+        request.copies = _geometries.liveness(geometry) == Liveness::Deforms;
+        if (!makeMesh(geometry, request, instance.mesh)) return false;
+        localFromMesh = frame.localFromMesh;
+        _leftFlat = true;
+    }
+    const Affine before = instance.engineFromLocal;
+    const bool wasPlaced = instance.placed, wasMirrored = instance.mirrored;
+    if (!placeInstance(instance, localFromMesh * engineFromLocal)) return false;
+    if (winding && instance.mirrored != wasMirrored) return false;
+    if (!wasPlaced || before.linear != instance.engineFromLocal.linear ||
+        before.translation != instance.engineFromLocal.translation)
+        touch(index);
+    return true;
+}
+
+/// From the arrays as they are. False if it counts other bad data than it did: the report would
+/// change.
+bool PlacePatcher::makeMesh(const osg::Geometry& geometry, const MeshRequest& request,
+                            uint32_t meshIndex)
+{
+    std::shared_ptr<const Mesh>& mesh = _scene.meshes[meshIndex];
+    const ConversionCounts before = _geometries.lastCounts(geometry);
+    ConversionReport report;
+    const auto made =
+        _geometries.mesh(geometry, GeometryCache::kOwnVariant, request, mesh->name, report);
+    if (!made || report.counts() != before) return false;
+    mesh = made;
+    return true;
+}
+
+bool PlacePatcher::deform(const osg::Geometry& geometry)
+{
+    const auto found = _index.geometries.find(&geometry);
+    if (found == _index.geometries.end() || !found->second.patchable) return false;
+    const std::vector<TracedUse>& uses = found->second.uses;
+    const MeshRequest* last = _geometries.lastRequest(geometry);
+    if (!last || !hasTrianglesAlone(geometry)) return false;
+    for (const TracedUse& use : uses)
+    {
+        const uint32_t index = use.instance;
+        if (index == kInvalid) return false;
+        const Instance& instance = _scene.instances[index];
+        if (!instance.placed)
+        {
+            if (uses.size() > 1) return false;
+            const osg::Matrixd engineFromLocal = last->transform.value_or(osg::Matrixd());
+            return place(geometry, index, engineFromLocal);
+        }
+        if (instance.mesh != _scene.instances[uses.front().instance].mesh) return false;
+    }
+
+    const VertexBounds& bounds = _geometries.bounds(geometry);
+    MeshRequest request = *last;
+    request.copies = true;
+    if (!fitsFrame(bounds, request.transform.value_or(osg::Matrixd()))) return false;
+    const uint32_t meshIndex = _scene.instances[uses.front().instance].mesh;
+    const std::shared_ptr<const Mesh> before = _scene.meshes[meshIndex];
+    if (!makeMesh(geometry, request, meshIndex)) return false;
+    if (_scene.meshes[meshIndex] == before) return true; // made when it was moved
+    for (const TracedUse& use : uses)
+    {
+        const Instance& instance = _scene.instances[use.instance];
+        const Affine& m = instance.engineFromLocal;
+        const double reach = glm::length(m.translation) +
+                             largestCoordinate(bounds, request.transform.value_or(osg::Matrixd())) *
+                                 double(glm::length(m.linear[0]) + glm::length(m.linear[1]) +
+                                        glm::length(m.linear[2]));
+        if (!isOrdinaryLength(reach)) return false;
+        touch(use.instance);
+    }
+    return true;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,414 @@
+// SceneBuilder.cpp - meshes, instances and materials of what was collected. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/convert/SceneBuilder.h"
+
+#include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
+#include "osgRayTrace/bridge/convert/SceneLights.h"
+#include "osgRayTrace/bridge/geometry/BoundArrays.h"
+#include "osgRayTrace/bridge/geometry/MeshPlacement.h"
+#include "osgRayTrace/film/ToneMap.h"
+
+#include <osgRayTrace/AreaLight>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Above the scene: osgUtil::SceneView's light model, or OpenGL's where osgViewer sets none.
+constexpr float kViewerAmbient = 0.1f;
+constexpr float kOpenGLAmbient = 0.2f;
+
+constexpr uint32_t kOwnVariant = GeometryCache::kOwnVariant;
+
+Vec4 backgroundOf(const osg::Vec4& clearColor, bool linear)
+{
+    Vec4 color(clearColor.r(), clearColor.g(), clearColor.b(), clearColor.a());
+    for (int c = 0; c < 4; ++c)
+        if (!std::isfinite(color[c])) color[c] = 0.0f;
+    for (int c = 0; c < 3 && linear; ++c)
+        color[c] = linearFromSrgb(color[c]);
+    return color;
+}
+
+} // namespace
+
+Material fallbackMaterial()
+{
+    Material material;
+    material.name = "fallback";
+    material.ambient = material.diffuse = Vec3(1.0f, 0.0f, 1.0f);
+    material.lit = false;
+    return material;
+}
+
+SceneBuilder::SceneBuilder(const ConversionInput& input, const CollectedGraph& graph,
+                           const BuildRules& rules, ConversionCaches& caches, ConvertedGraph& made,
+                           Scene& scene, ConversionReport& report)
+    : _input(input),
+      _graph(graph),
+      _rules(rules),
+      _caches(caches),
+      _made(made),
+      _scene(scene),
+      _report(report),
+      _materials({rules.linear, input.cullAllRays, rules.setsColor}, caches.textures,
+                 _materialReport),
+      _treatments(graph.states.size())
+{
+}
+
+void SceneBuilder::build()
+{
+    _scene.origin = {_input.origin.x(), _input.origin.y(), _input.origin.z()};
+    _scene.unit = _rules.unit;
+    _scene.displayReferred = !_rules.linear;
+    _scene.background = backgroundOf(_graph.clearColor.value_or(_input.clearColor), _rules.linear);
+    _scene.ambient = Vec3(_input.lighting ? kViewerAmbient : kOpenGLAmbient);
+    noteNew();
+    for (const CollectedGeometry& geometry : _graph.geometries)
+    {
+        _report.setPlace([&geometry] { return geometry.path; });
+        addGeometry(geometry);
+    }
+    _report.setPlace({});
+    _caches.areaLights.resize(_graph.lights.areaLights.size());
+    for (std::size_t i = 0; i < _graph.lights.areaLights.size(); ++i)
+        addAreaLight(_graph.lights.areaLights[i], _caches.areaLights[i]);
+    _scene.materials = _made.materials.all();
+    if (_scene.materials.empty()) _scene.materials.push_back(fallbackMaterial());
+    _caches.textures.end();
+    _scene.textures = _caches.textures.all();
+    putFlatFirst();
+    noteFlat(_scene, _rules.comparable, _caches);
+    _report.count("converted.instance", _scene.instances.size());
+}
+
+void SceneBuilder::add(const CollectedGeometry& geometry)
+{
+    _report.setPlace([&geometry] { return geometry.path; });
+    const std::size_t before = _scene.instances.size() - _made.instanceGaps.size();
+    addGeometry(geometry);
+    _report.count("converted.instance",
+                  _scene.instances.size() - _made.instanceGaps.size() - before);
+    _report.setPlace({});
+}
+
+MeshRequest SceneBuilder::requestFor(const CollectedGeometry& geometry,
+                                     const osg::Matrixd& transform) const
+{
+    MeshRequest request;
+    request.restart = geometry.restart;
+    if (!transform.isIdentity()) request.transform = transform;
+    request.decodeColors = _rules.linear;
+    return request;
+}
+
+uint32_t SceneBuilder::addMesh(const std::shared_ptr<const Mesh>& mesh)
+{
+    if (_made.meshGaps.empty())
+    {
+        _scene.meshes.push_back(mesh);
+        return static_cast<uint32_t>(_scene.meshes.size() - 1);
+    }
+    const uint32_t index = _made.meshGaps.back();
+    _made.meshGaps.pop_back();
+    _scene.meshes[index] = mesh;
+    return index;
+}
+
+uint32_t SceneBuilder::appendInstance(const Instance& instance)
+{
+    if (_made.instanceGaps.empty() || !instance.placed)
+    {
+        _scene.instances.push_back(instance);
+        return static_cast<uint32_t>(_scene.instances.size() - 1);
+    }
+    const uint32_t index = _made.instanceGaps.back();
+    _made.instanceGaps.pop_back();
+    _scene.instances[index] = instance;
+    return index;
+}
+
+/// The error was made before the graph came here: it can only be named.
+void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
+{
+    if (!areCoarseInFloat(*geometry.bounds)) return;
+    if (positionArray(*geometry.geometry)->getDataType() != GL_FLOAT) return;
+    _report.warn("warned.far-vertices", "geometry '" + geometry.path + "'",
+                 "vertices far from the geometry's own origin are coarse in float: use local "
+                 "coordinates below a transform");
+}
+
+/// What comes into a scene gets BVHs of its own, unless it is so much that the flat one may as well
+/// be built again.
+void SceneBuilder::noteNew()
+{
+    uint64_t vertices = 0;
+    for (const CollectedGeometry& geometry : _graph.geometries)
+        if (!_caches.geometries.lastRequest(*geometry.geometry)) vertices += geometry.bounds->count;
+    _newJoinFlat = vertices >= _caches.flatVertices;
+}
+
+/// Used more often than once, or not still: what has moved or deformed since it came will do so
+/// again.
+bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
+{
+    const osg::Geometry& geometry = *collected.geometry;
+    GeometryCache& cache = _caches.geometries;
+    const MeshRequest* last = cache.lastRequest(geometry);
+    // One that is here twice, under other primitive restart, has the last request of the other.
+    const bool own = last && last->restart == collected.restart;
+    const bool once = collected.uses.size() == 1;
+    if (_rules.comparable && last && !cache.hasSameArrays(geometry))
+        cache.noteLiveness(geometry, Liveness::Deforms);
+    else if (_rules.comparable && once && own &&
+             last->transform !=
+                 requestFor(collected, collected.uses.front().engineFromLocal).transform)
+        cache.noteLiveness(geometry, Liveness::Moves);
+    else if (once && (_caches.dissolved || (_rules.comparable && !last && !_newJoinFlat)))
+        cache.noteLiveness(geometry, Liveness::Moves);
+    return !once || cache.liveness(geometry) != Liveness::Still;
+}
+
+/// Their indices are then a matter of themselves alone, and so is their BVH.
+void SceneBuilder::putFlatFirst()
+{
+    std::vector<Instance>& instances = _scene.instances;
+    std::vector<uint32_t> order(instances.size()), now(instances.size());
+    for (uint32_t i = 0; i < order.size(); ++i)
+        order[i] = i;
+    std::stable_partition(order.begin(), order.end(),
+                          [&](uint32_t i) { return !instances[i].placed; });
+    std::vector<Instance> sorted;
+    sorted.reserve(instances.size());
+    for (uint32_t i = 0; i < order.size(); ++i)
+    {
+        sorted.push_back(instances[order[i]]);
+        now[order[i]] = i;
+    }
+    instances.swap(sorted);
+    const auto renumber = [&now](uint32_t& index)
+    {
+        if (index != kInvalid) index = now[index];
+    };
+    for (auto& [geometry, traced] : _made.index.geometries)
+        for (TracedUse& use : traced.uses)
+            renumber(use.instance);
+    for (uint32_t& instance : _instances)
+        renumber(instance);
+    for (ConversionCaches::Quad& quad : _caches.areaLights)
+        renumber(quad.instance);
+}
+
+/// Puts the planes that cross the geometry into the request, which is for engine space.
+Clipping SceneBuilder::clipBy(const CollectedGeometry& geometry, const GeometryUse& use,
+                              MeshRequest& request)
+{
+    std::vector<Vec4d> planes = _graph.clipPlanes.planesOn(_graph.states[use.state]);
+    if (planes.empty()) return Clipping::None;
+    const osg::Array* positions = positionArray(*geometry.geometry);
+    const bool bounded = positions && geometry.bounds->count == positions->getNumElements();
+    const Clipping clipping =
+        bounded ? clippingOf(*geometry.bounds, use.engineFromLocal, planes) : Clipping::Partly;
+    if (clipping == Clipping::Wholly) _report.count("not-traced.clipped-away");
+    if (clipping == Clipping::Partly) request.clipPlanes = std::move(planes);
+    return clipping;
+}
+
+/// Used once: positions in engine space, made in double. Used more often: one mesh, several
+/// instances.
+void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
+{
+    const uint64_t remarks = _report.remarks();
+    warnIfCoarse(geometry);
+    TracedGeometry& traced = _made.index.at(*geometry.geometry);
+    // One that is here twice has other primitive restart: only one of both is in the index.
+    traced.patchable = traced.uses.empty() && geometry.watched;
+    traced.uses.clear();
+    traced.uses.reserve(geometry.uses.size());
+    for (const GeometryUse& use : geometry.uses)
+        traced.patchable &= polygonLift(_graph.states[use.state]) == 0.0f;
+    if (isPlaced(geometry))
+        addPlacedUses(geometry);
+    else
+    {
+        const GeometryUse& use = geometry.uses.front();
+        MeshRequest request = requestFor(geometry, use.engineFromLocal);
+        request.lift = polygonLift(_graph.states[use.state]);
+        if (clipBy(geometry, use, request) == Clipping::Wholly)
+            addNothing(geometry, use);
+        else
+            addBaked(geometry, use,
+                     _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request,
+                                             geometry.path, _report));
+    }
+    traced.plain = _report.remarks() == remarks;
+}
+
+void SceneBuilder::addNothing(const CollectedGeometry& geometry, const GeometryUse& use)
+{
+    _made.index.at(*geometry.geometry)
+        .uses.push_back({kInvalid, treatment(use.state, ConversionCounts())});
+    _instances.push_back(kInvalid);
+}
+
+void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
+                            const std::shared_ptr<const Mesh>& mesh)
+{
+    if (!mesh)
+    {
+        addNothing(geometry, use);
+        return;
+    }
+    _report.count("converted.geometry");
+    Instance instance;
+    instance.mesh = addMesh(mesh);
+    addInstance(geometry, use, instance);
+}
+
+void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
+{
+    const MeshFrame frame = meshFrame(*geometry.bounds);
+    MeshRequest request = requestFor(geometry, frame.meshFromLocal);
+    request.copies = _caches.geometries.liveness(*geometry.geometry) == Liveness::Deforms;
+    const auto mesh =
+        _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report);
+    if (!mesh)
+    {
+        for (const GeometryUse& use : geometry.uses)
+            addNothing(geometry, use);
+        return;
+    }
+    uint32_t meshIndex = kInvalid; // in the scene once an instance has it
+    uint32_t variant = kOwnVariant;
+    for (const GeometryUse& use : geometry.uses)
+    {
+        ++variant;
+        MeshRequest own = requestFor(geometry, use.engineFromLocal);
+        own.lift = polygonLift(_graph.states[use.state]);
+        const Clipping clipping = clipBy(geometry, use, own);
+        if (clipping == Clipping::Wholly)
+        {
+            addNothing(geometry, use);
+            continue;
+        }
+        Instance instance;
+        if (clipping != Clipping::None || own.lift != 0.0f ||
+            !placeInstance(instance, frame.localFromMesh * use.engineFromLocal))
+        {
+            _made.index.at(*geometry.geometry).patchable = false; // not by the shared mesh
+            addBaked(
+                geometry, use,
+                _caches.geometries.mesh(*geometry.geometry, variant, own, geometry.path, _report));
+            continue;
+        }
+        if (meshIndex == kInvalid)
+        {
+            _report.count("converted.geometry");
+            meshIndex = addMesh(mesh);
+        }
+        instance.mesh = meshIndex;
+        addInstance(geometry, use, instance);
+    }
+}
+
+bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& use,
+                          uint32_t before)
+{
+    TracedGeometry& traced = _made.index.at(*geometry.geometry);
+    const MeshRequest* request = _caches.geometries.lastRequest(*geometry.geometry);
+    if (!request || traced.uses.empty() || polygonLift(_graph.states[use.state]) != 0.0f)
+        return false;
+    osg::Matrixd localFromMesh;
+    if (request->transform) localFromMesh = osg::Matrixd::inverse(*request->transform);
+    const uint32_t other = traced.uses.front().instance;
+    if (other == kInvalid || !_scene.instances[other].placed) return false;
+    Instance instance;
+    instance.mesh = _scene.instances[other].mesh;
+    if (!placeInstance(instance, localFromMesh * use.engineFromLocal)) return false;
+    const TracedUse made = newInstance(geometry, use, instance);
+    traced.uses.insert(traced.uses.begin() + before, made);
+    _report.count("converted.instance");
+    return true;
+}
+
+void SceneBuilder::addInstance(const CollectedGeometry& geometry, const GeometryUse& use,
+                               Instance instance)
+{
+    const TracedUse made = newInstance(geometry, use, instance);
+    _made.index.at(*geometry.geometry).uses.push_back(made);
+    _instances.push_back(made.instance);
+}
+
+TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const GeometryUse& use,
+                                    Instance instance)
+{
+    const GraphState& state = _graph.states[use.state];
+    _materialReport = ConversionReport();
+    instance.material = _made.materials.add(_materials.material(
+        state, surfaceInputs(*geometry.geometry), {use.engineFromLocal, &_graph.texGens}));
+    _report.addHere(_materialReport);
+    setAmbient(state);
+    instance.changed = _rules.now;
+    return {appendInstance(instance), treatment(use.state, _materialReport.counts())};
+}
+
+uint32_t SceneBuilder::treatment(uint32_t state, const ConversionCounts& counts)
+{
+    std::optional<Treatment>& known = _treatments[state];
+    if (!known) known = treatmentOf(_graph.states[state], _caches.textures);
+    Treatment wanted = *known;
+    wanted.counts = counts;
+    return _made.index.treatment(wanted);
+}
+
+/// One light model for all: OpenGL has one for each drawable, but scenes do not.
+void SceneBuilder::setAmbient(const GraphState& state)
+{
+    const auto* model = state.attribute<osg::LightModel>(kLightModelSlot);
+    if (!model || model == _lightModel || !state.isOn(kLightingBit)) return;
+    const osg::Vec4& color = model->getAmbientIntensity();
+    const Vec3 ambient(color.r(), color.g(), color.b());
+    if (_lightModel && ambient != _scene.ambient)
+    {
+        _report.count("approximated.light-model");
+        return;
+    }
+    _lightModel = model;
+    if (isFinite(ambient)) _scene.ambient = ambient;
+}
+
+/// quad is that of the last snapshot, if any, and stays if the light has not moved.
+void SceneBuilder::addAreaLight(const CollectedAreaLight& source, ConversionCaches::Quad& quad)
+{
+    auto converted = convertAreaLight(*source.light, source.engineFromLocal);
+    quad.instance = kInvalid;
+    if (!converted)
+    {
+        _report.warn("skipped.area-light", "area light '" + source.path + "'",
+                     "no area, not finite or above 1e18, skipped");
+        return;
+    }
+    _report.count("converted.area-light");
+    quad.light = converted->light;
+    if (!quad.mesh || !std::equal(quad.mesh->positions.begin(), quad.mesh->positions.end(),
+                                  converted->mesh->positions.begin()))
+    {
+        converted->mesh->name = source.path;
+        converted->mesh->changed = _rules.now;
+        quad.moves |= _rules.comparable;
+        quad.mesh = converted->mesh;
+    }
+    Instance instance;
+    instance.material = _made.materials.add(lampMaterial(quad.light.radiance));
+    instance.mesh = addMesh(quad.mesh);
+    if (quad.moves || _caches.dissolved) placeInstance(instance, osg::Matrixd());
+    quad.instance = appendInstance(instance);
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,226 @@
+// SceneConverter.cpp - from a graph to a Scene, and from its changes to the next. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/convert/SceneConverter.h"
+
+#include "osgRayTrace/bridge/common/SceneExtent.h"
+#include "osgRayTrace/bridge/convert/ConversionState.h"
+#include "osgRayTrace/bridge/convert/SceneBuilder.h"
+#include "osgRayTrace/bridge/convert/SceneLights.h"
+#include "osgRayTrace/bridge/convert/ScenePatcher.h"
+#include "osgRayTrace/bridge/convert/SnapshotStamps.h"
+#include "osgRayTrace/bridge/pick/PickIndex.h"
+
+#include <osgRayTrace/AreaLight>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+void setBounds(CollectedGraph& graph, GeometryCache& geometries)
+{
+    for (CollectedGeometry& geometry : graph.geometries)
+        geometry.bounds = &geometries.bounds(*geometry.geometry);
+}
+
+/// Of all that is traced, where the lengths of the graph are those of the world.
+LengthCounts lengthsOf(const CollectedGraph& graph)
+{
+    LengthCounts lengths;
+    for (const CollectedGeometry& geometry : graph.geometries)
+    {
+        const VertexBounds& bounds = *geometry.bounds;
+        if (bounds.count == 0) continue;
+        for (const GeometryUse& use : geometry.uses)
+            lengths.add(largestCoordinate(bounds, use.engineFromLocal), bounds.count);
+    }
+    for (const CollectedAreaLight& source : graph.lights.areaLights)
+    {
+        const AreaLight& light = *source.light;
+        for (const osg::Vec3d& p :
+             {osg::Vec3d(), osg::Vec3d(light.getEdgeU()), osg::Vec3d(light.getEdgeV())})
+        {
+            const osg::Vec3d q = (osg::Vec3d(light.getCorner()) + p) * source.engineFromLocal;
+            lengths.add(std::max({std::fabs(q.x()), std::fabs(q.y()), std::fabs(q.z())}));
+        }
+    }
+    return lengths;
+}
+
+bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
+{
+    if (rule != RayTraceSettings::AUTOMATIC_COLOR) return rule == RayTraceSettings::LINEAR;
+    if (!graph.lights.areaLights.empty() || !graph.lights.environments.empty()) return true;
+    for (const CollectedGeometry& geometry : graph.geometries)
+        for (const GeometryUse& use : geometry.uses)
+            if (graph.states[use.state].attributes[kPhysicalMaterialSlot]) return true;
+    return false;
+}
+
+bool setsColor(const CollectedGraph& graph)
+{
+    for (const CollectedGeometry& geometry : graph.geometries)
+        for (const GeometryUse& use : geometry.uses)
+            if (setsCurrentColor(graph.states[use.state])) return true;
+    return false;
+}
+
+/// Geometry that OpenGL draws is where its path puts it: it may move without a conversion.
+void addUntraced(const RasterizedParts& parts, SceneIndex& index)
+{
+    std::vector<const osg::Geometry*> untraced;
+    for (const RasterizedPart& part : parts)
+    {
+        const osg::Geometry* geometry =
+            part.path.empty() ? nullptr : part.path.back()->asGeometry();
+        if (geometry && part.kind == RasterizedPart::Draw && !index.geometries.count(geometry))
+            untraced.push_back(geometry);
+    }
+    for (const osg::Geometry* geometry : untraced)
+        index.at(*geometry).uses.emplace_back();
+}
+
+/// Where planes clip depends on where a geometry is.
+bool hasClipping(const std::vector<GraphState>& states)
+{
+    return std::any_of(states.begin(), states.end(),
+                       [](const GraphState& state) { return clipPlanesOn(state) != 0; });
+}
+
+void addToCount(ConversionCounts& counts, const char* what, int64_t more)
+{
+    if (more != 0) counts[what] += static_cast<uint64_t>(more);
+}
+
+} // namespace
+
+struct SceneConverter::Implementation
+{
+    ConversionCaches caches;
+    ConvertedGraph made;
+    ConversionInput input; ///< of last
+    std::shared_ptr<const Scene> last;
+    ConversionResult lastResult;
+    uint64_t forgotten = 0; ///< meshes that were made before the caches were emptied
+    bool ordinary = false;  ///< unit is 1, and stays so as long as lengths are ordinary
+    Stamp stamp = 0;
+};
+
+SceneConverter::SceneConverter() : _implementation(std::make_unique<Implementation>()) {}
+
+SceneConverter::~SceneConverter() = default;
+
+void SceneConverter::releaseGraph()
+{
+    Implementation& state = *_implementation;
+    state.made = ConvertedGraph();
+    state.caches.vertices = SoftwareVertices();
+    state.lastResult = ConversionResult();
+    state.input = ConversionInput();
+    state.ordinary = false; // so nothing can be patched
+}
+
+void SceneConverter::forget()
+{
+    _implementation->forgotten = convertedMeshes();
+    _implementation->caches = ConversionCaches();
+}
+
+uint64_t SceneConverter::convertedMeshes() const
+{
+    return _implementation->forgotten + _implementation->caches.geometries.converted();
+}
+
+ConversionResult SceneConverter::convert(const ConversionInput& input)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    Implementation& state = *_implementation;
+    state.made = ConvertedGraph();
+    state.input = input;
+    BuildRules rules;
+    rules.now = ++state.stamp;
+
+    ConversionReport report;
+    state.caches.vertices.begin();
+    GraphCollector collector(input, state.caches.vertices, state.caches.textures, report);
+    if (input.root) input.root->accept(collector);
+    CollectedGraph graph = collector.take();
+
+    rules.linear = isLinear(graph, input.colorRule);
+    rules.setsColor = state.made.setsColor = setsColor(graph);
+    state.caches.geometries.begin(rules.now);
+    setBounds(graph, state.caches.geometries);
+    const LengthCounts lengths = lengthsOf(graph);
+    rules.unit = lengths.unit();
+    applyUnit(rules.unit, graph);
+    state.caches.textures.begin(rules.linear, rules.now);
+    const Vec3d origin(input.origin.x(), input.origin.y(), input.origin.z());
+    rules.comparable = state.last && !state.last->instances.empty() &&
+                       state.last->origin == origin && state.last->unit == rules.unit &&
+                       state.last->displayReferred == !rules.linear;
+    const auto scene = std::make_shared<Scene>();
+    SceneBuilder builder(input, graph, rules, state.caches, state.made, *scene, report);
+    builder.build();
+    state.made.materials.takeChanged();
+    ConversionReport lightReport;
+    setLights(*scene, input, graph.lights, state.caches, lightReport);
+    report.add(lightReport);
+    report.count("converted.light", scene->lights.size() - viewerLights(lightReport.counts()));
+    state.last = stampChanges(scene, state.last, rules.now);
+    state.caches.geometries.end();
+    ConversionResult result;
+    if (input.picks) result.pickIndex = std::make_shared<PickIndex>(graph, builder.instances());
+    state.ordinary = rules.unit == 1.0 && lengths.areOrdinary() && !hasClipping(graph.states);
+    state.made.lights = std::move(graph.lights);
+    state.made.lightCounts = lightReport.counts();
+    state.made.texGens = graph.texGens;
+    addUntraced(graph.rasterized, state.made.index);
+    state.caches.vertices.end();
+
+    result.scene = state.last;
+    result.paged = graph.paged;
+    result.counts = report.counts();
+    result.paths = report.paths();
+    warnOnceAReason(report, input.rasterizesRest);
+    const auto shows = [](const RasterizedPart& part)
+    { return part.kind != RasterizedPart::PlaceState; };
+    if (std::any_of(graph.rasterized.begin(), graph.rasterized.end(), shows))
+        result.rasterized = std::make_shared<RasterizedParts>(std::move(graph.rasterized));
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    state.lastResult = result;
+    return result;
+}
+
+std::optional<ConversionResult> SceneConverter::patch(const GraphChanges& changes)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    Implementation& state = *_implementation;
+    if (!state.last || !state.ordinary || (state.caches.dissolved && !state.caches.flat.empty()))
+        return std::nullopt;
+    ScenePatcher patcher(*state.last, state.input, state.caches, state.made, ++state.stamp);
+    const std::shared_ptr<const Scene> scene = patcher.patch(changes);
+    if (!scene) return std::nullopt;
+    if (patcher.changed()) state.last = scene;
+    if (patcher.leftFlat()) noteFlat(*scene, true, state.caches);
+    if (state.caches.dissolved && !state.caches.flat.empty()) return std::nullopt;
+    ConversionResult& result = state.lastResult;
+    result.scene = state.last;
+    if (patcher.spliced()) result.pickIndex.reset();
+    addToCount(result.counts, "converted.geometry", patcher.geometriesMore());
+    addToCount(result.counts, "converted.instance", patcher.instancesMore());
+    result.counts["converted.light"] =
+        state.last->lights.size() - viewerLights(state.made.lightCounts);
+    result.emptyInstances = state.made.instanceGaps.size();
+    result.emptyMeshes = state.made.meshGaps.size() + (state.made.emptyMesh == kInvalid ? 0 : 1);
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,185 @@
+// SceneLights.cpp - which lights of OpenGL's numbers shine, and what else does. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/convert/SceneLights.h"
+
+#include "osgRayTrace/bridge/appearance/lights/EnvironmentImages.h"
+#include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
+#include "osgRayTrace/bridge/common/StateStack.h"
+
+#include <osg/LightSource>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+const char* const kHeadlight = "converted.headlight";
+const char* const kSkyLight = "converted.sky-light";
+
+/// Surfaces that emit, then area lights.
+void addShining(Scene& scene, const std::vector<ConversionCaches::Quad>& quads)
+{
+    std::vector<bool> isQuad(quads.empty() ? 0 : scene.instances.size());
+    for (const ConversionCaches::Quad& quad : quads)
+        if (quad.instance != kInvalid) isQuad[quad.instance] = true;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i)
+    {
+        Instance& instance = scene.instances[i];
+        const Material& material = scene.materials[instance.material];
+        instance.light = kInvalid;
+        if (material.model != MaterialModel::Physical || material.emission == Vec3(0.0f)) continue;
+        const Mesh& mesh = *scene.meshes[instance.mesh];
+        if ((!isQuad.empty() && isQuad[i]) || mesh.triangles.empty()) continue;
+        instance.light = static_cast<uint32_t>(scene.lights.size());
+        scene.lights.push_back(meshLight(mesh.name, material.emission, i));
+    }
+    for (const ConversionCaches::Quad& quad : quads)
+    {
+        if (quad.instance == kInvalid || quad.light.radiance == Vec3(0.0f)) continue;
+        scene.instances[quad.instance].light = static_cast<uint32_t>(scene.lights.size());
+        scene.lights.push_back(quad.light);
+        scene.lights.back().instance = quad.instance;
+    }
+}
+
+/// A material with the lights that any of them has enabled.
+Material lightsOfAll(const std::vector<Material>& materials)
+{
+    Material all;
+    all.lightMask = 0;
+    for (const Material& material : materials)
+    {
+        if (!material.lit) continue;
+        all.lightMask |= material.lightMask;
+        if (all.moreLights.size() < material.moreLights.size())
+            all.moreLights.resize(material.moreLights.size());
+        for (std::size_t k = 0; k < material.moreLights.size(); ++k)
+            all.moreLights[k] |= material.moreLights[k];
+    }
+    return all;
+}
+
+struct NumberedLight
+{
+    Light light;
+    std::string path;
+    bool ofGraph; ///< not the viewer's
+};
+
+/// A light whose number a later one has.
+void countReplaced(const NumberedLight& light, ConversionReport& report)
+{
+    if (!light.ofGraph) return; // nobody has put it there
+    report.setPlace([&light] { return light.path; });
+    report.count("unused.light-replaced");
+    report.setPlace({});
+}
+
+/// As OpenGL keeps lights: by number, the last one set stays, and a light that no surface has
+/// enabled does nothing. The viewer's light is set before those of the graph.
+void addNumbered(Scene& scene, const ConversionInput& input,
+                 const std::vector<CollectedLight>& sources, ConversionReport& report)
+{
+    std::map<int, NumberedLight> lights;
+    std::map<std::string, float> unused = input.lightSizes.byName;
+    const auto add = [&](const osg::Light& source, const osg::Matrixd& matrix, bool eyeSpace,
+                         const std::string& path, bool ofGraph)
+    {
+        const int number = source.getLightNum();
+        auto light = convertLight(source, matrix, eyeSpace, scene.unit);
+        if (!light || number < 0 || number >= kLightNumbers)
+        {
+            report.warn("skipped.light", "light '" + path + "'",
+                        light ? "number is not 0 to " + std::to_string(kLightNumbers - 1) +
+                                    ", which GL_LIGHT0 + number has modes for, skipped"
+                              : "values are not finite, skipped");
+            return;
+        }
+        const std::string sizedAs = applyLightSize(input.lightSizes, path, scene.unit, *light);
+        if (!sizedAs.empty()) unused.erase(sizedAs);
+        if (light->name.empty()) light->name = path;
+        const auto before = lights.find(number);
+        if (before != lights.end()) countReplaced(before->second, report);
+        lights.insert_or_assign(number, NumberedLight{*std::move(light), path, ofGraph});
+    };
+    const double scale = 1.0 / scene.unit;
+    const osg::Matrixd engineFromWorld =
+        osg::Matrixd::translate(-input.origin) * osg::Matrixd::scale(scale, scale, scale);
+    if (input.viewLight)
+    {
+        add(*input.viewLight, input.viewLightInEyeSpace ? osg::Matrixd() : engineFromWorld,
+            input.viewLightInEyeSpace, "viewer", false);
+        for (auto& [number, numbered] : lights)
+            numbered.light.castsShadows = !input.viewLightInEyeSpace || input.headlightShadows;
+    }
+    for (const CollectedLight& light : sources)
+        if (light.source->getLight())
+            add(*light.source->getLight(), light.engineFromLocal, light.eyeSpace, light.path, true);
+
+    for (const auto& [name, size] : unused)
+        report.warn("warned.light-size", "light-sizes '" + name + "'",
+                    "there is no light of this name");
+
+    const Material enabled = lightsOfAll(scene.materials);
+    for (auto& [number, numbered] : lights)
+    {
+        if (!isLightEnabled(enabled, numbered.light.number)) continue;
+        scene.lights.push_back(std::move(numbered.light));
+        if (!numbered.ofGraph) report.count(input.viewLightInEyeSpace ? kHeadlight : kSkyLight);
+    }
+}
+
+/// Stands for environments that cannot be converted, so that nobody takes darkness for their light.
+Light magentaLight(const std::string& name)
+{
+    Light light;
+    light.name = name;
+    light.kind = LightKind::Environment;
+    light.radiance = Vec3(1.0f);
+    light.environment.image = magentaEnvironment();
+    return light;
+}
+
+/// There is one sky: the first that can be converted.
+void addEnvironment(Scene& scene, const std::vector<CollectedEnvironment>& sources,
+                    EnvironmentConverter& converter, ConversionReport& report)
+{
+    bool found = false;
+    for (const CollectedEnvironment& source : sources)
+    {
+        if (found)
+        {
+            report.warn("skipped.environment-light", "environment light '" + source.path + "'",
+                        "the scene has one before it, skipped");
+            continue;
+        }
+        const auto light = converter.convert(*source.light, source.engineFromLocal,
+                                             !scene.displayReferred, source.path, report);
+        found = light.has_value();
+        if (found) scene.lights.push_back(*light);
+    }
+    if (!found && !sources.empty()) scene.lights.push_back(magentaLight(sources.front().path));
+}
+
+} // namespace
+
+void setLights(Scene& scene, const ConversionInput& input, const LightSources& sources,
+               ConversionCaches& caches, ConversionReport& report)
+{
+    scene.lights.clear();
+    addShining(scene, caches.areaLights);
+    addNumbered(scene, input, sources.lights, report);
+    addEnvironment(scene, sources.environments, caches.environment, report);
+}
+
+uint64_t viewerLights(const ConversionCounts& counts)
+{
+    return counts.count(kHeadlight) + counts.count(kSkyLight);
+}
+
+} // namespace osgRayTrace::engine

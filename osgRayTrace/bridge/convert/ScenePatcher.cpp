@@ -1,0 +1,384 @@
+// ScenePatcher.cpp - edits of state, of lights and of which nodes there are. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/convert/ScenePatcher.h"
+
+#include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
+#include "osgRayTrace/bridge/appearance/materials/MaterialValues.h"
+#include "osgRayTrace/bridge/convert/PlacePatcher.h"
+#include "osgRayTrace/bridge/convert/SceneBuilder.h"
+#include "osgRayTrace/bridge/convert/SceneLights.h"
+#include "osgRayTrace/bridge/convert/SnapshotStamps.h"
+
+#include <osgRayTrace/AreaLight>
+
+#include <algorithm>
+#include <utility>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Of what came, in units of the world.
+LengthCounts lengthsOf(const CollectedGraph& graph)
+{
+    LengthCounts lengths;
+    for (const CollectedGeometry& geometry : graph.geometries)
+        for (const GeometryUse& use : geometry.uses)
+            if (geometry.bounds->count > 0)
+                lengths.add(largestCoordinate(*geometry.bounds, use.engineFromLocal),
+                            geometry.bounds->count);
+    return lengths;
+}
+
+bool anyShines(const std::vector<Light>& lights)
+{
+    return std::any_of(lights.begin(), lights.end(),
+                       [](const Light& light) { return light.instance != kInvalid; });
+}
+
+osg::NodePath fromRoot(const osg::NodePath& path, osg::Node* root)
+{
+    osg::NodePath whole = path;
+    if (whole.front() != root) whole.insert(whole.begin(), root);
+    return whole;
+}
+
+} // namespace
+
+ScenePatcher::ScenePatcher(const Scene& last, const ConversionInput& input,
+                           ConversionCaches& caches, ConvertedGraph& made, Stamp now)
+    : _last(last),
+      _input(input),
+      _caches(caches),
+      _made(made),
+      _now(now),
+      _scene(std::make_shared<Scene>(last))
+{
+}
+
+std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
+{
+    _caches.geometries.begin(_now);
+    _caches.textures.resume(_now);
+    for (const GraphSplice& one : changes.splices)
+        if (!splice(one)) return nullptr;
+    takeMaterials();
+    if (!moveAndDeform(changes) || !restate(changes.restated)) return nullptr;
+    if (changes.lights && !relightLamps()) return nullptr;
+    takeMaterials();
+    const bool relights = changes.lights || _spliced || !changes.restated.empty();
+    if (relights && !relight()) return nullptr;
+    dropRemoved();
+    if (_changed) _scene->changed = _now;
+    return std::move(_scene);
+}
+
+bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
+{
+    PlacePatcher places(*_scene, _made.index, _caches.geometries, _now);
+    for (const osg::Geometry* geometry : changes.deformed)
+        _caches.geometries.noteLiveness(*geometry, Liveness::Deforms);
+    for (const MovedUse& use : changes.moved)
+        if (!places.move(use)) return false;
+    for (const osg::Geometry* geometry : changes.deformed)
+        if (!places.deform(*geometry)) return false;
+    _changed |= places.changed();
+    _leftFlat |= places.leftFlat();
+    return true;
+}
+
+/// Where equal materials become one, or one becomes two, indices of others stay what they are.
+bool ScenePatcher::restate(const std::vector<RestatedUse>& uses)
+{
+    if (uses.empty()) return true;
+    if (_input.materials) return false; // rules look at names
+    StateStack states = statesAbove(_input);
+    ConversionReport report;
+    MaterialConverter converter({!_scene->displayReferred, _input.cullAllRays, _made.setsColor},
+                                _caches.textures, report);
+    for (const RestatedUse& use : uses)
+        if (!restateUse(use, states, converter, report)) return false;
+    if (_recolors && setsColor() != _made.setsColor) return false; // a rule of all materials
+    for (const auto& [instance, material] : _restated)
+        _made.materials.release(_scene->instances[instance].material);
+    for (const auto& [index, material] : _restated)
+    {
+        Instance& instance = _scene->instances[index];
+        const uint32_t before = instance.material;
+        instance.material = _made.materials.add(material);
+        if (instance.material == before) continue;
+        instance.changed = _now;
+        _changed = true;
+    }
+    return true;
+}
+
+/// Whether a state of the scene makes another colour current: see MaterialRules.
+bool ScenePatcher::setsColor() const
+{
+    const std::vector<Treatment>& treatments = _made.index.treatments;
+    for (const auto& [geometry, traced] : _made.index.geometries)
+        for (const TracedUse& use : traced.uses)
+            if (use.treatment != kInvalid && treatments[use.treatment].setsColor) return true;
+    return false;
+}
+
+bool ScenePatcher::restateUse(const RestatedUse& use, StateStack& states,
+                              MaterialConverter& converter, ConversionReport& report)
+{
+    const auto found = _made.index.geometries.find(use.geometry);
+    if (found == _made.index.geometries.end() || !found->second.patchable) return false;
+    if (found->second.uses.size() != use.uses) return false;
+    TracedUse& traced = found->second.uses[use.use];
+    if (traced.treatment == kInvalid) return false;
+
+    int pushed = 0;
+    for (const osg::Node* node : fromRoot(use.path, _input.root))
+        if (const osg::StateSet* stateSet = node->getStateSet())
+        {
+            states.push(*stateSet);
+            ++pushed;
+        }
+    const GraphState& state = states.states()[states.top()];
+    for (; pushed > 0; --pushed)
+        states.pop();
+    Treatment treatment = treatmentOf(state, _caches.textures);
+    const Treatment before = _made.index.treatments[traced.treatment];
+    if (traced.instance == kInvalid) return treatment == before;
+    const Vec3d& origin = _scene->origin;
+    report = ConversionReport();
+    const Material material = converter.material(
+        state, surfaceInputs(*use.geometry),
+        {use.worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z),
+         &_made.texGens});
+    treatment.counts = report.counts();
+    const bool setsColor = std::exchange(treatment.setsColor, before.setsColor);
+    if (!(treatment == before)) return false;
+    if (setsColor != before.setsColor)
+    {
+        _recolors = true;
+        treatment.setsColor = setsColor;
+        traced.treatment = _made.index.treatment(treatment);
+    }
+    if (!sameMaterial(material, _made.materials[_scene->instances[traced.instance].material]))
+        _restated.emplace_back(traced.instance, material);
+    return true;
+}
+
+/// Of area lights; their places and shapes are a matter of the whole graph.
+bool ScenePatcher::relightLamps()
+{
+    for (std::size_t i = 0; i < _made.lights.areaLights.size(); ++i)
+    {
+        const CollectedAreaLight& source = _made.lights.areaLights[i];
+        ConversionCaches::Quad& quad = _caches.areaLights[i];
+        const auto converted = convertAreaLight(*source.light, source.engineFromLocal);
+        if (converted.has_value() != (quad.instance != kInvalid)) return false;
+        if (!converted) continue;
+        if (!std::equal(quad.mesh->positions.begin(), quad.mesh->positions.end(),
+                        converted->mesh->positions.begin()))
+            return false;
+        quad.light = converted->light;
+        Instance& instance = _scene->instances[quad.instance];
+        const Material lamp = lampMaterial(quad.light.radiance);
+        if (sameMaterial(lamp, _made.materials[instance.material])) continue;
+        _made.materials.release(instance.material);
+        instance.material = _made.materials.add(lamp);
+        instance.changed = _now;
+        _changed = true;
+    }
+    return true;
+}
+
+/// Those that have changed, and their textures.
+void ScenePatcher::takeMaterials()
+{
+    const std::vector<uint32_t> exchanged = _made.materials.takeChanged();
+    const std::vector<Material>& all = _made.materials.all();
+    if (!exchanged.empty())
+    {
+        if (!all.empty()) _scene->materials.resize(all.size());
+        for (const uint32_t index : exchanged)
+        {
+            _scene->materials[index] = all[index];
+            _scene->materials[index].changed = _now;
+        }
+        _caches.textures.keepOnly(_made.materials.usedTextures(_caches.textures.all().size()));
+        _changed = true;
+    }
+    if (_scene->textures == _caches.textures.all()) return;
+    _scene->textures = _caches.textures.all();
+    _changed = true;
+}
+
+bool ScenePatcher::relight()
+{
+    ConversionReport report;
+    setLights(*_scene, _input, _made.lights, _caches, report);
+    if (report.counts() != _made.lightCounts) return false;
+    _changed |= stampLights(_scene->lights, _last.lights, _now);
+    if (!anyShines(_last.lights) && !anyShines(_scene->lights)) return true;
+    const std::size_t count = std::min(_last.instances.size(), _scene->instances.size());
+    for (std::size_t i = 0; i < count; ++i)
+        if (_scene->instances[i].light != _last.instances[i].light)
+            _scene->instances[i].changed = _now;
+    return true;
+}
+
+bool ScenePatcher::splice(const GraphSplice& splice)
+{
+    _spliced = _changed = true;
+    return remove(splice) && (splice.added.empty() || add(splice));
+}
+
+bool ScenePatcher::remove(const GraphSplice& splice)
+{
+    // Before any goes: those that follow shorten the lists.
+    for (const ChangedUse& gone : splice.removed)
+    {
+        const auto found = _made.index.geometries.find(gone.geometry);
+        if (found == _made.index.geometries.end()) return false;
+        const TracedGeometry& traced = found->second;
+        if (!traced.patchable || !traced.plain || traced.uses.size() != gone.uses) return false;
+    }
+    // The last of each first: those before it keep their numbers.
+    for (auto gone = splice.removed.rbegin(); gone != splice.removed.rend(); ++gone)
+    {
+        const auto found = _made.index.geometries.find(gone->geometry);
+        if (!removeUse(found->second, gone->use)) return false;
+        if (!found->second.uses.empty()) continue;
+        _removed.push_back(found->second.geometry);
+        _made.index.geometries.erase(found);
+        --_geometries;
+    }
+    return true;
+}
+
+bool ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
+{
+    const TracedUse gone = traced.uses[use];
+    if (gone.instance == kInvalid || gone.treatment == kInvalid) return false;
+    Instance& instance = _scene->instances[gone.instance];
+    if (traced.uses.size() > 1 && !instance.placed) return false;
+    const Treatment& treatment = _made.index.treatments[gone.treatment];
+    traced.uses.erase(traced.uses.begin() + use);
+    if (!treatment.counts.empty()) return false; // paths may be named
+    if ((treatment.hasAmbient || treatment.physical || treatment.setsColor) &&
+        isLastOf(gone.treatment))
+        return false;
+
+    _leftFlat |= !instance.placed;
+    _made.materials.release(instance.material);
+    const uint32_t mesh = instance.mesh;
+    instance = Instance();
+    instance.mesh = emptyMeshIndex();
+    instance.placed = true;
+    instance.changed = _now;
+    _made.instanceGaps.push_back(gone.instance);
+    --_instances;
+    if (!traced.uses.empty()) return true;
+    _scene->meshes[mesh] = emptyMesh();
+    _made.meshGaps.push_back(mesh);
+    return true;
+}
+
+/// Whether no other use has this treatment: what it alone decides for all of the scene would
+/// change.
+bool ScenePatcher::isLastOf(uint32_t treatment) const
+{
+    for (const auto& [geometry, traced] : _made.index.geometries)
+        for (const TracedUse& use : traced.uses)
+            if (use.treatment == treatment && use.instance != kInvalid) return false;
+    return true;
+}
+
+uint32_t ScenePatcher::emptyMeshIndex()
+{
+    if (_made.emptyMesh == kInvalid)
+    {
+        _made.emptyMesh = static_cast<uint32_t>(_scene->meshes.size());
+        _scene->meshes.push_back(emptyMesh());
+    }
+    return _made.emptyMesh;
+}
+
+bool ScenePatcher::add(const GraphSplice& splice)
+{
+    if (_input.materials) return false; // rules look at names
+    ConversionReport report;
+    GraphCollector collector(_input, _caches.vertices, _caches.textures, report);
+    if (!collector.collectAt(fromRoot(splice.added, _input.root))) return false;
+    CollectedGraph graph = collector.take();
+    const LightSources& lights = graph.lights;
+    const bool plain = lights.lights.empty() && lights.areaLights.empty() &&
+                       lights.environments.empty() && graph.rasterized.empty() && !graph.paged &&
+                       report.counts().empty();
+    if (!plain) return false;
+    graph.texGens = _made.texGens;
+    uint64_t vertices = 0;
+    for (CollectedGeometry& geometry : graph.geometries)
+    {
+        geometry.bounds = &_caches.geometries.bounds(*geometry.geometry);
+        vertices += geometry.bounds->count;
+    }
+    // So much shall be flat.
+    if (vertices > kSmallFlat && vertices >= _caches.flatVertices) return false;
+    if (!graph.geometries.empty() && !lengthsOf(graph).areOrdinary()) return false;
+    for (const CollectedGeometry& geometry : graph.geometries)
+        if (!addGeometry(graph, geometry, splice)) return false;
+    return true;
+}
+
+bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
+                               const GraphSplice& splice)
+{
+    const bool automatic = _input.colorRule == RayTraceSettings::AUTOMATIC_COLOR;
+    for (const GeometryUse& use : geometry.uses)
+    {
+        const Treatment treatment = treatmentOf(graph.states[use.state], _caches.textures);
+        if (treatment.physical && automatic && _scene->displayReferred) return false;
+        if (treatment.setsColor && !_made.setsColor) return false;
+        if (treatment.hasAmbient && treatment.ambient != _scene->ambient) return false;
+        if (treatment.clipPlanes != 0) return false;
+    }
+    const auto known = _made.index.geometries.find(geometry.geometry);
+    const bool isNew = known == _made.index.geometries.end();
+    if (!isNew && !(known->second.patchable && known->second.plain)) return false;
+    ConversionReport report;
+    BuildRules rules;
+    rules.linear = !_scene->displayReferred;
+    rules.setsColor = _made.setsColor;
+    rules.comparable = true;
+    rules.now = _now;
+    SceneBuilder builder(_input, graph, rules, _caches, _made, *_scene, report);
+    std::vector<ChangedUse> uses;
+    for (const ChangedUse& use : splice.uses)
+        if (use.geometry == geometry.geometry) uses.push_back(use);
+    if (uses.size() != geometry.uses.size()) return false;
+    if (isNew)
+        builder.add(geometry);
+    else
+        for (std::size_t i = 0; i < uses.size(); ++i)
+            if (uses[i].use > known->second.uses.size() ||
+                !builder.addUse(geometry, geometry.uses[i], uses[i].use))
+                return false;
+    const TracedGeometry& traced = _made.index.at(*geometry.geometry);
+    if (!traced.patchable || !traced.plain || traced.uses.size() != uses.front().uses) return false;
+    const auto isThere = [this](const TracedUse& use)
+    { return use.instance != kInvalid && _scene->instances[use.instance].placed; };
+    if (!std::all_of(traced.uses.begin(), traced.uses.end(), isThere)) return false;
+    _geometries += isNew;
+    _instances += static_cast<int64_t>(uses.size());
+    return report.remarks() == 0;
+}
+
+/// What came back in another place is kept.
+void ScenePatcher::dropRemoved()
+{
+    for (const osg::ref_ptr<const osg::Geometry>& geometry : _removed)
+        if (_made.index.geometries.count(geometry) == 0) _caches.geometries.drop(geometry);
+}
+
+} // namespace osgRayTrace::engine

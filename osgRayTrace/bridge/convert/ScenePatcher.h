@@ -1,0 +1,76 @@
+// ScenePatcher.h - a new Scene from the last one, with nothing redone but what has changed. Layer:
+// bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
+#include "osgRayTrace/bridge/changes/GraphChanges.h"
+#include "osgRayTrace/bridge/convert/ConversionState.h"
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// For one patch. What it does to made and caches belongs to the scene that patch() returns; if
+/// that is none, to no scene: then the graph must be converted again.
+class ScenePatcher
+{
+public:
+    /// last: in units of 1, and of ordinary lengths (see SceneExtent).
+    ScenePatcher(const Scene& last, const ConversionInput& input, ConversionCaches& caches,
+                 ConvertedGraph& made, Stamp now);
+
+    /// Null if there is more to do than this knows.
+    std::shared_ptr<Scene> patch(const GraphChanges& changes);
+
+    /// patch() has changed something.
+    bool changed() const { return _changed; }
+
+    /// Instances came or went.
+    bool spliced() const { return _spliced; }
+
+    /// Some mesh left the flat BVH.
+    bool leftFlat() const { return _leftFlat; }
+
+    /// What is converted now, beyond what was or less.
+    int64_t geometriesMore() const { return _geometries; }
+    int64_t instancesMore() const { return _instances; }
+
+private:
+    bool splice(const GraphSplice& splice);
+    bool remove(const GraphSplice& splice);
+    bool removeUse(TracedGeometry& traced, uint32_t use);
+    bool isLastOf(uint32_t treatment) const;
+    bool add(const GraphSplice& splice);
+    bool addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
+                     const GraphSplice& splice);
+    bool moveAndDeform(const GraphChanges& changes);
+    bool restate(const std::vector<RestatedUse>& uses);
+    bool setsColor() const;
+    bool restateUse(const RestatedUse& use, StateStack& states, MaterialConverter& converter,
+                    ConversionReport& report);
+    bool relightLamps();
+    bool relight();
+    void takeMaterials();
+    void dropRemoved();
+    uint32_t emptyMeshIndex();
+
+    const Scene& _last;
+    const ConversionInput& _input;
+    ConversionCaches& _caches;
+    ConvertedGraph& _made;
+    Stamp _now;
+    std::shared_ptr<Scene> _scene;
+    std::vector<std::pair<uint32_t, Material>> _restated; ///< instances that get other materials
+    std::vector<osg::ref_ptr<const osg::Geometry>> _removed;
+    int64_t _geometries = 0, _instances = 0;
+    bool _changed = false;
+    bool _leftFlat = false;
+    bool _recolors = false; ///< a use has begun or ceased to set the current colour
+    bool _spliced = false;
+};
+
+} // namespace osgRayTrace::engine

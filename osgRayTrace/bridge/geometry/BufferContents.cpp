@@ -1,0 +1,39 @@
+// BufferContents.cpp - hashes of arrays. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/geometry/BufferContents.h"
+
+#include "osgRayTrace/bridge/geometry/BufferPrints.h"
+
+#include <iterator>
+
+namespace osgRayTrace::engine
+{
+
+bool BufferContents::change(const osg::BufferData& data)
+{
+    const uint64_t print = contentsPrint(data);
+    const bool same = _print == print;
+    _print = print;
+    return !same;
+}
+
+uint64_t BufferVersions::of(const osg::BufferData& data)
+{
+    const auto [known, isNew] = _entries.try_emplace(&data);
+    Entry& entry = known->second;
+    entry.round = _round;
+    const uint64_t print = bufferPrint(bufferKindOf(data), data);
+    if (!isNew && print == entry.print) return entry.version;
+    if (isNew || entry.contents.change(data)) entry.version = ++_versions;
+    if (isNew) entry.data = keep(&data);
+    entry.print = print;
+    return entry.version;
+}
+
+void BufferVersions::end()
+{
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+        entry = entry->second.round == _round ? std::next(entry) : _entries.erase(entry);
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,286 @@
+// GeometryCache.cpp - fingerprints of geometry. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/geometry/GeometryCache.h"
+
+#include "osgRayTrace/base/NeverDestroyed.h"
+#include "osgRayTrace/bridge/common/ArrayReader.h"
+#include "osgRayTrace/bridge/geometry/BoundArrays.h"
+#include "osgRayTrace/bridge/geometry/BufferPrints.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Order of a fingerprint.
+enum : std::size_t
+{
+    kPositions,
+    kNormals,
+    kColors,
+    kUvs,
+    kUvs1,
+    kPrimitives, ///< and all that follow
+};
+
+/// Equal triangles become one array, by which a BVH that can be refitted is known.
+void shareTriangles(Mesh& mesh, const Mesh& before)
+{
+    if (mesh.positions.size() == before.positions.size() &&
+        mesh.triangles.size() == before.triangles.size() &&
+        std::equal(mesh.triangles.begin(), mesh.triangles.end(), before.triangles.begin()))
+        mesh.triangles = before.triangles;
+}
+
+} // namespace
+
+bool GeometryCache::BufferPrint::operator==(const BufferPrint& other) const
+{
+    const auto values = [](const BufferPrint& p) {
+        return std::make_tuple(p.buffer.get(), p.modified, p.data, p.bytes, p.kind, p.count,
+                               p.ranges);
+    };
+    return values(*this) == values(other);
+}
+
+/// The values decide if the modified count or the place of the data alone differs; what was
+/// compared is remembered in both.
+bool GeometryCache::isSame(BufferPrint& then, BufferPrint& now)
+{
+    if (then == now)
+    {
+        now.contents = then.contents;
+        return true;
+    }
+    BufferPrint values = now;
+    values.modified = then.modified;
+    values.data = then.data;
+    if (!(values == then)) return false;
+    if (!now.contents) now.contents = contentsPrint(*now.buffer);
+    if (then.contents != now.contents) return false;
+    then = now;
+    return true;
+}
+
+/// Compares all, also behind what differs, so that the contents of all that is modified are known
+/// the next time.
+bool GeometryCache::isSame(Fingerprint& then, Fingerprint& now)
+{
+    if (then.size() != now.size()) return false;
+    bool same = true;
+    for (std::size_t i = 0; i < then.size(); ++i)
+        same &= isSame(then[i], now[i]);
+    return same;
+}
+
+GeometryCache::BufferPrint GeometryCache::printOf(const osg::BufferData* buffer, unsigned int kind)
+{
+    BufferPrint print;
+    print.buffer = buffer;
+    print.kind = kind;
+    if (!buffer) return print;
+    print.modified = buffer->getModifiedCount();
+    print.data = buffer->getDataPointer();
+    print.bytes = buffer->getTotalDataSize();
+    return print;
+}
+
+GeometryCache::Fingerprint GeometryCache::fingerprintOf(const osg::Geometry& geometry)
+{
+    Fingerprint prints;
+    prints.reserve(kPrimitives + geometry.getNumPrimitiveSets());
+    const auto add = [&prints](const osg::BufferData* buffer, unsigned int kind) -> BufferPrint&
+    { return prints.emplace_back(printOf(buffer, kind)); };
+    // In the order of the indices above.
+    for (const osg::Array* array :
+         {positionArray(geometry), geometry.getNormalArray(), geometry.getColorArray(),
+          geometry.getTexCoordArray(0), geometry.getTexCoordArray(1)})
+        add(array, static_cast<unsigned int>(osg::getBinding(array)));
+    for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i)
+    {
+        const osg::PrimitiveSet* set = geometry.getPrimitiveSet(i);
+        if (!set) continue;
+        BufferPrint& print = add(set, set->getMode());
+        if (hasTriangles(*set))
+            print.count = set->getNumIndices(); // others may lack what they count
+        print.ranges = rangesPrint(*set);
+    }
+    return prints;
+}
+
+const GeometryCache::Entry* GeometryCache::find(const osg::Geometry& geometry) const
+{
+    const auto found = _entries.find({&geometry, kOwnVariant});
+    if (found == _entries.end()) return nullptr;
+    return found->second.geometry.get() == &geometry ? &found->second : nullptr;
+}
+
+GeometryCache::Entry* GeometryCache::find(const osg::Geometry& geometry)
+{
+    return const_cast<Entry*>(std::as_const(*this).find(geometry));
+}
+
+const MeshRequest* GeometryCache::lastRequest(const osg::Geometry& geometry) const
+{
+    const Entry* entry = find(geometry);
+    return entry ? &entry->request : nullptr;
+}
+
+const ConversionCounts& GeometryCache::lastCounts(const osg::Geometry& geometry) const
+{
+    static const NeverDestroyed<ConversionCounts> none;
+    const Entry* entry = find(geometry);
+    return entry ? entry->counts : *none;
+}
+
+bool GeometryCache::hasSameArrays(const osg::Geometry& geometry)
+{
+    Entry* entry = find(geometry);
+    if (!entry) return false;
+    Fingerprint now = fingerprintOf(geometry);
+    if (!isSame(entry->fingerprint, now)) return false;
+    entry->same = _stamp;
+    return true;
+}
+
+Liveness GeometryCache::liveness(const osg::Geometry& geometry) const
+{
+    const auto found = _liveness.find(&geometry);
+    if (found == _liveness.end() || found->second.geometry != &geometry) return Liveness::Still;
+    return found->second.liveness;
+}
+
+void GeometryCache::noteLiveness(const osg::Geometry& geometry, Liveness liveness)
+{
+    if (liveness == Liveness::Still) return;
+    LivenessEntry& known = _liveness[&geometry];
+    if (known.geometry != &geometry) known = {&geometry, Liveness::Still};
+    known.liveness = std::max(known.liveness, liveness);
+}
+
+/// Positions changed alone, as a rule. Not if values were repaired, which may have been by
+/// positions, or if vertices were split, which is by primitive sets: then counts or sizes say so.
+KeptArrays GeometryCache::keptArrays(Entry& before, Fingerprint& now)
+{
+    KeptArrays kept;
+    Fingerprint& then = before.fingerprint;
+    if (!before.counts.empty() || then.size() != now.size()) return kept;
+    for (std::size_t i = kPrimitives; i < then.size(); ++i)
+        if (!isSame(then[i], now[i])) return kept;
+    if (isSame(then[kNormals], now[kNormals])) kept.normals = before.mesh->normals;
+    if (isSame(then[kColors], now[kColors])) kept.colors = before.mesh->colors;
+    if (isSame(then[kUvs], now[kUvs]))
+    {
+        kept.uvs = before.mesh->uvs;
+        kept.rs = before.mesh->rs;
+    }
+    if (isSame(then[kUvs1], now[kUvs1]))
+    {
+        kept.uvs1 = before.mesh->uvs1;
+        kept.rs1 = before.mesh->rs1;
+    }
+    return kept;
+}
+
+std::shared_ptr<const Mesh> GeometryCache::mesh(const osg::Geometry& geometry, uint32_t variant,
+                                                const MeshRequest& request, const std::string& path,
+                                                ConversionReport& report)
+{
+    Entry& entry = _entries[{&geometry, variant}];
+    const bool had = entry.used != 0 && entry.geometry.get() == &geometry;
+    Fingerprint fingerprint;
+    bool sameArrays = had && entry.same == _stamp;
+    if (!sameArrays)
+    {
+        fingerprint = fingerprintOf(geometry);
+        sameArrays = had && isSame(entry.fingerprint, fingerprint);
+    }
+    const bool known =
+        sameArrays && entry.variance == geometry.getDataVariance() && entry.request == request;
+    if (!known)
+    {
+        if (fingerprint.empty()) fingerprint = entry.fingerprint;
+        const bool other = had && !sameArrays;
+        const bool kept = other && entry.mesh && entry.request == request && request.copies;
+        ConvertedMesh converted = convertGeometry(
+            geometry, request, kept ? keptArrays(entry, fingerprint) : KeptArrays());
+        if (converted.mesh)
+        {
+            converted.mesh->name = path;
+            converted.mesh->changed = _stamp;
+            converted.mesh->deforms = request.copies;
+            if (other && entry.mesh && request.copies && entry.request.copies)
+                shareTriangles(*converted.mesh, *entry.mesh);
+        }
+        if (other && entry.fingerprint[kPositions].buffer != fingerprint[kPositions].buffer)
+            dropBounds(entry.fingerprint[kPositions]);
+        ++_converted;
+        warnAboutGeometry(path, converted.counts);
+        entry = {&geometry, geometry.getDataVariance(), std::move(fingerprint),
+                 request,   std::move(converted.mesh),  std::move(converted.counts),
+                 0};
+    }
+    entry.used = _stamp;
+    report.add(entry.counts);
+    return entry.mesh;
+}
+
+const VertexBounds& GeometryCache::bounds(const osg::Geometry& geometry)
+{
+    static const VertexBounds none;
+    const osg::Array* array = positionArray(geometry);
+    if (!isReadable(array)) return none;
+
+    BoundsEntry& entry = _bounds[array];
+    const BufferPrint positions = printOf(array, static_cast<unsigned int>(array->getDataType()));
+    if (entry.used == 0 || !(entry.positions == positions))
+    {
+        entry.positions = positions;
+        entry.bounds = vertexBounds(*array);
+    }
+    entry.used = _stamp;
+    return entry.bounds;
+}
+
+/// Of an array that was exchanged; others that have it get them again. Not if somebody looks at
+/// them.
+void GeometryCache::dropBounds(const BufferPrint& positions)
+{
+    if (!positions.buffer) return;
+    const auto known = _bounds.find(positions.buffer->asArray());
+    if (known != _bounds.end() && known->second.used != _stamp) _bounds.erase(known);
+}
+
+/// Uses have no variants of their own where it is called, or they are forgotten with the next
+/// conversion.
+void GeometryCache::drop(const osg::Geometry* geometry)
+{
+    const auto entry = _entries.find({geometry, kOwnVariant});
+    if (entry != _entries.end())
+    {
+        if (!entry->second.fingerprint.empty())
+        {
+            const osg::BufferData* positions = entry->second.fingerprint[kPositions].buffer.get();
+            if (positions) _bounds.erase(positions->asArray());
+        }
+        _entries.erase(entry);
+    }
+    _liveness.erase(geometry);
+}
+
+void GeometryCache::end()
+{
+    for (auto entry = _bounds.begin(); entry != _bounds.end();)
+        entry = entry->second.used == _stamp ? std::next(entry) : _bounds.erase(entry);
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+        entry = entry->second.used == _stamp ? std::next(entry) : _entries.erase(entry);
+    for (auto live = _liveness.begin(); live != _liveness.end();)
+        live = _entries.count({live->first, kOwnVariant}) ? std::next(live) : _liveness.erase(live);
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,53 @@
+// GeometryConverter.h - from an osg::Geometry to a Mesh. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/common/ConversionReport.h"
+#include "osgRayTrace/bridge/geometry/MeshRequest.h"
+#include "osgRayTrace/bridge/geometry/TriangleList.h"
+#include "osgRayTrace/bridge/geometry/VertexMap.h"
+#include "osgRayTrace/scene/Mesh.h"
+
+#include <osg/Geometry>
+#include <osg/Matrixd>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+struct ConvertedMesh
+{
+    std::shared_ptr<Mesh> mesh; ///< null if nothing is left to trace; then counts tell why
+    ConversionCounts counts;
+};
+
+/// Arrays of an earlier mesh of the geometry that were made from the very same data; empty: none.
+struct KeptArrays
+{
+    SharedArray<Vec3> normals;
+    SharedArray<Vec2> uvs;
+    SharedArray<Vec2> uvs1;
+    SharedArray<float> rs, rs1;
+    SharedArray<Vec4> colors;
+};
+
+/// Every triangle of the mesh is sound: indices in range, vertices finite and, transformed, at most
+/// 1e18 in magnitude, area not zero; the others are dropped and counted. Without usable normals the
+/// mesh has none, that is flat facets (OpenGL would light all of it with the last normal that some
+/// other object used). Where layout, transform and DataVariance allow it the mesh shares the OSG
+/// arrays and keeps them alive; nobody may then write to them while a Scene holds the mesh.
+ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request,
+                              const KeptArrays& kept = {});
+
+/// Values differ from primitive set to primitive set: then vertices are split.
+bool hasValuesBySet(const osg::Geometry& geometry);
+
+/// Gives a vertex that is used by several primitive sets one copy for each, and renumbers the
+/// triangles. Those with indices out of range are left as they are: they are dropped later.
+VertexMap splitByPrimitiveSet(TriangleList& list, std::size_t vertexCount);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,56 @@
+// HostArrays.cpp - arrays of the host that a scene reads in place, and who frees them. Layer:
+// bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/geometry/HostArrays.h"
+
+#include "osgRayTrace/base/NeverDestroyed.h"
+
+#include <list>
+#include <mutex>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+using Arrays = std::list<osg::ref_ptr<const osg::BufferData>>;
+
+struct Released
+{
+    std::mutex mutex; // any thread adds, those of updates take
+    Arrays arrays;
+};
+
+Released& released()
+{
+    static NeverDestroyed<Released> all;
+    return *all;
+}
+
+/// The list of one array moves over as it is: to let go of it must not need memory.
+void release(Arrays* one)
+{
+    {
+        std::lock_guard<std::mutex> lock(released().mutex);
+        released().arrays.splice(released().arrays.end(), *one);
+    }
+    delete one;
+}
+
+} // namespace
+
+std::shared_ptr<const void> keepHostArray(const osg::BufferData& array)
+{
+    auto one = std::make_unique<Arrays>(1, &array);
+    return std::shared_ptr<Arrays>(one.release(), release);
+}
+
+void releaseHostArrays() noexcept
+{
+    Arrays arrays;
+    std::lock_guard<std::mutex> lock(released().mutex);
+    arrays.swap(released().arrays);
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,304 @@
+// VertexArrays.cpp - reads, checks and transforms vertex data, or shares it. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/geometry/VertexArrays.h"
+
+#include "osgRayTrace/bridge/geometry/HostArrays.h"
+
+#include "osgRayTrace/film/ToneMap.h"
+
+#include <cmath>
+#include <memory>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr float kLargestCoordinate = 1e18f; ///< Embree's limit is 1.844e18
+constexpr float kUnitTolerance = 1e-3f;     ///< of a normal's squared length, else it is normalised
+
+static_assert(sizeof(Vec2) == 8 && sizeof(Vec3) == 12 && sizeof(Vec4) == 16, "rows are packed");
+
+/// False for NaN as well. A plain loop over floats: the compiler vectorizes it.
+bool allWithin(const float* values, std::size_t count, float largest)
+{
+    unsigned int outside = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        outside |= static_cast<unsigned int>(!(std::fabs(values[i]) <= largest));
+    return outside == 0;
+}
+
+bool allUnit(const Vec3* normals, std::size_t count)
+{
+    unsigned int off = 0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        const Vec3& n = normals[i];
+        const float error = n.x * n.x + n.y * n.y + n.z * n.z - 1.0f;
+        off |= static_cast<unsigned int>(!(std::fabs(error) <= kUnitTolerance));
+    }
+    return off == 0;
+}
+
+/// Embree loads vertices 16 bytes at a time, so it reads 4 bytes past the last one. They lie within
+/// the same page, and so cannot fault, unless the array ends where a page ends.
+bool mayBeReadPast(const void* end)
+{
+    constexpr std::uintptr_t kSmallestPage = 4096;
+    return reinterpret_cast<std::uintptr_t>(end) % kSmallestPage != 0;
+}
+
+/// Engine memory for count values, with room for that read.
+template <class T> std::vector<T> paddedVector(std::size_t count, const T& value)
+{
+    std::vector<T> values;
+    values.reserve(count + 1);
+    values.assign(count, value);
+    return values;
+}
+
+template <class T> SharedArray<T> copyOf(const T* values, std::size_t count)
+{
+    std::vector<T> copy;
+    copy.reserve(count + 1);
+    copy.assign(values, values + count);
+    return copy;
+}
+
+/// An osg::Matrixd as a map of points; row vectors times matrix.
+struct PointMap
+{
+    Vec3d x{1.0, 0.0, 0.0}, y{0.0, 1.0, 0.0}, z{0.0, 0.0, 1.0}, translation{0.0};
+
+    explicit PointMap(const std::optional<osg::Matrixd>& matrix)
+    {
+        if (!matrix) return;
+        const osg::Matrixd& m = *matrix;
+        x = {m(0, 0), m(0, 1), m(0, 2)};
+        y = {m(1, 0), m(1, 1), m(1, 2)};
+        z = {m(2, 0), m(2, 1), m(2, 2)};
+        translation = {m(3, 0), m(3, 1), m(3, 2)};
+    }
+
+    Vec3d operator()(const Vec3d& p) const { return x * p.x + y * p.y + z * p.z + translation; }
+};
+
+/// Inverse transpose times the sign of the determinant that keeps outward normals outward: the
+/// cofactors, scaled to about 1 so that tiny and huge transforms stay in range.
+struct NormalMap
+{
+    Vec3d x{1.0, 0.0, 0.0}, y{0.0, 1.0, 0.0}, z{0.0, 0.0, 1.0};
+
+    explicit NormalMap(const std::optional<osg::Matrixd>& matrix)
+    {
+        if (!matrix) return;
+        const PointMap m(matrix);
+        double largest = 0.0;
+        for (const Vec3d& row : {m.x, m.y, m.z})
+            largest = std::max({largest, std::fabs(row.x), std::fabs(row.y), std::fabs(row.z)});
+        const Vec3d a = m.x / largest, b = m.y / largest, c = m.z / largest;
+        const double sign = glm::dot(glm::cross(a, b), c) < 0.0 ? -1.0 : 1.0;
+        x = glm::cross(b, c) * sign;
+        y = glm::cross(c, a) * sign;
+        z = glm::cross(a, b) * sign;
+    }
+
+    Vec3d operator()(const Vec3d& n) const { return x * n.x + y * n.y + z * n.z; }
+};
+
+bool isWithin(const Vec3d& p, double largest)
+{
+    return std::fabs(p.x) <= largest && std::fabs(p.y) <= largest && std::fabs(p.z) <= largest;
+}
+
+uint64_t countOf(const std::vector<uint8_t>& flags)
+{
+    uint64_t count = 0;
+    for (const uint8_t flag : flags)
+        count += flag;
+    return count;
+}
+
+} // namespace
+
+/// The array's own rows if they may be used in place of a copy: one a vertex, as T, and nobody has
+/// said that they will change.
+template <class T> const T* VertexReader::shareable(const osg::Array& array) const
+{
+    if (!_map.rows.empty() || array.getNumElements() < _map.vertexCount) return nullptr;
+    return rowsOf<T>(array);
+}
+
+template <class T> SharedArray<T> VertexReader::share(const osg::Array& array) const
+{
+    const T* values = rowsOf<T>(array);
+    const bool changes = _request.copies || _geometry.getDataVariance() == osg::Object::DYNAMIC ||
+                         array.getDataVariance() == osg::Object::DYNAMIC;
+    if (changes || !mayBeReadPast(values + _map.vertexCount))
+        return copyOf(values, _map.vertexCount);
+    return SharedArray<T>(values, _map.vertexCount, keepHostArray(array));
+}
+
+RowSelection VertexReader::rowsOfBinding(const osg::Array& array, IntegerMeaning integers) const
+{
+    const bool perSet = array.getBinding() == osg::Array::BIND_PER_PRIMITIVE_SET;
+    const std::vector<uint32_t>& rows = perSet ? _map.primitiveSets : _map.rows;
+    return {_map.vertexCount, rows.empty() ? nullptr : rows.data(), integers};
+}
+
+Positions VertexReader::positions(const osg::Array& array) const
+{
+    const std::size_t count = _map.vertexCount;
+    Positions result;
+    if (!_request.transform)
+    {
+        const Vec3* ready = shareable<Vec3>(array);
+        if (ready && allWithin(&ready->x, 3 * count, kLargestCoordinate))
+        {
+            result.values = share<Vec3>(array);
+            return result;
+        }
+    }
+
+    const PointMap map(_request.transform);
+    std::vector<Vec3> values = paddedVector(count, Vec3(0.0f));
+    const RowSelection rows{count, _map.rows.empty() ? nullptr : _map.rows.data()};
+    forEachRow(array, rows,
+               [&](std::size_t i, const Vec4d& row)
+               {
+                   const Vec3d p = map(row.w == 1.0 ? Vec3d(row) : Vec3d(row) / row.w);
+                   if (isWithin(p, kLargestCoordinate))
+                   {
+                       values[i] = Vec3(p);
+                       return;
+                   }
+                   result.unsound.resize(count);
+                   result.unsound[i] = 1;
+               });
+    result.values = std::move(values);
+    return result;
+}
+
+Normals VertexReader::normals(const osg::Array* array) const
+{
+    Normals result;
+    const osg::Array::Binding binding = bindingOf(array);
+    if (binding == osg::Array::BIND_OFF || array->getDataSize() < 3) return result;
+
+    const std::size_t count = _map.vertexCount;
+    if (binding == osg::Array::BIND_PER_VERTEX && !_request.transform)
+    {
+        const Vec3* ready = shareable<Vec3>(*array);
+        if (ready && allUnit(ready, count))
+        {
+            result.values = share<Vec3>(*array);
+            return result;
+        }
+    }
+
+    const NormalMap map(_request.transform);
+    std::vector<Vec3> values(count, Vec3(0.0f));
+    uint64_t found = 0;
+    const auto put = [&](std::size_t i, const Vec4d& row)
+    {
+        const Vec3d n = map(Vec3d(row));
+        const double length = glm::length(n);
+        if (!(length > 0.0) || !std::isfinite(length)) return;
+        values[i] = Vec3(n / length);
+        ++found;
+    };
+    if (binding == osg::Array::BIND_OVERALL)
+    {
+        forEachRow(*array, {1, nullptr, IntegerMeaning::Normalized}, put);
+        if (found == 1) values.assign(count, values[0]);
+        found *= count;
+    }
+    else
+        forEachRow(*array, rowsOfBinding(*array, IntegerMeaning::Normalized), put);
+
+    if (found == 0) return result;
+    if (found < count)
+    {
+        result.missing.resize(count);
+        for (std::size_t i = 0; i < count; ++i)
+            result.missing[i] = values[i] == Vec3(0.0f);
+    }
+    result.values = std::move(values);
+    return result;
+}
+
+SharedArray<Vec2> VertexReader::textureCoordinates(const osg::Array* array,
+                                                   ConversionCounts& counts) const
+{
+    if (!isReadable(array)) return {};
+    const std::size_t count = _map.vertexCount;
+    const Vec2* ready = shareable<Vec2>(*array);
+    if (ready && allWithin(&ready->x, 2 * count, kLargestCoordinate)) return share<Vec2>(*array);
+
+    std::vector<Vec2> values(count, Vec2(0.0f));
+    std::vector<uint8_t> missing(count, 1);
+    const RowSelection rows{count, _map.rows.empty() ? nullptr : _map.rows.data()};
+    forEachRow(*array, rows,
+               [&](std::size_t i, const Vec4d& row)
+               {
+                   const Vec3d uv(row.x / row.w, row.y / row.w, 0.0);
+                   if (!isWithin(uv, kLargestCoordinate)) return;
+                   values[i] = Vec2(uv);
+                   missing[i] = 0;
+               });
+    if (const uint64_t repaired = countOf(missing))
+        counts["repaired.texture-coordinate"] += repaired;
+    return values;
+}
+
+SharedArray<float> VertexReader::thirdCoordinates(const osg::Array* array) const
+{
+    if (!isReadable(array) || array->getDataSize() < 3) return {};
+    std::vector<float> values(_map.vertexCount, 0.0f);
+    bool any = false;
+    const RowSelection rows{values.size(), _map.rows.empty() ? nullptr : _map.rows.data()};
+    forEachRow(*array, rows,
+               [&](std::size_t i, const Vec4d& row)
+               {
+                   const Vec3d coordinates = Vec3d(row) / row.w;
+                   if (!isWithin(coordinates, kLargestCoordinate)) return;
+                   values[i] = static_cast<float>(coordinates.z);
+                   any = any || values[i] != 0.0f;
+               });
+    if (!any) return {};
+    return values;
+}
+
+SharedArray<Vec4> VertexReader::colors(const osg::Array* array, ConversionCounts& counts) const
+{
+    const osg::Array::Binding binding = bindingOf(array);
+    if (binding == osg::Array::BIND_OFF || binding == osg::Array::BIND_OVERALL) return {};
+    const std::size_t count = _map.vertexCount;
+    if (binding == osg::Array::BIND_PER_VERTEX && !_request.decodeColors)
+    {
+        const Vec4* ready = shareable<Vec4>(*array);
+        if (ready && allWithin(&ready->x, 4 * count, kLargestCoordinate))
+            return share<Vec4>(*array);
+    }
+
+    std::vector<Vec4> values(count, Vec4(1.0f));
+    std::vector<uint8_t> missing(count, 1);
+    forEachRow(*array, rowsOfBinding(*array, IntegerMeaning::Normalized),
+               [&](std::size_t i, const Vec4d& row)
+               {
+                   if (!isWithin(Vec3d(row), kLargestCoordinate) ||
+                       !(std::fabs(row.w) <= kLargestCoordinate))
+                       return;
+                   Vec4 color(row);
+                   for (int c = 0; c < 3 && _request.decodeColors; ++c)
+                       color[c] = linearFromSrgb(color[c]);
+                   if (!isFinite(Vec3(color))) return; // 1e16 is 1e38 in linear light
+                   values[i] = color;
+                   missing[i] = 0;
+               });
+    if (const uint64_t repaired = countOf(missing)) counts["repaired.color"] += repaired;
+    return values;
+}
+
+} // namespace osgRayTrace::engine

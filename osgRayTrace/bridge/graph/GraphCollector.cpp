@@ -1,0 +1,441 @@
+// GraphCollector.cpp - traversal of the scene graph with its transforms and states. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/graph/GraphCollector.h"
+
+#include "osgRayTrace/bridge/common/ClipPlanes.h"
+#include "osgRayTrace/bridge/common/NodeKind.h"
+#include "osgRayTrace/bridge/graph/DrawHint.h"
+#include "osgRayTrace/bridge/graph/UntracedParts.h"
+
+#include <osg/Billboard>
+#include <osg/Camera>
+#include <osg/ClearNode>
+#include <osg/ClipNode>
+#include <osg/PagedLOD>
+#include <osg/Projection>
+#include <osg/ProxyNode>
+#include <osg/TexGenNode>
+#include <osg/Transform>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+GraphState rootState(const ConversionInput& input)
+{
+    GraphState state;
+    if (input.lighting) state.modesOn |= uint64_t(1) << kLightingBit;
+    if (input.viewLight)
+    {
+        const int number = input.viewLight->getLightNum();
+        if (number >= 0 && number < kMaskedLights)
+            state.modesOn |= uint64_t(1) << number;
+        else if (number >= 0 && number < kLightNumbers)
+            state.moreLights = std::make_shared<LightModes>(
+                LightModes{{static_cast<unsigned int>(number), osg::StateAttribute::ON}});
+    }
+    return state;
+}
+
+/// What is wrong with a matrix; null: nothing. Singular is meant relative to the length of its
+/// axes, so a tiny or a flat scale is fine.
+const char* matrixFault(const osg::Matrixd& m)
+{
+    constexpr double kSmallestVolume = 1e-12; // of the axes made unit
+    for (int i = 0; i < 16; ++i)
+        if (!std::isfinite(m.ptr()[i])) return "skipped.not-finite-transform";
+    if (m(0, 3) != 0.0 || m(1, 3) != 0.0 || m(2, 3) != 0.0 || m(3, 3) != 1.0)
+        return "skipped.projective-transform";
+    osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
+        z(m(2, 0), m(2, 1), m(2, 2));
+    x.normalize();
+    y.normalize();
+    z.normalize();
+    const double volume = std::fabs((x ^ y) * z);
+    return volume > kSmallestVolume ? nullptr : "skipped.singular-transform";
+}
+
+} // namespace
+
+StateStack statesAbove(const ConversionInput& input)
+{
+    StateStack states(rootState(input));
+    for (const osg::ref_ptr<const osg::StateSet>& stateSet : input.inheritedState)
+        states.push(*stateSet);
+    states.forgetMasks();
+    return states;
+}
+
+GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
+                               const TextureConverter& textures, ConversionReport& report)
+    : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN),
+      _input(input),
+      _vertices(vertices),
+      _textures(textures),
+      _report(report),
+      _worldFromLocal(1),
+      _cullStack(input.view),
+      _states(statesAbove(input)),
+      _materials(input.materials)
+{
+    setTraversalMask(input.traversalMask);
+    _report.setPlace([this] { return path(); });
+}
+
+void applyUnit(double unit, CollectedGraph& graph)
+{
+    if (unit == 1.0) return;
+    const osg::Matrixd scale = osg::Matrixd::scale(1.0 / unit, 1.0 / unit, 1.0 / unit);
+    for (CollectedGeometry& geometry : graph.geometries)
+        for (GeometryUse& use : geometry.uses)
+            use.engineFromLocal.postMult(scale);
+    for (CollectedLight& light : graph.lights.lights)
+        if (!light.eyeSpace) light.engineFromLocal.postMult(scale);
+    for (CollectedAreaLight& light : graph.lights.areaLights)
+        light.engineFromLocal.postMult(scale);
+    for (PlacedTexGen& texGen : graph.texGens)
+        texGen.engineFromLocal.postMult(scale);
+    graph.clipPlanes.applyUnit(unit);
+}
+
+bool GraphCollector::collectAt(const osg::NodePath& path)
+{
+    for (auto node = path.begin(); node + 1 != path.end(); ++node)
+    {
+        pushOntoNodePath(*node);
+        pushState(**node);
+        const osg::Transform* transform = (*node)->asTransform();
+        if (transform &&
+            !pushMatrix(worldFromLocal(*transform, _worldFromLocal.back(), *this, _input.view)))
+            return false;
+    }
+    path.back()->accept(*this);
+    return true;
+}
+
+CollectedGraph GraphCollector::take()
+{
+    _graph.states = _states.states();
+    _report.setPlace({});
+    _materials.reportUnused(_report);
+    return std::move(_graph);
+}
+
+void GraphCollector::apply(osg::Node& node)
+{
+    if (node.asGroup() ? leavesGroup(node) : collectLeaf(node)) return;
+    const bool pushed = pushState(node);
+    traverseChildren(node);
+    if (pushed) _states.pop();
+}
+
+void GraphCollector::apply(osg::Transform& node)
+{
+    const bool pushed = pushState(node);
+    if (node.getReferenceFrame() != osg::Transform::RELATIVE_RF && !_input.view)
+        _report.count("approximated.absolute-transform"); // eye space in OpenGL, world space here
+    traverseBelow(worldFromLocal(node, _worldFromLocal.back(), *this, _input.view), node);
+    if (pushed) _states.pop();
+}
+
+void GraphCollector::apply(osg::Camera& node)
+{
+    if (&node == _input.root)
+    {
+        apply(
+            static_cast<osg::Node&>(node)); // the viewer's own: its matrices are those of the view
+        return;
+    }
+    if (const char* reason = untracedCamera(node))
+    {
+        _report.count(reason);
+        warnIfForced("a camera of its own");
+        rasterize();
+        return;
+    }
+    apply(static_cast<osg::Transform&>(node));
+}
+
+void GraphCollector::apply(osg::Projection&)
+{
+    _report.count("not-traced.projection");
+    warnIfForced("a projection of its own");
+    rasterize();
+}
+
+void GraphCollector::apply(osg::LightSource& node)
+{
+    if (node.getLight())
+    {
+        const bool eyeSpace = node.getReferenceFrame() == osg::LightSource::ABSOLUTE_RF;
+        _graph.lights.lights.push_back(
+            {&node, eyeSpace ? osg::Matrixd() : engineFromLocal(), eyeSpace, path()});
+        rasterize(RasterizedPart::PlaceState);
+    }
+    apply(static_cast<osg::Node&>(node));
+}
+
+/// Where OSG draws the background, mirrors show the same.
+void GraphCollector::apply(osg::ClearNode& node)
+{
+    if (_input.rasterizesRest && node.getRequiresClear()) _graph.clearColor = node.getClearColor();
+    rasterize(RasterizedPart::Clear);
+    apply(static_cast<osg::Node&>(node));
+}
+
+void GraphCollector::apply(osg::ClipNode& node)
+{
+    rasterize(RasterizedPart::PlaceState);
+    const bool inEyeSpace = node.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF;
+    const osg::Matrixd engineFromPlane =
+        inEyeSpace ? worldFromEye() * osg::Matrixd::translate(-_input.origin) : engineFromLocal();
+    for (const osg::ref_ptr<osg::ClipPlane>& plane : node.getClipPlaneList())
+        if (plane && !_graph.clipPlanes.set(*plane, engineFromPlane))
+            _report.warn("skipped.clip-plane", "clip node '" + path() + "'",
+                         "plane is not finite or has a number above 7, skipped");
+    apply(static_cast<osg::Node&>(node));
+}
+
+void GraphCollector::apply(osg::PagedLOD& node)
+{
+    _graph.paged = true;
+    apply(static_cast<osg::LOD&>(node));
+}
+
+void GraphCollector::apply(osg::ProxyNode& node)
+{
+    if (node.getNumFileNames() > node.getNumChildren()) _graph.paged = true;
+    apply(static_cast<osg::Node&>(node));
+}
+
+void GraphCollector::apply(osg::TexGenNode& node)
+{
+    const bool inScene = node.getReferenceFrame() == osg::TexGenNode::RELATIVE_RF;
+    if (!inScene)
+        _report.count("approximated.absolute-texgen"); // eye space in OpenGL, world space here
+    if (node.getTexGen() && node.getTextureUnit() < kUnits)
+        _graph.texGens[node.getTextureUnit()] = {node.getTexGen(),
+                                                 inScene ? engineFromLocal()
+                                                         : osg::Matrixd::translate(-_input.origin)};
+    rasterize(RasterizedPart::PlaceState);
+    apply(static_cast<osg::Node&>(node));
+}
+
+void GraphCollector::apply(osg::Billboard& node)
+{
+    const bool pushed = pushState(node);
+    if (_input.rasterizesRest && leavesDrawable(node))
+    {
+        _report.count("rasterized.billboard");
+        warnIfForced("a billboard with text, lines or the like");
+        rasterize();
+        if (pushed) _states.pop();
+        return;
+    }
+    if (node.getMode() == osg::Billboard::POINT_ROT_EYE && !_input.view)
+        _report.count("approximated.billboard"); // upright in the world, not in the view
+    const osg::Vec3 eye = getEyePoint();
+    const osg::Matrixd worldFromView = worldFromEye();
+    const osg::Matrixd viewFromLocal =
+        _worldFromLocal.back() * osg::Matrixd::inverse(worldFromView);
+    // Since OSG 3.6 any child can be added, and one that is no drawable has no position.
+    const std::size_t positions = node.getPositionList().size();
+    ++_opaque;
+    for (unsigned int i = 0; i < node.getNumDrawables(); ++i)
+    {
+        const osg::ref_ptr<osg::Drawable> drawable = node.getDrawable(i);
+        if (!drawable || i >= positions)
+        {
+            _report.count("not-traced.billboard-child");
+            continue;
+        }
+        osg::Matrixd viewFromDrawable = viewFromLocal;
+        node.computeMatrix(viewFromDrawable, eye, node.getPosition(i));
+        if (!pushMatrix(viewFromDrawable * worldFromView)) continue;
+        drawable->accept(*this);
+        _worldFromLocal.pop_back();
+    }
+    --_opaque;
+    if (pushed) _states.pop();
+}
+
+void GraphCollector::apply(osg::Drawable& drawable)
+{
+    const char* reason = untracedDrawable(drawable);
+    if (!reason) return;
+    _report.count(reason);
+    warnIfForced(drawable.className());
+    rasterize();
+}
+
+void GraphCollector::apply(osg::Geometry& geometry)
+{
+    if (isTooMuch(geometry)) return;
+    const osg::Geometry& posed = _vertices.posed(geometry, getNodePath());
+    const bool isPosed = &posed != &geometry;
+    if (_input.rasterizesRest && rasterizes(geometry, isPosed)) return;
+    if (!_input.rasterizesRest && hintOf(getNodePath()) == DrawHint::Rasterize)
+        _report.count("approximated.rasterize-hint"); // there is no rasterizer
+    if (!isPosed && SoftwareVertices::isPosedByProgram(geometry))
+        _report.count("approximated.hardware-pose"); // as it was bound
+    if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
+    const bool pushed = pushState(geometry);
+    const uint32_t state = _materials.stateOf(getNodePath(), _states);
+    if (pushed) _states.pop();
+    const PrimitiveRestart restart = restartOf(_states.states()[state]);
+    const auto [found, isNew] =
+        _indexOf.try_emplace({&posed, restart.key()}, _graph.geometries.size());
+    if (isNew) _graph.geometries.push_back({&posed, path(), {}, restart});
+    CollectedGeometry& collected = _graph.geometries[found->second];
+    collected.watched &= _opaque == 0;
+    collected.uses.push_back({engineFromLocal(), state, pickPath()});
+}
+
+osg::Vec3 GraphCollector::getEyePoint() const
+{
+    return _input.eye * osg::Matrixd::inverse(_worldFromLocal.back());
+}
+
+float GraphCollector::getDistanceToEyePoint(const osg::Vec3& position, bool useLodScale) const
+{
+    const float scale = useLodScale && _input.view ? _input.view->lodScale : 1.0f;
+    return (position - getEyePoint()).length() * scale;
+}
+
+float GraphCollector::getDistanceFromEyePoint(const osg::Vec3& position, bool) const
+{
+    return static_cast<float>(
+        (osg::Vec3d(position) * _worldFromLocal.back() - _input.eye).length());
+}
+
+float GraphCollector::getDistanceToViewPoint(const osg::Vec3& position, bool useLodScale) const
+{
+    return getDistanceToEyePoint(position, useLodScale);
+}
+
+void GraphCollector::traverseChildren(osg::Node& node)
+{
+    if (isTooDeep(node) || isTooMuch(node)) return;
+    const bool opaque = &node != _input.root && kindOf(node) == NodeKind::Opaque;
+    _opaque += opaque;
+    traverse(node);
+    _opaque -= opaque;
+}
+
+/// True, counted and named if there is anything below it that is too deep.
+bool GraphCollector::isTooDeep(const osg::Node& node)
+{
+    if (getNodePath().size() < kDeepestPath) return false;
+    const osg::Group* group = node.asGroup();
+    if (group && group->getNumChildren() > 0)
+        _report.warn("skipped.too-deep", "node '" + node.getName() + "'",
+                     "lies below " + std::to_string(kDeepestPath - 1) +
+                         " others, its children are skipped");
+    return true;
+}
+
+/// True, counted and named if the paths that are taken are so many already. OSG draws the node,
+/// unless its own traversal would not end either.
+bool GraphCollector::isTooMuch(osg::Node& node)
+{
+    if (_visits.take()) return false;
+    const uint64_t most = _rasterizedVisits.left();
+    const uint64_t count = _counts.of(node, most, kDeepestPath);
+    const std::string object = "node '" + path() + "'";
+    const std::string limit = "comes after " + std::to_string(kMostPaths) + " paths to nodes, ";
+    if (_input.rasterizesRest && count <= most)
+    {
+        _rasterizedVisits = PathBudget(most - count);
+        _report.warn("rasterized.too-many-paths", object, limit + "left to OSG with all below it");
+        rasterize();
+    }
+    else
+        _report.warn("skipped.too-many-paths", object, limit + "left out with all below it");
+    return true;
+}
+
+bool GraphCollector::pushState(osg::Node& node)
+{
+    const osg::StateSet* stateSet = node.getStateSet();
+    if (stateSet) _states.push(*stateSet);
+    return stateSet != nullptr;
+}
+
+/// False, counted and named if nothing can be placed by this matrix.
+bool GraphCollector::pushMatrix(const osg::Matrixd& worldFromLocal)
+{
+    if (const char* fault = matrixFault(worldFromLocal))
+    {
+        _report.warn(fault, "transform '" + path() + "'",
+                     "matrix is singular, projective or not finite, skipped with all below it");
+        return false;
+    }
+    _worldFromLocal.push_back(worldFromLocal);
+    return true;
+}
+
+void GraphCollector::traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node& node)
+{
+    if (!pushMatrix(worldFromLocal)) return;
+    traverseChildren(node);
+    _worldFromLocal.pop_back();
+}
+
+/// True if the node is a leaf of ours or of another kit that has no children to visit.
+bool GraphCollector::collectLeaf(osg::Node& node)
+{
+    if (const auto* light = dynamic_cast<const AreaLight*>(&node))
+    {
+        _graph.lights.areaLights.push_back({light, engineFromLocal(), path(), pickPath()});
+        return true;
+    }
+    if (const auto* light = dynamic_cast<const EnvironmentLight*>(&node))
+    {
+        _graph.lights.environments.push_back({light, engineFromLocal(), path()});
+        return true;
+    }
+    if (isFrom(&node, "osg")) return false;
+    if (const char* reason = untracedLeaf(node))
+    {
+        _report.count(reason);
+        warnIfForced(node.className());
+    }
+    rasterize(); // also what is not seen, but works in the cull traversal
+    return true;
+}
+
+/// Without a view the eye looks along the world's axes.
+osg::Matrixd GraphCollector::worldFromEye() const
+{
+    return _input.view ? osg::Matrixd::inverse(_input.view->viewFromWorld)
+                       : osg::Matrixd::translate(_input.eye);
+}
+
+osg::Matrixd GraphCollector::engineFromLocal() const
+{
+    return _worldFromLocal.back() * osg::Matrixd::translate(-_input.origin);
+}
+
+uint32_t GraphCollector::pickPath()
+{
+    return _input.picks ? _graph.paths.add(getNodePath()) : NodeTree::kNone;
+}
+
+std::string GraphCollector::path() const
+{
+    std::string text;
+    for (const osg::Node* node : getNodePath())
+    {
+        if (!text.empty()) text += '/';
+        text += node->getName().empty() ? node->className() : node->getName();
+    }
+    return text;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,190 @@
+// GraphCollector.h - finds what is visible in a scene graph, and where. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/appearance/materials/MaterialAssignment.h"
+#include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
+#include "osgRayTrace/bridge/common/ClipPlanes.h"
+#include "osgRayTrace/bridge/common/SceneExtent.h"
+#include "osgRayTrace/bridge/common/StateStack.h"
+#include "osgRayTrace/bridge/geometry/TriangleList.h"
+#include "osgRayTrace/bridge/graph/ConversionInput.h"
+#include "osgRayTrace/bridge/graph/NodeTree.h"
+#include "osgRayTrace/bridge/graph/PathBudget.h"
+#include "osgRayTrace/bridge/graph/RasterizedParts.h"
+#include "osgRayTrace/bridge/graph/SoftwareVertices.h"
+
+#include <osgRayTrace/AreaLight>
+#include <osgRayTrace/EnvironmentLight>
+
+#include <osg/Geometry>
+#include <osg/LightSource>
+#include <osg/Matrixd>
+#include <osg/NodeVisitor>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// Nodes on a path from the root; what is deeper is skipped. Traversals are recursive, in OSG as
+/// here: a transform takes about 400 bytes of stack, more in debug builds, and threads may have
+/// little.
+constexpr std::size_t kDeepestPath = 5000;
+
+/// One path to a drawable.
+struct GeometryUse
+{
+    osg::Matrixd engineFromLocal;    ///< affine, finite, invertible; see applyUnit
+    uint32_t state = 0;              ///< index into CollectedGraph::states
+    uint32_t path = NodeTree::kNone; ///< in CollectedGraph::paths, if ConversionInput::picks
+};
+
+struct CollectedGeometry
+{
+    osg::ref_ptr<const osg::Geometry> geometry;
+    std::string path; ///< of the first use: "root/child/geometry"
+    std::vector<GeometryUse> uses;
+    PrimitiveRestart restart; ///< of all uses
+    bool watched = true;      ///< no path is below a node that GraphWatch does not look into
+    const VertexBounds* bounds = nullptr; ///< not the collector's: see SceneConverter
+};
+
+struct CollectedLight
+{
+    osg::ref_ptr<const osg::LightSource> source;
+    osg::Matrixd engineFromLocal; ///< identity in eye space
+    bool eyeSpace = false;
+    std::string path;
+};
+
+struct CollectedAreaLight
+{
+    osg::ref_ptr<const AreaLight> light;
+    osg::Matrixd engineFromLocal;
+    std::string path;
+    uint32_t pickPath = NodeTree::kNone; ///< as GeometryUse::path
+};
+
+struct CollectedEnvironment
+{
+    osg::ref_ptr<const EnvironmentLight> light;
+    osg::Matrixd engineFromLocal;
+    std::string path;
+};
+
+/// In the order of the traversal.
+struct LightSources
+{
+    std::vector<CollectedLight> lights;
+    std::vector<CollectedAreaLight> areaLights;
+    std::vector<CollectedEnvironment> environments;
+};
+
+/// The attributes of states belong to the collector's state sets: valid as long as it lives. All
+/// else is kept alive, also if a node of the application's changes the graph while it is traversed.
+struct CollectedGraph
+{
+    std::vector<CollectedGeometry> geometries; ///< in order of their first use
+    LightSources lights;
+    std::vector<GraphState> states;
+    PlacedTexGens texGens; ///< the last of each unit, as OpenGL keeps them
+    ClipPlanes clipPlanes;
+    std::optional<osg::Vec4>
+        clearColor;             ///< of the last osg::ClearNode, if ConversionInput::rasterizesRest
+    bool paged = false;         ///< see ConversionResult
+    RasterizedParts rasterized; ///< if ConversionInput::rasterizesRest
+    NodeTree paths;             ///< if ConversionInput::picks
+    std::vector<uint32_t> rasterizedPaths; ///< of rasterized, likewise
+};
+
+/// The collector knows the origin of engine space, but not its unit yet: it leaves lengths as they
+/// are in the world. This puts all matrices into units of Scene::unit.
+void applyUnit(double unit, CollectedGraph& graph);
+
+/// State above the scene graph, as osgViewer and osgUtil::SceneView set it, and what is inherited.
+StateStack statesAbove(const ConversionInput& input);
+
+/// Visits active children only (masks, switches, levels of detail for the eye point), multiplies
+/// transforms in double and accumulates state. Counts what is not a part of the traced scene.
+class GraphCollector : public osg::NodeVisitor
+{
+public:
+    /// textures: what was converted before.
+    GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
+                   const TextureConverter& textures, ConversionReport& report);
+
+    /// Visits the last node of a path from the root, in the place and the state that it has there.
+    /// The others are of the plain classes that GraphWatch knows. False: it cannot be placed.
+    bool collectAt(const osg::NodePath& path);
+
+    /// What was found; call once, after the traversal.
+    CollectedGraph take();
+
+    using osg::NodeVisitor::apply;
+    void apply(osg::Node& node) override;
+    void apply(osg::Transform& node) override;
+    void apply(osg::Camera& node) override;
+    void apply(osg::Projection& node) override;
+    void apply(osg::LightSource& node) override;
+    void apply(osg::ClearNode& node) override;
+    void apply(osg::ClipNode& node) override;
+    void apply(osg::PagedLOD& node) override;
+    void apply(osg::ProxyNode& node) override;
+    void apply(osg::TexGenNode& node) override;
+    void apply(osg::Billboard& node) override;
+    void apply(osg::Drawable& drawable) override;
+    void apply(osg::Geometry& geometry) override;
+
+    // In the local coordinates of the node that asks: levels of detail and what turns to the view.
+    osg::CullStack* asCullStack() override { return _cullStack.at(_worldFromLocal.back()); }
+    const osg::CullStack* asCullStack() const override
+    {
+        return _cullStack.at(_worldFromLocal.back());
+    }
+    osg::Vec3 getEyePoint() const override;
+    float getDistanceToEyePoint(const osg::Vec3& position, bool useLodScale) const override;
+    float getDistanceFromEyePoint(const osg::Vec3& position, bool useLodScale) const override;
+    float getDistanceToViewPoint(const osg::Vec3& position, bool useLodScale) const override;
+
+private:
+    void traverseChildren(osg::Node& node);
+    bool isTooDeep(const osg::Node& node);
+    bool isTooMuch(osg::Node& node);
+    bool pushState(osg::Node& node);
+    bool pushMatrix(const osg::Matrixd& worldFromLocal);
+    void traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node& node);
+    bool collectLeaf(osg::Node& node);
+    bool leavesDrawable(osg::Billboard& billboard);
+    bool leavesGroup(osg::Node& node);
+    void traverseGroup(osg::Group& group);
+    void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);
+    const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed);
+    bool rasterizes(const osg::Geometry& geometry, bool isPosed);
+    void warnIfForced(const char* what);
+    osg::Matrixd worldFromEye() const;
+    osg::Matrixd engineFromLocal() const;
+    uint32_t pickPath();
+    std::string path() const;
+
+    const ConversionInput& _input;
+    SoftwareVertices& _vertices;
+    const TextureConverter& _textures;
+    ConversionReport& _report;
+    std::vector<osg::Matrixd> _worldFromLocal; // the stack of transforms, never empty
+    ReferenceCullStack _cullStack;
+    PathBudget _visits;
+    PathBudget _rasterizedVisits; // that OSG makes in each frame for what is left out
+    PathCounts _counts;
+    int _opaque = 0; // nodes around that GraphWatch does not look into
+    StateStack _states;
+    MaterialAssignment _materials; ///< keeps what it adds to the states
+    CollectedGraph _graph;
+    std::map<std::pair<const osg::Geometry*, uint64_t>, std::size_t> _indexOf; // by restart, too
+};
+
+} // namespace osgRayTrace::engine

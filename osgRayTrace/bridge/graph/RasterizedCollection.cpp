@@ -1,0 +1,110 @@
+// RasterizedCollection.cpp - what GraphCollector leaves to OSG. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/graph/DrawHint.h"
+#include "osgRayTrace/bridge/graph/GraphCollector.h"
+#include "osgRayTrace/bridge/graph/UntracedParts.h"
+
+#include <osg/Billboard>
+
+namespace osgRayTrace::engine
+{
+
+/// True if OSG has to draw something in it: then all of it, as it is the billboard that places its
+/// drawables.
+bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
+{
+    bool leaves = false;
+    for (unsigned int i = 0; i < billboard.getNumDrawables() && !leaves; ++i)
+    {
+        osg::Drawable* drawable = billboard.getDrawable(i);
+        if (!drawable) continue;
+        const osg::Geometry* geometry = drawable->asGeometry();
+        pushOntoNodePath(drawable);
+        leaves = !geometry || rasterizedReason(*geometry, false) || withoutTriangles(*geometry);
+        popFromNodePath();
+    }
+    return leaves;
+}
+
+/// True if the group is of a kit that draws its children in a way of its own, by a cull traversal
+/// only: OSG draws it where there is OpenGL, and its children stand for it elsewhere, or if an
+/// effect is hinted to be traced.
+bool GraphCollector::leavesGroup(osg::Node& node)
+{
+    const bool effect = isFrom(&node, "osgFX"), volume = isFrom(&node, "osgVolume");
+    if (!effect && !volume) return false;
+    if (volume) warnIfForced("a volume");
+    const bool traces = effect && hintOf(getNodePath()) == DrawHint::Trace;
+    if (_input.rasterizesRest && !traces)
+    {
+        _report.count(effect ? "rasterized.effect" : "rasterized.volume");
+        rasterize();
+        return true;
+    }
+    _report.count(effect ? "approximated.effect" : "not-traced.volume");
+    if (effect) traverseGroup(*node.asGroup());
+    return true;
+}
+
+/// Its children, whatever its own traverse does.
+void GraphCollector::traverseGroup(osg::Group& group)
+{
+    if (isTooDeep(group) || isTooMuch(group)) return;
+    const bool pushed = pushState(group);
+    ++_opaque;
+    for (unsigned int i = 0; i < group.getNumChildren(); ++i)
+        if (const osg::ref_ptr<osg::Node> child = group.getChild(i)) child->accept(*this);
+    --_opaque;
+    if (pushed) _states.pop();
+}
+
+/// Leaves the node that is visited to OSG.
+void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
+{
+    if (!_input.rasterizesRest) return;
+    _graph.rasterized.push_back(rasterizedPart(kind, getNodePath()));
+    _graph.rasterized.back().inPlace = inPlace;
+    _graph.rasterizedPaths.push_back(pickPath());
+}
+
+/// Why the geometry at the end of the path is drawn by OpenGL where there is one; null: it is
+/// traced.
+const char* GraphCollector::rasterizedReason(const osg::Geometry& geometry, bool isPosed)
+{
+    const osg::StateSet* stateSet = geometry.getStateSet();
+    const osg::StateAttribute* poses =
+        isPosed && stateSet ? stateSet->getAttribute(osg::StateAttribute::PROGRAM) : nullptr;
+    if (stateSet) _states.push(*stateSet);
+    const char* reason = rasterizedState(_states.states()[_states.top()], _textures, poses);
+    if (stateSet) _states.pop();
+    const DrawHint hint = hintOf(getNodePath());
+    if (hint == DrawHint::Rasterize) return "rasterized.hint";
+    return hint == DrawHint::Trace ? nullptr : reason;
+}
+
+/// Leaves to OSG what it draws better. True if nothing is left to trace.
+bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
+{
+    if (const char* reason = rasterizedReason(geometry, isPosed))
+    {
+        _report.count(reason);
+        rasterize();
+        return true;
+    }
+    const osg::ref_ptr<osg::Geometry> rest = withoutTriangles(geometry);
+    if (!rest) return false;
+    warnIfForced("lines, points or instanced primitives");
+    const bool all = rest->getNumPrimitiveSets() == geometry.getNumPrimitiveSets();
+    rasterize(RasterizedPart::Draw, all ? nullptr : rest.get());
+    return false; // those without triangles are counted where triangles are made
+}
+
+/// Names what is hinted to be traced and cannot be.
+void GraphCollector::warnIfForced(const char* what)
+{
+    if (hintOf(getNodePath()) != DrawHint::Trace) return;
+    _report.warn("warned.trace-hint", "node '" + path() + "'",
+                 std::string("is hinted to be ray traced, but cannot be: ") + what);
+}
+
+} // namespace osgRayTrace::engine

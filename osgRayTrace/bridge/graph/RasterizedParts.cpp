@@ -1,0 +1,183 @@
+// RasterizedParts.cpp - replays the way from the decorator to what OSG draws. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/graph/RasterizedParts.h"
+
+#include "osgRayTrace/bridge/geometry/TriangleList.h"
+
+#include <osg/ClearNode>
+#include <osg/ClipNode>
+#include <osg/LightSource>
+#include <osg/TexGenNode>
+#include <osg/Transform>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderStage>
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+using Path = std::vector<osg::ref_ptr<osg::Node>>;
+
+/// The visitor on its way down: parts come in the order of the traversal, so what the next one has
+/// in common with the last stays pushed.
+class Descent
+{
+public:
+    explicit Descent(osgUtil::CullVisitor& visitor) : _visitor(visitor) {}
+    ~Descent() { ascend(0); }
+
+    /// Below the nodes [begin, end) of a path. False if one of them is masked out.
+    bool moveTo(Path::const_iterator begin, Path::const_iterator end)
+    {
+        const auto length = static_cast<std::size_t>(end - begin);
+        std::size_t common = 0;
+        while (common < std::min(length, _nodes.size()) && _nodes[common] == begin[common])
+            ++common;
+        ascend(common);
+        for (auto node = begin + static_cast<std::ptrdiff_t>(common); node != end; ++node)
+        {
+            if (!_visitor.validNodeMask(**node)) return false;
+            descend(**node);
+        }
+        return true;
+    }
+
+private:
+    void descend(osg::Node& node)
+    {
+        _visitor.pushOntoNodePath(&node);
+        if (const osg::StateSet* stateSet = node.getStateSet()) _visitor.pushStateSet(stateSet);
+        if (osg::Transform* transform = node.asTransform())
+        {
+            osg::ref_ptr<osg::RefMatrix> matrix =
+                new osg::RefMatrix(*_visitor.getModelViewMatrix());
+            transform->computeLocalToWorldMatrix(*matrix, &_visitor);
+            _visitor.pushModelViewMatrix(matrix.get(), transform->getReferenceFrame());
+        }
+        _nodes.push_back(&node);
+    }
+
+    void ascend(std::size_t length)
+    {
+        for (; _nodes.size() > length; _nodes.pop_back())
+        {
+            osg::Node& node = *_nodes.back();
+            if (node.asTransform()) _visitor.popModelViewMatrix();
+            if (node.getStateSet()) _visitor.popStateSet();
+            _visitor.popFromNodePath();
+        }
+    }
+
+    osgUtil::CullVisitor& _visitor;
+    std::vector<osg::Node*> _nodes;
+};
+
+/// As CullVisitor does on its way to their children, which are not wanted.
+void placeState(const osg::Node& node, osgUtil::CullVisitor& visitor)
+{
+    osg::RefMatrix* matrix = visitor.getModelViewMatrix();
+    if (const auto* source = dynamic_cast<const osg::LightSource*>(&node))
+    {
+        const bool inEyeSpace = source->getReferenceFrame() == osg::LightSource::ABSOLUTE_RF;
+        if (source->getLight())
+            visitor.addPositionedAttribute(inEyeSpace ? nullptr : matrix, source->getLight());
+    }
+    else if (const auto* clip = dynamic_cast<const osg::ClipNode*>(&node))
+    {
+        const bool inEyeSpace = clip->getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF;
+        for (const osg::ref_ptr<osg::ClipPlane>& plane : clip->getClipPlaneList())
+            visitor.addPositionedAttribute(inEyeSpace ? nullptr : matrix, plane.get());
+    }
+    else if (const auto* texGen = dynamic_cast<const osg::TexGenNode*>(&node))
+    {
+        const bool inEyeSpace = texGen->getReferenceFrame() == osg::TexGenNode::ABSOLUTE_RF;
+        if (texGen->getTexGen())
+            visitor.addPositionedTextureAttribute(
+                texGen->getTextureUnit(), inEyeSpace ? nullptr : matrix, texGen->getTexGen());
+    }
+    else if (const auto* clear = dynamic_cast<const osg::ClearNode*>(&node))
+    {
+        osgUtil::RenderStage* stage = visitor.getCurrentRenderBin()->getStage();
+        if (clear->getRequiresClear()) stage->setClearColor(clear->getClearColor());
+        stage->setClearMask(clear->getRequiresClear() ? clear->getClearMask() : 0);
+    }
+}
+
+/// A colour mask leaves channels of what is there before, which is our picture then: DisplayTexture
+/// draws it in bin 1. Whoever has chosen a bin has chosen an order.
+bool mixesWithPicture(const RasterizedPart& part)
+{
+    bool masks = false;
+    for (const osg::ref_ptr<osg::Node>& node : part.path)
+    {
+        const osg::StateSet* stateSet = node->getStateSet();
+        if (!stateSet) continue;
+        if (stateSet->useRenderBinDetails()) return false;
+        masks = masks || stateSet->getAttribute(osg::StateAttribute::COLORMASK);
+    }
+    return masks;
+}
+
+/// Never freed: threads may cull while the process ends.
+const osg::StateSet* stateAfterPicture()
+{
+    static const osg::StateSet* const stateSet = []
+    {
+        auto* after = new osg::StateSet;
+        after->ref();
+        after->setRenderBinDetails(2, "RenderBin");
+        return after;
+    }();
+    return stateSet;
+}
+
+} // namespace
+
+osg::ref_ptr<osg::Geometry> withoutTriangles(const osg::Geometry& geometry)
+{
+    osg::Geometry::PrimitiveSetList rest;
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
+        if (!hasTriangles(*set)) rest.push_back(set);
+    if (rest.empty()) return nullptr;
+    osg::ref_ptr<osg::Geometry> copy = new osg::Geometry(geometry);
+    copy->setPrimitiveSetList(rest);
+    copy->getBound(); // now: several cull threads may ask for it at once
+    return copy;
+}
+
+RasterizedPart rasterizedPart(RasterizedPart::Kind kind, const osg::NodePath& path)
+{
+    RasterizedPart part;
+    part.kind = kind;
+    constexpr std::ptrdiff_t kAbove = 2;
+    if (path.size() > kAbove) part.path.assign(path.begin() + kAbove, path.end());
+    return part;
+}
+
+void cullParts(const RasterizedParts& parts, osgUtil::CullVisitor& visitor)
+{
+    Descent descent(visitor);
+    for (const RasterizedPart& part : parts)
+    {
+        if (part.path.empty()) continue; // there is no decorator
+        osg::Node& node = *part.path.back();
+        if (!descent.moveTo(part.path.begin(), part.path.end() - 1)) continue;
+        if (part.kind != RasterizedPart::Draw)
+        {
+            if (visitor.validNodeMask(node)) placeState(node, visitor);
+        }
+        else
+        {
+            const bool after = mixesWithPicture(part);
+            if (after) visitor.pushStateSet(stateAfterPicture());
+            (part.inPlace ? *part.inPlace : node).accept(visitor);
+            if (after) visitor.popStateSet();
+        }
+    }
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,79 @@
+// UntracedParts.cpp - which parts of a graph are no surfaces that rays can meet. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/graph/UntracedParts.h"
+
+#include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
+#include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
+
+#include <osg/ClipPlane>
+#include <osg/PolygonMode>
+#include <osgText/TextBase>
+
+#include <cstring>
+
+namespace osgRayTrace::engine
+{
+
+bool isFrom(const osg::Object* object, const char* library)
+{
+    return std::strcmp(object->libraryName(), library) == 0;
+}
+
+const char* untracedDrawable(const osg::Drawable& drawable)
+{
+    if (dynamic_cast<const osgText::TextBase*>(&drawable)) return "not-traced.text";
+    if (isFrom(&drawable, "osgParticle")) return "not-traced.particles";
+    if (isFrom(&drawable, "osgRayTrace")) return nullptr;
+    return "not-traced.custom-drawable";
+}
+
+const char* untracedLeaf(const osg::Node& node)
+{
+    const bool rainOrSnow = std::strcmp(node.className(), "PrecipitationEffect") == 0;
+    if (isFrom(&node, "osgParticle")) return rainOrSnow ? "not-traced.particles" : nullptr;
+    return std::strcmp(node.className(), "LightPointNode") == 0 ? "not-traced.light-points"
+                                                                : "not-traced.custom-node";
+}
+
+const char* untracedCamera(const osg::Camera& camera)
+{
+    if (camera.getRenderTargetImplementation() != osg::Camera::FRAME_BUFFER ||
+        !camera.getBufferAttachmentMap().empty())
+        return "not-traced.render-to-texture-camera";
+    if (camera.getRenderOrder() != osg::Camera::NESTED_RENDER ||
+        camera.getReferenceFrame() != osg::Transform::RELATIVE_RF ||
+        !camera.getProjectionMatrix().isIdentity())
+        return "not-traced.hud-camera";
+    return nullptr;
+}
+
+const char* rasterizedState(const GraphState& state, const TextureConverter& textures,
+                            const osg::StateAttribute* poses)
+{
+    const osg::StateAttribute* program = programOf(state);
+    if (program && program != poses) return "rasterized.shader-program";
+    if (usesStencil(state)) return "rasterized.stencil";
+    if (masksColor(state)) return "rasterized.color-mask";
+    if (looksIntoOpenGL(state, textures)) return "rasterized.texture-without-image";
+    const auto* polygons = state.attribute<osg::PolygonMode>(kPolygonModeSlot);
+    if (polygons && polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
+        return "rasterized.polygon-mode";
+    if (combinesTextures(state)) return "rasterized.texture-combine";
+    switch (blendingOf(state))
+    {
+    case Blending::Additive:
+        return "rasterized.additive-blending";
+    case Blending::Other:
+        return "rasterized.blending";
+    default:
+        break;
+    }
+    // In the coordinates of the drawable that happens to be drawn first with it.
+    const auto* plane = state.attribute<osg::ClipPlane>(kClipPlaneSlot);
+    if (plane && plane->getClipPlaneNum() < kClipPlanes &&
+        state.isOn(kClipPlaneBit + plane->getClipPlaneNum()))
+        return "rasterized.clip-plane-attribute";
+    return nullptr;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,120 @@
+// PrimitiveNumbers.cpp - finds the triangles of a mesh among those of its geometry. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/pick/PrimitiveNumbers.h"
+
+#include "osgRayTrace/bridge/geometry/BoundArrays.h"
+#include "osgRayTrace/bridge/geometry/GeometryConverter.h"
+
+#include <map>
+#include <tuple>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Every triangle is a primitive, and none was dropped.
+bool isPlainList(const osg::Geometry& geometry, const PrimitiveRestart& restart, const Mesh& mesh)
+{
+    if (restart.on || hasValuesBySet(geometry)) return false;
+    std::size_t triangles = 0;
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
+    {
+        const bool plain = set && set->getMode() == GL_TRIANGLES && hasTriangles(*set) &&
+                           set->getNumIndices() % 3 == 0 &&
+                           set->getType() != osg::PrimitiveSet::DrawArrayLengthsPrimitiveType &&
+                           set->getType() != osg::PrimitiveSet::MultiDrawArraysPrimitiveType;
+        if (!plain) return false;
+        triangles += set->getNumIndices() / 3;
+    }
+    return triangles == mesh.triangles.size();
+}
+
+/// Mirrored meshes have them turned.
+bool isSame(const UVec3& mesh, const UVec3& geometry)
+{
+    return mesh == geometry ||
+           (mesh.x == geometry.x && mesh.y == geometry.z && mesh.z == geometry.y);
+}
+
+/// The triangles of a mesh are those of its geometry in their order, without those that were
+/// dropped; some may have been cut. Gives the place of each among the geometry's.
+class Finder
+{
+public:
+    explicit Finder(const std::vector<UVec3>& triangles) : _triangles(triangles) {}
+
+    uint32_t find(const UVec3& t)
+    {
+        if (!_inOrder) return search(t);
+        for (std::size_t i = _next; i < _triangles.size(); ++i)
+        {
+            if (!isSame(t, _triangles[i])) continue;
+            _next = i + 1;
+            return static_cast<uint32_t>(i);
+        }
+        _inOrder = false; // not there, or not in order: no second walk through all of them
+        return search(t);
+    }
+
+private:
+    using Key = std::tuple<uint32_t, uint32_t, uint32_t>;
+    static Key keyOf(const UVec3& t) { return {t.x, t.y, t.z}; }
+
+    uint32_t search(const UVec3& t)
+    {
+        if (_places.empty())
+            for (uint32_t i = 0; i < _triangles.size(); ++i)
+                _places.try_emplace(keyOf(_triangles[i]), i);
+        auto found = _places.find(keyOf(t));
+        if (found == _places.end()) found = _places.find(keyOf(UVec3(t.x, t.z, t.y)));
+        return found == _places.end() ? kInvalid : found->second;
+    }
+
+    const std::vector<UVec3>& _triangles;
+    std::size_t _next = 0;
+    bool _inOrder = true;
+    std::map<Key, uint32_t> _places; // if they are not in order
+};
+
+} // namespace
+
+PrimitiveNumbers::PrimitiveNumbers(const osg::Geometry& geometry, const PrimitiveRestart& restart,
+                                   const Mesh& mesh)
+    : _triangles(mesh.triangles)
+{
+    const osg::Array* vertices = positionArray(geometry);
+    _vertexCount = vertices ? vertices->getNumElements() : 0;
+    const bool cut =
+        mesh.positions.size() != _vertexCount; // as many triangles may have come as went
+    if (!cut && isPlainList(geometry, restart, mesh)) return;
+
+    TriangleList list = trianglesOf(geometry, _vertexCount, restart, true);
+    if (hasValuesBySet(geometry))
+    {
+        VertexMap map = splitByPrimitiveSet(list, _vertexCount);
+        _vertexCount = static_cast<uint32_t>(map.vertexCount);
+        _rows = std::move(map.rows);
+    }
+    Finder finder(list.triangles);
+    _primitives.reserve(mesh.triangles.size());
+    for (const UVec3& t : mesh.triangles)
+    {
+        const uint32_t place = finder.find(t);
+        _primitives.push_back(place == kInvalid ? kInvalid : list.primitives[place]);
+    }
+}
+
+GeometryTriangle PrimitiveNumbers::at(uint32_t triangle) const
+{
+    GeometryTriangle result;
+    if (triangle >= _triangles.size()) return result;
+    const UVec3& t = _triangles[triangle];
+    if (t.x >= _vertexCount || t.y >= _vertexCount || t.z >= _vertexCount) return result;
+    result.primitive = _primitives.empty() ? triangle : _primitives[triangle];
+    result.rows = _rows.empty() ? t : UVec3(_rows[t.x], _rows[t.y], _rows[t.z]);
+    return result;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,295 @@
+// SceneUpdater.cpp - keeps the traced scene up to date with its scene graph. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/update/SceneUpdater.h"
+
+#include "osgRayTrace/bridge/common/WarnOnce.h"
+#include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
+
+#include <cmath>
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr unsigned int kReferenceExpiry = 500; // passes of others without it: another takes over
+
+unsigned int frameNumberOf(const osg::FrameStamp* frameStamp)
+{
+    return frameStamp ? frameStamp->getFrameNumber() : 0;
+}
+
+/// Of a singular view matrix.
+osg::Vec3d finiteOrZero(const osg::Vec3d& point)
+{
+    return std::isfinite(point.length2()) ? point : osg::Vec3d();
+}
+
+} // namespace
+
+void SceneUpdater::noteView(const ObjectName& camera, const osg::FrameStamp* frameStamp,
+                            const ViewingConditions& conditions)
+{
+    const unsigned int frameNumber = frameNumberOf(frameStamp);
+    std::lock_guard<std::mutex> lock(_notedMutex);
+    if (_noted.conditions && _noted.camera != camera && ++_noted.othersSince < kReferenceExpiry)
+        return;
+    // The second pass of a camera in one frame is its other eye.
+    const bool again = frameStamp && _noted.camera == camera && _noted.frameNumber == frameNumber;
+    _noted.othersSince = 0;
+    if (_noted.conditions && again) return;
+    _noted.camera = camera;
+    _noted.frameNumber = frameNumber;
+    _noted.conditions = conditions;
+}
+
+bool SceneUpdater::isViewed() const
+{
+    std::lock_guard<std::mutex> lock(_notedMutex);
+    return _noted.conditions.has_value();
+}
+
+void SceneUpdater::noteDrawn(const ObjectName& camera, const osg::Vec3d& eye, double nearDistance)
+{
+    const SceneVersion drawn = version();
+    if (!drawn.scene) return;
+    const Vec3d origin = drawn.scene->scene().origin;
+    const double distance = (eye - osg::Vec3d(origin.x, origin.y, origin.z)).length();
+    if (!(nearDistance > 0.0 && distance > kOriginDistance * nearDistance)) return;
+
+    std::lock_guard<std::mutex> lock(_notedMutex);
+    if (camera == _noted.camera) _noted.asked.origin = eye;
+}
+
+void SceneUpdater::releaseGraph()
+{
+    std::lock_guard<std::mutex> lock(_updateMutex);
+    if (std::exchange(_released, true)) return;
+    _watch.forget();
+    _converter.releaseGraph();
+    _frameNumber.reset();
+    _stale = true;
+}
+
+void SceneUpdater::setDirty()
+{
+    std::lock_guard<std::mutex> lock(_notedMutex);
+    _noted.asked.dirty = _noted.asked.forget = true;
+}
+
+SceneVersion SceneUpdater::versionToPick(osg::Node* root, const RayTraceSettings& settings,
+                                         const osg::Vec3d& start)
+{
+    SceneVersion now = version();
+    const bool viewed = isViewed(); // then frames keep it up to date
+    if (viewed && now.pickIndex) return now;
+    _picks = true;
+    {
+        std::lock_guard<std::mutex> lock(_notedMutex);
+        if (!now.pickIndex) _noted.asked.dirty = true;
+        if (!viewed && !now.scene) _noted.asked.origin = start;
+    }
+    update(root, settings, nullptr);
+    return version();
+}
+
+SceneVersion SceneUpdater::version() const
+{
+    std::lock_guard<std::mutex> lock(_versionMutex);
+    return _version;
+}
+
+Statistics SceneUpdater::statistics() const
+{
+    std::lock_guard<std::mutex> lock(_versionMutex);
+    Statistics statistics = _statistics;
+    if (_version.scene) statistics.embreeBytes = _version.scene->embreeBytes();
+    return statistics;
+}
+
+void SceneUpdater::update(osg::Node* root, const RayTraceSettings& settings,
+                          const osg::FrameStamp* frameStamp)
+{
+    std::lock_guard<std::mutex> lock(_updateMutex);
+    releaseHostArrays();
+    try
+    {
+        takeSettings(settings);
+        convertIfChanged(root, takeNoted().value_or(ViewingConditions()), frameStamp);
+    }
+    catch (const std::bad_alloc&)
+    {
+        fail("there is not enough memory to convert the scene");
+    }
+    catch (const std::exception& error)
+    {
+        fail(error.what());
+    }
+    catch (...)
+    {
+        fail("the scene could not be converted");
+    }
+}
+
+std::optional<ViewingConditions> SceneUpdater::takeNoted()
+{
+    std::lock_guard<std::mutex> lock(_notedMutex);
+    const Requests more = std::exchange(_noted.asked, Requests());
+    _asked.dirty |= more.dirty;
+    _asked.forget |= more.forget;
+    if (more.origin) _asked.origin = more.origin;
+    return _noted.conditions;
+}
+
+void SceneUpdater::takeSettings(const RayTraceSettings& settings)
+{
+    // The settings last: they are there only if all else is.
+    if (!_settings || _settings->getThreads() != settings.getThreads())
+        _workers = std::make_shared<Workers>(settings.getThreads());
+    if (_settingsOf != &settings || _settingsCount != settings.getModifiedCount())
+    {
+        _settings = new RayTraceSettings(settings);
+        _settingsOf = &settings;
+        _settingsCount = settings.getModifiedCount();
+    }
+
+    std::lock_guard<std::mutex> lock(_versionMutex);
+    _version.settings = _settings;
+    _version.workers = _workers;
+    if (!_version.photons) _version.photons = std::make_shared<PhotonPasses>();
+}
+
+void SceneUpdater::convertIfChanged(osg::Node* root, const ViewingConditions& conditions,
+                                    const osg::FrameStamp* frameStamp)
+{
+    const bool seen = frameStamp && _frameNumber == frameStamp->getFrameNumber();
+    const ConversionSettings settings = conversionSettings(
+        *_settings, _materialFile.materials(_settings->getMaterials(), _asked.dirty));
+    const bool sameRoot = _root == root;
+    const bool same = !_asked.dirty && !_asked.origin && sameRoot && _conditions &&
+                      convertAlike(*_conditions, conditions) && settings == _conversionSettings;
+    if (seen && same) return;
+    if (frameStamp) _frameNumber = frameStamp->getFrameNumber();
+    if (!root && same) return;
+
+    _root = root;
+    _conditions = conditions;
+    _conversionSettings = settings;
+    if (_asked.origin || !_origin) _origin = finiteOrZero(_asked.origin.value_or(conditions.eye));
+    if (!root)
+    {
+        _asked = Requests();
+        _watch.forget();
+        _converter.releaseGraph();
+        publish(nullptr, ConversionResult(), _done);
+        return;
+    }
+    _released = false;
+    const GraphChanges changes = look(*root, same, sameRoot, conditions);
+    const Requests asked = std::exchange(_asked, Requests());
+    if (changes.none()) return;
+
+    const bool wasStale = std::exchange(_stale, true);
+    if (asked.forget) _converter.forget();
+    std::optional<ConversionResult> conversion;
+    if (!changes.convert && !wasStale) conversion = _converter.patch(changes);
+    ++(conversion ? _done.patches : _done.conversions);
+    if (!conversion) conversion = convert(*root, conditions);
+    _stale = false;
+    build(*conversion);
+}
+
+/// What has changed; the graph is remembered as it is now, whatever becomes of its conversion.
+GraphChanges SceneUpdater::look(osg::Node& root, bool same, bool sameRoot,
+                                const ViewingConditions& conditions)
+{
+    GraphChanges changes;
+    changes.convert = !same;
+    changes.record = !sameRoot;
+    if (sameRoot)
+    {
+        // Also under other conditions: then all changes are known, and the next look finds none of
+        // them.
+        GraphChanges found = _watch.look(root, conditions);
+        const bool record = found.record;
+        if (same) changes = std::move(found);
+        changes.record = record;
+        std::lock_guard<std::mutex> lock(_versionMutex);
+        _statistics.walks = ++_done.walks;
+    }
+    if (changes.record) _watch.record(root, conditions);
+    return changes;
+}
+
+ConversionResult SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
+{
+    ConversionInput input;
+    static_cast<ConversionSettings&>(input) = _conversionSettings;
+    input.root = &root;
+    input.eye = conditions.eye;
+    input.view = conditions.view;
+    input.origin = *_origin;
+    input.traversalMask = conditions.traversalMask;
+    input.viewLight = conditions.light;
+    input.viewLightInEyeSpace = conditions.lightInEyeSpace;
+    input.lighting = conditions.inheritedState.empty();
+    input.inheritedState = conditions.inheritedState;
+    input.clearColor = conditions.clearColor;
+    input.rasterizesRest = true;
+    input.picks = _picks;
+
+    return _converter.convert(input);
+}
+
+void SceneUpdater::build(const ConversionResult& conversion)
+{
+    std::shared_ptr<const TracedScene> traced = version().scene;
+    if (!traced || &traced->scene() != conversion.scene.get())
+    {
+        traced = TracedScene::build(conversion.scene, _workers, traced);
+        const BuildStatistics& made = traced->statistics();
+        _done.builtMeshes += made.builtMeshes;
+        _done.refitMeshes += made.refitMeshes;
+        _done.staticBuilds += made.staticBuilds;
+        _done.embreeCommits += made.commits;
+    }
+    _done.convertedMeshes = _converter.convertedMeshes();
+    Statistics statistics = _done;
+    setSceneStatistics(statistics, conversion, *traced);
+    publish(std::move(traced), conversion, statistics);
+}
+
+void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene,
+                           const ConversionResult& conversion, const Statistics& statistics)
+{
+    std::shared_ptr<const RasterizedParts> rasterized = conversion.rasterized;
+    std::lock_guard<std::mutex> lock(_versionMutex);
+    // The old ones are freed after the lock, unless a view still draws them.
+    _version.scene.swap(scene);
+    _version.rasterized.swap(rasterized);
+    _version.pickIndex = conversion.pickIndex;
+    _version.paged = conversion.paged;
+    _statistics = statistics;
+}
+
+/// Memory may be what is missing: then the message is one that fits into a string as it is.
+void SceneUpdater::fail(const char* message) noexcept
+{
+    std::lock_guard<std::mutex> lock(_versionMutex);
+    _statistics.ok = false;
+    try
+    {
+        _statistics.message = message;
+        warnOnce(_statistics.message);
+    }
+    catch (const std::exception&)
+    {
+        _statistics.message = "out of memory";
+    }
+}
+
+} // namespace osgRayTrace::engine

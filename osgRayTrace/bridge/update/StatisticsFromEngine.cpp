@@ -1,0 +1,147 @@
+// StatisticsFromEngine.cpp - the engine's counts, as public statistics show them. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
+
+#include "osgRayTrace/bridge/common/WarnOnce.h"
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+const char* integratorName(IntegratorKind kind)
+{
+    switch (kind)
+    {
+    case IntegratorKind::Automatic:
+        return "auto";
+    case IntegratorKind::Whitted:
+        return "whitted";
+    case IntegratorKind::Path:
+        return "path";
+    case IntegratorKind::Ppm:
+        return "ppm";
+    case IntegratorKind::Sppm:
+        return "sppm";
+    case IntegratorKind::PhotonCaustics:
+        return "photon-caustics";
+    case IntegratorKind::Debug:
+        return "debug";
+    }
+    return "";
+}
+
+const char* noteText(PhotonNote note)
+{
+    switch (note)
+    {
+    case PhotonNote::None:
+        return "";
+    case PhotonNote::NoPower:
+        return "no light has any power: no photons were emitted";
+    case PhotonNote::NoneStored:
+        return "photons were followed, but none met a surface that they could be stored on";
+    case PhotonNote::RadiusLimited:
+        return "photon-radius is limited: not below the spacing of floats in this scene, and not "
+               "above the scene's own radius";
+    }
+    return "";
+}
+
+std::string sampledOf(std::size_t sampled, std::size_t all, const char* kind)
+{
+    return std::to_string(sampled) + " of " + std::to_string(all) + " " + kind + " lights";
+}
+
+std::string lightNote(const SampledLightCounts& lights)
+{
+    std::string some;
+    if (lights.sampledAreaLights < lights.areaLights)
+        some = sampledOf(lights.sampledAreaLights, lights.areaLights, "area");
+    if (lights.sampledDeltaLights < lights.deltaLights)
+        some +=
+            (some.empty() ? "" : " and ") +
+            sampledOf(lights.sampledDeltaLights, lights.deltaLights, "point, spot and directional");
+    if (!some.empty())
+        return "there are many lights: a pass samples " + some +
+               ", chosen by power and others in each pass; more passes lessen the noise";
+    if (lights.samplesOfEach < lights.wantedOfEach)
+        return "there are many lights: a pass takes " + std::to_string(lights.samplesOfEach) +
+               " samples of each of " + std::to_string(lights.areaLights) + " area lights, not " +
+               std::to_string(lights.wantedOfEach) + " as set by light-samples";
+    return "";
+}
+
+const char* denoiserName(DenoiseKind kind)
+{
+    switch (kind)
+    {
+    case DenoiseKind::Off:
+        return "";
+    case DenoiseKind::Filter:
+        return "filter";
+    case DenoiseKind::Oidn:
+        return "oidn";
+    }
+    return "";
+}
+
+} // namespace
+
+void setSceneStatistics(Statistics& statistics, const ConversionResult& conversion,
+                        const TracedScene& traced)
+{
+    const Scene& scene = traced.scene();
+    const BuildStatistics& build = traced.statistics();
+
+    statistics.triangles = traced.traits().triangles;
+    statistics.meshes = scene.meshes.size() - conversion.emptyMeshes;
+    statistics.instances = scene.instances.size() - conversion.emptyInstances;
+    statistics.lights = scene.lights.size();
+    statistics.convertSeconds = conversion.seconds;
+    statistics.buildSeconds = build.seconds;
+    statistics.embreeBytes = build.embreeBytes;
+    statistics.conversion = conversion.counts;
+    statistics.conversionPaths = conversion.paths;
+    if (build.invalidInstances > 0)
+        statistics.conversion["instance.invalid-transform"] += build.invalidInstances;
+}
+
+void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
+{
+    const bool hasPicture = progress.status.code == StatusCode::Cancelled && progress.passes > 0;
+    statistics.ok = progress.status.ok() || hasPicture;
+    statistics.message = progress.status.message;
+    statistics.integrator = integratorName(progress.integrator);
+    statistics.passes = progress.passes;
+    statistics.imageShare = progress.imageShare;
+    statistics.lightNote = lightNote(progress.lights);
+    if (!statistics.lightNote.empty()) warnOnce(statistics.lightNote);
+    statistics.renderSeconds = progress.seconds;
+    statistics.relativeError = progress.relativeError;
+    statistics.cameraRays = progress.rays.camera;
+    statistics.shadowRays = progress.rays.shadow;
+    statistics.secondaryRays = progress.rays.secondary;
+    statistics.photonRays = progress.rays.photon;
+    statistics.storedPhotons = progress.storedPhotons;
+    statistics.photonBytes = progress.photonBytes;
+    statistics.hitPointBytes = progress.hitPointBytes;
+    statistics.reprojectedShare = progress.reprojectedShare;
+    statistics.reprojectSeconds = progress.reprojectSeconds;
+    statistics.photonNote = noteText(progress.photonNote);
+    if (!statistics.photonNote.empty()) warnOnce(statistics.photonNote);
+    statistics.photonRadius = static_cast<double>(progress.photonRadius);
+    setDenoiseStatistics(statistics, progress.denoised, progress.denoiseSeconds);
+    statistics.droppedSamples = progress.droppedSamples;
+}
+
+void setDenoiseStatistics(Statistics& statistics, const DenoiseReport& report, double seconds)
+{
+    statistics.denoiseMilliseconds = 1e3 * seconds;
+    statistics.denoiser = denoiserName(report.by);
+    statistics.denoiseNote = report.note;
+    if (!report.note.empty()) warnOnce(report.note);
+}
+
+} // namespace osgRayTrace::engine

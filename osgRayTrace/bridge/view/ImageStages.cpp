@@ -1,0 +1,150 @@
+// ImageStages.cpp - what is done to a view's images between accumulation and display. Layer:
+// bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/view/ImageStages.h"
+
+#include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/base/Parallel.h"
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// What upsampling takes of one thread for a pixel, and more for one in a cell at an edge, until it
+/// is known [s].
+constexpr double kUpsampleSeconds = 12e-9, kEdgeSeconds = 400e-9;
+/// Of a smaller share of edges one cannot tell.
+constexpr double kToldBy = 0.05;
+/// What it was known to take of time is forgotten while it is not done: it will be tried again.
+constexpr double kForgets = 0.995;
+/// Of what is seen in what is known, where that was more.
+constexpr double kNewWeight = 0.25;
+
+/// Share of the cells that upsampling with this limit takes for edges.
+double edgesWithin(const UpsampleCounts& counts, double mostTraced)
+{
+    if (counts.around <= mostTraced) return counts.around;
+    return counts.edges <= mostTraced ? counts.edges : 0.0;
+}
+
+} // namespace
+
+void ImageStages::reset(std::shared_ptr<Workers> workers)
+{
+    _workers = std::move(workers);
+    _upsampleSeconds = kUpsampleSeconds / _workers->threads();
+    _edgeSeconds = kEdgeSeconds / _workers->threads();
+    _denoiser.forgetSurfaces();
+    _imageScene.reset();
+    _history.drop();
+}
+
+void ImageStages::leaveView(RenderSession& session, const ImageInputs& next)
+{
+    const bool sameScene = _imageScene.lock() == next.scene;
+    if (!sameScene) _viewDependence = viewDependence(next.scene->scene());
+    const bool keeps = _reprojects && sameScene && !next.options.needsRestart(_imageOptions) &&
+                       !_viewDependence.everywhere &&
+                       session.progress().integrator != IntegratorKind::Debug;
+    if (!keeps) _history.drop();
+    if (keeps && session.progress().passes > 0 && next.view != _imageView)
+        _history.leave(session, _imageView, *_workers);
+
+    session.setKeepsSurfaces(_reprojects && !_viewDependence.everywhere);
+    if (!keeps) _sequence = 0;
+    session.setSequence(_history.leaving() ? _sequence + 1 : 0);
+}
+
+void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
+                            const RenderProgress& made)
+{
+    if (made.restarted) _denoiser.forgetSurfaces();
+    if (made.restarted && made.status.code != StatusCode::InvalidView)
+    {
+        _imageScene = next.scene;
+        _imageView = next.view;
+        _imageOptions = next.options;
+        if (_history.leaving()) ++_sequence;
+    }
+    if (_history.leaving() && made.passes > 0 && _imageView == next.view)
+        _history.enter(session, next.view, _viewDependence, *_workers);
+}
+
+ShownImage ImageStages::staged(const RenderSession& session)
+{
+    ShownImage image = session.shownImage();
+    if (historyCounts(session)) _history.blend(image, session.progress().passes, *_workers);
+    if (!denoises()) return image;
+    const double begin = _now();
+    const auto surfaces = [&session]() -> const std::vector<SurfaceSample>&
+    { return session.surfaceSamples(); };
+    _denoiser.denoise(image, _denoise, surfaces, *_workers);
+    _denoiseSeconds = _now() - begin;
+    return image;
+}
+
+std::vector<float> ImageStages::radiance(const RenderSession& session)
+{
+    return changes(session) ? staged(session).radiance : session.resolveRadiance();
+}
+
+void ImageStages::show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba,
+                       float* depth)
+{
+    _upsampleSeconds *= kForgets;
+    forgetEdges();
+    if (denoises())
+        showImage(staged(session), toneMap, *_workers, rgba, depth);
+    else if (historyCounts(session))
+        _history.show(session, toneMap, rgba, depth);
+    else
+        session.resolveDisplay(toneMap, rgba, depth);
+}
+
+/// Down to what is taken for dear: images without edges say nothing of how cheap these are.
+void ImageStages::forgetEdges()
+{
+    const double guess = kEdgeSeconds / _workers->threads();
+    if (_edgeSeconds > guess) _edgeSeconds = std::max(guess, kForgets * _edgeSeconds);
+}
+
+void ImageStages::showUpsampled(const RenderSession& session, int width, int height,
+                                const DisplayTarget& display, double seconds)
+{
+    const double pixels = static_cast<double>(width) * height;
+    const double plain = kUpsampleSeconds / _workers->threads();
+    const double affordable = std::max(0.0, seconds / pixels - plain) / _edgeSeconds;
+    const ShownImage image = staged(session);
+    const double begin = _now();
+    const double mostTraced = std::min(kMostTraced, affordable);
+    const UpsampleCounts counts =
+        session.showUpsampled(image, session.surfaceSamples(), width, height, display, mostTraced);
+    // A frame that something else held up is not all there is to know.
+    const double seen = (_now() - begin) / pixels;
+    const double traced = edgesWithin(counts, mostTraced);
+    if (traced > kToldBy)
+    {
+        const double edge = std::max(0.0, seen - plain) / traced;
+        _edgeSeconds += edge > _edgeSeconds ? std::min(edge - _edgeSeconds, _edgeSeconds)
+                                            : kNewWeight * (edge - _edgeSeconds);
+    }
+    else
+        forgetEdges();
+    // Edges that there was no time for: of fewer pixels there may be.
+    const double missing = (edgesWithin(counts, kMostTraced) - traced) * _edgeSeconds;
+    _upsampleSeconds = std::min(seen + missing, 2.0 * _upsampleSeconds);
+}
+
+void ImageStages::report(const RenderSession& session, RenderProgress& progress) const
+{
+    progress.denoiseSeconds = _denoiseSeconds;
+    progress.denoised = _denoiser.report();
+    progress.reprojectedShare = historyCounts(session) ? _history.share() : 0.0;
+    progress.reprojectSeconds = _history.seconds();
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,32 @@
+// DebugIntegrator.h - shows what the other integrators work with. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/integrators/shared/Integrator.h"
+
+#include <memory>
+
+namespace osgRayTrace::engine
+{
+
+/// The debug channel as colours: normals as (n + 1)/2, texture coordinates modulo 1, ids as hashed
+/// colours, albedo, window depth; dropped samples as white pixels and cost as rays / 64, both of
+/// the integrator that AUTOMATIC chooses.
+class DebugIntegrator : public Integrator
+{
+public:
+    /// Makes an integrator of a kind: the debug integrator shows counts of another one.
+    using Factory = std::unique_ptr<Integrator> (*)(IntegratorKind);
+
+    explicit DebugIntegrator(Factory newIntegrator) : _newIntegrator(newIntegrator) {}
+
+    void renderTile(const PassContext& context, int left, int bottom,
+                    TileResult& result) const override;
+
+private:
+    void showDiagnostics(const PassContext& context, int left, int bottom, TileResult& result) const;
+
+    Factory _newIntegrator;
+};
+
+} // namespace osgRayTrace::engine

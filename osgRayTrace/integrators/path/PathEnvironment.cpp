@@ -1,0 +1,114 @@
+// PathEnvironment.cpp - light that paths get from the environment, by chance and by sampling it.
+// Layer: integrators.
+// SPDX-License-Identifier: MIT
+//
+// Importance, Uniform:  one direction a bounce and the ray that the surface sent on, by multiple
+// importance
+//                       sampling with the power heuristic [Veach97, sect. 9.2].
+// Structured:           the sum over all strata where the camera ray ends, one of them by chance
+// further on;
+//                       rays that a rough surface sent on bring nothing, mirror-like ones what is
+//                       there.
+#include "osgRayTrace/integrators/path/PathBounce.h"
+#include "osgRayTrace/integrators/shared/EnvironmentLanes.h"
+#include "osgRayTrace/integrators/shared/HitShading.h"
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Apart from the dimensions of all bounces: scenes without an environment keep their sequences.
+constexpr uint32_t kEnvironmentDimension = 0x10000u;
+
+void addSamples(Tile& tile, PathBlock& block, const Bounce& bounce, LightLanes& samples,
+                LaneMask alone)
+{
+    countRays(tile, block, samples.lit);
+    const LaneMask visible = visibleLanes(tile.context, samples, tile.counts);
+    addLight(tile, block, bounce, samples, visible, alone);
+}
+
+/// One of the strata for each lane, all alike: each stands for about the same share of the light.
+void sampleOneStratum(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMask lanes,
+                      const FloatLanes& u)
+{
+    const std::vector<EnvironmentStratum>& strata = *tile.context.strata;
+    const auto count = static_cast<uint32_t>(strata.size());
+    uint32_t chosen[kLanes];
+    for (int i = 0; i < kLanes; ++i)
+        chosen[i] = std::min(static_cast<uint32_t>(u[i] * static_cast<float>(count)), count - 1);
+    LightLanes samples;
+    samples.lit = 0;
+    LaneMask lit = 0;
+    for (LaneMask m = lanes; m; m &= m - 1)
+    {
+        const int i = __builtin_ctz(m);
+        stratumLanes(strata[chosen[i]], static_cast<float>(count), bounce.surface, 1u << i,
+                     bounce.through, samples);
+        lit |= samples.lit;
+    }
+    samples.lit = lit;
+    addSamples(tile, block, bounce, samples, kAllLanes);
+}
+
+} // namespace
+
+void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds)
+{
+    if (!tile.context.traced->lights().shiningEnvironment()) return;
+    const LaneMask lanes = bounce.diffuse | bounce.general;
+    LightLanes samples;
+    if (tile.context.strata && bounce.number == 0)
+    {
+        for (const EnvironmentStratum& stratum : *tile.context.strata)
+        {
+            stratumLanes(stratum, 1.0f, bounce.surface, lanes, bounce.through, samples);
+            addSamples(tile, block, bounce, samples, kAllLanes);
+        }
+        return;
+    }
+    FloatLanes u, v;
+    dimensionPoints(seeds, tile.context.key.index,
+                    bounceDimension(bounce.number, DimensionLightPoint) + kEnvironmentDimension, u,
+                    v);
+    if (tile.context.strata)
+    {
+        sampleOneStratum(tile, block, bounce, lanes, u);
+        return;
+    }
+    environmentLanes(tile.context, bounce.surface, lanes, bounce.through, u, v, samples);
+    addSamples(tile, block, bounce, samples, bounce.ending);
+}
+
+void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int number, PhotonUse use)
+{
+    const PlacedEnvironment* environment = tile.context.traced->lights().shiningEnvironment();
+    if (number == 0 && !visibleEnvironment(tile.context))
+        return; // the clear colour is not ours to add
+    for (; missed; missed &= missed - 1)
+    {
+        const int i = __builtin_ctz(missed);
+        const Vec3 throughput = laneOf(block.throughput, i);
+        if (number == 0) tile.sums.a[block.pixel[i] & kPixelBits] = 1.0f;
+        if (!(block.pixel[i] & kScattered))
+        {
+            tile.sums.add(block.pixel[i],
+                          throughput * radianceBehind(tile.context, block.rays.ray, i));
+            continue;
+        }
+        if (!environment) continue; // a backdrop is no light
+        if (use == PhotonUse::Caustics && (block.pixel[i] & kCausticChain)) continue; // of photons
+        const bool sampled = block.pdfW[i] < kInfinity;
+        if (sampled && tile.context.strata) continue; // they hold all of it
+        const Vec3 direction = directionOf(block.rays.ray, i);
+        const float weight =
+            sampled ? powerHeuristic(block.pdfW[i],
+                                     environmentPdfW(tile.context, *environment, direction))
+                    : 1.0f;
+        tile.sums.add(block.pixel[i], throughput * environment->radiance(direction) * weight);
+    }
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,132 @@
+// PathHitPoints.cpp - hit points of camera paths: written when paths are followed, and gathered at.
+// Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/path/PathBounce.h"
+#include "osgRayTrace/integrators/shared/HitShading.h"
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Bit to if bit from is set.
+constexpr LaneMask moved(LaneMask mask, int from, int to)
+{
+    return ((mask >> from) & 1u) << to;
+}
+
+/// The state in which a bounce stood at a block's points.
+void restore(const HitPoints& hits, const HitPointBlock& points, PathBlock& block, Bounce& bounce)
+{
+    const LaneMask all = (1u << points.count) - 1u;
+    bounce.number = points.number;
+    bounce.normal = points.normal;
+    bounce.albedo = points.albedo;
+    bounce.diffuse = points.diffuse;
+    bounce.general = all & ~points.diffuse;
+    bounce.through = points.through;
+    bounce.gathering = points.gathering;
+    bounce.ending = points.ending;
+    SurfaceLanes& surface = bounce.surface;
+    surface.onTriangle = points.position;
+    surface.position = points.start;
+    surface.geometricNormal = points.geometricNormal;
+    surface.offset = points.offset;
+    surface.steep = points.steep;
+    surface.material = points.material;
+    surface.instance = points.instance;
+    surface.lifted = points.lifted;
+    surface.hits = block.active = all;
+    block.throughput = points.throughput;
+    block.rays.ray.directionX = points.direction.x;
+    block.rays.ray.directionY = points.direction.y;
+    block.rays.ray.directionZ = points.direction.z;
+    block.seed = points.seed;
+    block.pixel = points.pixel;
+    for (LaneMask lanes = bounce.general; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        bounce.bsdfs[i] = hits.bsdfs[points.bsdf[i]];
+    }
+}
+
+/// A block with room for a point after so many bounces.
+HitPointBlock& blockFor(int number, HitPoints& hits)
+{
+    if (hits.blocks.empty() || hits.blocks.back().number != number ||
+        hits.blocks.back().count == kLanes)
+    {
+        hits.blocks.emplace_back();
+        hits.blocks.back().number = number;
+    }
+    return hits.blocks.back();
+}
+
+/// Lane i of a bounce to lane to.
+void keepLane(HitPointBlock& points, int to, const PathBlock& block, const Bounce& bounce, int i,
+              uint32_t bsdf)
+{
+    const SurfaceLanes& surface = bounce.surface;
+    setLane(points.position, to, laneOf(trianglePoints(surface), i));
+    setLane(points.start, to, laneOf(surface.position, i));
+    setLane(points.geometricNormal, to, laneOf(surface.geometricNormal, i));
+    setLane(points.normal, to, laneOf(bounce.normal, i));
+    setLane(points.direction, to, directionOf(block.rays.ray, i));
+    setLane(points.throughput, to, laneOf(block.throughput, i));
+    const bool diffuse = (bounce.diffuse >> i) & 1u;
+    setLane(points.albedo, to, diffuse ? laneOf(bounce.albedo, i) : Vec3(0.0f));
+    points.offset[to] = surface.offset[i];
+    points.steep[to] = surface.steep[i];
+    points.material[to] = surface.material[i];
+    points.instance[to] = surface.instance[i];
+    points.seed[to] = block.seed[i];
+    points.pixel[to] = block.pixel[i];
+    points.bsdf[to] = bsdf;
+}
+
+} // namespace
+
+void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits)
+{
+    for (LaneMask lanes = bounce.diffuse | bounce.general; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        uint32_t kept = kInvalid;
+        if (!((bounce.diffuse >> i) & 1u))
+        {
+            const Bsdf& bsdf = bounce.bsdfs[i];
+            const bool gathering = (bounce.gathering >> i) & 1u;
+            // Mirrors and smooth glass send nothing back from light samples or photons.
+            if (bsdf.isSmooth() && bsdf.diffuse == Vec3(0.0f) && !gathering) continue;
+            kept = static_cast<uint32_t>(hits.bsdfs.size());
+            hits.bsdfs.push_back(bsdf);
+        }
+        HitPointBlock& points = blockFor(bounce.number, hits);
+        const int at = points.count++;
+        // Vector code reads lanes out of use as well.
+        for (int to = at; to < (at == 0 ? kLanes : at + 1); ++to)
+            keepLane(points, to, block, bounce, i, kept);
+        points.diffuse |= moved(bounce.diffuse, i, at);
+        points.through |= moved(bounce.through, i, at);
+        points.lifted |= moved(bounce.surface.lifted, i, at);
+        points.gathering |= moved(bounce.gathering, i, at);
+        points.ending |= moved(bounce.ending, i, at);
+    }
+}
+
+void gatherAtHitPoints(Tile& tile, const HitPoints& hits)
+{
+    PathBlock& block = tile.paths.blocks[0];
+    Bounce bounce;
+    bounce.bsdfs = tile.bsdfs;
+    for (const HitPointBlock& points : hits.blocks)
+    {
+        restore(hits, points, block, bounce);
+        bounce.rough = bounce.gathering;
+        addPhotons(tile, block, bounce);
+        sampleLights(tile, block, bounce);
+    }
+}
+
+} // namespace osgRayTrace::engine

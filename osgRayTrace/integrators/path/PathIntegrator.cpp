@@ -1,0 +1,203 @@
+// PathIntegrator.cpp - unidirectional path tracing, the reference for everything else. Layer:
+// integrators.
+// SPDX-License-Identifier: MIT
+//
+// Estimator of the radiance along a camera ray [Kajiya86; Veach97, ch. 8 and 9]:
+//
+//   L = sum over bounces k of beta_k * ( w_bsdf Le(x_k) + w_light f cos Le(y) V / (pmf pdfW)
+//                                        + sum over delta lights of f cos pi I V )
+//   beta_{k+1} = beta_k f cos / pdfW / q
+//
+// with the power heuristic w = p_a^2 / (p_a^2 + p_b^2), y sampled on one area light chosen by
+// power, and q the survival probability of Russian roulette: 1 while beta, as it would be outside
+// of all glass, is above a bound, and beta over this bound from there on, so that beta stays where
+// it is. A q that is capped below 1 would let beta grow along paths that lose less than it does,
+// and their variance with it; beta in glass is 1/eta^2 of what comes out again. Sixteen paths are
+// followed together; those that end are replaced by closing the ranks of the tile after each
+// bounce. What a path finds from its second surface on is shared with other pixels: PathReuse.cpp.
+#include "osgRayTrace/integrators/path/PathIntegrator.h"
+
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/integrators/path/PathBounce.h"
+#include "osgRayTrace/integrators/shared/CameraLanes.h"
+#include "osgRayTrace/integrators/shared/FirstHit.h"
+#include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/shading/SmoothLanes.h"
+
+#include <cstring>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
+{
+    facingNormalLanes(block.rays.ray, bounce.surface, bounce.normal);
+    const MaterialTable& materials = tile.context.traced->materials();
+    bounce.diffuse = bounce.general = bounce.smooth = bounce.through = 0;
+    for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const MaterialRecord& record = materials[bounce.surface.material[i]];
+        if (record.plainDiffuse)
+        {
+            setLane(bounce.albedo, i, record.front.diffuse);
+            const bool black = record.front.diffuse == Vec3(0.0f);
+            bounce.diffuse |= static_cast<LaneMask>(!black) << i;
+            continue;
+        }
+        const bool front = (bounce.surface.front >> i) & 1u;
+        bounce.bsdfs[i] =
+            record.constant
+                ? (front ? record.front : record.back)
+                : materials.bsdf(bounce.surface.material[i],
+                                 materialPoint(tile.context, block.rays, bounce.surface, i));
+        if (bounce.bsdfs[i].isDiffuse() && bounce.bsdfs[i].diffuse == Vec3(0.0f)) continue;
+        bounce.general |= 1u << i;
+        bounce.smooth |= static_cast<LaneMask>(isSmoothInterface(bounce.bsdfs[i])) << i;
+        bounce.through |= static_cast<LaneMask>(bounce.bsdfs[i].transmits()) << i;
+    }
+    dropLift(bounce.surface, bounce.through); // refraction depends on where the facet is
+}
+
+/// Follows the paths of a block over one bounce.
+void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
+{
+    PathBlock& block = tile.paths.blocks[b];
+    const TracedScene& traced = *tile.context.traced;
+    const Coherence coherence = number == 0 ? Coherence::Coherent : Coherence::Incoherent;
+    traced.intersector().closestHits(block.rays, block.active, coherence,
+                                     number == 0 ? kCameraRays : HitRule());
+    const auto rays = static_cast<uint64_t>(__builtin_popcount(block.active));
+    (number == 0 ? tile.counts.cameraRays : tile.counts.secondaryRays) += rays;
+    countRays(tile, block, block.active);
+
+    Bounce bounce;
+    bounce.number = number;
+    bounce.bsdfs = tile.bsdfs;
+    surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface,
+               rayStart(tile.context.options));
+    addEnvironment(tile, block, block.active & ~bounce.surface.hits, number, use);
+    addEmission(tile, block, bounce.surface, use);
+    if (number == 0)
+    {
+        noteFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface,
+                      tile.result);
+        for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
+            tile.sums.a[block.pixel[__builtin_ctz(lanes)] & kPixelBits] = 1.0f;
+    }
+    if (last)
+    {
+        block.active = 0;
+        return;
+    }
+    classify(tile, block, bounce);
+    if (!(bounce.diffuse | bounce.general))
+    {
+        block.active = 0;
+        return;
+    }
+    if (number == 1 && tile.loans.active) lendPaths(tile, block, bounce);
+    if (use != PhotonUse::None) chooseGathering(block, bounce, use);
+    if (HitPoints* hits = tile.result.hitPoints)
+        keepHitPoints(block, bounce, *hits);
+    else
+    {
+        if (use != PhotonUse::None) addPhotons(tile, block, bounce);
+        sampleLights(tile, block, bounce);
+    }
+    if (number == 0 && tile.loans.active) noteFirstSurfaces(tile, b, bounce);
+    scatter(tile, block, bounce);
+}
+
+void tracePaths(Tile& tile, PhotonUse use)
+{
+    const PassContext& context = tile.context;
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        PathBlock& block = tile.paths.blocks[b];
+        cameraRayLanes(context.camera, context.pathKey, tile.left, tile.bottom, b,
+                       context.throughCentres, block.rays, block.seed);
+        for (int i = 0; i < kLanes; ++i)
+        {
+            setLane(block.throughput, i, Vec3(1.0f));
+            block.pdfW[i] = kInfinity;
+            block.etaScale[i] = 1.0f;
+            block.pixel[i] = static_cast<uint32_t>(b * kLanes + i);
+        }
+        block.active = kAllLanes;
+    }
+    openLoans(tile, use);
+    for (int number = 0; tile.paths.count > 0; ++number)
+    {
+        const bool last = number >= context.options.maxBounces;
+        for (int b = 0; b < tile.paths.count; ++b)
+            bounceBlock(tile, b, number, last, use);
+        closeRanks(tile.paths);
+    }
+    returnPaths(tile);
+}
+
+void writeSums(const Tile& tile, RgbaLanes* rgba)
+{
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        const std::size_t bytes = sizeof(FloatLanes);
+        std::memcpy(&rgba[b].r, tile.sums.r + b * kLanes, bytes);
+        std::memcpy(&rgba[b].g, tile.sums.g + b * kLanes, bytes);
+        std::memcpy(&rgba[b].b, tile.sums.b + b * kLanes, bytes);
+        std::memcpy(&rgba[b].a, tile.sums.a + b * kLanes, bytes);
+    }
+}
+
+void readSums(const RgbaLanes* rgba, Tile& tile)
+{
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        const std::size_t bytes = sizeof(FloatLanes);
+        std::memcpy(tile.sums.r + b * kLanes, &rgba[b].r, bytes);
+        std::memcpy(tile.sums.g + b * kLanes, &rgba[b].g, bytes);
+        std::memcpy(tile.sums.b + b * kLanes, &rgba[b].b, bytes);
+        std::memcpy(tile.sums.a + b * kLanes, &rgba[b].a, bytes);
+    }
+}
+
+/// The passes of [Hachisuka08, sect. 4]: camera paths once, then photons and light at what they
+/// found, until the pass has other paths.
+void gatherOnly(Tile& tile, PhotonUse use)
+{
+    HitPoints& hits = *tile.result.hitPoints;
+    const uint32_t paths = tile.context.pathKey.index;
+    if (hits.paths == paths)
+        readSums(hits.seen.data(), tile);
+    else
+    {
+        hits.clear();
+        tracePaths(tile, use);
+        hits.seen.resize(kTileBlocks);
+        writeSums(tile, hits.seen.data());
+        hits.blocks.shrink_to_fit();
+        hits.bsdfs.shrink_to_fit();
+        hits.paths = paths;
+    }
+    gatherAtHitPoints(tile, hits);
+}
+
+} // namespace
+
+void PathIntegrator::renderTile(const PassContext& context, int left, int bottom,
+                                TileResult& result) const
+{
+    Tile tile(context, left, bottom, result);
+    const PhotonUse use = context.photons ? context.photonUse : PhotonUse::None;
+    if (result.hitPoints)
+        gatherOnly(tile, use);
+    else
+        tracePaths(tile, use);
+    writeSums(tile, result.rgba);
+    dropNotFinite(result);
+}
+
+} // namespace osgRayTrace::engine

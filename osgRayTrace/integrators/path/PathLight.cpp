@@ -1,0 +1,195 @@
+// PathLight.cpp - light that a path meets by chance and by sampling lights. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/integrators/path/PathBounce.h"
+#include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/integrators/shared/LightBsdfs.h"
+#include "osgRayTrace/integrators/shared/ShadowLanes.h"
+
+namespace osgRayTrace::engine
+{
+
+void countRays(Tile& tile, const PathBlock& block, LaneMask lanes)
+{
+    if (!tile.diagnostics) return;
+    for (; lanes; lanes &= lanes - 1)
+        tile.diagnostics->rays[block.pixel[__builtin_ctz(lanes)] & (kTilePixels - 1)] += 1.0f;
+}
+
+OSGRAYTRACE_KERNEL
+void dimensionPoints(const UintLanes& seeds, uint32_t passIndex, uint32_t dimension, FloatLanes& u,
+                     FloatLanes& v)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        float x, y;
+        sobol2(passIndex, dimensionSeed(seeds[i], dimension), x, y);
+        u[i] = x;
+        v[i] = y;
+    }
+}
+
+void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface, PhotonUse use)
+{
+    const TracedScene& traced = *tile.context.traced;
+    for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        if (!traced.materials()[surface.material[i]].emits) continue;
+        const Vec3 emission = emissionTowardsRay(tile.context, block.rays, surface, i);
+        if (emission == Vec3(0.0f)) continue;
+        float weight = 1.0f;
+        const uint32_t light = traced.surfaces()[surface.instance[i]].light;
+        if (light != kInvalid && traced.lights().areaLightPmf(light) > 0.0f)
+        {
+            if (use == PhotonUse::Caustics && (block.pixel[i] & kCausticChain))
+                continue; // of photons
+            const Vec3 direction = directionOf(block.rays.ray, i);
+            const float cosThetaL =
+                std::fabs(glm::dot(direction, laneOf(surface.geometricNormal, i)));
+            const float pdfLight =
+                traced.lights().areaLightPmf(light) *
+                traced.lights().pdfArea(light, block.rays.ray.tFar[i], cosThetaL);
+            weight = powerHeuristic(block.pdfW[i], pdfLight);
+        }
+        tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * emission * weight);
+    }
+}
+
+namespace
+{
+
+/// A light sample for each lane of a diffuse block: vector code.
+OSGRAYTRACE_KERNEL
+void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLanes& light,
+                  LaneMask visible, const Vec3Lanes& throughput, bool alone, Vec3Lanes& radiance)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float cosine =
+            normal.x[i] * light.wi.x[i] + normal.y[i] * light.wi.y[i] + normal.z[i] * light.wi.z[i];
+        const float positive = cosine > 0.0f ? cosine : 0.0f;
+        const float pdfBsdf = positive * kInvPi;
+        const float ratio = pdfBsdf * light.weight[i];
+        const float mis = select(alone, 1.0f, 1.0f / (1.0f + ratio * ratio));
+        const float unmasked = pdfBsdf * light.weight[i] * mis;
+        const float weight = select(laneBit(visible, i), unmasked, 0.0f);
+        radiance.x[i] = throughput.x[i] * albedo.x[i] * light.radiance[0][i] * weight;
+        radiance.y[i] = throughput.y[i] * albedo.y[i] * light.radiance[1][i] * weight;
+        radiance.z[i] = throughput.z[i] * albedo.z[i] * light.radiance[2][i] * weight;
+    }
+}
+
+} // namespace
+
+void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
+              LaneMask visible, LaneMask alone)
+{
+    if (visible & bounce.diffuse)
+    {
+        Vec3Lanes radiance;
+        diffuseLight(bounce.normal, bounce.albedo, light, visible & bounce.diffuse,
+                     block.throughput, (visible & bounce.diffuse & alone) != 0, radiance);
+        for (LaneMask lanes = visible & bounce.diffuse; lanes; lanes &= lanes - 1)
+        {
+            const int i = __builtin_ctz(lanes);
+            tile.sums.add(block.pixel[i], laneOf(radiance, i));
+        }
+    }
+    const LaneMask general = visible & bounce.general;
+    if (!general) return;
+    Vec3Lanes fCos;
+    FloatLanes pdfW;
+    evalTowardsLight(block.rays.ray, bounce.surface, bounce.normal, bounce.bsdfs, light.wi, general,
+                     fCos, pdfW);
+    for (LaneMask lanes = general; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        if (!(pdfW[i] > 0.0f)) continue;
+        const float mis =
+            (alone >> i) & 1u ? 1.0f : powerHeuristic(1.0f, pdfW[i] * light.weight[i]);
+        const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
+        tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * laneOf(fCos, i) * radiance *
+                                          (light.weight[i] * mis));
+    }
+}
+
+namespace
+{
+
+void sampleOneLight(Tile& tile, PathBlock& block, const Bounce& bounce, uint32_t light, float pmf,
+                    LaneMask lanes, const FloatLanes& u, const FloatLanes& v)
+{
+    LightLanes samples;
+    areaLightLanes(tile.context, light, pmf, bounce.surface, lanes, bounce.through, u, v, samples);
+    countRays(tile, block, samples.lit);
+    const LaneMask visible = visibleLanes(tile.context, samples, tile.counts);
+    addLight(tile, block, bounce, samples, visible, bounce.ending);
+}
+
+/// All soft lights are sampled, each at points of its own.
+UintLanes seedsOfLight(const UintLanes& seeds, uint32_t light)
+{
+    UintLanes own;
+    for (int i = 0; i < kLanes; ++i)
+        own[i] = hash(seeds[i] + 0x9e3779b9u * (light + 1));
+    return own;
+}
+
+} // namespace
+
+void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
+{
+    const LightTable& table = tile.context.traced->lights();
+    const LaneMask lanes = bounce.diffuse | bounce.general;
+    const UintLanes& seeds = block.seed;
+    for (std::size_t k = 0; k < tile.deltaLights.size(); ++k)
+    {
+        const auto [index, weight] = tile.deltaLights[k];
+        const Light& light = (*tile.context.lights)[index];
+        FloatLanes u, v;
+        if (isSoft(light))
+            dimensionPoints(seedsOfLight(seeds, index), tile.context.key.index,
+                            bounceDimension(bounce.number, DimensionLightPoint), u, v);
+        LightLanes samples;
+        deltaLightLanes(tile.context, index, bounce.surface, lanes, bounce.through, u, v, samples);
+        for (int i = 0; i < kLanes; ++i)
+            samples.weight[i] *= weight;
+        if (light.castsShadows) countRays(tile, block, samples.lit);
+        addLight(tile, block, bounce, samples,
+                 visibleLanes(tile.context, light, samples, tile.counts), kAllLanes);
+    }
+    if (table.environment()) sampleEnvironment(tile, block, bounce, seeds);
+    if (table.areaLights().empty()) return;
+
+    FloatLanes u, v;
+    dimensionPoints(seeds, tile.context.key.index,
+                    bounceDimension(bounce.number, DimensionLightPoint), u, v);
+    if (table.areaLights().size() == 1)
+    {
+        sampleOneLight(tile, block, bounce, table.areaLights()[0], 1.0f, lanes, u, v);
+        return;
+    }
+    // Lanes that chose the same light are sampled together.
+    FloatLanes choice, unused;
+    dimensionPoints(seeds, tile.context.key.index,
+                    bounceDimension(bounce.number, DimensionLightChoice), choice, unused);
+    LaneMask open = lanes;
+    LightTable::Choice chosen[kLanes];
+    for (LaneMask m = lanes; m; m &= m - 1)
+        chosen[__builtin_ctz(m)] = table.chooseAreaLight(choice[__builtin_ctz(m)]);
+    while (open)
+    {
+        const LightTable::Choice& first = chosen[__builtin_ctz(open)];
+        LaneMask same = 0;
+        for (LaneMask m = open; m; m &= m - 1)
+            same |= static_cast<LaneMask>(chosen[__builtin_ctz(m)].light == first.light)
+                    << __builtin_ctz(m);
+        sampleOneLight(tile, block, bounce, first.light, first.pmf, same, u, v);
+        open &= ~same;
+    }
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,57 @@
+// PathQueue.cpp - the paths of a tile, sixteen to a block. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/path/PathQueue.h"
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
+{
+    to.rays.ray.originX[k] = from.rays.ray.originX[i];
+    to.rays.ray.originY[k] = from.rays.ray.originY[i];
+    to.rays.ray.originZ[k] = from.rays.ray.originZ[i];
+    to.rays.ray.tNear[k] = from.rays.ray.tNear[i];
+    to.rays.ray.directionX[k] = from.rays.ray.directionX[i];
+    to.rays.ray.directionY[k] = from.rays.ray.directionY[i];
+    to.rays.ray.directionZ[k] = from.rays.ray.directionZ[i];
+    to.throughput.x[k] = from.throughput.x[i];
+    to.throughput.y[k] = from.throughput.y[i];
+    to.throughput.z[k] = from.throughput.z[i];
+    to.pdfW[k] = from.pdfW[i];
+    to.etaScale[k] = from.etaScale[i];
+    to.seed[k] = from.seed[i];
+    to.pixel[k] = from.pixel[i];
+}
+
+} // namespace
+
+void closeRanks(PathQueue& paths)
+{
+    int count = 0;
+    for (int b = 0; b < paths.count; ++b)
+    {
+        PathBlock& from = paths.blocks[b];
+        for (LaneMask lanes = from.active; lanes; lanes &= lanes - 1, ++count)
+        {
+            const int i = __builtin_ctz(lanes);
+            if (count != b * kLanes + i)
+                moveLane(from, i, paths.blocks[count / kLanes], count % kLanes);
+        }
+    }
+    paths.count = (count + kLanes - 1) / kLanes;
+    for (int b = 0; b < paths.count; ++b)
+    {
+        PathBlock& block = paths.blocks[b];
+        const int used = std::min(kLanes, count - b * kLanes);
+        block.active = (1u << used) - 1u;
+        for (int i = 0; i < kLanes; ++i)
+            block.rays.ray.tFar[i] = kInfinity;
+    }
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,232 @@
+// PathReuse.cpp - what the paths of neighbouring pixels lend each other. Layer: integrators.
+// SPDX-License-Identifier: MIT
+//
+// A path that left a diffuse surface x_j and met a diffuse surface at y_j finds there the radiance
+// L(y_j), which is the same towards all sides. It is a sample for each pixel of the group whose own
+// diffuse surface x_i sees y_j [Bekaert02, sect. 3]. With the densities p_k(y) per area at y with
+// which each of the pixels would have found it, and weights of the balance heuristic [Veach97,
+// eq. 9.8]:
+//
+//   L_i += sum over paths j of albedo_i L(y_j) p_i(y_j) / sum_k p_k(y_j)
+//   p_k(y) = cosTheta_k cosTheta_y V(x_k, y) / (pi r^2)
+//
+// since f_i cosTheta_i cosTheta_y V / r^2 = albedo_i p_i for a diffuse surface. One shadow ray a
+// pair of pixels is what it costs, a path is some ten times that. Which y are lent depends on y
+// alone, so that all p_k speak of the same samples; others are for their own pixel.
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/integrators/path/PathBounce.h"
+#include "osgRayTrace/integrators/shared/HitShading.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr float kFlat = 1.0f - 1e-6f; ///< cosine between normals that are the same but for rounding
+constexpr float kLargestDensity = 1e30f;
+
+// A path is lent with throughput 1 from its second surface on: nothing may have been divided out.
+static_assert(kRouletteBounce > 1, "paths reach their second surface without roulette");
+
+/// Densities, times pi, with which the lanes would have found y if they see it, and rays that find
+/// out. Returns the lanes where it is not 0.
+OSGRAYTRACE_KERNEL
+LaneMask densitiesOf(const FirstSurfaces& x, const SecondSurface& second, FloatLanes& density,
+                     RayBlock& shadow)
+{
+    const SecondSurface y = second;
+    LaneMask facing = 0;
+    OSGRAYTRACE_SIMD_OR(facing)
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float px = x.position.x[i], py = x.position.y[i], pz = x.position.z[i];
+        const float gx = x.geometricNormal.x[i], gy = x.geometricNormal.y[i],
+                    gz = x.geometricNormal.z[i];
+        const float dx = y.position.x - px, dy = y.position.y - py, dz = y.position.z - pz;
+        const float inverse = 1.0f / std::sqrt(dx * dx + dy * dy + dz * dz);
+        const float wx = dx * inverse, wy = dy * inverse, wz = dz * inverse;
+        const float cosX = wx * x.normal.x[i] + wy * x.normal.y[i] + wz * x.normal.z[i];
+        const float cosY = -(wx * y.normal.x + wy * y.normal.y + wz * y.normal.z);
+        const float above = wx * gx + wy * gy + wz * gz;
+        const float perArea = cosX * cosY * inverse * inverse;
+        density[i] = perArea;
+        facing |= bitOfLane(maskOf(cosX > 0.0f) & maskOf(cosY > 0.0f) & maskOf(above > 0.0f) &
+                                maskOf(perArea > 0.0f) & maskOf(perArea < kLargestDensity),
+                            i);
+
+        const float offset = x.offset[i];
+        const float ox = px + gx * offset, oy = py + gy * offset, oz = pz + gz * offset;
+        const float sx = y.position.x + y.normal.x * y.offset - ox;
+        const float sy = y.position.y + y.normal.y * y.offset - oy;
+        const float sz = y.position.z + y.normal.z * y.offset - oz;
+        const float distance = std::sqrt(sx * sx + sy * sy + sz * sz);
+        const float perDistance = 1.0f / distance;
+        shadow.originX[i] = ox;
+        shadow.originY[i] = oy;
+        shadow.originZ[i] = oz;
+        shadow.directionX[i] = sx * perDistance;
+        shadow.directionY[i] = sy * perDistance;
+        shadow.directionZ[i] = sz * perDistance;
+        shadow.tNear[i] = 0.0f;
+        shadow.tFar[i] = distance;
+        shadow.time[i] = 0.0f;
+        shadow.mask[i] = 0xffffffffu;
+        shadow.id[i] = 0;
+        shadow.flags[i] = 0;
+    }
+    return facing & x.lanes;
+}
+
+/// Densities of 0 in all lanes but those of seen.
+OSGRAYTRACE_KERNEL
+void hide(LaneMask seen, FloatLanes& density)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+        density[i] = select(laneBit(seen, i), density[i], 0.0f);
+}
+
+float sumOf(const FloatLanes& values)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < kLanes; ++i)
+        sum += values[i];
+    return sum;
+}
+
+OSGRAYTRACE_KERNEL
+void shareOut(const FirstSurfaces& x, const FloatLanes& density, Vec3 radiance, Vec3Lanes& shares)
+{
+    const Vec3 l = radiance;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        // Albedos of members that are not diffuse are not set.
+        const uint32_t use = maskOf(density[i] > 0.0f);
+        shares.x[i] += select(use, x.albedo.x[i] * (l.x * density[i]), 0.0f);
+        shares.y[i] += select(use, x.albedo.y[i] * (l.y * density[i]), 0.0f);
+        shares.z[i] += select(use, x.albedo.z[i] * (l.z * density[i]), 0.0f);
+    }
+}
+
+/// The members that see y, without asking for the one that found it.
+LaneMask seeingMembers(Tile& tile, int group, LaneMask facing, int own, RayBlock& shadow)
+{
+    const LaneMask asked = facing & ~(1u << own);
+    if (!asked) return facing;
+    tile.context.traced->intersector().occlusion(shadow, asked);
+    tile.counts.shadowRays += static_cast<uint64_t>(__builtin_popcount(asked));
+    LaneMask seeing = facing;
+    for (LaneMask members = asked; members; members &= members - 1)
+    {
+        const int i = __builtin_ctz(members);
+        if (!(shadow.tFar[i] >= 0.0f)) seeing &= ~(1u << i);
+        if (tile.diagnostics) tile.diagnostics->rays[tile.loans.pixelOf(group, i)] += 1.0f;
+    }
+    return seeing;
+}
+
+/// Gives the members their shares of what the path of one of them has found.
+void returnPath(Tile& tile, int group, int own, Vec3 radiance, Vec3Lanes& shares)
+{
+    const FirstSurfaces& x = tile.loans.first[group];
+    const int pixel = tile.loans.pixelOf(group, own);
+    FloatLanes density;
+    RayBlock shadow;
+    const LaneMask facing = densitiesOf(x, tile.loans.second[pixel], density, shadow);
+    hide(seeingMembers(tile, group, facing, own, shadow), density);
+    const float sum = sumOf(density);
+    if (sum > 0.0f)
+        shareOut(x, density, radiance / sum, shares);
+    else // rounding: the path exists
+        tile.sums.add(static_cast<uint32_t>(pixel), laneOf(x.albedo, own) * radiance);
+}
+
+bool isFinite(Vec3 radiance)
+{
+    return std::fabs(radiance.x) < kInfinity && std::fabs(radiance.y) < kInfinity &&
+           std::fabs(radiance.z) < kInfinity;
+}
+
+void returnGroup(Tile& tile, int group)
+{
+    Vec3Lanes shares = {};
+    for (LaneMask members = tile.loans.lent[group]; members; members &= members - 1)
+    {
+        const int own = __builtin_ctz(members);
+        const int pixel = tile.loans.pixelOf(group, own);
+        const Vec3 radiance = Vec3(tile.sums.r[kLent + pixel], tile.sums.g[kLent + pixel],
+                                   tile.sums.b[kLent + pixel]);
+        if (radiance == Vec3(0.0f)) continue;
+        if (isFinite(radiance))
+            returnPath(tile, group, own, radiance, shares);
+        else // dropped and counted, alone
+            tile.sums.add(static_cast<uint32_t>(pixel), radiance);
+    }
+    for (int i = 0; i < kTileBlocks; ++i)
+        tile.sums.add(static_cast<uint32_t>(tile.loans.pixelOf(group, i)), laneOf(shares, i));
+}
+
+} // namespace
+
+void openLoans(Tile& tile, PhotonUse use)
+{
+    const GatheredPhotons* gathered = tile.result.gathered;
+    tile.loans.active = use != PhotonUse::Indirect && !(gathered && gathered->separate);
+    const PassKey& key = tile.context.key;
+    const uint32_t seed =
+        pixelSeed(key, static_cast<uint32_t>(tile.left), static_cast<uint32_t>(tile.bottom));
+    for (uint32_t b = 0; b < kTileBlocks; ++b)
+        tile.loans.turn[b] = hash(seed + b) % kLanes;
+}
+
+void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
+{
+    for (LaneMask lanes = bounce.diffuse & ~bounce.ending & ~bounce.surface.lifted; lanes;
+         lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        FirstSurfaces& first =
+            tile.loans.first[tile.loans.groupOf(static_cast<uint32_t>(b * kLanes + i))];
+        first.lanes |= 1u << b;
+        setLane(first.position, b, laneOf(bounce.surface.position, i));
+        setLane(first.geometricNormal, b, laneOf(bounce.surface.geometricNormal, i));
+        setLane(first.normal, b, laneOf(bounce.normal, i));
+        setLane(first.albedo, b, laneOf(bounce.albedo, i));
+        first.offset[b] = bounce.surface.offset[i];
+    }
+}
+
+void lendPaths(Tile& tile, PathBlock& block, const Bounce& bounce)
+{
+    for (LaneMask lanes = bounce.diffuse & ~bounce.surface.lifted; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const uint32_t pixel = block.pixel[i] & kPixelBits;
+        const int group = tile.loans.groupOf(pixel);
+        const uint32_t own = pixel / kLanes;
+        if (!((tile.loans.first[group].lanes >> own) & 1u)) continue;
+        const Vec3 normal = laneOf(bounce.surface.geometricNormal, i);
+        if (!(glm::dot(normal, laneOf(bounce.normal, i)) > kFlat)) continue;
+        tile.loans.second[pixel] = {laneOf(bounce.surface.position, i), normal,
+                                    bounce.surface.offset[i]};
+        tile.loans.lent[group] |= 1u << own;
+        block.pixel[i] |= kLent;
+        // Roulette goes on as if the path were still its own pixel's alone.
+        const Vec3 throughput = laneOf(block.throughput, i);
+        block.etaScale[i] *= std::max(throughput.x, std::max(throughput.y, throughput.z));
+        setLane(block.throughput, i, Vec3(1.0f));
+    }
+}
+
+void returnPaths(Tile& tile)
+{
+    for (int group = 0; group < kLoanGroups; ++group)
+        if (tile.loans.lent[group]) returnGroup(tile, group);
+}
+
+} // namespace osgRayTrace::engine

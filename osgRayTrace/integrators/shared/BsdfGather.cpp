@@ -1,0 +1,109 @@
+// BsdfGather.cpp - what surfaces of any kind make of the photons around sixteen points. Layer:
+// integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/integrators/shared/PhotonGather.h"
+#include "osgRayTrace/shading/BsdfLanes.h"
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr std::size_t kUsuallyFound =
+    256; ///< photons around sixteen points beside each other, or fewer
+
+/// Adds what surfaces send back of a photon.
+OSGRAYTRACE_KERNEL
+void addPhoton(const Photon& photon, const Vec3Lanes& wi, const Vec3Lanes& fCos,
+               const Vec3Lanes& geometricNormal, LaneMask lanes, Vec3Lanes& power)
+{
+    const float red = photon.power.x, green = photon.power.y, blue = photon.power.z;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float cosGeometric = wi.x[i] * geometricNormal.x[i] + wi.y[i] * geometricNormal.y[i] +
+                                   wi.z[i] * geometricNormal.z[i];
+        const uint32_t in = laneBit(lanes, i);
+        power.x[i] += select(in, fCos.x[i] * red / cosGeometric, 0.0f);
+        power.y[i] += select(in, fCos.y[i] * green / cosGeometric, 0.0f);
+        power.z[i] += select(in, fCos.z[i] * blue / cosGeometric, 0.0f);
+    }
+}
+
+/// The BSDF of one point for light from wi on the side of wo.
+Vec3 evalAlone(const GatherLanes& points, int i, Vec3 wi)
+{
+    const Vec3 normal = laneOf(points.queries.shadingNormal, i);
+    if (!(glm::dot(wi, normal) > 0.0f)) return Vec3(0.0f);
+    return evalInWorld(points.bsdfs[i], normal, laneOf(points.wo, i), wi).fCos;
+}
+
+/// Light from the side of wo; light and shading normal must agree on that side, as for light
+/// samples.
+void addReflected(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes& sums)
+{
+    const BsdfLanes bsdfs = bsdfLanes(points.bsdfs, points.queries.lanes);
+    std::vector<FoundPhoton> found;
+    found.reserve(kUsuallyFound);
+    map.find(points.queries, found);
+    Vec3Lanes wi, fCos;
+    FloatLanes pdfW;
+    for (const FoundPhoton& f : found)
+    {
+        const Photon photon = map.photon(f.photon);
+        for (LaneMask lanes = f.lanes; lanes; lanes &= lanes - 1)
+            ++sums.count[__builtin_ctz(lanes)];
+        const LaneMask lanes = photon.direct ? f.lanes : f.lanes & ~points.directOnly;
+        if (!lanes) continue;
+        for (int i = 0; i < kLanes; ++i)
+            setLane(wi, i, photon.wi);
+        if (__builtin_popcount(lanes) < kLeastBsdfLanes)
+            for (LaneMask left = lanes; left; left &= left - 1)
+                setLane(fCos, __builtin_ctz(left),
+                        evalAlone(points, __builtin_ctz(left), photon.wi));
+        else
+            evalBsdfLanes(bsdfs, points.queries.shadingNormal, points.wo, wi, lanes, fCos, pdfW);
+        addPhoton(photon, wi, fCos, points.queries.normal, lanes, sums.power);
+    }
+}
+
+/// Light from behind a rough surface that transmits.
+void addTransmitted(const PhotonMap& map, const GatherLanes& points, int i, PhotonSumLanes& sums)
+{
+    PhotonQuery behind = laneOf(points.queries, i);
+    behind.normal = -behind.normal;
+    const ShadingFrame frame(behind.shadingNormal);
+    const Vec3 wo = frame.toLocal(laneOf(points.wo, i));
+    std::vector<uint32_t> found;
+    map.find(behind, found);
+    Vec3 power = laneOf(sums.power, i);
+    for (const uint32_t k : found)
+    {
+        const Photon photon = map.photon(k);
+        if ((points.directOnly >> i & 1u) && !photon.direct) continue;
+        const Vec3 wi = frame.toLocal(photon.wi);
+        if (wi.z > 0.0f) continue;
+        power += evalBsdf(points.bsdfs[i], wo, wi).fCos * photon.power /
+                 glm::dot(photon.wi, behind.normal);
+    }
+    setLane(sums.power, i, power);
+    sums.count[i] += static_cast<uint32_t>(found.size());
+}
+
+} // namespace
+
+void gatherBsdf(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes& sums)
+{
+    if (!points.queries.lanes) return;
+    addReflected(map, points, sums);
+    for (LaneMask lanes = points.queries.lanes; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        if (points.bsdfs[i].transmits() && !points.bsdfs[i].isSmooth())
+            addTransmitted(map, points, i, sums);
+    }
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,95 @@
+// EnvironmentLanes.cpp - environment samples of a block of surface points. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/shared/EnvironmentLanes.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr float kUniformPdfW = 0.25f * kInvPi; // [1/sr]
+
+/// Uniform on the sphere: neighbouring points of the square give neighbouring directions.
+EnvironmentSample uniformSample(const PlacedEnvironment& environment, float u, float v)
+{
+    EnvironmentSample sample;
+    const float z = 1.0f - 2.0f * v;
+    const float across = 2.0f * std::sqrt(std::max(0.0f, v * (1.0f - v)));
+    float sine, cosine;
+    sinCosTurn(u, sine, cosine);
+    sample.direction = Vec3(across * cosine, across * sine, z);
+    sample.radiance = environment.radiance(sample.direction);
+    sample.pdfW = kUniformPdfW;
+    return sample;
+}
+
+/// False if the surface gets no light from there.
+bool setLane(const SurfaceLanes& surface, int i, Vec3 wi, bool through, Vec3 radiance, float weight,
+             LightLanes& samples)
+{
+    if (!through && glm::dot(laneOf(surface.geometricNormal, i), wi) <= 0.0f) return false;
+    setSample(samples, i, wi, radiance, weight);
+    setRay(samples.shadow, i, leave(surface, i, wi), wi, kInfinity);
+    return true;
+}
+
+} // namespace
+
+void environmentLanes(const PassContext& context, const SurfaceLanes& surface, LaneMask active,
+                      LaneMask through, const FloatLanes& u, const FloatLanes& v,
+                      LightLanes& samples)
+{
+    const PlacedEnvironment& environment = *context.traced->lights().environment();
+    const bool uniform = context.options.environmentSampling == EnvironmentSampling::Uniform;
+    through |= surface.lifted;
+    samples.lit = 0;
+    for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const EnvironmentSample sample =
+            uniform ? uniformSample(environment, u[i], v[i]) : environment.sample(u[i], v[i]);
+        if (!(sample.pdfW > 0.0f)) continue;
+        const bool lit = setLane(surface, i, sample.direction, (through >> i) & 1u, sample.radiance,
+                                 1.0f / sample.pdfW, samples);
+        samples.lit |= static_cast<LaneMask>(lit) << i;
+    }
+}
+
+void stratumLanes(const EnvironmentStratum& stratum, float inversePmf, const SurfaceLanes& surface,
+                  LaneMask active, LaneMask through, LightLanes& samples)
+{
+    through |= surface.lifted;
+    samples.lit = 0;
+    for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const bool lit = setLane(surface, i, stratum.direction, (through >> i) & 1u,
+                                 stratum.integral, inversePmf, samples);
+        samples.lit |= static_cast<LaneMask>(lit) << i;
+    }
+}
+
+float environmentPdfW(const PassContext& context, const PlacedEnvironment& environment,
+                      Vec3 direction)
+{
+    const bool uniform = context.options.environmentSampling == EnvironmentSampling::Uniform;
+    return uniform ? kUniformPdfW : environment.pdfW(direction);
+}
+
+Vec3 radianceBehind(const PassContext& context, const RayBlock& ray, int i)
+{
+    const PlacedEnvironment* environment = context.traced->lights().environment();
+    if (!environment) return Vec3(context.traced->scene().background);
+    return environment->seenRadiance(directionOf(ray, i));
+}
+
+const PlacedEnvironment* visibleEnvironment(const PassContext& context)
+{
+    const PlacedEnvironment* environment = context.traced->lights().environment();
+    return environment && environment->isVisible() ? environment : nullptr;
+}
+
+} // namespace osgRayTrace::engine

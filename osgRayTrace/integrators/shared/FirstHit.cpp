@@ -1,0 +1,246 @@
+// FirstHit.cpp - geometry and material seen through the pixel centres. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/shared/FirstHit.h"
+
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/integrators/shared/CameraLanes.h"
+#include "osgRayTrace/integrators/shared/HitShading.h"
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// GGX of width alpha falls to a quarter at tan(angle) = alpha [Walter07, eq. 33].
+float lobeWidth(const MaterialRecord& record, const Bsdf& bsdf)
+{
+    if (record.material->blended) return 0.0f; // what is behind moves otherwise
+    if (bsdf.isDiffuse()) return kInfinity;
+    return bsdf.isSmooth() ? 0.0f : bsdf.alpha;
+}
+
+/// linearFromSrgb within 0.002 for [0,1], for less: there is one for each pixel of each frame.
+OSGRAYTRACE_INLINE float nearlyLinear(float encoded)
+{
+    return encoded * (encoded * (encoded * 0.305306f + 0.682171f) + 0.012523f);
+}
+
+Vec3 linearAlbedo(const Scene& scene, const Vec3& albedo)
+{
+    if (!scene.displayReferred) return albedo;
+    return Vec3(nearlyLinear(albedo.x), nearlyLinear(albedo.y), nearlyLinear(albedo.z));
+}
+
+Bsdf seenBsdf(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
+              int i)
+{
+    return context.traced->materials().bsdf(surface.material[i],
+                                            materialPoint(context, rays, surface, i));
+}
+
+/// What its material tells.
+SurfaceSample seenMaterial(const PassContext& context, const RayHitBlock& rays,
+                           const SurfaceLanes& surface, int i)
+{
+    const MaterialRecord& record = context.traced->materials()[surface.material[i]];
+    const Bsdf bsdf = seenBsdf(context, rays, surface, i);
+    const bool smooth = bsdf.isSmooth() && !bsdf.isDiffuse() && bsdf.diffuse == Vec3(0.0f);
+    SurfaceSample sample;
+    sample.albedo = linearAlbedo(context.traced->scene(), bsdfAlbedo(bsdf));
+    sample.lobe = lobeWidth(record, bsdf);
+    sample.kind = smooth ? SurfaceKind::Smooth : SurfaceKind::Scattering;
+    return sample;
+}
+
+/// take(lane, value) for all lanes that hit something. value(lane): by material and side if
+/// isConstant(record): blocks see few materials, most of which are the same wherever they are seen.
+template <class IsConstant, class ValueOf, class Take>
+void forEachMaterial(const PassContext& context, const SurfaceLanes& surface,
+                     const IsConstant& isConstant, const ValueOf& valueOf, const Take& take)
+{
+    const MaterialTable& materials = context.traced->materials();
+    uint32_t known = kInvalid;
+    bool knownFront = false;
+    decltype(valueOf(0)) value{};
+    for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const uint32_t material = surface.material[i];
+        const bool front = (surface.front >> i) & 1u;
+        if (material != known || front != knownFront)
+        {
+            value = valueOf(i);
+            known = isConstant(materials[material]) ? material : kInvalid;
+            knownFront = front;
+        }
+        take(i, value);
+    }
+}
+
+bool isConstant(const MaterialRecord& record)
+{
+    return record.constant;
+}
+
+void setLobes(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
+              FloatLanes& lobes)
+{
+    const MaterialTable& materials = context.traced->materials();
+    forEachMaterial(
+        context, surface, [](const MaterialRecord& record) { return record.sameLobes; },
+        [&](int i)
+        {
+            const MaterialRecord& record = materials[surface.material[i]];
+            if (!record.sameLobes) return lobeWidth(record, seenBsdf(context, rays, surface, i));
+            return lobeWidth(record, (surface.front >> i) & 1u ? record.front : record.back);
+        },
+        [&](int i, float lobe) { lobes[i] = lobe; });
+}
+
+OSGRAYTRACE_KERNEL
+void setObjects(const SurfaceLanes& surface, SurfaceBlock& seen)
+{
+    const LaneMask hits = surface.hits;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const uint32_t hit = laneBit(hits, i);
+        seen.normal.x[i] = select(hit, seen.normal.x[i], 0.0f);
+        seen.normal.y[i] = select(hit, seen.normal.y[i], 0.0f);
+        seen.normal.z[i] = select(hit, seen.normal.z[i], 0.0f);
+        seen.lobe[i] = kInfinity;
+        seen.object[i] = (surface.instance[i] + 1u) & hit;
+    }
+}
+
+/// All but the albedo.
+void traceCentres(const PassContext& context, int left, int bottom, int block, HitRule rule,
+                  FirstHitLanes& hits)
+{
+    centreRayLanes(context.camera, left, bottom, block, hits.rays);
+    context.traced->intersector().closestHits(hits.rays, kAllLanes, Coherence::Coherent, rule);
+    surfacesOf(context.traced->surfaces(), hits.rays, kAllLanes, hits.surface);
+    facingNormalLanes(hits.rays.ray, hits.surface, hits.normal);
+}
+
+void setSamples(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
+                const Vec3Lanes& normal, SurfaceSample* samples)
+{
+    const Scene& scene = context.traced->scene();
+    constexpr SurfaceSample kNothing{Vec3(0.0f), kInfinity, Vec3(0.0f), 0u};
+    for (LaneMask lanes = kAllLanes & ~surface.hits; lanes; lanes &= lanes - 1)
+        samples[__builtin_ctz(lanes)] = kNothing;
+    forEachMaterial(
+        context, surface, isConstant,
+        [&](int i) { return seenMaterial(context, rays, surface, i); },
+        [&](int i, const SurfaceSample& seen)
+        {
+            SurfaceSample& sample = samples[i];
+            sample = seen;
+            sample.normal = laneOf(normal, i);
+            sample.distance = static_cast<float>(rays.ray.tFar[i] * scene.unit);
+            sample.object = surface.instance[i] + 1u;
+            if (emissionTowardsRay(context, rays, surface, i) != Vec3(0.0f))
+                sample.kind = SurfaceKind::Emitting;
+        });
+}
+
+} // namespace
+
+void firstHitLanes(const PassContext& context, int left, int bottom, int block, FirstHitLanes& hits)
+{
+    const bool keepsBlended = context.options.integrator == IntegratorKind::Whitted;
+    traceCentres(context, left, bottom, block, {true, keepsBlended}, hits);
+    std::fill_n(hits.albedo.x.v, kLanes, 0.0f);
+    std::fill_n(hits.albedo.y.v, kLanes, 0.0f);
+    std::fill_n(hits.albedo.z.v, kLanes, 0.0f);
+    const Scene& scene = context.traced->scene();
+    forEachMaterial(
+        context, hits.surface, isConstant,
+        [&](int i)
+        { return linearAlbedo(scene, bsdfAlbedo(seenBsdf(context, hits.rays, hits.surface, i))); },
+        [&](int i, const Vec3& albedo) { setLane(hits.albedo, i, albedo); });
+}
+
+void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels])
+{
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        FirstHitLanes block;
+        traceCentres(context, left, bottom, b, kCameraRays, block);
+        const SurfaceLanes& surface = block.surface;
+        std::fill_n(hits + b * kLanes, kLanes, FirstHit());
+        forEachMaterial(
+            context, surface, isConstant,
+            [&](int i) { return bsdfAlbedo(seenBsdf(context, block.rays, surface, i)); },
+            [&](int i, const Vec3& albedo)
+            {
+                FirstHit& hit = hits[b * kLanes + i];
+                hit.hit = true;
+                hit.distance = block.rays.ray.tFar[i];
+                hit.normal = laneOf(block.normal, i);
+                hit.albedo = albedo;
+                hit.position = laneOf(surface.position, i);
+                hit.instance = surface.instance[i];
+            });
+    }
+}
+
+void firstSamples(const PassContext& context, int left, int bottom,
+                  SurfaceSample (&samples)[kTilePixels])
+{
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        FirstHitLanes block;
+        traceCentres(context, left, bottom, b, kCameraRays, block);
+        setSamples(context, block.rays, block.surface, block.normal, samples + b * kLanes);
+    }
+}
+
+namespace
+{
+
+void setSurfaces(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
+                 const FloatLanes& along, SurfaceBlock& seen)
+{
+    seen.along = along;
+    facingNormalLanes(rays.ray, surface, seen.normal);
+    setObjects(surface, seen);
+    setLobes(context, rays, surface, seen.lobe);
+}
+
+} // namespace
+
+/// Not inlined: most passes do not want them, and shall not pay for its stack.
+[[gnu::noinline]] static void noteSamples(const PassContext& context, int block,
+                                          const RayHitBlock& rays, const SurfaceLanes& surface,
+                                          TileResult& result)
+{
+    Vec3Lanes normal;
+    facingNormalLanes(rays.ray, surface, normal);
+    setSamples(context, rays, surface, normal, result.samples + block * kLanes);
+}
+
+void noteFirstHits(const PassContext& context, int left, int bottom, int block,
+                   const RayHitBlock& rays, const SurfaceLanes& surface, TileResult& result)
+{
+    if (!context.wantsDepth) return;
+    FloatLanes along;
+    depthLanes(context.camera, left, bottom, block, surface, along, result.depth + block * kLanes);
+    if (result.surfaces) setSurfaces(context, rays, surface, along, result.surfaces[block]);
+    if (result.samples) noteSamples(context, block, rays, surface, result);
+}
+
+void firstSurfaces(const PassContext& context, int left, int bottom, int block, SurfaceBlock& seen)
+{
+    FirstHitLanes hits;
+    traceCentres(context, left, bottom, block, kCameraRays, hits);
+    FloatLanes along, depth;
+    depthLanes(context.camera, left, bottom, block, hits.surface, along, depth.v);
+    setSurfaces(context, hits.rays, hits.surface, along, seen);
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,31 @@
+// IntegratorChoice.cpp - the cheapest integrator that is right for a scene. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/shared/IntegratorChoice.h"
+
+namespace osgRayTrace::engine
+{
+
+IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits)
+{
+    if (wanted != IntegratorKind::Automatic) return wanted;
+    if (!traits.physical) return IntegratorKind::Whitted;
+    const bool lights = traits.areaLights || traits.deltaLights || traits.environment;
+    const bool caustics = lights && (traits.specular || traits.transmission);
+    return caustics ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
+}
+
+PhotonUse photonUse(IntegratorKind kind)
+{
+    switch (kind)
+    {
+    case IntegratorKind::Ppm:
+    case IntegratorKind::Sppm:
+        return PhotonUse::Indirect;
+    case IntegratorKind::PhotonCaustics:
+        return PhotonUse::Caustics;
+    default:
+        return PhotonUse::None;
+    }
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,43 @@
+// LightBsdfs.cpp - what surfaces of any kind send back of light samples. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/shared/LightBsdfs.h"
+
+#include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/shading/BsdfLanes.h"
+
+namespace osgRayTrace::engine
+{
+
+void evalTowardsLight(const RayBlock& rays, const SurfaceLanes& surface, const Vec3Lanes& normal,
+                      const Bsdf* bsdfs, const Vec3Lanes& wi, LaneMask lanes, Vec3Lanes& fCos,
+                      FloatLanes& pdfW)
+{
+    Vec3Lanes wo;
+    for (int i = 0; i < kLanes; ++i)
+        setLane(wo, i, -directionOf(rays, i));
+    LaneMask reflecting = 0, alone = 0;
+    for (; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const Vec3 towards = laneOf(wi, i);
+        const bool above = glm::dot(towards, laneOf(normal, i)) > 0.0f;
+        if (above != isAbove(surface, i, towards)) continue;
+        (bsdfs[i].transmits() ? alone : reflecting) |= 1u << i;
+    }
+    fCos = {};
+    pdfW = {};
+    if (__builtin_popcount(reflecting) < kLeastBsdfLanes)
+        alone |= reflecting;
+    else
+        evalBsdfLanes(bsdfLanes(bsdfs, reflecting), normal, wo, wi, reflecting, fCos, pdfW);
+    for (; alone; alone &= alone - 1)
+    {
+        const int i = __builtin_ctz(alone);
+        const BsdfValue value =
+            evalInWorld(bsdfs[i], laneOf(normal, i), laneOf(wo, i), laneOf(wi, i));
+        setLane(fCos, i, value.fCos);
+        pdfW[i] = value.pdfW;
+    }
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,64 @@
+// PhotonGather.cpp - first radii, and what plain Lambert surfaces make of the photons around
+// points. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/shared/PhotonGather.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Where the largest radius holds no more photons than this the radius comes from one look-up.
+/// Where it holds more it is narrowed down first, by sums that need not read the photons of a
+/// crowd.
+constexpr std::size_t kMostReaches = 4096;
+constexpr int kNarrowings = 8; ///< of the octave that the radius is in
+
+} // namespace
+
+float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float largest)
+{
+    if (!(least < largest)) return largest;
+    PhotonReaches reaches;
+    query.radius = largest;
+    if (map.findReaches(query, kMostReaches, reaches))
+        return std::clamp(reaches.radiusBefore(kRadiusPhotons), least, largest);
+
+    const auto holdsMore = [&](float radius)
+    {
+        query.radius = radius;
+        return map.gather(query).count > kRadiusPhotons;
+    };
+    if (holdsMore(least)) return least;
+    float few = least, many = std::min(2.0f * least, largest);
+    for (; many < largest && !holdsMore(many); many = std::min(2.0f * many, largest))
+        few = many;
+    for (int i = 0; i < kNarrowings; ++i)
+    {
+        query.radius = many;
+        if (map.findReaches(query, kMostReaches, reaches))
+            return std::clamp(reaches.radiusBefore(kRadiusPhotons), few, many);
+        const float middle = std::sqrt(few * many);
+        (holdsMore(middle) ? many : few) = middle;
+    }
+    return many;
+}
+
+void gatherDiffuse(const PhotonMap& map, const PhotonQueryLanes& queries, const Vec3Lanes& albedo,
+                   PhotonSumLanes& sums)
+{
+    map.gather(queries, sums);
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const uint32_t in = laneBit(queries.lanes, i); // other albedos may hold anything
+        sums.power.x[i] = select(in, sums.power.x[i] * albedo.x[i] * kInvPi, 0.0f);
+        sums.power.y[i] = select(in, sums.power.y[i] * albedo.y[i] * kInvPi, 0.0f);
+        sums.power.z[i] = select(in, sums.power.z[i] * albedo.z[i] * kInvPi, 0.0f);
+    }
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,100 @@
+// SampledLights.cpp - which lights a pass samples, where there are many. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/shared/SampledLights.h"
+
+#include "osgRayTrace/integrators/shared/Integrator.h"
+#include "osgRayTrace/shading/LightTable.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr double kGoldenSection = 0.6180339887498949;
+
+/// Where the evenly spaced points of a pass begin, in units of their distance.
+double offsetOf(const PassKey& key)
+{
+    const double begin = hash(key.seed, 0x11647u) * 0x1p-32 + key.index * kGoldenSection;
+    return begin - std::floor(begin);
+}
+
+/// choose(u): one of the lights in proportion to power, and its probability.
+template <class Choose>
+SampledLights sampledLights(const std::vector<uint32_t>& lights, std::size_t most,
+                            const PassKey& key, const Choose& choose)
+{
+    if (lights.size() <= most) return SampledLights(lights);
+    std::vector<SampledLight> sampled;
+    sampled.reserve(most);
+    const double offset = offsetOf(key);
+    for (std::size_t j = 0; j < most; ++j)
+    {
+        const double u = (static_cast<double>(j) + offset) / static_cast<double>(most);
+        const LightTable::Choice choice = choose(std::min(static_cast<float>(u), kOneMinusEpsilon));
+        const float weight = 1.0f / (choice.pmf * static_cast<float>(most));
+        if (!std::isfinite(weight)) continue;
+        if (!sampled.empty() && sampled.back().light == choice.light)
+            sampled.back().weight += weight;
+        else
+            sampled.push_back({choice.light, weight});
+    }
+    return SampledLights(std::move(sampled));
+}
+
+std::size_t mostAreaLights(const RenderOptions& options)
+{
+    return kMostAreaLights * static_cast<std::size_t>(lightSampleCount(options));
+}
+
+} // namespace
+
+int samplesOfEach(const RenderOptions& options, std::size_t lights)
+{
+    const int wanted = lightSampleCount(options);
+    if (lights <= kMostAreaLights) return wanted;
+    const int most = static_cast<int>(mostAreaLights(options) / lights);
+    if (most < 1) return 1;
+    const bool cells = options.lightSampling == LightSampling::UniformJitter ||
+                       options.lightSampling == LightSampling::Stratified;
+    if (!cells) return most;
+    int side = 1;
+    while ((side + 1) * (side + 1) <= most)
+        ++side;
+    return side * side;
+}
+
+SampledLights sampledAreaLights(const PassContext& context)
+{
+    const LightTable& table = context.traced->lights();
+    return sampledLights(table.areaLights(), mostAreaLights(context.options), context.key,
+                         [&table](float u) { return table.chooseAreaLight(u); });
+}
+
+SampledLights sampledDeltaLights(const PassContext& context)
+{
+    const LightTable& table = context.traced->lights();
+    return sampledLights(table.deltaLights(), kMostDeltaLights, context.key,
+                         [&table](float u) { return table.chooseDeltaLight(u); });
+}
+
+SampledLightCounts sampledLightCounts(const PassContext& context)
+{
+    const LightTable& table = context.traced->lights();
+    SampledLightCounts counts;
+    if (context.options.integrator == IntegratorKind::Debug) return counts;
+    counts.deltaLights = table.deltaLights().size();
+    counts.sampledDeltaLights = std::min(counts.deltaLights, kMostDeltaLights);
+    if (context.options.integrator != IntegratorKind::Whitted) return counts; // others choose one
+    counts.areaLights = table.areaLights().size();
+    counts.sampledAreaLights = std::min(counts.areaLights, mostAreaLights(context.options));
+    counts.samplesOfEach = samplesOfEach(context.options, counts.areaLights);
+    counts.wantedOfEach = lightSampleCount(context.options);
+    return counts;
+}
+
+} // namespace osgRayTrace::engine

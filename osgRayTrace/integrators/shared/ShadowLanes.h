@@ -1,0 +1,51 @@
+// ShadowLanes.h - light samples of a block of surface points and their shadow rays. Layer:
+// integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/shading/LightTable.h"
+
+namespace osgRayTrace::engine
+{
+
+/// One light sample for each lane.
+struct LightLanes
+{
+    Vec3Lanes wi;           ///< unit, towards the light
+    FloatLanes radiance[3]; ///< towards the surface; of a delta light pi * colour * attenuation
+    FloatLanes weight; ///< multiplies f cos: 1 / (pmf of the light's choice * pdfW); 1 for delta
+                       ///< lights without a size
+    FloatLanes attenuation; ///< of delta lights, a part of radiance
+    LaneMask lit = 0;       ///< lanes that can get light from it; others are undefined
+    RayBlock shadow; ///< from the surface to the light, both ends clear of their own geometry
+};
+
+inline void setSample(LightLanes& samples, int i, Vec3 wi, Vec3 radiance, float weight)
+{
+    setLane(samples.wi, i, wi);
+    for (int c = 0; c < 3; ++c)
+        samples.radiance[c][i] = radiance[c];
+    samples.weight[i] = weight;
+}
+
+/// Point (u, v) of area light number light for the lanes of active. Lanes whose geometric normal
+/// faces away from the light are left out unless throughSurface has them: these get light from
+/// behind, too. pmf: probability with which each lane chose this light.
+void areaLightLanes(const PassContext& context, uint32_t light, float pmf,
+                    const SurfaceLanes& surface, LaneMask active, LaneMask throughSurface,
+                    const FloatLanes& u, const FloatLanes& v, LightLanes& samples);
+
+/// The same for a directional, point or spot light. u, v: not read where it has no size.
+void deltaLightLanes(const PassContext& context, uint32_t light, const SurfaceLanes& surface,
+                     LaneMask active, LaneMask throughSurface, const FloatLanes& u,
+                     const FloatLanes& v, LightLanes& samples);
+
+/// The lanes of samples.lit that see the light. Counts the rays.
+LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts);
+
+/// The same for samples of a directional, point or spot light. No rays if it casts no shadows.
+LaneMask visibleLanes(const PassContext& context, const Light& light, LightLanes& samples,
+                      TileCounts& counts);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,380 @@
+// WhittedIntegrator.cpp - direct light, shadows, mirrors and glass. Layer: integrators.
+// SPDX-License-Identifier: MIT
+//
+//   L(ray) = emission + direct light                         all surfaces
+//          + reflection L(mirror ray) + refraction L(refracted ray)   smooth ones
+//
+// and a L(surface) + (1 - a) L(the ray that goes on) where a surface of opacity a is blended,
+// where direct light is the mean of f cos L V / pdfW over the samples of each area light and of the
+// environment (or the sum over its strata) plus the
+// fixed-function or physical response to each directional, point and spot light. Rays of the second
+// line go to a stack, and sixteen at a time are taken from its top.
+#include "osgRayTrace/integrators/whitted/WhittedIntegrator.h"
+
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/integrators/shared/CameraLanes.h"
+#include "osgRayTrace/integrators/shared/EnvironmentLanes.h"
+#include "osgRayTrace/integrators/shared/FirstHit.h"
+#include "osgRayTrace/integrators/whitted/WhittedTile.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// A mirror or refracted ray weighing less than this cannot be seen in 8 bits. What counts is its
+/// weight outside of all glass: in it weights are 1/eta^2 of what comes out again.
+constexpr float kSmallestWeight = 1.0f / 1024.0f;
+
+OSGRAYTRACE_KERNEL
+bool isOneMaterial(const UintLanes& material, LaneMask hits, uint32_t first)
+{
+    uint32_t differs = 0;
+    OSGRAYTRACE_SIMD_OR(differs)
+    for (int i = 0; i < kLanes; ++i)
+        differs |= (material[i] ^ first) & laneBit(hits, i);
+    return differs == 0;
+}
+
+OSGRAYTRACE_KERNEL
+void fill(Vec3 value, Vec3Lanes& lanes)
+{
+    const float x = value.x, y = value.y, z = value.z;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        lanes.x[i] = x;
+        lanes.y[i] = y;
+        lanes.z[i] = z;
+    }
+}
+
+/// Fixed-function surfaces need a Bsdf for these lights.
+bool lightsArea(const PassContext& context)
+{
+    return context.traced->traits().areaLights || context.traced->traits().environment;
+}
+
+void classify(WhittedTile& tile, ShadingBlock& block)
+{
+    LaneMaterials& m = block.materials;
+    m.diffuse = m.fixedFunction = m.physical = m.through = m.own = 0;
+    facingNormalLanes(block.rays.ray, block.surface, m.normal);
+    const MaterialTable& materials = tile.context.traced->materials();
+    const LaneMask hits = block.surface.hits;
+    if (!hits) return;
+    const uint32_t first = block.surface.material[__builtin_ctz(hits)];
+    const MaterialRecord& firstRecord = materials[first];
+    if (firstRecord.plainDiffuse && !firstRecord.emits && !firstRecord.fixedFunction &&
+        isOneMaterial(block.surface.material, hits, first))
+    {
+        fill(firstRecord.front.diffuse, m.albedo);
+        if (firstRecord.front.diffuse != Vec3(0.0f)) m.diffuse = hits;
+        return;
+    }
+    if (tile.bsdfs.empty())
+    {
+        tile.bsdfs.resize(kGroup * kLanes);
+        tile.points.resize(kGroup * kLanes);
+    }
+    const std::ptrdiff_t slot = (&block - tile.group) * kLanes;
+    m.bsdfs = &tile.bsdfs[static_cast<std::size_t>(slot)];
+    m.points = &tile.points[static_cast<std::size_t>(slot)];
+    for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const uint32_t material = block.surface.material[i];
+        const MaterialRecord& record = materials[material];
+        m.own |= static_cast<LaneMask>(record.emits || record.fixedFunction) << i;
+        if (record.fixedFunction)
+        {
+            if (!record.material->lit) continue; // all of it is emission
+            const MaterialPoint point = materialPoint(tile.context, block.rays, block.surface, i);
+            m.points[i] = fixedFunctionPoint(tile.context, block.rays, block.surface, i, point);
+            if (lightsArea(tile.context)) m.bsdfs[i] = materials.bsdf(material, point);
+            m.fixedFunction |= 1u << i;
+            // OpenGL lights by the vertex normal alone, which may look the other way than the face.
+            m.through |= 1u << i;
+            if (!(glm::dot(m.points[i].normal, laneOf(block.surface.geometricNormal, i)) > 0.0f))
+                dropLift(block.surface, 1u << i);
+            continue;
+        }
+        if (record.plainDiffuse)
+        {
+            setLane(m.albedo, i, record.front.diffuse);
+            m.diffuse |= static_cast<LaneMask>(record.front.diffuse != Vec3(0.0f)) << i;
+            continue;
+        }
+        const bool front = (block.surface.front >> i) & 1u;
+        m.bsdfs[i] = record.constant
+                         ? (front ? record.front : record.back)
+                         : materials.bsdf(
+                               material, materialPoint(tile.context, block.rays, block.surface, i));
+        m.physical |= 1u << i;
+        if (!m.bsdfs[i].transmits()) continue;
+        m.through |= 1u << i;
+        dropLift(block.surface, 1u << i); // refraction depends on where the facet is
+    }
+}
+
+void push(WhittedTile& tile, const ShadingBlock& block, int i, Vec3 direction, Vec3 weight,
+          float etaScale)
+{
+    const float largest = std::max(weight.x, std::max(weight.y, weight.z));
+    if (!(largest * etaScale >= kSmallestWeight)) return;
+    tile.stack.push_back({leaveFacet(block.surface, i, direction), direction, weight, etaScale,
+                          block.pixel[i], hash(block.seed[i] + 0x9e3779b9u), block.depth[i] + 1});
+}
+
+void spawn(WhittedTile& tile, const ShadingBlock& block)
+{
+    const LaneMaterials& m = block.materials;
+    for (LaneMask lanes = m.physical; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        if (block.depth[i] >= tile.context.options.maxBounces) continue;
+        const ShadingFrame frame(laneOf(m.normal, i));
+        const Vec3 wo = frame.toLocal(-directionOf(block.rays.ray, i));
+        const SpecularLobes lobes = specularLobes(m.bsdfs[i], wo);
+        const Vec3 weight = laneOf(block.weight, i);
+        const float etaScale = block.etaScale[i];
+        const Vec3 geometric = laneOf(block.surface.geometricNormal, i);
+        const Vec3 mirrored = frame.toWorld(Vec3(-wo.x, -wo.y, wo.z));
+        if (lobes.reflection != Vec3(0.0f) && isAboveFacet(block.surface, i, mirrored))
+            push(tile, block, i, mirrored, weight * lobes.reflection, etaScale);
+        if (lobes.refraction == Vec3(0.0f)) continue;
+        const Vec3 refracted = frame.toWorld(lobes.refracted);
+        const float eta = m.bsdfs[i].eta;
+        if (glm::dot(refracted, geometric) < 0.0f)
+            push(tile, block, i, refracted, weight * lobes.refraction, etaScale * eta * eta);
+    }
+}
+
+/// Behind this many blended surfaces the next one is taken as opaque. Where coordinates are so
+/// large that no offset clears a surface, a ray would meet the same one without end.
+constexpr int kMostLayers = 256;
+
+/// Sends the rays of blended lanes on with what the surfaces let through, and leaves them the rest.
+/// Returns the lanes that are left less than they were.
+LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
+{
+    const MaterialTable& materials = tile.context.traced->materials();
+    const LaneMask hits = block.surface.hits;
+    if (!hits) return 0;
+    const uint32_t first = block.surface.material[__builtin_ctz(hits)];
+    if (!materials[first].partial && isOneMaterial(block.surface.material, hits, first)) return 0;
+    LaneMask passed = 0;
+    for (LaneMask lanes = hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        const uint32_t material = block.surface.material[i];
+        if (!materials[material].partial || !materials[material].material->blended) continue;
+        if (block.layers[i] >= kMostLayers) continue;
+        const float opacity =
+            materials.opacity(material, materialPoint(tile.context, block.rays, block.surface, i));
+        const Vec3 weight = laneOf(block.weight, i);
+        setLane(block.weight, i, weight * opacity);
+        if (opacity >= 1.0f) continue;
+        passed |= 1u << i;
+        const Vec3 direction = directionOf(block.rays.ray, i);
+        const Vec3 normal = laneOf(block.surface.geometricNormal, i);
+        const Vec3 origin =
+            laneOf(trianglePoints(block.surface), i) - normal * block.surface.offset[i];
+        const Vec3 behind = weight * (1.0f - opacity);
+        const float largest = std::max(behind.x, std::max(behind.y, behind.z));
+        const bool fromCamera = (block.fromCamera >> i) & 1u;
+        // What is left out of a camera ray would be missing in the coverage.
+        if (!fromCamera && !(largest * block.etaScale[i] >= kSmallestWeight)) continue;
+        tile.stack.push_back({{origin, 0.0f},
+                              direction,
+                              behind,
+                              block.etaScale[i],
+                              block.pixel[i],
+                              hash(block.seed[i] + 0x85ebca6bu),
+                              block.depth[i],
+                              fromCamera,
+                              block.layers[i] + 1});
+    }
+    return passed;
+}
+
+/// Adds what surfaces send by themselves, and the finished colour of fixed-function ones.
+void addOwnLight(const WhittedTile& tile, ShadingBlock& block)
+{
+    const LaneMaterials& m = block.materials;
+    for (LaneMask lanes = m.own; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        if ((m.fixedFunction >> i) & 1u)
+            addLane(block.radiance, i, litColor(tile.context, m.points[i]));
+        else
+            addLane(block.radiance, i,
+                    emissionTowardsRay(tile.context, block.rays, block.surface, i));
+    }
+}
+
+/// Sets the radiance of all hits of some blocks of the group, anything elsewhere; pushes the rays
+/// that go on.
+void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
+{
+    for (ShadingBlock* block = blocks; block != blocks + count; ++block)
+    {
+        classify(tile, *block);
+        fill(Vec3(0.0f), block->radiance);
+        block->passed = tile.context.traced->traits().blended ? passThrough(tile, *block) : 0;
+    }
+    addDirectLight(tile, blocks, count);
+    for (ShadingBlock* block = blocks; block != blocks + count; ++block)
+    {
+        if (block->materials.own) addOwnLight(tile, *block);
+        if (block->materials.physical) spawn(tile, *block);
+    }
+}
+
+/// Traces up to sixteen rays from the top of the stack.
+void traceSecondary(WhittedTile& tile)
+{
+    const TracedScene& traced = *tile.context.traced;
+    ShadingBlock& block = tile.group[0];
+    LaneMask active = 0;
+    block.fromCamera = 0;
+    // Rays from the camera and others are not taken together: they meet other surfaces.
+    const bool fromCamera = tile.stack.back().fromCamera;
+    const bool seen = visibleEnvironment(tile.context) != nullptr;
+    for (int i = 0; i < kLanes && !tile.stack.empty() && tile.stack.back().fromCamera == fromCamera;
+         ++i)
+    {
+        const SecondaryRay& from = tile.stack.back();
+        setRay(block.rays.ray, i, from.begin, from.direction, kInfinity);
+        setLane(block.weight, i, from.weight);
+        block.etaScale[i] = from.etaScale;
+        block.pixel[i] = from.pixel;
+        block.seed[i] = from.seed;
+        block.depth[i] = from.depth;
+        block.layers[i] = from.layers;
+        active |= 1u << i;
+        if (fromCamera) block.fromCamera |= 1u << i;
+        tile.stack.pop_back();
+    }
+    traced.intersector().closestHits(block.rays, active, Coherence::Incoherent, {fromCamera, true});
+    tile.result.counts.secondaryRays += static_cast<uint64_t>(__builtin_popcount(active));
+    countRays(tile, block, active);
+    surfacesOf(traced.surfaces(), block.rays, active, block.surface,
+               rayStart(tile.context.options));
+    for (LaneMask lanes = active & ~block.surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        if (fromCamera && !seen)
+            tile.uncover(block.pixel[i], block.weight.x[i]);
+        else
+            tile.add(block.pixel[i],
+                     laneOf(block.weight, i) * radianceBehind(tile.context, block.rays.ray, i));
+    }
+    if (!block.surface.hits) return;
+    drawFirstPoints(tile, block);
+    shade(tile, &block, 1);
+    for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
+    {
+        const int i = __builtin_ctz(lanes);
+        tile.add(block.pixel[i], laneOf(block.weight, i) * laneOf(block.radiance, i));
+    }
+}
+
+OSGRAYTRACE_KERNEL
+void weigh(const Vec3Lanes& weight, Vec3Lanes& radiance)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        radiance.x[i] *= weight.x[i];
+        radiance.y[i] *= weight.y[i];
+        radiance.z[i] *= weight.z[i];
+    }
+}
+
+OSGRAYTRACE_KERNEL
+void setPixels(const Vec3Lanes& radiance, LaneMask hits, RgbaLanes& rgba)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const uint32_t hit = laneBit(hits, i);
+        rgba.r[i] = select(hit, radiance.x[i], 0.0f);
+        rgba.g[i] = select(hit, radiance.y[i], 0.0f);
+        rgba.b[i] = select(hit, radiance.z[i], 0.0f);
+        rgba.a[i] = select(hit, 1.0f, 0.0f);
+    }
+}
+
+/// What camera rays count for, whose pixels are those from firstPixel on.
+OSGRAYTRACE_KERNEL
+void startCamera(uint32_t firstPixel, ShadingBlock& block)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        block.pixel[i] = firstPixel + static_cast<uint32_t>(i);
+        block.weight.x[i] = block.weight.y[i] = block.weight.z[i] = 1.0f;
+        block.etaScale[i] = 1.0f;
+        block.depth[i] = block.layers[i] = 0;
+    }
+    block.fromCamera = kAllLanes;
+}
+
+/// Camera rays of blocks first to first + kGroup - 1, stage by stage.
+void traceCamera(WhittedTile& tile, int left, int bottom, int first)
+{
+    const PassContext& context = tile.context;
+    const TracedScene& traced = *context.traced;
+    const bool seen = visibleEnvironment(context) != nullptr;
+    for (int k = 0; k < kGroup; ++k)
+    {
+        ShadingBlock& block = tile.group[k];
+        cameraRayLanes(context.camera, context.key, left, bottom, first + k, context.throughCentres,
+                       block.rays, block.seed);
+        startCamera(static_cast<uint32_t>((first + k) * kLanes), block);
+        drawFirstPoints(tile, block);
+    }
+    for (ShadingBlock& block : tile.group)
+        traced.intersector().closestHits(block.rays, kAllLanes, Coherence::Coherent, {true, true});
+    for (ShadingBlock& block : tile.group)
+        surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface,
+                   rayStart(context.options), &tile.lastTriangle);
+    tile.result.counts.cameraRays += kGroup * kLanes;
+    shade(tile, tile.group, kGroup);
+    for (int k = 0; k < kGroup; ++k)
+    {
+        ShadingBlock& block = tile.group[k];
+        countRays(tile, block, kAllLanes);
+        if (block.passed) weigh(block.weight, block.radiance);
+        noteFirstHits(context, left, bottom, first + k, block.rays, block.surface, tile.result);
+        RgbaLanes& rgba = tile.result.rgba[first + k];
+        setPixels(block.radiance, block.surface.hits, rgba);
+        for (LaneMask lanes = seen ? kAllLanes & ~block.surface.hits : 0; lanes; lanes &= lanes - 1)
+        {
+            const int i = __builtin_ctz(lanes);
+            tile.add(block.pixel[i], radianceBehind(context, block.rays.ray, i));
+            rgba.a[i] = 1.0f;
+        }
+    }
+}
+
+} // namespace
+
+void WhittedIntegrator::renderTile(const PassContext& context, int left, int bottom,
+                                   TileResult& result) const
+{
+    WhittedTile tile(context, result);
+    for (int first = 0; first < kTileBlocks; first += kGroup)
+    {
+        traceCamera(tile, left, bottom, first);
+        while (!tile.stack.empty())
+            traceSecondary(tile);
+    }
+    dropNotFinite(result);
+}
+
+} // namespace osgRayTrace::engine

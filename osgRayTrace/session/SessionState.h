@@ -1,0 +1,74 @@
+// SessionState.h - what a RenderSession is made of: the image, and what it is of. Layer: session.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/film/Film.h"
+#include "osgRayTrace/integrators/shared/Integrator.h"
+#include "osgRayTrace/session/DisplayTarget.h"
+#include "osgRayTrace/session/PhotonState.h"
+#include "osgRayTrace/session/RenderProgress.h"
+#include "osgRayTrace/session/image/SurfaceMap.h"
+
+#include <atomic>
+#include <optional>
+
+namespace osgRayTrace::engine
+{
+
+struct SessionState
+{
+    SessionState(std::shared_ptr<Workers> w, std::shared_ptr<PhotonPasses> p)
+        : workers(std::move(w)), photons(p ? std::move(p) : std::make_shared<PhotonPasses>())
+    {
+    }
+
+    bool begin();
+    TileCounts renderTile(const PassContext& context, const Integrator& integrator, int tile);
+    bool renderPass(const PassContext& context, const Integrator& integrator, const StopRule& rule,
+                    const DisplayTarget* display);
+    void preparePhotons(PassContext& context, int pass);
+    double estimateError() const;
+    void addTileCounts();
+    double imageShare() const;
+    RenderProgress run(const StopRule& rule,
+                       const std::function<bool(const RenderProgress&)>& keepGoing,
+                       const DisplayTarget* display);
+    void finishSurfaces();
+    void resolve(const DisplayTarget& display, bool over) const;
+    void resolveTile(const DisplayTarget& display, int tile) const;
+    void showRest(const DisplayTarget& display);
+    PassContext contextOfPass(int pass) const;
+    std::optional<PassContext> contextOfSize(int width, int height) const;
+
+    std::shared_ptr<Workers> workers;
+
+    // Wanted next.
+    std::shared_ptr<const TracedScene> scene;
+    View view;
+    RenderOptions options;
+    uint32_t sequence = 0;
+    bool keepsSurfaces = false;
+
+    // What the film holds.
+    std::shared_ptr<const TracedScene> filmScene;
+    View filmView;
+    RenderOptions filmOptions;
+    uint32_t filmSeed = 0; // of the options and the sequence
+    CameraRays camera;
+    std::vector<Light> placedLights; // empty: those of the scene
+    std::vector<EnvironmentStratum> strata;
+    Film film;
+    std::vector<SurfaceSample> samples; // of its pixels, if it has them
+    bool hasSamples = false;            // or will, with its first pass
+    SurfaceMap surfaces, lastSurfaces;
+    PhotonState photons;
+    RenderProgress progress;
+    std::vector<TileCounts> tileCounts; // of the pass that is rendered
+    std::vector<uint8_t> unshown;       // tiles with passes of this call that the display lacks
+    int photonsCounted = 0;             // passes whose photon rays are in progress
+
+    std::atomic<bool> cancelled{
+        false}; // cancel(): any thread; render(): the session's and the workers
+};
+
+} // namespace osgRayTrace::engine

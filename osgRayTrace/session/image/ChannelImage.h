@@ -1,0 +1,24 @@
+// ChannelImage.h - normals, distances and the like of a view's first hits. Layer: session.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/integrators/shared/Integrator.h"
+#include "osgRayTrace/session/image/Channel.h"
+#include "osgRayTrace/session/image/ShownImage.h"
+
+namespace osgRayTrace::engine
+{
+
+/// See RenderSession::resolveChannel. context: of the first pass of the film's image.
+std::vector<float> channelImage(Channel channel, const Film& film, const PassContext& context,
+                                const Workers& workers);
+
+/// A tile's part of an image's samples. tile: kTilePixels.
+void setSurfaceSamples(const SurfaceSample* tile, int left, int bottom, int width, int height,
+                       std::vector<SurfaceSample>& samples);
+
+/// See RenderSession::surfaceSamples.
+void surfaceSamples(const PassContext& context, const Workers& workers,
+                    std::vector<SurfaceSample>& samples);
+
+} // namespace osgRayTrace::engine

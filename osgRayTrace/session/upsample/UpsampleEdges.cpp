@@ -1,0 +1,313 @@
+// UpsampleEdges.cpp - blocks of pixels at edges: first hits traced, radiance from pixels alike.
+// Layer: session.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/session/upsample/UpsampleEdges.h"
+
+#include "osgRayTrace/integrators/shared/CameraLanes.h"
+#include "osgRayTrace/integrators/shared/EnvironmentLanes.h"
+#include "osgRayTrace/integrators/shared/FirstHit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Added to albedos before they are divided: see Upsample.h.
+constexpr float kLeastAlbedo = 0.001f;
+/// Light that reflects this much more than what was seen of its neighbours is not known from them.
+constexpr float kLargestRatio = 4.0f;
+/// Of the four weights together, which are 1 on a smooth surface: below it they are not alike.
+constexpr float kLeastWeight = 0.05f;
+/// So that of four pixels, of which three are not alike, the fourth is enough wherever the lane is.
+constexpr float kLeastShare = 0.05f;
+/// Weight of a neighbour of another object in the same plane.
+constexpr float kOtherObject = 0.02f;
+/// Distance from the plane, in widths of a pixel of the image, from which a neighbour is of another
+/// surface.
+constexpr float kPlane = 1.0f;
+
+constexpr int kSampleFloats = sizeof(SurfaceSample) / sizeof(float);
+static_assert(sizeof(SurfaceSample) % sizeof(float) == 0 && offsetof(SurfaceSample, albedo) == 16,
+              "samples are read as arrays of floats");
+
+/// Which pixels of the image the lanes are between.
+struct LanePlaces
+{
+    Lanes<int> column, row;    ///< the one below on the left
+    FloatLanes shareX, shareY; ///< of the others
+};
+
+/// What the lanes themselves see.
+struct LaneSurfaces
+{
+    const Vec3Lanes& geometric;
+    const Vec3Lanes& normal;
+    const Vec3Lanes& albedo;
+    Vec3Lanes position;      ///< engine space
+    FloatLanes inverseWidth; ///< of a pixel of the image at the hit [1/length]
+    UintLanes object;        ///< as in SurfaceSample
+};
+
+OSGRAYTRACE_INLINE float planeWeight(float offsetInPixels)
+{
+    const float x = offsetInPixels * (1.0f / kPlane);
+    const float f = 1.0f - x * x;
+    const float inside = select(f > 0.0f, f, 0.0f);
+    return inside * inside * inside;
+}
+
+OSGRAYTRACE_INLINE float normalWeight(float cosine)
+{
+    const float c = select(cosine > 0.0f, cosine, 0.0f);
+    const float c2 = c * c, c4 = c2 * c2;
+    return c4 * c4;
+}
+
+/// Means with weights that come one after the other: exact where all values are the same.
+struct LaneMeans
+{
+    RgbaLanes rgba;
+    Vec3Lanes albedo;
+    FloatLanes weight;
+};
+
+void clear(LaneMeans& means)
+{
+    means = {};
+    std::fill_n(means.weight.v, kLanes, 1e-30f);
+}
+
+OSGRAYTRACE_KERNEL
+void inverseWidths(const CameraRays& camera, const RayBlock& ray, const FloatLanes& distance,
+                   float scale, FloatLanes& inverseWidth)
+{
+    const CameraRays c = camera;
+    const float across = scale * glm::length(c.directionDx);
+    const float orthographic = scale * glm::length(c.originDx);
+    const uint32_t isOrthographic = maskOf(c.orthographic);
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        // s = distance / |direction|, and rays start at s = nearS.
+        const float inverseLength = c.nearS / ray.tNear[i];
+        const float width =
+            select(isOrthographic, orthographic, distance[i] * inverseLength * across);
+        inverseWidth[i] = 1.0f / width;
+    }
+}
+
+/// Adds the pixels (dx, dy) from each lane's first one.
+OSGRAYTRACE_KERNEL
+void addNeighbours(const UpsampleSource& source, const LanePlaces& place, const LaneSurfaces& at,
+                   int dx, int dy, float inverseUnit, LaneMeans& means)
+{
+    const CameraRays c = source.full.camera;
+    const float* samples = &source.samples->normal.x;
+    const uint32_t* objects = &source.samples->object;
+    const float* radiance = source.image.radiance.data();
+    const int width = source.image.width, lastColumn = width - 1, lastRow = source.image.height - 1;
+    const float scaleX = source.x.scale, scaleY = source.y.scale;
+    const uint32_t right = maskOf(dx != 0), above = maskOf(dy != 0);
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        int column = place.column[i] + dx, row = place.row[i] + dy;
+        column = column < lastColumn ? column : lastColumn;
+        row = row < lastRow ? row : lastRow;
+        const int pixel = row * width + column, k = kSampleFloats * pixel, rgba = 4 * pixel;
+
+        // Where the neighbour's ray met its surface, and how far that is from the lane's plane.
+        const float x = (static_cast<float>(column) + 0.5f) * scaleX;
+        const float y = (static_cast<float>(row) + 0.5f) * scaleY;
+        const float rx = c.direction.x + x * c.directionDx.x + y * c.directionDy.x;
+        const float ry = c.direction.y + x * c.directionDx.y + y * c.directionDy.y;
+        const float rz = c.direction.z + x * c.directionDx.z + y * c.directionDy.z;
+        const float hitDistance = samples[k + 3] * inverseUnit;
+        const float distance = select(hitDistance < kInfinity, hitDistance, 0.0f);
+        const float s = distance / std::sqrt(rx * rx + ry * ry + rz * rz);
+        const float px =
+            c.origin.x + x * c.originDx.x + y * c.originDy.x + s * rx - at.position.x[i];
+        const float py =
+            c.origin.y + x * c.originDx.y + y * c.originDy.y + s * ry - at.position.y[i];
+        const float pz =
+            c.origin.z + x * c.originDx.z + y * c.originDy.z + s * rz - at.position.z[i];
+        const float offset =
+            (px * at.geometric.x[i] + py * at.geometric.y[i] + pz * at.geometric.z[i]) *
+            at.inverseWidth[i];
+        const float cosine = samples[k] * at.normal.x[i] + samples[k + 1] * at.normal.y[i] +
+                             samples[k + 2] * at.normal.z[i];
+
+        const uint32_t object = objects[k], own = at.object[i];
+        const uint32_t same = maskOf(object == own), neither = maskOf(own == 0u);
+        const uint32_t both = maskOf(object != 0u) & ~neither;
+        const float alike =
+            planeWeight(offset) * normalWeight(cosine) * select(same, 1.0f, kOtherObject);
+        const float shareX = select(right, place.shareX[i], 1.0f - place.shareX[i]);
+        const float shareY = select(above, place.shareY[i], 1.0f - place.shareY[i]);
+        const float share = shareX * shareY + kLeastShare;
+        const float weight = share * select(both, alike, select(neither & same, 1.0f, 0.0f));
+
+        const float sum = means.weight[i] + weight, f = weight / sum;
+        means.weight[i] = sum;
+        means.rgba.r[i] += f * (radiance[rgba] - means.rgba.r[i]);
+        means.rgba.g[i] += f * (radiance[rgba + 1] - means.rgba.g[i]);
+        means.rgba.b[i] += f * (radiance[rgba + 2] - means.rgba.b[i]);
+        means.rgba.a[i] += f * (radiance[rgba + 3] - means.rgba.a[i]);
+        means.albedo.x[i] += f * (samples[k + 4] - means.albedo.x[i]);
+        means.albedo.y[i] += f * (samples[k + 5] - means.albedo.y[i]);
+        means.albedo.z[i] += f * (samples[k + 6] - means.albedo.z[i]);
+    }
+}
+
+/// The neighbours' light on the lanes' own surface. Returns the lanes that it is not known of.
+OSGRAYTRACE_KERNEL
+LaneMask modulate(const LaneMeans& means, const Vec3Lanes& albedo, RgbaLanes& rgba,
+                  LaneMask& unlike)
+{
+    LaneMask poor = 0, alone = 0;
+    OSGRAYTRACE_SIMD_OR(poor)
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float r = (albedo.x[i] + kLeastAlbedo) / (means.albedo.x[i] + kLeastAlbedo);
+        const float g = (albedo.y[i] + kLeastAlbedo) / (means.albedo.y[i] + kLeastAlbedo);
+        const float b = (albedo.z[i] + kLeastAlbedo) / (means.albedo.z[i] + kLeastAlbedo);
+        const uint32_t known = maskOf(means.weight[i] >= kLeastWeight) & maskOf(r < kLargestRatio) &
+                               maskOf(g < kLargestRatio) & maskOf(b < kLargestRatio);
+        rgba.r[i] = means.rgba.r[i] * r;
+        rgba.g[i] = means.rgba.g[i] * g;
+        rgba.b[i] = means.rgba.b[i] * b;
+        rgba.a[i] = means.rgba.a[i];
+        poor |= bitOfLane(~known, i);
+    }
+    OSGRAYTRACE_SIMD_OR(alone)
+    for (int i = 0; i < kLanes; ++i)
+        alone |= bitOfLane(maskOf(means.weight[i] < kLeastWeight), i);
+    unlike = alone;
+    return poor;
+}
+
+/// The background as the image has it: linear.
+Vec3 behind(const PassContext& context, const RayBlock& ray, int i)
+{
+    const Vec3 radiance = radianceBehind(context, ray, i);
+    if (!context.traced->scene().displayReferred) return radiance;
+    return Vec3(linearFromSrgb(radiance.x), linearFromSrgb(radiance.y), linearFromSrgb(radiance.z));
+}
+
+/// One lane from pixels farther away, however unlike: what is most alike decides, then what is
+/// nearest.
+void lookFarther(const UpsampleSource& source, const LanePlaces& place, const LaneSurfaces& at,
+                 const RayBlock& ray, int i, RgbaLanes& rgba)
+{
+    constexpr int kReach = 2;
+    const ShownImage& image = source.image;
+    const CameraRays& c = source.full.camera;
+    const auto unit = static_cast<float>(source.full.traced->scene().unit);
+    const Vec3 position = laneOf(at.position, i), geometric = laneOf(at.geometric, i);
+    const Vec3 normal = laneOf(at.normal, i), albedo = laneOf(at.albedo, i);
+    Vec4 mean(0.0f);
+    Vec3 meanAlbedo(0.0f);
+    float sum = 1e-30f;
+    for (int row = std::max(0, place.row[i] - kReach);
+         row <= std::min(image.height - 1, place.row[i] + 1 + kReach); ++row)
+    {
+        for (int column = std::max(0, place.column[i] - kReach);
+             column <= std::min(image.width - 1, place.column[i] + 1 + kReach); ++column)
+        {
+            const auto pixel =
+                static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                static_cast<std::size_t>(column);
+            const SurfaceSample& sample = source.samples[pixel];
+            const float dx = static_cast<float>(column - place.column[i]) - place.shareX[i];
+            const float dy = static_cast<float>(row - place.row[i]) - place.shareY[i];
+            float alike = 1e-12f; // of what is not: never black
+            if (at.object[i] == 0 && sample.object == 0) alike = 1.0f;
+            if (at.object[i] != 0 && sample.object != 0)
+            {
+                const float x = (static_cast<float>(column) + 0.5f) * source.x.scale;
+                const float y = (static_cast<float>(row) + 0.5f) * source.y.scale;
+                const Vec3 direction = c.direction + x * c.directionDx + y * c.directionDy;
+                const Vec3 start = c.origin + x * c.originDx + y * c.originDy;
+                const Vec3 hit = start + sample.distance / unit * glm::normalize(direction);
+                const float offset = glm::dot(hit - position, geometric) * at.inverseWidth[i];
+                const float own = sample.object == at.object[i] ? 1.0f : kOtherObject;
+                alike = 1e-9f + own * (1e-6f + planeWeight(offset) *
+                                                   normalWeight(glm::dot(sample.normal, normal)));
+                // White parts tell more about the light than black ones.
+                alike *=
+                    kLeastAlbedo + std::max({sample.albedo.x, sample.albedo.y, sample.albedo.z});
+            }
+            const float d2 = dx * dx + dy * dy;
+            const float weight = alike / ((1.0f + d2) * (1.0f + d2));
+            sum += weight;
+            const float f = weight / sum;
+            const float* in = &image.radiance[4 * pixel];
+            mean += f * (Vec4(in[0], in[1], in[2], in[3]) - mean);
+            meanAlbedo += f * (sample.albedo - meanAlbedo);
+        }
+    }
+    if (at.object[i] == 0 && sum < 1e-6f) // a gap that no pixel of the image looks through
+    {
+        const bool seen = visibleEnvironment(source.full) != nullptr;
+        mean = seen ? Vec4(behind(source.full, ray, i), 1.0f) : Vec4(0.0f);
+    }
+    Vec3 ratio(1.0f);
+    if (at.object[i] != 0)
+        ratio = glm::min((albedo + kLeastAlbedo) / (meanAlbedo + kLeastAlbedo),
+                         Vec3(2.0f * kLargestRatio));
+    rgba.r[i] = mean.x * ratio.x;
+    rgba.g[i] = mean.y * ratio.y;
+    rgba.b[i] = mean.z * ratio.z;
+    rgba.a[i] = mean.w;
+}
+
+LanePlaces placesOf(const UpsampleSource& source, int left, int bottom)
+{
+    LanePlaces place;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const auto x =
+            static_cast<std::size_t>(std::min(left + laneX(0, i), source.full.width - 1));
+        const auto y =
+            static_cast<std::size_t>(std::min(bottom + laneY(0, i), source.full.height - 1));
+        place.column[i] = source.x.first[x];
+        place.shareX[i] = source.x.share[x];
+        place.row[i] = source.y.first[y];
+        place.shareY[i] = source.y.share[y];
+    }
+    return place;
+}
+
+} // namespace
+
+void traceUpsampled(const UpsampleSource& source, int left, int bottom, UpsampledBlock& block)
+{
+    const PassContext& full = source.full;
+    FirstHitLanes hits;
+    firstHitLanes(full, left, bottom, 0, hits);
+    FloatLanes along;
+    depthLanes(full.camera, left, bottom, 0, hits.surface, along, block.depth);
+
+    const LanePlaces place = placesOf(source, left, bottom);
+    LaneSurfaces at{hits.surface.geometricNormal, hits.normal, hits.albedo,
+                    hits.surface.position,        {},          {}};
+    for (int i = 0; i < kLanes; ++i)
+        at.object[i] = (hits.surface.hits >> i) & 1u ? hits.surface.instance[i] + 1u : 0u;
+    inverseWidths(full.camera, hits.rays.ray, hits.rays.ray.tFar, source.x.scale, at.inverseWidth);
+
+    LaneMeans means;
+    clear(means);
+    const auto inverseUnit = static_cast<float>(1.0 / full.traced->scene().unit);
+    for (int k = 0; k < 4; ++k)
+        addNeighbours(source, place, at, k & 1, k >> 1, inverseUnit, means);
+    const LaneMask poor = modulate(means, hits.albedo, block.rgba, block.unlike);
+    for (LaneMask lanes = poor; lanes; lanes &= lanes - 1)
+        lookFarther(source, place, at, hits.rays.ray, __builtin_ctz(lanes), block.rgba);
+}
+
+} // namespace osgRayTrace::engine
