@@ -1,4 +1,4 @@
-// PathReuseTest.cpp - paths that pixels lend each other change the noise, and nothing else.
+// PathReuseTest.cpp - paths that pixels share change the noise, and nothing else.
 // SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
@@ -12,7 +12,7 @@ constexpr int kPixels = 32;
 constexpr int kRegion = 4; ///< pixels a side of what is compared
 constexpr int kRegions = kPixels / kRegion;
 
-/// The same surface, but one that no paths are lent from or to: its colour could change from point
+/// The same surface, but one whose paths are not reused: its colour could change from point
 /// to point.
 Material varying(const Material& diffuse)
 {
@@ -102,20 +102,20 @@ double sumOf(const std::vector<Estimate>& regions)
 
 } // namespace
 
-TEST_CASE("lent paths: the same light in all parts of the Cornell box, with less noise",
+TEST_CASE("path reuse: the same light in all parts of the Cornell box, with less noise",
           "[integrators][statistics][long]")
 {
     const Measured own = measureBox(boxWith(1), 100);
-    const Measured lent = measureBox(boxWith(1000), 200);
+    const Measured reused = measureBox(boxWith(1000), 200);
     const Measured mixed = measureBox(boxWith(2), 300);
 
     // 192 differences of about 46 degrees of freedom: one beyond 5 is a false alarm of 0.2 %.
-    CHECK(largestDifference(own.regions, lent.regions) < 5.0);
+    CHECK(largestDifference(own.regions, reused.regions) < 5.0);
     CHECK(largestDifference(own.regions, mixed.regions) < 5.0);
     // Six standard errors.
-    CHECK(sumOf(lent.regions) == Approx(sumOf(own.regions)).epsilon(0.004));
+    CHECK(sumOf(reused.regions) == Approx(sumOf(own.regions)).epsilon(0.004));
     CHECK(sumOf(mixed.regions) == Approx(sumOf(own.regions)).epsilon(0.004));
 
     // About a half here, where pixels are far apart and share little; an eighth at 512 x 512.
-    CHECK(lent.relativeVariance() < 0.7 * own.relativeVariance());
+    CHECK(reused.relativeVariance() < 0.7 * own.relativeVariance());
 }

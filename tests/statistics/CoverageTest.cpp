@@ -221,7 +221,7 @@ View withoutLight()
     return perspectiveView({278, 400, 20}, {278, 100, 559}, {0, 1, 0}, 45.0, kSize, kSize);
 }
 
-/// Colours could change from point to point: no paths are lent.
+/// Colours could change from point to point: no paths are reused.
 SceneBuilder boxWithoutLoans()
 {
     SceneBuilder box = cornellBox();
@@ -240,7 +240,7 @@ SceneBuilder boxWithoutLoans()
 
 TEST_CASE("coverage: path tracing with Sobol points", "[statistics]")
 {
-    // Pixels of a tile lend each other paths: the error of each is known, but not that of their
+    // Pixels of a tile share paths: the error of each is known, but not that of their
     // sum.
     for (const int passes : {4, 5, 16})
         checkPixelCoverage(cornellBox().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),

@@ -26,12 +26,12 @@ OSGRAYTRACE_INLINE float powerHeuristic(float a, float b)
 
 constexpr int kRouletteBounce = 3; ///< paths are not ended by chance before this bounce
 
-/// Sums of the tile, pixel by pixel; from kLent on those of lent paths.
+/// Sums of the tile, pixel by pixel; from kReused on those of reused paths.
 struct PixelSums
 {
-    float r[kLent + kTilePixels] = {};
-    float g[kLent + kTilePixels] = {};
-    float b[kLent + kTilePixels] = {};
+    float r[kReused + kTilePixels] = {};
+    float g[kReused + kTilePixels] = {};
+    float b[kReused + kTilePixels] = {};
     float a[kTilePixels] = {};
 
     void add(uint32_t pixelBits, Vec3 radiance)
@@ -66,7 +66,7 @@ struct Tile
     int left, bottom;
     PixelSums sums;
     PathQueue paths;
-    PathLoans loans;
+    ReuseGroups reuse;
     Bsdf bsdfs[kLanes]; ///< of the block at work
 };
 
@@ -116,19 +116,19 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce);
 /// Sets the ray of each lane that goes on; the others leave block.active.
 void scatter(Tile& tile, PathBlock& block, const Bounce& bounce);
 
-/// Makes groups of the tile's pixels. No loans with photons of the local schedule, which are
-/// counted pixel by pixel.
-void openLoans(Tile& tile, PhotonUse use);
+/// Makes groups of the tile's pixels. No path is reused with photons of the local schedule, which
+/// are counted pixel by pixel.
+void beginReuse(Tile& tile, PhotonUse use);
 
 /// Remembers where the camera rays of block b met diffuse surfaces.
 void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce);
 
-/// Makes loans of the paths whose second surface is diffuse: what they find from here on is for all
-/// pixels of the group that see it.
-void lendPaths(Tile& tile, PathBlock& block, const Bounce& bounce);
+/// Marks for reuse the paths whose second surface is diffuse: what they find from here on is for
+/// all pixels of the group that see it.
+void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce);
 
-/// Gives the pixels what lent paths have found.
-void returnPaths(Tile& tile);
+/// Connects the pixels of a group to the second surfaces of its reused paths.
+void connectPaths(Tile& tile);
 
 /// Which lanes look up photons, and which of them end here but for their mirror-like lobes.
 void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use);

@@ -99,7 +99,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
         block.active = 0;
         return;
     }
-    if (number == 1 && tile.loans.active) lendPaths(tile, block, bounce);
+    if (number == 1 && tile.reuse.active) reusePaths(tile, block, bounce);
     if (use != PhotonUse::None) chooseGathering(block, bounce, use);
     if (HitPoints* hits = tile.result.hitPoints)
         keepHitPoints(block, bounce, *hits);
@@ -108,7 +108,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
         if (use != PhotonUse::None) addPhotons(tile, block, bounce);
         sampleLights(tile, block, bounce);
     }
-    if (number == 0 && tile.loans.active) noteFirstSurfaces(tile, b, bounce);
+    if (number == 0 && tile.reuse.active) noteFirstSurfaces(tile, b, bounce);
     scatter(tile, block, bounce);
 }
 
@@ -129,7 +129,7 @@ void tracePaths(Tile& tile, PhotonUse use)
         }
         block.active = kAllLanes;
     }
-    openLoans(tile, use);
+    beginReuse(tile, use);
     for (int number = 0; tile.paths.count > 0; ++number)
     {
         const bool last = number >= context.options.maxBounces;
@@ -137,7 +137,7 @@ void tracePaths(Tile& tile, PhotonUse use)
             bounceBlock(tile, b, number, last, use);
         closeRanks(tile.paths);
     }
-    returnPaths(tile);
+    connectPaths(tile);
 }
 
 void writeSums(const Tile& tile, RgbaLanes* rgba)

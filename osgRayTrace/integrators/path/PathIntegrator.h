@@ -31,7 +31,7 @@ namespace osgRayTrace::engine
 /// interface does not squeeze into smaller angles, so they are followed with Transport::Importance
 /// and looked up with the radiance's f [Veach97, ch. 5].
 ///
-/// Pixels of a tile lend each other paths (PathReuse.h), so their errors depend on each other: the
+/// Pixels of a tile share paths (PathReuse.h), so their errors depend on each other: the
 /// error of a pixel is estimated rightly by the film, that of a mean over a tile is greater than if
 /// they were independent. Tiles are independent.
 class PathIntegrator : public Integrator

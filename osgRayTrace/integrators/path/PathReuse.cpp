@@ -1,4 +1,4 @@
-// PathReuse.cpp - what the paths of neighbouring pixels lend each other. Layer: integrators.
+// PathReuse.cpp - paths that neighbouring pixels share. Layer: integrators.
 // SPDX-License-Identifier: MIT
 //
 // A path that left a diffuse surface x_j and met a diffuse surface at y_j finds there the radiance
@@ -11,7 +11,7 @@
 //   p_k(y) = cosTheta_k cosTheta_y V(x_k, y) / (pi r^2)
 //
 // since f_i cosTheta_i cosTheta_y V / r^2 = albedo_i p_i for a diffuse surface. One shadow ray a
-// pair of pixels is what it costs, a path is some ten times that. Which y are lent depends on y
+// pair of pixels is what it costs, a path is some ten times that. Which y are reused depends on y
 // alone, so that all p_k speak of the same samples; others are for their own pixel.
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/path/PathBounce.h"
@@ -29,7 +29,7 @@ namespace
 constexpr float kFlat = 1.0f - 1e-6f; ///< cosine between normals that are the same but for rounding
 constexpr float kLargestDensity = 1e30f;
 
-// A path is lent with throughput 1 from its second surface on: nothing may have been divided out.
+// A path is reused with throughput 1 from its second surface on: nothing may have been divided out.
 static_assert(kRouletteBounce > 1, "paths reach their second surface without roulette");
 
 /// Densities, times pi, with which the lanes would have found y if they see it, and rays that find
@@ -125,19 +125,19 @@ LaneMask seeingMembers(Tile& tile, int group, LaneMask facing, int own, RayBlock
     {
         const int i = __builtin_ctz(members);
         if (!(shadow.tFar[i] >= 0.0f)) seeing &= ~(1u << i);
-        if (tile.diagnostics) tile.diagnostics->rays[tile.loans.pixelOf(group, i)] += 1.0f;
+        if (tile.diagnostics) tile.diagnostics->rays[tile.reuse.pixelOf(group, i)] += 1.0f;
     }
     return seeing;
 }
 
 /// Gives the members their shares of what the path of one of them has found.
-void returnPath(Tile& tile, int group, int own, Vec3 radiance, Vec3Lanes& shares)
+void connectPath(Tile& tile, int group, int own, Vec3 radiance, Vec3Lanes& shares)
 {
-    const FirstSurfaces& x = tile.loans.first[group];
-    const int pixel = tile.loans.pixelOf(group, own);
+    const FirstSurfaces& x = tile.reuse.first[group];
+    const int pixel = tile.reuse.pixelOf(group, own);
     FloatLanes density;
     RayBlock shadow;
-    const LaneMask facing = densitiesOf(x, tile.loans.second[pixel], density, shadow);
+    const LaneMask facing = densitiesOf(x, tile.reuse.second[pixel], density, shadow);
     hide(seeingMembers(tile, group, facing, own, shadow), density);
     const float sum = sumOf(density);
     if (sum > 0.0f)
@@ -152,36 +152,36 @@ bool isFinite(Vec3 radiance)
            std::fabs(radiance.z) < kInfinity;
 }
 
-void returnGroup(Tile& tile, int group)
+void connectGroup(Tile& tile, int group)
 {
     Vec3Lanes shares = {};
-    for (LaneMask members = tile.loans.lent[group]; members; members &= members - 1)
+    for (LaneMask members = tile.reuse.reused[group]; members; members &= members - 1)
     {
         const int own = __builtin_ctz(members);
-        const int pixel = tile.loans.pixelOf(group, own);
-        const Vec3 radiance = Vec3(tile.sums.r[kLent + pixel], tile.sums.g[kLent + pixel],
-                                   tile.sums.b[kLent + pixel]);
+        const int pixel = tile.reuse.pixelOf(group, own);
+        const Vec3 radiance = Vec3(tile.sums.r[kReused + pixel], tile.sums.g[kReused + pixel],
+                                   tile.sums.b[kReused + pixel]);
         if (radiance == Vec3(0.0f)) continue;
         if (isFinite(radiance))
-            returnPath(tile, group, own, radiance, shares);
+            connectPath(tile, group, own, radiance, shares);
         else // dropped and counted, alone
             tile.sums.add(static_cast<uint32_t>(pixel), radiance);
     }
     for (int i = 0; i < kTileBlocks; ++i)
-        tile.sums.add(static_cast<uint32_t>(tile.loans.pixelOf(group, i)), laneOf(shares, i));
+        tile.sums.add(static_cast<uint32_t>(tile.reuse.pixelOf(group, i)), laneOf(shares, i));
 }
 
 } // namespace
 
-void openLoans(Tile& tile, PhotonUse use)
+void beginReuse(Tile& tile, PhotonUse use)
 {
     const GatheredPhotons* gathered = tile.result.gathered;
-    tile.loans.active = use != PhotonUse::Indirect && !(gathered && gathered->separate);
+    tile.reuse.active = use != PhotonUse::Indirect && !(gathered && gathered->separate);
     const PassKey& key = tile.context.key;
     const uint32_t seed =
         pixelSeed(key, static_cast<uint32_t>(tile.left), static_cast<uint32_t>(tile.bottom));
     for (uint32_t b = 0; b < kTileBlocks; ++b)
-        tile.loans.turn[b] = hash(seed + b) % kLanes;
+        tile.reuse.turn[b] = hash(seed + b) % kLanes;
 }
 
 void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
@@ -191,7 +191,7 @@ void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
     {
         const int i = __builtin_ctz(lanes);
         FirstSurfaces& first =
-            tile.loans.first[tile.loans.groupOf(static_cast<uint32_t>(b * kLanes + i))];
+            tile.reuse.first[tile.reuse.groupOf(static_cast<uint32_t>(b * kLanes + i))];
         first.lanes |= 1u << b;
         setLane(first.position, b, laneOf(bounce.surface.position, i));
         setLane(first.geometricNormal, b, laneOf(bounce.surface.geometricNormal, i));
@@ -201,21 +201,21 @@ void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
     }
 }
 
-void lendPaths(Tile& tile, PathBlock& block, const Bounce& bounce)
+void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce)
 {
     for (LaneMask lanes = bounce.diffuse & ~bounce.surface.lifted; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         const uint32_t pixel = block.pixel[i] & kPixelBits;
-        const int group = tile.loans.groupOf(pixel);
+        const int group = tile.reuse.groupOf(pixel);
         const uint32_t own = pixel / kLanes;
-        if (!((tile.loans.first[group].lanes >> own) & 1u)) continue;
+        if (!((tile.reuse.first[group].lanes >> own) & 1u)) continue;
         const Vec3 normal = laneOf(bounce.surface.geometricNormal, i);
         if (!(glm::dot(normal, laneOf(bounce.normal, i)) > kFlat)) continue;
-        tile.loans.second[pixel] = {laneOf(bounce.surface.position, i), normal,
+        tile.reuse.second[pixel] = {laneOf(bounce.surface.position, i), normal,
                                     bounce.surface.offset[i]};
-        tile.loans.lent[group] |= 1u << own;
-        block.pixel[i] |= kLent;
+        tile.reuse.reused[group] |= 1u << own;
+        block.pixel[i] |= kReused;
         // Roulette goes on as if the path were still its own pixel's alone.
         const Vec3 throughput = laneOf(block.throughput, i);
         block.etaScale[i] *= std::max(throughput.x, std::max(throughput.y, throughput.z));
@@ -223,10 +223,10 @@ void lendPaths(Tile& tile, PathBlock& block, const Bounce& bounce)
     }
 }
 
-void returnPaths(Tile& tile)
+void connectPaths(Tile& tile)
 {
-    for (int group = 0; group < kLoanGroups; ++group)
-        if (tile.loans.lent[group]) returnGroup(tile, group);
+    for (int group = 0; group < kReuseGroups; ++group)
+        if (tile.reuse.reused[group]) connectGroup(tile, group);
 }
 
 } // namespace osgRayTrace::engine

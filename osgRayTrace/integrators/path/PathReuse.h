@@ -1,4 +1,4 @@
-// PathReuse.h - what the paths of neighbouring pixels lend each other. Layer: integrators.
+// PathReuse.h - paths that neighbouring pixels share. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,13 +10,13 @@ namespace osgRayTrace::engine
 
 /// Set in the pixel of a path from its second surface on if others get the light that it finds
 /// there, too: the sums of such paths are apart.
-constexpr uint32_t kLent = 0x100u;
+constexpr uint32_t kReused = 0x100u;
 
-/// Pixels lend each other paths in groups, one pixel of each of the tile's blocks: pixels that
+/// Pixels share paths in groups, one pixel of each of the tile's blocks: pixels that
 /// share samples share their error, and next to each other they would look like a coarser picture.
 /// Which pixel of a block is in which group is random, but the same in all passes of a half: the
 /// Sobol points of a group are then as well spread as those of a pixel.
-constexpr int kLoanGroups = kLanes;
+constexpr int kReuseGroups = kLanes;
 static_assert(kTileBlocks == kLanes, "a lane for each block");
 
 /// Where the camera rays of a group met diffuse surfaces.
@@ -34,7 +34,7 @@ struct SecondSurface
     float offset;
 };
 
-struct PathLoans
+struct ReuseGroups
 {
     int groupOf(uint32_t pixel) const
     {
@@ -46,10 +46,10 @@ struct PathLoans
     }
 
     bool active = false;
-    uint32_t turn[kTileBlocks];        ///< below kLanes
-    FirstSurfaces first[kLoanGroups];  ///< lane: block of the pixel
-    SecondSurface second[kTilePixels]; ///< of lent paths, pixel by pixel
-    LaneMask lent[kLoanGroups] = {};   ///< blocks of their pixels
+    uint32_t turn[kTileBlocks];         ///< below kLanes
+    FirstSurfaces first[kReuseGroups];  ///< lane: block of the pixel
+    SecondSurface second[kTilePixels];  ///< of reused paths, pixel by pixel
+    LaneMask reused[kReuseGroups] = {}; ///< blocks of their pixels
 };
 
 } // namespace osgRayTrace::engine
