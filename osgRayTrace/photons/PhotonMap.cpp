@@ -1,7 +1,7 @@
 // PhotonMap.cpp - the photons around a point: look-ups in a counting-sorted grid. Layer: photons.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/photons/PhotonColumns.h"
 #include "osgRayTrace/photons/PhotonMap.h"
+#include "osgRayTrace/photons/PhotonColumns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,10 +101,10 @@ float sumOf(const FloatLanes& lanes)
 std::size_t PhotonMap::bytes() const
 {
     return _columns.size() * sizeof(float) +
-           (_normal.size() + _bin.size() + _first.size()) * sizeof(uint32_t) + _crowds.bytes();
+           (_normal.size() + _bin.size() + _first.size()) * sizeof(uint32_t) + _denseCells.bytes();
 }
 
-/// The stretches of photons that can be in the disc, in ascending order, none of them twice. Flat:
+/// The ranges of photons that can be in the disc, in ascending order, none of them twice. Flat:
 /// a call of rangesIn would be a twentieth of a look-up.
 __attribute__((flatten)) int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
 {
@@ -121,7 +121,7 @@ __attribute__((flatten)) int PhotonMap::rangesOf(const PhotonQuery& query, Range
     return rangesIn(centre - reach, centre + reach, ranges);
 }
 
-/// Of the cells that a box touches. One line of cells along x is one stretch, or two where the
+/// Of the cells that a box touches. One line of cells along x is one range, or two where the
 /// table ends within it.
 int PhotonMap::rangesIn(Vec3d low, Vec3d high, Range* ranges) const
 {
@@ -200,24 +200,24 @@ PhotonSum PhotonMap::gather(const PhotonQuery& query) const
     const PhotonColumns all = columns();
     const float radius2 = query.radius * query.radius, plane = query.radius * kPlaneShare;
     LaneSums sums = {};
-    PhotonCrowds::Visit crowded;
+    DenseCellTrees::Visit dense;
     for (int i = 0; i < count; ++i)
     {
         const Range range = ranges[i];
-        if (isCrowded(range))
-            _crowds.visit(query, range, query.shadingNormal == query.normal, crowded);
+        if (isDense(range))
+            _denseCells.visit(query, range, query.shadingNormal == query.normal, dense);
         else
             addRange(all, range.begin, range.end, query, radius2, plane, sums);
     }
-    for (const Range& range : crowded.read)
+    for (const Range& range : dense.read)
         addRange(all, range.begin, range.end, query, radius2, plane, sums);
     for (int i = 0; i < kLanes; ++i)
         sum.count += sums.count[i];
     if (sum.count) sum.power = Vec3(sumOf(sums.r), sumOf(sums.g), sumOf(sums.b));
-    if (crowded.count)
+    if (dense.count)
     {
-        sum.count += crowded.count;
-        sum.power = Vec3(Vec3d(sum.power) + crowded.power);
+        sum.count += dense.count;
+        sum.power = Vec3(Vec3d(sum.power) + dense.power);
     }
     return sum;
 }
@@ -240,15 +240,15 @@ template <class Add> void PhotonMap::forEachFound(const PhotonQuery& query, cons
         }
         return true;
     };
-    PhotonCrowds::Visit crowded;
+    DenseCellTrees::Visit dense;
     for (int i = 0; i < count; ++i)
     {
-        if (isCrowded(ranges[i]))
-            _crowds.visit(query, ranges[i], false, crowded);
+        if (isDense(ranges[i]))
+            _denseCells.visit(query, ranges[i], false, dense);
         else if (!read(ranges[i]))
             return;
     }
-    for (const Range& range : crowded.read)
+    for (const Range& range : dense.read)
         if (!read(range)) return;
 }
 
@@ -294,16 +294,16 @@ std::size_t PhotonMap::work(const PhotonQuery& query) const
 {
     Range ranges[kMaxRanges];
     const int count = rangesOf(query, ranges);
-    PhotonCrowds::Visit crowded;
+    DenseCellTrees::Visit dense;
     std::size_t sum = 0;
     for (int i = 0; i < count; ++i)
     {
-        if (isCrowded(ranges[i]))
-            _crowds.visit(query, ranges[i], query.shadingNormal == query.normal, crowded);
+        if (isDense(ranges[i]))
+            _denseCells.visit(query, ranges[i], query.shadingNormal == query.normal, dense);
         else
             sum += ranges[i].end - ranges[i].begin;
     }
-    for (const Range& range : crowded.read)
+    for (const Range& range : dense.read)
         sum += range.end - range.begin;
     return sum;
 }

@@ -5,8 +5,8 @@
 #include "osgRayTrace/base/Lanes.h"
 #include "osgRayTrace/base/LargeArray.h"
 #include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/photons/DenseCellTrees.h"
 #include "osgRayTrace/photons/Photon.h"
-#include "osgRayTrace/photons/PhotonCrowds.h"
 
 #include <cstdint>
 #include <vector>
@@ -68,15 +68,15 @@ public:
 
     Photon photon(uint32_t index) const;
 
-    /// How many photons gather reads for a query: what it costs. Of a crowd with sums (see
-    /// PhotonCrowds) those at the rim of the disc; without them, those that it finds and a few
-    /// around. Beside crowds at most kCrowd photons of each cell that the disc touches. So a pass
-    /// reads no more than its look-ups times its photons, and by far less unless normals are
+    /// How many photons gather reads for a query: what it costs. Of a dense cell with sums (see
+    /// DenseCellTrees) those at the rim of the disc; without them, those that it finds and a few
+    /// around. Beside dense cells at most kDenseCell photons of each cell that the disc touches. So
+    /// a pass reads no more than its look-ups times its photons, and by far less unless normals are
     /// interpolated and all photons are in all discs.
     std::size_t work(const PhotonQuery& query) const;
 
 private:
-    using Range = PhotonCrowds::Stretch;
+    using Range = DenseCellTrees::Range;
     static constexpr int kMaxRanges = 512;
 
     /// What is stored of a photon beside its normal.
@@ -113,9 +113,9 @@ private:
                               static_cast<uint64_t>(z) * 0xc2b2ae3d27d4eb4full;
         return static_cast<uint32_t>((line >> 24) + static_cast<uint64_t>(x)) & _mask;
     }
-    bool isCrowded(Range range) const
+    bool isDense(Range range) const
     {
-        return range.end - range.begin > kCrowd && !_crowds.empty();
+        return range.end - range.begin > kDenseCell && !_denseCells.empty();
     }
 
     std::size_t _count = 0;
@@ -128,7 +128,7 @@ private:
     // blocks.
     UnclearedArray<float> _columns;
     UnclearedArray<uint32_t> _normal; ///< three signed bytes; edges in seven bits, and direct
-    PhotonCrowds _crowds;             ///< boxes over the photons of crowded buckets
+    DenseCellTrees _denseCells;       ///< boxes over the photons of dense buckets
     UnclearedArray<uint32_t> _bin;    ///< empty unless kept
 };
 

@@ -76,25 +76,26 @@ struct Entry
     uint32_t bucket, photon;
 };
 
-/// Reorders the entries of crowded buckets among themselves. held: photons of each bucket.
-void sortCrowds(const std::vector<Photon>& photons, const std::vector<uint32_t>& held,
-                std::size_t bucketBegin, Entry* begin, Entry* end)
+/// Reorders the entries of dense buckets among themselves. held: photons of each bucket.
+void sortDenseCells(const std::vector<Photon>& photons, const std::vector<uint32_t>& held,
+                    std::size_t bucketBegin, Entry* begin, Entry* end)
 {
-    std::unordered_map<uint32_t, std::vector<uint32_t>> crowds;
-    const auto crowdOf = [&](const Entry& entry) -> std::vector<uint32_t>*
-    { return held[entry.bucket - bucketBegin] > kCrowd ? &crowds[entry.bucket] : nullptr; };
+    std::unordered_map<uint32_t, std::vector<uint32_t>> denseCells;
+    const auto denseCellOf = [&](const Entry& entry) -> std::vector<uint32_t>*
+    { return held[entry.bucket - bucketBegin] > kDenseCell ? &denseCells[entry.bucket] : nullptr; };
     for (const Entry* entry = begin; entry != end; ++entry)
-        if (std::vector<uint32_t>* crowd = crowdOf(*entry)) crowd->push_back(entry->photon);
-    for (auto& [bucket, crowd] : crowds)
+        if (std::vector<uint32_t>* denseCell = denseCellOf(*entry))
+            denseCell->push_back(entry->photon);
+    for (auto& [bucket, denseCell] : denseCells)
     {
-        sortCrowd(photons, crowd);
-        std::reverse(crowd.begin(), crowd.end());
+        sortDenseCell(photons, denseCell);
+        std::reverse(denseCell.begin(), denseCell.end());
     }
     for (Entry* entry = begin; entry != end; ++entry)
-        if (std::vector<uint32_t>* crowd = crowdOf(*entry))
+        if (std::vector<uint32_t>* denseCell = denseCellOf(*entry))
         {
-            entry->photon = crowd->back();
-            crowd->pop_back();
+            entry->photon = denseCell->back();
+            denseCell->pop_back();
         }
 }
 
@@ -179,7 +180,7 @@ void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers,
     std::fill_n(&_normal[_count], kLanes, 0u);
     _first = UnclearedArray<uint32_t>(buckets + 1);
     _first[buckets] = static_cast<uint32_t>(_count);
-    std::vector<std::vector<PhotonCrowds::Stretch>> crowds(kParts);
+    std::vector<std::vector<DenseCellTrees::Range>> denseCells(kParts);
     workers.forEach(
         kParts,
         [&](std::size_t part)
@@ -194,11 +195,11 @@ void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers,
             {
                 _first[b] = at;
                 at += next[b - bucketBegin];
-                if (next[b - bucketBegin] > kCrowd) crowds[part].push_back({_first[b], at});
+                if (next[b - bucketBegin] > kDenseCell) denseCells[part].push_back({_first[b], at});
             }
-            if (!crowds[part].empty())
-                sortCrowds(photons, next, bucketBegin, entries.data() + partBegin[part],
-                           entries.data() + partBegin[part + 1]);
+            if (!denseCells[part].empty())
+                sortDenseCells(photons, next, bucketBegin, entries.data() + partBegin[part],
+                               entries.data() + partBegin[part + 1]);
             std::copy_n(_first.data() + bucketBegin, next.size(), next.begin());
             float* const columns = _columns.data();
             const std::size_t step = stride();
@@ -220,10 +221,10 @@ void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers,
                 if (keepBins) _bin[to] = p.bin;
             }
         });
-    std::vector<PhotonCrowds::Stretch> all;
-    for (const auto& list : crowds)
+    std::vector<DenseCellTrees::Range> all;
+    for (const auto& list : denseCells)
         all.insert(all.end(), list.begin(), list.end());
-    if (!all.empty()) _crowds = PhotonCrowds(columns(), all, workers);
+    if (!all.empty()) _denseCells = DenseCellTrees(columns(), all, workers);
 }
 
 } // namespace osgRayTrace::engine

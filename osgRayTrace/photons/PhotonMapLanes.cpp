@@ -219,7 +219,7 @@ void PhotonMap::forEachGroup(const PhotonQueryLanes& queries, const Together& to
     }
 }
 
-/// The stretches of photons that can be in the discs of a group.
+/// The ranges of photons that can be in the discs of a group.
 int PhotonMap::rangesOf(const PhotonQueryLanes& queries, LaneMask group, Range* ranges) const
 {
     Bounds bounds;

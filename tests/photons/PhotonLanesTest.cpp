@@ -91,7 +91,7 @@ TEST_CASE("photon lanes: sixteen look-ups are as many single ones", "[photons]")
 {
     const Workers workers(2);
     uint64_t all = 0;
-    // Few photons around, more than are read together, and a crowd.
+    // Few photons around, more than are read together, and a dense cell.
     for (const auto& [count, cell] :
          {std::pair(3000, 0.2f), std::pair(60000, 0.1f), std::pair(9000, 4.0f)})
     {

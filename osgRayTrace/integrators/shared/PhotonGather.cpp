@@ -14,7 +14,7 @@ namespace
 
 /// Where the largest radius holds no more photons than this the radius comes from one look-up.
 /// Where it holds more it is narrowed down first, by sums that need not read the photons of a
-/// crowd.
+/// dense cell.
 constexpr std::size_t kMostReaches = 4096;
 constexpr int kNarrowings = 8; ///< of the octave that the radius is in
 

@@ -1,4 +1,4 @@
-// PhotonCrowdsTest.cpp - crowded cells: the same photons are found, and few are read.
+// DenseCellTreesTest.cpp - dense cells: the same photons are found, and few are read.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
@@ -16,7 +16,7 @@ const Vec3 kUp(0, 0, 1);
 
 /// On floors one above the other and walls between them, on a lattice of 2^-20 within a cube of
 /// 2^-10: all distances and sums are exact. Most come from above, the others from the side.
-std::vector<Photon> crowd(std::size_t count, uint32_t seed)
+std::vector<Photon> denseCell(std::size_t count, uint32_t seed)
 {
     Uniform uniform(seed);
     const auto coordinate = [&](float steps)
@@ -65,12 +65,12 @@ PhotonQuery query(Vec3 position, float radius)
 
 } // namespace
 
-TEST_CASE("photon crowds: what a search through all photons finds, added up or read", "[photons]")
+TEST_CASE("dense cells: what a search through all photons finds, added up or read", "[photons]")
 {
-    const std::vector<Photon> photons = crowd(60000, 4);
+    const std::vector<Photon> photons = denseCell(60000, 4);
     const Workers workers(2);
     uint64_t addedUp = 0;
-    for (const float cell : {1.0f, 0x1p-12f}) // one crowd, and many side by side
+    for (const float cell : {1.0f, 0x1p-12f}) // one dense cell, and many side by side
     {
         const PhotonMap map(photons, cell, workers);
         Uniform uniform(8);
@@ -99,7 +99,7 @@ TEST_CASE("photon crowds: what a search through all photons finds, added up or r
     CHECK(addedUp > 500000);
 }
 
-TEST_CASE("photon crowds: small discs and whole ones read little", "[photons][stability 42]")
+TEST_CASE("dense cells: small discs and whole ones read little", "[photons][stability 42]")
 {
     constexpr std::size_t kPhotons = 1000000;
     Uniform uniform(3);
@@ -110,7 +110,7 @@ TEST_CASE("photon crowds: small discs and whole ones read little", "[photons][st
         p.normal = p.wi = kUp;
         p.power = Vec3(1.0f);
     }
-    photons[0].position = Vec3(1.0f); // else the cells would be of the crowd's size
+    photons[0].position = Vec3(1.0f); // else the cells would be of the dense cell's size
     const PhotonMap map(photons, 0.01f, Workers(2));
     CHECK(map.bytes() < 50u * kPhotons);
     // Of 26 photons: a uniform grid's cells of two radii hold 33, and four of them are touched.
@@ -144,9 +144,9 @@ TEST_CASE("photon crowds: small discs and whole ones read little", "[photons][st
     CHECK(point.work(query(Vec3(1e-4f, 0.0f, 0.0f), 5e-5f)) == 0);
 }
 
-TEST_CASE("photon crowds: the same for any number of threads", "[photons]")
+TEST_CASE("dense cells: the same for any number of threads", "[photons]")
 {
-    const std::vector<Photon> photons = crowd(50000, 6);
+    const std::vector<Photon> photons = denseCell(50000, 6);
     const PhotonMap one(photons, 0.01f, Workers(1)), two(photons, 0.01f, Workers(2));
     bool same = true;
     for (uint32_t k = 0; k < photons.size(); ++k)

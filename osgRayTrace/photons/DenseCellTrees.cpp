@@ -1,6 +1,6 @@
-// PhotonCrowds.cpp - boxes over the photons of crowded cells. Layer: photons.
+// DenseCellTrees.cpp - boxes over the photons of dense cells. Layer: photons.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/photons/PhotonCrowds.h"
+#include "osgRayTrace/photons/DenseCellTrees.h"
 
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/photons/PhotonColumns.h"
@@ -71,10 +71,10 @@ double squared(double x)
 
 } // namespace
 
-void sortCrowd(const std::vector<Photon>& photons, std::vector<uint32_t>& crowd)
+void sortDenseCell(const std::vector<Photon>& photons, std::vector<uint32_t>& denseCell)
 {
     Vec3 low(kInfinity), high(-kInfinity);
-    for (const uint32_t k : crowd)
+    for (const uint32_t k : denseCell)
     {
         low = glm::min(low, photons[k].position);
         high = glm::max(high, photons[k].position);
@@ -82,22 +82,22 @@ void sortCrowd(const std::vector<Photon>& photons, std::vector<uint32_t>& crowd)
     const Vec3d extent = Vec3d(high) - Vec3d(low);
     const double longest = std::max({extent.x, extent.y, extent.z});
     const double scale = longest > 0.0 ? ((1 << kAxisBits) - 1) / longest : 0.0;
-    std::vector<Keyed> list(crowd.size());
-    for (std::size_t i = 0; i < crowd.size(); ++i)
+    std::vector<Keyed> list(denseCell.size());
+    for (std::size_t i = 0; i < denseCell.size(); ++i)
     {
-        const Photon& p = photons[crowd[i]];
+        const Photon& p = photons[denseCell[i]];
         const Vec3d at = (Vec3d(p.position) - Vec3d(low)) * scale;
         const uint64_t place = spread(static_cast<uint64_t>(at.x)) |
                                spread(static_cast<uint64_t>(at.y)) << 1 |
                                spread(static_cast<uint64_t>(at.z)) << 2;
-        list[i] = {place | sideOf(p.normal) << (3 * kAxisBits), crowd[i]};
+        list[i] = {place | sideOf(p.normal) << (3 * kAxisBits), denseCell[i]};
     }
     sortByKey(list);
-    for (std::size_t i = 0; i < crowd.size(); ++i)
-        crowd[i] = list[i].photon;
+    for (std::size_t i = 0; i < denseCell.size(); ++i)
+        denseCell[i] = list[i].photon;
 }
 
-PhotonCrowds::Node PhotonCrowds::leafOf(const PhotonColumns& p, Stretch s)
+DenseCellTrees::Node DenseCellTrees::leafOf(const PhotonColumns& p, Range s)
 {
     Node node{Vec3(kInfinity), Vec3(-kInfinity), Vec3(0.0f), 0.0f, 1.0f, 0, Vec3(0.0f)};
     Vec3d power(0.0), normal(0.0);
@@ -122,7 +122,7 @@ PhotonCrowds::Node PhotonCrowds::leafOf(const PhotonColumns& p, Stretch s)
     return node;
 }
 
-PhotonCrowds::Node PhotonCrowds::joined(const Node* nodes, std::size_t count)
+DenseCellTrees::Node DenseCellTrees::joined(const Node* nodes, std::size_t count)
 {
     Node node = nodes[0];
     Vec3d power(0.0), normal(0.0);
@@ -147,17 +147,17 @@ PhotonCrowds::Node PhotonCrowds::joined(const Node* nodes, std::size_t count)
     return node;
 }
 
-PhotonCrowds::PhotonCrowds(const PhotonColumns& columns, const std::vector<Stretch>& crowds,
-                           const Workers& workers)
-    : _crowds(crowds.size())
+DenseCellTrees::DenseCellTrees(const PhotonColumns& columns, const std::vector<Range>& denseCells,
+                               const Workers& workers)
+    : _denseCells(denseCells.size())
 {
-    for (std::size_t c = 0; c < crowds.size(); ++c)
+    for (std::size_t c = 0; c < denseCells.size(); ++c)
     {
-        Crowd& crowd = _crowds[c];
-        crowd.stretch = crowds[c];
-        const uint32_t begin = crowd.stretch.begin, end = crowd.stretch.end;
-        crowd.levels.emplace_back((end - begin + kLeaf - 1) / kLeaf);
-        std::vector<Node>& leaves = crowd.levels.back();
+        DenseCell& denseCell = _denseCells[c];
+        denseCell.range = denseCells[c];
+        const uint32_t begin = denseCell.range.begin, end = denseCell.range.end;
+        denseCell.levels.emplace_back((end - begin + kLeaf - 1) / kLeaf);
+        std::vector<Node>& leaves = denseCell.levels.back();
         constexpr std::size_t kChunk = 1024;
         workers.forEach((leaves.size() + kChunk - 1) / kChunk,
                         [&](std::size_t chunk)
@@ -169,30 +169,30 @@ PhotonCrowds::PhotonCrowds(const PhotonColumns& columns, const std::vector<Stret
                                 leaves[i] = leafOf(columns, {at, std::min(end, at + kLeaf)});
                             }
                         });
-        while (crowd.levels.back().size() > 1)
+        while (denseCell.levels.back().size() > 1)
         {
-            const std::vector<Node>& below = crowd.levels.back();
+            const std::vector<Node>& below = denseCell.levels.back();
             std::vector<Node> level;
             for (std::size_t i = 0; i < below.size(); i += kFan)
                 level.push_back(joined(&below[i], std::min<std::size_t>(kFan, below.size() - i)));
-            crowd.levels.push_back(std::move(level));
+            denseCell.levels.push_back(std::move(level));
         }
     }
 }
 
-std::size_t PhotonCrowds::bytes() const
+std::size_t DenseCellTrees::bytes() const
 {
     std::size_t sum = 0;
-    for (const Crowd& crowd : _crowds)
-        for (const std::vector<Node>& level : crowd.levels)
+    for (const DenseCell& denseCell : _denseCells)
+        for (const std::vector<Node>& level : denseCell.levels)
             sum += level.size() * sizeof(Node);
     return sum;
 }
 
-void PhotonCrowds::visitNode(const PhotonQuery& q, const Crowd& crowd, std::size_t level,
-                             std::size_t index, bool sums, Visit& visit)
+void DenseCellTrees::visitNode(const PhotonQuery& q, const DenseCell& denseCell, std::size_t level,
+                               std::size_t index, bool sums, Visit& visit)
 {
-    const Node& node = crowd.levels[level][index];
+    const Node& node = denseCell.levels[level][index];
     const double radius = q.radius;
     const Vec3d centre(q.position), normal(q.normal);
     const Vec3d low = Vec3d(node.low) - centre, high = Vec3d(node.high) - centre;
@@ -205,9 +205,9 @@ void PhotonCrowds::visitNode(const PhotonQuery& q, const Crowd& crowd, std::size
         return;
 
     const std::size_t covers = std::size_t(kLeaf) << (3 * level); // kFan = 8
-    const uint32_t begin = crowd.stretch.begin + static_cast<uint32_t>(index * covers);
+    const uint32_t begin = denseCell.range.begin + static_cast<uint32_t>(index * covers);
     const uint32_t end = static_cast<uint32_t>(
-        std::min<std::size_t>(crowd.stretch.end, std::size_t(begin) + covers));
+        std::min<std::size_t>(denseCell.range.end, std::size_t(begin) + covers));
     if (sums)
     {
         const Vec3d farthest = glm::max(glm::abs(low), glm::abs(high));
@@ -235,25 +235,26 @@ void PhotonCrowds::visitNode(const PhotonQuery& q, const Crowd& crowd, std::size
         return;
     }
     const std::size_t last =
-        std::min<std::size_t>((index + 1) * kFan, crowd.levels[level - 1].size());
+        std::min<std::size_t>((index + 1) * kFan, denseCell.levels[level - 1].size());
     for (std::size_t child = index * kFan; child < last; ++child)
-        visitNode(q, crowd, level - 1, child, sums, visit);
+        visitNode(q, denseCell, level - 1, child, sums, visit);
 }
 
-void PhotonCrowds::visit(const PhotonQuery& query, Stretch stretch, bool sums, Visit& visit) const
+void DenseCellTrees::visit(const PhotonQuery& query, Range range, bool sums, Visit& visit) const
 {
-    const auto isBefore = [](const Crowd& crowd, uint32_t begin)
-    { return crowd.stretch.begin < begin; };
-    auto crowd = std::lower_bound(_crowds.begin(), _crowds.end(), stretch.begin, isBefore);
-    uint32_t at = stretch.begin;
-    // Stretches are of whole cells: a crowd is in them or is not.
-    for (; crowd != _crowds.end() && crowd->stretch.end <= stretch.end; ++crowd)
+    const auto isBefore = [](const DenseCell& denseCell, uint32_t begin)
+    { return denseCell.range.begin < begin; };
+    auto denseCell =
+        std::lower_bound(_denseCells.begin(), _denseCells.end(), range.begin, isBefore);
+    uint32_t at = range.begin;
+    // Ranges are of whole cells: a dense cell is in them or is not.
+    for (; denseCell != _denseCells.end() && denseCell->range.end <= range.end; ++denseCell)
     {
-        if (at < crowd->stretch.begin) visit.read.push_back({at, crowd->stretch.begin});
-        visitNode(query, *crowd, crowd->levels.size() - 1, 0, sums, visit);
-        at = crowd->stretch.end;
+        if (at < denseCell->range.begin) visit.read.push_back({at, denseCell->range.begin});
+        visitNode(query, *denseCell, denseCell->levels.size() - 1, 0, sums, visit);
+        at = denseCell->range.end;
     }
-    if (at < stretch.end) visit.read.push_back({at, stretch.end});
+    if (at < range.end) visit.read.push_back({at, range.end});
 }
 
 } // namespace osgRayTrace::engine
