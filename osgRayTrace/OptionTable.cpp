@@ -208,7 +208,7 @@ const std::vector<OptionRow>& optionTable()
         choiceRow("radius-schedule", kRadiusScheduleWords, &S::getRadiusSchedule,
                   &S::setRadiusSchedule,
                   "Radii shrink by the number of the pass, or by the photons of each pixel"),
-        switchRow("aim-at-views", &S::getAimAtViews, &S::setAimAtViews,
+        switchRow("photon-guiding", &S::getPhotonGuiding, &S::setPhotonGuiding,
                   "Photons for mirrors and glass go where the views see their light"),
         choiceRow("denoise", kDenoiseWords, &S::getDenoise, &S::setDenoise,
                   "Takes out the noise of few passes; oidn: by Open Image Denoise, where that is "

@@ -98,7 +98,7 @@ RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::Cop
       _photonRadius(other._photonRadius),
       _photonAlpha(other._photonAlpha),
       _radiusSchedule(other._radiusSchedule),
-      _aimAtViews(other._aimAtViews),
+      _photonGuiding(other._photonGuiding),
       _denoise(other._denoise),
       _materials(other._materials)
 {
@@ -196,9 +196,9 @@ void RayTraceSettings::setReproject(bool value)
     change(_reproject, value, _modifiedCount);
 }
 
-void RayTraceSettings::setAimAtViews(bool value)
+void RayTraceSettings::setPhotonGuiding(bool value)
 {
-    change(_aimAtViews, value, _modifiedCount);
+    change(_photonGuiding, value, _modifiedCount);
 }
 
 void RayTraceSettings::setDenoise(Denoise value)

@@ -170,7 +170,7 @@ std::string makeEqualOnAllNodes(RayTraceSettings& settings, const PluginConfig& 
     impose("presentation", "frame-locked", "nodes show the same frame");
     impose("equal-views", "true", "nodes agree on passes and resolution");
     impose("passes-per-frame", "1", "nodes agree on them");
-    impose("aim-at-views", "false", "nodes trace the same photons");
+    impose("photon-guiding", "false", "nodes trace the same photons");
     std::ostringstream budget;
     budget.imbue(std::locale::classic());
     budget << config.clusterBudget;

@@ -43,7 +43,7 @@ std::string sharedSettings(const RayTraceSettings& settings, const PluginConfig&
 std::vector<std::string> takeSharedSettings(const std::string& lines, RayTraceSettings& settings,
                                             PluginConfig& config);
 
-/// Sets what nodes need to show one picture. aim-at-views is off: without it pass k has the same
+/// Sets what nodes need to show one picture. photon-guiding is off: without it pass k has the same
 /// photons on all nodes, for its random numbers depend on seed and k alone. Views are frame-locked
 /// and take what all of them agree on, in the node's ClusterBudget. Returns one sentence that names
 /// what the configuration or the environment wanted otherwise; empty: nothing.

@@ -19,7 +19,7 @@ struct Photon
     Vec3 normal{0.0f};       ///< geometric, unit, on the side of wi
     uint32_t edges = 0;      ///< of its path, from the light to here
     bool direct = false;     ///< met mirror-like surfaces only
-    uint32_t bin = kInvalid; ///< of PhotonAim that it was sent to, if it was
+    uint32_t bin = kInvalid; ///< of PhotonGuide that it was sent to, if it was
 };
 
 /// Photon paths are told apart by their number of edges up to here; longer ones count as this.

@@ -31,7 +31,7 @@ struct PhotonEmitter::Cones
     {
         Vec3 axis;
         float oneMinusCosine;
-        float share; ///< of the photons that are aimed: solid angle over 2 pi, times the target's
+        float share; ///< of the photons that are guided: solid angle over 2 pi, times the target's
                      ///< weight
         uint32_t target;
     };
@@ -49,17 +49,17 @@ struct PhotonEmitter::Cones
     }
 
     /// A direction within a cone, and its bin.
-    Vec3 sample(const Cone& cone, Guide guide, Vec2 u, uint32_t& bin) const
+    Vec3 sample(const Cone& cone, LightGuide guide, Vec2 u, uint32_t& bin) const
     {
-        if (guide.aim)
-            u = guide.aim->sample(guide.light, cone.target, u, bin);
+        if (guide.photonGuide)
+            u = guide.photonGuide->sample(guide.light, cone.target, u, bin);
         else
-            bin = aimBinOf(u.x, u.y);
+            bin = guideBinOf(u.x, u.y);
         return turnedTo(cone.axis, squareToCone(u, cone.oneMinusCosine));
     }
 
-    /// [1/sr] of the aimed part of the mixture.
-    float pdf(Guide guide, Vec3 direction) const
+    /// [1/sr] of the guided part of the mixture.
+    float pdf(LightGuide guide, Vec3 direction) const
     {
         float inside = 0.0f;
         for (int i = 0; i < count; ++i)
@@ -68,9 +68,10 @@ struct PhotonEmitter::Cones
             const Vec3 off = direction - cone.axis; // |off|^2 / 2 = 1 - cosine
             const float height = 0.5f * glm::dot(off, off);
             if (!(height <= cone.oneMinusCosine)) continue;
-            inside += guide.aim ? guide.aim->weightAt(guide.light, cone.target, cone.axis,
-                                                      direction, height / cone.oneMinusCosine)
-                                : 1.0f;
+            inside += guide.photonGuide
+                          ? guide.photonGuide->weightAt(guide.light, cone.target, cone.axis,
+                                                        direction, height / cone.oneMinusCosine)
+                          : 1.0f;
         }
         return inside / (2.0f * kPi * total);
     }
@@ -81,13 +82,13 @@ struct PhotonEmitter::Cones
 };
 
 PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights,
-                             float aimedShare)
-    : _traced(traced), _lights(lights), _aimedShare(aimedShare)
+                             float guidedShare)
+    : _traced(traced), _lights(lights), _guidedShare(guidedShare)
 {
     PhotonTargets targets = photonTargets(traced, kMaxTargets);
     _scene = targets.scene;
     _targets = std::move(targets.spheres);
-    if (_targets.empty()) _aimedShare = 0.0f;
+    if (_targets.empty()) _guidedShare = 0.0f;
 
     // In proportion to power; that of point and directional lights is what they send into the
     // scene.
@@ -137,14 +138,14 @@ PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>
 }
 
 std::optional<PhotonStart> PhotonEmitter::emit(const EmissionPoint& point,
-                                               const PhotonAim* aim) const
+                                               const PhotonGuide* photonGuide) const
 {
     if (_cumulative.empty()) return std::nullopt;
-    const std::vector<float>& cumulative = aim ? aim->cumulative() : _cumulative;
+    const std::vector<float>& cumulative = photonGuide ? photonGuide->cumulative() : _cumulative;
     const std::size_t chosen = pick(cumulative, point.light);
     const float pmf = cumulative[chosen] - (chosen ? cumulative[chosen - 1] : 0.0f);
     const uint32_t light = _emitters[chosen];
-    const Guide guide{aim, PhotonAim::lightOf(chosen, _emitters.size())};
+    const LightGuide guide{photonGuide, PhotonGuide::lightOf(chosen, _emitters.size())};
     std::optional<PhotonStart> start;
     switch (_lights[light].kind)
     {
@@ -179,32 +180,32 @@ float PhotonEmitter::falloff(uint32_t index, float distance) const
     return denominator > 0.0f ? distance * distance / denominator : 0.0f;
 }
 
-std::size_t PhotonEmitter::aimBins() const
+std::size_t PhotonEmitter::guideBins() const
 {
-    return std::min<std::size_t>(_emitters.size(), kMostAimLights) * _targets.size() * kAimBins;
+    return std::min<std::size_t>(_emitters.size(), kMostGuideLights) * _targets.size() * kGuideBins;
 }
 
-std::shared_ptr<const PhotonAim> PhotonEmitter::learn(const std::vector<uint32_t>& emitted,
-                                                      const std::vector<double>& seen) const
+std::shared_ptr<const PhotonGuide> PhotonEmitter::learn(const std::vector<uint32_t>& emitted,
+                                                        const std::vector<double>& seen) const
 {
     std::vector<float> pmf;
     for (std::size_t e = 0; e < _cumulative.size(); ++e)
         pmf.push_back(_cumulative[e] - (e ? _cumulative[e - 1] : 0.0f));
-    return std::make_shared<const PhotonAim>(static_cast<uint32_t>(_targets.size()), emitted, seen,
-                                             pmf);
+    return std::make_shared<const PhotonGuide>(static_cast<uint32_t>(_targets.size()), emitted,
+                                               seen, pmf);
 }
 
-uint32_t PhotonEmitter::binOf(Guide guide, uint32_t target, uint32_t bin) const
+uint32_t PhotonEmitter::binOf(LightGuide guide, uint32_t target, uint32_t bin) const
 {
-    return PhotonAim::index(guide.light, target, static_cast<uint32_t>(_targets.size()), bin);
+    return PhotonGuide::index(guide.light, target, static_cast<uint32_t>(_targets.size()), bin);
 }
 
-/// The direction of a photon that is aimed, by the first share of the numbers that choose; and its
+/// The direction of a photon that is guided, by the first share of the numbers that choose; and its
 /// bin.
-Vec3 PhotonEmitter::aimed(const Cones& cones, float share, const EmissionPoint& point, Guide guide,
-                          uint32_t& bin) const
+Vec3 PhotonEmitter::guidedDirection(const Cones& cones, float share, const EmissionPoint& point,
+                                    LightGuide guide, uint32_t& bin) const
 {
-    const Cones::Cone& cone = cones.choose(point.aim / share);
+    const Cones::Cone& cone = cones.choose(point.choice / share);
     uint32_t inCone;
     const Vec3 direction = cones.sample(cone, guide, point.direction, inCone);
     bin = binOf(guide, cone.target, inCone);
@@ -213,11 +214,12 @@ Vec3 PhotonEmitter::aimed(const Cones& cones, float share, const EmissionPoint& 
 
 /// Cones of the targets as seen from origin, and the sum of their solid angles over 2 pi. spread:
 /// photons start so far beside the origin.
-PhotonEmitter::Cones PhotonEmitter::conesFrom(Vec3 origin, float spread, Guide guide) const
+PhotonEmitter::Cones PhotonEmitter::conesFrom(Vec3 origin, float spread, LightGuide guide) const
 {
     Cones result;
-    if (_aimedShare <= 0.0f) return result;
-    const float* weights = guide.aim ? guide.aim->targetWeights(guide.light) : nullptr;
+    if (_guidedShare <= 0.0f) return result;
+    const float* weights =
+        guide.photonGuide ? guide.photonGuide->targetWeights(guide.light) : nullptr;
     for (uint32_t t = 0; t < _targets.size(); ++t)
     {
         const Sphere& target = _targets[t];
@@ -237,7 +239,7 @@ PhotonEmitter::Cones PhotonEmitter::conesFrom(Vec3 origin, float spread, Guide g
 }
 
 std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const EmissionPoint& point,
-                                                   Guide guide) const
+                                                   LightGuide guide) const
 {
     const std::optional<LightPoint> from =
         _traced.lights().samplePoint(index, point.position.x, point.position.y);
@@ -254,15 +256,15 @@ std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const Emissio
             _traced.materials().emission(_traced.scene().instances[light.instance].material, at);
     }
     const Cones cones = conesFrom(from->position, 0.0f, guide);
-    const float share = cones.count ? _aimedShare : 0.0f;
+    const float share = cones.count ? _guidedShare : 0.0f;
 
     PhotonStart start;
     Vec3 direction;
-    if (point.aim < share)
-        direction = aimed(cones, share, point, guide, start.bin);
+    if (point.choice < share)
+        direction = guidedDirection(cones, share, point, guide, start.bin);
     else
     {
-        const float rest = (point.aim - share) / (1.0f - share);
+        const float rest = (point.choice - share) / (1.0f - share);
         const Vec3 side = twoSided && rest >= 0.5f ? -from->normal : from->normal;
         direction = turnedTo(side, squareToCosineHemisphere(point.direction.x, point.direction.y));
     }
@@ -281,17 +283,17 @@ std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const Emissio
 }
 
 std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const EmissionPoint& point,
-                                                    Guide guide) const
+                                                    LightGuide guide) const
 {
     const Light& light = _lights[index];
     const Cones cones = conesFrom(light.position, light.radius, guide);
-    const float share = cones.count ? _aimedShare : 0.0f;
+    const float share = cones.count ? _guidedShare : 0.0f;
     const float oneMinusCutoff = 1.0f - std::max(-1.0f, light.spotCosCutoff);
 
     PhotonStart start;
     Vec3 direction;
-    if (point.aim < share)
-        direction = aimed(cones, share, point, guide, start.bin);
+    if (point.choice < share)
+        direction = guidedDirection(cones, share, point, guide, start.bin);
     else
         direction = turnedTo(light.direction, squareToCone(point.direction, oneMinusCutoff));
 
@@ -311,7 +313,7 @@ std::optional<PhotonStart> PhotonEmitter::emitPoint(uint32_t index, const Emissi
 
 /// A direction as the environment is bright, then as from a directional light there.
 std::optional<PhotonStart> PhotonEmitter::emitEnvironment(const EmissionPoint& point,
-                                                          Guide guide) const
+                                                          LightGuide guide) const
 {
     const EnvironmentSample sample =
         _traced.lights().environment()->sample(point.direction.x, point.direction.y);
@@ -319,8 +321,9 @@ std::optional<PhotonStart> PhotonEmitter::emitEnvironment(const EmissionPoint& p
     return emitParallel(-sample.direction, sample.radiance / sample.pdfW, point, guide);
 }
 
-std::optional<PhotonStart>
-PhotonEmitter::emitDirectional(const Light& light, const EmissionPoint& point, Guide guide) const
+std::optional<PhotonStart> PhotonEmitter::emitDirectional(const Light& light,
+                                                          const EmissionPoint& point,
+                                                          LightGuide guide) const
 {
     const Vec3 direction = isSoft(light) ? softDirection(light, point.direction) : light.direction;
     return emitParallel(direction, light.diffuse * (kPi * softWeight(light.sine)), point, guide);
@@ -329,30 +332,31 @@ PhotonEmitter::emitDirectional(const Light& light, const EmissionPoint& point, G
 /// Light that travels in one direction; irradiance: across it.
 std::optional<PhotonStart> PhotonEmitter::emitParallel(Vec3 direction, Vec3 irradiance,
                                                        const EmissionPoint& point,
-                                                       Guide guide) const
+                                                       LightGuide guide) const
 {
     if (!(_scene.radius > 0.0f)) return std::nullopt;
     const float sceneArea = kPi * _scene.radius * _scene.radius;
-    const float* weights = guide.aim ? guide.aim->targetWeights(guide.light) : nullptr;
-    const auto shareOf = [&](std::size_t t) // of the photons that are aimed
+    const float* weights =
+        guide.photonGuide ? guide.photonGuide->targetWeights(guide.light) : nullptr;
+    const auto shareOf = [&](std::size_t t) // of the photons that are guided
     { return kPi * _targets[t].radius * _targets[t].radius * (weights ? weights[t] : 1.0f); };
     float total = 0.0f;
     for (std::size_t t = 0; t < _targets.size(); ++t)
         total += shareOf(t);
-    const float share = total > 0.0f ? _aimedShare : 0.0f;
+    const float share = total > 0.0f ? _guidedShare : 0.0f;
 
     PhotonStart start;
     const Sphere* disc = &_scene;
     Vec2 at = point.position; // a turn, and the share of the disc's area
-    if (point.aim < share)
+    if (point.choice < share)
     {
-        float left = point.aim / share * total;
+        float left = point.choice / share * total;
         uint32_t chosen = 0;
         for (; chosen + 1 < _targets.size() && left >= shareOf(chosen); ++chosen)
             left -= shareOf(chosen);
         disc = &_targets[chosen];
-        uint32_t bin = aimBinOf(at.x, at.y);
-        if (guide.aim) at = guide.aim->sample(guide.light, chosen, at, bin);
+        uint32_t bin = guideBinOf(at.x, at.y);
+        if (guide.photonGuide) at = guide.photonGuide->sample(guide.light, chosen, at, bin);
         start.bin = binOf(guide, chosen, bin);
     }
     float s, c;
@@ -376,8 +380,9 @@ std::optional<PhotonStart> PhotonEmitter::emitParallel(Vec3 direction, Vec3 irra
             const Vec3 across = acrossFrom(_targets[t]);
             if (!isIn(_targets[t], across)) continue;
             const float area = glm::dot(across, across) / (_targets[t].radius * _targets[t].radius);
-            inside +=
-                guide.aim ? guide.aim->weightAt(guide.light, t, direction, across, area) : 1.0f;
+            inside += guide.photonGuide
+                          ? guide.photonGuide->weightAt(guide.light, t, direction, across, area)
+                          : 1.0f;
         }
         pdf += share * inside / total;
     }

@@ -1,9 +1,10 @@
-// PhotonEmitter.h - photons as they leave the lights, aimed at what makes caustics. Layer: photons.
+// PhotonEmitter.h - photons as they leave the lights, guided to what makes caustics. Layer:
+// photons.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/accel/TracedScene.h"
-#include "osgRayTrace/photons/PhotonAim.h"
+#include "osgRayTrace/photons/PhotonGuide.h"
 #include "osgRayTrace/photons/PhotonTargets.h"
 
 #include <memory>
@@ -20,14 +21,14 @@ struct PhotonStart
     Vec3 direction{0.0f}; ///< unit
     Vec3 power{0.0f};     ///< [W] times the number of photons emitted
     uint32_t light = kInvalid;
-    uint32_t bin = kInvalid; ///< of PhotonAim that it was aimed at, if it was
+    uint32_t bin = kInvalid; ///< of PhotonGuide that it was guided to, if it was
 };
 
 /// The numbers of [0,1) that an emission takes.
 struct EmissionPoint
 {
     float light = 0.0f;
-    float aim = 0.0f;
+    float choice = 0.0f;
     Vec2 position{0.0f};
     Vec2 direction{0.0f};
 };
@@ -35,7 +36,7 @@ struct EmissionPoint
 /// The same for sixteen photons.
 struct EmissionLanes
 {
-    FloatLanes light, aim, positionU, positionV, directionU, directionV;
+    FloatLanes light, choice, positionU, positionV, directionU, directionV;
 };
 
 struct StartLanes
@@ -51,9 +52,9 @@ struct StartLanes
 class PhotonEmitter
 {
 public:
-    /// lights: the scene's, those of eye space placed. aimedShare in [0,1): of photons aimed; 0 if
-    /// nothing in the scene is specular.
-    PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights, float aimedShare);
+    /// lights: the scene's, those of eye space placed. guidedShare in [0,1): of photons guided; 0
+    /// if nothing in the scene is specular.
+    PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights, float guidedShare);
 
     /// False if no light has any power.
     bool emits() const { return !_cumulative.empty(); }
@@ -62,17 +63,17 @@ public:
     bool hasTargets() const { return !_targets.empty(); }
 
     std::optional<PhotonStart> emit(const EmissionPoint& point,
-                                    const PhotonAim* aim = nullptr) const;
+                                    const PhotonGuide* photonGuide = nullptr) const;
 
     /// What emit returns for each lane, up to rounding; vector code where a parallelogram is the
     /// only light. Returns the lanes that have a start.
     LaneMask emitLanes(const EmissionLanes& points, StartLanes& starts,
-                       const PhotonAim* aim = nullptr) const;
+                       const PhotonGuide* photonGuide = nullptr) const;
 
-    /// Of a PhotonAim for this emitter; 0: there is nothing to aim at.
-    std::size_t aimBins() const;
-    std::shared_ptr<const PhotonAim> learn(const std::vector<uint32_t>& emitted,
-                                           const std::vector<double>& seen) const;
+    /// Of a PhotonGuide for this emitter; 0: there is nothing to aim at.
+    std::size_t guideBins() const;
+    std::shared_ptr<const PhotonGuide> learn(const std::vector<uint32_t>& emitted,
+                                             const std::vector<double>& seen) const;
 
     /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives
     /// after a free flight from the light is the power times this. distance: to the light's centre,
@@ -87,32 +88,32 @@ public:
 
 private:
     struct Cones;
-    /// What an emission is told beside its numbers. light: for the aim.
-    struct Guide
+    /// What an emission is told beside its numbers. light: as photonGuide numbers it.
+    struct LightGuide
     {
-        const PhotonAim* aim;
+        const PhotonGuide* photonGuide;
         uint32_t light;
     };
 
     std::optional<PhotonStart> emitArea(uint32_t light, const EmissionPoint& point,
-                                        Guide guide) const;
+                                        LightGuide guide) const;
     std::optional<PhotonStart> emitPoint(uint32_t light, const EmissionPoint& point,
-                                         Guide guide) const;
+                                         LightGuide guide) const;
     std::optional<PhotonStart> emitDirectional(const Light& light, const EmissionPoint& point,
-                                               Guide guide) const;
-    std::optional<PhotonStart> emitEnvironment(const EmissionPoint& point, Guide guide) const;
+                                               LightGuide guide) const;
+    std::optional<PhotonStart> emitEnvironment(const EmissionPoint& point, LightGuide guide) const;
     std::optional<PhotonStart> emitParallel(Vec3 direction, Vec3 irradiance,
-                                            const EmissionPoint& point, Guide guide) const;
+                                            const EmissionPoint& point, LightGuide guide) const;
     LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts,
-                        const PhotonAim* aim) const;
-    Cones conesFrom(Vec3 origin, float spread, Guide guide) const;
-    uint32_t binOf(Guide guide, uint32_t target, uint32_t bin) const;
-    Vec3 aimed(const Cones& cones, float share, const EmissionPoint& point, Guide guide,
-               uint32_t& bin) const;
+                        const PhotonGuide* photonGuide) const;
+    Cones conesFrom(Vec3 origin, float spread, LightGuide guide) const;
+    uint32_t binOf(LightGuide guide, uint32_t target, uint32_t bin) const;
+    Vec3 guidedDirection(const Cones& cones, float share, const EmissionPoint& point,
+                         LightGuide guide, uint32_t& bin) const;
 
     const TracedScene& _traced;
     const std::vector<Light>& _lights;
-    float _aimedShare;
+    float _guidedShare;
     Sphere _scene;
     std::vector<Sphere> _targets;
     std::vector<uint32_t> _emitters; ///< index of a light

@@ -12,7 +12,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// A light that is a parallelogram, and what photons are aimed at.
+/// A light that is a parallelogram, and what photons are guided to.
 struct Source
 {
     Vec3 corner, edgeU, edgeV, normal;
@@ -21,12 +21,12 @@ struct Source
     uint32_t twoSided; ///< all bits or none
     const Sphere* targets;
     int targetCount;
-    float aimedShare;
-    const PhotonAim* aim; ///< or null
+    float guidedShare;
+    const PhotonGuide* photonGuide; ///< or null
 };
 
 /// The cones of a target from the lanes' points on the light.
-struct AimLanes
+struct TargetCones
 {
     Vec3Lanes axis;
     FloatLanes oneMinusCosine; ///< 0: the point is in or beside the target
@@ -36,8 +36,8 @@ struct AimLanes
 struct PointLanes
 {
     Vec3Lanes position;
-    FloatLanes total; ///< of 1 - cosine over the aims, times the target's weight
-    AimLanes aims[PhotonEmitter::kMaxTargets];
+    FloatLanes total; ///< of 1 - cosine over the cones, times the target's weight
+    TargetCones targetCones[PhotonEmitter::kMaxTargets];
     Vec3Lanes chosenAxis;
     FloatLanes chosenCone;
     UintLanes chosenTarget;
@@ -63,7 +63,7 @@ void pointsOn(const Source& source, const EmissionLanes& e, PointLanes& p)
 
 /// As PhotonEmitter::conesFrom.
 OSGRAYTRACE_KERNEL
-void addCone(const Sphere& sphere, float weight, PointLanes& p, AimLanes& aim)
+void addCone(const Sphere& sphere, float weight, PointLanes& p, TargetCones& targetCone)
 {
     const Vec3 centre = sphere.centre;
     const float radius = sphere.radius;
@@ -78,34 +78,35 @@ void addCone(const Sphere& sphere, float weight, PointLanes& p, AimLanes& aim)
         const uint32_t outside = maskOf(sin2 < 0.999f);
         const float cosine2 = select(outside, 1.0f - sin2, 1.0f);
         const float cone = select(outside, sin2 / (1.0f + std::sqrt(cosine2)), 0.0f);
-        aim.axis.x[i] = dx * inverse;
-        aim.axis.y[i] = dy * inverse;
-        aim.axis.z[i] = dz * inverse;
-        aim.oneMinusCosine[i] = cone;
+        targetCone.axis.x[i] = dx * inverse;
+        targetCone.axis.y[i] = dy * inverse;
+        targetCone.axis.z[i] = dz * inverse;
+        targetCone.oneMinusCosine[i] = cone;
         p.total[i] += cone * weight;
     }
 }
 
-/// One of the aims, by solid angle: at counts down to it. The last one catches what rounding
+/// One of the cones, by solid angle: at counts down to it. The last one catches what rounding
 /// leaves.
 OSGRAYTRACE_KERNEL
-void chooseCone(const AimLanes& aim, float weight, uint32_t target, FloatLanes& at, PointLanes& p)
+void chooseCone(const TargetCones& targetCone, float weight, uint32_t target, FloatLanes& at,
+                PointLanes& p)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        const float cone = aim.oneMinusCosine[i];
+        const float cone = targetCone.oneMinusCosine[i];
         const uint32_t take = maskOf(cone > 0.0f) & maskOf(at[i] >= 0.0f);
-        p.chosenAxis.x[i] = select(take, aim.axis.x[i], p.chosenAxis.x[i]);
-        p.chosenAxis.y[i] = select(take, aim.axis.y[i], p.chosenAxis.y[i]);
-        p.chosenAxis.z[i] = select(take, aim.axis.z[i], p.chosenAxis.z[i]);
+        p.chosenAxis.x[i] = select(take, targetCone.axis.x[i], p.chosenAxis.x[i]);
+        p.chosenAxis.y[i] = select(take, targetCone.axis.y[i], p.chosenAxis.y[i]);
+        p.chosenAxis.z[i] = select(take, targetCone.axis.z[i], p.chosenAxis.z[i]);
         p.chosenCone[i] = select(take, cone, p.chosenCone[i]);
         p.chosenTarget[i] = (target & take) | (p.chosenTarget[i] & ~take);
         at[i] = select(take, at[i] - cone * weight, at[i]);
     }
 }
 
-/// The bins of the lanes that are aimed, and where in the cone their directions are: e but for
+/// The bins of the lanes that are guided, and where in the cone their directions are: e but for
 /// those lanes.
 EmissionLanes chooseBins(const Source& source, const EmissionLanes& e, const PointLanes& p,
                          UintLanes& bins)
@@ -114,22 +115,22 @@ EmissionLanes chooseBins(const Source& source, const EmissionLanes& e, const Poi
     for (int i = 0; i < kLanes; ++i)
     {
         bins[i] = kInvalid;
-        if (!(p.total[i] > 0.0f) || !(e.aim[i] < source.aimedShare)) continue;
+        if (!(p.total[i] > 0.0f) || !(e.choice[i] < source.guidedShare)) continue;
         const uint32_t target = p.chosenTarget[i];
-        uint32_t bin = aimBinOf(e.directionU[i], e.directionV[i]);
-        if (source.aim)
+        uint32_t bin = guideBinOf(e.directionU[i], e.directionV[i]);
+        if (source.photonGuide)
         {
             const Vec2 at =
-                source.aim->sample(0, target, Vec2(e.directionU[i], e.directionV[i]), bin);
+                source.photonGuide->sample(0, target, Vec2(e.directionU[i], e.directionV[i]), bin);
             chosen.directionU[i] = at.x;
             chosen.directionV[i] = at.y;
         }
-        bins[i] = PhotonAim::index(0, target, static_cast<uint32_t>(source.targetCount), bin);
+        bins[i] = PhotonGuide::index(0, target, static_cast<uint32_t>(source.targetCount), bin);
     }
     return chosen;
 }
 
-/// Directions, by aim or as the light shines.
+/// Directions, guided or as the light shines.
 OSGRAYTRACE_KERNEL
 void directions(const Source& source, const EmissionLanes& e, const PointLanes& p,
                 StartLanes& starts)
@@ -138,21 +139,21 @@ void directions(const Source& source, const EmissionLanes& e, const PointLanes& 
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        const float share = select(p.total[i] > 0.0f, s.aimedShare, 0.0f);
-        const uint32_t aimed = maskOf(e.aim[i] < share);
-        const float rest = (e.aim[i] - share) / (1.0f - share);
+        const float share = select(p.total[i] > 0.0f, s.guidedShare, 0.0f);
+        const uint32_t guided = maskOf(e.choice[i] < share);
+        const float rest = (e.choice[i] - share) / (1.0f - share);
         const float side = select(s.twoSided & maskOf(rest >= 0.5f), -1.0f, 1.0f);
-        const float nx = select(aimed, p.chosenAxis.x[i], s.normal.x * side);
-        const float ny = select(aimed, p.chosenAxis.y[i], s.normal.y * side);
-        const float nz = select(aimed, p.chosenAxis.z[i], s.normal.z * side);
+        const float nx = select(guided, p.chosenAxis.x[i], s.normal.x * side);
+        const float ny = select(guided, p.chosenAxis.y[i], s.normal.y * side);
+        const float nz = select(guided, p.chosenAxis.z[i], s.normal.z * side);
 
         float sine, cosine;
         sinCosTurn(e.directionU[i], sine, cosine);
         const float v = e.directionV[i];
         // Uniform in a cone, or by the cosine: see squareToCone.
         const float height = v * p.chosenCone[i];
-        const float lz = select(aimed, 1.0f - height, std::sqrt(1.0f - v));
-        const float radius = std::sqrt(select(aimed, height * (2.0f - height), v));
+        const float lz = select(guided, 1.0f - height, std::sqrt(1.0f - v));
+        const float radius = std::sqrt(select(guided, height * (2.0f - height), v));
         const float lx = radius * cosine, ly = radius * sine;
         const float sign = nz >= 0.0f ? 1.0f : -1.0f;
         const float a = -1.0f / (sign + nz);
@@ -164,29 +165,29 @@ void directions(const Source& source, const EmissionLanes& e, const PointLanes& 
 }
 
 OSGRAYTRACE_KERNEL
-void countInside(const AimLanes& aim, const StartLanes& starts, FloatLanes& inside)
+void countInside(const TargetCones& targetCone, const StartLanes& starts, FloatLanes& inside)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        const float x = starts.direction.x[i] - aim.axis.x[i],
-                    y = starts.direction.y[i] - aim.axis.y[i],
-                    z = starts.direction.z[i] - aim.axis.z[i];
-        const float cone = aim.oneMinusCosine[i];
+        const float x = starts.direction.x[i] - targetCone.axis.x[i],
+                    y = starts.direction.y[i] - targetCone.axis.y[i],
+                    z = starts.direction.z[i] - targetCone.axis.z[i];
+        const float cone = targetCone.oneMinusCosine[i];
         const uint32_t in = maskOf(0.5f * (x * x + y * y + z * z) <= cone) & maskOf(cone > 0.0f);
         inside[i] += select(in, 1.0f, 0.0f);
     }
 }
 
 /// The same where bins have weights. Most directions are in one cone.
-void addWeightsInside(const PhotonAim& weights, uint32_t target, const AimLanes& aim,
+void addWeightsInside(const PhotonGuide& weights, uint32_t target, const TargetCones& targetCone,
                       const StartLanes& starts, FloatLanes& inside)
 {
     for (int i = 0; i < kLanes; ++i)
     {
-        const Vec3 direction = laneOf(starts.direction, i), axis = laneOf(aim.axis, i);
+        const Vec3 direction = laneOf(starts.direction, i), axis = laneOf(targetCone.axis, i);
         const Vec3 off = direction - axis;
-        const float cone = aim.oneMinusCosine[i], height = 0.5f * glm::dot(off, off);
+        const float cone = targetCone.oneMinusCosine[i], height = 0.5f * glm::dot(off, off);
         if (height <= cone && cone > 0.0f)
             inside[i] += weights.weightAt(0, target, axis, direction, height / cone);
     }
@@ -202,15 +203,15 @@ LaneMask powers(const Source& source, const PointLanes& p, const FloatLanes& ins
     OSGRAYTRACE_SIMD_OR(alive)
     for (int i = 0; i < kLanes; ++i)
     {
-        const float share = select(p.total[i] > 0.0f, s.aimedShare, 0.0f);
+        const float share = select(p.total[i] > 0.0f, s.guidedShare, 0.0f);
         const float signedCosine = starts.direction.x[i] * s.normal.x +
                                    starts.direction.y[i] * s.normal.y +
                                    starts.direction.z[i] * s.normal.z;
         const float cosine = std::fabs(signedCosine);
         const float sides = select(s.twoSided, 0.5f, 1.0f);
-        const float aimed =
+        const float guided =
             select(share > 0.0f, share * inside[i] / (2.0f * kPi * p.total[i]), 0.0f);
-        const float pdf = (1.0f - share) * cosine * kInvPi * sides + aimed;
+        const float pdf = (1.0f - share) * cosine * kInvPi * sides + guided;
         const float power = cosine * s.area / pdf;
         starts.power.x[i] = s.radiance.x * power;
         starts.power.y[i] = s.radiance.y * power;
@@ -233,35 +234,37 @@ LaneMask emitFrom(const Source& source, const EmissionLanes& points, StartLanes&
 {
     PointLanes p;
     pointsOn(source, points, p);
-    const float* weights = source.aim ? source.aim->targetWeights(0) : nullptr;
+    const float* weights = source.photonGuide ? source.photonGuide->targetWeights(0) : nullptr;
     for (int t = 0; t < source.targetCount; ++t)
-        addCone(source.targets[t], weights ? weights[t] : 1.0f, p, p.aims[t]);
+        addCone(source.targets[t], weights ? weights[t] : 1.0f, p, p.targetCones[t]);
     FloatLanes at, inside = {};
     for (int i = 0; i < kLanes; ++i)
-        at[i] = source.aimedShare > 0.0f ? points.aim[i] / source.aimedShare * p.total[i] : 0.0f;
+        at[i] =
+            source.guidedShare > 0.0f ? points.choice[i] / source.guidedShare * p.total[i] : 0.0f;
     for (int t = 0; t < source.targetCount; ++t)
-        chooseCone(p.aims[t], weights ? weights[t] : 1.0f, static_cast<uint32_t>(t), at, p);
+        chooseCone(p.targetCones[t], weights ? weights[t] : 1.0f, static_cast<uint32_t>(t), at, p);
     directions(source, chooseBins(source, points, p, starts.bin), p, starts);
     for (int t = 0; t < source.targetCount; ++t)
-        if (source.aim)
-            addWeightsInside(*source.aim, static_cast<uint32_t>(t), p.aims[t], starts, inside);
+        if (source.photonGuide)
+            addWeightsInside(*source.photonGuide, static_cast<uint32_t>(t), p.targetCones[t],
+                             starts, inside);
         else
-            countInside(p.aims[t], starts, inside);
+            countInside(p.targetCones[t], starts, inside);
     return powers(source, p, inside, starts);
 }
 
 } // namespace
 
 LaneMask PhotonEmitter::emitLanes(const EmissionLanes& points, StartLanes& starts,
-                                  const PhotonAim* aim) const
+                                  const PhotonGuide* photonGuide) const
 {
     // One plain light of area is the rule. All others go one by one.
     if (_emitters.size() != 1 || _lights[_emitters[0]].kind != LightKind::Parallelogram)
-        return emitSingly(points, starts, aim);
+        return emitSingly(points, starts, photonGuide);
     const uint32_t index = _emitters[0];
     const Light& light = _lights[index];
     const LightTable& table = _traced.lights();
-    const int targets = _aimedShare > 0.0f ? static_cast<int>(_targets.size()) : 0;
+    const int targets = _guidedShare > 0.0f ? static_cast<int>(_targets.size()) : 0;
     const Source source{light.corner,
                         light.edgeU,
                         light.edgeV,
@@ -272,23 +275,23 @@ LaneMask PhotonEmitter::emitLanes(const EmissionLanes& points, StartLanes& start
                         maskOf(light.twoSided),
                         _targets.data(),
                         targets,
-                        _aimedShare,
-                        aim};
+                        _guidedShare,
+                        photonGuide};
     for (int i = 0; i < kLanes; ++i)
         starts.light[i] = index;
     return emitFrom(source, points, starts);
 }
 
 LaneMask PhotonEmitter::emitSingly(const EmissionLanes& points, StartLanes& starts,
-                                   const PhotonAim* aim) const
+                                   const PhotonGuide* photonGuide) const
 {
     LaneMask alive = 0;
     for (int i = 0; i < kLanes; ++i)
     {
         const std::optional<PhotonStart> start =
-            emit({points.light[i], points.aim[i], Vec2(points.positionU[i], points.positionV[i]),
+            emit({points.light[i], points.choice[i], Vec2(points.positionU[i], points.positionV[i]),
                   Vec2(points.directionU[i], points.directionV[i])},
-                 aim);
+                 photonGuide);
         if (!start) continue;
         setLane(starts.origin, i, start->origin);
         setLane(starts.direction, i, start->direction);

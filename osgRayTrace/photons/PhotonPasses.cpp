@@ -15,9 +15,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
-// "Unguided emission stays in the mix": what is not aimed.
-constexpr float kAimedCaustics = 0.9f;
-constexpr float kAimedIndirect = 0.25f;
+// "Unguided emission stays in the mix": what is not guided.
+constexpr float kGuidedCaustics = 0.9f;
+constexpr float kGuidedIndirect = 0.25f;
 
 /// Lights in eye space move with the view; the others belong to the scene.
 bool samePlaces(const std::vector<Light>& a, const std::vector<Light>& b)
@@ -99,7 +99,7 @@ bool PhotonPasses::isCurrent(const std::shared_ptr<const TracedScene>& traced,
 {
     return traced == _traced && options.use == _options.use &&
            options.photons == _options.photons && options.maxBounces == _options.maxBounces &&
-           options.seed == _options.seed && options.aimAtViews == _options.aimAtViews &&
+           options.seed == _options.seed && options.photonGuiding == _options.photonGuiding &&
            samePlaces(lights, *_lights);
 }
 
@@ -113,7 +113,7 @@ void PhotonPasses::begin(const std::shared_ptr<const TracedScene>& traced,
     _kept.clear();
     _emitted = {};
     _seen.clear();
-    _aim.reset();
+    _photonGuide.reset();
     _traced = traced;
     // Those of the scene stay where they are while it is held; there may be millions.
     const bool sceneOwns = &lights == &traced->scene().lights;
@@ -121,7 +121,7 @@ void PhotonPasses::begin(const std::shared_ptr<const TracedScene>& traced,
     _lights = sceneOwns ? &traced->scene().lights : &_placed;
     _options = options;
     _emitter = std::make_unique<PhotonEmitter>(
-        *traced, *_lights, options.use == PhotonUse::Caustics ? kAimedCaustics : kAimedIndirect);
+        *traced, *_lights, options.use == PhotonUse::Caustics ? kGuidedCaustics : kGuidedIndirect);
 }
 
 PhotonDensity PhotonPasses::density(const std::shared_ptr<const TracedScene>& traced,
@@ -138,7 +138,7 @@ PhotonDensity PhotonPasses::density(const std::shared_ptr<const TracedScene>& tr
     _density->sceneRadius = scene.radius;
     _density->emits = _emitter->emits();
     _density->caustics = _emitter->emits() && _emitter->hasTargets();
-    _density->aimBins = _emitter->aimBins();
+    _density->guideBins = _emitter->guideBins();
     _density->largestCoordinate = std::max({std::fabs(scene.centre.x), std::fabs(scene.centre.y),
                                             std::fabs(scene.centre.z)}) +
                                   scene.radius;
@@ -152,9 +152,9 @@ PhotonPasses::pass(const std::shared_ptr<const TracedScene>& traced,
 {
     std::lock_guard<std::mutex> lock(_mutex);
     begin(traced, lights, options);
-    const std::shared_ptr<const PhotonAim> aim = aimOf(index);
+    const std::shared_ptr<const PhotonGuide> photonGuide = guideOf(index);
     for (const Entry& entry : _kept)
-        if (entry.index == index && entry.cellSize == cellSize && entry.aim == aim)
+        if (entry.index == index && entry.cellSize == cellSize && entry.photonGuide == photonGuide)
             return entry.pass;
 
     const auto start = std::chrono::steady_clock::now();
@@ -162,32 +162,33 @@ PhotonPasses::pass(const std::shared_ptr<const TracedScene>& traced,
     if (index == 0 && _first)
         photons = std::move(*_first);
     else
-        photons = trace(index, aim.get(), workers);
+        photons = trace(index, photonGuide.get(), workers);
     _first.reset();
     auto pass = std::make_shared<PhotonPass>();
-    pass->map = PhotonMap(photons.photons, cellSize, workers, options.aimAtViews && index < kFirst);
+    pass->map =
+        PhotonMap(photons.photons, cellSize, workers, options.photonGuiding && index < kFirst);
     pass->rays = photons.rays;
     pass->dropped = photons.dropped;
     pass->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    keep({index, cellSize, aim, pass});
+    keep({index, cellSize, photonGuide, pass});
     return pass;
 }
 
-TracedPhotons PhotonPasses::trace(int index, const PhotonAim* aim, const Workers& workers)
+TracedPhotons PhotonPasses::trace(int index, const PhotonGuide* photonGuide, const Workers& workers)
 {
     TracedPhotons photons =
-        tracePhotons(*_traced, *_lights, *_emitter, _options, index, workers, aim);
+        tracePhotons(*_traced, *_lights, *_emitter, _options, index, workers, photonGuide);
     _tracedRays += photons.rays;
     if (index < kFirst) _emitted[static_cast<std::size_t>(index)] = photons.emitted;
     return photons;
 }
 
 /// Null: that of the scene.
-std::shared_ptr<const PhotonAim> PhotonPasses::aimOf(int index)
+std::shared_ptr<const PhotonGuide> PhotonPasses::guideOf(int index)
 {
-    if (index < kFirst || !_options.aimAtViews || _seen.empty()) return nullptr;
-    if (_aim) return _aim;
-    std::vector<uint32_t> emitted(_emitter->aimBins());
+    if (index < kFirst || !_options.photonGuiding || _seen.empty()) return nullptr;
+    if (_photonGuide) return _photonGuide;
+    std::vector<uint32_t> emitted(_emitter->guideBins());
     for (const std::vector<uint32_t>& pass : _emitted)
         for (std::size_t b = 0; b < pass.size(); ++b)
             emitted[b] += pass[b];
@@ -195,7 +196,7 @@ std::shared_ptr<const PhotonAim> PhotonPasses::aimOf(int index)
     for (const Seen& seen : _seen)
         for (std::size_t b = 0; b < squares.size(); ++b)
             squares[b] += seen.squares[b];
-    return _aim = _emitter->learn(emitted, squares);
+    return _photonGuide = _emitter->learn(emitted, squares);
 }
 
 void PhotonPasses::noteSeen(const std::shared_ptr<const TracedScene>& traced,
@@ -203,10 +204,10 @@ void PhotonPasses::noteSeen(const std::shared_ptr<const TracedScene>& traced,
                             const void* view, std::vector<double> squares)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    if (!_emitter || !isCurrent(traced, lights, options) || squares.size() != _emitter->aimBins())
+    if (!_emitter || !isCurrent(traced, lights, options) || squares.size() != _emitter->guideBins())
         return;
     _seen.push_back({view, std::move(squares)});
-    _aim.reset();
+    _photonGuide.reset();
 }
 
 void PhotonPasses::forgetSeen(const void* view)
@@ -216,7 +217,7 @@ void PhotonPasses::forgetSeen(const void* view)
         std::remove_if(_seen.begin(), _seen.end(), [&](const Seen& s) { return s.view == view; });
     if (gone == _seen.end()) return;
     _seen.erase(gone, _seen.end());
-    _aim.reset();
+    _photonGuide.reset();
 }
 
 /// Makes room: at first among the last passes, then for the sake of memory among all of them.

@@ -31,7 +31,7 @@ struct PhotonDensity
     float largestCoordinate = 0.0f; ///< in it, absolute
     bool emits = false;             ///< some light has power
     bool caustics = false;          ///< something can make them
-    std::size_t aimBins = 0;        ///< of PhotonAim; 0: there is nothing to learn
+    std::size_t guideBins = 0;      ///< of PhotonGuide; 0: there is nothing to learn
 };
 
 /// Thread safe: views that ask for the same pass at once wait for one of them to trace it. Kept are
@@ -39,12 +39,12 @@ struct PhotonDensity
 /// new image begins with: a camera that moves needs no new photons. Of these as many as kMostBytes
 /// have room for.
 ///
-/// The first kFirst passes are aimed by the scene alone. Views note what they see of them, and with
-/// PhotonPassOptions::aimAtViews all later passes are aimed at what the views that have done so
-/// see: a pass is an unbiased estimate by itself, whatever it is aimed at, as nothing in its aim
-/// comes from its own photons. So it depends on the views, and on the order in which they come: two
-/// processes trace the same photons from kFirst on only if they show the same views; without
-/// aimAtViews always. A view that starts anew takes back what it noted.
+/// The first kFirst passes are guided by the scene alone. Views note what they see of them, and
+/// with PhotonPassOptions::photonGuiding all later passes are guided to what the views that have
+/// done so see: a pass is an unbiased estimate by itself, whatever it is guided to, as nothing in
+/// its guide comes from its own photons. So it depends on the views, and on the order in which they
+/// come: two processes trace the same photons from kFirst on only if they show the same views;
+/// without photonGuiding always. A view that starts anew takes back what it noted.
 class PhotonPasses
 {
 public:
@@ -80,7 +80,7 @@ private:
     {
         int index = -1;
         float cellSize = 0.0f;
-        std::shared_ptr<const PhotonAim> aim;
+        std::shared_ptr<const PhotonGuide> photonGuide;
         std::shared_ptr<const PhotonPass> pass;
     };
     struct Seen
@@ -90,8 +90,8 @@ private:
     };
     static constexpr int kLast = 4;
 
-    TracedPhotons trace(int index, const PhotonAim* aim, const Workers& workers);
-    std::shared_ptr<const PhotonAim> aimOf(int index);
+    TracedPhotons trace(int index, const PhotonGuide* photonGuide, const Workers& workers);
+    std::shared_ptr<const PhotonGuide> guideOf(int index);
     void keep(Entry entry);
     std::size_t keptBytes() const;
 
@@ -109,9 +109,9 @@ private:
     std::unique_ptr<TracedPhotons> _first; ///< of density(), for the first pass
     std::unique_ptr<PhotonDensity> _density;
     std::vector<Entry> _kept;                           ///< oldest first
-    std::array<std::vector<uint32_t>, kFirst> _emitted; ///< photons that were aimed at a bin; pass
+    std::array<std::vector<uint32_t>, kFirst> _emitted; ///< photons that were guided to a bin; pass
     std::vector<Seen> _seen;                            ///< in the order of noting
-    std::shared_ptr<const PhotonAim> _aim;              ///< made of it; null: not yet
+    std::shared_ptr<const PhotonGuide> _photonGuide;    ///< made of it; null: not yet
     uint64_t _tracedRays = 0;
 };
 

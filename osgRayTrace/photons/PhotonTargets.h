@@ -1,4 +1,4 @@
-// PhotonTargets.h - what in a scene makes caustics, for photons to be aimed at. Layer: photons.
+// PhotonTargets.h - what in a scene makes caustics, for photons to be guided to. Layer: photons.
 // SPDX-License-Identifier: MIT
 #pragma once
 

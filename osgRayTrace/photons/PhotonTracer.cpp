@@ -25,7 +25,7 @@ constexpr uint32_t kChunk = 2048; ///< photons that are followed together
 /// Dimensions of a photon's sequence.
 enum PhotonDimension : uint32_t
 {
-    EmissionChoice = 0, ///< light, aim
+    EmissionChoice = 0, ///< light, choice
     EmissionPosition = 1,
     EmissionDirection = 2,
     BounceFirst = 3, ///< then for each bounce: direction; lobe and roulette
@@ -34,7 +34,7 @@ enum PhotonDimension : uint32_t
 struct Chunk
 {
     std::vector<Photon> photons;
-    std::vector<uint32_t> bins; ///< of PhotonAim, a photon that was emitted
+    std::vector<uint32_t> bins; ///< of PhotonGuide, a photon that was emitted
     uint64_t rays = 0;
     uint64_t dropped = 0;
 };
@@ -43,12 +43,12 @@ class ChunkTracer
 {
 public:
     ChunkTracer(const TracedScene& traced, const std::vector<Light>& lights,
-                const PhotonEmitter& emitter, const PhotonAim* aim,
+                const PhotonEmitter& emitter, const PhotonGuide* photonGuide,
                 const PhotonPassOptions& options, uint32_t passSeed, bool culls, Chunk& chunk)
         : _traced(traced),
           _lights(lights),
           _emitter(emitter),
-          _aim(aim),
+          _photonGuide(photonGuide),
           _options(options),
           _seed(passSeed),
           _culls(culls),
@@ -87,7 +87,7 @@ private:
     const TracedScene& _traced;
     const std::vector<Light>& _lights;
     const PhotonEmitter& _emitter;
-    const PhotonAim* _aim;
+    const PhotonGuide* _photonGuide;
     const PhotonPassOptions& _options;
     uint32_t _seed;
     bool _culls;      ///< there are faces of which all rays pass one side
@@ -333,12 +333,12 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
         block.direct[i] = 1;
     }
     EmissionLanes points;
-    photonPoints(block.photon, dimension(EmissionChoice), points.light, points.aim);
+    photonPoints(block.photon, dimension(EmissionChoice), points.light, points.choice);
     photonPoints(block.photon, dimension(EmissionPosition), points.positionU, points.positionV);
     photonPoints(block.photon, dimension(EmissionDirection), points.directionU, points.directionV);
     StartLanes starts;
     const LaneMask lanes =
-        _emitter.emitLanes(points, starts, _aim) & (kAllLanes >> (kLanes - count));
+        _emitter.emitLanes(points, starts, _photonGuide) & (kAllLanes >> (kLanes - count));
     block.origin = starts.origin;
     block.direction = starts.direction;
     block.light = starts.light;
@@ -381,7 +381,7 @@ void ChunkTracer::trace(uint32_t first, uint32_t count)
 
 TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& lights,
                            const PhotonEmitter& emitter, const PhotonPassOptions& options, int pass,
-                           const Workers& workers, const PhotonAim* aim)
+                           const Workers& workers, const PhotonGuide* photonGuide)
 {
     TracedPhotons result;
     if (options.use == PhotonUse::None || options.photons == 0 || !emitter.emits()) return result;
@@ -400,11 +400,12 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
                     {
                         const uint32_t first = static_cast<uint32_t>(c) * kChunk;
                         Chunk chunk; // neighbours of the list share cache lines
-                        ChunkTracer(traced, lights, emitter, aim, options, seed, culls, chunk)
+                        ChunkTracer(traced, lights, emitter, photonGuide, options, seed, culls,
+                                    chunk)
                             .trace(first, std::min(kChunk, options.photons - first));
                         chunks[c] = std::move(chunk);
                     });
-    result.emitted.assign(emitter.aimBins(), 0u);
+    result.emitted.assign(emitter.guideBins(), 0u);
     std::vector<std::size_t> begin(count + 1);
     for (std::size_t c = 0; c < count; ++c)
     {

@@ -21,7 +21,7 @@ struct PhotonPassOptions
     uint32_t photons = 0; ///< emitted a pass
     int maxBounces = 8;   ///< edges of a path from light to eye but for the camera ray
     uint32_t seed = 0;
-    bool aimAtViews = true; ///< learn from what views see: see PhotonPasses
+    bool photonGuiding = true; ///< learn from what views see: see PhotonPasses
 };
 
 struct TracedPhotons
@@ -29,12 +29,13 @@ struct TracedPhotons
     std::vector<Photon> photons;
     uint64_t rays = 0;
     uint64_t dropped = 0;          ///< not finite: left out
-    std::vector<uint32_t> emitted; ///< by bin of PhotonAim: those that were aimed there
+    std::vector<uint32_t> emitted; ///< by bin of PhotonGuide: those that were guided there
 };
 
-/// Photons of pass number pass; the same for any number of threads. aim: null, or of the emitter.
+/// Photons of pass number pass; the same for any number of threads. photonGuide: null, or of the
+/// emitter.
 TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& lights,
                            const PhotonEmitter& emitter, const PhotonPassOptions& options, int pass,
-                           const Workers& workers, const PhotonAim* aim = nullptr);
+                           const Workers& workers, const PhotonGuide* photonGuide = nullptr);
 
 } // namespace osgRayTrace::engine

@@ -76,7 +76,7 @@ PhotonPassOptions passOptions(const RenderOptions& options)
     result.photons = static_cast<uint32_t>(std::max(0, options.photons));
     result.maxBounces = options.maxBounces;
     result.seed = options.seed;
-    result.aimAtViews = options.aimAtViews;
+    result.photonGuiding = options.photonGuiding;
     return result;
 }
 
@@ -87,7 +87,7 @@ void PhotonState::reset(int tileCount)
     _pass.reset();
     _least = _largest = 0.0f;
     _shrink = 1.0f;
-    _dark = _limited = _stored = _aims = false;
+    _dark = _limited = _stored = _guides = false;
     _preparedPass = -1;
     _pixels = static_cast<std::size_t>(tileCount) * kTilePixels;
     std::vector<float>().swap(_firstRadii);
@@ -124,10 +124,10 @@ void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced,
         wanted > 0.0f || !(density.radius > 0.0f) ? _largest : std::max(density.radius, _floor);
     while (2.0f * _cellRadius < _largest)
         _cellRadius *= 4.0f;
-    if (options.aimAtViews && options.photons > 0 && density.aimBins > 0)
+    if (options.photonGuiding && options.photons > 0 && density.guideBins > 0)
     {
         _seen.resize(_pixels / kTilePixels);
-        _seenSquares.assign(density.aimBins, 0.0);
+        _seenSquares.assign(density.guideBins, 0.0);
     }
     _dark = options.photons > 0 && !density.emits;
     _limited = wanted > 0.0f && _largest != wanted;
@@ -176,7 +176,7 @@ void PhotonState::finish(const std::shared_ptr<const TracedScene>& traced,
     if (pass + 1 < PhotonPasses::kFirst || _seenSquares.empty()) return;
     _passes->noteSeen(traced, *context.lights, passOptions(context.options), this,
                       std::move(_seenSquares));
-    _aims = true;
+    _guides = true;
     std::vector<std::vector<SeenSquares>>().swap(_seen);
     _seenSquares.clear();
 }

@@ -16,7 +16,7 @@ namespace osgRayTrace::engine
 
 class Workers;
 
-/// What a tile saw of the photons that were aimed at a bin of PhotonAim.
+/// What a tile saw of the photons that were guided to a bin of PhotonGuide.
 struct SeenSquares
 {
     uint32_t bin;
@@ -27,7 +27,7 @@ struct SeenSquares
 /// of each pixel. Each pixel's first radius is the given one, or the smallest with kRadiusPhotons
 /// photons (radiusOf) from the width of a pixel up to the radius that holds kDensityPhotons photons
 /// around a photon in the median. Later radii follow the schedule; where the first pass that is
-/// aimed at views has more photons, they become smaller by the same rule. All are kept between the
+/// guided to views has more photons, they become smaller by the same rule. All are kept between the
 /// spacing of floats and the radius of the scene.
 class PhotonState
 {
@@ -46,7 +46,7 @@ public:
                  const Workers& workers);
 
     /// After a pass that is whole: what it saw of its photons. Before the view's next pass, so that
-    /// views which take turns know of each other when photons are aimed.
+    /// views which take turns know of each other when photons are guided.
     void finish(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
                 int pass);
 
@@ -77,7 +77,7 @@ private:
     void chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
                      const PhotonPassOptions& options, const Workers& workers);
     void sumUpSeen();
-    bool choosesAgain(int pass) const { return pass == PhotonPasses::kFirst && _aims && !_local; }
+    bool choosesAgain(int pass) const { return pass == PhotonPasses::kFirst && _guides && !_local; }
 
     std::shared_ptr<PhotonPasses> _passes;
     std::shared_ptr<const PhotonPass> _pass;
@@ -93,8 +93,8 @@ private:
     bool _dark = false;    ///< there are photons to emit, but no light has power
     bool _limited = false; ///< the radius that was set is not the one in use
     bool _stored = false;  ///< some pass has
-    bool _aims =
-        false; ///< from pass PhotonPasses::kFirst on photons are aimed at what this view has seen
+    bool _guides =
+        false; ///< from pass PhotonPasses::kFirst on photons are guided to what this view has seen
     int _preparedPass = -1;
     std::size_t _pixels = 0;                  ///< of all tiles
     std::vector<float> _firstRadii;           ///< tile, pixel; 0: not known; empty if local

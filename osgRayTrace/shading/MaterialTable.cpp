@@ -101,7 +101,7 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
                            material.transmissionTexture == kInvalid &&
                            material.vertexColorUse != VertexColorUse::Specular &&
                            !(record.fixedFunction && isTextured(material));
-        if (!isInvisible(material)) // else it is not traced: no photons are aimed at it
+        if (!isInvisible(material)) // else it is not traced: no photons are guided to it
         {
             MaterialPoint point;
             record.front = bsdf(i, point);

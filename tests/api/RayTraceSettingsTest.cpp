@@ -77,7 +77,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getPhotonRadius() == 0.0f);
     CHECK(settings->getPhotonAlpha() == Approx(2.0f / 3.0f));
     CHECK(settings->getRadiusSchedule() == RayTraceSettings::GLOBAL);
-    CHECK(settings->getAimAtViews());
+    CHECK(settings->getPhotonGuiding());
     CHECK(settings->getDenoise() == RayTraceSettings::OFF);
     CHECK_FALSE(settings->getReproject());
 }

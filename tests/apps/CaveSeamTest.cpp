@@ -181,8 +181,8 @@ TEST_CASE(
         const Outcome outcome = osgraytrace(
             folder, "--cave " + name +
                         ".xml --head 100 -200 50 0 0 0 --integrator ppm --photons 20000" +
-                        " --seed 7 --aim-at-views false --max-passes 6 --output " + name + ".png " +
-                        dataFile("cornell_box_glass.osgt"));
+                        " --seed 7 --photon-guiding false --max-passes 6 --output " + name +
+                        ".png " + dataFile("cornell_box_glass.osgt"));
         INFO(name << ": " << outcome.errors);
         REQUIRE(outcome.exitCode == 0);
         std::vector<osg::ref_ptr<osg::Image>> images;

@@ -376,7 +376,7 @@ TEST_CASE("background: several views share a pool of threads, photons and a scen
     desk.settings->setIntegrator(RayTraceSettings::PPM);
     desk.settings->setPhotons(2000);
     desk.settings->setMaxPasses(3);
-    desk.settings->setAimAtViews(false);
+    desk.settings->setPhotonGuiding(false);
     desk.takeSettings();
     std::vector<std::unique_ptr<BackgroundTracer>> tracers;
     for (int i = 0; i < 4; ++i)

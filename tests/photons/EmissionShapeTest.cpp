@@ -180,7 +180,7 @@ struct Landed
     Estimate disc; ///< of it on the disc of radius 1/2 in the middle of the floor
 };
 
-Landed landed(const Light& light, float aimedShare)
+Landed landed(const Light& light, float guidedShare)
 {
     SceneBuilder builder = box(lambert(Vec3(0.5f)));
     Material skin = glass(1.0f);
@@ -192,7 +192,7 @@ Landed landed(const Light& light, float aimedShare)
     else
         builder.addLight(light);
     const auto traced = builder.build(1);
-    const PhotonEmitter emitter(*traced, traced->scene().lights, aimedShare);
+    const PhotonEmitter emitter(*traced, traced->scene().lights, guidedShare);
     PhotonPassOptions options;
     options.use = PhotonUse::Caustics;
     options.photons = 20000;

@@ -52,7 +52,7 @@ TEST_CASE("photons and paths agree: glass under a sky with a sun", "[photons][st
 TEST_CASE("photons: an environment sends its integral times the scene's disc",
           "[photons][statistics]")
 {
-    // The power of all photons is the flux through the bounding sphere, aimed or not: pi r^2 times
+    // The power of all photons is the flux through the bounding sphere, guided or not: pi r^2 times
     // the integral.
     const auto image = sunnySky(32, 16);
     const auto traced = glassOnFloor(image).build();
@@ -65,13 +65,13 @@ TEST_CASE("photons: an environment sends its integral times the scene's disc",
         const double flux = EnvironmentMap(image).luminanceIntegral() * M_PI * radius * radius;
         Uniform uniform(4);
         Estimate power;
-        int aimed = 0;
+        int guided = 0;
         constexpr int kPhotons = 100000;
         for (int k = 0; k < kPhotons; ++k)
         {
-            const float aim = uniform();
+            const float choice = uniform();
             const auto start =
-                emitter.emit({uniform(), aim, {uniform(), uniform()}, {uniform(), uniform()}});
+                emitter.emit({uniform(), choice, {uniform(), uniform()}, {uniform(), uniform()}});
             power.add(start ? double(luminance(start->power)) : 0.0);
             if (!start) continue;
             // Starts outside of the scene and goes through its sphere.
@@ -80,11 +80,12 @@ TEST_CASE("photons: an environment sends its integral times the scene's disc",
             CHECK(along > radius);
             CHECK(glm::length(d - start->direction * along) < radius * 1.001);
             const Vec3 ball = Vec3(0.4f, 0, 0.7f) - start->origin;
-            aimed += glm::length(ball - start->direction * glm::dot(ball, start->direction)) < 0.6f;
+            guided +=
+                glm::length(ball - start->direction * glm::dot(ball, start->direction)) < 0.6f;
         }
-        CAPTURE(share, flux, power.mean(), power.standardError(), aimed);
+        CAPTURE(share, flux, power.mean(), power.standardError(), guided);
         CHECK(power.agrees(flux, 1e-4 * flux));
-        CHECK((share == 0.0f ? aimed < 0.1 * kPhotons : aimed > 0.5 * kPhotons));
+        CHECK((share == 0.0f ? guided < 0.1 * kPhotons : guided > 0.5 * kPhotons));
     }
 }
 

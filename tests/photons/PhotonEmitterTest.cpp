@@ -1,4 +1,4 @@
-// PhotonEmitterTest.cpp - lights send what their formulas say, however photons are aimed.
+// PhotonEmitterTest.cpp - lights send what their formulas say, however photons are guided.
 // SPDX-License-Identifier: MIT
 #include "tests/photons/PhotonMeans.h"
 
@@ -19,24 +19,24 @@ SceneBuilder stage()
 }
 
 /// Lights and bins whose weights differ as far as they can.
-std::shared_ptr<const PhotonAim> anyAim(const PhotonEmitter& emitter)
+std::shared_ptr<const PhotonGuide> anyGuide(const PhotonEmitter& emitter)
 {
     Uniform uniform(5);
-    std::vector<uint32_t> sent(emitter.aimBins(), 100u);
-    std::vector<double> seen(emitter.aimBins());
+    std::vector<uint32_t> sent(emitter.guideBins(), 100u);
+    std::vector<double> seen(emitter.guideBins());
     for (double& squares : seen)
         squares = uniform() < 0.5f ? 0.0 : double(uniform());
     return emitter.learn(sent, seen);
 }
 
-Flux emitted(const SceneBuilder& builder, float aimedShare, bool learnt = false)
+Flux emitted(const SceneBuilder& builder, float guidedShare, bool learnt = false)
 {
     const auto traced = builder.build(1);
-    const PhotonEmitter emitter(*traced, traced->scene().lights, aimedShare);
+    const PhotonEmitter emitter(*traced, traced->scene().lights, guidedShare);
     REQUIRE(emitter.emits());
     REQUIRE(emitter.hasTargets());
-    const auto aim = learnt ? anyAim(emitter) : nullptr;
-    return emittedFlux(emitter, 23, aim.get());
+    const auto photonGuide = learnt ? anyGuide(emitter) : nullptr;
+    return emittedFlux(emitter, 23, photonGuide.get());
 }
 
 /// Demands the analytic flux without aiming, with two shares of it and with weights, and that the
@@ -48,14 +48,15 @@ void checkFlux(const SceneBuilder& builder, double expected)
     CHECK(plain.total.agrees(expected, 1e-5 * expected));
     for (const auto& [share, learnt] : {std::pair(0.25f, false), {0.9f, false}, {0.9f, true}})
     {
-        const Flux aimed = emitted(builder, share, learnt);
-        CAPTURE(share, learnt, aimed.total.mean(), aimed.total.standardError());
-        CHECK(aimed.total.agrees(expected, 1e-5 * expected));
-        const double spread = std::hypot(plain.ball.standardError(), aimed.ball.standardError());
-        CAPTURE(plain.ball.mean(), aimed.ball.mean(), spread);
+        const Flux guided = emitted(builder, share, learnt);
+        CAPTURE(share, learnt, guided.total.mean(), guided.total.standardError());
+        CHECK(guided.total.agrees(expected, 1e-5 * expected));
+        const double spread = std::hypot(plain.ball.standardError(), guided.ball.standardError());
+        CAPTURE(plain.ball.mean(), guided.ball.mean(), spread);
         CHECK(plain.ball.mean() > 0.0);
-        CHECK(std::abs(plain.ball.mean() - aimed.ball.mean()) <= 4.0 * spread);
-        if (share > 0.5f && !learnt) CHECK(aimed.ball.standardError() < plain.ball.standardError());
+        CHECK(std::abs(plain.ball.mean() - guided.ball.mean()) <= 4.0 * spread);
+        if (share > 0.5f && !learnt)
+            CHECK(guided.ball.standardError() < plain.ball.standardError());
     }
 }
 
@@ -181,7 +182,7 @@ TEST_CASE("photon emission: sixteen at once are what they are one by one", "[pho
              {std::pair(0.0f, false), {0.25f, false}, {0.9f, false}, {0.9f, true}})
         {
             const PhotonEmitter emitter(*traced, traced->scene().lights, share);
-            const auto aim = learnt ? anyAim(emitter) : nullptr;
+            const auto photonGuide = learnt ? anyGuide(emitter) : nullptr;
             Uniform uniform(31);
             int different = 0, started = 0;
             for (int block = 0; block < 2000; ++block)
@@ -189,18 +190,18 @@ TEST_CASE("photon emission: sixteen at once are what they are one by one", "[pho
                 EmissionLanes points;
                 for (int i = 0; i < kLanes; ++i)
                     for (FloatLanes* lanes :
-                         {&points.light, &points.aim, &points.positionU, &points.positionV,
+                         {&points.light, &points.choice, &points.positionU, &points.positionV,
                           &points.directionU, &points.directionV})
                         (*lanes)[i] = uniform();
                 StartLanes starts;
-                const LaneMask alive = emitter.emitLanes(points, starts, aim.get());
+                const LaneMask alive = emitter.emitLanes(points, starts, photonGuide.get());
                 for (int i = 0; i < kLanes; ++i)
                 {
                     const auto start = emitter.emit({points.light[i],
-                                                     points.aim[i],
+                                                     points.choice[i],
                                                      {points.positionU[i], points.positionV[i]},
                                                      {points.directionU[i], points.directionV[i]}},
-                                                    aim.get());
+                                                    photonGuide.get());
                     started += start.has_value();
                     const bool has = (alive >> i) & 1u;
                     if (!start || !has)

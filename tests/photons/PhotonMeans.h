@@ -35,7 +35,7 @@ inline EmissionPoint randomPoint(Uniform& uniform)
 {
     EmissionPoint point;
     point.light = uniform();
-    point.aim = uniform();
+    point.choice = uniform();
     point.position = Vec2(uniform(), uniform());
     point.direction = Vec2(uniform(), uniform());
     return point;
@@ -51,13 +51,14 @@ struct Flux
     Estimate ball;  ///< that meets the ball's sphere
 };
 
-inline Flux emittedFlux(const PhotonEmitter& emitter, uint32_t seed, const PhotonAim* aim = nullptr)
+inline Flux emittedFlux(const PhotonEmitter& emitter, uint32_t seed,
+                        const PhotonGuide* photonGuide = nullptr)
 {
     Uniform uniform(seed);
     Flux flux;
     for (int k = 0; k < 300000; ++k)
     {
-        const auto start = emitter.emit(randomPoint(uniform), aim);
+        const auto start = emitter.emit(randomPoint(uniform), photonGuide);
         bool meets = false;
         if (start)
         {

@@ -198,7 +198,7 @@ TEST_CASE("photon passes: a moved camera keeps them, a moved object does not", "
     }
 }
 
-TEST_CASE("photon passes: eyes that take turns share all of them, aimed ones, too", "[photons]")
+TEST_CASE("photon passes: eyes that take turns share all of them, guided ones, too", "[photons]")
 {
     const auto traced = room(-0.1f).build();
     const auto raysOf = [&](const std::vector<double>& eyes)
@@ -220,7 +220,8 @@ TEST_CASE("photon passes: eyes that take turns share all of them, aimed ones, to
                 REQUIRE(session->render(rule).passes == pass + 1);
         return double(photons->tracedRays());
     };
-    // A pass that was traced twice would be an eighth more; other aims are some rays more or less.
+    // A pass that was traced twice would be an eighth more; other guides are some rays more or
+    // less.
     CHECK(raysOf({0.5, 0.51}) == Approx(raysOf({0.5})).epsilon(0.05));
 }
 

@@ -206,7 +206,7 @@ RenderOptions optionsFor(IntegratorKind kind, RadiusSchedule schedule, int photo
     options.photons = photons;
     options.photonRadius = radius;
     // The formulas are of passes that are all alike: later ones would be better.
-    options.aimAtViews = false;
+    options.photonGuiding = false;
     return options;
 }
 

@@ -1,4 +1,4 @@
-// SoftLightTest.cpp - photons of lights with a size: power, aim, and the light that paths see.
+// SoftLightTest.cpp - photons of lights with a size: power, guiding, and the light that paths see.
 // SPDX-License-Identifier: MIT
 #include "tests/PValues.h"
 #include "tests/photons/PhotonMeans.h"
@@ -36,14 +36,14 @@ Light softSun(Vec3 direction)
 }
 
 /// A floor, and a glass ball to aim at.
-Flux emitted(const Light& light, float aimedShare, double& sceneRadius)
+Flux emitted(const Light& light, float guidedShare, double& sceneRadius)
 {
     SceneBuilder builder;
     builder.add(quadMesh({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}), lambert(Vec3(0.5f)));
     builder.add(sphereMesh(kBall, kBallRadius, 16), glass(1.5f));
     builder.addLight(light);
     const auto traced = builder.build(1);
-    const PhotonEmitter emitter(*traced, traced->scene().lights, aimedShare);
+    const PhotonEmitter emitter(*traced, traced->scene().lights, guidedShare);
     sceneRadius = emitter.scene().radius;
     return emittedFlux(emitter, 29);
 }
@@ -105,7 +105,7 @@ void checkAgreement(const std::shared_ptr<const TracedScene>& traced)
 
 } // namespace
 
-TEST_CASE("photons of soft lights: all power leaves, aimed or not", "[photons][statistics]")
+TEST_CASE("photons of soft lights: all power leaves, guided or not", "[photons][statistics]")
 {
     Light ball = pointLight({-0.5f, 0.3f, 2.0f});
     ball.radius = 0.7f;
@@ -120,14 +120,14 @@ TEST_CASE("photons of soft lights: all power leaves, aimed or not", "[photons][s
         CHECK(plain.total.agrees(expected, 1e-5 * expected));
         for (const float share : {0.25f, 0.9f})
         {
-            const Flux aimed = emitted(light, share, radius);
+            const Flux guided = emitted(light, share, radius);
             const double spread =
-                std::hypot(plain.ball.standardError(), aimed.ball.standardError());
-            CAPTURE(share, aimed.total.mean(), plain.ball.mean(), aimed.ball.mean(), spread);
-            CHECK(aimed.total.agrees(expected, 1e-5 * expected));
+                std::hypot(plain.ball.standardError(), guided.ball.standardError());
+            CAPTURE(share, guided.total.mean(), plain.ball.mean(), guided.ball.mean(), spread);
+            CHECK(guided.total.agrees(expected, 1e-5 * expected));
             CHECK(plain.ball.mean() > 0.0);
-            CHECK(std::abs(plain.ball.mean() - aimed.ball.mean()) <= 4.0 * spread);
-            if (share > 0.5f) CHECK(aimed.ball.standardError() < plain.ball.standardError());
+            CHECK(std::abs(plain.ball.mean() - guided.ball.mean()) <= 4.0 * spread);
+            if (share > 0.5f) CHECK(guided.ball.standardError() < plain.ball.standardError());
         }
     }
 }

@@ -136,7 +136,7 @@ TEST_CASE("cluster settings: all nodes have the master's, each its own threads",
     CHECK_FALSE(ofSlave.trace);
     CHECK(ofSlave.clusterBudget == 33.0); // each node's own
     CHECK(slave->getThreads() == 64);
-    CHECK_FALSE(slave->getAimAtViews());
+    CHECK_FALSE(slave->getPhotonGuiding());
     CHECK(slave->getEqualViews());
     CHECK(slave->getFrameBudget() == 33.0f); // each node's own
     CHECK(master->getFrameBudget() == 16.0f);
@@ -156,7 +156,7 @@ TEST_CASE("cluster settings: what the configuration wants otherwise is overruled
         CHECK(config.complaints.empty());
         const std::string sentence = makeEqualOnAllNodes(*settings, config);
         CHECK(settings->getPresentation() == RayTraceSettings::FRAME_LOCKED);
-        CHECK_FALSE(settings->getAimAtViews());
+        CHECK_FALSE(settings->getPhotonGuiding());
         CHECK(settings->getEqualViews());
         CHECK(settings->getFrameBudget() == float(config.clusterBudget));
         return sentence;
@@ -164,19 +164,19 @@ TEST_CASE("cluster settings: what the configuration wants otherwise is overruled
     CHECK(overruled({}).empty());
     CHECK(overruled({{"ClusterBudget", "50"}, {"Photons", "1024"}}).empty());
     // What is as it has to be need not be told.
-    CHECK(overruled({{"Presentation", "frame-locked"}, {"AimAtViews", "off"}}).empty());
+    CHECK(overruled({{"Presentation", "frame-locked"}, {"PhotonGuiding", "off"}}).empty());
     CHECK(overruled({{"ClusterBudget", "20"}, {"FrameBudget", "20"}}).empty());
 
     CHECK(overruled({{"Presentation", "background"}}) ==
           "in a cluster Presentation 'background' is overruled: nodes show the same frame");
     const std::string all = overruled({{"Presentation", "background"},
                                        {"FrameBudget", "16"},
-                                       {"AimAtViews", "on"},
+                                       {"PhotonGuiding", "on"},
                                        {"equal_views", "off"},
                                        {"PassesPerFrame", "3"}});
     for (const char* part :
          {"Presentation 'background'", "FrameBudget '16' is overruled: ClusterBudget holds, 33 ms",
-          "AimAtViews 'true'", "EqualViews 'false'", "PassesPerFrame '3'"})
+          "PhotonGuiding 'true'", "EqualViews 'false'", "PassesPerFrame '3'"})
     {
         CAPTURE(all, part);
         CHECK(all.find(part) != std::string::npos);

@@ -125,7 +125,7 @@ TEST_CASE("render options: what changes the image restarts it", "[scene]")
     CHECK(restarts([](RenderOptions& o) { o.maxBounces = 1; }));
     CHECK(restarts([](RenderOptions& o) { o.shadows = false; }));
     CHECK(restarts([](RenderOptions& o) { o.terminatorCorrection = false; }));
-    CHECK(restarts([](RenderOptions& o) { o.aimAtViews = false; }));
+    CHECK(restarts([](RenderOptions& o) { o.photonGuiding = false; }));
     CHECK(restarts([](RenderOptions& o) { o.seed = 1; }));
 }
 

@@ -94,7 +94,7 @@ TEST_CASE("interrupted passes: bit by bit the image of an uninterrupted render",
           IntegratorKind::PhotonCaustics})
     {
         CAPTURE(int(kind));
-        constexpr int kPasses = 7; // past those after which photons are aimed
+        constexpr int kPasses = 7; // past those after which photons are guided
         Room calm(kind), spread(kind);
         StopRule rule;
         rule.passes = kPasses;

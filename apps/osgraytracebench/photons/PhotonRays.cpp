@@ -17,7 +17,7 @@ namespace
 {
 
 constexpr double kGoal = 0.60;
-constexpr float kAimedShare = 0.9f; ///< as PhotonPasses has it for caustics
+constexpr float kGuidedShare = 0.9f; ///< as PhotonPasses has it for caustics
 
 double millions(std::size_t rays, double seconds)
 {
@@ -32,7 +32,7 @@ void measureTracing(const std::string& name, CornellKind kind, PhotonUse use,
     const PreparedScene prepared = prepare(cornellScene(kind), atOrigin(), 16, one);
     const std::vector<Light>& lights = prepared.traced->scene().lights;
     const PhotonEmitter emitter(*prepared.traced, lights,
-                                use == PhotonUse::Caustics ? kAimedShare : 0.0f);
+                                use == PhotonUse::Caustics ? kGuidedShare : 0.0f);
     PhotonPassOptions options;
     options.use = use;
     options.photons = 1u + static_cast<uint32_t>(benchOptions.photons) / 4;

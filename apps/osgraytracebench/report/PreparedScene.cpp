@@ -244,7 +244,7 @@ uint64_t hashOf(const PreparedScene& prepared, const Method& method)
     hasher.add(method.options.photonRadius);
     hasher.add(method.options.photonAlpha);
     hasher.add(method.options.radiusSchedule);
-    hasher.add(method.options.aimAtViews);
+    hasher.add(method.options.photonGuiding);
     return hasher.value();
 }
 

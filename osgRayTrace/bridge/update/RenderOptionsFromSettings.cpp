@@ -103,7 +103,7 @@ RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings)
     options.radiusSchedule = settings.getRadiusSchedule() == RayTraceSettings::LOCAL
                                  ? RadiusSchedule::Local
                                  : RadiusSchedule::Global;
-    options.aimAtViews = settings.getAimAtViews();
+    options.photonGuiding = settings.getPhotonGuiding();
     return options;
 }
 

@@ -14,11 +14,11 @@ namespace
 
 constexpr float kGatherAlpha = 0.25f; ///< GGX width from which photons replace further bounces
 
-/// Where there are more around a point no aim is needed to find some.
+/// Where there are more around a point no guiding is needed to find some.
 constexpr uint32_t kMostNotedPhotons = 2048;
 
 /// Notes the photons of a lookup, to which its radiance is laid by their power: what the surface
-/// makes of their directions does not matter for an aim.
+/// makes of their directions does not matter for guiding.
 void noteSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
               std::vector<SeenPhoton>& seen)
 {

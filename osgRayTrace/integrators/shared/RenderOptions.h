@@ -72,8 +72,8 @@ struct RenderOptions
     float photonRadius = 0.0f; ///< of the first pass [length]; 0: from the density of the photons
     float photonAlpha = 2.0f / 3.0f; ///< share of the photons of a pass that are kept
     RadiusSchedule radiusSchedule = RadiusSchedule::Global;
-    bool aimAtViews =
-        true; ///< photons are aimed at what views see, not only at what makes caustics
+    bool photonGuiding =
+        true; ///< photons are guided to what views see, not only at what makes caustics
 
     /// True if an accumulated image made with previous cannot be continued with *this.
     bool needsRestart(const RenderOptions& previous) const
@@ -86,7 +86,8 @@ struct RenderOptions
                terminatorCorrection != previous.terminatorCorrection || seed != previous.seed ||
                photons != previous.photons || photonRadius != previous.photonRadius ||
                photonAlpha != previous.photonAlpha || radiusSchedule != previous.radiusSchedule ||
-               aimAtViews != previous.aimAtViews || centredFirstPass != previous.centredFirstPass;
+               photonGuiding != previous.photonGuiding ||
+               centredFirstPass != previous.centredFirstPass;
     }
 };
 

@@ -28,7 +28,7 @@ struct TileDiagnostics
     float dropped[kTilePixels] = {};
 };
 
-/// What a photon that was aimed at a bin of PhotonAim added to the radiance of a pixel.
+/// What a photon that was guided to a bin of PhotonGuide added to the radiance of a pixel.
 struct SeenPhoton
 {
     uint32_t bin = kInvalid;

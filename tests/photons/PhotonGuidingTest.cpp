@@ -1,4 +1,4 @@
-// AimTest.cpp - photons go where views see their light, and their mean stays what it is.
+// PhotonGuidingTest.cpp - photons go where views see their light, and their mean stays what it is.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -84,12 +84,12 @@ View viewOfOne(Vec3 at = kSeen, int size = kSize)
                            size, size);
 }
 
-RenderOptions aimOptions(IntegratorKind kind, bool aimed)
+RenderOptions guidingOptions(IntegratorKind kind, bool guided)
 {
     RenderOptions options = optionsOf(kind);
     options.photons = 8192;
     options.photonRadius = 0.06f;
-    options.aimAtViews = aimed;
+    options.photonGuiding = guided;
     return options;
 }
 
@@ -126,7 +126,7 @@ uint32_t photonsAround(SharedSession& s, const std::shared_ptr<const TracedScene
     passOptions.photons = static_cast<uint32_t>(options.photons);
     passOptions.maxBounces = options.maxBounces;
     passOptions.seed = options.seed;
-    passOptions.aimAtViews = options.aimAtViews;
+    passOptions.photonGuiding = options.photonGuiding;
     const Workers workers(2);
     const auto found =
         s.photons->pass(traced, traced->scene().lights, passOptions, pass, 0.1f, workers);
@@ -139,7 +139,7 @@ uint32_t photonsAround(SharedSession& s, const std::shared_ptr<const TracedScene
 
 } // namespace
 
-TEST_CASE("photon aim: the same light with and without", "[photons][statistics]")
+TEST_CASE("photon guiding: the same light with and without", "[photons][statistics]")
 {
     // Eight means and four comparisons within 4 standard errors: a false alarm has a probability of
     // 6e-4 in all.
@@ -151,14 +151,14 @@ TEST_CASE("photon aim: the same light with and without", "[photons][statistics]"
             // SPPM in one hall is enough.
             if (kind == IntegratorKind::Sppm && lit != ByMany) continue;
             Estimate means[2];
-            for (const bool aimed : {false, true})
+            for (const bool guided : {false, true})
                 for (uint32_t seed = 0; seed < 16; ++seed)
                 {
-                    RenderOptions options = aimOptions(kind, aimed);
-                    options.seed = seed + 100 * aimed;
+                    RenderOptions options = guidingOptions(kind, guided);
+                    options.seed = seed + 100 * guided;
                     const Picture picture = render(traced, viewOfOne(), options, 10);
                     REQUIRE(picture.progress.droppedSamples == 0);
-                    means[aimed].add(double(luminance(picture.mean())));
+                    means[guided].add(double(luminance(picture.mean())));
                 }
             const double spread = std::hypot(means[0].standardError(), means[1].standardError());
             CAPTURE(int(lit), int(kind), means[0].mean(), means[0].standardError(), means[1].mean(),
@@ -170,7 +170,7 @@ TEST_CASE("photon aim: the same light with and without", "[photons][statistics]"
     }
 }
 
-TEST_CASE("photon aim: several times as many photons land where one ball of many is seen",
+TEST_CASE("photon guiding: several times as many photons land where one ball of many is seen",
           "[photons]")
 {
     for (const Lit lit : {ByLamp, BySun, ByMany})
@@ -178,13 +178,13 @@ TEST_CASE("photon aim: several times as many photons land where one ball of many
         CAPTURE(int(lit));
         const auto traced = litHall(lit).build(2);
         uint32_t counts[2] = {};
-        for (const bool aimed : {false, true})
+        for (const bool guided : {false, true})
         {
-            const RenderOptions options = aimOptions(IntegratorKind::PhotonCaustics, aimed);
+            const RenderOptions options = guidingOptions(IntegratorKind::PhotonCaustics, guided);
             SharedSession s(traced, options, viewOfOne());
             s.upTo(5);
             for (int pass = 5; pass < 9; ++pass)
-                counts[aimed] += photonsAround(s, traced, options, pass, kSeen);
+                counts[guided] += photonsAround(s, traced, options, pass, kSeen);
         }
         CAPTURE(counts[0], counts[1]);
         CHECK(counts[0] > 50);
@@ -192,7 +192,7 @@ TEST_CASE("photon aim: several times as many photons land where one ball of many
     }
 }
 
-TEST_CASE("photon aim: equal for any number of threads, and of views that come again",
+TEST_CASE("photon guiding: equal for any number of threads, and of views that come again",
           "[photons][stability 50]")
 {
     const auto traced = litHall(ByMany).build(2);
@@ -200,7 +200,7 @@ TEST_CASE("photon aim: equal for any number of threads, and of views that come a
          {IntegratorKind::Ppm, IntegratorKind::Sppm, IntegratorKind::PhotonCaustics})
     {
         CAPTURE(int(kind));
-        const RenderOptions options = aimOptions(kind, true);
+        const RenderOptions options = guidingOptions(kind, true);
         SharedSession one(traced, options, viewOfOne(), {}, 1);
         one.upTo(7);
         const std::vector<float> expected = one.session.resolveRadiance();
@@ -218,31 +218,32 @@ TEST_CASE("photon aim: equal for any number of threads, and of views that come a
     }
 }
 
-TEST_CASE("photon aim: the first passes and those without it are the same for all views",
+TEST_CASE("photon guiding: the first passes and those without it are the same for all views",
           "[photons]")
 {
     const auto traced = litHall(ByLamp).build(2);
-    for (const bool aimed : {false, true})
+    for (const bool guided : {false, true})
     {
-        const RenderOptions options = aimOptions(IntegratorKind::PhotonCaustics, aimed);
+        const RenderOptions options = guidingOptions(IntegratorKind::PhotonCaustics, guided);
         SharedSession here(traced, options, viewOfOne());
         SharedSession there(traced, options, viewOfOne({-9, 0, 0}));
         here.upTo(6);
         there.upTo(6);
         for (int pass = 0; pass < 6; ++pass)
         {
-            CAPTURE(aimed, pass);
+            CAPTURE(guided, pass);
             const bool same = photonsAround(here, traced, options, pass, kSeen) ==
                               photonsAround(there, traced, options, pass, kSeen);
-            CHECK(same == (!aimed || pass < PhotonPasses::kFirst));
+            CHECK(same == (!guided || pass < PhotonPasses::kFirst));
         }
     }
 }
 
-TEST_CASE("photon aim: two views of a scene get photons both, from the same passes", "[photons]")
+TEST_CASE("photon guiding: two views of a scene get photons both, from the same passes",
+          "[photons]")
 {
     const auto traced = litHall(BySun).build(2);
-    const RenderOptions options = aimOptions(IntegratorKind::PhotonCaustics, true);
+    const RenderOptions options = guidingOptions(IntegratorKind::PhotonCaustics, true);
     const Vec3 other(-9, 0, 0);
     const auto photons = std::make_shared<PhotonPasses>();
     SharedSession left(traced, options, viewOfOne(), photons);

@@ -1,6 +1,7 @@
-// PhotonAim.cpp - learns from what was seen of photons where to send more of them. Layer: photons.
+// PhotonGuide.cpp - learns from what was seen of photons where to send more of them. Layer:
+// photons.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/photons/PhotonAim.h"
+#include "osgRayTrace/photons/PhotonGuide.h"
 
 #include <algorithm>
 #include <numeric>
@@ -31,11 +32,11 @@ uint32_t pickScaled(const float* weights, uint32_t count, float sum, float& u)
 
 } // namespace
 
-PhotonAim::PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted,
-                     const std::vector<double>& seen, const std::vector<float>& pmf)
-    : _targets(targets), _weights(emitted.size(), 1.0f), _means(emitted.size() / kAimBins, 1.0f)
+PhotonGuide::PhotonGuide(uint32_t targets, const std::vector<uint32_t>& emitted,
+                         const std::vector<double>& seen, const std::vector<float>& pmf)
+    : _targets(targets), _weights(emitted.size(), 1.0f), _means(emitted.size() / kGuideBins, 1.0f)
 {
-    const std::size_t perLight = std::size_t(targets) * kAimBins;
+    const std::size_t perLight = std::size_t(targets) * kGuideBins;
     const std::size_t lights = perLight ? emitted.size() / perLight : 0;
     std::vector<double> useful(lights), sent(lights);
     for (std::size_t light = 0; light < lights; ++light)
@@ -45,13 +46,13 @@ PhotonAim::PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted,
         for (std::size_t target = 0; target < targets; ++target)
         {
             double photons = 0.0, squares = 0.0;
-            for (std::size_t b = target * kAimBins; b < (target + 1) * kAimBins; ++b)
+            for (std::size_t b = target * kGuideBins; b < (target + 1) * kGuideBins; ++b)
             {
                 photons += emitted[first + b];
                 squares += seen[first + b];
             }
             if (!(photons > 0.0) || !std::isfinite(squares)) continue;
-            for (std::size_t b = target * kAimBins; b < (target + 1) * kAimBins; ++b)
+            for (std::size_t b = target * kGuideBins; b < (target + 1) * kGuideBins; ++b)
                 wanted[b] = std::sqrt((seen[first + b] + kPriorPhotons * squares / photons) /
                                       (emitted[first + b] + kPriorPhotons));
         }
@@ -68,13 +69,13 @@ PhotonAim::PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted,
     for (std::size_t t = 0; t < _means.size(); ++t)
     {
         float sum = 0.0f;
-        for (uint32_t ring = 0; ring < kAimRings; ++ring)
+        for (uint32_t ring = 0; ring < kGuideRings; ++ring)
         {
-            const float* sectors = &_weights[t * kAimBins + ring * kAimSectors];
-            _rings.push_back(std::accumulate(sectors, sectors + kAimSectors, 0.0f));
+            const float* sectors = &_weights[t * kGuideBins + ring * kGuideSectors];
+            _rings.push_back(std::accumulate(sectors, sectors + kGuideSectors, 0.0f));
             sum += _rings.back();
         }
-        _means[t] = sum / kAimBins;
+        _means[t] = sum / kGuideBins;
     }
 
     // Lights get photons in proportion to the use of theirs.
@@ -100,16 +101,17 @@ PhotonAim::PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted,
     if (!_cumulative.empty()) _cumulative.back() = 1.0f;
 }
 
-Vec2 PhotonAim::sample(uint32_t light, uint32_t target, Vec2 u, uint32_t& bin) const
+Vec2 PhotonGuide::sample(uint32_t light, uint32_t target, Vec2 u, uint32_t& bin) const
 {
     const std::size_t t = light * _targets + target;
-    const float* weights = &_weights[t * kAimBins];
-    const float* rings = &_rings[t * kAimRings];
-    const uint32_t ring = pickScaled(rings, kAimRings, _means[t] * kAimBins, u.y);
-    const uint32_t sector = pickScaled(weights + ring * kAimSectors, kAimSectors, rings[ring], u.x);
-    bin = ring * kAimSectors + sector;
-    return Vec2((static_cast<float>(sector) + u.x) / kAimSectors,
-                (static_cast<float>(ring) + u.y) / kAimRings);
+    const float* weights = &_weights[t * kGuideBins];
+    const float* rings = &_rings[t * kGuideRings];
+    const uint32_t ring = pickScaled(rings, kGuideRings, _means[t] * kGuideBins, u.y);
+    const uint32_t sector =
+        pickScaled(weights + ring * kGuideSectors, kGuideSectors, rings[ring], u.x);
+    bin = ring * kGuideSectors + sector;
+    return Vec2((static_cast<float>(sector) + u.x) / kGuideSectors,
+                (static_cast<float>(ring) + u.y) / kGuideRings);
 }
 
 } // namespace osgRayTrace::engine

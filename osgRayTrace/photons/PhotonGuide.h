@@ -1,4 +1,4 @@
-// PhotonAim.h - to which parts of their targets lights send photons more often. Layer: photons.
+// PhotonGuide.h - to which parts of their targets lights send photons more often. Layer: photons.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,32 +15,32 @@ namespace osgRayTrace::engine
 
 /// The cone (for directional lights: the disc) that holds a target is cut into bins of equal size:
 /// sectors of the turn around its axis, and rings.
-constexpr uint32_t kAimSectors = 8, kAimRings = 8;
-constexpr uint32_t kAimBins = kAimSectors * kAimRings;
+constexpr uint32_t kGuideSectors = 8, kGuideRings = 8;
+constexpr uint32_t kGuideBins = kGuideSectors * kGuideRings;
 
 /// Lights are told apart up to this number; more are taken together in groups.
-constexpr uint32_t kMostAimLights = 16;
+constexpr uint32_t kMostGuideLights = 16;
 
 /// The bin of a point of the unit square that is mapped onto the cone: u the turn, v the share of
 /// the solid angle (for discs: of the area) within the ring.
-inline uint32_t aimBinOf(float u, float v)
+inline uint32_t guideBinOf(float u, float v)
 {
     const auto cell = [](float x, uint32_t count)
     {
         const float scaled = x * static_cast<float>(count);
         return scaled > 0.0f ? std::min(static_cast<uint32_t>(scaled), count - 1) : 0u;
     };
-    return cell(v, kAimRings) * kAimSectors + cell(u, kAimSectors);
+    return cell(v, kGuideRings) * kGuideSectors + cell(u, kGuideSectors);
 }
 
 /// The same from the coordinates across the axis, in any unit: an eighth of a turn needs no
 /// arctangent.
-inline uint32_t aimBinAt(float x, float y, float v)
+inline uint32_t guideBinAt(float x, float y, float v)
 {
-    static_assert(kAimSectors == 8);
+    static_assert(kGuideSectors == 8);
     const uint32_t quarter = y >= 0.0f ? (x >= 0.0f ? 0u : 1u) : (x < 0.0f ? 2u : 3u);
     const uint32_t steep = std::fabs(y) > std::fabs(x);
-    return aimBinOf(0.0f, v) + 2u * quarter + (steep ^ (quarter & 1u));
+    return guideBinOf(0.0f, v) + 2u * quarter + (steep ^ (quarter & 1u));
 }
 
 /// Weights of the bins of each light and target, from what views saw of photons that were sent
@@ -48,25 +48,25 @@ inline uint32_t aimBinAt(float x, float y, float v)
 /// of them adds to what is seen: that makes the variance of a sum over the bins least [Veach97,
 /// ch. 2]. A part of the weight is the same for all bins, so that light which
 /// nobody has noticed yet stays within a known factor. Immutable.
-class PhotonAim
+class PhotonGuide
 {
 public:
     /// A bin of the target of a light (or group of lights): all lists below are indexed by it.
     static uint32_t index(uint32_t light, uint32_t target, uint32_t targets, uint32_t bin)
     {
-        return (light * targets + target) * kAimBins + bin;
+        return (light * targets + target) * kGuideBins + bin;
     }
 
-    /// emitted: photons that were aimed at each bin. seen: sums of the squares of what each of them
-    /// added. pmf: probability of each emitter, of which several may be one light here: see
+    /// emitted: photons that were guided to each bin. seen: sums of the squares of what each of
+    /// them added. pmf: probability of each emitter, of which several may be one light here: see
     /// lightOf.
-    PhotonAim(uint32_t targets, const std::vector<uint32_t>& emitted,
-              const std::vector<double>& seen, const std::vector<float>& pmf);
+    PhotonGuide(uint32_t targets, const std::vector<uint32_t>& emitted,
+                const std::vector<double>& seen, const std::vector<float>& pmf);
 
     static uint32_t lightOf(std::size_t emitter, std::size_t emitters)
     {
         return static_cast<uint32_t>(
-            emitters <= kMostAimLights ? emitter : emitter * kMostAimLights / emitters);
+            emitters <= kMostGuideLights ? emitter : emitter * kMostGuideLights / emitters);
     }
 
     /// Mean over the bins of a target. Its own bins' are relative to the same unit.
@@ -82,7 +82,8 @@ public:
     {
         Vec3 tangent, bitangent;
         frameOf(axis.x, axis.y, axis.z, tangent, bitangent);
-        return weight(light, target, aimBinAt(glm::dot(off, tangent), glm::dot(off, bitangent), v));
+        return weight(light, target,
+                      guideBinAt(glm::dot(off, tangent), glm::dot(off, bitangent), v));
     }
 
     /// A point of the unit square with a density of weight over mean; u uniform. Also its bin.
