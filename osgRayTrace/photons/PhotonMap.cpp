@@ -263,11 +263,11 @@ void PhotonMap::find(const PhotonQuery& query, std::vector<uint32_t>& found) con
                  });
 }
 
-bool PhotonMap::findReaches(const PhotonQuery& query, std::size_t most,
-                            PhotonReaches& reaches) const
+bool PhotonMap::findDistances(const PhotonQuery& query, std::size_t most,
+                              NeighbourDistances& distances) const
 {
-    std::vector<float>& reach2 = reaches._reach2;
-    reach2.clear();
+    std::vector<float>& radii2 = distances._radius2;
+    radii2.clear();
     forEachFound(query,
                  [&](uint32_t, LaneMask lanes, const FloatLanes& distance2, const FloatLanes& off)
                  {
@@ -275,18 +275,18 @@ bool PhotonMap::findReaches(const PhotonQuery& query, std::size_t most,
                      {
                          const int i = __builtin_ctz(lanes);
                          const float plane = off[i] / kPlaneShare;
-                         reach2.push_back(std::max(distance2[i], plane * plane));
+                         radii2.push_back(std::max(distance2[i], plane * plane));
                      }
-                     return reach2.size() <= most;
+                     return radii2.size() <= most;
                  });
-    return reach2.size() <= most;
+    return radii2.size() <= most;
 }
 
-float PhotonReaches::radiusBefore(std::size_t count)
+float NeighbourDistances::radiusOfNearest(std::size_t count)
 {
     if (size() <= count) return kInfinity;
-    const auto next = _reach2.begin() + static_cast<std::ptrdiff_t>(count);
-    std::nth_element(_reach2.begin(), next, _reach2.end());
+    const auto next = _radius2.begin() + static_cast<std::ptrdiff_t>(count);
+    std::nth_element(_radius2.begin(), next, _radius2.end());
     return std::sqrt(*next) * (1.0f - 0x1p-21f); // so that the square of it, rounded, is less
 }
 

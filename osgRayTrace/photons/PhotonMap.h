@@ -17,18 +17,18 @@ namespace osgRayTrace::engine
 class Workers;
 
 /// How large discs around one place have to be to hold its photons.
-class PhotonReaches
+class NeighbourDistances
 {
 public:
-    std::size_t size() const { return _reach2.size(); }
+    std::size_t size() const { return _radius2.size(); }
 
     /// The largest radius of a look-up whose disc holds no more than count photons, to 5e-7 of it;
     /// infinity if none that was found is left out. Reorders them.
-    float radiusBefore(std::size_t count);
+    float radiusOfNearest(std::size_t count);
 
 private:
     friend class PhotonMap;
-    std::vector<float> _reach2; ///< square of the radius from which on a look-up finds the photon
+    std::vector<float> _radius2; ///< square of the radius from which on a look-up finds the photon
 };
 
 /// A grid over hashed cells, its photons in cell order: those of neighbouring cells along x lie one
@@ -62,9 +62,10 @@ public:
     /// other lanes.
     void find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& found) const;
 
-    /// The same photons, by what they are away from the place; what was in reaches is replaced.
+    /// The same photons, by what they are away from the place; what was in distances is replaced.
     /// False if there are more than most: only some of them are there then.
-    bool findReaches(const PhotonQuery& query, std::size_t most, PhotonReaches& reaches) const;
+    bool findDistances(const PhotonQuery& query, std::size_t most,
+                       NeighbourDistances& distances) const;
 
     Photon photon(uint32_t index) const;
 

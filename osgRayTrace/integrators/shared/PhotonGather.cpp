@@ -15,7 +15,7 @@ namespace
 /// Where the largest radius holds no more photons than this the radius comes from one look-up.
 /// Where it holds more it is narrowed down first, by sums that need not read the photons of a
 /// dense cell.
-constexpr std::size_t kMostReaches = 4096;
+constexpr std::size_t kMostDistances = 4096;
 constexpr int kNarrowings = 8; ///< of the octave that the radius is in
 
 } // namespace
@@ -23,10 +23,10 @@ constexpr int kNarrowings = 8; ///< of the octave that the radius is in
 float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float largest)
 {
     if (!(least < largest)) return largest;
-    PhotonReaches reaches;
+    NeighbourDistances distances;
     query.radius = largest;
-    if (map.findReaches(query, kMostReaches, reaches))
-        return std::clamp(reaches.radiusBefore(kRadiusPhotons), least, largest);
+    if (map.findDistances(query, kMostDistances, distances))
+        return std::clamp(distances.radiusOfNearest(kRadiusPhotons), least, largest);
 
     const auto holdsMore = [&](float radius)
     {
@@ -40,8 +40,8 @@ float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float large
     for (int i = 0; i < kNarrowings; ++i)
     {
         query.radius = many;
-        if (map.findReaches(query, kMostReaches, reaches))
-            return std::clamp(reaches.radiusBefore(kRadiusPhotons), few, many);
+        if (map.findDistances(query, kMostDistances, distances))
+            return std::clamp(distances.radiusOfNearest(kRadiusPhotons), few, many);
         const float middle = std::sqrt(few * many);
         (holdsMore(middle) ? many : few) = middle;
     }
