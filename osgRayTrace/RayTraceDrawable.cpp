@@ -5,7 +5,7 @@
 #include <osgRayTrace/RayIntersector>
 
 #include "osgRayTrace/DrawPass.h"
-#include "osgRayTrace/ShownView.h"
+#include "osgRayTrace/ViewPresenter.h"
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
 #include "osgRayTrace/bridge/common/WarnOnce.h"
 #include "osgRayTrace/bridge/graph/PathBudget.h"
@@ -80,17 +80,18 @@ private:
 struct RayTraceDrawable::Implementation
 {
     engine::SceneUpdater scene;
-    engine::ViewRegistry<ShownView> views;
+    engine::ViewRegistry<ViewPresenter> views;
     std::shared_ptr<engine::FrameAgreement> agreement = std::make_shared<engine::FrameAgreement>();
     std::atomic<bool> paused{false};
 
     mutable std::mutex mutex;   // draw threads write, any thread reads
     engine::TraceReport report; ///< of the view drawn last
-    std::shared_ptr<ShownView> lastView;
+    std::shared_ptr<ViewPresenter> lastView;
     std::weak_ptr<const engine::TracedScene> untraceable; ///< failed before it gave any image
 
     void draw(osg::RenderInfo& renderInfo);
-    void noteProgress(const std::shared_ptr<ShownView>& view, const engine::SceneVersion& version);
+    void noteProgress(const std::shared_ptr<ViewPresenter>& view,
+                      const engine::SceneVersion& version);
     void fail(engine::StatusCode code, const char* message) noexcept;
     void failToDraw(engine::StatusCode code, const char* message) noexcept;
 };
@@ -103,10 +104,10 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     const engine::SceneVersion version = scene.version();
     if (!version.scene) return;
 
-    const auto makeView = [] { return std::make_shared<ShownView>(); };
+    const auto makeView = [] { return std::make_shared<ViewPresenter>(); };
     const engine::PassIdentity pass = passIdentity(renderInfo, viewport);
-    const engine::ViewRegistry<ShownView>::Pass found = views.acquire(pass, makeView);
-    ShownView& view = *found.state;
+    const engine::ViewRegistry<ViewPresenter>::Pass found = views.acquire(pass, makeView);
+    ViewPresenter& view = *found.state;
     engine::FrameBudget budget =
         frameBudget(renderInfo.getCurrentCamera(), *version.settings, agreement);
     budget.frameNumber = pass.frameNumber;
@@ -121,7 +122,7 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
         fail(engine::StatusCode::DeviceFailure, "OpenGL cannot compile the display's shaders");
 }
 
-void RayTraceDrawable::Implementation::noteProgress(const std::shared_ptr<ShownView>& view,
+void RayTraceDrawable::Implementation::noteProgress(const std::shared_ptr<ViewPresenter>& view,
                                                     const engine::SceneVersion& version)
 {
     engine::TraceReport made = view->report(version);
@@ -237,7 +238,7 @@ Statistics RayTraceDrawable::getStatistics() const
 
 osg::ref_ptr<osg::Image> RayTraceDrawable::getColorImage() const
 {
-    std::shared_ptr<ShownView> view;
+    std::shared_ptr<ViewPresenter> view;
     {
         std::lock_guard<std::mutex> lock(_implementation->mutex);
         view = _implementation->lastView;
@@ -322,7 +323,7 @@ void RayTraceDrawable::drawImplementation(osg::RenderInfo& renderInfo) const
 
 void RayTraceDrawable::releaseGLObjects(osg::State* state) const
 {
-    for (const std::shared_ptr<ShownView>& view : _implementation->views.states())
+    for (const std::shared_ptr<ViewPresenter>& view : _implementation->views.states())
         view->releaseGLObjects(state);
     if (state) _implementation->views.forgetContext(state->getContextID());
     osg::Drawable::releaseGLObjects(state);
@@ -330,7 +331,7 @@ void RayTraceDrawable::releaseGLObjects(osg::State* state) const
 
 void RayTraceDrawable::resizeGLObjectBuffers(unsigned int maxSize)
 {
-    for (const std::shared_ptr<ShownView>& view : _implementation->views.states())
+    for (const std::shared_ptr<ViewPresenter>& view : _implementation->views.states())
         view->resizeGLObjectBuffers(maxSize);
     osg::Drawable::resizeGLObjectBuffers(maxSize);
 }
@@ -426,7 +427,7 @@ void RayTraceDrawable::releaseScene()
 
 void RayTraceDrawable::forgetFailure()
 {
-    for (const std::shared_ptr<ShownView>& view : _implementation->views.states())
+    for (const std::shared_ptr<ViewPresenter>& view : _implementation->views.states())
         view->forgetFailures();
     std::lock_guard<std::mutex> lock(_implementation->mutex);
     _implementation->untraceable.reset();

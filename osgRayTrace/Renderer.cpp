@@ -148,7 +148,7 @@ struct Renderer::Implementation
         return session->progress().passes > 0 &&
                engine::denoiseKind(*settings) != engine::DenoiseKind::Off;
     }
-    engine::ShownImage denoisedImage();
+    engine::ResolvedImage denoisedImage();
 };
 
 void Renderer::Implementation::render(engine::StopRule rule, double seconds,
@@ -187,9 +187,9 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
 }
 
 /// Notes how long it took.
-engine::ShownImage Renderer::Implementation::denoisedImage()
+engine::ResolvedImage Renderer::Implementation::denoisedImage()
 {
-    engine::ShownImage image = session->shownImage();
+    engine::ResolvedImage image = session->resolvedImage();
     const auto begin = std::chrono::steady_clock::now();
     denoiser.forgetSurfaces();
     const auto surfaces = [this]() -> const std::vector<engine::SurfaceSample>&
@@ -408,8 +408,8 @@ osg::ref_ptr<osg::Image> Renderer::getDisplayImage() const
                 self.session->width(), self.session->height(), GL_RGBA, GL_UNSIGNED_BYTE);
             if (!image) return image;
             if (self.denoises())
-                engine::showImage(self.denoisedImage(), toneMap, *self.workers, image->data(),
-                                  nullptr);
+                engine::presentImage(self.denoisedImage(), toneMap, *self.workers, image->data(),
+                                     nullptr);
             else
                 self.session->resolveDisplay(toneMap, image->data(), nullptr);
             engine::blendOver(*image, self.clearColor);

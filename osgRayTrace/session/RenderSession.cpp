@@ -227,7 +227,7 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
     std::atomic<int> begun{progress.newTiles};
     std::atomic<bool> over{false};
     tileCounts.assign(tiles, TileCounts());
-    unshown.resize(tiles);
+    dirtyTiles.resize(tiles);
     film.beginPass();
     const bool partial = rule.over || rule.newTiles < std::numeric_limits<int>::max();
     const auto renderOne = [&](std::size_t index)
@@ -252,9 +252,9 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
             over = true;
         }
         if (renders) tileCounts[index] = renderTile(context, integrator, tile);
-        if (renders) unshown[index] = 1;
-        if (display && (unshown[index] || !display->holdsImage)) resolveTile(*display, tile);
-        if (display) unshown[index] = 0;
+        if (renders) dirtyTiles[index] = 1;
+        if (display && (dirtyTiles[index] || !display->holdsImage)) resolveTile(*display, tile);
+        if (display) dirtyTiles[index] = 0;
     };
     try
     {
@@ -288,7 +288,7 @@ RenderProgress SessionState::run(const StopRule& rule,
                                  const DisplayTarget* display)
 {
     cancelled = false;
-    unshown.clear();
+    dirtyTiles.clear();
     progress.newTiles = 0;
     progress.photonSeconds = progress.firstPhotonSeconds = 0.0;
     if (!begin()) return progress;
@@ -322,7 +322,7 @@ RenderProgress SessionState::run(const StopRule& rule,
         if (rule.relativeError > 0.0 && progress.relativeError <= rule.relativeError) break;
         if (keepGoing && !keepGoing(progress)) break;
     }
-    if (display && progress.newTiles > 0 && !shown) showRest(*display);
+    if (display && progress.newTiles > 0 && !shown) resolveRest(*display);
     return progress;
 }
 
@@ -336,12 +336,12 @@ double SessionState::imageShare() const
 }
 
 /// What no pass of this call has shown.
-void SessionState::showRest(const DisplayTarget& display)
+void SessionState::resolveRest(const DisplayTarget& display)
 {
-    workers->forEach(unshown.size(),
+    workers->forEach(dirtyTiles.size(),
                      [&](std::size_t tile)
                      {
-                         if (unshown[tile] || !display.holdsImage)
+                         if (dirtyTiles[tile] || !display.holdsImage)
                              resolveTile(display, static_cast<int>(tile));
                      });
 }

@@ -11,7 +11,7 @@
 #include "osgRayTrace/session/DisplayTarget.h"
 #include "osgRayTrace/session/RenderProgress.h"
 #include "osgRayTrace/session/image/Channel.h"
-#include "osgRayTrace/session/image/ShownImage.h"
+#include "osgRayTrace/session/image/ResolvedImage.h"
 
 #include <cstdint>
 #include <functional>
@@ -103,7 +103,7 @@ public:
     std::vector<float> resolveChannel(Channel channel) const;
 
     /// The image with what more than a tone map needs. Empty without an image.
-    ShownImage shownImage() const;
+    ResolvedImage resolvedImage() const;
 
     /// What is seen through the middle of each pixel, row 0 at the bottom. The first time it is
     /// asked for it traces a ray for each; it is kept as long as the image. Empty without an image.
@@ -118,15 +118,16 @@ public:
     /// The same view of another size, mostly a larger one, from an image and samples of this one's,
     /// filtered or not: see Upsample.h. Vectors of result that have its size already are used
     /// again. Empty without an image.
-    UpsampleCounts upsample(const ShownImage& image, const std::vector<SurfaceSample>& samples,
-                            int width, int height, ShownImage& result,
+    UpsampleCounts upsample(const ResolvedImage& image, const std::vector<SurfaceSample>& samples,
+                            int width, int height, ResolvedImage& result,
                             double mostTraced = 1.0) const;
 
     /// The same as display values and window depths, for less; a target of that size. Nothing is
     /// written without an image.
-    UpsampleCounts showUpsampled(const ShownImage& image, const std::vector<SurfaceSample>& samples,
-                                 int width, int height, const DisplayTarget& display,
-                                 double mostTraced = 1.0) const;
+    UpsampleCounts presentUpsampled(const ResolvedImage& image,
+                                    const std::vector<SurfaceSample>& samples, int width,
+                                    int height, const DisplayTarget& display,
+                                    double mostTraced = 1.0) const;
 
 private:
     std::unique_ptr<SessionState> _state;

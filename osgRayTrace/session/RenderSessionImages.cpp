@@ -122,10 +122,10 @@ std::vector<float> RenderSession::resolveChannel(Channel channel) const
     return channelImage(channel, session.film, session.contextOfPass(0), *session.workers);
 }
 
-ShownImage RenderSession::shownImage() const
+ResolvedImage RenderSession::resolvedImage() const
 {
     const SessionState& session = *_state;
-    ShownImage image;
+    ResolvedImage image;
     if (!session.filmScene || session.film.passes() < 1) return image;
     image.width = width();
     image.height = height();
@@ -192,25 +192,25 @@ const SurfaceMap& RenderSession::lastSurfaces() const
     return _state->lastSurfaces;
 }
 
-UpsampleCounts RenderSession::upsample(const ShownImage& image,
+UpsampleCounts RenderSession::upsample(const ResolvedImage& image,
                                        const std::vector<SurfaceSample>& samples, int width,
-                                       int height, ShownImage& result, double mostTraced) const
+                                       int height, ResolvedImage& result, double mostTraced) const
 {
     const std::optional<PassContext> full = _state->contextOfSize(width, height);
     if (full) return engine::upsample(image, samples, *full, mostTraced, *_state->workers, result);
-    result = ShownImage();
+    result = ResolvedImage();
     return {};
 }
 
-UpsampleCounts RenderSession::showUpsampled(const ShownImage& image,
-                                            const std::vector<SurfaceSample>& samples, int width,
-                                            int height, const DisplayTarget& display,
-                                            double mostTraced) const
+UpsampleCounts RenderSession::presentUpsampled(const ResolvedImage& image,
+                                               const std::vector<SurfaceSample>& samples, int width,
+                                               int height, const DisplayTarget& display,
+                                               double mostTraced) const
 {
     const std::optional<PassContext> full = _state->contextOfSize(width, height);
     if (!full) return {};
-    return engine::showUpsampled(image, samples, *full, mostTraced, display.toneMap,
-                                 *_state->workers, display.rgba, display.depth);
+    return engine::presentUpsampled(image, samples, *full, mostTraced, display.toneMap,
+                                    *_state->workers, display.rgba, display.depth);
 }
 
 } // namespace osgRayTrace::engine

@@ -36,7 +36,7 @@ struct SessionState
     void finishSurfaces();
     void resolve(const DisplayTarget& display, bool over) const;
     void resolveTile(const DisplayTarget& display, int tile) const;
-    void showRest(const DisplayTarget& display);
+    void resolveRest(const DisplayTarget& display);
     PassContext contextOfPass(int pass) const;
     std::optional<PassContext> contextOfSize(int width, int height) const;
 
@@ -64,7 +64,7 @@ struct SessionState
     PhotonState photons;
     RenderProgress progress;
     std::vector<TileCounts> tileCounts; // of the pass that is rendered
-    std::vector<uint8_t> unshown;       // tiles with passes of this call that the display lacks
+    std::vector<uint8_t> dirtyTiles;    // tiles with passes of this call that the display lacks
     int photonsCounted = 0;             // passes whose photon rays are in progress
 
     std::atomic<bool> cancelled{

@@ -88,7 +88,7 @@ struct Cave
         int number = 0;
         std::vector<uint8_t> rgba;
         std::vector<float> depth;
-        int shownWidth = 0;
+        int displayWidth = 0;
         ViewTracer tracer;
     };
 
@@ -107,19 +107,19 @@ struct Cave
     {
         ViewTracer& tracer = wall.tracer;
         const View view = viewOf(wall.number, x);
-        const bool fits = wall.shownWidth == kWidth;
+        const bool fits = wall.displayWidth == kWidth;
         tracer.trace(version, view, frameBudget(equal), fits ? wall.rgba.data() : nullptr,
                      fits ? wall.depth.data() : nullptr);
         if (tracer.needsResolve(version))
         {
-            const auto pixels = std::size_t(tracer.shownWidth() * tracer.shownHeight());
+            const auto pixels = std::size_t(tracer.displayWidth() * tracer.displayHeight());
             wall.rgba.resize(4 * pixels);
             wall.depth.resize(pixels);
-            wall.shownWidth = tracer.shownWidth();
+            wall.displayWidth = tracer.displayWidth();
             tracer.resolve(wall.rgba.data(), wall.depth.data());
         }
-        tracer.noteShown();
-        return {tracer.frame().divider, tracer.progress().passes, wall.shownWidth};
+        tracer.recordPresented();
+        return {tracer.frame().divider, tracer.progress().passes, wall.displayWidth};
     }
 
     /// Draws one wall after the other.

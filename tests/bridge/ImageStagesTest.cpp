@@ -60,7 +60,7 @@ struct Enlarged
     {
         std::vector<uint8_t> rgba(4 * std::size_t(kPixels));
         looks = 0;
-        stages.showUpsampled(session, kWidth, kHeight, {{}, rgba.data()}, seconds);
+        stages.presentUpsampled(session, kWidth, kHeight, {{}, rgba.data()}, seconds);
         if (rgba == around) return Traced::Around;
         if (rgba == edges) return Traced::Edges;
         REQUIRE((rgba == linear));
@@ -77,15 +77,15 @@ struct Enlarged
         for (int i = 0; i < pictures; ++i)
         {
             looks = 0;
-            stages.showUpsampled(blank, 16, 16, {{}, rgba.data()}, 1.0);
+            stages.presentUpsampled(blank, 16, 16, {{}, rgba.data()}, 1.0);
         }
     }
 
     std::vector<uint8_t> expected(double mostTraced)
     {
         std::vector<uint8_t> rgba(4 * std::size_t(kPixels));
-        counts = session.showUpsampled(session.shownImage(), session.surfaceSamples(), kWidth,
-                                       kHeight, {{}, rgba.data()}, mostTraced);
+        counts = session.presentUpsampled(session.resolvedImage(), session.surfaceSamples(), kWidth,
+                                          kHeight, {{}, rgba.data()}, mostTraced);
         return rgba;
     }
 

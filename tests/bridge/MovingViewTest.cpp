@@ -355,12 +355,12 @@ TEST_CASE("moving view: errors are those of film and history together", "[bridge
             session.render(rule);
             history.enter(session, lowViewAt(frame), {}, *workers);
         }
-        ShownImage image = session.shownImage();
+        ResolvedImage image = session.resolvedImage();
         if (passes == 1)
         {
             // Four frames of one sample each are gone with the ninth pass, and not before.
-            const ShownImage film = image;
-            ShownImage early = film, late = film;
+            const ResolvedImage film = image;
+            ResolvedImage early = film, late = film;
             history.blend(early, 8, *workers);
             history.blend(late, 9, *workers);
             CHECK(early.radiance != film.radiance);

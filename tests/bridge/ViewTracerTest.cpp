@@ -152,8 +152,8 @@ struct Screen
         resolved = tracer.needsResolve(version);
         if (resolved)
         {
-            if (tracer.shownWidth() != display.width || tracer.shownHeight() != display.height)
-                display.resize(tracer.shownWidth(), tracer.shownHeight());
+            if (tracer.displayWidth() != display.width || tracer.displayHeight() != display.height)
+                display.resize(tracer.displayWidth(), tracer.displayHeight());
             resolveLooks = 2;
             tracer.resolve(display.rgba.data(), display.depth.data());
             resolveLooks = 0;
@@ -173,7 +173,7 @@ struct Screen
         }
         if (resolved || written) REQUIRE(same(shown, display));
         if (shown.width < kWidth) reduced = shown;
-        tracer.noteShown();
+        tracer.recordPresented();
     }
 
     /// Tiles of the picture that are those of a whole pass; those of the enlarged picture of
@@ -225,7 +225,7 @@ struct Screen
     Pixels whole()
     {
         Pixels pixels;
-        pixels.resize(tracer.shownWidth(), tracer.shownHeight());
+        pixels.resize(tracer.displayWidth(), tracer.displayHeight());
         tracer.resolve(pixels.rgba.data(), pixels.depth.data());
         return pixels;
     }
@@ -372,9 +372,9 @@ TEST_CASE("frame budget: reduced pictures are upsampled where there is time for 
         REQUIRE(session.render(rule).status.ok());
         Pixels expected;
         expected.resize(kWidth, kHeight);
-        session.showUpsampled(session.shownImage(), session.surfaceSamples(), kWidth, kHeight,
-                              {{}, expected.rgba.data(), expected.depth.data()},
-                              ImageStages::kMostTraced);
+        session.presentUpsampled(session.resolvedImage(), session.surfaceSamples(), kWidth, kHeight,
+                                 {{}, expected.rgba.data(), expected.depth.data()},
+                                 ImageStages::kMostTraced);
         REQUIRE(screen.shown.width == kWidth);
         CHECK((screen.shown.rgba == expected.rgba));
         CHECK((screen.shown.depth == expected.depth));
@@ -600,7 +600,7 @@ TEST_CASE("frame budget: none, then so many passes as are set, as ever", "[bridg
     {
         screen.tracer.trace(screen.version, viewAt(0.0));
         CHECK(screen.tracer.progress().passes == expected);
-        CHECK(screen.tracer.shownWidth() == kWidth);
+        CHECK(screen.tracer.displayWidth() == kWidth);
     }
 }
 

@@ -129,10 +129,10 @@ struct Shown : osg::Camera::DrawCallback
     void operator()(osg::RenderInfo&) const override
     {
         shownPasses = passes(*scene);
-        shownDivider = divider(*scene);
+        displayDivider = divider(*scene);
     }
     const RayTracedScene* scene;
-    mutable int shownPasses = -1, shownDivider = -1;
+    mutable int shownPasses = -1, displayDivider = -1;
 };
 
 /// A viewer with a second window, which is smaller.
@@ -170,8 +170,8 @@ TEST_CASE(
         view.viewer.frame();
         CAPTURE(i);
         REQUIRE(view.large->shownPasses == view.small->shownPasses);
-        REQUIRE(view.large->shownDivider == view.small->shownDivider);
-        completed += view.large->shownDivider == 1;
+        REQUIRE(view.large->displayDivider == view.small->displayDivider);
+        completed += view.large->displayDivider == 1;
     }
     CHECK(completed > 200);
     CHECK(view.small->shownPasses == 2);
@@ -198,16 +198,16 @@ TEST_CASE("equal views: what somebody else decides holds for all, but for camera
     {
         view.look(osg::Vec3d(0.0, 0.01 * i, 10.0));
         view.viewer.frame();
-        CHECK(view.large->shownDivider == (own ? 1 : 2));
+        CHECK(view.large->displayDivider == (own ? 1 : 2));
         CHECK(view.large->shownPasses == (own ? 1 : 3));
-        CHECK(view.small->shownDivider == 2);
+        CHECK(view.small->displayDivider == 2);
         CHECK(view.small->shownPasses == 3);
     }
     view.viewer.frame();
     for (const int expected : {2, 4})
     {
         view.viewer.frame();
-        CHECK(view.small->shownDivider == 1);
+        CHECK(view.small->displayDivider == 1);
         CHECK(view.small->shownPasses == expected);
     }
     const std::optional<FrameWork> affordable = drawable.getAffordableWork();
@@ -217,6 +217,6 @@ TEST_CASE("equal views: what somebody else decides holds for all, but for camera
     drawable.setFrameWork(std::nullopt);
     view.look(osg::Vec3d(0.0, 0.1, 10.0));
     view.viewer.frame();
-    CHECK(view.small->shownDivider == 1);
+    CHECK(view.small->displayDivider == 1);
     CHECK(view.small->shownPasses > 3);
 }

@@ -59,7 +59,7 @@ struct NoisyWall
             workers);
     }
 
-    ShownImage image;
+    ResolvedImage image;
     std::vector<SurfaceSample> surfaces;
     int timesAsked = 0; ///< for the surfaces
 };

@@ -74,7 +74,7 @@ struct TestImage
         return Vec3(p[0], p[1], p[2]);
     }
 
-    ShownImage image;
+    ResolvedImage image;
     std::vector<SurfaceSample> surfaces;
 };
 
@@ -353,7 +353,7 @@ Filtered filteredBox(const std::shared_ptr<const TracedScene>& scene, int size, 
     StopRule rule;
     rule.passes = passes;
     REQUIRE(session.render(rule).status.ok());
-    ShownImage image = session.shownImage();
+    ResolvedImage image = session.resolvedImage();
     Filtered result;
     result.before = image.radiance;
     result.error = image.error;

@@ -254,7 +254,7 @@ TEST_CASE("session: cleared it holds no scene", "[session]")
     session.clear();
     CHECK(watched.expired());
     CHECK(session.progress().passes == 0);
-    CHECK(session.shownImage().width == 0);
+    CHECK(session.resolvedImage().width == 0);
     session.setScene(cornellBox().build());
     CHECK(session.render(rule).restarted);
     CHECK(session.resolveRadiance() == before);

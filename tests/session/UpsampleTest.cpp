@@ -16,14 +16,14 @@ namespace
 /// The full-size view, an image of it with fewer pixels and what is made of that.
 struct Upsampled
 {
-    ShownImage small, image;
+    ResolvedImage small, image;
     std::vector<SurfaceSample> samples;
     UpsampleCounts counts;
-    ShownImage reference; ///< of the full size, through the middles of the pixels
+    ResolvedImage reference; ///< of the full size, through the middles of the pixels
 };
 
-ShownImage imageOf(RenderSession& session, const std::shared_ptr<const TracedScene>& scene,
-                   const View& view)
+ResolvedImage imageOf(RenderSession& session, const std::shared_ptr<const TracedScene>& scene,
+                      const View& view)
 {
     RenderOptions options = optionsOf(IntegratorKind::Whitted);
     options.centredFirstPass = true;
@@ -33,7 +33,7 @@ ShownImage imageOf(RenderSession& session, const std::shared_ptr<const TracedSce
     StopRule rule;
     rule.passes = 1;
     REQUIRE(session.render(rule).status.ok());
-    return session.shownImage();
+    return session.resolvedImage();
 }
 
 /// The image has one pixel for divider x divider, and for what is left at the sides.
@@ -57,7 +57,7 @@ Upsampled upsampled(const std::shared_ptr<const TracedScene>& scene, const View&
     return result;
 }
 
-Vec4 pixelOf(const ShownImage& image, int x, int y)
+Vec4 pixelOf(const ResolvedImage& image, int x, int y)
 {
     const float* p = &image.radiance[4 * static_cast<std::size_t>(y * image.width + x)];
     return Vec4(p[0], p[1], p[2], p[3]);
@@ -330,12 +330,12 @@ TEST_CASE("upsampling: with too many edges less is traced, and nothing is black"
     smaller.width = 40;
     smaller.height = 30;
     RenderSession session(std::make_shared<Workers>(2));
-    const ShownImage small = imageOf(session, builder.build(), smaller);
+    const ResolvedImage small = imageOf(session, builder.build(), smaller);
     const std::vector<SurfaceSample> samples = session.surfaceSamples();
     std::vector<uint64_t> traced;
     for (const double most : {1.0, 0.55, 0.1})
     {
-        ShownImage image;
+        ResolvedImage image;
         traced.push_back(session.upsample(small, samples, 160, 120, image, most).traced);
         CHECK(image.radiance.size() == 4 * 160 * 120);
         for (int y = 0; y < 120; ++y)
@@ -391,7 +391,7 @@ TEST_CASE("centred first pass: it sees what first hits are sampled of, later one
             StopRule rule;
             rule.passes = 1;
             session.render(rule);
-            const ShownImage first = session.shownImage();
+            const ResolvedImage first = session.resolvedImage();
             const std::vector<SurfaceSample> samples = session.surfaceSamples();
             int other = 0;
             for (int y = 0; y < 200; ++y)
@@ -401,7 +401,7 @@ TEST_CASE("centred first pass: it sees what first hits are sampled of, later one
             CHECK((other == 0) == centred);
             rule.passes = 9;
             session.render(rule);
-            const ShownImage later = session.shownImage();
+            const ResolvedImage later = session.resolvedImage();
             int between = 0; // pixels of the edge see both halves
             for (int y = 0; y < 200; ++y)
                 for (int x = 0; x < 60; ++x)
@@ -426,7 +426,7 @@ TEST_CASE("upsampling: threads make no difference, nor does what the vectors hel
     smaller.width = 50;
     smaller.height = 44;
     imageOf(session, scene, smaller);
-    ShownImage again;
+    ResolvedImage again;
     again.radiance.assign(4 * 150 * 130, NAN);
     again.depth.assign(150 * 130, NAN);
     session.upsample(one.small, one.samples, 150, 130, again);
@@ -436,11 +436,12 @@ TEST_CASE("upsampling: threads make no difference, nor does what the vectors hel
     const ToneMap toneMap{-0.5f, false};
     std::vector<uint8_t> expected(4 * 150 * 130), shown(4 * 150 * 130);
     std::vector<float> depth(150 * 130);
-    showImage(again, toneMap, Workers(1), expected.data(), nullptr);
-    session.showUpsampled(one.small, one.samples, 150, 130, {toneMap, shown.data(), depth.data()});
+    presentImage(again, toneMap, Workers(1), expected.data(), nullptr);
+    session.presentUpsampled(one.small, one.samples, 150, 130,
+                             {toneMap, shown.data(), depth.data()});
     CHECK(shown == expected);
     CHECK(depth == again.depth);
-    session.showUpsampled(one.small, one.samples, 150, 130, {toneMap, shown.data(), nullptr});
+    session.presentUpsampled(one.small, one.samples, 150, 130, {toneMap, shown.data(), nullptr});
     CHECK(shown == expected);
 }
 
@@ -462,7 +463,7 @@ TEST_CASE("upsampling: images of a pixel or a row, and sessions without any", "[
             CHECK(largestDepthError(u) <= 1e-6f);
         }
     RenderSession none(std::make_shared<Workers>(1));
-    ShownImage result;
+    ResolvedImage result;
     result.width = 3;
     CHECK(none.upsample({}, {}, 10, 10, result).traced == 0);
     CHECK(result.width == 0);

@@ -85,11 +85,11 @@ void measureError(Rows& rows, const std::string& name, const BenchScene& scene)
         for (uint32_t seed = 1; seed <= kSeeds; ++seed)
         {
             const auto session = box.render(passes, seed);
-            const ShownImage image = session->shownImage();
+            const ResolvedImage image = session->resolvedImage();
             before += relMse(image.radiance, reference) / kSeeds;
             const auto denoised = [&](DenoiseKind kind)
             {
-                ShownImage copy = image;
+                ResolvedImage copy = image;
                 Denoiser denoiser;
                 denoiser.denoise(copy, kind, surfacesOf(*session), box.workers());
                 // What takes its place is not it.
@@ -114,12 +114,12 @@ void measureOidnTime(Rows& rows)
 {
     const Box box(cornellBox(1920, 1080));
     const auto session = box.render(1, 1, 1);
-    const ShownImage image = session->shownImage();
+    const ResolvedImage image = session->resolvedImage();
     Denoiser denoiser;
     std::vector<double> times;
     for (int run = 0; run < 6; ++run)
     {
-        ShownImage copy = image;
+        ResolvedImage copy = image;
         const double time = secondsOf(
             [&]
             { denoiser.denoise(copy, DenoiseKind::Oidn, surfacesOf(*session), box.workers()); });
@@ -139,7 +139,7 @@ void measureTime(Rows& rows)
     {
         const auto session = box.render(passes, 1, 1);
         const std::vector<SurfaceSample> surfaces = session->surfaceSamples();
-        const ShownImage image = session->shownImage();
+        const ResolvedImage image = session->resolvedImage();
         for (const int threads : {1, 2})
         {
             const Workers workers(threads);
@@ -149,7 +149,7 @@ void measureTime(Rows& rows)
             std::vector<double> guides, filters;
             for (int run = 0; run < kRuns; ++run)
             {
-                ShownImage copy = image;
+                ResolvedImage copy = image;
                 guides.push_back(stopwatch(
                     [&] { denoise.setSurfaces(surfaces, image.width, image.height, workers); }));
                 filters.push_back(stopwatch([&] { denoise.filter(copy, workers); }));

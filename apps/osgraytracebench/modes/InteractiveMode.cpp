@@ -102,7 +102,7 @@ struct Display
                          fits ? shown->depth.data() : nullptr);
         if (tracer.needsResolve(version))
         {
-            const int width = tracer.shownWidth(), height = tracer.shownHeight();
+            const int width = tracer.displayWidth(), height = tracer.displayHeight();
             shown = width == view.width && height == view.height ? &full : &reduced;
             shown->resize(width, height);
             full.reserve(view.width, view.height);
@@ -113,7 +113,7 @@ struct Display
         {
             shown->upload(tracer.changed());
         }
-        tracer.noteShown();
+        tracer.recordPresented();
     }
 };
 
@@ -264,7 +264,7 @@ void addUnchanged(Rows& rows, const std::string& name, SceneVersion version, con
 
 /// Resolving all of full resolution and its copy; while passes add up tiles are resolved in the
 /// pass.
-void addShowing(Rows& rows, const SceneVersion& version, const View& view, const Clock& clock)
+void addPresenting(Rows& rows, const SceneVersion& version, const View& view, const Clock& clock)
 {
     RenderSession session(version.workers);
     session.setScene(version.scene);
@@ -341,7 +341,7 @@ void measureInteractive(const InteractiveOptions& options, Rows& rows)
             addTrip(rows, label, travel(version, view, 1e-3 * budget, clock), 1e-3 * budget);
         }
         addUnchanged(rows, name, version, view, clock);
-        if (name == "Cornell box") addShowing(rows, version, view, clock);
+        if (name == "Cornell box") addPresenting(rows, version, view, clock);
     };
     const BenchScene box = cornellBox(options.width, options.height);
     measure(

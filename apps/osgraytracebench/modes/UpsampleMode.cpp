@@ -103,7 +103,7 @@ void renderOnce(const std::shared_ptr<Workers>& workers, const Subject& subject,
 }
 
 /// relMSE of linear RGB.
-double errorOf(const ShownImage& image, const ShownImage& reference)
+double errorOf(const ResolvedImage& image, const ResolvedImage& reference)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i < reference.radiance.size(); ++i)
@@ -116,9 +116,9 @@ double errorOf(const ShownImage& image, const ShownImage& reference)
 }
 
 /// As blocks, or linear between pixels.
-ShownImage enlarged(const ShownImage& image, bool linear)
+ResolvedImage enlarged(const ResolvedImage& image, bool linear)
 {
-    ShownImage result;
+    ResolvedImage result;
     result.width = kWidth;
     result.height = kHeight;
     result.radiance.resize(4 * std::size_t(kWidth) * kHeight);
@@ -149,15 +149,15 @@ ShownImage enlarged(const ShownImage& image, bool linear)
     return result;
 }
 
-void writePicture(const ShownImage& image, const std::string& folder, std::string name)
+void writePicture(const ResolvedImage& image, const std::string& folder, std::string name)
 {
     if (folder.empty()) return;
     std::replace(name.begin(), name.end(), ' ', '-');
     std::replace(name.begin(), name.end(), ',', '_');
     osg::ref_ptr<osg::Image> pixels =
         newPixelImage(image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE);
-    ShownImage shown = image;
-    showImage(shown, {}, Workers(), pixels->data(), nullptr);
+    ResolvedImage shown = image;
+    presentImage(shown, {}, Workers(), pixels->data(), nullptr);
     blendOver(*pixels, osg::Vec4(0.2f, 0.2f, 0.4f, 1.0f));
     app::writeImageFile(folder + "/" + name + ".png", *pixels);
 }
@@ -175,18 +175,18 @@ void measure(Rows& rows, const Subject& subject, const std::string& pictures)
     const auto one = std::make_shared<Workers>(1);
     RenderSession full(std::make_shared<Workers>());
     renderTo(full, subject, 1, 16);
-    const ShownImage reference = full.shownImage();
+    const ResolvedImage reference = full.resolvedImage();
     writePicture(reference, pictures, subject.name + " full");
     for (const int divider : {2, 4})
     {
         RenderSession session(one);
         renderTo(session, subject, divider, 1);
         const std::string name = subject.name + ", 1/" + std::to_string(divider);
-        const ShownImage small = session.shownImage();
+        const ResolvedImage small = session.resolvedImage();
         const std::vector<SurfaceSample>& samples = session.surfaceSamples();
-        ShownImage result;
+        ResolvedImage result;
         const UpsampleCounts counts = session.upsample(small, samples, kWidth, kHeight, result);
-        const ShownImage blocks = enlarged(small, false), linear = enlarged(small, true);
+        const ResolvedImage blocks = enlarged(small, false), linear = enlarged(small, true);
         writePicture(blocks, pictures, name.substr(0, name.size() - 2) + " blocks " + name.back());
         writePicture(linear, pictures, name.substr(0, name.size() - 2) + " linear " + name.back());
         writePicture(result, pictures, name.substr(0, name.size() - 2) + " edges " + name.back());
@@ -197,7 +197,7 @@ void measure(Rows& rows, const Subject& subject, const std::string& pictures)
         rows.push_back({name + ": relMSE along edges", error, ""});
         rows.push_back({name + ": blocks / along edges", blockError / error, "times"});
         rows.push_back({name + ": linear / along edges", linearError / error, "times"});
-        ShownImage limited;
+        ResolvedImage limited;
         session.upsample(small, samples, kWidth, kHeight, limited, kMostTraced);
         writePicture(limited, pictures,
                      name.substr(0, name.size() - 2) + " limited " + name.back());
@@ -210,25 +210,28 @@ void measure(Rows& rows, const Subject& subject, const std::string& pictures)
         std::vector<uint8_t> rgba(4 * std::size_t(kWidth) * kHeight);
         std::vector<float> depth(std::size_t(kWidth) * kHeight);
         const DisplayTarget display{{}, rgba.data(), depth.data()};
-        rows.push_back({name + ": shownImage", milliseconds([&] { session.shownImage(); }), "ms"});
+        rows.push_back(
+            {name + ": shownImage", milliseconds([&] { session.resolvedImage(); }), "ms"});
         rows.push_back({name + ": a pass of the small image",
                         milliseconds([&] { renderOnce(one, subject, divider); }), "ms"});
         rows.push_back(
             {name + ": showUpsampled",
-             milliseconds([&] { session.showUpsampled(small, samples, kWidth, kHeight, display); }),
+             milliseconds([&]
+                          { session.presentUpsampled(small, samples, kWidth, kHeight, display); }),
              "ms"});
         rows.push_back(
             {name + ": upsample alone",
              milliseconds([&] { session.upsample(small, samples, kWidth, kHeight, result); }),
              "ms"});
         const auto limitedRun = [&]
-        { session.showUpsampled(small, samples, kWidth, kHeight, display, kMostTraced); };
+        { session.presentUpsampled(small, samples, kWidth, kHeight, display, kMostTraced); };
         rows.push_back({name + ": showUpsampled, limited", milliseconds(limitedRun), "ms"});
         rows.push_back({name + ": a whole pass of the full size",
                         milliseconds([&] { renderOnce(one, subject, 1); }), "ms"});
         rows.push_back(
             {name + ": showImage of the full size",
-             milliseconds([&] { showImage(result, {}, *one, rgba.data(), depth.data()); }), "ms"});
+             milliseconds([&] { presentImage(result, {}, *one, rgba.data(), depth.data()); }),
+             "ms"});
     }
 }
 

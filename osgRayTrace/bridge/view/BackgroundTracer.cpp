@@ -243,12 +243,12 @@ Outcome BackgroundTracer::Worker::traceAndResolve(const TraceRequest& request)
     // What was given up may wait: an image of its request is there, and another one is wanted.
     if (tracer.needsResolve(request.version) && !outdated)
     {
-        makeRoom(made, tracer.shownWidth(), tracer.shownHeight());
+        makeRoom(made, tracer.displayWidth(), tracer.displayHeight());
         made.slices = request.slices;
         tracer.resolve(made.color->data(), reinterpret_cast<float*>(made.depth->data()));
         handOver();
     }
-    if (request.traces) tracer.noteShown();
+    if (request.traces) tracer.recordPresented();
     Outcome outcome{tracer.progress(), tracer.frame(), true};
     if (outcome.progress.status.ok()) outcome.done = !request.traces || tracer.isDone();
     return outcome;

@@ -74,9 +74,9 @@ void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
         _history.enter(session, next.view, _viewDependence, *_workers);
 }
 
-ShownImage ImageStages::staged(const RenderSession& session)
+ResolvedImage ImageStages::staged(const RenderSession& session)
 {
-    ShownImage image = session.shownImage();
+    ResolvedImage image = session.resolvedImage();
     if (historyCounts(session)) _history.blend(image, session.progress().passes, *_workers);
     if (!denoises()) return image;
     const double begin = _now();
@@ -98,7 +98,7 @@ void ImageStages::show(const RenderSession& session, const ToneMap& toneMap, uin
     _upsampleSeconds *= kForgets;
     forgetEdges();
     if (denoises())
-        showImage(staged(session), toneMap, *_workers, rgba, depth);
+        presentImage(staged(session), toneMap, *_workers, rgba, depth);
     else if (historyCounts(session))
         _history.show(session, toneMap, rgba, depth);
     else
@@ -112,17 +112,17 @@ void ImageStages::forgetEdges()
     if (_edgeSeconds > guess) _edgeSeconds = std::max(guess, kForgets * _edgeSeconds);
 }
 
-void ImageStages::showUpsampled(const RenderSession& session, int width, int height,
-                                const DisplayTarget& display, double seconds)
+void ImageStages::presentUpsampled(const RenderSession& session, int width, int height,
+                                   const DisplayTarget& display, double seconds)
 {
     const double pixels = static_cast<double>(width) * height;
     const double plain = kUpsampleSeconds / _workers->threads();
     const double affordable = std::max(0.0, seconds / pixels - plain) / _edgeSeconds;
-    const ShownImage image = staged(session);
+    const ResolvedImage image = staged(session);
     const double begin = _now();
     const double mostTraced = std::min(kMostTraced, affordable);
-    const UpsampleCounts counts =
-        session.showUpsampled(image, session.surfaceSamples(), width, height, display, mostTraced);
+    const UpsampleCounts counts = session.presentUpsampled(image, session.surfaceSamples(), width,
+                                                           height, display, mostTraced);
     // A frame that something else held up is not all there is to know.
     const double seen = (_now() - begin) / pixels;
     const double traced = edgesWithin(counts, mostTraced);

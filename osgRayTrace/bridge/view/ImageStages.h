@@ -58,8 +58,8 @@ public:
 
     /// The image at a larger size, along the edges of what is seen as far as the seconds go, which
     /// earlier times tell; a target of that size.
-    void showUpsampled(const RenderSession& session, int width, int height,
-                       const DisplayTarget& display, double seconds);
+    void presentUpsampled(const RenderSession& session, int width, int height,
+                          const DisplayTarget& display, double seconds);
 
     /// Of the pixels of a reduced image, those that may be traced to upsample it.
     static constexpr double kMostTraced = 0.25;
@@ -79,7 +79,7 @@ private:
         const int passes = session.progress().passes;
         return passes > 0 && _history.counts(passes);
     }
-    ShownImage staged(const RenderSession& session);
+    ResolvedImage staged(const RenderSession& session);
     void forgetEdges();
 
     std::function<double()> _now;

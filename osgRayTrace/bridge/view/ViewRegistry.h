@@ -80,7 +80,7 @@ public:
     {
         std::lock_guard<std::mutex> lock(_mutex);
         const std::size_t eye = eyeOf(pass);
-        if (Entry* shown = findShown(pass))
+        if (Entry* shown = findPresented(pass))
         {
             shown->slices.push_back(pass.view);
             return {shown->state, true, allSlices(*shown, pass)};
@@ -182,7 +182,7 @@ private:
     }
 
     /// The view that another slice of the pass's picture has drawn in this frame.
-    Entry* findShown(const PassIdentity& pass)
+    Entry* findPresented(const PassIdentity& pass)
     {
         if (!depthPlanes(pass.view)) return nullptr;
         for (Entry& entry : _entries)

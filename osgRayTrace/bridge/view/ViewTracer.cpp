@@ -88,15 +88,15 @@ bool ViewTracer::takeInputs(const SceneVersion& version, const View& pass)
         _reduced = std::make_unique<RenderSession>(version.workers, version.photons);
         _stages.reset(_workers);
         _reducedStages.reset(_workers);
-        _shown = Shown::Whole;
+        _displayState = DisplayState::Whole;
         moved = true;
     }
     if (version.scene != _scene)
     {
         // What is not shown would only keep the last version of the scene from being changed in
         // place.
-        (_shown == Shown::Whole ? _reduced : _session)->clear();
-        if (_shown == Shown::Mixed) _shown = Shown::Reduced;
+        (_displayState == DisplayState::Whole ? _reduced : _session)->clear();
+        if (_displayState == DisplayState::Mixed) _displayState = DisplayState::Reduced;
         _scene = version.scene;
         moved = true;
     }
@@ -124,7 +124,7 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
     if (denoises()) rgba = nullptr; // that takes the whole image: resolve() does it
     _holdsFull = _holdsFull && rgba && !moved;
     // Depths are those of each tile's first pass.
-    const bool holdsDepth = _holdsFull && _shown == Shown::Whole;
+    const bool holdsDepth = _holdsFull && _displayState == DisplayState::Whole;
     _changed.reset(_view.width, _view.height);
     _display = {toneMapFromSettings(*version.settings, version.scene->scene()), rgba,
                 holdsDepth ? nullptr : depth};
@@ -153,19 +153,20 @@ bool ViewTracer::trace(const SceneVersion& version, const View& pass, const Fram
         frame.height = _view.height;
         frame.moved = moved;
         frame.degrade = budget.degrade;
-        setDeadline(budget.seconds, moved, expectedShowing(moved));
+        setDeadline(budget.seconds, moved, expectedPresentCost(moved));
         frame.seconds = secondsLeft();
         if (moved)
             traceMoved(frame, budget.seconds);
         else
             traceStill(frame);
     }
-    if (_shown == Shown::Reduced)
-        _showing = showingOf(_divider);
+    if (_displayState == DisplayState::Reduced)
+        _presentCost = presentCostOf(_divider);
     else if (_written)
-        _showing = _display.holdsImage ? Showing::Tiles : Showing::Whole;
+        _presentCost = _display.holdsImage ? PresentCost::Tiles : PresentCost::Whole;
     else
-        _showing = _shown == Shown::Mixed ? Showing::FirstMixed : Showing::Whole;
+        _presentCost =
+            _displayState == DisplayState::Mixed ? PresentCost::FirstMixed : PresentCost::Whole;
     _traceEnd = _now();
     return _written;
 }
@@ -202,32 +203,33 @@ void ViewTracer::chooseUpsampling(double seconds)
 }
 
 /// A view that moves is taken to have the resolution that it had when it moved last.
-ViewTracer::Showing ViewTracer::expectedShowing(bool moved) const
+ViewTracer::PresentCost ViewTracer::expectedPresentCost(bool moved) const
 {
-    if (moved && !_planner.knowsCosts()) return showingOf(FramePlanner::kFirstDivider);
+    if (moved && !_planner.knowsCosts()) return presentCostOf(FramePlanner::kFirstDivider);
     const bool reduced =
-        moved ? _divider > 1 : _shown == Shown::Reduced && _stillFrames < kSettling;
-    if (reduced) return showingOf(_divider);
-    if (_holdsFull) return Showing::Tiles;
-    return !moved && _shown == Shown::Reduced ? Showing::FirstMixed : Showing::Whole;
+        moved ? _divider > 1 : _displayState == DisplayState::Reduced && _stillFrames < kSettling;
+    if (reduced) return presentCostOf(_divider);
+    if (_holdsFull) return PresentCost::Tiles;
+    return !moved && _displayState == DisplayState::Reduced ? PresentCost::FirstMixed
+                                                            : PresentCost::Whole;
 }
 
 /// What comes after tracing will take as long as it did.
-void ViewTracer::setDeadline(double budget, bool moved, Showing showing)
+void ViewTracer::setDeadline(double budget, bool moved, PresentCost presentCost)
 {
-    const bool upsampled = showing == Showing::Upsampled;
+    const bool upsampled = presentCost == PresentCost::Upsampled;
     const View shown = upsampled ? reducedView(_view, _upsampleDivider) : _view;
     const double pixels = pixelsOf(shown);
-    double& after = _afterSeconds[static_cast<int>(showing)];
+    double& after = _afterSeconds[static_cast<int>(presentCost)];
     if (after == 0.0) // a guess
     {
-        if (showing != Showing::Reduced) after = pixels * kCopySeconds;
-        if (showing == Showing::FirstMixed) after = pixels * kEnlargeSeconds;
+        if (presentCost != PresentCost::Reduced) after = pixels * kCopySeconds;
+        if (presentCost == PresentCost::FirstMixed) after = pixels * kEnlargeSeconds;
         if (upsampled) after += _reducedStages.upsampleSeconds(shown.width, shown.height);
     }
     double seconds = budget - after;
     // Each thread ends the tile that it is at.
-    seconds -= _planner.tileSeconds(upsampled || showing == Showing::Reduced ? 2 : 1) *
+    seconds -= _planner.tileSeconds(upsampled || presentCost == PresentCost::Reduced ? 2 : 1) *
                _workers->threads();
     const int passes = _session->progress().passes;
     if (!moved && passes + 1 >= _nextEstimate) seconds -= _estimateSeconds;
@@ -238,10 +240,10 @@ void ViewTracer::traceFixed(int passes)
 {
     StopRule rule;
     rule.newPasses = passes;
-    const bool continues = _shown == Shown::Whole;
+    const bool continues = _displayState == DisplayState::Whole;
     const RenderProgress made = render(*_session, 1, rule, &_display);
     if (!made.status.ok() || made.passes < 1) return;
-    _shown = Shown::Whole;
+    _displayState = DisplayState::Whole;
     _imageChanged |= !continues && made.newTiles == 0;
     if (made.newTiles > 0) estimateError();
 }
@@ -253,7 +255,7 @@ void ViewTracer::traceMoved(FrameSituation frame, double budget)
     FramePlan plan = _planner.plan(frame);
     if (plan.divider > 1)
     {
-        setDeadline(budget, true, showingOf(plan.divider));
+        setDeadline(budget, true, presentCostOf(plan.divider));
         frame.seconds = secondsLeft();
     }
     bool traced = traceImage(plan, frame, frame.degrade);
@@ -296,7 +298,7 @@ bool ViewTracer::renderImage(int divider, StopRule& rule)
         render(reduced ? *_reduced : *_session, divider, rule, reduced ? nullptr : &_display);
     _planner.notePhotons(made.firstPhotonSeconds);
     if (!made.status.ok() || made.passes < 1) return false;
-    _shown = reduced ? Shown::Reduced : Shown::Whole;
+    _displayState = reduced ? DisplayState::Reduced : DisplayState::Whole;
     _divider = divider;
     _imageChanged |= made.newTiles == 0; // of an image that was there before
     return true;
@@ -310,12 +312,12 @@ void ViewTracer::traceStill(FrameSituation frame)
     // A tile at least, so that there is an end, however short the budget.
     rule.over = [&, start](int tiles, double ahead)
     { return tiles > 0 && _now() - start + ahead >= frame.seconds; };
-    if (_shown == Shown::Reduced && _stillFrames < kSettling)
+    if (_displayState == DisplayState::Reduced && _stillFrames < kSettling)
     {
         render(*_reduced, _divider, rule, nullptr);
         return;
     }
-    if (_shown != Shown::Reduced) frame.tilesLeft = _session->tilesLeft();
+    if (_displayState != DisplayState::Reduced) frame.tilesLeft = _session->tilesLeft();
     const double groupSeconds = kGroup * kGroup * _planner.tileSeconds(1);
     if (groupSeconds > 0.0 && kFewGroups * groupSeconds < frame.seconds) rule.groupedTiles = kGroup;
     rule.newPasses = _planner.plan(frame).passes;
@@ -330,12 +332,12 @@ void ViewTracer::addToImage(StopRule& rule)
     _display.holdsImage = true;
     const RenderProgress made = render(*_session, 1, rule, addsToDisplay ? &_display : nullptr);
     if (!made.status.ok()) return;
-    const Shown before = _shown;
+    const DisplayState before = _displayState;
     if (made.passes > 0)
-        _shown = Shown::Whole;
+        _displayState = DisplayState::Whole;
     else if (made.newTiles > 0)
-        _shown = Shown::Mixed;
-    _imageChanged |= _shown != before && !_written;
+        _displayState = DisplayState::Mixed;
+    _imageChanged |= _displayState != before && !_written;
     if (made.newTiles > 0) estimateError();
 }
 
@@ -353,9 +355,10 @@ void ViewTracer::traceAgreed(bool moved, FrameWork work, double budget)
         }
         const int passes = image().progress().passes;
         if (passes < std::min(work.passes, _maxPasses)) _agreement->cutShort(*_member, passes);
-        _agreedProgress = _shown == Shown::Whole ? int64_t(passes) * FrameWork::kWholePass : 0;
+        _agreedProgress =
+            _displayState == DisplayState::Whole ? int64_t(passes) * FrameWork::kWholePass : 0;
     }
-    else if (_shown == Shown::Reduced && _stillFrames < kSettling)
+    else if (_displayState == DisplayState::Reduced && _stillFrames < kSettling)
     {
         StopRule rule;
         rule.newPasses = work.passes;
@@ -395,7 +398,7 @@ void ViewTracer::traceAgreedProgress(const FrameWork& work)
 {
     constexpr int64_t kWhole = FrameWork::kWholePass;
     const int64_t tiles = tilesOf(_view.width, _view.height);
-    const bool begun = _shown != Shown::Reduced;
+    const bool begun = _displayState != DisplayState::Reduced;
     const int64_t done =
         begun ? _session->progress().passes * tiles + tiles - _session->tilesLeft() : 0;
     if (!_agreedProgress) _agreedProgress = done * kWhole / tiles;
@@ -495,22 +498,22 @@ bool ViewTracer::needsResolve(const SceneVersion& version)
 
 void ViewTracer::resolve(uint8_t* rgba, float* depth)
 {
-    switch (_shown)
+    switch (_displayState)
     {
-    case Shown::Whole:
+    case DisplayState::Whole:
         _stages.show(*_session, _toneMap, rgba, depth);
         break;
-    case Shown::Reduced:
-        showReduced(shownDivider(), rgba, depth);
+    case DisplayState::Reduced:
+        presentReduced(displayDivider(), rgba, depth);
         break;
-    case Shown::Mixed:
+    case DisplayState::Mixed:
         // Single tiles cannot be denoised: those of full resolution wait for all of them then.
         enlargeReduced(rgba, depth);
         if (!denoises()) _session->resolveOver(_toneMap, rgba, depth);
         break;
     }
-    _holdsFull = _shown == Shown::Reduced ? shownDivider() == 1 && !denoises()
-                                          : !stagesOf(image()).changes(image());
+    _holdsFull = _displayState == DisplayState::Reduced ? displayDivider() == 1 && !denoises()
+                                                        : !stagesOf(image()).changes(image());
     _resolved = _toneMap;
     _resolvedDenoise = _stages.denoise();
     _imageChanged = false;
@@ -522,14 +525,14 @@ std::vector<float> ViewTracer::radiance()
 }
 
 /// Upsampled along the edges of what is seen if the divider is less than that of the image.
-void ViewTracer::showReduced(int divider, uint8_t* rgba, float* depth)
+void ViewTracer::presentReduced(int divider, uint8_t* rgba, float* depth)
 {
     if (divider == _divider)
         _reducedStages.show(*_reduced, _toneMap, rgba, depth);
     else
-        _reducedStages.showUpsampled(*_reduced, reducedSize(_view.width, divider),
-                                     reducedSize(_view.height, divider), {_toneMap, rgba, depth},
-                                     _upsampleBudget);
+        _reducedStages.presentUpsampled(*_reduced, reducedSize(_view.width, divider),
+                                        reducedSize(_view.height, divider), {_toneMap, rgba, depth},
+                                        _upsampleBudget);
 }
 
 /// To full resolution: as far as there is time for it along edges, then with nothing but what
@@ -537,13 +540,13 @@ void ViewTracer::showReduced(int divider, uint8_t* rgba, float* depth)
 void ViewTracer::enlargeReduced(uint8_t* rgba, float* depth)
 {
     const int divider = std::min(_upsampleDivider, _divider);
-    if (divider == 1) return showReduced(1, rgba, depth);
+    if (divider == 1) return presentReduced(1, rgba, depth);
     const int width = reducedSize(_view.width, divider),
               height = reducedSize(_view.height, divider);
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     std::vector<uint8_t> smallRgba(4 * pixels);
     std::vector<float> smallDepth(pixels);
-    showReduced(divider, smallRgba.data(), smallDepth.data());
+    presentReduced(divider, smallRgba.data(), smallDepth.data());
     const DisplayPixels small{width, height, smallRgba.data(), smallDepth.data()};
     const DisplayPixels large{_view.width, _view.height, rgba, depth};
     enlarge(small, large, *_workers);
@@ -555,15 +558,15 @@ void ViewTracer::forgetDisplay()
     _resolved.reset();
 }
 
-void ViewTracer::noteShown()
+void ViewTracer::recordPresented()
 {
     const double end = _now();
     _frame.seconds = end - _begin;
-    _frame.divider = _shown == Shown::Whole ? 1 : _divider;
+    _frame.divider = _displayState == DisplayState::Whole ? 1 : _divider;
     _part.upsampleDivider = _ownUpsampleDivider;
     if (_agreement) _agreement->end(*_member, _part, end);
     if (_newTiles == 0) return;
-    double& after = _afterSeconds[static_cast<int>(_showing)];
+    double& after = _afterSeconds[static_cast<int>(_presentCost)];
     const double seen = end - _traceEnd;
     after = seen > 1.5 * after ? seen : after + (seen > after ? 0.5 : 0.25) * (seen - after);
 }
@@ -573,9 +576,10 @@ RenderProgress ViewTracer::progress() const
     if (!_session) return {};
     RenderProgress progress = image().progress();
     progress.status = _status;
-    progress.relativeError =
-        _shown == Shown::Whole ? _relativeError : std::numeric_limits<double>::infinity();
-    (_shown == Shown::Whole ? _stages : _reducedStages).report(image(), progress);
+    progress.relativeError = _displayState == DisplayState::Whole
+                                 ? _relativeError
+                                 : std::numeric_limits<double>::infinity();
+    (_displayState == DisplayState::Whole ? _stages : _reducedStages).report(image(), progress);
     return progress;
 }
 

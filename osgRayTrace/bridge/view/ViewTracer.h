@@ -23,7 +23,7 @@ namespace osgRayTrace::engine
 /// column of a view at rest wanders by its last digits; an image must go on nevertheless.
 bool sameButForRounding(const View& a, const View& b);
 
-/// How long a frame of a view may take, from trace() to noteShown().
+/// How long a frame of a view may take, from trace() to recordPresented().
 struct FrameBudget
 {
     double seconds = 0.0; ///< 0: as long as the settings' passes per frame take
@@ -44,7 +44,7 @@ struct FrameReport
     /// Of the width and height of what is shown. While full resolution fills in: of the reduced
     /// image that is seen where tiles are still missing.
     int divider = 1;
-    double seconds = 0.0;      ///< from trace() to noteShown()
+    double seconds = 0.0;      ///< from trace() to recordPresented()
     double traceSeconds = 0.0; ///< of these, in passes and photons
 };
 
@@ -82,30 +82,30 @@ public:
     /// was resolved last. False if there is no image.
     bool needsResolve(const SceneVersion& version);
 
-    /// Display values and window depths, shownWidth() * shownHeight() pixels.
+    /// Display values and window depths, displayWidth() * displayHeight() pixels.
     void resolve(uint8_t* rgba, float* depth);
 
     /// The display no longer holds what was resolved last: it has to be resolved again.
     void forgetDisplay();
 
     /// The frame that trace() began is on its way to the display.
-    void noteShown();
+    void recordPresented();
 
     /// Another trace() for the same would do nothing.
     bool isDone() const
     {
-        return _session && _status.ok() && _shown == Shown::Whole &&
+        return _session && _status.ok() && _displayState == DisplayState::Whole &&
                _session->progress().passes >= _maxPasses;
     }
 
     /// Of what resolve() writes: less than the pass's while the resolution is reduced.
-    int shownWidth() const
+    int displayWidth() const
     {
-        return upsamples() ? reducedSize(_view.width, shownDivider()) : image().width();
+        return upsamples() ? reducedSize(_view.width, displayDivider()) : image().width();
     }
-    int shownHeight() const
+    int displayHeight() const
     {
-        return upsamples() ? reducedSize(_view.height, shownDivider()) : image().height();
+        return upsamples() ? reducedSize(_view.height, displayDivider()) : image().height();
     }
 
     bool hasImage() const
@@ -125,7 +125,7 @@ public:
 
 private:
     /// What is shown.
-    enum class Shown
+    enum class DisplayState
     {
         Whole, ///< each tile of full resolution has a pass
         Reduced,
@@ -133,7 +133,7 @@ private:
     };
 
     /// What comes after tracing, by what it costs.
-    enum class Showing
+    enum class PresentCost
     {
         Whole,
         Tiles,      ///< some of them, or their colours alone: the display has the rest
@@ -141,12 +141,12 @@ private:
         Upsampled,  ///< at least a part of the way
         FirstMixed, ///< the reduced image is enlarged
     };
-    static constexpr int kShowings = 5;
+    static constexpr int kPresentCosts = 5;
 
     bool takeInputs(const SceneVersion& version, const View& pass);
     FrameAgreement::Part joinFrame(const FrameBudget& budget, bool moved);
-    Showing expectedShowing(bool moved) const;
-    void setDeadline(double budget, bool moved, Showing showing);
+    PresentCost expectedPresentCost(bool moved) const;
+    void setDeadline(double budget, bool moved, PresentCost presentCost);
     double secondsLeft() const { return _begin + _deadline - _now(); }
     void traceFixed(int passes);
     void traceMoved(FrameSituation frame, double budget);
@@ -161,7 +161,7 @@ private:
                           const DisplayTarget* display);
     void estimateError();
     void chooseUpsampling(double seconds);
-    void showReduced(int divider, uint8_t* rgba, float* depth);
+    void presentReduced(int divider, uint8_t* rgba, float* depth);
     void enlargeReduced(uint8_t* rgba, float* depth);
 
     void setDenoise(DenoiseKind kind);
@@ -172,24 +172,30 @@ private:
     }
 
     /// Of a reduced image of this divider.
-    Showing showingOf(int divider) const
+    PresentCost presentCostOf(int divider) const
     {
-        return _upsampleDivider < divider ? Showing::Upsampled : Showing::Reduced;
+        return _upsampleDivider < divider ? PresentCost::Upsampled : PresentCost::Reduced;
     }
     /// Of the width and height of what resolve() writes.
-    int shownDivider() const
+    int displayDivider() const
     {
-        return _shown == Shown::Reduced ? std::min(_upsampleDivider, _divider) : 1;
+        return _displayState == DisplayState::Reduced ? std::min(_upsampleDivider, _divider) : 1;
     }
-    bool upsamples() const { return _shown != Shown::Whole && shownDivider() < _divider; }
-    const RenderSession& image() const { return _shown == Shown::Whole ? *_session : *_reduced; }
+    bool upsamples() const
+    {
+        return _displayState != DisplayState::Whole && displayDivider() < _divider;
+    }
+    const RenderSession& image() const
+    {
+        return _displayState == DisplayState::Whole ? *_session : *_reduced;
+    }
 
     std::function<double()> _now;
     std::function<bool()> _interrupt;
     std::shared_ptr<Workers> _workers;
     std::unique_ptr<RenderSession> _session; ///< full resolution
     std::unique_ptr<RenderSession> _reduced; ///< has no image until one is needed
-    Shown _shown = Shown::Whole;
+    DisplayState _displayState = DisplayState::Whole;
     int _divider = 1; ///< of the reduced image
 
     // Of the inputs of the last frame
@@ -211,8 +217,9 @@ private:
     double _deadline = 0.0; ///< for tracing, from _begin on
     double _traceEnd = 0.0;
     int _newTiles = 0;
-    Showing _showing = Showing::Whole;
-    double _afterSeconds[kShowings] = {}; ///< by _showing: from _traceEnd to noteShown()
+    PresentCost _presentCost = PresentCost::Whole;
+    double _afterSeconds[kPresentCosts] =
+        {}; ///< by _presentCost: from _traceEnd to recordPresented()
 
     // What all views agree on
     std::shared_ptr<FrameAgreement> _agreement; ///< of this frame; null: none

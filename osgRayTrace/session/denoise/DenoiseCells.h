@@ -23,7 +23,7 @@ struct CellStatistics
 };
 
 /// Row y of the cells, from the image.
-void gatherCells(const ShownImage& image, const DenoiseGuides& guides, int y, CellLight& light,
+void gatherCells(const ResolvedImage& image, const DenoiseGuides& guides, int y, CellLight& light,
                  CellStatistics& statistics);
 
 /// Row y with its variance, and single bright cells brought down to what their neighbours bear.
@@ -46,6 +46,6 @@ void keepDetail(const DenoiseGuides& guides, const CellStatistics& statistics, i
 
 /// Row y of the pixels, from the filtered cells.
 void spreadCells(const DenoiseGuides& guides, const CellLight& filtered, const CellPlane& kept,
-                 int y, ShownImage& image);
+                 int y, ResolvedImage& image);
 
 } // namespace osgRayTrace::engine

@@ -54,7 +54,7 @@ void DenoiseFilter::setSurfaces(const std::vector<SurfaceSample>& surfaces, int 
     self.allocate();
 }
 
-void DenoiseFilter::filter(ShownImage& image, const Workers& workers)
+void DenoiseFilter::filter(ResolvedImage& image, const Workers& workers)
 {
     Implementation& self = *_implementation;
     const DenoiseGuides& guides = self.guides;

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/session/image/ShownImage.h"
+#include "osgRayTrace/session/image/ResolvedImage.h"
 
 #include <memory>
 
@@ -39,7 +39,7 @@ public:
 
     /// Changes the image's radiance; its errors are then not its own any more and stay as they are.
     /// Does nothing to an image of another size than that of the surfaces.
-    void filter(ShownImage& image, const Workers& workers);
+    void filter(ResolvedImage& image, const Workers& workers);
 
 private:
     struct Implementation;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/session/denoise/DenoisePlanes.h"
-#include "osgRayTrace/session/image/ShownImage.h"
+#include "osgRayTrace/session/image/ResolvedImage.h"
 
 namespace osgRayTrace::engine
 {

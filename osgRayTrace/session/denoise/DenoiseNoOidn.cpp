@@ -21,7 +21,7 @@ DenoiseOidn::~DenoiseOidn() = default;
 
 void DenoiseOidn::setSurfaces(const std::vector<SurfaceSample>&, int, int, const Workers&) {}
 
-void DenoiseOidn::filter(ShownImage&, const Workers&) {}
+void DenoiseOidn::filter(ResolvedImage&, const Workers&) {}
 
 const std::string& DenoiseOidn::failure() const
 {

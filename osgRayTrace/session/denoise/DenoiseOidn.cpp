@@ -104,7 +104,7 @@ struct DenoiseOidn::Implementation
     void allocate(int newWidth, int newHeight);
     std::string prepare(int wantedThreads);
     std::string makeFilter();
-    std::string run(ShownImage& image, const Workers& workers);
+    std::string run(ResolvedImage& image, const Workers& workers);
 
     /// Calls body(first, count) for the pixels of each row.
     void forRows(const Workers& workers,
@@ -181,7 +181,7 @@ std::string DenoiseOidn::Implementation::makeFilter()
     return error.empty() && !filter ? "there is no filter for ray traced images" : error;
 }
 
-std::string DenoiseOidn::Implementation::run(ShownImage& image, const Workers& workers)
+std::string DenoiseOidn::Implementation::run(ResolvedImage& image, const Workers& workers)
 {
     const std::string notReady = prepare(workers.threads());
     if (!notReady.empty()) return notReady;
@@ -238,7 +238,7 @@ void DenoiseOidn::setSurfaces(const std::vector<SurfaceSample>& surfaces, int wi
                  });
 }
 
-void DenoiseOidn::filter(ShownImage& image, const Workers& workers)
+void DenoiseOidn::filter(ResolvedImage& image, const Workers& workers)
 {
     Implementation& self = *_implementation;
     if (image.width != self.width || image.height != self.height || self.width == 0) return;

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/session/image/ShownImage.h"
+#include "osgRayTrace/session/image/ResolvedImage.h"
 
 #include <memory>
 #include <string>
@@ -36,7 +36,7 @@ public:
 
     /// Changes the image's radiance, but for a failure. Does nothing to an image of another size
     /// than that of the surfaces. Throws std::bad_alloc.
-    void filter(ShownImage& image, const Workers& workers);
+    void filter(ResolvedImage& image, const Workers& workers);
 
     /// What went wrong; empty: nothing. After a failure nothing is tried again.
     const std::string& failure() const;

@@ -225,7 +225,7 @@ FilteredRow filteredRow(const CellLight& light, const CellPlane& kept, int c, in
     return {light.r.row(y) + c, light.g.row(y) + c, light.b.row(y) + c, kept.row(y) + c};
 }
 
-std::size_t pixelOf(const ShownImage& image, int x, int y)
+std::size_t pixelOf(const ResolvedImage& image, int x, int y)
 {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
            static_cast<std::size_t>(x);
@@ -233,7 +233,7 @@ std::size_t pixelOf(const ShownImage& image, int x, int y)
 
 } // namespace
 
-void gatherCells(const ShownImage& image, const DenoiseGuides& guides, int y, CellLight& light,
+void gatherCells(const ResolvedImage& image, const DenoiseGuides& guides, int y, CellLight& light,
                  CellStatistics& statistics)
 {
     const bool hasErrors = !image.error.empty();
@@ -265,7 +265,7 @@ void gatherCells(const ShownImage& image, const DenoiseGuides& guides, int y, Ce
 }
 
 void spreadCells(const DenoiseGuides& guides, const CellLight& filtered, const CellPlane& kept,
-                 int y, ShownImage& image)
+                 int y, ResolvedImage& image)
 {
     Mixed mixed;
     const int next = (y & 1) ? y / 2 + 1 : y / 2 - 1;

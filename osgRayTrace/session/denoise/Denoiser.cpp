@@ -5,7 +5,7 @@
 namespace osgRayTrace::engine
 {
 
-void Denoiser::denoise(ShownImage& image, DenoiseKind kind, const Surfaces& surfaces,
+void Denoiser::denoise(ResolvedImage& image, DenoiseKind kind, const Surfaces& surfaces,
                        const Workers& workers)
 {
     _report = {};
@@ -15,7 +15,7 @@ void Denoiser::denoise(ShownImage& image, DenoiseKind kind, const Surfaces& surf
 }
 
 /// False if it cannot be; the image is as it was then.
-bool Denoiser::denoiseByOidn(ShownImage& image, const Surfaces& surfaces, const Workers& workers)
+bool Denoiser::denoiseByOidn(ResolvedImage& image, const Surfaces& surfaces, const Workers& workers)
 {
     if (!_oidn) _oidn = std::make_unique<DenoiseOidn>();
     if (_oidn->failure().empty())
@@ -33,7 +33,8 @@ bool Denoiser::denoiseByOidn(ShownImage& image, const Surfaces& surfaces, const 
     return false;
 }
 
-void Denoiser::denoiseByFilter(ShownImage& image, const Surfaces& surfaces, const Workers& workers)
+void Denoiser::denoiseByFilter(ResolvedImage& image, const Surfaces& surfaces,
+                               const Workers& workers)
 {
     if (!_filter) _filter = std::make_unique<DenoiseFilter>();
     if (!_filterKnows) _filter->setSurfaces(surfaces(), image.width, image.height, workers);

@@ -27,14 +27,14 @@ public:
 
     /// Changes the image's radiance; surfaces is asked for what is seen in its pixels if that is
     /// not known. Throws std::bad_alloc, and what surfaces throws.
-    void denoise(ShownImage& image, DenoiseKind kind, const Surfaces& surfaces,
+    void denoise(ResolvedImage& image, DenoiseKind kind, const Surfaces& surfaces,
                  const Workers& workers);
 
     const DenoiseReport& report() const { return _report; }
 
 private:
-    bool denoiseByOidn(ShownImage& image, const Surfaces& surfaces, const Workers& workers);
-    void denoiseByFilter(ShownImage& image, const Surfaces& surfaces, const Workers& workers);
+    bool denoiseByOidn(ResolvedImage& image, const Surfaces& surfaces, const Workers& workers);
+    void denoiseByFilter(ResolvedImage& image, const Surfaces& surfaces, const Workers& workers);
 
     // Null until they are needed.
     std::unique_ptr<DenoiseFilter> _filter;

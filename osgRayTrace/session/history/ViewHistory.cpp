@@ -197,7 +197,7 @@ void ViewHistory::drop()
     *this = ViewHistory();
 }
 
-void ViewHistory::blend(ShownImage& image, int passes, const Workers& workers) const
+void ViewHistory::blend(ResolvedImage& image, int passes, const Workers& workers) const
 {
     if (!counts(passes) || image.width != _history.width || image.height != _history.height) return;
     const auto width = static_cast<std::size_t>(image.width);

@@ -4,7 +4,7 @@
 
 #include "osgRayTrace/film/ToneMap.h"
 #include "osgRayTrace/session/history/Reprojection.h"
-#include "osgRayTrace/session/image/ShownImage.h"
+#include "osgRayTrace/session/image/ResolvedImage.h"
 
 namespace osgRayTrace::engine
 {
@@ -62,10 +62,10 @@ public:
     /// errors: those of all samples together. Below two passes the error is estimated by how film
     /// and history differ; where there is no history it is not known, and then as large as the
     /// radiance.
-    void blend(ShownImage& image, int passes, const Workers& workers) const;
+    void blend(ResolvedImage& image, int passes, const Workers& workers) const;
 
     /// The session's image with the history, as display values and window depths. For less than
-    /// blend and showImage, and the next leave then finds half of its work done.
+    /// blend and presentImage, and the next leave then finds half of its work done.
     void show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba, float* depth);
 
     double share() const { return _share; }     ///< of pixels with history

@@ -4,7 +4,7 @@
 
 #include "osgRayTrace/integrators/shared/Integrator.h"
 #include "osgRayTrace/session/image/Channel.h"
-#include "osgRayTrace/session/image/ShownImage.h"
+#include "osgRayTrace/session/image/ResolvedImage.h"
 
 namespace osgRayTrace::engine
 {

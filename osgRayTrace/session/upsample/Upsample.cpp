@@ -168,7 +168,7 @@ UpsampleCounts traceEdges(const UpsampleSource& source, const UpsampleCells& cel
 /// Calls finish(first row, rows, their radiance) for each strip; place(first row) is where the
 /// radiance goes.
 template <class Place, class Finish>
-UpsampleCounts forEachStrip(const ShownImage& image, const std::vector<SurfaceSample>& samples,
+UpsampleCounts forEachStrip(const ResolvedImage& image, const std::vector<SurfaceSample>& samples,
                             const PassContext& full, double mostTraced, const Workers& workers,
                             float* depth, const Place& place, const Finish& finish)
 {
@@ -206,9 +206,9 @@ UpsampleCounts forEachStrip(const ShownImage& image, const std::vector<SurfaceSa
 
 } // namespace
 
-UpsampleCounts upsample(const ShownImage& image, const std::vector<SurfaceSample>& samples,
+UpsampleCounts upsample(const ResolvedImage& image, const std::vector<SurfaceSample>& samples,
                         const PassContext& full, double mostTraced, const Workers& workers,
-                        ShownImage& result)
+                        ResolvedImage& result)
 {
     const auto pixels =
         static_cast<std::size_t>(full.width) * static_cast<std::size_t>(full.height);
@@ -223,9 +223,10 @@ UpsampleCounts upsample(const ShownImage& image, const std::vector<SurfaceSample
         [](std::size_t, std::size_t, const float*) {});
 }
 
-UpsampleCounts showUpsampled(const ShownImage& image, const std::vector<SurfaceSample>& samples,
-                             const PassContext& full, double mostTraced, const ToneMap& toneMap,
-                             const Workers& workers, uint8_t* rgba, float* depth)
+UpsampleCounts presentUpsampled(const ResolvedImage& image,
+                                const std::vector<SurfaceSample>& samples, const PassContext& full,
+                                double mostTraced, const ToneMap& toneMap, const Workers& workers,
+                                uint8_t* rgba, float* depth)
 {
     const std::size_t values = 4 * kStripRows * static_cast<std::size_t>(full.width);
     return forEachStrip(

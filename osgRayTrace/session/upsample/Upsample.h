@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/integrators/shared/Integrator.h"
-#include "osgRayTrace/session/image/ShownImage.h"
+#include "osgRayTrace/session/image/ResolvedImage.h"
 
 namespace osgRayTrace::engine
 {
@@ -28,14 +28,15 @@ namespace osgRayTrace::engine
 /// it is counted in cells.
 ///
 /// Pictures do not depend on threads. Vectors of result that have its size already are used again.
-UpsampleCounts upsample(const ShownImage& image, const std::vector<SurfaceSample>& samples,
+UpsampleCounts upsample(const ResolvedImage& image, const std::vector<SurfaceSample>& samples,
                         const PassContext& full, double mostTraced, const Workers& workers,
-                        ShownImage& result);
+                        ResolvedImage& result);
 
 /// The same as display values, 4 bytes a pixel, and window depths, which may be null: in the cache,
-/// and so for less than upsample and showImage.
-UpsampleCounts showUpsampled(const ShownImage& image, const std::vector<SurfaceSample>& samples,
-                             const PassContext& full, double mostTraced, const ToneMap& toneMap,
-                             const Workers& workers, uint8_t* rgba, float* depth);
+/// and so for less than upsample and presentImage.
+UpsampleCounts presentUpsampled(const ResolvedImage& image,
+                                const std::vector<SurfaceSample>& samples, const PassContext& full,
+                                double mostTraced, const ToneMap& toneMap, const Workers& workers,
+                                uint8_t* rgba, float* depth);
 
 } // namespace osgRayTrace::engine

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/scene/View.h"
-#include "osgRayTrace/session/image/ShownImage.h"
+#include "osgRayTrace/session/image/ResolvedImage.h"
 
 #include <cstdint>
 #include <vector>

@@ -205,7 +205,7 @@ void lookFarther(const UpsampleSource& source, const LanePlaces& place, const La
                  const RayBlock& ray, int i, RgbaLanes& rgba)
 {
     constexpr int kReach = 2;
-    const ShownImage& image = source.image;
+    const ResolvedImage& image = source.image;
     const CameraRays& c = source.full.camera;
     const auto unit = static_cast<float>(source.full.traced->scene().unit);
     const Vec3 position = laneOf(at.position, i), geometric = laneOf(at.geometric, i);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "osgRayTrace/integrators/shared/Integrator.h"
-#include "osgRayTrace/session/image/ShownImage.h"
+#include "osgRayTrace/session/image/ResolvedImage.h"
 #include "osgRayTrace/session/upsample/UpsampleCells.h"
 
 namespace osgRayTrace::engine
@@ -13,7 +13,7 @@ namespace osgRayTrace::engine
 /// What all blocks of an image work with.
 struct UpsampleSource
 {
-    const ShownImage& image;
+    const ResolvedImage& image;
     const SurfaceSample* samples;
     const PassContext& full;
     UpsampleAxis x, y;

@@ -1,4 +1,5 @@
-// ShownView.h - the image of a view, and how it comes to the display. Layer: public API, private.
+// ViewPresenter.h - the image of a view, and how it comes to the display. Layer: public API,
+// private.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -32,7 +33,7 @@ struct ViewFrame
 /// for; before the first one it draws nothing. Both go on with the same accumulated image, so the
 /// presentation may change from frame to frame. Draw thread of the view's context, unless stated
 /// otherwise.
-class ShownView
+class ViewPresenter
 {
 public:
     /// Brings the display up to date. Throws std::bad_alloc, std::system_error.
@@ -65,7 +66,7 @@ private:
     DisplayTexture _display;
     std::vector<engine::View> _slices; ///< that are asked for
     std::vector<engine::View>
-        _shownSlices; ///< of the passes that the display's image was traced for
+        _presentedSlices; ///< of the passes that the display's image was traced for
     std::atomic<bool> _inBackground{false};
     bool _traced = false;        ///< in this frame, by draw
     uint64_t _frames = 0;        ///< that the view has drawn

@@ -1,6 +1,6 @@
-// ShownView.cpp - the image of a view, and how it comes to the display. Layer: public API.
+// ViewPresenter.cpp - the image of a view, and how it comes to the display. Layer: public API.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/ShownView.h"
+#include "osgRayTrace/ViewPresenter.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace osgRayTrace
 {
 
 /// What has to be traced for a pass, if anything: not what another slice of its picture has made.
-std::optional<engine::View> ShownView::viewToTrace(const ViewFrame& frame)
+std::optional<engine::View> ViewPresenter::viewToTrace(const ViewFrame& frame)
 {
     const engine::View& pass = frame.pass;
     const bool moved = _slices.empty() || !engine::sameRays(_slices.front(), pass);
@@ -25,7 +25,7 @@ std::optional<engine::View> ShownView::viewToTrace(const ViewFrame& frame)
     return needed;
 }
 
-void ShownView::update(const ViewFrame& frame)
+void ViewPresenter::update(const ViewFrame& frame)
 {
     if (!frame.shared) ++_frames;
     if (frame.version.settings->getPresentation() == RayTraceSettings::BACKGROUND)
@@ -34,7 +34,7 @@ void ShownView::update(const ViewFrame& frame)
         traceNow(frame);
 }
 
-void ShownView::traceNow(const ViewFrame& frame)
+void ViewPresenter::traceNow(const ViewFrame& frame)
 {
     if (_inBackground) _tracer.stop();
     const auto tracer = _tracer.lease();
@@ -55,16 +55,16 @@ void ShownView::traceNow(const ViewFrame& frame)
     }
     if (tracer->needsResolve(frame.version))
     {
-        const int width = tracer->shownWidth(), height = tracer->shownHeight();
+        const int width = tracer->displayWidth(), height = tracer->displayHeight();
         _display.resize(width, height, width == frame.pass.width && height == frame.pass.height);
         _display.reserve(frame.pass.width, frame.pass.height);
         tracer->resolve(_display.rgba(), _display.depth());
         _display.modified();
     }
-    _shownSlices = _slices;
+    _presentedSlices = _slices;
 }
 
-void ShownView::askWorker(const ViewFrame& frame)
+void ViewPresenter::askWorker(const ViewFrame& frame)
 {
     _inBackground = true;
     _traced = false;
@@ -78,26 +78,27 @@ void ShownView::askWorker(const ViewFrame& frame)
     // All slices of a frame show one image.
     if (frame.shared || !_tracer.takeNewest(_newest)) return;
     _display.show(_newest.color.get(), _newest.depth.get());
-    _shownSlices = _newest.slices;
+    _presentedSlices = _newest.slices;
 }
 
-bool ShownView::draw(osg::RenderInfo& renderInfo, const engine::View& pass)
+bool ViewPresenter::draw(osg::RenderInfo& renderInfo, const engine::View& pass)
 {
-    const engine::DepthMap depths =
-        _shownSlices.size() > 1 ? engine::depthMap(pass, _shownSlices) : engine::depthMap(pass);
+    const engine::DepthMap depths = _presentedSlices.size() > 1
+                                        ? engine::depthMap(pass, _presentedSlices)
+                                        : engine::depthMap(pass);
     const bool drawn = _display.width() == 0 || _display.draw(renderInfo, depths);
-    if (_traced) _tracer.lease()->noteShown();
+    if (_traced) _tracer.lease()->recordPresented();
     return drawn;
 }
 
-engine::TraceReport ShownView::report(const engine::SceneVersion& version)
+engine::TraceReport ViewPresenter::report(const engine::SceneVersion& version)
 {
     if (_inBackground) return _tracer.report(_frames);
     const auto tracer = _tracer.lease();
     return {tracer->progress(), tracer->frame(), version.scene, true, 0};
 }
 
-osg::ref_ptr<osg::Image> ShownView::radiance() const
+osg::ref_ptr<osg::Image> ViewPresenter::radiance() const
 {
     const auto tracer = _tracer.lease();
     if (!tracer->hasImage()) return nullptr;

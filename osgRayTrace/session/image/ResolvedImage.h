@@ -1,4 +1,4 @@
-// ShownImage.h - a view's image on its way to the display, where more is done to it than a tone
+// ResolvedImage.h - a view's image on its way to the display, where more is done to it than a tone
 // map. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -15,7 +15,7 @@ namespace osgRayTrace::engine
 class Workers;
 
 /// Pixels in rows, row 0 at the bottom.
-struct ShownImage
+struct ResolvedImage
 {
     int width = 0;
     int height = 0;
@@ -35,7 +35,7 @@ struct UpsampleCounts
 };
 
 /// Display values of the image, 4 bytes a pixel, and its depths, which may be null.
-void showImage(const ShownImage& image, const ToneMap& toneMap, const Workers& workers,
-               uint8_t* rgba, float* depth);
+void presentImage(const ResolvedImage& image, const ToneMap& toneMap, const Workers& workers,
+                  uint8_t* rgba, float* depth);
 
 } // namespace osgRayTrace::engine

@@ -1,5 +1,5 @@
-// ShownImageTest.cpp - images that take the long way to the display are those that take the short
-// one.
+// ResolvedImageTest.cpp - images that take the long way to the display are those that take the
+// short one.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/ToneMap.h"
 #include "osgRayTrace/session/image/SurfaceMap.h"
@@ -30,12 +30,12 @@ std::shared_ptr<const TracedScene> litPlane(bool displayReferred)
 
 } // namespace
 
-TEST_CASE("shown image: display values and depths are those of resolveDisplay", "[session]")
+TEST_CASE("resolved image: display values and depths are those of resolveDisplay", "[session]")
 {
     for (const bool displayReferred : {false, true})
     {
         RenderSession session(std::make_shared<Workers>(2));
-        CHECK(session.shownImage().width == 0);
+        CHECK(session.resolvedImage().width == 0);
         CHECK(session.surfaceSamples().empty());
         session.setScene(litPlane(displayReferred));
         session.setView(perspectiveView({0, 0, 6}, {0, 0, 0}, {0, 1, 0}, 50.0, kWidth, kHeight));
@@ -45,7 +45,7 @@ TEST_CASE("shown image: display values and depths are those of resolveDisplay", 
             StopRule rule;
             rule.passes = passes;
             REQUIRE(session.render(rule).status.ok());
-            const ShownImage image = session.shownImage();
+            const ResolvedImage image = session.resolvedImage();
             CHECK(image.error.size() == (passes < 2 ? 0u : 3u * kWidth * kHeight));
             for (const float exposure : {0.0f, -1.5f})
             {
@@ -53,7 +53,7 @@ TEST_CASE("shown image: display values and depths are those of resolveDisplay", 
                 std::vector<uint8_t> expected(4 * kWidth * kHeight), shown(4 * kWidth * kHeight);
                 std::vector<float> expectedDepth(kWidth * kHeight), depth(kWidth * kHeight);
                 session.resolveDisplay(toneMap, expected.data(), expectedDepth.data());
-                showImage(image, toneMap, Workers(2), shown.data(), depth.data());
+                presentImage(image, toneMap, Workers(2), shown.data(), depth.data());
                 CHECK(depth == expectedDepth);
                 int brightest = 0, largest = 0;
                 for (std::size_t i = 0; i < shown.size(); ++i)
@@ -69,7 +69,7 @@ TEST_CASE("shown image: display values and depths are those of resolveDisplay", 
     }
 }
 
-TEST_CASE("shown image: samples of surfaces are the channels of the first hit", "[session]")
+TEST_CASE("resolved image: samples of surfaces are the channels of the first hit", "[session]")
 {
     RenderSession session(std::make_shared<Workers>(2));
     session.setScene(litPlane(false));
@@ -100,7 +100,7 @@ TEST_CASE("shown image: samples of surfaces are the channels of the first hit", 
     CHECK(hits < kWidth * kHeight - 100);
 }
 
-TEST_CASE("shown image: surfaces' albedo is linear where the film is not", "[session]")
+TEST_CASE("resolved image: surfaces' albedo is linear where the film is not", "[session]")
 {
     RenderSession session(std::make_shared<Workers>(2));
     session.setScene(litPlane(true));
@@ -120,7 +120,7 @@ TEST_CASE("shown image: surfaces' albedo is linear where the film is not", "[ses
     CHECK(hits > 100);
 }
 
-TEST_CASE("shown image: samples tell lamps and mirrors from what scatters light", "[session]")
+TEST_CASE("resolved image: samples tell lamps and mirrors from what scatters light", "[session]")
 {
     SceneBuilder builder;
     builder.add(quadMesh({-4, -4, 0}, {4, 0, 0}, {0, 8, 0}), lambert(Vec3(0.5f)));
@@ -140,7 +140,7 @@ TEST_CASE("shown image: samples tell lamps and mirrors from what scatters light"
 }
 
 TEST_CASE(
-    "shown image: samples that a first pass through the middles notes are those traced for them",
+    "resolved image: samples that a first pass through the middles notes are those traced for them",
     "[session]")
 {
     SceneBuilder builder = cornellBox();
@@ -206,8 +206,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("shown image: what first samples met is what is seen there, and nothing is traced for it",
-          "[session]")
+TEST_CASE(
+    "resolved image: what first samples met is what is seen there, and nothing is traced for it",
+    "[session]")
 {
     SceneBuilder builder = cornellBox();
     for (Material& material : builder.scene->materials)

@@ -1,6 +1,6 @@
-// ShownImage.cpp - a view's image on its way to the display. Layer: session.
+// ResolvedImage.cpp - a view's image on its way to the display. Layer: session.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/session/image/ShownImage.h"
+#include "osgRayTrace/session/image/ResolvedImage.h"
 
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/film/Resolve.h"
@@ -10,8 +10,8 @@
 namespace osgRayTrace::engine
 {
 
-void showImage(const ShownImage& image, const ToneMap& toneMap, const Workers& workers,
-               uint8_t* rgba, float* depth)
+void presentImage(const ResolvedImage& image, const ToneMap& toneMap, const Workers& workers,
+                  uint8_t* rgba, float* depth)
 {
     const auto width = static_cast<std::size_t>(image.width);
     workers.forEach(static_cast<std::size_t>(image.height),
