@@ -49,26 +49,26 @@ PlacedScenes::PlacedScenes(RTCDevice device)
 
 bool PlacedScenes::holds(const std::vector<Placement>& placements) const
 {
-    if (placements.size() != _prints.size()) return false;
+    if (placements.size() != _hashes.size()) return false;
     for (std::size_t i = 0; i < placements.size(); ++i)
-        if (placements[i].print != _prints[i]) return false;
+        if (placements[i].hash != _hashes[i]) return false;
     return true;
 }
 
 bool PlacedScenes::set(const std::vector<Placement>& placements)
 {
-    const std::size_t before = _prints.size(), count = placements.size();
+    const std::size_t before = _hashes.size(), count = placements.size();
     bool changed = before != count;
     if (changed)
     {
         _scenes.reserve(count); // no more than that
         _scenes.resize(count);
-        _prints.reserve(count);
-        _prints.resize(count);
+        _hashes.reserve(count);
+        _hashes.resize(count);
     }
     for (std::size_t i = 0; i < count; ++i)
     {
-        if (i < before && _prints[i] == placements[i].print) continue;
+        if (i < before && _hashes[i] == placements[i].hash) continue;
         put(i, placements[i]);
         changed = true;
     }
@@ -95,7 +95,7 @@ void PlacedScenes::put(std::size_t i, const Placement& placement)
     const Affine m = placement.engineFromLocal ? inverse(*placement.engineFromLocal) : Affine();
     std::memcpy(placed.localFromEngine, &m.linear, 9 * sizeof(float));
     std::memcpy(placed.localFromEngine + 9, &m.translation, 3 * sizeof(float));
-    _prints[i] = placement.print;
+    _hashes[i] = placement.hash;
 }
 
 } // namespace osgRayTrace::engine

@@ -21,7 +21,7 @@ using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Geome
 struct Placement
 {
     RTCScene scene = nullptr;
-    uint64_t print = 0;                      ///< of all the rest: two alike hardly ever differ
+    uint64_t hash = 0;                       ///< of all the rest: two alike hardly ever differ
     const Outline* outline = nullptr;        ///< null: the scene's bounds
     const Affine* engineFromLocal = nullptr; ///< null: in place
     uint32_t instance = kInvalid;            ///< that its hits are on; used if there is a transform
@@ -65,7 +65,7 @@ private:
     const Placement* _placements = nullptr;
     // By primitive:
     std::vector<PlacedScene> _scenes;
-    std::vector<uint64_t> _prints;
+    std::vector<uint64_t> _hashes;
 };
 
 /// Of a scene that is committed.

@@ -54,21 +54,21 @@ double reachOf(const Affine& m)
 }
 
 /// Of a placement: two alike are hardly ever different ones.
-uint64_t printOf(uint64_t serial, uint32_t instance, const Affine& m)
+uint64_t hashOf(uint64_t serial, uint32_t instance, const Affine& m)
 {
     float values[12];
     std::memcpy(values, &m.linear, 9 * sizeof(float));
     std::memcpy(values + 9, &m.translation, 3 * sizeof(float));
-    uint64_t print = (serial ^ (uint64_t(instance) << 32)) * 0x9e3779b97f4a7c15u;
-    print ^= print >> 32;
+    uint64_t hash = (serial ^ (uint64_t(instance) << 32)) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 32;
     for (int i = 0; i < 12; i += 2)
     {
         uint64_t bits;
         std::memcpy(&bits, values + i, sizeof bits);
-        print = (print ^ bits) * 0xbf58476d1ce4e5b9u;
-        print ^= print >> 29;
+        hash = (hash ^ bits) * 0xbf58476d1ce4e5b9u;
+        hash ^= hash >> 29;
     }
-    return print;
+    return hash;
 }
 
 bool samePlace(const Instance& a, const Instance& b)
@@ -310,7 +310,7 @@ void TracedScene::Implementation::makeRoot(const Implementation* old, BuildCount
         placement.outline = prototype.outline ? &*prototype.outline : nullptr;
         placement.engineFromLocal = &instance.engineFromLocal;
         placement.instance = static_cast<uint32_t>(i);
-        placement.print = printOf(prototype.serial, placement.instance, instance.engineFromLocal);
+        placement.hash = hashOf(prototype.serial, placement.instance, instance.engineFromLocal);
         placements.push_back(placement);
     }
     if (placements.empty() && flat) return;
@@ -318,7 +318,7 @@ void TracedScene::Implementation::makeRoot(const Implementation* old, BuildCount
     {
         Placement placement;
         placement.scene = flat->scene.get();
-        placement.print = printOf(flat->serial, kInvalid, Affine());
+        placement.hash = hashOf(flat->serial, kInvalid, Affine());
         placements.push_back(placement);
     }
     root = old && old->root && old->root->placed->holds(placements)

@@ -1,6 +1,6 @@
 // EnvironmentsTest.cpp - EnvironmentLight nodes: axes, rotation, images of all kinds, wrong ones.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/shading/PlacedEnvironment.h"
 
 #include "tests/Catch.h"
@@ -310,14 +310,14 @@ TEST_CASE("environment light: every edit makes a new scene, none keeps the image
     scene.root->addChild(parent);
     const ViewingConditions conditions;
     auto last = scene.convert().scene;
-    auto fingerprint = graphFingerprint(*scene.root, conditions);
+    auto hash = graphHash(*scene.root, conditions);
     CHECK(scene.convert().scene == last);
     const auto changed = [&](const char* what, bool keepsImage)
     {
         INFO(what);
-        const uint64_t now = graphFingerprint(*scene.root, conditions);
-        CHECK(now != fingerprint);
-        fingerprint = now;
+        const uint64_t now = graphHash(*scene.root, conditions);
+        CHECK(now != hash);
+        hash = now;
         const auto next = scene.convert().scene;
         CHECK(next != last);
         if (!next->lights.empty() && !last->lights.empty())

@@ -1,7 +1,7 @@
 // ManyPathsTest.cpp - shared subgraphs with more paths than any traversal could follow, and nodes
 // that change the graph while it is traversed. Layer: tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/bridge/changes/GraphWatch.h"
 #include "osgRayTrace/bridge/convert/SceneConverter.h"
 #include "osgRayTrace/bridge/graph/PathBudget.h"
@@ -95,7 +95,7 @@ TEST_CASE("many paths: a conversion ends, names what it leaves out, and leaves t
     CHECK(result.rasterized->size() == countOf(result, "rasterized.too-many-paths"));
 }
 
-TEST_CASE("many paths: so do the watch, fingerprints and bounds", "[bridge]")
+TEST_CASE("many paths: so do the watch, hashes and bounds", "[bridge]")
 {
     const osg::ref_ptr<osg::Group> many = doubled(40, smallQuad());
     const ViewingConditions conditions;
@@ -107,7 +107,7 @@ TEST_CASE("many paths: so do the watch, fingerprints and bounds", "[bridge]")
 
     const osg::ref_ptr<osg::LOD> levels = new osg::LOD;
     levels->addChild(many, 0.0f, 1e6f);
-    CHECK(graphFingerprint(*levels, conditions) == graphFingerprint(*levels, conditions));
+    CHECK(graphHash(*levels, conditions) == graphHash(*levels, conditions));
 
     const osg::ref_ptr<RayTracedScene> scene = new RayTracedScene;
     scene->addChild(many);

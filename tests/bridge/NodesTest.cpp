@@ -1,6 +1,6 @@
 // NodesTest.cpp - nodes that depend on the view or belong to other kits, and poses. Layer: tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/bridge/changes/GraphWatch.h"
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
@@ -169,21 +169,20 @@ TEST_CASE("nodes: levels by size in pixels, with OSG's scale", "[bridge]")
     CHECK_FALSE(watchSees(lod, watched(5.0, 1.0f), watched(5.5, 1.0f), kNoChange));
 }
 
-TEST_CASE(
-    "nodes: what turns to the view or moves with it shows in the fingerprint, other things do not",
-    "[bridge]")
+TEST_CASE("nodes: what turns to the view or moves with it shows in the hash, other things do not",
+          "[bridge]")
 {
     const auto changes = [](osg::Node* node)
     {
-        const auto print = [&](const osg::Vec3d& up) {
-            return graphFingerprint(*node, conditionsOf(viewedFrom(node, {5.0, 6.0, 7.0}, up)));
+        const auto hash = [&](const osg::Vec3d& up) {
+            return graphHash(*node, conditionsOf(viewedFrom(node, {5.0, 6.0, 7.0}, up)));
         };
-        const bool printed = print({0, 0, 1}) != print({0, 1, 0});
+        const bool changed = hash({0, 0, 1}) != hash({0, 1, 0});
         const auto upright = [&](const osg::Vec3d& up) {
             return conditionsOf(viewedFrom(node, {5.0, 6.0, 7.0}, up));
         };
-        CHECK(watchSees(node, upright({0, 0, 1}), upright({0, 1, 0}), kNoChange) == printed);
-        return printed;
+        CHECK(watchSees(node, upright({0, 0, 1}), upright({0, 1, 0}), kNoChange) == changed);
+        return changed;
     };
     osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
     billboard->addDrawable(triangleGeometry());
@@ -213,9 +212,9 @@ TEST_CASE(
     CHECK(watchSees(levels, near, far, kNoChange));
 
     clip->addClipPlane(new osg::ClipPlane(0, 1.0, 0.0, 0.0, 0.0));
-    const uint64_t before = graphFingerprint(*clip, ViewingConditions());
+    const uint64_t before = graphHash(*clip, ViewingConditions());
     clip->getClipPlane(0)->setClipPlane(1.0, 0.0, 0.0, 0.1);
-    CHECK(graphFingerprint(*clip, ViewingConditions()) != before);
+    CHECK(graphHash(*clip, ViewingConditions()) != before);
     CHECK(
         watchSees(clip, {}, {}, [&] { clip->getClipPlane(0)->setClipPlane(1.0, 0.0, 0.0, 0.2); }));
 }
@@ -406,9 +405,9 @@ TEST_CASE("poses: a morph of the hardware has the shape of its weights", "[bridg
     SceneConverter converter;
     const auto height = [&] { return firstCorner(*converter.convert(inputFor(morph)).scene, 0).z; };
     CHECK(height() == 2.0f);
-    const uint64_t before = graphFingerprint(*morph, ViewingConditions());
+    const uint64_t before = graphHash(*morph, ViewingConditions());
     morph->setWeight(0, 0.25f);
-    CHECK(graphFingerprint(*morph, ViewingConditions()) != before);
+    CHECK(graphHash(*morph, ViewingConditions()) != before);
     CHECK(watchSees(morph, {}, {}, [&] { morph->setWeight(0, 0.3f); }));
     morph->setWeight(0, 0.25f);
     CHECK(height() == 1.0f);

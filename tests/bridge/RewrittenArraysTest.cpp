@@ -91,14 +91,14 @@ TEST_CASE("rewritten arrays: a conversion for another reason keeps their meshes"
 TEST_CASE("rewritten arrays: a hash shows any word and any length", "[bridge]")
 {
     std::vector<unsigned char> bytes(200);
-    const uint64_t zero = contentHash(bytes.data(), bytes.size());
+    const uint64_t zero = memoryHash(bytes.data(), bytes.size());
     for (std::size_t i = 0; i < bytes.size(); ++i)
     {
         bytes[i] = 1;
-        CHECK(contentHash(bytes.data(), bytes.size()) != zero);
+        CHECK(memoryHash(bytes.data(), bytes.size()) != zero);
         bytes[i] = 0;
-        CHECK(contentHash(bytes.data(), i) != zero);
+        CHECK(memoryHash(bytes.data(), i) != zero);
     }
-    CHECK(contentHash(bytes.data(), bytes.size()) == zero);
-    CHECK(contentHash(nullptr, 0) == contentHash(bytes.data(), 0));
+    CHECK(memoryHash(bytes.data(), bytes.size()) == zero);
+    CHECK(memoryHash(nullptr, 0) == memoryHash(bytes.data(), 0));
 }

@@ -6,7 +6,7 @@
 
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/bridge/convert/SceneConverter.h"
 #include "osgRayTrace/bridge/geometry/GeometryConverter.h"
 #include "osgRayTrace/session/RenderSession.h"
@@ -290,8 +290,8 @@ TEST_CASE("fuzz: any scene graph is converted, built and rendered, and stays fin
             REQUIRE(converter.convert(input).scene->instances.size() ==
                     result.scene->instances.size());
             if (graph.bounded)
-                REQUIRE(graphFingerprint(*graph.root, ViewingConditions()) ==
-                        graphFingerprint(*graph.root, ViewingConditions()));
+                REQUIRE(graphHash(*graph.root, ViewingConditions()) ==
+                        graphHash(*graph.root, ViewingConditions()));
 
             const auto traced = TracedScene::build(result.scene, workers);
             uint64_t triangles = 0;

@@ -4,8 +4,8 @@
 
 #include "osgRayTrace/bridge/common/SceneRoot.h"
 
-#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
-#include "osgRayTrace/bridge/changes/StateFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphHash.h"
+#include "osgRayTrace/bridge/changes/StateHash.h"
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
 
 #include <osg/NodeVisitor>
@@ -70,12 +70,12 @@ bool isOfTheWhole(const WatchedNode& node)
     return node.kind == NodeKind::Opaque || isLight(node.kind) || node.hint != 0;
 }
 
-uint64_t inheritedPrint(const ViewingConditions& conditions, KeptObjects* kept = nullptr)
+uint64_t inheritedHash(const ViewingConditions& conditions, KeptObjects* kept = nullptr)
 {
-    Digest digest(kept);
+    Hasher hasher(kept);
     for (const osg::ref_ptr<const osg::StateSet>& stateSet : conditions.inheritedState)
-        addStateSet(digest, *stateSet);
-    return digest.value();
+        addStateSet(hasher, *stateSet);
+    return hasher.value();
 }
 
 } // namespace
@@ -99,7 +99,7 @@ void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
     _graph.traversalMask = conditions.traversalMask;
     _plain = conditions;
     _plain.inheritedState.clear();
-    _inheritedPrint = inheritedPrint(conditions, &_inheritedKept);
+    _inheritedHash = inheritedHash(conditions, &_inheritedKept);
     osg::Node* const first = firstNode(root);
     _first = first;
     if (first)
@@ -155,12 +155,12 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
     lookAtBuffers(changes);
     lookAtStates();
     lookAtLights(changes);
-    const uint64_t inherited = inheritedPrint(conditions);
-    if (inherited != _inheritedPrint)
+    const uint64_t inherited = inheritedHash(conditions);
+    if (inherited != _inheritedHash)
     {
         changes.convert = true;
         KeptObjects kept;
-        _inheritedPrint = inheritedPrint(conditions, &kept);
+        _inheritedHash = inheritedHash(conditions, &kept);
         _inheritedKept = std::move(kept);
     }
     if (_anyMoved || _anyRestated) findChanged(changes);
@@ -176,15 +176,15 @@ bool GraphWatch::isAsItWas(WatchedNode& node)
     if (isTransform(node.kind))
     {
         WatchedPlace& place = _graph.places[node.place];
-        const uint64_t print = matrixPrint(node.kind, *node.node);
-        if (print != place.print)
+        const uint64_t hash = matrixHash(node.kind, *node.node);
+        if (hash != place.hash)
         {
-            place.print = print;
+            place.hash = hash;
             place.moved = _anyMoved = true;
         }
     }
     if (node.kind == NodeKind::Opaque) return isOpaqueAsItWas(node);
-    return node.repeated || nodePrint(node.kind, *node.node) == node.print;
+    return node.repeated || nodeHash(node.kind, *node.node) == node.hash;
 }
 
 /// Where only modified counts differ the values of arrays decide.
@@ -192,15 +192,15 @@ bool GraphWatch::isOpaqueAsItWas(WatchedNode& node)
 {
     WatchedOpaque& opaque = _graph.opaques[node.item];
     PathBudget budget(opaque.budget), again(opaque.budget);
-    const uint64_t print =
-        graphFingerprint(*node.node, _plain, opaque.sceneFromLocal, nullptr, nullptr, &budget);
-    if (print == node.print) return true;
+    const uint64_t hash =
+        graphHash(*node.node, _plain, opaque.sceneFromLocal, nullptr, nullptr, &budget);
+    if (hash == node.hash) return true;
     if (!opaque.versions) opaque.versions = std::make_unique<BufferVersions>();
-    const uint64_t contents = graphFingerprint(*node.node, _plain, opaque.sceneFromLocal, nullptr,
-                                               opaque.versions.get(), &again);
+    const uint64_t contents = graphHash(*node.node, _plain, opaque.sceneFromLocal, nullptr,
+                                        opaque.versions.get(), &again);
     const bool same = opaque.contents == contents;
     opaque.contents = contents;
-    if (same) node.print = print;
+    if (same) node.hash = hash;
     return same;
 }
 
@@ -233,7 +233,7 @@ bool GraphWatch::lookAtNodes(GraphChanges& changes)
 bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
 {
     WatchedNode& node = _graph.nodes[index];
-    if (node.kind == NodeKind::Opaque || node.hint != hintPrint(*node.node)) return false;
+    if (node.kind == NodeKind::Opaque || node.hint != hintHash(*node.node)) return false;
     if (_graph.isRepeated(*node.node)) return false;
     const osg::StateSet* stateSet = node.node->getStateSet();
     const osg::StateSet* before =
@@ -248,7 +248,7 @@ bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
     if (node.node->asGroup() && !redoChildren(index, changes)) return false;
     known |= changes.splices.size() > splices;
     WatchedNode& now = _graph.nodes[index];
-    now.print = nodePrint(now.kind, *now.node);
+    now.hash = nodeHash(now.kind, *now.node);
     return known;
 }
 
@@ -360,8 +360,8 @@ bool GraphWatch::lookAtGeometry(uint32_t index, GraphChanges& changes)
     if (watched.looked == _looks) return true;
     watched.looked = _looks;
     const osg::Geometry& geometry = *watched.geometry;
-    if (treatmentPrint(geometry) != watched.treatment) return false;
-    const uint64_t arrays = arraysPrint(geometry);
+    if (conversionHash(geometry) != watched.treatment) return false;
+    const uint64_t arrays = arraysHash(geometry);
     if (geometry.getStateSet() == watched.stateSet && arrays == watched.arrays) return true;
     _graph.setState(watched.state, geometry.getStateSet());
     watched.stateSet = geometry.getStateSet();
@@ -381,9 +381,9 @@ void GraphWatch::lookAtBuffers(GraphChanges& changes)
     {
         if (i + kAhead < count) fetch(buffers[i + kAhead].data.get(), kBufferBytes);
         WatchedBuffer& buffer = buffers[i];
-        const uint64_t print = bufferPrint(buffer.kind, *buffer.data);
-        if (print == buffer.print) continue;
-        buffer.print = print;
+        const uint64_t hash = bufferHash(buffer.kind, *buffer.data);
+        if (hash == buffer.hash) continue;
+        buffer.hash = hash;
         if (!buffer.contents.change(*buffer.data)) continue;
         changes.convert |= !buffer.shape; // it may be a part of the material
         const osg::Geometry* geometry = _graph.geometries[buffer.geometry].geometry;
@@ -399,15 +399,15 @@ void GraphWatch::lookAtStates()
     {
         state.changed = false;
         if (!state.stateSet) continue;
-        Digest digest;
-        addStateSet(digest, *state.stateSet);
-        state.changed = digest.value() != state.print;
+        Hasher hasher;
+        addStateSet(hasher, *state.stateSet);
+        state.changed = hasher.value() != state.hash;
         if (!state.changed) continue;
         any = true;
         KeptObjects kept;
-        Digest now(&kept);
+        Hasher now(&kept);
         addStateSet(now, *state.stateSet);
-        state.print = now.value();
+        state.hash = now.value();
         state.kept = std::move(kept);
     }
     if (!any) return;
@@ -423,10 +423,10 @@ void GraphWatch::lookAtLights(GraphChanges& changes)
     for (WatchedLight& light : _graph.lights)
     {
         const WatchedNode& node = _graph.nodes[light.node];
-        if (lightPrint(node.kind, *node.node) == light.print) continue;
+        if (lightHash(node.kind, *node.node) == light.hash) continue;
         changes.lights = true;
         KeptObjects kept;
-        light.print = lightPrint(node.kind, *node.node, &kept);
+        light.hash = lightHash(node.kind, *node.node, &kept);
         light.kept = std::move(kept);
     }
 }

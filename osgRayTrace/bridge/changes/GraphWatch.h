@@ -13,7 +13,7 @@ namespace osgRayTrace::engine
 /// A graph as it was seen last: see WatchedGraph. A look compares its nodes one after the other,
 /// without a traversal. Nodes of the plain classes are known one by one; of any other node (level
 /// of detail, billboard, a class of the application's own) only whether anything in it and below it
-/// has changed: see graphFingerprint, also for what goes unseen. Bounds are not looked at.
+/// has changed: see graphHash, also for what goes unseen. Bounds are not looked at.
 class GraphWatch
 {
 public:
@@ -53,8 +53,8 @@ private:
     bool _recorded = false;
     ObjectName _first;        ///< of the nodes; of none: nothing is visible
     ViewingConditions _plain; ///< of the last look, without inherited state
-    uint64_t _inheritedPrint = 0;
-    KeptObjects _inheritedKept; ///< of the print
+    uint64_t _inheritedHash = 0;
+    KeptObjects _inheritedKept; ///< of the hash
     WatchedGraph _graph;
     uint64_t _looks = 0;
 

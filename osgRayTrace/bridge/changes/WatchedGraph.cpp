@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/changes/WatchedGraph.h"
 
-#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
-#include "osgRayTrace/bridge/changes/StateFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphHash.h"
+#include "osgRayTrace/bridge/changes/StateHash.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 
 #include <osg/Transform>
@@ -52,9 +52,9 @@ void WatchedGraph::setState(uint32_t& state, const osg::StateSet* stateSet)
             known->second = newIndex(states, _freeStates);
             WatchedState& fresh = states[known->second];
             fresh.stateSet = keep(stateSet);
-            Digest digest(&fresh.kept);
-            addStateSet(digest, *stateSet);
-            fresh.print = digest.value();
+            Hasher hasher(&fresh.kept);
+            addStateSet(hasher, *stateSet);
+            fresh.hash = hasher.value();
         }
         state = known->second;
         ++states[state].uses;
@@ -73,7 +73,7 @@ void WatchedGraph::setBuffers(uint32_t index)
         {
             if (!data) return;
             const BufferKind kind = bufferKindOf(*data);
-            buffers.push_back({keep(data), bufferPrint(kind, *data), index, kind, shape, {}});
+            buffers.push_back({keep(data), bufferHash(kind, *data), index, kind, shape, {}});
         });
 }
 
@@ -116,7 +116,7 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
     entry.kind = kindOf(node);
     entry.parent = parent;
     entry.place = parent == kNowhere ? kNowhere : nodes[parent].place;
-    entry.hint = hintPrint(node);
+    entry.hint = hintHash(node);
     const auto index = static_cast<uint32_t>(nodes.size());
     entry.end = index + 1;
     if (entry.kind == NodeKind::Geometry)
@@ -131,8 +131,8 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
         WatchedOpaque& opaque = opaques.emplace_back();
         opaque.sceneFromLocal = sceneFromParent;
         opaque.budget = _opaqueBudget.left();
-        entry.print = graphFingerprint(node, conditions, sceneFromParent, &opaque.kept, nullptr,
-                                       &_opaqueBudget);
+        entry.hash =
+            graphHash(node, conditions, sceneFromParent, &opaque.kept, nullptr, &_opaqueBudget);
         truncated |= _opaqueBudget.left() == 0;
         push(entry);
         return;
@@ -145,7 +145,7 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
     {
         WatchedPlace here{};
         here.node = index;
-        here.print = matrixPrint(entry.kind, node);
+        here.hash = matrixHash(entry.kind, node);
         here.outer = entry.place & kOutermost;
         entry.place = static_cast<uint32_t>(places.size());
         places.push_back(here);
@@ -156,9 +156,9 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
         fix(entry.place);
         WatchedLight& light = lights.emplace_back();
         light.node = index;
-        light.print = lightPrint(entry.kind, node, &light.kept);
+        light.hash = lightHash(entry.kind, node, &light.kept);
     }
-    entry.print = nodePrint(entry.kind, node);
+    entry.hash = nodeHash(entry.kind, node);
     setState(entry.state, node.getStateSet());
     push(entry);
     if (const osg::Group* group = node.asGroup())
@@ -179,8 +179,8 @@ void WatchedGraph::appendGeometry(osg::Geometry& geometry, WatchedNode entry)
     push(entry);
     if (!isNew) return;
     watched.geometry = &geometry;
-    watched.arrays = arraysPrint(geometry);
-    watched.treatment = treatmentPrint(geometry);
+    watched.arrays = arraysHash(geometry);
+    watched.treatment = conversionHash(geometry);
     setState(watched.state, geometry.getStateSet());
     watched.stateSet = geometry.getStateSet();
     setBuffers(entry.item);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/changes/NodePrints.h"
+#include "osgRayTrace/bridge/changes/NodeHashes.h"
 #include "osgRayTrace/bridge/common/ObjectIdentity.h"
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
 #include "osgRayTrace/bridge/geometry/BufferContents.h"
@@ -32,7 +32,7 @@ constexpr std::size_t kMostWatched = 2 * kMostPaths;
 struct WatchedNode
 {
     osg::Node* node = nullptr; ///< see WatchedGraph::kept
-    uint64_t print = 0;
+    uint64_t hash = 0;
     uint32_t parent = kNowhere; ///< in nodes
     uint32_t end = 0;           ///< in nodes: behind all that is below it
     uint32_t state = kNowhere;  ///< in states; a geometry's is with it
@@ -47,7 +47,7 @@ struct WatchedNode
 /// A transform on a path.
 struct WatchedPlace
 {
-    uint64_t print = 0;       ///< of its matrix
+    uint64_t hash = 0;        ///< of its matrix
     uint32_t node = kNowhere; ///< kNowhere: gone
     uint32_t outer : 30;      ///< place around it; kOutermost: none
     uint32_t fixed : 1;       ///< there is more in it than plain nodes and geometry
@@ -58,7 +58,7 @@ struct WatchedPlace
 struct WatchedGeometry
 {
     osg::Geometry* geometry = nullptr; ///< one of the nodes; null: gone
-    uint64_t arrays = 0;               ///< print of them
+    uint64_t arrays = 0;               ///< hash of them
     uint64_t treatment = 0;            ///< likewise
     uint32_t uses = 0;                 ///< in nodes
     uint32_t state = kNowhere;
@@ -72,18 +72,18 @@ struct WatchedGeometry
 struct WatchedBuffer
 {
     Kept<const osg::BufferData> data;
-    uint64_t print = 0;
+    uint64_t hash = 0;
     uint32_t geometry = 0;
     BufferKind kind = BufferKind::Other;
     bool shape = false;      ///< positions, normals or primitives
-    BufferContents contents; ///< as of the last change of the print
+    BufferContents contents; ///< as of the last change of the hash
 };
 
 struct WatchedState
 {
     Kept<const osg::StateSet> stateSet; ///< null: gone
-    uint64_t print = 0;
-    KeptObjects kept;     ///< of print
+    uint64_t hash = 0;
+    KeptObjects kept;     ///< of hash
     uint32_t uses = 0;    ///< by nodes and geometries
     bool changed = false; ///< while a look runs
 };
@@ -91,8 +91,8 @@ struct WatchedState
 struct WatchedLight
 {
     uint32_t node = 0;
-    uint64_t print = 0;
-    KeptObjects kept; ///< of print
+    uint64_t hash = 0;
+    KeptObjects kept; ///< of hash
 };
 
 /// A child that a mask hides.
@@ -110,9 +110,9 @@ struct WatchedOpaque
     WatchedOpaque& operator=(WatchedOpaque&&) = default;
 
     osg::Matrixd sceneFromLocal;
-    KeptObjects kept;                         ///< of its print
-    std::size_t budget = 0;                   ///< for its print
-    std::optional<uint64_t> contents;         ///< its print by versions, as of the last change
+    KeptObjects kept;                         ///< of its hash
+    std::size_t budget = 0;                   ///< for its hash
+    std::optional<uint64_t> contents;         ///< its hash by versions, as of the last change
     std::unique_ptr<BufferVersions> versions; ///< null: it has not changed
 };
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/BufferContents.h"
 
-#include "osgRayTrace/bridge/geometry/BufferPrints.h"
+#include "osgRayTrace/bridge/geometry/BufferHashes.h"
 
 #include <iterator>
 
@@ -11,9 +11,9 @@ namespace osgRayTrace::engine
 
 bool BufferContents::change(const osg::BufferData& data)
 {
-    const uint64_t print = contentsPrint(data);
-    const bool same = _print == print;
-    _print = print;
+    const uint64_t hash = contentsHash(data);
+    const bool same = _hash == hash;
+    _hash = hash;
     return !same;
 }
 
@@ -22,11 +22,11 @@ uint64_t BufferVersions::of(const osg::BufferData& data)
     const auto [known, isNew] = _entries.try_emplace(&data);
     Entry& entry = known->second;
     entry.round = _round;
-    const uint64_t print = bufferPrint(bufferKindOf(data), data);
-    if (!isNew && print == entry.print) return entry.version;
+    const uint64_t hash = bufferHash(bufferKindOf(data), data);
+    if (!isNew && hash == entry.hash) return entry.version;
     if (isNew || entry.contents.change(data)) entry.version = ++_versions;
     if (isNew) entry.data = keep(&data);
-    entry.print = print;
+    entry.hash = hash;
     return entry.version;
 }
 

@@ -27,7 +27,7 @@ public:
     bool change(const osg::BufferData& data);
 
 private:
-    std::optional<uint64_t> _print;
+    std::optional<uint64_t> _hash;
 };
 
 /// Numbers for the contents of many buffers. Keeps the buffers of the last round alive.
@@ -46,7 +46,7 @@ private:
     struct Entry
     {
         Kept<const osg::BufferData> data;
-        uint64_t print = 0; ///< see bufferPrint
+        uint64_t hash = 0; ///< see bufferHash
         BufferContents contents;
         uint64_t version = 0;
         uint64_t round = 0;

@@ -1,11 +1,11 @@
-// GeometryCache.cpp - fingerprints of geometry. Layer: bridge.
+// GeometryCache.cpp - signatures of geometry. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/GeometryCache.h"
 
 #include "osgRayTrace/base/NeverDestroyed.h"
 #include "osgRayTrace/bridge/common/ArrayReader.h"
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
-#include "osgRayTrace/bridge/geometry/BufferPrints.h"
+#include "osgRayTrace/bridge/geometry/BufferHashes.h"
 
 #include <algorithm>
 #include <tuple>
@@ -17,7 +17,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Order of a fingerprint.
+/// Order of a signature.
 enum : std::size_t
 {
     kPositions,
@@ -39,9 +39,9 @@ void shareTriangles(Mesh& mesh, const Mesh& before)
 
 } // namespace
 
-bool GeometryCache::BufferPrint::operator==(const BufferPrint& other) const
+bool GeometryCache::BufferSignature::operator==(const BufferSignature& other) const
 {
-    const auto values = [](const BufferPrint& p) {
+    const auto values = [](const BufferSignature& p) {
         return std::make_tuple(p.buffer.get(), p.modified, p.data, p.bytes, p.kind, p.count,
                                p.ranges);
     };
@@ -50,18 +50,18 @@ bool GeometryCache::BufferPrint::operator==(const BufferPrint& other) const
 
 /// The values decide if the modified count or the place of the data alone differs; what was
 /// compared is remembered in both.
-bool GeometryCache::isSame(BufferPrint& then, BufferPrint& now)
+bool GeometryCache::isSame(BufferSignature& then, BufferSignature& now)
 {
     if (then == now)
     {
         now.contents = then.contents;
         return true;
     }
-    BufferPrint values = now;
+    BufferSignature values = now;
     values.modified = then.modified;
     values.data = then.data;
     if (!(values == then)) return false;
-    if (!now.contents) now.contents = contentsPrint(*now.buffer);
+    if (!now.contents) now.contents = contentsHash(*now.buffer);
     if (then.contents != now.contents) return false;
     then = now;
     return true;
@@ -69,7 +69,7 @@ bool GeometryCache::isSame(BufferPrint& then, BufferPrint& now)
 
 /// Compares all, also behind what differs, so that the contents of all that is modified are known
 /// the next time.
-bool GeometryCache::isSame(Fingerprint& then, Fingerprint& now)
+bool GeometryCache::isSame(GeometrySignature& then, GeometrySignature& now)
 {
     if (then.size() != now.size()) return false;
     bool same = true;
@@ -78,24 +78,26 @@ bool GeometryCache::isSame(Fingerprint& then, Fingerprint& now)
     return same;
 }
 
-GeometryCache::BufferPrint GeometryCache::printOf(const osg::BufferData* buffer, unsigned int kind)
+GeometryCache::BufferSignature GeometryCache::signatureOf(const osg::BufferData* buffer,
+                                                          unsigned int kind)
 {
-    BufferPrint print;
-    print.buffer = buffer;
-    print.kind = kind;
-    if (!buffer) return print;
-    print.modified = buffer->getModifiedCount();
-    print.data = buffer->getDataPointer();
-    print.bytes = buffer->getTotalDataSize();
-    return print;
+    BufferSignature bufferSignature;
+    bufferSignature.buffer = buffer;
+    bufferSignature.kind = kind;
+    if (!buffer) return bufferSignature;
+    bufferSignature.modified = buffer->getModifiedCount();
+    bufferSignature.data = buffer->getDataPointer();
+    bufferSignature.bytes = buffer->getTotalDataSize();
+    return bufferSignature;
 }
 
-GeometryCache::Fingerprint GeometryCache::fingerprintOf(const osg::Geometry& geometry)
+GeometryCache::GeometrySignature GeometryCache::signatureOf(const osg::Geometry& geometry)
 {
-    Fingerprint prints;
-    prints.reserve(kPrimitives + geometry.getNumPrimitiveSets());
-    const auto add = [&prints](const osg::BufferData* buffer, unsigned int kind) -> BufferPrint&
-    { return prints.emplace_back(printOf(buffer, kind)); };
+    GeometrySignature signature;
+    signature.reserve(kPrimitives + geometry.getNumPrimitiveSets());
+    const auto add = [&signature](const osg::BufferData* buffer,
+                                  unsigned int kind) -> BufferSignature&
+    { return signature.emplace_back(signatureOf(buffer, kind)); };
     // In the order of the indices above.
     for (const osg::Array* array :
          {positionArray(geometry), geometry.getNormalArray(), geometry.getColorArray(),
@@ -105,12 +107,12 @@ GeometryCache::Fingerprint GeometryCache::fingerprintOf(const osg::Geometry& geo
     {
         const osg::PrimitiveSet* set = geometry.getPrimitiveSet(i);
         if (!set) continue;
-        BufferPrint& print = add(set, set->getMode());
+        BufferSignature& bufferSignature = add(set, set->getMode());
         if (hasTriangles(*set))
-            print.count = set->getNumIndices(); // others may lack what they count
-        print.ranges = rangesPrint(*set);
+            bufferSignature.count = set->getNumIndices(); // others may lack what they count
+        bufferSignature.ranges = rangesHash(*set);
     }
-    return prints;
+    return signature;
 }
 
 const GeometryCache::Entry* GeometryCache::find(const osg::Geometry& geometry) const
@@ -142,8 +144,8 @@ bool GeometryCache::hasSameArrays(const osg::Geometry& geometry)
 {
     Entry* entry = find(geometry);
     if (!entry) return false;
-    Fingerprint now = fingerprintOf(geometry);
-    if (!isSame(entry->fingerprint, now)) return false;
+    GeometrySignature now = signatureOf(geometry);
+    if (!isSame(entry->signature, now)) return false;
     entry->same = _stamp;
     return true;
 }
@@ -165,10 +167,10 @@ void GeometryCache::noteLiveness(const osg::Geometry& geometry, Liveness livenes
 
 /// Positions changed alone, as a rule. Not if values were repaired, which may have been by
 /// positions, or if vertices were split, which is by primitive sets: then counts or sizes say so.
-KeptArrays GeometryCache::keptArrays(Entry& before, Fingerprint& now)
+KeptArrays GeometryCache::keptArrays(Entry& before, GeometrySignature& now)
 {
     KeptArrays kept;
-    Fingerprint& then = before.fingerprint;
+    GeometrySignature& then = before.signature;
     if (!before.counts.empty() || then.size() != now.size()) return kept;
     for (std::size_t i = kPrimitives; i < then.size(); ++i)
         if (!isSame(then[i], now[i])) return kept;
@@ -193,22 +195,22 @@ std::shared_ptr<const Mesh> GeometryCache::mesh(const osg::Geometry& geometry, u
 {
     Entry& entry = _entries[{&geometry, variant}];
     const bool had = entry.used != 0 && entry.geometry.get() == &geometry;
-    Fingerprint fingerprint;
+    GeometrySignature signature;
     bool sameArrays = had && entry.same == _stamp;
     if (!sameArrays)
     {
-        fingerprint = fingerprintOf(geometry);
-        sameArrays = had && isSame(entry.fingerprint, fingerprint);
+        signature = signatureOf(geometry);
+        sameArrays = had && isSame(entry.signature, signature);
     }
     const bool known =
         sameArrays && entry.variance == geometry.getDataVariance() && entry.request == request;
     if (!known)
     {
-        if (fingerprint.empty()) fingerprint = entry.fingerprint;
+        if (signature.empty()) signature = entry.signature;
         const bool other = had && !sameArrays;
         const bool kept = other && entry.mesh && entry.request == request && request.copies;
-        ConvertedMesh converted = convertGeometry(
-            geometry, request, kept ? keptArrays(entry, fingerprint) : KeptArrays());
+        ConvertedMesh converted =
+            convertGeometry(geometry, request, kept ? keptArrays(entry, signature) : KeptArrays());
         if (converted.mesh)
         {
             converted.mesh->name = path;
@@ -217,11 +219,11 @@ std::shared_ptr<const Mesh> GeometryCache::mesh(const osg::Geometry& geometry, u
             if (other && entry.mesh && request.copies && entry.request.copies)
                 shareTriangles(*converted.mesh, *entry.mesh);
         }
-        if (other && entry.fingerprint[kPositions].buffer != fingerprint[kPositions].buffer)
-            dropBounds(entry.fingerprint[kPositions]);
+        if (other && entry.signature[kPositions].buffer != signature[kPositions].buffer)
+            dropBounds(entry.signature[kPositions]);
         ++_converted;
         warnAboutGeometry(path, converted.counts);
-        entry = {&geometry, geometry.getDataVariance(), std::move(fingerprint),
+        entry = {&geometry, geometry.getDataVariance(), std::move(signature),
                  request,   std::move(converted.mesh),  std::move(converted.counts),
                  0};
     }
@@ -237,7 +239,8 @@ const VertexBounds& GeometryCache::bounds(const osg::Geometry& geometry)
     if (!isReadable(array)) return none;
 
     BoundsEntry& entry = _bounds[array];
-    const BufferPrint positions = printOf(array, static_cast<unsigned int>(array->getDataType()));
+    const BufferSignature positions =
+        signatureOf(array, static_cast<unsigned int>(array->getDataType()));
     if (entry.used == 0 || !(entry.positions == positions))
     {
         entry.positions = positions;
@@ -249,7 +252,7 @@ const VertexBounds& GeometryCache::bounds(const osg::Geometry& geometry)
 
 /// Of an array that was exchanged; others that have it get them again. Not if somebody looks at
 /// them.
-void GeometryCache::dropBounds(const BufferPrint& positions)
+void GeometryCache::dropBounds(const BufferSignature& positions)
 {
     if (!positions.buffer) return;
     const auto known = _bounds.find(positions.buffer->asArray());
@@ -263,9 +266,9 @@ void GeometryCache::drop(const osg::Geometry* geometry)
     const auto entry = _entries.find({geometry, kOwnVariant});
     if (entry != _entries.end())
     {
-        if (!entry->second.fingerprint.empty())
+        if (!entry->second.signature.empty())
         {
-            const osg::BufferData* positions = entry->second.fingerprint[kPositions].buffer.get();
+            const osg::BufferData* positions = entry->second.signature[kPositions].buffer.get();
             if (positions) _bounds.erase(positions->asArray());
         }
         _entries.erase(entry);

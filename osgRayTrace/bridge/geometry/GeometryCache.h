@@ -72,7 +72,7 @@ public:
 private:
     /// References keep the objects alive, so that a new one cannot pass for an old one at its
     /// address.
-    struct BufferPrint
+    struct BufferSignature
     {
         osg::ref_ptr<const osg::BufferData> buffer;
         unsigned int modified = 0;
@@ -80,18 +80,18 @@ private:
         std::size_t bytes = 0;
         unsigned int kind = 0;            // binding of an array, mode of a primitive set
         unsigned int count = 0;           // vertices of a primitive set
-        uint64_t ranges = 0;              // see rangesPrint
-        std::optional<uint64_t> contents; // of one that was found modified: see contentsPrint
+        uint64_t ranges = 0;              // see rangesHash
+        std::optional<uint64_t> contents; // of one that was found modified: see contentsHash
 
-        bool operator==(const BufferPrint& other) const; ///< but for contents
+        bool operator==(const BufferSignature& other) const; ///< but for contents
     };
-    using Fingerprint = std::vector<BufferPrint>;
+    using GeometrySignature = std::vector<BufferSignature>;
 
     struct Entry
     {
         osg::observer_ptr<const osg::Geometry> geometry;
         osg::Object::DataVariance variance = osg::Object::UNSPECIFIED;
-        Fingerprint fingerprint;
+        GeometrySignature signature;
         MeshRequest request;
         std::shared_ptr<const Mesh> mesh;
         ConversionCounts counts;
@@ -116,20 +116,20 @@ private:
 
     struct BoundsEntry
     {
-        BufferPrint positions; ///< its reference keeps the array's address its own
+        BufferSignature positions; ///< its reference keeps the array's address its own
         VertexBounds bounds;
         Stamp used = 0;
     };
 
-    static BufferPrint printOf(const osg::BufferData* buffer, unsigned int kind);
-    static Fingerprint fingerprintOf(const osg::Geometry& geometry);
-    static bool isSame(BufferPrint& then, BufferPrint& now);
-    static bool isSame(Fingerprint& then, Fingerprint& now);
+    static BufferSignature signatureOf(const osg::BufferData* buffer, unsigned int kind);
+    static GeometrySignature signatureOf(const osg::Geometry& geometry);
+    static bool isSame(BufferSignature& then, BufferSignature& now);
+    static bool isSame(GeometrySignature& then, GeometrySignature& now);
 
     const Entry* find(const osg::Geometry& geometry) const;
     Entry* find(const osg::Geometry& geometry);
-    void dropBounds(const BufferPrint& positions);
-    static KeptArrays keptArrays(Entry& before, Fingerprint& now);
+    void dropBounds(const BufferSignature& positions);
+    static KeptArrays keptArrays(Entry& before, GeometrySignature& now);
 
     std::unordered_map<Key, Entry, KeyHash> _entries;
     std::unordered_map<const osg::Geometry*, LivenessEntry> _liveness; ///< those that are not still

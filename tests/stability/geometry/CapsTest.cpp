@@ -3,7 +3,7 @@
 #include "tests/Catch.h"
 #include "tests/stability/geometry/Pictured.h"
 
-#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 
 #include <osgRayTrace/Renderer>
@@ -69,7 +69,7 @@ TEST_CASE("caps: a path of 5000 nodes is traced, what is deeper is skipped and n
     CHECK(result.scene->instances.size() == 1); // the rest stands
     CHECK(countOf(result, "skipped.too-deep") == 1);
     CHECK(messages.timesSaid("lies below 4999 others, its children are skipped") == 1);
-    CHECK(graphFingerprint(*root, {}) == graphFingerprint(*root, {}));
+    CHECK(graphHash(*root, {}) == graphHash(*root, {}));
 }
 
 TEST_CASE("caps: a texture of more than 2^28 texels or 4 GiB is magenta, and named", "[stability]")

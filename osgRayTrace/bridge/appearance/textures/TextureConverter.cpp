@@ -326,9 +326,10 @@ bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture& texture
     for (unsigned int i = 0; i < entry.images.size(); ++i)
     {
         const osg::Image* image = texture.getImage(i);
-        const ImagePrint& print = entry.images[i];
-        if (image && (print.image.get() != image || print.modified != image->getModifiedCount() ||
-                      print.data != image->data()))
+        const ImageSignature& signature = entry.images[i];
+        if (image &&
+            (signature.image.get() != image || signature.modified != image->getModifiedCount() ||
+             signature.data != image->data()))
             return false;
     }
     return true;

@@ -64,7 +64,7 @@ public:
 private:
     using Key = std::pair<const osg::Texture*, bool>; // bool: decode from sRGB
 
-    struct ImagePrint
+    struct ImageSignature
     {
         osg::observer_ptr<const osg::Image> image;
         unsigned int modified = 0;
@@ -74,7 +74,7 @@ private:
     struct Entry
     {
         osg::observer_ptr<const osg::Texture> texture; // tells a new object at an old address apart
-        std::vector<ImagePrint> images;
+        std::vector<ImageSignature> images;
         GLint internalFormat = 0;
         std::shared_ptr<const Texture> converted;
         uint32_t index = kInvalid; // in this snapshot

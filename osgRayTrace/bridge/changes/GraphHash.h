@@ -1,4 +1,4 @@
-// GraphFingerprint.h - a cheap check whether a scene graph has changed. Layer: bridge.
+// GraphHash.h - a cheap check whether a scene graph has changed. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -21,12 +21,11 @@ class BufferVersions;
 /// values of the attributes and lights that are traced; those of the inherited state included.
 /// Vertex data that is written without Array::dirty(), and images without Image::dirty(), go
 /// unseen: that is what dirtyScene() is for. Reads the graph only.
-/// sceneFromLocal: of the place that root is at. kept: as in Digest. versions: stand for the
+/// sceneFromLocal: of the place that root is at. kept: as in Hasher. versions: stand for the
 /// modified counts of arrays and primitive sets, so that equal values are no change; slower.
 /// budget: what lies beyond it goes unseen; null: one of its own.
-uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions,
-                          const osg::Matrixd& sceneFromLocal = osg::Matrixd(),
-                          KeptObjects* kept = nullptr, BufferVersions* versions = nullptr,
-                          PathBudget* budget = nullptr);
+uint64_t graphHash(osg::Node& root, const ViewingConditions& conditions,
+                   const osg::Matrixd& sceneFromLocal = osg::Matrixd(), KeptObjects* kept = nullptr,
+                   BufferVersions* versions = nullptr, PathBudget* budget = nullptr);
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,5 @@
-// BufferPrints.h - numbers made of the values of arrays and primitive sets, to tell whether they have changed. Layer: bridge.
+// BufferHashes.h - numbers made of the values of arrays and primitive sets, to tell whether they
+// have changed. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -25,13 +26,13 @@ enum class BufferKind : uint8_t
 BufferKind bufferKindOf(const osg::BufferData& data);
 
 /// Its modified count, its size and where its data is; of some kinds more.
-uint64_t bufferPrint(BufferKind kind, const osg::BufferData& data);
+uint64_t bufferHash(BufferKind kind, const osg::BufferData& data);
 
-/// Its values, and what else bufferPrint knows but for the modified count and where the data is.
-uint64_t contentsPrint(const osg::BufferData& data);
+/// Its values, and what else bufferHash knows but for the modified count and where the data is.
+uint64_t contentsHash(const osg::BufferData& data);
 
 /// Which vertices a set without indices takes, whose setters mark nothing as changed; else 0.
-uint64_t rangesPrint(const osg::PrimitiveSet& set);
+uint64_t rangesHash(const osg::PrimitiveSet& set);
 
 /// Calls f(buffer or null, whether it is of the shape) for what a mesh is made of.
 template <class F> void forEachBuffer(const osg::Geometry& geometry, const F& f)

@@ -1,4 +1,4 @@
-// ContentHash.h - hashes of memory and of pairs of numbers. Layer: bridge.
+// MemoryHash.h - hashes of memory and of pairs of numbers. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -23,6 +23,6 @@ inline uint64_t bitsOf(const void* pointer)
 }
 
 /// Returns a hash of memory: blocks of 64 bytes that differ in one word never have the same.
-uint64_t contentHash(const void* data, std::size_t bytes);
+uint64_t memoryHash(const void* data, std::size_t bytes);
 
 } // namespace osgRayTrace::engine

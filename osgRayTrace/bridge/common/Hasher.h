@@ -1,4 +1,4 @@
-// Digest.h - many values in one number, to tell whether one of them has changed. Layer: bridge.
+// Hasher.h - many values in one number, to tell whether one of them has changed. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,13 +14,13 @@ namespace osgRayTrace::engine
 {
 
 /// Mixes values one after the other into 64 bits.
-class Digest
+class Hasher
 {
 public:
     /// kept: gets references to the objects that are added. Whoever compares the value with a later
     /// one holds them until then. Null: the value is compared with an earlier one, whose objects
     /// are held.
-    explicit Digest(KeptObjects* kept = nullptr) : _kept(kept) {}
+    explicit Hasher(KeptObjects* kept = nullptr) : _kept(kept) {}
 
     uint64_t value() const { return _value; }
 

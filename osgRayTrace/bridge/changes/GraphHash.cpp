@@ -1,9 +1,9 @@
-// GraphFingerprint.cpp - a cheap check whether a scene graph has changed. Layer: bridge.
+// GraphHash.cpp - a cheap check whether a scene graph has changed. Layer: bridge.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphHash.h"
 
-#include "osgRayTrace/bridge/changes/NodePrints.h"
-#include "osgRayTrace/bridge/changes/StateFingerprint.h"
+#include "osgRayTrace/bridge/changes/NodeHashes.h"
+#include "osgRayTrace/bridge/changes/StateHash.h"
 #include "osgRayTrace/bridge/geometry/BufferContents.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
@@ -30,13 +30,13 @@ namespace
 {
 
 /// Follows the children that are active for the eye, as the conversion does.
-class FingerprintVisitor : public osg::NodeVisitor
+class HashVisitor : public osg::NodeVisitor
 {
 public:
-    FingerprintVisitor(const ViewingConditions& conditions, const osg::Matrixd& sceneFromLocal,
-                       KeptObjects* kept, BufferVersions* versions, PathBudget& budget)
+    HashVisitor(const ViewingConditions& conditions, const osg::Matrixd& sceneFromLocal,
+                KeptObjects* kept, BufferVersions* versions, PathBudget& budget)
         : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN),
-          _digest(kept),
+          _hasher(kept),
           _kept(kept),
           _versions(versions),
           _budget(budget),
@@ -47,18 +47,18 @@ public:
     {
         setTraversalMask(conditions.traversalMask);
         for (const osg::ref_ptr<const osg::StateSet>& stateSet : conditions.inheritedState)
-            addStateSet(_digest, *stateSet);
+            addStateSet(_hasher, *stateSet);
     }
 
-    uint64_t value() const { return _digest.value(); }
+    uint64_t value() const { return _hasher.value(); }
 
     void apply(osg::Node& node) override
     {
         if (const auto* light = dynamic_cast<const AreaLight*>(&node))
-            _digest.add(light->getCorner(), light->getEdgeU(), light->getEdgeV(),
+            _hasher.add(light->getCorner(), light->getEdgeU(), light->getEdgeV(),
                         light->getRadiance(), light->getTwoSided());
         if (dynamic_cast<const EnvironmentLight*>(&node))
-            _digest.add(lightPrint(NodeKind::Environment, node, _kept));
+            _hasher.add(lightHash(NodeKind::Environment, node, _kept));
         enter(node);
     }
 
@@ -66,16 +66,16 @@ public:
 
     void apply(osg::LightSource& node) override
     {
-        _digest.add(node.getReferenceFrame());
-        if (node.getLight()) addLight(_digest, *node.getLight());
+        _hasher.add(node.getReferenceFrame());
+        if (node.getLight()) addLight(_hasher, *node.getLight());
         enter(node);
     }
 
     void apply(osg::TexGenNode& node) override
     {
-        _digest.add(node.getReferenceFrame(), node.getTextureUnit());
-        _digest.addObject(node.getTexGen());
-        if (node.getTexGen()) addTexGen(_digest, *node.getTexGen());
+        _hasher.add(node.getReferenceFrame(), node.getTextureUnit());
+        _hasher.addObject(node.getTexGen());
+        if (node.getTexGen()) addTexGen(_hasher, *node.getTexGen());
         enter(node);
     }
 
@@ -83,23 +83,23 @@ public:
     {
         const osg::Matrixd outer = _sceneFromLocal;
         _sceneFromLocal = worldFromLocal(node, outer, *this, _view);
-        _digest.addMatrix(_sceneFromLocal);
+        _hasher.addMatrix(_sceneFromLocal);
         enter(node);
         _sceneFromLocal = outer;
     }
 
     void apply(osg::Billboard& node) override
     {
-        digestView();
-        _digest.add(node.getMode(), node.getAxis(), node.getNormal());
+        hashView();
+        _hasher.add(node.getMode(), node.getAxis(), node.getNormal());
         enter(node);
     }
 
     void apply(osg::ClipNode& node) override
     {
-        if (node.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF) digestView();
+        if (node.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF) hashView();
         for (const auto& plane : node.getClipPlaneList())
-            if (plane) _digest.add(plane->getClipPlaneNum(), plane->getClipPlane());
+            if (plane) _hasher.add(plane->getClipPlaneNum(), plane->getClipPlane());
         enter(node);
     }
 
@@ -116,9 +116,9 @@ public:
     {
         if (!_budget.take()) return;
         addDrawable(geometry);
-        _digest.add(geometry.getDrawCallback() != nullptr);
+        _hasher.add(geometry.getDrawCallback() != nullptr);
         for (const float weight : SoftwareVertices::weightsOf(geometry))
-            _digest.add(weight);
+            _hasher.add(weight);
         _arrays.clear();
         geometry.getArrayList(_arrays);
         for (const auto& array : _arrays)
@@ -143,55 +143,55 @@ public:
 
 private:
     /// Of what turns to the view or moves with it.
-    void digestView()
+    void hashView()
     {
-        _digest.add(_eye);
-        if (_view) _digest.addMatrix(_view->viewFromWorld);
+        _hasher.add(_eye);
+        if (_view) _hasher.addMatrix(_view->viewFromWorld);
     }
 
     void enter(osg::Node& node)
     {
-        _digest.addObject(&node);
-        _digest.add(ownHint(node));
+        _hasher.addObject(&node);
+        _hasher.add(ownHint(node));
         addStateSetOf(node);
         if (getNodePath().size() < kDeepestPath && _budget.take()) traverse(node);
-        _digest.add(kEnd);
+        _hasher.add(kEnd);
     }
 
     void addDrawable(const osg::Drawable& drawable)
     {
-        _digest.addObject(&drawable);
-        _digest.add(ownHint(drawable));
+        _hasher.addObject(&drawable);
+        _hasher.add(ownHint(drawable));
         addStateSetOf(drawable);
         const osg::BoundingBox& box = drawable.getBoundingBox();
-        _digest.add(box._min, box._max);
+        _hasher.add(box._min, box._max);
     }
 
     void addArray(const osg::Array& array)
     {
-        if (_versions) return _digest.add(_versions->of(array));
-        _digest.addObject(&array);
-        _digest.add(array.getModifiedCount(), array.getNumElements(), array.getBinding());
+        if (_versions) return _hasher.add(_versions->of(array));
+        _hasher.addObject(&array);
+        _hasher.add(array.getModifiedCount(), array.getNumElements(), array.getBinding());
     }
 
     void addPrimitives(const osg::PrimitiveSet& primitives)
     {
-        if (_versions) return _digest.add(_versions->of(primitives));
-        _digest.addObject(&primitives);
-        _digest.add(primitives.getModifiedCount(), primitives.getMode(),
+        if (_versions) return _hasher.add(_versions->of(primitives));
+        _hasher.addObject(&primitives);
+        _hasher.add(primitives.getModifiedCount(), primitives.getMode(),
                     hasTriangles(primitives) ? primitives.getNumIndices() : 0u,
-                    rangesPrint(primitives));
+                    rangesHash(primitives));
     }
 
     void addStateSetOf(const osg::Node& node)
     {
-        _digest.addObject(node.getStateSet());
-        if (node.getStateSet()) addStateSet(_digest, *node.getStateSet());
+        _hasher.addObject(node.getStateSet());
+        if (node.getStateSet()) addStateSet(_hasher, *node.getStateSet());
     }
 
     static constexpr int kEnd = -1; // of the children: a node that moves one level up must show
 
-    Digest _digest;
+    Hasher _hasher;
     KeptObjects* _kept;
     BufferVersions* _versions;
     PathBudget& _budget;
@@ -204,13 +204,13 @@ private:
 
 } // namespace
 
-uint64_t graphFingerprint(osg::Node& root, const ViewingConditions& conditions,
-                          const osg::Matrixd& sceneFromLocal, KeptObjects* kept,
-                          BufferVersions* versions, PathBudget* budget)
+uint64_t graphHash(osg::Node& root, const ViewingConditions& conditions,
+                   const osg::Matrixd& sceneFromLocal, KeptObjects* kept, BufferVersions* versions,
+                   PathBudget* budget)
 {
     if (versions) versions->begin();
     PathBudget own;
-    FingerprintVisitor visitor(conditions, sceneFromLocal, kept, versions, budget ? *budget : own);
+    HashVisitor visitor(conditions, sceneFromLocal, kept, versions, budget ? *budget : own);
     root.accept(visitor);
     if (versions) versions->end();
     return visitor.value();

@@ -1,8 +1,8 @@
-// BufferPrints.cpp - what is read of arrays and primitive sets of each class. Layer: bridge.
+// BufferHashes.cpp - what is read of arrays and primitive sets of each class. Layer: bridge.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/geometry/BufferPrints.h"
+#include "osgRayTrace/bridge/geometry/BufferHashes.h"
 
-#include "osgRayTrace/bridge/common/ContentHash.h"
+#include "osgRayTrace/bridge/common/MemoryHash.h"
 #include "osgRayTrace/bridge/geometry/TriangleList.h"
 
 #include <typeinfo>
@@ -13,22 +13,22 @@ namespace osgRayTrace::engine
 namespace
 {
 
-uint64_t valuePrint(unsigned int modified, std::size_t count, const void* data, unsigned int kind)
+uint64_t valueHash(unsigned int modified, std::size_t count, const void* data, unsigned int kind)
 {
     return fold(modified | uint64_t(count) << 32, bitsOf(data) ^ uint64_t(kind) << 8);
 }
 
-template <class Array> uint64_t arrayPrint(const osg::BufferData& data)
+template <class Array> uint64_t arrayHash(const osg::BufferData& data)
 {
     const auto& array = static_cast<const Array&>(data);
-    return valuePrint(array.getModifiedCount(), array.size(), array.asVector().data(),
-                      static_cast<unsigned int>(array.getBinding()));
+    return valueHash(array.getModifiedCount(), array.size(), array.asVector().data(),
+                     static_cast<unsigned int>(array.getBinding()));
 }
 
-template <class Elements> uint64_t elementsPrint(const osg::BufferData& data)
+template <class Elements> uint64_t elementsHash(const osg::BufferData& data)
 {
     const auto& set = static_cast<const Elements&>(data);
-    return valuePrint(set.getModifiedCount(), set.size(), set.asVector().data(), set.getMode());
+    return valueHash(set.getModifiedCount(), set.size(), set.asVector().data(), set.getMode());
 }
 
 /// What buffers of all classes have.
@@ -36,7 +36,7 @@ struct BufferLayout
 {
     std::size_t count = 0;
     unsigned int kind = 0; ///< binding of an array, mode of a primitive set
-    uint64_t ranges = 0;   ///< see rangesPrint
+    uint64_t ranges = 0;   ///< see rangesHash
 };
 
 BufferLayout layoutOf(const osg::BufferData& data)
@@ -52,15 +52,15 @@ BufferLayout layoutOf(const osg::BufferData& data)
         if (hasTriangles(*set))
             layout.count = set->getNumIndices(); // others may lack what they count
         layout.kind = set->getMode();
-        layout.ranges = rangesPrint(*set);
+        layout.ranges = rangesHash(*set);
     }
     return layout;
 }
 
-uint64_t otherPrint(const osg::BufferData& data)
+uint64_t otherHash(const osg::BufferData& data)
 {
     const BufferLayout layout = layoutOf(data);
-    return valuePrint(data.getModifiedCount(), layout.count, data.getDataPointer(), layout.kind) +
+    return valueHash(data.getModifiedCount(), layout.count, data.getDataPointer(), layout.kind) +
            layout.ranges;
 }
 
@@ -79,7 +79,7 @@ BufferKind bufferKindOf(const osg::BufferData& data)
     return BufferKind::Other;
 }
 
-uint64_t rangesPrint(const osg::PrimitiveSet& set)
+uint64_t rangesHash(const osg::PrimitiveSet& set)
 {
     if (const auto* arrays = dynamic_cast<const osg::DrawArrays*>(&set))
         return fold(static_cast<uint32_t>(arrays->getFirst()),
@@ -87,52 +87,52 @@ uint64_t rangesPrint(const osg::PrimitiveSet& set)
     if (const auto* lengths = dynamic_cast<const osg::DrawArrayLengths*>(&set))
         return fold(static_cast<uint32_t>(lengths->getFirst()), 1);
     const auto* several = dynamic_cast<const osg::MultiDrawArrays*>(&set);
-    uint64_t print = 0;
-    if (!several) return print;
+    uint64_t hash = 0;
+    if (!several) return hash;
     for (const GLint first : several->getFirsts())
-        print = fold(print, static_cast<uint32_t>(first));
+        hash = fold(hash, static_cast<uint32_t>(first));
     for (const GLsizei count : several->getCounts())
-        print = fold(print + 1, static_cast<uint32_t>(count));
-    return print;
+        hash = fold(hash + 1, static_cast<uint32_t>(count));
+    return hash;
 }
 
-uint64_t contentsPrint(const osg::BufferData& data)
+uint64_t contentsHash(const osg::BufferData& data)
 {
     const BufferLayout layout = layoutOf(data);
     const void* const values = data.getDataPointer();
-    const uint64_t hash = values ? contentHash(values, data.getTotalDataSize()) : 0;
+    const uint64_t hash = values ? memoryHash(values, data.getTotalDataSize()) : 0;
     return fold(hash, uint64_t(layout.count) << 32 ^ layout.kind) + layout.ranges;
 }
 
-uint64_t bufferPrint(BufferKind kind, const osg::BufferData& data)
+uint64_t bufferHash(BufferKind kind, const osg::BufferData& data)
 {
     switch (kind)
     {
     case BufferKind::Vec2Array:
-        return arrayPrint<osg::Vec2Array>(data);
+        return arrayHash<osg::Vec2Array>(data);
     case BufferKind::Vec3Array:
-        return arrayPrint<osg::Vec3Array>(data);
+        return arrayHash<osg::Vec3Array>(data);
     case BufferKind::Vec4Array:
-        return arrayPrint<osg::Vec4Array>(data);
+        return arrayHash<osg::Vec4Array>(data);
     case BufferKind::Vec4ubArray:
-        return arrayPrint<osg::Vec4ubArray>(data);
+        return arrayHash<osg::Vec4ubArray>(data);
     case BufferKind::UIntElements:
-        return elementsPrint<osg::DrawElementsUInt>(data);
+        return elementsHash<osg::DrawElementsUInt>(data);
     case BufferKind::UShortElements:
-        return elementsPrint<osg::DrawElementsUShort>(data);
+        return elementsHash<osg::DrawElementsUShort>(data);
     case BufferKind::Arrays:
     {
         const auto& set =
             static_cast<const osg::DrawArrays&>(data); // whose setFirst has no dirty()
-        return valuePrint(set.getModifiedCount() ^ static_cast<unsigned int>(set.getCount()) << 16,
-                          static_cast<std::size_t>(uint32_t(set.getFirst())),
-                          reinterpret_cast<const void*>(uintptr_t(uint32_t(set.getCount()))),
-                          set.getMode());
+        return valueHash(set.getModifiedCount() ^ static_cast<unsigned int>(set.getCount()) << 16,
+                         static_cast<std::size_t>(uint32_t(set.getFirst())),
+                         reinterpret_cast<const void*>(uintptr_t(uint32_t(set.getCount()))),
+                         set.getMode());
     }
     case BufferKind::Other:
         break;
     }
-    return otherPrint(data);
+    return otherHash(data);
 }
 
 } // namespace osgRayTrace::engine

@@ -1,6 +1,6 @@
-// ContentHash.cpp - a hash of memory. Layer: bridge.
+// MemoryHash.cpp - a hash of memory. Layer: bridge.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/common/ContentHash.h"
+#include "osgRayTrace/bridge/common/MemoryHash.h"
 
 #include <cstring>
 
@@ -32,7 +32,7 @@ struct Lanes
 
 } // namespace
 
-uint64_t contentHash(const void* data, std::size_t bytes)
+uint64_t memoryHash(const void* data, std::size_t bytes)
 {
     constexpr std::size_t kBlock = kLanes * sizeof(uint64_t);
     const auto* const begin = static_cast<const unsigned char*>(data);

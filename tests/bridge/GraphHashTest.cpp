@@ -1,6 +1,6 @@
-// GraphFingerprintTest.cpp - what is a change of the scene. Layer: tests.
+// GraphHashTest.cpp - what is a change of the scene. Layer: tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/changes/GraphFingerprint.h"
+#include "osgRayTrace/bridge/changes/GraphHash.h"
 
 #include "tests/Catch.h"
 
@@ -34,7 +34,7 @@ struct ExchangedImage : osg::Image
 
 } // namespace
 
-TEST_CASE("graph fingerprint: changes with what is traced, and with nothing else", "[bridge]")
+TEST_CASE("graph hash: changes with what is traced, and with nothing else", "[bridge]")
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform;
@@ -70,11 +70,11 @@ TEST_CASE("graph fingerprint: changes with what is traced, and with nothing else
     ViewingConditions conditions;
     conditions.inheritedState = {inherited};
 
-    uint64_t last = graphFingerprint(*root, conditions);
+    uint64_t last = graphHash(*root, conditions);
     const auto changed = [&]
     {
         const uint64_t before = last;
-        last = graphFingerprint(*root, conditions);
+        last = graphHash(*root, conditions);
         return last != before;
     };
     CHECK_FALSE(changed());
