@@ -360,7 +360,7 @@ bool GraphWatch::lookAtGeometry(uint32_t index, GraphChanges& changes)
     if (watched.looked == _looks) return true;
     watched.looked = _looks;
     const osg::Geometry& geometry = *watched.geometry;
-    if (conversionHash(geometry) != watched.treatment) return false;
+    if (conversionHash(geometry) != watched.conversion) return false;
     const uint64_t arrays = arraysHash(geometry);
     if (geometry.getStateSet() == watched.stateSet && arrays == watched.arrays) return true;
     _graph.setState(watched.state, geometry.getStateSet());

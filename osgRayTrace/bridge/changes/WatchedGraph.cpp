@@ -180,7 +180,7 @@ void WatchedGraph::appendGeometry(osg::Geometry& geometry, WatchedNode entry)
     if (!isNew) return;
     watched.geometry = &geometry;
     watched.arrays = arraysHash(geometry);
-    watched.treatment = conversionHash(geometry);
+    watched.conversion = conversionHash(geometry);
     setState(watched.state, geometry.getStateSet());
     watched.stateSet = geometry.getStateSet();
     setBuffers(entry.item);

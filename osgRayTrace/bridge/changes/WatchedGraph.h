@@ -59,7 +59,7 @@ struct WatchedGeometry
 {
     osg::Geometry* geometry = nullptr; ///< one of the nodes; null: gone
     uint64_t arrays = 0;               ///< hash of them
-    uint64_t treatment = 0;            ///< likewise
+    uint64_t conversion = 0;           ///< likewise
     uint32_t uses = 0;                 ///< in nodes
     uint32_t state = kNowhere;
     const osg::StateSet* stateSet = nullptr; ///< one of the states

@@ -58,7 +58,7 @@ SceneBuilder::SceneBuilder(const ConversionInput& input, const CollectedGraph& g
       _report(report),
       _materials({rules.linear, input.cullAllRays, rules.setsColor}, caches.textures,
                  _materialReport),
-      _treatments(graph.states.size())
+      _effects(graph.states.size())
 {
 }
 
@@ -253,7 +253,7 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 void SceneBuilder::addNothing(const CollectedGeometry& geometry, const GeometryUse& use)
 {
     _made.index.at(*geometry.geometry)
-        .uses.push_back({kInvalid, treatment(use.state, ConversionCounts())});
+        .uses.push_back({kInvalid, effects(use.state, ConversionCounts())});
     _instances.push_back(kInvalid);
 }
 
@@ -355,16 +355,16 @@ TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const Geo
     _report.addHere(_materialReport);
     setAmbient(state);
     instance.changed = _rules.now;
-    return {appendInstance(instance), treatment(use.state, _materialReport.counts())};
+    return {appendInstance(instance), effects(use.state, _materialReport.counts())};
 }
 
-uint32_t SceneBuilder::treatment(uint32_t state, const ConversionCounts& counts)
+uint32_t SceneBuilder::effects(uint32_t state, const ConversionCounts& counts)
 {
-    std::optional<Treatment>& known = _treatments[state];
-    if (!known) known = treatmentOf(_graph.states[state], _caches.textures);
-    Treatment wanted = *known;
+    std::optional<StateEffects>& known = _effects[state];
+    if (!known) known = stateEffectsOf(_graph.states[state], _caches.textures);
+    StateEffects wanted = *known;
     wanted.counts = counts;
-    return _made.index.treatment(wanted);
+    return _made.index.effects(wanted);
 }
 
 /// One light model for all: OpenGL has one for each drawable, but scenes do not.

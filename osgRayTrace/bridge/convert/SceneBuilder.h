@@ -59,7 +59,7 @@ private:
                           Instance instance);
     void addAreaLight(const CollectedAreaLight& source, ConversionCaches::Quad& quad);
     void addNothing(const CollectedGeometry& geometry, const GeometryUse& use);
-    uint32_t treatment(uint32_t state, const ConversionCounts& counts);
+    uint32_t effects(uint32_t state, const ConversionCounts& counts);
     void setAmbient(const GraphState& state);
     uint32_t addMesh(const std::shared_ptr<const Mesh>& mesh);
     uint32_t appendInstance(const Instance& instance);
@@ -75,7 +75,7 @@ private:
     ConversionReport& _report;
     ConversionReport _materialReport;
     MaterialConverter _materials;
-    std::vector<std::optional<Treatment>> _treatments; ///< by state
+    std::vector<std::optional<StateEffects>> _effects; ///< by state
     std::vector<uint32_t> _instances;
     const osg::LightModel* _lightModel = nullptr; // the first one met
 };

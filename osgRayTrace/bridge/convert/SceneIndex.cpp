@@ -1,4 +1,4 @@
-// SceneIndex.cpp - how state decides on the treatment of a surface. Layer: bridge.
+// SceneIndex.cpp - how state decides on more than the material of a surface. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/SceneIndex.h"
 
@@ -15,9 +15,9 @@
 namespace osgRayTrace::engine
 {
 
-bool Treatment::operator==(const Treatment& other) const
+bool StateEffects::operator==(const StateEffects& other) const
 {
-    const auto values = [](const Treatment& t)
+    const auto values = [](const StateEffects& t)
     {
         return std::tie(t.rasterized, t.restart, t.lift, t.physical, t.setsColor, t.clipPlanes,
                         t.hasAmbient, t.ambient, t.counts);
@@ -25,30 +25,30 @@ bool Treatment::operator==(const Treatment& other) const
     return values(*this) == values(other);
 }
 
-Treatment treatmentOf(const GraphState& state, const TextureConverter& textures)
+StateEffects stateEffectsOf(const GraphState& state, const TextureConverter& textures)
 {
-    Treatment treatment;
-    treatment.rasterized = rasterizedState(state, textures, nullptr);
-    treatment.restart = restartOf(state).key();
-    treatment.lift = polygonLift(state);
-    treatment.physical = state.attributes[kPhysicalMaterialSlot] != nullptr;
-    treatment.setsColor = setsCurrentColor(state);
-    treatment.clipPlanes = clipPlanesOn(state);
+    StateEffects effects;
+    effects.rasterized = rasterizedState(state, textures, nullptr);
+    effects.restart = restartOf(state).key();
+    effects.lift = polygonLift(state);
+    effects.physical = state.attributes[kPhysicalMaterialSlot] != nullptr;
+    effects.setsColor = setsCurrentColor(state);
+    effects.clipPlanes = clipPlanesOn(state);
     const auto* model = state.attribute<osg::LightModel>(kLightModelSlot);
-    treatment.hasAmbient = model && state.isOn(kLightingBit);
-    if (treatment.hasAmbient)
+    effects.hasAmbient = model && state.isOn(kLightingBit);
+    if (effects.hasAmbient)
     {
         const osg::Vec4& color = model->getAmbientIntensity();
-        treatment.ambient = Vec3(color.r(), color.g(), color.b());
+        effects.ambient = Vec3(color.r(), color.g(), color.b());
     }
-    return treatment;
+    return effects;
 }
 
-uint32_t SceneIndex::treatment(const Treatment& treatment)
+uint32_t SceneIndex::effects(const StateEffects& effects)
 {
-    const auto found = std::find(treatments.begin(), treatments.end(), treatment);
-    const auto index = static_cast<uint32_t>(found - treatments.begin());
-    if (found == treatments.end()) treatments.push_back(treatment);
+    const auto found = std::find(stateEffects.begin(), stateEffects.end(), effects);
+    const auto index = static_cast<uint32_t>(found - stateEffects.begin());
+    if (found == stateEffects.end()) stateEffects.push_back(effects);
     return index;
 }
 

@@ -17,7 +17,7 @@ namespace osgRayTrace::engine
 {
 
 /// What of a use's state decides on more than its material.
-struct Treatment
+struct StateEffects
 {
     const char* rasterized = nullptr; ///< see rasterizedState
     uint64_t restart = 0;
@@ -29,16 +29,16 @@ struct Treatment
     Vec3 ambient{0.0f};
     ConversionCounts counts; ///< of its material
 
-    bool operator==(const Treatment& other) const;
+    bool operator==(const StateEffects& other) const;
 };
 
 /// textures: as in rasterizedState.
-Treatment treatmentOf(const GraphState& state, const TextureConverter& textures);
+StateEffects stateEffectsOf(const GraphState& state, const TextureConverter& textures);
 
 struct TracedUse
 {
-    uint32_t instance = kInvalid;  ///< kInvalid: nothing of it is traced
-    uint32_t treatment = kInvalid; ///< kInvalid: OSG draws it
+    uint32_t instance = kInvalid; ///< kInvalid: nothing of it is traced
+    uint32_t effects = kInvalid;  ///< kInvalid: OSG draws it
 };
 
 struct TracedGeometry
@@ -52,7 +52,7 @@ struct TracedGeometry
 struct SceneIndex
 {
     std::unordered_map<const osg::Geometry*, TracedGeometry> geometries;
-    std::vector<Treatment> treatments; ///< all different
+    std::vector<StateEffects> stateEffects; ///< all different
 
     /// A new entry if there is none.
     TracedGeometry& at(const osg::Geometry& geometry)
@@ -62,7 +62,7 @@ struct SceneIndex
         return traced;
     }
 
-    uint32_t treatment(const Treatment& treatment);
+    uint32_t effects(const StateEffects& effects);
 };
 
 } // namespace osgRayTrace::engine

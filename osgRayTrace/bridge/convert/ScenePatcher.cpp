@@ -118,10 +118,10 @@ bool ScenePatcher::restate(const std::vector<RestatedUse>& uses)
 /// Whether a state of the scene makes another colour current: see MaterialRules.
 bool ScenePatcher::setsColor() const
 {
-    const std::vector<Treatment>& treatments = _made.index.treatments;
+    const std::vector<StateEffects>& stateEffects = _made.index.stateEffects;
     for (const auto& [geometry, traced] : _made.index.geometries)
         for (const TracedUse& use : traced.uses)
-            if (use.treatment != kInvalid && treatments[use.treatment].setsColor) return true;
+            if (use.effects != kInvalid && stateEffects[use.effects].setsColor) return true;
     return false;
 }
 
@@ -132,7 +132,7 @@ bool ScenePatcher::restateUse(const RestatedUse& use, StateStack& states,
     if (found == _made.index.geometries.end() || !found->second.patchable) return false;
     if (found->second.uses.size() != use.uses) return false;
     TracedUse& traced = found->second.uses[use.use];
-    if (traced.treatment == kInvalid) return false;
+    if (traced.effects == kInvalid) return false;
 
     int pushed = 0;
     for (const osg::Node* node : fromRoot(use.path, _input.root))
@@ -144,23 +144,23 @@ bool ScenePatcher::restateUse(const RestatedUse& use, StateStack& states,
     const GraphState& state = states.states()[states.top()];
     for (; pushed > 0; --pushed)
         states.pop();
-    Treatment treatment = treatmentOf(state, _caches.textures);
-    const Treatment before = _made.index.treatments[traced.treatment];
-    if (traced.instance == kInvalid) return treatment == before;
+    StateEffects effects = stateEffectsOf(state, _caches.textures);
+    const StateEffects before = _made.index.stateEffects[traced.effects];
+    if (traced.instance == kInvalid) return effects == before;
     const Vec3d& origin = _scene->origin;
     report = ConversionReport();
     const Material material = converter.material(
         state, surfaceInputs(*use.geometry),
         {use.worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z),
          &_made.texGens});
-    treatment.counts = report.counts();
-    const bool setsColor = std::exchange(treatment.setsColor, before.setsColor);
-    if (!(treatment == before)) return false;
+    effects.counts = report.counts();
+    const bool setsColor = std::exchange(effects.setsColor, before.setsColor);
+    if (!(effects == before)) return false;
     if (setsColor != before.setsColor)
     {
         _recolors = true;
-        treatment.setsColor = setsColor;
-        traced.treatment = _made.index.treatment(treatment);
+        effects.setsColor = setsColor;
+        traced.effects = _made.index.effects(effects);
     }
     if (!sameMaterial(material, _made.materials[_scene->instances[traced.instance].material]))
         _restated.emplace_back(traced.instance, material);
@@ -259,14 +259,13 @@ bool ScenePatcher::remove(const GraphSplice& splice)
 bool ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
 {
     const TracedUse gone = traced.uses[use];
-    if (gone.instance == kInvalid || gone.treatment == kInvalid) return false;
+    if (gone.instance == kInvalid || gone.effects == kInvalid) return false;
     Instance& instance = _scene->instances[gone.instance];
     if (traced.uses.size() > 1 && !instance.placed) return false;
-    const Treatment& treatment = _made.index.treatments[gone.treatment];
+    const StateEffects& effects = _made.index.stateEffects[gone.effects];
     traced.uses.erase(traced.uses.begin() + use);
-    if (!treatment.counts.empty()) return false; // paths may be named
-    if ((treatment.hasAmbient || treatment.physical || treatment.setsColor) &&
-        isLastOf(gone.treatment))
+    if (!effects.counts.empty()) return false; // paths may be named
+    if ((effects.hasAmbient || effects.physical || effects.setsColor) && isLastOf(gone.effects))
         return false;
 
     _leftFlat |= !instance.placed;
@@ -284,13 +283,13 @@ bool ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
     return true;
 }
 
-/// Whether no other use has this treatment: what it alone decides for all of the scene would
+/// Whether no other use has these effects: what it alone decides for all of the scene would
 /// change.
-bool ScenePatcher::isLastOf(uint32_t treatment) const
+bool ScenePatcher::isLastOf(uint32_t effects) const
 {
     for (const auto& [geometry, traced] : _made.index.geometries)
         for (const TracedUse& use : traced.uses)
-            if (use.treatment == treatment && use.instance != kInvalid) return false;
+            if (use.effects == effects && use.instance != kInvalid) return false;
     return true;
 }
 
@@ -337,11 +336,11 @@ bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeome
     const bool automatic = _input.colorRule == RayTraceSettings::AUTOMATIC_COLOR;
     for (const GeometryUse& use : geometry.uses)
     {
-        const Treatment treatment = treatmentOf(graph.states[use.state], _caches.textures);
-        if (treatment.physical && automatic && _scene->displayReferred) return false;
-        if (treatment.setsColor && !_made.setsColor) return false;
-        if (treatment.hasAmbient && treatment.ambient != _scene->ambient) return false;
-        if (treatment.clipPlanes != 0) return false;
+        const StateEffects effects = stateEffectsOf(graph.states[use.state], _caches.textures);
+        if (effects.physical && automatic && _scene->displayReferred) return false;
+        if (effects.setsColor && !_made.setsColor) return false;
+        if (effects.hasAmbient && effects.ambient != _scene->ambient) return false;
+        if (effects.clipPlanes != 0) return false;
     }
     const auto known = _made.index.geometries.find(geometry.geometry);
     const bool isNew = known == _made.index.geometries.end();

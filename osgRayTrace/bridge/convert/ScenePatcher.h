@@ -43,7 +43,7 @@ private:
     bool splice(const GraphSplice& splice);
     bool remove(const GraphSplice& splice);
     bool removeUse(TracedGeometry& traced, uint32_t use);
-    bool isLastOf(uint32_t treatment) const;
+    bool isLastOf(uint32_t effects) const;
     bool add(const GraphSplice& splice);
     bool addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
                      const GraphSplice& splice);
