@@ -28,7 +28,7 @@ struct MovedUse : ChangedUse
 };
 
 /// One that has other state, or other arrays.
-struct RestatedUse : MovedUse
+struct StateChange : MovedUse
 {
     osg::NodePath path; ///< from the first node that was found to the geometry
 };
@@ -43,7 +43,7 @@ struct GraphSplice
 };
 
 /// Pointers into the graph: valid as long as nobody changes it. The numbers of uses in moved,
-/// deformed and restated are those after all splices.
+/// deformed and stateChanges are those after all splices.
 struct GraphChanges
 {
     bool convert = false; ///< the graph is to be converted again: there is more than what follows
@@ -51,13 +51,13 @@ struct GraphChanges
     std::vector<GraphSplice> splices; ///< in the order in which they are to be made
     std::vector<MovedUse> moved;
     std::vector<const osg::Geometry*> deformed; ///< other positions, normals or primitives
-    std::vector<RestatedUse> restated;
+    std::vector<StateChange> stateChanges;
     bool lights = false; ///< values of lights of any kind
 
     bool none() const
     {
         return !convert && splices.empty() && moved.empty() && deformed.empty() &&
-               restated.empty() && !lights;
+               stateChanges.empty() && !lights;
     }
 };
 

@@ -143,7 +143,7 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
     _recorded = false; // until everything is seen
     _plain.eye = conditions.eye;
     _plain.view = conditions.view;
-    _anyMoved = _anyRestated = false;
+    _anyMoved = _anyStateChanged = false;
     _exchanged.clear();
     ++_looks;
     if (!comparable || !lookAtNodes(changes) || !lookAtHidden(changes))
@@ -163,7 +163,7 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
         _inheritedHash = inheritedHash(conditions, &kept);
         _inheritedKept = std::move(kept);
     }
-    if (_anyMoved || _anyRestated) findChanged(changes);
+    if (_anyMoved || _anyStateChanged) findChanged(changes);
     // Nodes that the watch has not seen may be among those that came up.
     if (_graph.truncated && !changes.none()) changes.convert = changes.record = true;
     _recorded = true;
@@ -242,7 +242,7 @@ bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
     if (stateSet != before)
     {
         _graph.setState(node.state, stateSet);
-        node.restated = _anyRestated = known = true;
+        node.stateChanged = _anyStateChanged = known = true;
     }
     const std::size_t splices = changes.splices.size();
     if (node.node->asGroup() && !redoChildren(index, changes)) return false;
@@ -365,7 +365,7 @@ bool GraphWatch::lookAtGeometry(uint32_t index, GraphChanges& changes)
     if (geometry.getStateSet() == watched.stateSet && arrays == watched.arrays) return true;
     _graph.setState(watched.state, geometry.getStateSet());
     watched.stateSet = geometry.getStateSet();
-    watched.restated = _anyRestated = true;
+    watched.stateChanged = _anyStateChanged = true;
     if (arrays == watched.arrays) return true;
     watched.arrays = arrays;
     _exchanged.push_back(index);
@@ -411,11 +411,12 @@ void GraphWatch::lookAtStates()
         state.kept = std::move(kept);
     }
     if (!any) return;
-    _anyRestated = true;
+    _anyStateChanged = true;
     for (WatchedNode& node : _graph.nodes)
-        if (node.state != kNowhere) node.restated |= _graph.states[node.state].changed;
+        if (node.state != kNowhere) node.stateChanged |= _graph.states[node.state].changed;
     for (WatchedGeometry& geometry : _graph.geometries)
-        if (geometry.state != kNowhere) geometry.restated |= _graph.states[geometry.state].changed;
+        if (geometry.state != kNowhere)
+            geometry.stateChanged |= _graph.states[geometry.state].changed;
 }
 
 void GraphWatch::lookAtLights(GraphChanges& changes)
@@ -449,23 +450,23 @@ void GraphWatch::findChanged(GraphChanges& changes)
     };
     for (WatchedGeometry& geometry : _graph.geometries)
         geometry.counted = 0;
-    uint32_t restatedEnd = 0;
+    uint32_t stateChangedEnd = 0;
     for (uint32_t i = 0; i < _graph.nodes.size(); ++i)
     {
         WatchedNode& node = _graph.nodes[i];
-        if (node.restated) restatedEnd = std::max(restatedEnd, node.end);
-        node.restated = false;
-        bool restated = i < restatedEnd;
-        changes.convert |= restated && node.kind == NodeKind::Opaque;
+        if (node.stateChanged) stateChangedEnd = std::max(stateChangedEnd, node.end);
+        node.stateChanged = false;
+        bool stateChanged = i < stateChangedEnd;
+        changes.convert |= stateChanged && node.kind == NodeKind::Opaque;
         if (node.kind != NodeKind::Geometry) continue;
         WatchedGeometry& watched = _graph.geometries[node.item];
-        restated |= watched.restated;
+        stateChanged |= watched.stateChanged;
         const ChangedUse use{watched.geometry, watched.counted++, watched.uses};
         const bool moved = node.place != kNowhere && _graph.places[node.place].moved;
         if (changes.convert) continue;
         if (moved) changes.moved.push_back({use, matrixOf(node.place)});
-        if (!restated) continue;
-        RestatedUse& other = changes.restated.emplace_back();
+        if (!stateChanged) continue;
+        StateChange& other = changes.stateChanges.emplace_back();
         static_cast<ChangedUse&>(other) = use;
         other.worldFromLocal = matrixOf(node.place);
         other.path = _graph.pathTo(i);
@@ -473,7 +474,7 @@ void GraphWatch::findChanged(GraphChanges& changes)
     for (WatchedPlace& place : _graph.places)
         place.moved = false;
     for (WatchedGeometry& geometry : _graph.geometries)
-        geometry.restated = false;
+        geometry.stateChanged = false;
 }
 
 } // namespace osgRayTrace::engine

@@ -59,7 +59,7 @@ private:
     uint64_t _looks = 0;
 
     // Of a look while it runs:
-    bool _anyMoved = false, _anyRestated = false;
+    bool _anyMoved = false, _anyStateChanged = false;
     std::vector<uint32_t> _exchanged; ///< geometries that have other arrays
 };
 

@@ -40,8 +40,8 @@ struct WatchedNode
     uint32_t item = kNowhere;   ///< Geometry: in geometries; Opaque: in opaques
     NodeKind kind = NodeKind::Group;
     uint8_t hint = 0;
-    bool repeated = false; ///< the same node came before: looked at there
-    bool restated = false; ///< while a look runs: state at it has changed
+    bool repeated = false;     ///< the same node came before: looked at there
+    bool stateChanged = false; ///< while a look runs: state at it has changed
 };
 
 /// A transform on a path.
@@ -66,7 +66,7 @@ struct WatchedGeometry
     // While a look runs:
     uint64_t looked = 0;
     uint32_t counted = 0;
-    bool restated = false; ///< it has other state or arrays
+    bool stateChanged = false; ///< it has other state or arrays
 };
 
 struct WatchedBuffer

@@ -65,10 +65,10 @@ std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
     for (const GraphSplice& one : changes.splices)
         if (!splice(one)) return nullptr;
     takeMaterials();
-    if (!moveAndDeform(changes) || !restate(changes.restated)) return nullptr;
+    if (!moveAndDeform(changes) || !changeStates(changes.stateChanges)) return nullptr;
     if (changes.lights && !relightLamps()) return nullptr;
     takeMaterials();
-    const bool relights = changes.lights || _spliced || !changes.restated.empty();
+    const bool relights = changes.lights || _spliced || !changes.stateChanges.empty();
     if (relights && !relight()) return nullptr;
     dropRemoved();
     if (_changed) _scene->changed = _now;
@@ -90,7 +90,7 @@ bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
 }
 
 /// Where equal materials become one, or one becomes two, indices of others stay what they are.
-bool ScenePatcher::restate(const std::vector<RestatedUse>& uses)
+bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
 {
     if (uses.empty()) return true;
     if (_input.materials) return false; // rules look at names
@@ -98,12 +98,12 @@ bool ScenePatcher::restate(const std::vector<RestatedUse>& uses)
     ConversionReport report;
     MaterialConverter converter({!_scene->displayReferred, _input.cullAllRays, _made.setsColor},
                                 _caches.textures, report);
-    for (const RestatedUse& use : uses)
-        if (!restateUse(use, states, converter, report)) return false;
+    for (const StateChange& use : uses)
+        if (!changeState(use, states, converter, report)) return false;
     if (_recolors && setsColor() != _made.setsColor) return false; // a rule of all materials
-    for (const auto& [instance, material] : _restated)
+    for (const auto& [instance, material] : _newMaterials)
         _made.materials.release(_scene->instances[instance].material);
-    for (const auto& [index, material] : _restated)
+    for (const auto& [index, material] : _newMaterials)
     {
         Instance& instance = _scene->instances[index];
         const uint32_t before = instance.material;
@@ -125,8 +125,8 @@ bool ScenePatcher::setsColor() const
     return false;
 }
 
-bool ScenePatcher::restateUse(const RestatedUse& use, StateStack& states,
-                              MaterialConverter& converter, ConversionReport& report)
+bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
+                               MaterialConverter& converter, ConversionReport& report)
 {
     const auto found = _made.index.geometries.find(use.geometry);
     if (found == _made.index.geometries.end() || !found->second.patchable) return false;
@@ -163,7 +163,7 @@ bool ScenePatcher::restateUse(const RestatedUse& use, StateStack& states,
         traced.effects = _made.index.effects(effects);
     }
     if (!sameMaterial(material, _made.materials[_scene->instances[traced.instance].material]))
-        _restated.emplace_back(traced.instance, material);
+        _newMaterials.emplace_back(traced.instance, material);
     return true;
 }
 

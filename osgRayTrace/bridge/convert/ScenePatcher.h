@@ -48,10 +48,10 @@ private:
     bool addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
                      const GraphSplice& splice);
     bool moveAndDeform(const GraphChanges& changes);
-    bool restate(const std::vector<RestatedUse>& uses);
+    bool changeStates(const std::vector<StateChange>& uses);
     bool setsColor() const;
-    bool restateUse(const RestatedUse& use, StateStack& states, MaterialConverter& converter,
-                    ConversionReport& report);
+    bool changeState(const StateChange& use, StateStack& states, MaterialConverter& converter,
+                     ConversionReport& report);
     bool relightLamps();
     bool relight();
     void takeMaterials();
@@ -64,7 +64,8 @@ private:
     ConvertedGraph& _made;
     Stamp _now;
     std::shared_ptr<Scene> _scene;
-    std::vector<std::pair<uint32_t, Material>> _restated; ///< instances that get other materials
+    std::vector<std::pair<uint32_t, Material>>
+        _newMaterials; ///< instances that get other materials
     std::vector<osg::ref_ptr<const osg::Geometry>> _removed;
     int64_t _geometries = 0, _instances = 0;
     bool _changed = false;
