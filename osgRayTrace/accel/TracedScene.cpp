@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/TracedScene.h"
 
+#include "osgRayTrace/accel/BvhPool.h"
 #include "osgRayTrace/accel/HitFilter.h"
 #include "osgRayTrace/accel/Intersector.h"
-#include "osgRayTrace/accel/SceneParts.h"
 #include "osgRayTrace/accel/SurfaceTable.h"
 #include "osgRayTrace/base/Parallel.h"
 
@@ -104,12 +104,12 @@ struct MaterialPart
     MaterialTable table;
 };
 
-/// Whether a flat part of these members does for the others, too: what asks the filter in vain does
-/// no harm.
-bool serves(const FlatPart::Members& has, const FlatPart::Members& wanted)
+/// Whether a static BVH of these members does for the others, too: what asks the filter in vain
+/// does no harm.
+bool serves(const StaticBvh::Members& has, const StaticBvh::Members& wanted)
 {
     return std::equal(has.begin(), has.end(), wanted.begin(), wanted.end(),
-                      [](const FlatPart::Member& a, const FlatPart::Member& b) {
+                      [](const StaticBvh::Member& a, const StaticBvh::Member& b) {
                           return a.instance == b.instance && a.mesh == b.mesh &&
                                  (a.filtered || !b.filtered);
                       });
@@ -119,14 +119,14 @@ bool serves(const FlatPart::Members& has, const FlatPart::Members& wanted)
 
 struct TracedScene::Implementation
 {
-    std::shared_ptr<PartPool> pool;
+    std::shared_ptr<BvhPool> pool;
     std::shared_ptr<const Scene> scene;
-    using Prototypes = std::vector<std::shared_ptr<const Prototype>>;
-    std::shared_ptr<const Prototypes> prototypes; ///< by mesh; null: not needed
-    std::size_t prototypeCount = 0;
-    std::shared_ptr<const FlatPart> flat; ///< null: there is none
-    std::shared_ptr<const RootPart> root; ///< null: the flat part is all
-    std::vector<float> reaches;           ///< by instance: of reachOf(), if it is placed
+    using MeshBvhs = std::vector<std::shared_ptr<const MeshBvh>>;
+    std::shared_ptr<const MeshBvhs> meshBvhs; ///< by mesh; null: not needed
+    std::size_t meshBvhCount = 0;
+    std::shared_ptr<const StaticBvh> staticBvh;  ///< null: there is none
+    std::shared_ptr<const TopLevelBvh> topLevel; ///< null: the static BVH is all
+    std::vector<float> reaches;                  ///< by instance: of reachOf(), if it is placed
     std::unique_ptr<Intersector> intersector;
     SurfaceTable surfaces;
     std::shared_ptr<const MaterialPart> materials;
@@ -144,10 +144,10 @@ struct TracedScene::Implementation
     void compareInstances(const Implementation* old);
     void findAttached();
     bool takeStructures(const Implementation* old);
-    void makePrototypes(const Implementation* old, const Workers& workers, BuildCounts& counts);
+    void makeMeshBvhs(const Implementation* old, const Workers& workers, BuildCounts& counts);
     void forgetGone();
     void makeFlat(const Implementation* old, BuildCounts& counts);
-    void makeRoot(const Implementation* old, BuildCounts& counts);
+    void makeTopLevel(const Implementation* old, BuildCounts& counts);
     void makeTables(const Implementation* old);
     void findFiltered();
     float reach() const;
@@ -203,15 +203,15 @@ bool TracedScene::Implementation::takeStructures(const Implementation* old)
     if (filtered.size() != old->filtered.size()) return false;
     for (std::size_t i = 0; i < filtered.size(); ++i)
         if (filtered[i] && !old->filtered[i]) return false;
-    prototypes = old->prototypes;
-    prototypeCount = old->prototypeCount;
-    flat = old->flat;
-    root = old->root;
+    meshBvhs = old->meshBvhs;
+    meshBvhCount = old->meshBvhCount;
+    staticBvh = old->staticBvh;
+    topLevel = old->topLevel;
     return true;
 }
 
-void TracedScene::Implementation::makePrototypes(const Implementation* old, const Workers& workers,
-                                                 BuildCounts& counts)
+void TracedScene::Implementation::makeMeshBvhs(const Implementation* old, const Workers& workers,
+                                               BuildCounts& counts)
 {
     const auto& meshes = scene->meshes;
     std::vector<bool> needed(meshes.size());
@@ -219,15 +219,15 @@ void TracedScene::Implementation::makePrototypes(const Implementation* old, cons
         if (attached[i] && scene->instances[i].placed) needed[scene->instances[i].mesh] = true;
 
     // Most are where they were. What has only deformed is not looked for: it is refitted.
-    std::unordered_map<const Mesh*, const std::shared_ptr<const Prototype>*> known;
+    std::unordered_map<const Mesh*, const std::shared_ptr<const MeshBvh>*> known;
     std::size_t kept = 0, deformed = 0;
     // One that asks the filter in vain does no harm.
-    const auto fits = [&](const Prototype& prototype, std::size_t i)
-    { return prototype.mesh == meshes[i] && (prototype.filtered || !filtered[i]); };
-    const auto knownPrototype = [&](std::size_t i) -> std::shared_ptr<const Prototype>
+    const auto fits = [&](const MeshBvh& meshBvh, std::size_t i)
+    { return meshBvh.mesh == meshes[i] && (meshBvh.filtered || !filtered[i]); };
+    const auto knownMeshBvh = [&](std::size_t i) -> std::shared_ptr<const MeshBvh>
     {
         if (!old) return nullptr;
-        const Prototypes& before = *old->prototypes;
+        const MeshBvhs& before = *old->meshBvhs;
         if (i < before.size() && before[i])
         {
             const Mesh& mesh = *before[i]->mesh;
@@ -239,31 +239,31 @@ void TracedScene::Implementation::makePrototypes(const Implementation* old, cons
             }
         }
         if (known.empty())
-            for (const auto& prototype : before)
-                if (prototype) known[prototype->mesh.get()] = &prototype;
+            for (const auto& meshBvh : before)
+                if (meshBvh) known[meshBvh->mesh.get()] = &meshBvh;
         const auto found = known.find(meshes[i].get());
         return found == known.end() || !fits(**found->second, i) ? nullptr : *found->second;
     };
-    const auto made = std::make_shared<Prototypes>(meshes.size());
+    const auto made = std::make_shared<MeshBvhs>(meshes.size());
     std::vector<std::size_t> missing;
     for (std::size_t i = 0; i < meshes.size(); ++i)
     {
         if (!needed[i]) continue;
-        (*made)[i] = knownPrototype(i);
-        ++prototypeCount;
+        (*made)[i] = knownMeshBvh(i);
+        ++meshBvhCount;
         if ((*made)[i])
             ++kept;
         else
             missing.push_back(i);
     }
     const auto make = [&](std::size_t i)
-    { (*made)[missing[i]] = pool->prototype(meshes[missing[i]], filtered[missing[i]], counts); };
+    { (*made)[missing[i]] = pool->meshBvh(meshes[missing[i]], filtered[missing[i]], counts); };
     if (missing.size() == 1)
         workers.run([&] { make(0); }); // Embree's own threads for a large one
     else
         workers.forEach(missing.size(), make);
-    prototypes = made;
-    if (old && kept + deformed < old->prototypeCount) forgetGone();
+    meshBvhs = made;
+    if (old && kept + deformed < old->meshBvhCount) forgetGone();
 }
 
 /// What the previous scene had and this one has not is not kept for later ones.
@@ -277,7 +277,7 @@ void TracedScene::Implementation::forgetGone()
 
 void TracedScene::Implementation::makeFlat(const Implementation* old, BuildCounts& counts)
 {
-    FlatPart::Members members;
+    StaticBvh::Members members;
     for (std::size_t i = 0; i < attached.size(); ++i)
         if (attached[i] && !scene->instances[i].placed)
         {
@@ -285,45 +285,45 @@ void TracedScene::Implementation::makeFlat(const Implementation* old, BuildCount
             members.push_back(
                 {static_cast<uint32_t>(i), scene->meshes[mesh].get(), bool(filtered[mesh])});
         }
-    if (old && old->flat && serves(old->flat->members, members))
+    if (old && old->staticBvh && serves(old->staticBvh->members, members))
     {
-        flat = old->flat;
+        staticBvh = old->staticBvh;
         return;
     }
     if (members.empty()) return;
     std::vector<std::shared_ptr<const Mesh>> owners;
-    for (const FlatPart::Member& member : members)
+    for (const StaticBvh::Member& member : members)
         owners.push_back(scene->meshes[scene->instances[member.instance].mesh]);
-    flat = pool->flat(std::move(members), std::move(owners), counts);
+    staticBvh = pool->staticBvh(std::move(members), std::move(owners), counts);
 }
 
-void TracedScene::Implementation::makeRoot(const Implementation* old, BuildCounts& counts)
+void TracedScene::Implementation::makeTopLevel(const Implementation* old, BuildCounts& counts)
 {
     std::vector<Placement> placements;
     for (std::size_t i = 0; i < attached.size(); ++i)
     {
         const Instance& instance = scene->instances[i];
         if (!attached[i] || !instance.placed) continue;
-        const Prototype& prototype = *(*prototypes)[instance.mesh];
+        const MeshBvh& meshBvh = *(*meshBvhs)[instance.mesh];
         Placement placement;
-        placement.scene = prototype.scene.get();
-        placement.outline = prototype.outline ? &*prototype.outline : nullptr;
+        placement.scene = meshBvh.scene.get();
+        placement.outline = meshBvh.outline ? &*meshBvh.outline : nullptr;
         placement.engineFromLocal = &instance.engineFromLocal;
         placement.instance = static_cast<uint32_t>(i);
-        placement.hash = hashOf(prototype.serial, placement.instance, instance.engineFromLocal);
+        placement.hash = hashOf(meshBvh.serial, placement.instance, instance.engineFromLocal);
         placements.push_back(placement);
     }
-    if (placements.empty() && flat) return;
-    if (flat)
+    if (placements.empty() && staticBvh) return;
+    if (staticBvh)
     {
         Placement placement;
-        placement.scene = flat->scene.get();
-        placement.hash = hashOf(flat->serial, kInvalid, Affine());
+        placement.scene = staticBvh->scene.get();
+        placement.hash = hashOf(staticBvh->serial, kInvalid, Affine());
         placements.push_back(placement);
     }
-    root = old && old->root && old->root->placed->holds(placements)
-               ? old->root
-               : pool->root(placements, counts);
+    topLevel = old && old->topLevel && old->topLevel->placed->holds(placements)
+                   ? old->topLevel
+                   : pool->topLevel(placements, counts);
 }
 
 /// Shared with the previous one where nothing that they are made of has changed.
@@ -367,7 +367,7 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     std::shared_ptr<TracedScene> traced(new TracedScene);
     Implementation& built = *traced->_implementation;
     const Implementation* old = previous ? previous->_implementation.get() : nullptr;
-    built.pool = old ? old->pool : std::make_shared<PartPool>(std::make_shared<EmbreeDevice>());
+    built.pool = old ? old->pool : std::make_shared<BvhPool>(std::make_shared<EmbreeDevice>());
     built.scene = std::move(scene);
 
     BuildCounts counts;
@@ -377,16 +377,16 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     built.findAttached();
     if (!built.takeStructures(old))
     {
-        built.makePrototypes(old, *workers, counts);
+        built.makeMeshBvhs(old, *workers, counts);
         workers->run(
             [&]
             {
                 built.makeFlat(old, counts);
-                built.makeRoot(old, counts);
+                built.makeTopLevel(old, counts);
             });
     }
     EmbreeDevice& device = *built.pool->device();
-    RTCScene top = (built.root ? built.root->scene : built.flat->scene).get();
+    RTCScene top = (built.topLevel ? built.topLevel->scene : built.staticBvh->scene).get();
     built.filter = std::make_unique<HitFilter>(built.surfaces, built.materials->table);
     built.intersector =
         std::make_unique<Intersector>(top, device.nativeWidth(), built.reach(), built.filter.get());
@@ -394,7 +394,7 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     BuildStatistics& statistics = built.statistics;
     statistics.builtMeshes = counts.built;
     statistics.refitMeshes = counts.refit;
-    statistics.staticBuilds = counts.flat;
+    statistics.staticBuilds = counts.staticBuilds;
     statistics.commits = counts.commits;
     statistics.embreeBytes = device.bytes();
     statistics.seconds =

@@ -32,7 +32,7 @@ struct BuildStatistics
 
 /// Immutable once built; sessions share it. Reuses from previous what did not change (may be null),
 /// and changes what neither previous nor anybody else uses any more. Meshes that are not placed are
-/// in one flat BVH; where there are others, it is one of the instances of the top level.
+/// in one static BVH; where there are others, it is one of the instances of the top level.
 class TracedScene
 {
 public:

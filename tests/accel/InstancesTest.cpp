@@ -278,7 +278,7 @@ TEST_CASE("instances: what is taken over from the last scene is hit as in a new 
             break;
         default:
             std::swap(instances[chosen], instances[2]);
-            if (edit == 44) instances[1].placed = true; // leaves the flat part
+            if (edit == 44) instances[1].placed = true; // leaves the static BVH
             if (edit == 54) instances.resize(1);        // and all others go
         }
         scene = next;

@@ -106,7 +106,7 @@ TEST_CASE("live scene: vertices that move are refitted in two copies in turn", "
 {
     LiveGraph graph;
     LiveView view(graph.root.get());
-    // Out of the flat BVH; a copy for the versions in turn; from then on no mesh is built.
+    // Out of the static BVH; a copy for the versions in turn; from then on no mesh is built.
     graph.deform(3, 0.1f);
     CHECK(updateOf(view, *graph.root) == Done{1, 0, 1, 1, LiveGraph::kObjects, 0, 1, 3});
     graph.deform(3, 0.2f);
@@ -185,7 +185,7 @@ TEST_CASE("live scene: what is added or removed leaves the other meshes alone", 
     osg::observer_ptr<osg::Array> array = gone->getVertexArray();
     graph.group->removeChild(added);
     added = nullptr;
-    // The flat BVH alone is left.
+    // The static BVH alone is left.
     CHECK(updateOf(view, *graph.root) == Done{1, 0, 1, 0, 0, 0, 0, 0});
     CHECK(!gone.valid());
     CHECK(!array.valid());

@@ -136,7 +136,7 @@ TEST_CASE("random edits: a thousand, and each twentieth picture is that of a fre
     const Statistics done = view.statistics();
     CHECK(done.patches > 800); // nearly all; some repaint or hide nothing, and are none
     CHECK(done.conversions < 50);
-    CHECK(done.conversions > 5); // a tile of the flat BVH that is shared now
+    CHECK(done.conversions > 5); // a tile of the static BVH that is shared now
     CHECK(done.refitMeshes > 10);
 }
 

@@ -1,4 +1,4 @@
-// ConversionState.cpp - when a scene shall have no flat BVH any more. Layer: bridge.
+// ConversionState.cpp - when a scene shall have no static BVH any more. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/ConversionState.h"
 
@@ -13,25 +13,26 @@ namespace
 {
 
 /// Builds of a larger one for the sake of what leaves it; then all meshes get BVHs of their own.
-constexpr int kMostFlatBuilds = 3;
+constexpr int kMostStaticBuilds = 3;
 
 } // namespace
 
-void noteFlat(const Scene& scene, bool comparable, ConversionCaches& caches)
+void recordStaticMeshes(const Scene& scene, bool comparable, ConversionCaches& caches)
 {
-    std::vector<std::shared_ptr<const Mesh>> flat;
+    std::vector<std::shared_ptr<const Mesh>> staticMeshes;
     uint64_t vertices = 0;
     for (const Instance& instance : scene.instances)
     {
         if (instance.placed) continue;
-        flat.push_back(scene.meshes[instance.mesh]);
-        vertices += flat.back()->positions.size();
+        staticMeshes.push_back(scene.meshes[instance.mesh]);
+        vertices += staticMeshes.back()->positions.size();
     }
-    const bool large = caches.flatVertices > kSmallFlat;
-    if (comparable && large && flat != caches.flat && ++caches.flatBuilds >= kMostFlatBuilds)
-        caches.dissolved = true;
-    caches.flat = std::move(flat);
-    caches.flatVertices = vertices;
+    const bool large = caches.staticVertices > kSmallStatic;
+    if (comparable && large && staticMeshes != caches.staticMeshes &&
+        ++caches.staticBuilds >= kMostStaticBuilds)
+        caches.noStaticBvh = true;
+    caches.staticMeshes = std::move(staticMeshes);
+    caches.staticVertices = vertices;
 }
 
 const std::shared_ptr<const Mesh>& emptyMesh()

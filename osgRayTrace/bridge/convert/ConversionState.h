@@ -16,8 +16,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Vertices of the flat BVH: fewer are built again in no time.
-constexpr uint64_t kSmallFlat = 32768;
+/// Vertices of the static BVH: fewer are built again in no time.
+constexpr uint64_t kSmallStatic = 32768;
 
 /// What is converted again only if it has changed.
 struct ConversionCaches
@@ -29,19 +29,19 @@ struct ConversionCaches
     struct Quad
     {
         std::shared_ptr<const Mesh> mesh;
-        bool moves = false; ///< has moved: it is in no flat BVH
+        bool dynamic = false; ///< has moved: it is in no static BVH
         uint32_t instance = kInvalid;
         Light light;
     };
-    std::vector<Quad> areaLights;                  ///< in the order of the traversal
-    std::vector<std::shared_ptr<const Mesh>> flat; ///< all meshes that are not placed
-    uint64_t flatVertices = 0;
-    int flatBuilds = 0;     ///< of a large flat BVH that something has left
-    bool dissolved = false; ///< there is no flat BVH any more
+    std::vector<Quad> areaLights;                          ///< in the order of the traversal
+    std::vector<std::shared_ptr<const Mesh>> staticMeshes; ///< all meshes that are not placed
+    uint64_t staticVertices = 0;
+    int staticBuilds = 0;     ///< of a large static BVH that something has left
+    bool noStaticBvh = false; ///< there is no static BVH any more
 };
 
-/// If a large flat BVH must be built time and again, there shall be none.
-void noteFlat(const Scene& scene, bool comparable, ConversionCaches& caches);
+/// If a large static BVH must be built time and again, there shall be none.
+void recordStaticMeshes(const Scene& scene, bool comparable, ConversionCaches& caches);
 
 /// What the last Scene was made of. Keeps those nodes of the graph that it names alive until the
 /// next conversion or patch.

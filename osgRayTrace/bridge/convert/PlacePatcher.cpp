@@ -117,7 +117,7 @@ bool PlacePatcher::place(const osg::Geometry& geometry, uint32_t index,
         request.copies = _geometries.liveness(geometry) == Liveness::Deforms;
         if (!makeMesh(geometry, request, instance.mesh)) return false;
         localFromMesh = frame.localFromMesh;
-        _leftFlat = true;
+        _leftStatic = true;
     }
     const Affine before = instance.engineFromLocal;
     const bool wasPlaced = instance.placed, wasMirrored = instance.mirrored;

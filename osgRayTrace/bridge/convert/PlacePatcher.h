@@ -11,7 +11,7 @@ namespace osgRayTrace::engine
 {
 
 /// Redoes the instances that moved and the meshes that deformed, and nothing else. What does so for
-/// the first time gets a mesh in its own coordinates, and so leaves the flat BVH.
+/// the first time gets a mesh in its own coordinates, and so leaves the static BVH.
 class PlacePatcher
 {
 public:
@@ -29,8 +29,8 @@ public:
     /// Something has changed.
     bool changed() const { return _changed; }
 
-    /// Some mesh left the flat BVH.
-    bool leftFlat() const { return _leftFlat; }
+    /// Some mesh left the static BVH.
+    bool leftStatic() const { return _leftStatic; }
 
 private:
     bool place(const osg::Geometry& geometry, uint32_t index, const osg::Matrixd& engineFromLocal);
@@ -42,7 +42,7 @@ private:
     GeometryCache& _geometries;
     Stamp _now;
     bool _changed = false;
-    bool _leftFlat = false;
+    bool _leftStatic = false;
 };
 
 } // namespace osgRayTrace::engine

@@ -84,7 +84,7 @@ void SceneBuilder::build()
     _caches.textures.end();
     _scene.textures = _caches.textures.all();
     putFlatFirst();
-    noteFlat(_scene, _rules.comparable, _caches);
+    recordStaticMeshes(_scene, _rules.comparable, _caches);
     _report.count("converted.instance", _scene.instances.size());
 }
 
@@ -151,7 +151,7 @@ void SceneBuilder::noteNew()
     uint64_t vertices = 0;
     for (const CollectedGeometry& geometry : _graph.geometries)
         if (!_caches.geometries.lastRequest(*geometry.geometry)) vertices += geometry.bounds->count;
-    _newJoinFlat = vertices >= _caches.flatVertices;
+    _newJoinStatic = vertices >= _caches.staticVertices;
 }
 
 /// Used more often than once, or not still: what has moved or deformed since it came will do so
@@ -170,7 +170,7 @@ bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
              last->transform !=
                  requestFor(collected, collected.uses.front().engineFromLocal).transform)
         cache.noteLiveness(geometry, Liveness::Moves);
-    else if (once && (_caches.dissolved || (_rules.comparable && !last && !_newJoinFlat)))
+    else if (once && (_caches.noStaticBvh || (_rules.comparable && !last && !_newJoinStatic)))
         cache.noteLiveness(geometry, Liveness::Moves);
     return !once || cache.liveness(geometry) != Liveness::Still;
 }
@@ -401,13 +401,13 @@ void SceneBuilder::addAreaLight(const CollectedAreaLight& source, ConversionCach
     {
         converted->mesh->name = source.path;
         converted->mesh->changed = _rules.now;
-        quad.moves |= _rules.comparable;
+        quad.dynamic |= _rules.comparable;
         quad.mesh = converted->mesh;
     }
     Instance instance;
     instance.material = _made.materials.add(lampMaterial(quad.light.radiance));
     instance.mesh = addMesh(quad.mesh);
-    if (quad.moves || _caches.dissolved) placeInstance(instance, osg::Matrixd());
+    if (quad.dynamic || _caches.noStaticBvh) placeInstance(instance, osg::Matrixd());
     quad.instance = appendInstance(instance);
 }
 

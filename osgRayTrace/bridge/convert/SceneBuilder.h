@@ -68,7 +68,7 @@ private:
     const ConversionInput& _input;
     const CollectedGraph& _graph;
     BuildRules _rules;
-    bool _newJoinFlat = false;
+    bool _newJoinStatic = false;
     ConversionCaches& _caches;
     ConvertedGraph& _made;
     Scene& _scene;

@@ -201,14 +201,15 @@ std::optional<ConversionResult> SceneConverter::patch(const GraphChanges& change
 {
     const auto begin = std::chrono::steady_clock::now();
     Implementation& state = *_implementation;
-    if (!state.last || !state.ordinary || (state.caches.dissolved && !state.caches.flat.empty()))
+    if (!state.last || !state.ordinary ||
+        (state.caches.noStaticBvh && !state.caches.staticMeshes.empty()))
         return std::nullopt;
     ScenePatcher patcher(*state.last, state.input, state.caches, state.made, ++state.stamp);
     const std::shared_ptr<const Scene> scene = patcher.patch(changes);
     if (!scene) return std::nullopt;
     if (patcher.changed()) state.last = scene;
-    if (patcher.leftFlat()) noteFlat(*scene, true, state.caches);
-    if (state.caches.dissolved && !state.caches.flat.empty()) return std::nullopt;
+    if (patcher.leftStatic()) recordStaticMeshes(*scene, true, state.caches);
+    if (state.caches.noStaticBvh && !state.caches.staticMeshes.empty()) return std::nullopt;
     ConversionResult& result = state.lastResult;
     result.scene = state.last;
     if (patcher.spliced()) result.pickIndex.reset();

@@ -85,7 +85,7 @@ bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
     for (const osg::Geometry* geometry : changes.deformed)
         if (!places.deform(*geometry)) return false;
     _changed |= places.changed();
-    _leftFlat |= places.leftFlat();
+    _leftStatic |= places.leftStatic();
     return true;
 }
 
@@ -268,7 +268,7 @@ bool ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
     if ((effects.hasAmbient || effects.physical || effects.setsColor) && isLastOf(gone.effects))
         return false;
 
-    _leftFlat |= !instance.placed;
+    _leftStatic |= !instance.placed;
     _made.materials.release(instance.material);
     const uint32_t mesh = instance.mesh;
     instance = Instance();
@@ -323,7 +323,7 @@ bool ScenePatcher::add(const GraphSplice& splice)
         vertices += geometry.bounds->count;
     }
     // So much shall be flat.
-    if (vertices > kSmallFlat && vertices >= _caches.flatVertices) return false;
+    if (vertices > kSmallStatic && vertices >= _caches.staticVertices) return false;
     if (!graph.geometries.empty() && !lengthsOf(graph).areOrdinary()) return false;
     for (const CollectedGeometry& geometry : graph.geometries)
         if (!addGeometry(graph, geometry, splice)) return false;

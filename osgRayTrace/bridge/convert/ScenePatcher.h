@@ -32,8 +32,8 @@ public:
     /// Instances came or went.
     bool spliced() const { return _spliced; }
 
-    /// Some mesh left the flat BVH.
-    bool leftFlat() const { return _leftFlat; }
+    /// Some mesh left the static BVH.
+    bool leftStatic() const { return _leftStatic; }
 
     /// What is converted now, beyond what was or less.
     int64_t geometriesMore() const { return _geometries; }
@@ -69,7 +69,7 @@ private:
     std::vector<osg::ref_ptr<const osg::Geometry>> _removed;
     int64_t _geometries = 0, _instances = 0;
     bool _changed = false;
-    bool _leftFlat = false;
+    bool _leftStatic = false;
     bool _recolors = false; ///< a use has begun or ceased to set the current colour
     bool _spliced = false;
 };

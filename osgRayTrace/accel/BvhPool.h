@@ -1,4 +1,4 @@
-// SceneParts.h - the BVHs that a TracedScene is made of, and who may change them. Layer: accel;
+// BvhPool.h - the BVHs that a TracedScene is made of, and who may change them. Layer: accel;
 // private to it.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -29,11 +29,11 @@ using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneReleas
 /// Counted while a scene is built, by several threads.
 struct BuildCounts
 {
-    std::atomic<std::size_t> built{0}, refit{0}, flat{0}, commits{0};
+    std::atomic<std::size_t> built{0}, refit{0}, staticBuilds{0}, commits{0};
 };
 
 /// A mesh with a BVH of its own, for instances of it.
-struct Prototype
+struct MeshBvh
 {
     std::shared_ptr<EmbreeDevice> device; // first: destroyed last
     std::shared_ptr<const Mesh> mesh;     ///< owns the buffers that Embree reads
@@ -47,13 +47,13 @@ struct Prototype
 };
 
 /// All that has never moved: one BVH over all meshes, attached by the indices of their instances.
-struct FlatPart
+struct StaticBvh
 {
     struct Member
     {
         uint32_t instance = 0;
         const Mesh* mesh = nullptr;
-        bool filtered = false; ///< as in Prototype
+        bool filtered = false; ///< as in MeshBvh
     };
     using Members = std::vector<Member>;
 
@@ -65,7 +65,7 @@ struct FlatPart
 };
 
 /// The BVH over instances.
-struct RootPart
+struct TopLevelBvh
 {
     std::shared_ptr<EmbreeDevice> device;
     std::unique_ptr<PlacedScenes> placed;
@@ -78,40 +78,40 @@ struct RootPart
 /// them: a draw thread may still trace the last version, so there are two of each part that
 /// changes, in turn. A part in a version is never changed. Spare parts are taken by the thread that
 /// builds, and given back by whoever lets a version go.
-class PartPool : public std::enable_shared_from_this<PartPool>
+class BvhPool : public std::enable_shared_from_this<BvhPool>
 {
 public:
-    explicit PartPool(std::shared_ptr<EmbreeDevice> device) : _device(std::move(device)) {}
+    explicit BvhPool(std::shared_ptr<EmbreeDevice> device) : _device(std::move(device)) {}
 
     const std::shared_ptr<EmbreeDevice>& device() const { return _device; }
 
     /// Refitted if there is a spare one with the same triangles that does not suffer by it, else
     /// built.
-    std::shared_ptr<const Prototype> prototype(const std::shared_ptr<const Mesh>& mesh,
-                                               bool filtered, BuildCounts& counts);
+    std::shared_ptr<const MeshBvh> meshBvh(const std::shared_ptr<const Mesh>& mesh, bool filtered,
+                                           BuildCounts& counts);
 
-    std::shared_ptr<const FlatPart> flat(FlatPart::Members members,
-                                         std::vector<std::shared_ptr<const Mesh>> owners,
-                                         BuildCounts& counts);
+    std::shared_ptr<const StaticBvh> staticBvh(StaticBvh::Members members,
+                                               std::vector<std::shared_ptr<const Mesh>> owners,
+                                               BuildCounts& counts);
 
-    /// A root with these placements; a spare one is changed where it differs.
-    std::shared_ptr<const RootPart> root(const std::vector<Placement>& placements,
-                                         BuildCounts& counts);
+    /// A top level with these placements; a spare one is changed where it differs.
+    std::shared_ptr<const TopLevelBvh> topLevel(const std::vector<Placement>& placements,
+                                                BuildCounts& counts);
 
-    /// Something was removed. Forgets spare prototypes of other meshes than those with these
-    /// triangles, and all roots that exist, spare or not: they have room for what is gone.
+    /// Something was removed. Forgets spare BVHs of other meshes than those with these
+    /// triangles, and all top levels that exist, spare or not: they have room for what is gone.
     void keepOnly(const std::unordered_set<const UVec3*>& triangles);
 
     /// Takes a part back, or deletes it. Any thread.
-    void giveBack(std::unique_ptr<Prototype> prototype);
-    void giveBack(std::unique_ptr<RootPart> root);
+    void giveBack(std::unique_ptr<MeshBvh> meshBvh);
+    void giveBack(std::unique_ptr<TopLevelBvh> topLevel);
 
 private:
     template <class Part> std::shared_ptr<Part> shared(std::unique_ptr<Part> part);
-    std::unique_ptr<Prototype> spareOf(const UVec3* triangles);
-    std::unique_ptr<Prototype> build(const std::shared_ptr<const Mesh>& mesh, bool filtered,
-                                     BuildCounts& counts);
-    bool refit(Prototype& spare, const std::shared_ptr<const Mesh>& mesh, bool filtered,
+    std::unique_ptr<MeshBvh> spareOf(const UVec3* triangles);
+    std::unique_ptr<MeshBvh> build(const std::shared_ptr<const Mesh>& mesh, bool filtered,
+                                   BuildCounts& counts);
+    bool refit(MeshBvh& spare, const std::shared_ptr<const Mesh>& mesh, bool filtered,
                BuildCounts& counts);
 
     std::shared_ptr<EmbreeDevice> _device;
@@ -119,8 +119,8 @@ private:
 
     std::mutex _mutex; // all below: the thread that builds, and those that let versions go
     std::unordered_set<const UVec3*> _wanted; ///< triangles of meshes that may be refitted
-    std::unordered_multimap<const UVec3*, std::unique_ptr<Prototype>> _prototypes;
-    std::vector<std::unique_ptr<RootPart>> _roots;
+    std::unordered_multimap<const UVec3*, std::unique_ptr<MeshBvh>> _meshBvhs;
+    std::vector<std::unique_ptr<TopLevelBvh>> _topLevels;
     uint64_t _generation = 0;
 };
 

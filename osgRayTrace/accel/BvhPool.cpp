@@ -1,6 +1,6 @@
-// SceneParts.cpp - builds, refits and recycles BVHs. Layer: accel.
+// BvhPool.cpp - builds, refits and recycles BVHs. Layer: accel.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/accel/SceneParts.h"
+#include "osgRayTrace/accel/BvhPool.h"
 
 #include "osgRayTrace/accel/HitFilter.h"
 
@@ -10,7 +10,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr std::size_t kSpareRoots = 2;
+constexpr std::size_t kSpareTopLevels = 2;
 
 GeometryHandle newTriangles(RTCDevice device, const Mesh& mesh, bool filtered)
 {
@@ -42,20 +42,20 @@ void commit(EmbreeDevice& device, RTCScene scene, BuildCounts& counts)
 
 } // namespace
 
-template <class Part> std::shared_ptr<Part> PartPool::shared(std::unique_ptr<Part> part)
+template <class Part> std::shared_ptr<Part> BvhPool::shared(std::unique_ptr<Part> part)
 {
     const auto giveBackTo = [pool = weak_from_this()](Part* p)
     {
         std::unique_ptr<Part> owned(p);
-        if (const std::shared_ptr<PartPool> alive = pool.lock()) alive->giveBack(std::move(owned));
+        if (const std::shared_ptr<BvhPool> alive = pool.lock()) alive->giveBack(std::move(owned));
     };
     return {part.release(), giveBackTo};
 }
 
-std::unique_ptr<Prototype> PartPool::build(const std::shared_ptr<const Mesh>& mesh, bool filtered,
-                                           BuildCounts& counts)
+std::unique_ptr<MeshBvh> BvhPool::build(const std::shared_ptr<const Mesh>& mesh, bool filtered,
+                                        BuildCounts& counts)
 {
-    auto built = std::make_unique<Prototype>();
+    auto built = std::make_unique<MeshBvh>();
     built->device = _device;
     built->mesh = mesh;
     built->filtered = filtered;
@@ -81,8 +81,8 @@ std::unique_ptr<Prototype> PartPool::build(const std::shared_ptr<const Mesh>& me
 }
 
 /// False if it must be built.
-bool PartPool::refit(Prototype& spare, const std::shared_ptr<const Mesh>& mesh, bool filtered,
-                     BuildCounts& counts)
+bool BvhPool::refit(MeshBvh& spare, const std::shared_ptr<const Mesh>& mesh, bool filtered,
+                    BuildCounts& counts)
 {
     if (mesh->positions.size() != spare.mesh->positions.size()) return false;
     if (mesh->triangles.size() != spare.mesh->triangles.size()) return false;
@@ -102,38 +102,38 @@ bool PartPool::refit(Prototype& spare, const std::shared_ptr<const Mesh>& mesh, 
     return true;
 }
 
-std::unique_ptr<Prototype> PartPool::spareOf(const UVec3* triangles)
+std::unique_ptr<MeshBvh> BvhPool::spareOf(const UVec3* triangles)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     _wanted.insert(triangles);
-    const auto found = _prototypes.find(triangles);
-    if (found == _prototypes.end()) return nullptr;
-    std::unique_ptr<Prototype> spare = std::move(found->second);
-    _prototypes.erase(found);
+    const auto found = _meshBvhs.find(triangles);
+    if (found == _meshBvhs.end()) return nullptr;
+    std::unique_ptr<MeshBvh> spare = std::move(found->second);
+    _meshBvhs.erase(found);
     return spare;
 }
 
-std::shared_ptr<const Prototype> PartPool::prototype(const std::shared_ptr<const Mesh>& mesh,
-                                                     bool filtered, BuildCounts& counts)
+std::shared_ptr<const MeshBvh> BvhPool::meshBvh(const std::shared_ptr<const Mesh>& mesh,
+                                                bool filtered, BuildCounts& counts)
 {
     if (mesh->deforms)
     {
-        std::unique_ptr<Prototype> spare = spareOf(mesh->triangles.data());
+        std::unique_ptr<MeshBvh> spare = spareOf(mesh->triangles.data());
         if (spare && refit(*spare, mesh, filtered, counts)) return shared(std::move(spare));
     }
     return shared(build(mesh, filtered, counts));
 }
 
-std::shared_ptr<const FlatPart> PartPool::flat(FlatPart::Members members,
-                                               std::vector<std::shared_ptr<const Mesh>> owners,
-                                               BuildCounts& counts)
+std::shared_ptr<const StaticBvh> BvhPool::staticBvh(StaticBvh::Members members,
+                                                    std::vector<std::shared_ptr<const Mesh>> owners,
+                                                    BuildCounts& counts)
 {
-    auto built = std::make_shared<FlatPart>();
+    auto built = std::make_shared<StaticBvh>();
     built->device = _device;
     built->members = std::move(members);
     built->owners = std::move(owners);
     built->scene = newScene(_device->handle());
-    for (const FlatPart::Member& member : built->members)
+    for (const StaticBvh::Member& member : built->members)
     {
         const GeometryHandle triangles =
             newTriangles(_device->handle(), *member.mesh, member.filtered);
@@ -143,52 +143,52 @@ std::shared_ptr<const FlatPart> PartPool::flat(FlatPart::Members members,
     commit(*_device, built->scene.get(), counts);
     built->serial = ++_serial;
     counts.built += built->members.size();
-    ++counts.flat;
+    ++counts.staticBuilds;
     return built;
 }
 
-std::shared_ptr<const RootPart> PartPool::root(const std::vector<Placement>& placements,
-                                               BuildCounts& counts)
+std::shared_ptr<const TopLevelBvh> BvhPool::topLevel(const std::vector<Placement>& placements,
+                                                     BuildCounts& counts)
 {
-    std::unique_ptr<RootPart> root;
+    std::unique_ptr<TopLevelBvh> topLevel;
     uint64_t generation = 0;
     {
         std::lock_guard<std::mutex> lock(_mutex);
         generation = _generation;
-        if (!_roots.empty())
+        if (!_topLevels.empty())
         {
-            root = std::move(_roots.back());
-            _roots.pop_back();
+            topLevel = std::move(_topLevels.back());
+            _topLevels.pop_back();
         }
     }
-    const bool fresh = !root;
+    const bool fresh = !topLevel;
     if (fresh)
     {
-        root = std::make_unique<RootPart>();
-        root->device = _device;
-        root->placed = std::make_unique<PlacedScenes>(_device->handle());
-        root->scene = newScene(_device->handle());
+        topLevel = std::make_unique<TopLevelBvh>();
+        topLevel->device = _device;
+        topLevel->placed = std::make_unique<PlacedScenes>(_device->handle());
+        topLevel->scene = newScene(_device->handle());
         // Narrow nodes: a third of the top level's memory less. Packets go through them faster, by
         // a tenth at best, single rays slower by some percent.
         if (_device->nativeWidth() == 16)
-            rtcSetSceneFlags(root->scene.get(),
+            rtcSetSceneFlags(topLevel->scene.get(),
                              RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
-        rtcAttachGeometry(root->scene.get(), root->placed->geometry());
+        rtcAttachGeometry(topLevel->scene.get(), topLevel->placed->geometry());
     }
-    root->sound = false;
-    root->generation = generation;
-    if (root->placed->set(placements) || fresh) commit(*_device, root->scene.get(), counts);
-    root->sound = true;
-    return shared(std::move(root));
+    topLevel->sound = false;
+    topLevel->generation = generation;
+    if (topLevel->placed->set(placements) || fresh) commit(*_device, topLevel->scene.get(), counts);
+    topLevel->sound = true;
+    return shared(std::move(topLevel));
 }
 
-void PartPool::keepOnly(const std::unordered_set<const UVec3*>& triangles)
+void BvhPool::keepOnly(const std::unordered_set<const UVec3*>& triangles)
 {
-    std::vector<std::unique_ptr<Prototype>> gone; // freed after the lock
-    std::vector<std::unique_ptr<RootPart>> roots;
+    std::vector<std::unique_ptr<MeshBvh>> gone; // freed after the lock
+    std::vector<std::unique_ptr<TopLevelBvh>> roots;
     std::lock_guard<std::mutex> lock(_mutex);
     _wanted = triangles;
-    for (auto spare = _prototypes.begin(); spare != _prototypes.end();)
+    for (auto spare = _meshBvhs.begin(); spare != _meshBvhs.end();)
     {
         if (_wanted.count(spare->first))
         {
@@ -196,35 +196,35 @@ void PartPool::keepOnly(const std::unordered_set<const UVec3*>& triangles)
             continue;
         }
         gone.push_back(std::move(spare->second));
-        spare = _prototypes.erase(spare);
+        spare = _meshBvhs.erase(spare);
     }
     ++_generation;
-    roots.swap(_roots);
+    roots.swap(_topLevels);
 }
 
-void PartPool::giveBack(std::unique_ptr<Prototype> prototype)
+void BvhPool::giveBack(std::unique_ptr<MeshBvh> meshBvh)
 {
-    if (!prototype->sound || !prototype->triangles) return;
+    if (!meshBvh->sound || !meshBvh->triangles) return;
     std::lock_guard<std::mutex> lock(_mutex);
-    const UVec3* const triangles = prototype->mesh->triangles.data();
+    const UVec3* const triangles = meshBvh->mesh->triangles.data();
     if (!_wanted.count(triangles)) return;
     try
     {
-        _prototypes.emplace(triangles, std::move(prototype));
+        _meshBvhs.emplace(triangles, std::move(meshBvh));
     }
     catch (const std::bad_alloc&)
     {
     }
 }
 
-void PartPool::giveBack(std::unique_ptr<RootPart> root)
+void BvhPool::giveBack(std::unique_ptr<TopLevelBvh> topLevel)
 {
-    if (!root->sound) return;
+    if (!topLevel->sound) return;
     std::lock_guard<std::mutex> lock(_mutex);
-    if (root->generation != _generation || _roots.size() >= kSpareRoots) return;
+    if (topLevel->generation != _generation || _topLevels.size() >= kSpareTopLevels) return;
     try
     {
-        _roots.push_back(std::move(root));
+        _topLevels.push_back(std::move(topLevel));
     }
     catch (const std::bad_alloc&)
     {
