@@ -108,13 +108,13 @@ bool PlacePatcher::place(const osg::Geometry& geometry, uint32_t index,
     {
         const MeshFrame frame = meshFrame(bounds);
         if (!fitsFrame(bounds, frame.meshFromLocal)) return false;
-        _geometries.noteLiveness(geometry, Liveness::Moves);
+        _geometries.recordMobility(geometry, Mobility::Dynamic);
         const MeshRequest* last = _geometries.lastRequest(geometry);
         if (!last) return false;
         MeshRequest request = *last;
         request.transform.reset();
         if (!frame.meshFromLocal.isIdentity()) request.transform = frame.meshFromLocal;
-        request.copies = _geometries.liveness(geometry) == Liveness::Deforms;
+        request.copies = _geometries.mobility(geometry) == Mobility::Deforming;
         if (!makeMesh(geometry, request, instance.mesh)) return false;
         localFromMesh = frame.localFromMesh;
         _leftStatic = true;

@@ -165,14 +165,14 @@ bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
     const bool own = last && last->restart == collected.restart;
     const bool once = collected.uses.size() == 1;
     if (_rules.comparable && last && !cache.hasSameArrays(geometry))
-        cache.noteLiveness(geometry, Liveness::Deforms);
+        cache.recordMobility(geometry, Mobility::Deforming);
     else if (_rules.comparable && once && own &&
              last->transform !=
                  requestFor(collected, collected.uses.front().engineFromLocal).transform)
-        cache.noteLiveness(geometry, Liveness::Moves);
+        cache.recordMobility(geometry, Mobility::Dynamic);
     else if (once && (_caches.noStaticBvh || (_rules.comparable && !last && !_newJoinStatic)))
-        cache.noteLiveness(geometry, Liveness::Moves);
-    return !once || cache.liveness(geometry) != Liveness::Still;
+        cache.recordMobility(geometry, Mobility::Dynamic);
+    return !once || cache.mobility(geometry) != Mobility::Static;
 }
 
 /// Their indices are then a matter of themselves alone, and so is their BVH.
@@ -275,7 +275,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
 {
     const MeshFrame frame = meshFrame(*geometry.bounds);
     MeshRequest request = requestFor(geometry, frame.meshFromLocal);
-    request.copies = _caches.geometries.liveness(*geometry.geometry) == Liveness::Deforms;
+    request.copies = _caches.geometries.mobility(*geometry.geometry) == Mobility::Deforming;
     const auto mesh =
         _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report);
     if (!mesh)

@@ -79,7 +79,7 @@ bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
 {
     PlacePatcher places(*_scene, _made.index, _caches.geometries, _now);
     for (const osg::Geometry* geometry : changes.deformed)
-        _caches.geometries.noteLiveness(*geometry, Liveness::Deforms);
+        _caches.geometries.recordMobility(*geometry, Mobility::Deforming);
     for (const MovedUse& use : changes.moved)
         if (!places.move(use)) return false;
     for (const osg::Geometry* geometry : changes.deformed)

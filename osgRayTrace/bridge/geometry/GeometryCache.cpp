@@ -150,19 +150,19 @@ bool GeometryCache::hasSameArrays(const osg::Geometry& geometry)
     return true;
 }
 
-Liveness GeometryCache::liveness(const osg::Geometry& geometry) const
+Mobility GeometryCache::mobility(const osg::Geometry& geometry) const
 {
-    const auto found = _liveness.find(&geometry);
-    if (found == _liveness.end() || found->second.geometry != &geometry) return Liveness::Still;
-    return found->second.liveness;
+    const auto found = _mobility.find(&geometry);
+    if (found == _mobility.end() || found->second.geometry != &geometry) return Mobility::Static;
+    return found->second.mobility;
 }
 
-void GeometryCache::noteLiveness(const osg::Geometry& geometry, Liveness liveness)
+void GeometryCache::recordMobility(const osg::Geometry& geometry, Mobility mobility)
 {
-    if (liveness == Liveness::Still) return;
-    LivenessEntry& known = _liveness[&geometry];
-    if (known.geometry != &geometry) known = {&geometry, Liveness::Still};
-    known.liveness = std::max(known.liveness, liveness);
+    if (mobility == Mobility::Static) return;
+    MobilityEntry& known = _mobility[&geometry];
+    if (known.geometry != &geometry) known = {&geometry, Mobility::Static};
+    known.mobility = std::max(known.mobility, mobility);
 }
 
 /// Positions changed alone, as a rule. Not if values were repaired, which may have been by
@@ -273,7 +273,7 @@ void GeometryCache::drop(const osg::Geometry* geometry)
         }
         _entries.erase(entry);
     }
-    _liveness.erase(geometry);
+    _mobility.erase(geometry);
 }
 
 void GeometryCache::end()
@@ -282,8 +282,8 @@ void GeometryCache::end()
         entry = entry->second.used == _stamp ? std::next(entry) : _bounds.erase(entry);
     for (auto entry = _entries.begin(); entry != _entries.end();)
         entry = entry->second.used == _stamp ? std::next(entry) : _entries.erase(entry);
-    for (auto live = _liveness.begin(); live != _liveness.end();)
-        live = _entries.count({live->first, kOwnVariant}) ? std::next(live) : _liveness.erase(live);
+    for (auto live = _mobility.begin(); live != _mobility.end();)
+        live = _entries.count({live->first, kOwnVariant}) ? std::next(live) : _mobility.erase(live);
 }
 
 } // namespace osgRayTrace::engine

@@ -19,11 +19,11 @@ namespace osgRayTrace::engine
 {
 
 /// What a geometry has done since it first came.
-enum class Liveness : uint8_t
+enum class Mobility : uint8_t
 {
-    Still,
-    Moves,
-    Deforms, ///< its arrays change, and maybe its place
+    Static,
+    Dynamic,
+    Deforming, ///< its arrays change, and maybe its place
 };
 
 /// A geometry is taken as unchanged while its arrays and primitive sets are the same objects with
@@ -52,10 +52,10 @@ public:
     /// Whether its arrays are those of its last mesh. It was asked for in the last snapshot.
     bool hasSameArrays(const osg::Geometry& geometry);
 
-    Liveness liveness(const osg::Geometry& geometry) const;
+    Mobility mobility(const osg::Geometry& geometry) const;
 
     /// Never takes anything back: what has moved once will move again.
-    void noteLiveness(const osg::Geometry& geometry, Liveness liveness);
+    void recordMobility(const osg::Geometry& geometry, Mobility mobility);
 
     /// Meshes that were made from arrays, ever.
     uint64_t converted() const { return _converted; }
@@ -108,10 +108,10 @@ private:
         }
     };
 
-    struct LivenessEntry
+    struct MobilityEntry
     {
         ObjectName geometry;
-        Liveness liveness = Liveness::Still;
+        Mobility mobility = Mobility::Static;
     };
 
     struct BoundsEntry
@@ -132,7 +132,8 @@ private:
     static KeptArrays keptArrays(Entry& before, GeometrySignature& now);
 
     std::unordered_map<Key, Entry, KeyHash> _entries;
-    std::unordered_map<const osg::Geometry*, LivenessEntry> _liveness; ///< those that are not still
+    std::unordered_map<const osg::Geometry*, MobilityEntry>
+        _mobility; ///< those that are not static
     uint64_t _converted = 0;
     std::unordered_map<const osg::Array*, BoundsEntry> _bounds;
     Stamp _stamp = 0;
