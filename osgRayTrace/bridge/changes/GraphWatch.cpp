@@ -67,7 +67,7 @@ osg::Node* soleNodeBelow(osg::Node& node, unsigned int traversalMask)
 /// Converts the graph where it comes or goes, and what is around it is watched in another way.
 bool isOfTheWhole(const WatchedNode& node)
 {
-    return node.kind == NodeKind::Opaque || isLight(node.kind) || node.hint != 0;
+    return node.kind == NodeKind::Untracked || isLight(node.kind) || node.hint != 0;
 }
 
 uint64_t inheritedHash(const ViewingConditions& conditions, KeptObjects* kept = nullptr)
@@ -119,18 +119,18 @@ void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
 /// What is known of the contents of nodes that were there before.
 void GraphWatch::takeVersions(WatchedGraph& before)
 {
-    std::unordered_map<const osg::Node*, WatchedOpaque*> known;
+    std::unordered_map<const osg::Node*, UntrackedNode*> known;
     for (const WatchedNode& node : before.nodes)
-        if (node.kind == NodeKind::Opaque && before.opaques[node.item].versions)
-            known.emplace(node.node, &before.opaques[node.item]);
+        if (node.kind == NodeKind::Untracked && before.untrackedNodes[node.item].versions)
+            known.emplace(node.node, &before.untrackedNodes[node.item]);
     if (known.empty()) return;
     for (const WatchedNode& node : _graph.nodes)
     {
-        if (node.kind != NodeKind::Opaque) continue;
+        if (node.kind != NodeKind::Untracked) continue;
         const auto found = known.find(node.node);
         if (found == known.end()) continue;
-        _graph.opaques[node.item].contents = found->second->contents;
-        _graph.opaques[node.item].versions = std::move(found->second->versions);
+        _graph.untrackedNodes[node.item].contents = found->second->contents;
+        _graph.untrackedNodes[node.item].versions = std::move(found->second->versions);
         known.erase(found);
     }
 }
@@ -183,23 +183,23 @@ bool GraphWatch::isAsItWas(WatchedNode& node)
             place.moved = _anyMoved = true;
         }
     }
-    if (node.kind == NodeKind::Opaque) return isOpaqueAsItWas(node);
+    if (node.kind == NodeKind::Untracked) return isUntrackedAsItWas(node);
     return node.repeated || nodeHash(node.kind, *node.node) == node.hash;
 }
 
 /// Where only modified counts differ the values of arrays decide.
-bool GraphWatch::isOpaqueAsItWas(WatchedNode& node)
+bool GraphWatch::isUntrackedAsItWas(WatchedNode& node)
 {
-    WatchedOpaque& opaque = _graph.opaques[node.item];
-    PathBudget budget(opaque.budget), again(opaque.budget);
+    UntrackedNode& untracked = _graph.untrackedNodes[node.item];
+    PathBudget budget(untracked.budget), again(untracked.budget);
     const uint64_t hash =
-        graphHash(*node.node, _plain, opaque.sceneFromLocal, nullptr, nullptr, &budget);
+        graphHash(*node.node, _plain, untracked.sceneFromLocal, nullptr, nullptr, &budget);
     if (hash == node.hash) return true;
-    if (!opaque.versions) opaque.versions = std::make_unique<BufferVersions>();
-    const uint64_t contents = graphHash(*node.node, _plain, opaque.sceneFromLocal, nullptr,
-                                        opaque.versions.get(), &again);
-    const bool same = opaque.contents == contents;
-    opaque.contents = contents;
+    if (!untracked.versions) untracked.versions = std::make_unique<BufferVersions>();
+    const uint64_t contents = graphHash(*node.node, _plain, untracked.sceneFromLocal, nullptr,
+                                        untracked.versions.get(), &again);
+    const bool same = untracked.contents == contents;
+    untracked.contents = contents;
     if (same) node.hash = hash;
     return same;
 }
@@ -233,7 +233,7 @@ bool GraphWatch::lookAtNodes(GraphChanges& changes)
 bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
 {
     WatchedNode& node = _graph.nodes[index];
-    if (node.kind == NodeKind::Opaque || node.hint != hintHash(*node.node)) return false;
+    if (node.kind == NodeKind::Untracked || node.hint != hintHash(*node.node)) return false;
     if (_graph.isRepeated(*node.node)) return false;
     const osg::StateSet* stateSet = node.node->getStateSet();
     const osg::StateSet* before =
@@ -457,7 +457,7 @@ void GraphWatch::findChanged(GraphChanges& changes)
         if (node.stateChanged) stateChangedEnd = std::max(stateChangedEnd, node.end);
         node.stateChanged = false;
         bool stateChanged = i < stateChangedEnd;
-        changes.convert |= stateChanged && node.kind == NodeKind::Opaque;
+        changes.convert |= stateChanged && node.kind == NodeKind::Untracked;
         if (node.kind != NodeKind::Geometry) continue;
         WatchedGeometry& watched = _graph.geometries[node.item];
         stateChanged |= watched.stateChanged;

@@ -36,7 +36,7 @@ private:
     void takeVersions(WatchedGraph& before);
     bool lookAtNodes(GraphChanges& changes);
     bool isAsItWas(WatchedNode& node);
-    bool isOpaqueAsItWas(WatchedNode& node);
+    bool isUntrackedAsItWas(WatchedNode& node);
     bool redo(uint32_t index, GraphChanges& changes);
     bool redoChildren(uint32_t index, GraphChanges& changes);
     bool remove(uint32_t index, GraphChanges& changes);

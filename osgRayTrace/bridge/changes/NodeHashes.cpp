@@ -102,7 +102,7 @@ uint64_t nodeHash(NodeKind kind, const osg::Node& node)
     case NodeKind::Environment:
         return bitsOf(node.getStateSet()) + hintHash(node);
     case NodeKind::Geometry:
-    case NodeKind::Opaque:
+    case NodeKind::Untracked:
         break;
     }
     return 0;

@@ -22,7 +22,7 @@ uint64_t matrixHash(NodeKind kind, const osg::Node& node);
 /// The addresses in hashes are those of objects that WatchedGraph keeps alive.
 
 /// Its state set, its children and which of them are on, its frame; of any kind but Geometry and
-/// Opaque.
+/// Untracked.
 uint64_t nodeHash(NodeKind kind, const osg::Node& node);
 
 /// The values of a light, its frame apart. kept: as in Hasher.

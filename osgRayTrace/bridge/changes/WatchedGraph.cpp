@@ -124,16 +124,16 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
         appendGeometry(static_cast<osg::Geometry&>(node), entry);
         return;
     }
-    if (entry.kind == NodeKind::Opaque)
+    if (entry.kind == NodeKind::Untracked)
     {
         fix(entry.place);
-        entry.item = static_cast<uint32_t>(opaques.size());
-        WatchedOpaque& opaque = opaques.emplace_back();
-        opaque.sceneFromLocal = sceneFromParent;
-        opaque.budget = _opaqueBudget.left();
-        entry.hash =
-            graphHash(node, conditions, sceneFromParent, &opaque.kept, nullptr, &_opaqueBudget);
-        truncated |= _opaqueBudget.left() == 0;
+        entry.item = static_cast<uint32_t>(untrackedNodes.size());
+        UntrackedNode& untracked = untrackedNodes.emplace_back();
+        untracked.sceneFromLocal = sceneFromParent;
+        untracked.budget = _untrackedBudget.left();
+        entry.hash = graphHash(node, conditions, sceneFromParent, &untracked.kept, nullptr,
+                               &_untrackedBudget);
+        truncated |= _untrackedBudget.left() == 0;
         push(entry);
         return;
     }

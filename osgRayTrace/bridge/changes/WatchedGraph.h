@@ -37,7 +37,7 @@ struct WatchedNode
     uint32_t end = 0;           ///< in nodes: behind all that is below it
     uint32_t state = kNowhere;  ///< in states; a geometry's is with it
     uint32_t place = kNowhere;  ///< that it is in; a transform: its own
-    uint32_t item = kNowhere;   ///< Geometry: in geometries; Opaque: in opaques
+    uint32_t item = kNowhere;   ///< Geometry: in geometries; Untracked: in untrackedNodes
     NodeKind kind = NodeKind::Group;
     uint8_t hint = 0;
     bool repeated = false;     ///< the same node came before: looked at there
@@ -103,11 +103,11 @@ struct HiddenNode
 };
 
 /// A node whose class is not known, with all below it.
-struct WatchedOpaque
+struct UntrackedNode
 {
-    WatchedOpaque() = default;
-    WatchedOpaque(WatchedOpaque&&) = default;
-    WatchedOpaque& operator=(WatchedOpaque&&) = default;
+    UntrackedNode() = default;
+    UntrackedNode(UntrackedNode&&) = default;
+    UntrackedNode& operator=(UntrackedNode&&) = default;
 
     osg::Matrixd sceneFromLocal;
     KeptObjects kept;                         ///< of its hash
@@ -130,7 +130,7 @@ struct WatchedGraph
     std::vector<WatchedState> states;
     std::vector<WatchedLight> lights;
     std::vector<HiddenNode> hidden;
-    std::vector<WatchedOpaque> opaques;
+    std::vector<UntrackedNode> untrackedNodes;
     const osg::Node* owner = nullptr; ///< the decorator, if any: it owns what watches it
     std::size_t repeats = 0;          ///< nodes with repeated set
     unsigned int traversalMask = 0xffffffffu;
@@ -185,7 +185,7 @@ private:
     std::unordered_map<const void*, uint32_t> _stateOf, _geometryOf;
     std::unordered_map<const osg::Node*, bool> _known; ///< while a whole graph is appended
     std::vector<uint32_t> _freeStates, _freeGeometries;
-    PathBudget _opaqueBudget{kMostWatched}; ///< of all opaque nodes together
+    PathBudget _untrackedBudget{kMostWatched}; ///< of all untracked nodes together
     std::size_t _gonePlaces = 0;
 };
 

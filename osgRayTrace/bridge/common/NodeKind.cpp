@@ -1,4 +1,5 @@
-// NodeKind.cpp - the class of a node, without a virtual call where many nodes are of it. Layer: bridge.
+// NodeKind.cpp - the class of a node, without a virtual call where many nodes are of it. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/NodeKind.h"
 
@@ -44,7 +45,7 @@ NodeKind kindOf(const osg::Node& node)
         return NodeKind::Geometry;
     const osg::Transform* transform = node.asTransform();
     if (transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF)
-        return NodeKind::Opaque; // where it is depends on the view
+        return NodeKind::Untracked; // where it is depends on the view
     if (type == typeid(osg::MatrixTransform)) return NodeKind::MatrixTransform;
     if (type == typeid(osg::PositionAttitudeTransform)) return NodeKind::PositionAttitudeTransform;
     if (type == typeid(osg::Group) || type == typeid(osg::Geode)) return NodeKind::Group;
@@ -52,7 +53,7 @@ NodeKind kindOf(const osg::Node& node)
     if (type == typeid(osg::LightSource)) return NodeKind::Light;
     if (type == typeid(AreaLight)) return NodeKind::AreaLight;
     if (type == typeid(EnvironmentLight)) return NodeKind::Environment;
-    return isDecorator(node) ? NodeKind::Group : NodeKind::Opaque;
+    return isDecorator(node) ? NodeKind::Group : NodeKind::Untracked;
 }
 
 const osg::NodeList& childrenOf(const osg::Group& group)

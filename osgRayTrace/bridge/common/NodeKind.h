@@ -20,7 +20,7 @@ enum class NodeKind : uint8_t
     AreaLight,
     Environment,
     Geometry,
-    Opaque, ///< any other class, with all that is below it: see graphHash
+    Untracked, ///< any other class, with all that is below it: see graphHash
 };
 
 /// By the class itself: one derived from it may do anything.

@@ -246,7 +246,7 @@ void GraphCollector::apply(osg::Billboard& node)
         _worldFromLocal.back() * osg::Matrixd::inverse(worldFromView);
     // Since OSG 3.6 any child can be added, and one that is no drawable has no position.
     const std::size_t positions = node.getPositionList().size();
-    ++_opaque;
+    ++_untracked;
     for (unsigned int i = 0; i < node.getNumDrawables(); ++i)
     {
         const osg::ref_ptr<osg::Drawable> drawable = node.getDrawable(i);
@@ -261,7 +261,7 @@ void GraphCollector::apply(osg::Billboard& node)
         drawable->accept(*this);
         _worldFromLocal.pop_back();
     }
-    --_opaque;
+    --_untracked;
     if (pushed) _states.pop();
 }
 
@@ -293,7 +293,7 @@ void GraphCollector::apply(osg::Geometry& geometry)
         _indexOf.try_emplace({&posed, restart.key()}, _graph.geometries.size());
     if (isNew) _graph.geometries.push_back({&posed, path(), {}, restart});
     CollectedGeometry& collected = _graph.geometries[found->second];
-    collected.watched &= _opaque == 0;
+    collected.watched &= _untracked == 0;
     collected.uses.push_back({engineFromLocal(), state, pickPath()});
 }
 
@@ -322,10 +322,10 @@ float GraphCollector::getDistanceToViewPoint(const osg::Vec3& position, bool use
 void GraphCollector::traverseChildren(osg::Node& node)
 {
     if (isTooDeep(node) || isTooMuch(node)) return;
-    const bool opaque = &node != _input.root && kindOf(node) == NodeKind::Opaque;
-    _opaque += opaque;
+    const bool untracked = &node != _input.root && kindOf(node) == NodeKind::Untracked;
+    _untracked += untracked;
     traverse(node);
-    _opaque -= opaque;
+    _untracked -= untracked;
 }
 
 /// True, counted and named if there is anything below it that is too deep.

@@ -180,7 +180,7 @@ private:
     PathBudget _visits;
     PathBudget _rasterizedVisits; // that OSG makes in each frame for what is left out
     PathCounts _counts;
-    int _opaque = 0; // nodes around that GraphWatch does not look into
+    int _untracked = 0; // nodes around that GraphWatch does not look into
     StateStack _states;
     MaterialAssignment _materials; ///< keeps what it adds to the states
     CollectedGraph _graph;

@@ -51,10 +51,10 @@ void GraphCollector::traverseGroup(osg::Group& group)
 {
     if (isTooDeep(group) || isTooMuch(group)) return;
     const bool pushed = pushState(group);
-    ++_opaque;
+    ++_untracked;
     for (unsigned int i = 0; i < group.getNumChildren(); ++i)
         if (const osg::ref_ptr<osg::Node> child = group.getChild(i)) child->accept(*this);
-    --_opaque;
+    --_untracked;
     if (pushed) _states.pop();
 }
 
