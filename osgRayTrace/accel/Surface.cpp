@@ -21,8 +21,8 @@ constexpr float kFineOffset = 1e-4f;
 constexpr float kSteep = 0.25f;
 constexpr float kNever = 2.0f;
 
-constexpr float kSmallestLift = 4.0f;      ///< [error bounds]
-constexpr float kShortestNormal2 = 1e-12f; ///< squared length below which a normal is none
+constexpr float kSmallestTerminatorOffset = 4.0f; ///< [error bounds]
+constexpr float kShortestNormal2 = 1e-12f;        ///< squared length below which a normal is none
 /// Squared cosine of 40 degrees. A facet that a vertex normal leaves by more is no piece of a
 /// smooth surface, but a side of a body whose edges were averaged: two sides of a box make 45
 /// degrees.
@@ -219,23 +219,24 @@ void interpolateNormals(const RayHitBlock& block, const TriangleLanes& t, LaneMa
     }
 }
 
-/// The terms of the lift that one vertex adds to: how far the point is below the vertex's tangent
-/// plane, along its normal n of any length, on the side of the sign.
-struct TangentLift
+/// The terms of the terminator offset that one vertex adds to: how far the point is below the
+/// vertex's tangent plane, along its normal n of any length, on the side of the sign.
+struct TerminatorOffset
 {
     float scale;     ///< times n is the way to the tangent plane; 0 if the point is above it
     uint32_t usable; ///< n is about that of the facet
 };
 
-OSGRAYTRACE_INLINE TangentLift tangentLift(float px, float py, float pz, float vx, float vy,
-                                           float vz, float nx, float ny, float nz, float gx,
-                                           float gy, float gz)
+OSGRAYTRACE_INLINE TerminatorOffset terminatorOffset(float px, float py, float pz, float vx,
+                                                     float vy, float vz, float nx, float ny,
+                                                     float nz, float gx, float gy, float gz)
 {
     const float length2 = nx * nx + ny * ny + nz * nz;
     const float cosine = nx * gx + ny * gy + nz * gz;
     const float height = (px - vx) * nx + (py - vy) * ny + (pz - vz) * nz;
-    TangentLift result;
-    // Both signs change with n: the lift is to the ray's side, where g is, whichever way n looks.
+    TerminatorOffset result;
+    // Both signs change with n: the terminator offset is to the ray's side, where g is, whichever
+    // way n looks.
     const float below = select(height * cosine < 0.0f, -height, 0.0f);
     result.usable =
         maskOf(length2 > kShortestNormal2) & maskOf(cosine * cosine > kLargestTurn2 * length2);
@@ -248,28 +249,30 @@ OSGRAYTRACE_INLINE TangentLift tangentLift(float px, float py, float pz, float v
 /// enough for every ray above the plane of the shading normal to clear the facets around. On hollow
 /// sides nothing moves.
 OSGRAYTRACE_KERNEL
-void lift(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth, SurfaceLanes& s)
+void offsetTerminator(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth,
+                      SurfaceLanes& s)
 {
-    LaneMask lifted = 0;
-    OSGRAYTRACE_SIMD_OR(lifted)
+    LaneMask terminatorLanes = 0;
+    OSGRAYTRACE_SIMD_OR(terminatorLanes)
     for (int i = 0; i < kLanes; ++i)
     {
         const float u = block.u[i], v = block.v[i], w = 1.0f - u - v;
         const float px = s.position.x[i], py = s.position.y[i], pz = s.position.z[i];
         const float gx = s.geometricNormal.x[i], gy = s.geometricNormal.y[i],
                     gz = s.geometricNormal.z[i];
-        const TangentLift a = tangentLift(px, py, pz, t.a.x[i], t.a.y[i], t.a.z[i], t.na.x[i],
-                                          t.na.y[i], t.na.z[i], gx, gy, gz);
-        const TangentLift b = tangentLift(px, py, pz, t.b.x[i], t.b.y[i], t.b.z[i], t.nb.x[i],
-                                          t.nb.y[i], t.nb.z[i], gx, gy, gz);
-        const TangentLift c = tangentLift(px, py, pz, t.c.x[i], t.c.y[i], t.c.z[i], t.nc.x[i],
-                                          t.nc.y[i], t.nc.z[i], gx, gy, gz);
+        const TerminatorOffset a = terminatorOffset(px, py, pz, t.a.x[i], t.a.y[i], t.a.z[i],
+                                                    t.na.x[i], t.na.y[i], t.na.z[i], gx, gy, gz);
+        const TerminatorOffset b = terminatorOffset(px, py, pz, t.b.x[i], t.b.y[i], t.b.z[i],
+                                                    t.nb.x[i], t.nb.y[i], t.nb.z[i], gx, gy, gz);
+        const TerminatorOffset c = terminatorOffset(px, py, pz, t.c.x[i], t.c.y[i], t.c.z[i],
+                                                    t.nc.x[i], t.nc.y[i], t.nc.z[i], gx, gy, gz);
         const float wa = w * a.scale, wb = u * b.scale, wc = v * c.scale;
         const float x = wa * t.na.x[i] + wb * t.nb.x[i] + wc * t.nc.x[i];
         const float y = wa * t.na.y[i] + wb * t.nb.y[i] + wc * t.nc.y[i];
         const float z = wa * t.na.z[i] + wb * t.nb.z[i] + wc * t.nc.z[i];
         // Less than a few error bounds is rounding, as on flat facets.
-        const uint32_t clear = maskOf(x * gx + y * gy + z * gz > kSmallestLift * s.offset[i]);
+        const uint32_t clear =
+            maskOf(x * gx + y * gy + z * gz > kSmallestTerminatorOffset * s.offset[i]);
         const uint32_t use = clear & a.usable & b.usable & c.usable & laneBit(smooth, i);
         s.onTriangle.x[i] = px;
         s.onTriangle.y[i] = py;
@@ -277,9 +280,9 @@ void lift(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth, Sur
         s.position.x[i] = px + select(use, x, 0.0f);
         s.position.y[i] = py + select(use, y, 0.0f);
         s.position.z[i] = pz + select(use, z, 0.0f);
-        lifted |= bitOfLane(use, i);
+        terminatorLanes |= bitOfLane(use, i);
     }
-    s.lifted = lifted & s.hits;
+    s.terminatorLanes = terminatorLanes & s.hits;
 }
 
 /// True if all hits are on one triangle: the rule where triangles are larger than pixels.
@@ -386,7 +389,7 @@ void finishNormals(const RayHitBlock& block, const TriangleLanes& triangles, Lan
     if (mirrored) turnMirrored(mirrored, surface);
     if (!smooth) return;
     interpolateNormals(block, triangles, smooth, surface);
-    if (start == RayStart::Smooth) lift(block, triangles, smooth, surface);
+    if (start == RayStart::Smooth) offsetTerminator(block, triangles, smooth, surface);
 }
 
 /// surfacesOf where all hits are on one triangle.
@@ -407,7 +410,7 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
 {
     const LaneMask hits = hitLanes(block, active);
     surface.hits = hits;
-    surface.lifted = 0;
+    surface.terminatorLanes = 0;
     const int first = hits ? __builtin_ctz(hits) : 0;
     if (hits && isOneTriangle(block, hits, first))
     {

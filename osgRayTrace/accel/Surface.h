@@ -12,7 +12,7 @@ namespace osgRayTrace::engine
 /// Hit points rebuilt from barycentric coordinates, with the bound of their rounding error.
 struct SurfaceLanes
 {
-    Vec3Lanes position;        ///< on the triangle, but for lifted lanes: where their rays start
+    Vec3Lanes position;        ///< on the triangle, but for terminatorLanes: where their rays start
     Vec3Lanes geometricNormal; ///< unit, on the side that the ray comes from
     Vec3Lanes shadingNormal;   ///< unit; as the mesh has it: not turned to either side
     FloatLanes offset;         ///< distance along geometricNormal that clears the error of position
@@ -20,9 +20,9 @@ struct SurfaceLanes
     UintLanes instance;        ///< index into Scene::instances; undefined outside of hits
     UintLanes material;        ///< index into Scene::materials
     LaneMask hits = 0;
-    LaneMask front = 0;   ///< the ray comes from the mesh's counter-clockwise side
-    LaneMask lifted = 0;  ///< hits whose position is above their triangle: see RayStart
-    Vec3Lanes onTriangle; ///< position if it were not lifted; unset if no lane is
+    LaneMask front = 0;           ///< the ray comes from the mesh's counter-clockwise side
+    LaneMask terminatorLanes = 0; ///< hits whose position is above their triangle: see RayStart
+    Vec3Lanes onTriangle;         ///< position without terminator offset; unset if no lane is
 };
 
 /// Where the rays of a smooth triangle that leave it on the ray's side start.
@@ -32,23 +32,23 @@ enum class RayStart
     Smooth,   ///< where it is a facet of a convex body: on the surface that its vertex normals mean
 };
 
-/// The points on the triangles, whether lifted or not.
+/// The points on the triangles, with a terminator offset or not.
 inline const Vec3Lanes& trianglePoints(const SurfaceLanes& surface)
 {
-    return surface.lifted ? surface.onTriangle : surface.position;
+    return surface.terminatorLanes ? surface.onTriangle : surface.position;
 }
 
 /// Puts the positions of lanes back onto their triangles.
-inline void dropLift(SurfaceLanes& surface, LaneMask lanes)
+inline void dropTerminatorOffset(SurfaceLanes& surface, LaneMask lanes)
 {
-    for (LaneMask m = surface.lifted & lanes; m; m &= m - 1)
+    for (LaneMask m = surface.terminatorLanes & lanes; m; m &= m - 1)
     {
         const int i = __builtin_ctz(m);
         surface.position.x[i] = surface.onTriangle.x[i];
         surface.position.y[i] = surface.onTriangle.y[i];
         surface.position.z[i] = surface.onTriangle.z[i];
     }
-    surface.lifted &= ~lanes;
+    surface.terminatorLanes &= ~lanes;
 }
 
 /// What is read from the meshes, lane by lane; everything after it is arithmetic on lanes.
@@ -80,7 +80,7 @@ struct LastTriangle
 ///
 /// RayStart::Smooth is against the terminator of the facets, which shows where the shading normals
 /// still see a light that the facet turns its back to: where the light is, for these lanes, is a
-/// matter of the shading normal alone. Flat facets and hollow sides are not lifted.
+/// matter of the shading normal alone. Flat facets and hollow sides have no terminator offset.
 ///
 /// last: makes it cheaper for blocks of neighbouring rays, and changes nothing else; null: for a
 /// block alone.

@@ -350,20 +350,20 @@ TEST_CASE("surface: rays of a smooth facet start on the tangent planes of its ve
             CAPTURE(length, side);
             if (side < 0.0f) // hollow
             {
-                CHECK(surface.lifted == 0u);
+                CHECK(surface.terminatorLanes == 0u);
                 CHECK(&trianglePoints(surface) == &surface.position);
                 continue;
             }
-            CHECK(surface.lifted == kAllLanes);
-            const Vec3 lift = at(surface.position, 7) - at(trianglePoints(surface), 7);
-            CHECK(glm::length(lift) == Approx(0.25f * edge * edge).epsilon(0.02));
-            CHECK(glm::dot(lift, n) > 0.0f);
-            dropLift(surface, 3u);
-            CHECK(surface.lifted == (kAllLanes & ~3u));
+            CHECK(surface.terminatorLanes == kAllLanes);
+            const Vec3 terminatorOffset = at(surface.position, 7) - at(trianglePoints(surface), 7);
+            CHECK(glm::length(terminatorOffset) == Approx(0.25f * edge * edge).epsilon(0.02));
+            CHECK(glm::dot(terminatorOffset, n) > 0.0f);
+            dropTerminatorOffset(surface, 3u);
+            CHECK(surface.terminatorLanes == (kAllLanes & ~3u));
             CHECK(at(surface.position, 1) == at(trianglePoints(surface), 1));
             CHECK(at(surface.position, 2) != at(trianglePoints(surface), 2));
             surfacesOf(traced->surfaces(), block, kAllLanes, surface);
-            CHECK(surface.lifted == 0u);
+            CHECK(surface.terminatorLanes == 0u);
             CHECK(glm::length(at(surface.position, 7) - middle) < 1e-6f);
         }
     }
@@ -389,7 +389,7 @@ TEST_CASE("surface: lifts are the same in blocks of one triangle and of several,
         traced->intersector().closestHits(block, kAllLanes, Coherence::Coherent);
         SurfaceLanes surface;
         surfacesOf(traced->surfaces(), block, kAllLanes, surface, RayStart::Smooth);
-        REQUIRE((surface.lifted & 1u) == 1u);
+        REQUIRE((surface.terminatorLanes & 1u) == 1u);
         return at(surface.position, 0);
     };
     const Vec3 start = startFrom(false, 1.0f, false);
@@ -448,7 +448,7 @@ TEST_CASE("surface: blocks that follow on others on the same triangle are as the
         REQUIRE(surface.hits == (body == 4 ? 0u : kAllLanes));
         REQUIRE(surface.hits == alone.hits);
         REQUIRE((surface.front & surface.hits) == (alone.front & alone.hits));
-        REQUIRE(surface.lifted == alone.lifted);
+        REQUIRE(surface.terminatorLanes == alone.terminatorLanes);
         for (int i = 0; i < kLanes; ++i)
         {
             if (!((surface.hits >> i) & 1u)) continue;

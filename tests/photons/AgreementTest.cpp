@@ -60,8 +60,9 @@ TEST_CASE("photons and paths agree: what photons find hard", "[photons][statisti
 
 TEST_CASE("photons and paths agree: no terminator in mirrors", "[photons]")
 {
-    // Facets that are lifted take light from below their planes, where no photon lands. Where they
-    // mirror they must not: a coarse mirror ball gave 0.2 % of the light of its room twice.
+    // Facets with a terminator offset take light from below their planes, where no photon lands.
+    // Where they mirror they must not: a coarse mirror ball gave 0.2 % of the light of its room
+    // twice.
     for (const ComparedScene& scene : photonScenes(kSize, kSize))
     {
         if (std::string(scene.name) != "smooth mirror balls") continue;

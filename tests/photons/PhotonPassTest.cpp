@@ -13,7 +13,7 @@ namespace
 
 constexpr int kSize = 40; // tiles at the border are cut
 
-/// A smooth-shaded ball of few facets: rays that leave it are lifted.
+/// A smooth-shaded ball of few facets: rays that leave it have a terminator offset.
 std::shared_ptr<Mesh> smoothBall(Vec3 centre, float radius)
 {
     auto mesh = sphereMesh(centre, radius, 8);

@@ -232,14 +232,14 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
     traced.uses.clear();
     traced.uses.reserve(geometry.uses.size());
     for (const GeometryUse& use : geometry.uses)
-        traced.patchable &= polygonLift(_graph.states[use.state]) == 0.0f;
+        traced.patchable &= depthBias(_graph.states[use.state]) == 0.0f;
     if (isPlaced(geometry))
         addPlacedUses(geometry);
     else
     {
         const GeometryUse& use = geometry.uses.front();
         MeshRequest request = requestFor(geometry, use.engineFromLocal);
-        request.lift = polygonLift(_graph.states[use.state]);
+        request.depthBias = depthBias(_graph.states[use.state]);
         if (clipBy(geometry, use, request) == Clipping::Wholly)
             addNothing(geometry, use);
         else
@@ -290,7 +290,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
     {
         ++variant;
         MeshRequest own = requestFor(geometry, use.engineFromLocal);
-        own.lift = polygonLift(_graph.states[use.state]);
+        own.depthBias = depthBias(_graph.states[use.state]);
         const Clipping clipping = clipBy(geometry, use, own);
         if (clipping == Clipping::Wholly)
         {
@@ -298,7 +298,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
             continue;
         }
         Instance instance;
-        if (clipping != Clipping::None || own.lift != 0.0f ||
+        if (clipping != Clipping::None || own.depthBias != 0.0f ||
             !placeInstance(instance, frame.localFromMesh * use.engineFromLocal))
         {
             _made.index.at(*geometry.geometry).patchable = false; // not by the shared mesh
@@ -322,7 +322,7 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
 {
     TracedGeometry& traced = _made.index.at(*geometry.geometry);
     const MeshRequest* request = _caches.geometries.lastRequest(*geometry.geometry);
-    if (!request || traced.uses.empty() || polygonLift(_graph.states[use.state]) != 0.0f)
+    if (!request || traced.uses.empty() || depthBias(_graph.states[use.state]) != 0.0f)
         return false;
     osg::Matrixd localFromMesh;
     if (request->transform) localFromMesh = osg::Matrixd::inverse(*request->transform);

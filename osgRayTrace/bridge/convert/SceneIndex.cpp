@@ -19,7 +19,7 @@ bool StateEffects::operator==(const StateEffects& other) const
 {
     const auto values = [](const StateEffects& t)
     {
-        return std::tie(t.rasterized, t.restart, t.lift, t.physical, t.setsColor, t.clipPlanes,
+        return std::tie(t.rasterized, t.restart, t.depthBias, t.physical, t.setsColor, t.clipPlanes,
                         t.hasAmbient, t.ambient, t.counts);
     };
     return values(*this) == values(other);
@@ -30,7 +30,7 @@ StateEffects stateEffectsOf(const GraphState& state, const TextureConverter& tex
     StateEffects effects;
     effects.rasterized = rasterizedState(state, textures, nullptr);
     effects.restart = restartOf(state).key();
-    effects.lift = polygonLift(state);
+    effects.depthBias = depthBias(state);
     effects.physical = state.attributes[kPhysicalMaterialSlot] != nullptr;
     effects.setsColor = setsCurrentColor(state);
     effects.clipPlanes = clipPlanesOn(state);

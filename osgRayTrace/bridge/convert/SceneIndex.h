@@ -21,7 +21,7 @@ struct StateEffects
 {
     const char* rasterized = nullptr; ///< see rasterizedState
     uint64_t restart = 0;
-    float lift = 0.0f;
+    float depthBias = 0.0f;
     bool physical = false;
     bool setsColor = false;  ///< see setsCurrentColor
     uint64_t clipPlanes = 0; ///< that are on, see clipPlanesOn

@@ -205,7 +205,7 @@ constexpr float kLayer = 0x1p-16f;
 /// Raises all faces on their front side, so that a decal is hit before what it lies on. OpenGL
 /// moves the depth towards the viewer instead, on either side; seen from behind the order is the
 /// other one here.
-SharedArray<Vec3> lifted(const Mesh& mesh, float layers)
+SharedArray<Vec3> biased(const Mesh& mesh, float layers)
 {
     std::vector<Vec3d> directions(mesh.positions.size(), Vec3d(0.0));
     for (const UVec3& t : mesh.triangles)
@@ -325,7 +325,7 @@ ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& 
     mesh->rs1 = fits(kept.rs1) ? kept.rs1 : reader.thirdCoordinates(geometry.getTexCoordArray(1));
     mesh->colors =
         fits(kept.colors) ? kept.colors : reader.colors(geometry.getColorArray(), result.counts);
-    if (request.lift != 0.0f) mesh->positions = lifted(*mesh, request.lift);
+    if (request.depthBias != 0.0f) mesh->positions = biased(*mesh, request.depthBias);
     if (!request.clipPlanes.empty()) clip(*mesh, request.clipPlanes);
     if (mesh->triangles.empty()) return skip("not-traced.clipped-away");
     result.mesh = std::move(mesh);

@@ -22,7 +22,7 @@ struct MeshRequest
     /// shared.
     std::optional<osg::Matrixd> transform;
     bool decodeColors = false; ///< vertex colours from sRGB to linear
-    float lift = 0.0f;         ///< layers that the faces are raised by: see polygonLift
+    float depthBias = 0.0f;    ///< layers that the faces are raised by: see depthBias
     bool copies = false;       ///< shares no arrays: they will change
     PrimitiveRestart restart;
     std::vector<Vec4d> clipPlanes; ///< after the transform; see clip
@@ -30,7 +30,7 @@ struct MeshRequest
     bool operator==(const MeshRequest& other) const
     {
         return transform == other.transform && decodeColors == other.decodeColors &&
-               lift == other.lift && copies == other.copies && restart == other.restart &&
+               depthBias == other.depthBias && copies == other.copies && restart == other.restart &&
                clipPlanes == other.clipPlanes;
     }
 };

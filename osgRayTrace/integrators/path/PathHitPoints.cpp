@@ -36,7 +36,7 @@ void restore(const HitPoints& hits, const HitPointBlock& points, PathBlock& bloc
     surface.steep = points.steep;
     surface.material = points.material;
     surface.instance = points.instance;
-    surface.lifted = points.lifted;
+    surface.terminatorLanes = points.terminatorLanes;
     surface.hits = block.active = all;
     block.throughput = points.throughput;
     block.rays.ray.directionX = points.direction.x;
@@ -109,7 +109,7 @@ void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits
             keepLane(points, to, block, bounce, i, kept);
         points.diffuse |= moved(bounce.diffuse, i, at);
         points.through |= moved(bounce.through, i, at);
-        points.lifted |= moved(bounce.surface.lifted, i, at);
+        points.terminatorLanes |= moved(bounce.surface.terminatorLanes, i, at);
         points.gathering |= moved(bounce.gathering, i, at);
         points.ending |= moved(bounce.ending, i, at);
     }

@@ -59,7 +59,8 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
         bounce.smooth |= static_cast<LaneMask>(isSmoothInterface(bounce.bsdfs[i])) << i;
         bounce.through |= static_cast<LaneMask>(bounce.bsdfs[i].transmits()) << i;
     }
-    dropLift(bounce.surface, bounce.through); // refraction depends on where the facet is
+    dropTerminatorOffset(bounce.surface,
+                         bounce.through); // refraction depends on where the facet is
 }
 
 /// Follows the paths of a block over one bounce.

@@ -186,7 +186,7 @@ void beginReuse(Tile& tile, PhotonUse use)
 
 void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
 {
-    for (LaneMask lanes = bounce.diffuse & ~bounce.ending & ~bounce.surface.lifted; lanes;
+    for (LaneMask lanes = bounce.diffuse & ~bounce.ending & ~bounce.surface.terminatorLanes; lanes;
          lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
@@ -203,7 +203,8 @@ void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
 
 void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce)
 {
-    for (LaneMask lanes = bounce.diffuse & ~bounce.surface.lifted; lanes; lanes &= lanes - 1)
+    for (LaneMask lanes = bounce.diffuse & ~bounce.surface.terminatorLanes; lanes;
+         lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         const uint32_t pixel = block.pixel[i] & kPixelBits;

@@ -25,7 +25,7 @@ LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface,
                            const FloatLanes& u, const FloatLanes& v, Vec3Lanes& wi,
                            Vec3Lanes& origin, FloatLanes& tNear, FloatLanes& pdfW)
 {
-    const LaneMask lifted = surface.lifted;
+    const LaneMask terminatorLanes = surface.terminatorLanes;
     LaneMask alive = 0;
     OSGRAYTRACE_SIMD_OR(alive)
     for (int i = 0; i < kLanes; ++i)
@@ -55,7 +55,7 @@ LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface,
         origin.y[i] = surface.position.y[i] + gy * offset;
         origin.z[i] = surface.position.z[i] + gz * offset;
         tNear[i] = select(steep, surface.offset[i] / std::max(above, surface.steep[i]), 0.0f);
-        const uint32_t leaves = maskOf(above > 0.0f) | laneBit(lifted, i);
+        const uint32_t leaves = maskOf(above > 0.0f) | laneBit(terminatorLanes, i);
         alive |= bitOfLane(leaves & maskOf(lz > 0.0f), i);
     }
     return alive;

@@ -140,10 +140,10 @@ void depthLanes(const CameraRays& camera, int left, int bottom, int block,
                 const SurfaceLanes& surface, FloatLanes& along, float* depth)
 {
     const int blockLeft = left + laneX(block, 0), blockBottom = bottom + laneY(block, 0);
-    if (surface.lifted)
+    if (surface.terminatorLanes)
     {
         SurfaceLanes onTriangles = surface;
-        dropLift(onTriangles, kAllLanes);
+        dropTerminatorOffset(onTriangles, kAllLanes);
         planeDistances(camera, blockLeft, blockBottom, onTriangles, along);
     }
     else

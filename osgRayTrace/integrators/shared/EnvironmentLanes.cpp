@@ -44,7 +44,7 @@ void environmentLanes(const PassContext& context, const SurfaceLanes& surface, L
 {
     const PlacedEnvironment& environment = *context.traced->lights().environment();
     const bool uniform = context.options.environmentSampling == EnvironmentSampling::Uniform;
-    through |= surface.lifted;
+    through |= surface.terminatorLanes;
     samples.lit = 0;
     for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
     {
@@ -61,7 +61,7 @@ void environmentLanes(const PassContext& context, const SurfaceLanes& surface, L
 void stratumLanes(const EnvironmentStratum& stratum, float inversePmf, const SurfaceLanes& surface,
                   LaneMask active, LaneMask through, LightLanes& samples)
 {
-    through |= surface.lifted;
+    through |= surface.terminatorLanes;
     samples.lit = 0;
     for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
     {

@@ -18,8 +18,9 @@ namespace osgRayTrace::engine
 /// bounces; lanes beyond count hold the first one.
 struct HitPointBlock
 {
-    Vec3Lanes position;        ///< on the triangle
-    Vec3Lanes start;           ///< of shadow rays: position but for lifted points, see RayStart
+    Vec3Lanes position; ///< on the triangle
+    Vec3Lanes
+        start; ///< of shadow rays: position but for points with a terminator offset, see RayStart
     Vec3Lanes geometricNormal; ///< unit, on the side of the ray
     Vec3Lanes normal;          ///< shading, on that side
     Vec3Lanes direction;       ///< of the ray that came here, unit
@@ -32,7 +33,7 @@ struct HitPointBlock
     UintLanes bsdf;  ///< index into HitPoints::bsdfs unless diffuse
     int number = 0;  ///< of bounces before
     int count = 0;
-    LaneMask diffuse = 0, through = 0, lifted = 0, gathering = 0,
+    LaneMask diffuse = 0, through = 0, terminatorLanes = 0, gathering = 0,
              ending = 0; ///< see Bounce, SurfaceLanes
 };
 

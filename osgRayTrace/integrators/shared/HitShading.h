@@ -94,10 +94,11 @@ inline RayBegin leave(const SurfaceLanes& surface, int i, Vec3 wi)
 }
 
 /// True if the direction is on the ray's side of the surface as light goes: of the facet, or for
-/// lifted lanes of the shading normal alone, on whose side it must be in both cases.
+/// terminatorLanes of the shading normal alone, on whose side it must be in both cases.
 inline bool isAbove(const SurfaceLanes& surface, int i, Vec3 wi)
 {
-    return ((surface.lifted >> i) & 1u) || glm::dot(wi, laneOf(surface.geometricNormal, i)) > 0.0f;
+    return ((surface.terminatorLanes >> i) & 1u) ||
+           glm::dot(wi, laneOf(surface.geometricNormal, i)) > 0.0f;
 }
 
 /// As leave and isAbove, but of the facet in any case: for mirror-like lobes. There is no

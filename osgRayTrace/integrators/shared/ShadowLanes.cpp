@@ -15,7 +15,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// From here on no lift changes the direction to a light, and squares of distances are no floats.
+/// From here on no terminator offset changes the direction to a light, and squares of distances are
+/// no floats.
 constexpr float kFarLight = 1e18f;
 
 /// A parallelogram with what all lanes share.
@@ -69,7 +70,7 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
         const float distance = std::sqrt(dx * dx + dy * dy + dz * dz);
         const float perDistance = 1.0f / distance;
 
-        // The shadow ray is lifted off both surfaces; the geometry term is not, or the light of
+        // The shadow ray is moved off both surfaces; the geometry term is not, or the light of
         // large surfaces would be wrong by their error bound.
         const float inverse =
             1.0f / std::sqrt(towardsX * towardsX + towardsY * towardsY + towardsZ * towardsZ);
@@ -132,7 +133,7 @@ void areaLightLanes(const PassContext& context, uint32_t index, float pmf,
                     const FloatLanes& u, const FloatLanes& v, LightLanes& samples)
 {
     const Light& light = (*context.lights)[index];
-    through |= surface.lifted;
+    through |= surface.terminatorLanes;
     if (light.kind == LightKind::Parallelogram)
     {
         samples.lit = quadLanes(quadOf(light, context.traced->lights(), index), pmf, surface,
@@ -154,7 +155,7 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
 {
     const Light& light = (*context.lights)[index];
     const bool soft = isSoft(light);
-    through |= surface.lifted;
+    through |= surface.terminatorLanes;
     samples.lit = 0;
     for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
     {
@@ -171,9 +172,9 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
         const RayBegin begin = leave(surface, i, sample.wi);
         Vec3 towards = sample.wi;
         float distance = sample.distance;
-        if (((surface.lifted >> i) & 1u) && distance < kFarLight)
+        if (((surface.terminatorLanes >> i) & 1u) && distance < kFarLight)
         {
-            // The lift is no small thing: to the light itself, not past it.
+            // The terminator offset is no small thing: to the light itself, not past it.
             towards = point + sample.wi * distance - begin.origin;
             distance = glm::length(towards);
             if (!(distance > 0.0f)) continue;

@@ -99,7 +99,7 @@ void classify(WhittedTile& tile, ShadingBlock& block)
             // OpenGL lights by the vertex normal alone, which may look the other way than the face.
             m.through |= 1u << i;
             if (!(glm::dot(m.points[i].normal, laneOf(block.surface.geometricNormal, i)) > 0.0f))
-                dropLift(block.surface, 1u << i);
+                dropTerminatorOffset(block.surface, 1u << i);
             continue;
         }
         if (record.plainDiffuse)
@@ -116,7 +116,7 @@ void classify(WhittedTile& tile, ShadingBlock& block)
         m.physical |= 1u << i;
         if (!m.bsdfs[i].transmits()) continue;
         m.through |= 1u << i;
-        dropLift(block.surface, 1u << i); // refraction depends on where the facet is
+        dropTerminatorOffset(block.surface, 1u << i); // refraction depends on where the facet is
     }
 }
 

@@ -256,7 +256,7 @@ bool usesStencil(const GraphState& state)
     return state.isOn(kStencilBit) && state.attributes[kStencilSlot];
 }
 
-float polygonLift(const GraphState& state)
+float depthBias(const GraphState& state)
 {
     constexpr float kMostLayers = 64.0f;
     if (!state.isOn(kPolygonOffsetBit)) return 0.0f;
@@ -458,7 +458,7 @@ void MaterialConverter::countApproximations(const GraphState& state)
             _report.count("approximated.polygon-mode");
     const FaceCulling culling = cullingOf(state);
     const bool backIsSeen = culling == FaceCulling::None || culling == FaceCulling::Front;
-    if (polygonLift(state) != 0.0f && backIsSeen)
+    if (depthBias(state) != 0.0f && backIsSeen)
         _report.count("approximated.polygon-offset"); // right from the front only
 }
 

@@ -44,7 +44,7 @@ bool usesStencil(const GraphState& state);
 
 /// Layers that glPolygonOffset lifts the faces by, towards the viewer. 0: none. The offset's units
 /// count, or its factor if it has none.
-float polygonLift(const GraphState& state);
+float depthBias(const GraphState& state);
 
 /// What all materials of a scene have in common.
 struct MaterialRules
