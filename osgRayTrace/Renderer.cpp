@@ -171,7 +171,7 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     const auto begin = std::chrono::steady_clock::now();
     // A tile at least, so that there is an end, however short the time.
     if (seconds > 0.0)
-        rule.over = [begin, seconds](int tiles, double ahead)
+        rule.shouldStop = [begin, seconds](int tiles, double ahead)
         {
             const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
             return tiles > 0 && spent.count() + ahead >= seconds;

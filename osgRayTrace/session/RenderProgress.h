@@ -33,7 +33,7 @@ struct StopRule
     /// the rest, as after cancel(). Tiles are then taken in an order that is even over the image,
     /// so that any part of them tells what all of them cost. tiles: begun by this call; seconds:
     /// the least time until it is asked again, known of photons.
-    std::function<bool(int tiles, double seconds)> over;
+    std::function<bool(int tiles, double seconds)> shouldStop;
     /// With over: tiles along a side of the squares whose tiles follow each other, see TileOrder.
     /// These squares, and not tiles, are what is even over the image then.
     int groupedTiles = 1;

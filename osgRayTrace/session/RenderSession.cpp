@@ -229,7 +229,7 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
     tileCounts.assign(tiles, TileCounts());
     dirtyTiles.resize(tiles);
     film.beginPass();
-    const bool partial = rule.over || rule.newTiles < std::numeric_limits<int>::max();
+    const bool partial = rule.shouldStop || rule.newTiles < std::numeric_limits<int>::max();
     const auto renderOne = [&](std::size_t index)
     {
         // Workers begin at several places at once; an order has to be kept by all of them together.
@@ -239,7 +239,8 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
         bool renders = film.tilePasses(tile) == pass &&
                        !cancelled.load(std::memory_order_relaxed) &&
                        !over.load(std::memory_order_relaxed);
-        if (renders && rule.over && rule.over(begun.load(std::memory_order_relaxed), 0.0))
+        if (renders && rule.shouldStop &&
+            rule.shouldStop(begun.load(std::memory_order_relaxed), 0.0))
         {
             renders = false;
             over = true;
@@ -301,7 +302,9 @@ RenderProgress SessionState::run(const StopRule& rule,
         const int pass = film.passes();
         if (progress.newTiles >= rule.newTiles) break;
         if (made > 0 && secondsSince(start) >= rule.seconds) break;
-        if (made > 0 && rule.over && rule.over(progress.newTiles, photons.secondsOf(pass))) break;
+        if (made > 0 && rule.shouldStop &&
+            rule.shouldStop(progress.newTiles, photons.secondsOf(pass)))
+            break;
         const Clock::time_point passStart = Clock::now();
         PassContext context = contextOfPass(pass);
         progress.lights = sampledLightCounts(context);

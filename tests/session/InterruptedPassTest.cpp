@@ -57,7 +57,7 @@ StopRule someTiles(int passes, int tiles)
 {
     StopRule rule;
     rule.passes = passes;
-    rule.over = [tiles](int begun, double) { return begun >= tiles; };
+    rule.shouldStop = [tiles](int begun, double) { return begun >= tiles; };
     return rule;
 }
 
@@ -172,13 +172,14 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("interrupted passes: over is asked before passes, with the photons' time", "[session]")
+TEST_CASE("interrupted passes: shouldStop is asked before passes, with the photons' time",
+          "[session]")
 {
     Room room(IntegratorKind::PhotonCaustics);
     std::vector<double> ahead;
     StopRule rule;
     rule.passes = 7;
-    rule.over = [&](int tiles, double seconds)
+    rule.shouldStop = [&](int tiles, double seconds)
     {
         if (tiles % 35 == 0 && tiles > 0 && seconds > 0.0)
             ahead.push_back(seconds); // this thread's

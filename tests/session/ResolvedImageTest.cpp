@@ -177,10 +177,10 @@ TEST_CASE(
                 noting.setScene(scene);
                 noting.setView(view);
                 noting.setOptions(options);
-                rule.over = [](int tiles, double) { return tiles >= 2; };
+                rule.shouldStop = [](int tiles, double) { return tiles >= 2; };
                 noting.render(rule);
                 CHECK(noting.surfaceSamples().empty()); // a part of them
-                rule.over = {};
+                rule.shouldStop = {};
                 rule.passes = 3; // of which the first one notes them
                 REQUIRE(noting.render(rule).status.ok());
 

@@ -281,7 +281,7 @@ bool ViewTracer::traceImage(const FramePlan& plan, const FrameSituation& frame, 
     const double start = _now();
     StopRule rule;
     if (!reduced) rule.newPasses = plan.passes; // in the last of which tiles go to the display
-    rule.over = [&, start](int tiles, double ahead)
+    rule.shouldStop = [&, start](int tiles, double ahead)
     {
         const double spent = _now() - start;
         if (tiles < whole) return mayGiveUp && _planner.givesUp(frame, plan.divider, tiles, spent);
@@ -310,7 +310,7 @@ void ViewTracer::traceStill(FrameSituation frame)
     const double start = _now();
     StopRule rule;
     // A tile at least, so that there is an end, however short the budget.
-    rule.over = [&, start](int tiles, double ahead)
+    rule.shouldStop = [&, start](int tiles, double ahead)
     { return tiles > 0 && _now() - start + ahead >= frame.seconds; };
     if (_displayState == DisplayState::Reduced && _stillFrames < kSettling)
     {
@@ -381,7 +381,7 @@ bool ViewTracer::traceAgreedImage(const FrameWork& work, double budget)
     // Photons, which no other resolution makes fewer, do not count: it is asked after them first.
     std::atomic<double> start{-std::numeric_limits<double>::infinity()};
     if (budget > 0.0)
-        rule.over = [&](int tiles, double)
+        rule.shouldStop = [&](int tiles, double)
         {
             if (tiles < whole && work.divider >= FramePlanner::kLargestDivider) return false;
             const double now = _now();
@@ -433,8 +433,8 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     session.setOptions(options);
     rule.passes = _maxPasses;
     if (_interrupt)
-        rule.over = [this, over = rule.over](int tiles, double ahead)
-        { return _interrupt() || (over && over(tiles, ahead)); };
+        rule.shouldStop = [this, shouldStop = rule.shouldStop](int tiles, double ahead)
+        { return _interrupt() || (shouldStop && shouldStop(tiles, ahead)); };
     const double start = _now();
     ImageStages& stages = stagesOf(session);
     stages.leaveView(session, inputs);

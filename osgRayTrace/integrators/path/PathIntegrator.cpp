@@ -136,7 +136,7 @@ void tracePaths(Tile& tile, PhotonUse use)
         const bool last = number >= context.options.maxBounces;
         for (int b = 0; b < tile.paths.count; ++b)
             bounceBlock(tile, b, number, last, use);
-        closeRanks(tile.paths);
+        compactPaths(tile.paths);
     }
     connectPaths(tile);
 }

@@ -30,7 +30,7 @@ void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
 
 } // namespace
 
-void closeRanks(PathQueue& paths)
+void compactPaths(PathQueue& paths)
 {
     int count = 0;
     for (int b = 0; b < paths.count; ++b)

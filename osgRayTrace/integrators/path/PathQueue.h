@@ -40,6 +40,6 @@ struct PathQueue
 };
 
 /// Moves the paths that go on into as few blocks as possible, in order, and readies their rays.
-void closeRanks(PathQueue& paths);
+void compactPaths(PathQueue& paths);
 
 } // namespace osgRayTrace::engine

@@ -144,8 +144,9 @@ LaneMask playRoulette(const FloatLanes& roulette, const FloatLanes& survival, Ve
 
 /// Sets the rays of all lanes, whether they go on or not.
 OSGRAYTRACE_KERNEL
-void setOff(PathBlock& block, const Vec3Lanes& origin, const FloatLanes& tNear, const Vec3Lanes& wi,
-            const Vec3Lanes& throughput, const FloatLanes& pdfW, LaneMask gathering, LaneMask rough)
+void spawnRays(PathBlock& block, const Vec3Lanes& origin, const FloatLanes& tNear,
+               const Vec3Lanes& wi, const Vec3Lanes& throughput, const FloatLanes& pdfW,
+               LaneMask gathering, LaneMask rough)
 {
     RayBlock& ray = block.rays.ray;
     OSGRAYTRACE_SIMD
@@ -228,7 +229,7 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         if (!bounce.general) lobeAndRoulette();
         block.active &= playRoulette(roulette, survival, throughput);
     }
-    setOff(block, origin, tNear, wi, throughput, pdfW, bounce.gathering, bounce.rough);
+    spawnRays(block, origin, tNear, wi, throughput, pdfW, bounce.gathering, bounce.rough);
 }
 
 } // namespace osgRayTrace::engine
