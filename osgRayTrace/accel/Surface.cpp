@@ -15,10 +15,11 @@ namespace
 constexpr float kOffsetScale = 32.0f * 0x1p-24f;
 constexpr float kEdgeScale = 8.0f * 0x1p-24f;
 
-/// Rays whose cosine is above kSteep begin on their very point if the offset is no more than this
-/// share of the triangle's edges: the way that they skip, four offsets at most, then hides nothing.
+/// Rays whose cosine is above kMinCosine begin on their very point if the offset is no more than
+/// this share of the triangle's edges: the way that they skip, four offsets at most, then hides
+/// nothing.
 constexpr float kFineOffset = 1e-4f;
-constexpr float kSteep = 0.25f;
+constexpr float kMinCosine = 0.25f;
 constexpr float kNever = 2.0f;
 
 constexpr float kSmallestTerminatorOffset = 4.0f; ///< [error bounds]
@@ -109,7 +110,7 @@ OSGRAYTRACE_INLINE float inversePowerOfTwo(float x)
 /// code.
 OSGRAYTRACE_INLINE void planeOf(float ax, float ay, float az, float bx, float by, float bz,
                                 float cx, float cy, float cz, float transformBound, float& normalX,
-                                float& normalY, float& normalZ, float& offset, float& steep)
+                                float& normalY, float& normalZ, float& offset, float& minCosine)
 {
     const float e1x = bx - ax, e1y = by - ay, e1z = bz - az;
     const float e2x = cx - ax, e2y = cy - ay, e2z = cz - az;
@@ -132,13 +133,13 @@ OSGRAYTRACE_INLINE void planeOf(float ax, float ay, float az, float bx, float by
                         largestOf(ay, by, cy) * std::fabs(normalY) +
                         largestOf(az, bz, cz) * std::fabs(normalZ);
     offset = kOffsetScale * (bound + 2.0f * transformBound) + kEdgeScale * edge;
-    steep = select(offset <= kFineOffset * edge, kSteep, kNever);
+    minCosine = select(offset <= kFineOffset * edge, kMinCosine, kNever);
 }
 
 /// Everything about lane i of a surface but its interpolated normal. Returns all bits if the ray
 /// comes from the front.
 OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, float nx, float ny,
-                                       float nz, float offset, float steep, float ax, float ay,
+                                       float nz, float offset, float minCosine, float ax, float ay,
                                        float az, float bx, float by, float bz, float cx, float cy,
                                        float cz, SurfaceLanes& s)
 {
@@ -156,7 +157,7 @@ OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, float nx
     s.shadingNormal.y[i] = ny;
     s.shadingNormal.z[i] = nz;
     s.offset[i] = offset;
-    s.steep[i] = steep;
+    s.minCosine[i] = minCosine;
     return maskOf(cosine <= 0.0f);
 }
 
@@ -170,11 +171,12 @@ void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
         const float ax = t.a.x[i], ay = t.a.y[i], az = t.a.z[i];
         const float bx = t.b.x[i], by = t.b.y[i], bz = t.b.z[i];
         const float cx = t.c.x[i], cy = t.c.y[i], cz = t.c.z[i];
-        float nx, ny, nz, offset, steep;
-        planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[i], nx, ny, nz, offset, steep);
-        front |= bitOfLane(
-            setSurface(block, i, nx, ny, nz, offset, steep, ax, ay, az, bx, by, bz, cx, cy, cz, s),
-            i);
+        float nx, ny, nz, offset, minCosine;
+        planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[i], nx, ny, nz, offset,
+                minCosine);
+        front |= bitOfLane(setSurface(block, i, nx, ny, nz, offset, minCosine, ax, ay, az, bx, by,
+                                      bz, cx, cy, cz, s),
+                           i);
     }
     s.front = front;
 }
@@ -188,13 +190,13 @@ void geometryOfOne(const RayHitBlock& block, const LastTriangle& last, SurfaceLa
     const float bx = t.b.x[0], by = t.b.y[0], bz = t.b.z[0];
     const float cx = t.c.x[0], cy = t.c.y[0], cz = t.c.z[0];
     const float nx = last.normal.x, ny = last.normal.y, nz = last.normal.z;
-    const float offset = last.offset, steep = last.steep;
+    const float offset = last.offset, minCosine = last.minCosine;
     LaneMask front = 0;
     OSGRAYTRACE_SIMD_OR(front)
     for (int i = 0; i < kLanes; ++i)
-        front |= bitOfLane(
-            setSurface(block, i, nx, ny, nz, offset, steep, ax, ay, az, bx, by, bz, cx, cy, cz, s),
-            i);
+        front |= bitOfLane(setSurface(block, i, nx, ny, nz, offset, minCosine, ax, ay, az, bx, by,
+                                      bz, cx, cy, cz, s),
+                           i);
     s.front = front;
 }
 
@@ -367,7 +369,7 @@ void setLast(const SurfaceTable& table, const RayHitBlock& block, int lane, Last
     last.material = record.material;
     planeOf(t.a.x[0], t.a.y[0], t.a.z[0], t.b.x[0], t.b.y[0], t.b.z[0], t.c.x[0], t.c.y[0],
             t.c.z[0], t.transformBound[0], last.normal.x, last.normal.y, last.normal.z, last.offset,
-            last.steep);
+            last.minCosine);
     if (last.smooth)
     {
         broadcast(t.a, t.b, t.c);

@@ -16,7 +16,7 @@ struct SurfaceLanes
     Vec3Lanes geometricNormal; ///< unit, on the side that the ray comes from
     Vec3Lanes shadingNormal;   ///< unit; as the mesh has it: not turned to either side
     FloatLanes offset;         ///< distance along geometricNormal that clears the error of position
-    FloatLanes steep;          ///< cosine above which rays may begin at position itself: see leave
+    FloatLanes minCosine;      ///< cosine above which rays may begin at position itself: see leave
     UintLanes instance;        ///< index into Scene::instances; undefined outside of hits
     UintLanes material;        ///< index into Scene::materials
     LaneMask hits = 0;
@@ -68,7 +68,7 @@ struct LastTriangle
     uint32_t sceneInstance, material;
     bool smooth, mirrored;
     Vec3 normal; ///< unit, on the counter-clockwise side
-    float offset, steep;
+    float offset, minCosine;
     TriangleLanes lanes; ///< in the first lane; in all if smooth
 };
 

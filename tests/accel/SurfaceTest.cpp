@@ -456,7 +456,7 @@ TEST_CASE("surface: blocks that follow on others on the same triangle are as the
             REQUIRE(at(surface.geometricNormal, i) == at(alone.geometricNormal, i));
             REQUIRE(at(surface.shadingNormal, i) == at(alone.shadingNormal, i));
             REQUIRE(surface.offset[i] == alone.offset[i]);
-            REQUIRE(surface.steep[i] == alone.steep[i]);
+            REQUIRE(surface.minCosine[i] == alone.minCosine[i]);
             REQUIRE(surface.instance[i] == alone.instance[i]);
             REQUIRE(surface.material[i] == alone.material[i]);
         }

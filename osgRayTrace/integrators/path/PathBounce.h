@@ -75,16 +75,16 @@ struct Bounce
 {
     int number = 0;
     SurfaceLanes surface;
-    Vec3Lanes normal;       ///< shading, on the side of the ray
-    Vec3Lanes albedo;       ///< of diffuse lanes
-    LaneMask diffuse = 0;   ///< plain Lambert lanes
-    LaneMask general = 0;   ///< all other hits that scatter
-    LaneMask smooth = 0;    ///< of these, those with mirror-like lobes only
-    LaneMask through = 0;   ///< general lanes that transmit
-    LaneMask gathering = 0; ///< lanes that look up photons
-    LaneMask rough = 0;     ///< of these, those that look up all photons
-    LaneMask ending = 0;    ///< of these, those that go on by mirror-like lobes only
-    Bsdf* bsdfs = nullptr;  ///< of general lanes
+    Vec3Lanes normal;          ///< shading, on the side of the ray
+    Vec3Lanes albedo;          ///< of diffuse lanes
+    LaneMask diffuse = 0;      ///< plain Lambert lanes
+    LaneMask general = 0;      ///< all other hits that scatter
+    LaneMask smooth = 0;       ///< of these, those with mirror-like lobes only
+    LaneMask transmissive = 0; ///< general lanes that transmit
+    LaneMask gathering = 0;    ///< lanes that look up photons
+    LaneMask rough = 0;        ///< of these, those that look up all photons
+    LaneMask terminating = 0;  ///< of these, those that go on by mirror-like lobes only
+    Bsdf* bsdfs = nullptr;     ///< of general lanes
 };
 
 void countRays(Tile& tile, const PathBlock& block, LaneMask lanes);
@@ -102,10 +102,10 @@ void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface
 /// of the bounce.
 void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int number, PhotonUse use);
 
-/// Adds what the visible lanes get from one light sample. Lanes of alone have no other chance to
-/// meet this light: it has its full weight.
+/// Adds what the visible lanes get from one light sample. Lanes of withoutMis have no other chance
+/// to meet this light: it has its full weight.
 void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
-              LaneMask visible, LaneMask alone);
+              LaneMask visible, LaneMask withoutMis);
 
 /// Samples of the environment; none without it. seeds: of light samples.
 void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds);

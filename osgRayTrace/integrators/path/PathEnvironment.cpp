@@ -23,11 +23,11 @@ namespace
 constexpr uint32_t kEnvironmentDimension = 0x10000u;
 
 void addSamples(Tile& tile, PathBlock& block, const Bounce& bounce, LightLanes& samples,
-                LaneMask alone)
+                LaneMask withoutMis)
 {
     countRays(tile, block, samples.lit);
     const LaneMask visible = visibleLanes(tile.context, samples, tile.counts);
-    addLight(tile, block, bounce, samples, visible, alone);
+    addLight(tile, block, bounce, samples, visible, withoutMis);
 }
 
 /// One of the strata for each lane, all alike: each stands for about the same share of the light.
@@ -46,7 +46,7 @@ void sampleOneStratum(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMa
     {
         const int i = __builtin_ctz(m);
         stratumLanes(strata[chosen[i]], static_cast<float>(count), bounce.surface, 1u << i,
-                     bounce.through, samples);
+                     bounce.transmissive, samples);
         lit |= samples.lit;
     }
     samples.lit = lit;
@@ -64,7 +64,7 @@ void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const
     {
         for (const EnvironmentStratum& stratum : *tile.context.strata)
         {
-            stratumLanes(stratum, 1.0f, bounce.surface, lanes, bounce.through, samples);
+            stratumLanes(stratum, 1.0f, bounce.surface, lanes, bounce.transmissive, samples);
             addSamples(tile, block, bounce, samples, kAllLanes);
         }
         return;
@@ -78,8 +78,8 @@ void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const
         sampleOneStratum(tile, block, bounce, lanes, u);
         return;
     }
-    environmentLanes(tile.context, bounce.surface, lanes, bounce.through, u, v, samples);
-    addSamples(tile, block, bounce, samples, bounce.ending);
+    environmentLanes(tile.context, bounce.surface, lanes, bounce.transmissive, u, v, samples);
+    addSamples(tile, block, bounce, samples, bounce.terminating);
 }
 
 void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int number, PhotonUse use)

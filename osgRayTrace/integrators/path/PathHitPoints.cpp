@@ -25,15 +25,15 @@ void restore(const HitPoints& hits, const HitPointBlock& points, PathBlock& bloc
     bounce.albedo = points.albedo;
     bounce.diffuse = points.diffuse;
     bounce.general = all & ~points.diffuse;
-    bounce.through = points.through;
+    bounce.transmissive = points.transmissive;
     bounce.gathering = points.gathering;
-    bounce.ending = points.ending;
+    bounce.terminating = points.terminating;
     SurfaceLanes& surface = bounce.surface;
     surface.onTriangle = points.position;
     surface.position = points.start;
     surface.geometricNormal = points.geometricNormal;
     surface.offset = points.offset;
-    surface.steep = points.steep;
+    surface.minCosine = points.minCosine;
     surface.material = points.material;
     surface.instance = points.instance;
     surface.terminatorLanes = points.terminatorLanes;
@@ -77,7 +77,7 @@ void keepLane(HitPointBlock& points, int to, const PathBlock& block, const Bounc
     const bool diffuse = (bounce.diffuse >> i) & 1u;
     setLane(points.albedo, to, diffuse ? laneOf(bounce.albedo, i) : Vec3(0.0f));
     points.offset[to] = surface.offset[i];
-    points.steep[to] = surface.steep[i];
+    points.minCosine[to] = surface.minCosine[i];
     points.material[to] = surface.material[i];
     points.instance[to] = surface.instance[i];
     points.seed[to] = block.seed[i];
@@ -108,10 +108,10 @@ void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits
         for (int to = at; to < (at == 0 ? kLanes : at + 1); ++to)
             keepLane(points, to, block, bounce, i, kept);
         points.diffuse |= moved(bounce.diffuse, i, at);
-        points.through |= moved(bounce.through, i, at);
+        points.transmissive |= moved(bounce.transmissive, i, at);
         points.terminatorLanes |= moved(bounce.surface.terminatorLanes, i, at);
         points.gathering |= moved(bounce.gathering, i, at);
-        points.ending |= moved(bounce.ending, i, at);
+        points.terminating |= moved(bounce.terminating, i, at);
     }
 }
 

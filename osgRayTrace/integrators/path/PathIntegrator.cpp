@@ -36,7 +36,7 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
 {
     facingNormalLanes(block.rays.ray, bounce.surface, bounce.normal);
     const MaterialTable& materials = tile.context.traced->materials();
-    bounce.diffuse = bounce.general = bounce.smooth = bounce.through = 0;
+    bounce.diffuse = bounce.general = bounce.smooth = bounce.transmissive = 0;
     for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
@@ -57,10 +57,10 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
         if (bounce.bsdfs[i].isDiffuse() && bounce.bsdfs[i].diffuse == Vec3(0.0f)) continue;
         bounce.general |= 1u << i;
         bounce.smooth |= static_cast<LaneMask>(isSmoothInterface(bounce.bsdfs[i])) << i;
-        bounce.through |= static_cast<LaneMask>(bounce.bsdfs[i].transmits()) << i;
+        bounce.transmissive |= static_cast<LaneMask>(bounce.bsdfs[i].transmits()) << i;
     }
     dropTerminatorOffset(bounce.surface,
-                         bounce.through); // refraction depends on where the facet is
+                         bounce.transmissive); // refraction depends on where the facet is
 }
 
 /// Follows the paths of a block over one bounce.

@@ -63,7 +63,8 @@ namespace
 /// A light sample for each lane of a diffuse block: vector code.
 OSGRAYTRACE_KERNEL
 void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLanes& light,
-                  LaneMask visible, const Vec3Lanes& throughput, bool alone, Vec3Lanes& radiance)
+                  LaneMask visible, const Vec3Lanes& throughput, bool withoutMis,
+                  Vec3Lanes& radiance)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
@@ -73,7 +74,7 @@ void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightL
         const float positive = cosine > 0.0f ? cosine : 0.0f;
         const float pdfBsdf = positive * kInvPi;
         const float ratio = pdfBsdf * light.weight[i];
-        const float mis = select(alone, 1.0f, 1.0f / (1.0f + ratio * ratio));
+        const float mis = select(withoutMis, 1.0f, 1.0f / (1.0f + ratio * ratio));
         const float unmasked = pdfBsdf * light.weight[i] * mis;
         const float weight = select(laneBit(visible, i), unmasked, 0.0f);
         radiance.x[i] = throughput.x[i] * albedo.x[i] * light.radiance[0][i] * weight;
@@ -85,13 +86,13 @@ void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightL
 } // namespace
 
 void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
-              LaneMask visible, LaneMask alone)
+              LaneMask visible, LaneMask withoutMis)
 {
     if (visible & bounce.diffuse)
     {
         Vec3Lanes radiance;
         diffuseLight(bounce.normal, bounce.albedo, light, visible & bounce.diffuse,
-                     block.throughput, (visible & bounce.diffuse & alone) != 0, radiance);
+                     block.throughput, (visible & bounce.diffuse & withoutMis) != 0, radiance);
         for (LaneMask lanes = visible & bounce.diffuse; lanes; lanes &= lanes - 1)
         {
             const int i = __builtin_ctz(lanes);
@@ -109,7 +110,7 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
         const int i = __builtin_ctz(lanes);
         if (!(pdfW[i] > 0.0f)) continue;
         const float mis =
-            (alone >> i) & 1u ? 1.0f : powerHeuristic(1.0f, pdfW[i] * light.weight[i]);
+            (withoutMis >> i) & 1u ? 1.0f : powerHeuristic(1.0f, pdfW[i] * light.weight[i]);
         const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
         tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * laneOf(fCos, i) * radiance *
                                           (light.weight[i] * mis));
@@ -123,10 +124,11 @@ void sampleOneLight(Tile& tile, PathBlock& block, const Bounce& bounce, uint32_t
                     LaneMask lanes, const FloatLanes& u, const FloatLanes& v)
 {
     LightLanes samples;
-    areaLightLanes(tile.context, light, pmf, bounce.surface, lanes, bounce.through, u, v, samples);
+    areaLightLanes(tile.context, light, pmf, bounce.surface, lanes, bounce.transmissive, u, v,
+                   samples);
     countRays(tile, block, samples.lit);
     const LaneMask visible = visibleLanes(tile.context, samples, tile.counts);
-    addLight(tile, block, bounce, samples, visible, bounce.ending);
+    addLight(tile, block, bounce, samples, visible, bounce.terminating);
 }
 
 /// All soft lights are sampled, each at points of its own.
@@ -154,7 +156,8 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
             dimensionPoints(seedsOfLight(seeds, index), tile.context.key.index,
                             bounceDimension(bounce.number, DimensionLightPoint), u, v);
         LightLanes samples;
-        deltaLightLanes(tile.context, index, bounce.surface, lanes, bounce.through, u, v, samples);
+        deltaLightLanes(tile.context, index, bounce.surface, lanes, bounce.transmissive, u, v,
+                        samples);
         for (int i = 0; i < kLanes; ++i)
             samples.weight[i] *= weight;
         if (light.castsShadows) countRays(tile, block, samples.lit);

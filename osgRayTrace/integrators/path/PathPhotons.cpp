@@ -87,7 +87,7 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
         // needed.
         if (rough || (use == PhotonUse::Caustics && !bsdf.isSmooth())) bounce.gathering |= 1u << i;
     }
-    bounce.ending = use == PhotonUse::Indirect ? bounce.rough : 0u;
+    bounce.terminating = use == PhotonUse::Indirect ? bounce.rough : 0u;
     if (use == PhotonUse::Indirect) return;
     for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
     {

@@ -186,8 +186,8 @@ void beginReuse(Tile& tile, PhotonUse use)
 
 void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
 {
-    for (LaneMask lanes = bounce.diffuse & ~bounce.ending & ~bounce.surface.terminatorLanes; lanes;
-         lanes &= lanes - 1)
+    for (LaneMask lanes = bounce.diffuse & ~bounce.terminating & ~bounce.surface.terminatorLanes;
+         lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         FirstSurfaces& first =

@@ -49,12 +49,12 @@ LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface,
         wi.z[i] = wz;
         pdfW[i] = lz * kInvPi;
         const float above = wx * gx + wy * gy + wz * gz;
-        const bool steep = above > surface.steep[i];
+        const bool steep = above > surface.minCosine[i];
         const float offset = select(steep, 0.0f, surface.offset[i]);
         origin.x[i] = surface.position.x[i] + gx * offset;
         origin.y[i] = surface.position.y[i] + gy * offset;
         origin.z[i] = surface.position.z[i] + gz * offset;
-        tNear[i] = select(steep, surface.offset[i] / std::max(above, surface.steep[i]), 0.0f);
+        tNear[i] = select(steep, surface.offset[i] / std::max(above, surface.minCosine[i]), 0.0f);
         const uint32_t leaves = maskOf(above > 0.0f) | laneBit(terminatorLanes, i);
         alive |= bitOfLane(leaves & maskOf(lz > 0.0f), i);
     }
@@ -195,7 +195,7 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
     Vec3Lanes weight = bounce.albedo;
     LaneMask alive =
         diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, tNear, pdfW) &
-        bounce.diffuse & ~bounce.ending;
+        bounce.diffuse & ~bounce.terminating;
     alive |= mirror(block, bounce, lobe, wi, origin, tNear, weight, pdfW);
     for (LaneMask lanes = bounce.general & ~bounce.smooth; lanes; lanes &= lanes - 1)
     {
@@ -204,7 +204,7 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         const Vec3 wo = frame.toLocal(-directionOf(block.rays.ray, i));
         const std::optional<BsdfSample> sample =
             sampleBsdf(bounce.bsdfs[i], wo, lobe[i], u[i], v[i]);
-        if (!sample || (!sample->delta && ((bounce.ending >> i) & 1u))) continue;
+        if (!sample || (!sample->delta && ((bounce.terminating >> i) & 1u))) continue;
         const Vec3 direction = frame.toWorld(sample->wi);
         const SurfaceLanes& surface = bounce.surface;
         const bool above =

@@ -27,10 +27,10 @@ EnvironmentSample uniformSample(const PlacedEnvironment& environment, float u, f
 }
 
 /// False if the surface gets no light from there.
-bool setLane(const SurfaceLanes& surface, int i, Vec3 wi, bool through, Vec3 radiance, float weight,
-             LightLanes& samples)
+bool setLane(const SurfaceLanes& surface, int i, Vec3 wi, bool transmissive, Vec3 radiance,
+             float weight, LightLanes& samples)
 {
-    if (!through && glm::dot(laneOf(surface.geometricNormal, i), wi) <= 0.0f) return false;
+    if (!transmissive && glm::dot(laneOf(surface.geometricNormal, i), wi) <= 0.0f) return false;
     setSample(samples, i, wi, radiance, weight);
     setRay(samples.shadow, i, leave(surface, i, wi), wi, kInfinity);
     return true;
@@ -39,12 +39,12 @@ bool setLane(const SurfaceLanes& surface, int i, Vec3 wi, bool through, Vec3 rad
 } // namespace
 
 void environmentLanes(const PassContext& context, const SurfaceLanes& surface, LaneMask active,
-                      LaneMask through, const FloatLanes& u, const FloatLanes& v,
+                      LaneMask transmissive, const FloatLanes& u, const FloatLanes& v,
                       LightLanes& samples)
 {
     const PlacedEnvironment& environment = *context.traced->lights().environment();
     const bool uniform = context.options.environmentSampling == EnvironmentSampling::Uniform;
-    through |= surface.terminatorLanes;
+    transmissive |= surface.terminatorLanes;
     samples.lit = 0;
     for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
     {
@@ -52,21 +52,21 @@ void environmentLanes(const PassContext& context, const SurfaceLanes& surface, L
         const EnvironmentSample sample =
             uniform ? uniformSample(environment, u[i], v[i]) : environment.sample(u[i], v[i]);
         if (!(sample.pdfW > 0.0f)) continue;
-        const bool lit = setLane(surface, i, sample.direction, (through >> i) & 1u, sample.radiance,
-                                 1.0f / sample.pdfW, samples);
+        const bool lit = setLane(surface, i, sample.direction, (transmissive >> i) & 1u,
+                                 sample.radiance, 1.0f / sample.pdfW, samples);
         samples.lit |= static_cast<LaneMask>(lit) << i;
     }
 }
 
 void stratumLanes(const EnvironmentStratum& stratum, float inversePmf, const SurfaceLanes& surface,
-                  LaneMask active, LaneMask through, LightLanes& samples)
+                  LaneMask active, LaneMask transmissive, LightLanes& samples)
 {
-    through |= surface.terminatorLanes;
+    transmissive |= surface.terminatorLanes;
     samples.lit = 0;
     for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        const bool lit = setLane(surface, i, stratum.direction, (through >> i) & 1u,
+        const bool lit = setLane(surface, i, stratum.direction, (transmissive >> i) & 1u,
                                  stratum.integral, inversePmf, samples);
         samples.lit |= static_cast<LaneMask>(lit) << i;
     }

@@ -25,16 +25,16 @@ struct HitPointBlock
     Vec3Lanes normal;          ///< shading, on that side
     Vec3Lanes direction;       ///< of the ray that came here, unit
     Vec3Lanes throughput;
-    Vec3Lanes albedo;         ///< if diffuse
-    FloatLanes offset, steep; ///< see SurfaceLanes
+    Vec3Lanes albedo;             ///< if diffuse
+    FloatLanes offset, minCosine; ///< see SurfaceLanes
     UintLanes material, instance;
     UintLanes seed;  ///< of the pixel
     UintLanes pixel; ///< with the path's flags
     UintLanes bsdf;  ///< index into HitPoints::bsdfs unless diffuse
     int number = 0;  ///< of bounces before
     int count = 0;
-    LaneMask diffuse = 0, through = 0, terminatorLanes = 0, gathering = 0,
-             ending = 0; ///< see Bounce, SurfaceLanes
+    LaneMask diffuse = 0, transmissive = 0, terminatorLanes = 0, gathering = 0,
+             terminating = 0; ///< see Bounce, SurfaceLanes
 };
 
 /// Passes of one half of the film that gather at the hit points of the same camera paths. The noise

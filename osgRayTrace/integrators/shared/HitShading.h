@@ -83,7 +83,7 @@ inline RayBegin leave(const SurfaceLanes& surface, int i, Vec3 wi, const Vec3Lan
 {
     const Vec3 n = laneOf(surface.geometricNormal, i);
     const float cosine = glm::dot(wi, n);
-    if (std::fabs(cosine) > surface.steep[i])
+    if (std::fabs(cosine) > surface.minCosine[i])
         return {laneOf(points, i), surface.offset[i] / std::fabs(cosine)};
     const float offset = cosine >= 0.0f ? surface.offset[i] : -surface.offset[i];
     return {laneOf(points, i) + n * offset, 0.0f};

@@ -38,7 +38,8 @@ Quad quadOf(const Light& light, const LightTable& table, uint32_t index)
 
 OSGRAYTRACE_KERNEL
 LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, LaneMask active,
-                   LaneMask through, const FloatLanes& u, const FloatLanes& v, LightLanes& samples)
+                   LaneMask transmissive, const FloatLanes& u, const FloatLanes& v,
+                   LightLanes& samples)
 {
     const Quad q = quad;
     const float inversePmf = 1.0f / pmf;
@@ -83,7 +84,7 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
         const float cosine = select(q.twoSided, std::fabs(cosL), cosL);
         const float weight = cosine * q.area * inverse * inverse;
         samples.weight[i] = weight * inversePmf;
-        const uint32_t reachable = maskOf(above > 0.0f) | laneBit(through, i);
+        const uint32_t reachable = maskOf(above > 0.0f) | laneBit(transmissive, i);
         lit |= bitOfLane(maskOf(weight > 0.0f) & maskOf(weight < 1e30f) & reachable, i);
         samples.radiance[0][i] = q.radiance.x;
         samples.radiance[1][i] = q.radiance.y;
@@ -96,14 +97,14 @@ LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, Lan
 
 /// A lane whose light sample is on an emissive mesh.
 bool meshLane(const PassContext& context, uint32_t light, float pmf, const SurfaceLanes& surface,
-              int i, float u, float v, bool through, LightLanes& samples)
+              int i, float u, float v, bool transmissive, LightLanes& samples)
 {
     const LightTable& table = context.traced->lights();
     const Vec3 p = laneOf(surface.position, i);
     const std::optional<AreaLightSample> sample = table.sampleArea(light, p, u, v);
     if (!sample) return false;
     const Vec3 n = laneOf(surface.geometricNormal, i);
-    if (!through && glm::dot(n, sample->wi) <= 0.0f) return false;
+    if (!transmissive && glm::dot(n, sample->wi) <= 0.0f) return false;
 
     // Measured from where the ray starts, as the path tracer does when it meets the light by
     // chance: far from the origin that is not where the surface is, and densities that disagree
@@ -129,33 +130,34 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf, const Surfa
 } // namespace
 
 void areaLightLanes(const PassContext& context, uint32_t index, float pmf,
-                    const SurfaceLanes& surface, LaneMask active, LaneMask through,
+                    const SurfaceLanes& surface, LaneMask active, LaneMask transmissive,
                     const FloatLanes& u, const FloatLanes& v, LightLanes& samples)
 {
     const Light& light = (*context.lights)[index];
-    through |= surface.terminatorLanes;
+    transmissive |= surface.terminatorLanes;
     if (light.kind == LightKind::Parallelogram)
     {
         samples.lit = quadLanes(quadOf(light, context.traced->lights(), index), pmf, surface,
-                                active, through, u, v, samples);
+                                active, transmissive, u, v, samples);
         return;
     }
     samples.lit = 0;
     for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
-        if (meshLane(context, index, pmf, surface, i, u[i], v[i], (through >> i) & 1u, samples))
+        if (meshLane(context, index, pmf, surface, i, u[i], v[i], (transmissive >> i) & 1u,
+                     samples))
             samples.lit |= 1u << i;
     }
 }
 
 void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLanes& surface,
-                     LaneMask active, LaneMask through, const FloatLanes& u, const FloatLanes& v,
-                     LightLanes& samples)
+                     LaneMask active, LaneMask transmissive, const FloatLanes& u,
+                     const FloatLanes& v, LightLanes& samples)
 {
     const Light& light = (*context.lights)[index];
     const bool soft = isSoft(light);
-    through |= surface.terminatorLanes;
+    transmissive |= surface.terminatorLanes;
     samples.lit = 0;
     for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
     {
@@ -166,7 +168,7 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
         const SoftLightSample sample =
             sampleSoft(light, point, soft ? Vec2(u[i], v[i]) : Vec2(0.0f));
         if (!(sample.attenuation > 0.0f)) continue;
-        if (!((through >> i) & 1u) &&
+        if (!((transmissive >> i) & 1u) &&
             glm::dot(laneOf(surface.geometricNormal, i), sample.wi) <= 0.0f)
             continue;
         const RayBegin begin = leave(surface, i, sample.wi);

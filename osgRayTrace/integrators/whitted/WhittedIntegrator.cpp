@@ -61,7 +61,7 @@ bool lightsArea(const PassContext& context)
 void classify(WhittedTile& tile, ShadingBlock& block)
 {
     LaneMaterials& m = block.materials;
-    m.diffuse = m.fixedFunction = m.physical = m.through = m.own = 0;
+    m.diffuse = m.fixedFunction = m.physical = m.transmissive = m.emissive = 0;
     facingNormalLanes(block.rays.ray, block.surface, m.normal);
     const MaterialTable& materials = tile.context.traced->materials();
     const LaneMask hits = block.surface.hits;
@@ -88,7 +88,7 @@ void classify(WhittedTile& tile, ShadingBlock& block)
         const int i = __builtin_ctz(lanes);
         const uint32_t material = block.surface.material[i];
         const MaterialRecord& record = materials[material];
-        m.own |= static_cast<LaneMask>(record.emits || record.fixedFunction) << i;
+        m.emissive |= static_cast<LaneMask>(record.emits || record.fixedFunction) << i;
         if (record.fixedFunction)
         {
             if (!record.material->lit) continue; // all of it is emission
@@ -97,7 +97,7 @@ void classify(WhittedTile& tile, ShadingBlock& block)
             if (lightsArea(tile.context)) m.bsdfs[i] = materials.bsdf(material, point);
             m.fixedFunction |= 1u << i;
             // OpenGL lights by the vertex normal alone, which may look the other way than the face.
-            m.through |= 1u << i;
+            m.transmissive |= 1u << i;
             if (!(glm::dot(m.points[i].normal, laneOf(block.surface.geometricNormal, i)) > 0.0f))
                 dropTerminatorOffset(block.surface, 1u << i);
             continue;
@@ -115,7 +115,7 @@ void classify(WhittedTile& tile, ShadingBlock& block)
                                material, materialPoint(tile.context, block.rays, block.surface, i));
         m.physical |= 1u << i;
         if (!m.bsdfs[i].transmits()) continue;
-        m.through |= 1u << i;
+        m.transmissive |= 1u << i;
         dropTerminatorOffset(block.surface, 1u << i); // refraction depends on where the facet is
     }
 }
@@ -205,7 +205,7 @@ LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
 void addOwnLight(const WhittedTile& tile, ShadingBlock& block)
 {
     const LaneMaterials& m = block.materials;
-    for (LaneMask lanes = m.own; lanes; lanes &= lanes - 1)
+    for (LaneMask lanes = m.emissive; lanes; lanes &= lanes - 1)
     {
         const int i = __builtin_ctz(lanes);
         if ((m.fixedFunction >> i) & 1u)
@@ -229,7 +229,7 @@ void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
     addDirectLight(tile, blocks, count);
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
     {
-        if (block->materials.own) addOwnLight(tile, *block);
+        if (block->materials.emissive) addOwnLight(tile, *block);
         if (block->materials.physical) spawn(tile, *block);
     }
 }

@@ -106,7 +106,7 @@ void addAreaLights(WhittedTile& tile, ShadingBlock* blocks, int count)
                           FloatLanes u = block.firstU, v = block.firstV;
                           if (k + j > 0) grid.draw(k, j, block.seed, u, v);
                           areaLightLanes(context, lights[k].light, 1.0f, block.surface, lanes,
-                                         block.materials.through, u, v, block.light);
+                                         block.materials.transmissive, u, v, block.light);
                       });
         }
     }
@@ -121,8 +121,8 @@ void addEnvironment(WhittedTile& tile, ShadingBlock* blocks, int count)
         for (const EnvironmentStratum& stratum : *context.strata)
             addSample(tile, blocks, count, 1.0f,
                       [&](ShadingBlock& block, LaneMask lanes) {
-                          stratumLanes(stratum, 1.0f, block.surface, lanes, block.materials.through,
-                                       block.light);
+                          stratumLanes(stratum, 1.0f, block.surface, lanes,
+                                       block.materials.transmissive, block.light);
                       });
         return;
     }
@@ -134,8 +134,8 @@ void addEnvironment(WhittedTile& tile, ShadingBlock* blocks, int count)
                   {
                       FloatLanes u, v;
                       grid.draw(behindAreaLights, j, block.seed, u, v);
-                      environmentLanes(context, block.surface, lanes, block.materials.through, u, v,
-                                       block.light);
+                      environmentLanes(context, block.surface, lanes, block.materials.transmissive,
+                                       u, v, block.light);
                   });
 }
 
@@ -148,7 +148,7 @@ void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float
     const LaneMaterials& m = block.materials;
     LightLanes& samples = block.light;
     deltaLightLanes(context, index, block.surface, m.diffuse | m.physical | m.fixedFunction,
-                    m.through, u, v, samples);
+                    m.transmissive, u, v, samples);
     // Fixed-function lanes that face away get the light's ambient term only: no ray for them.
     const LaneMask reached = samples.lit;
     for (LaneMask lanes = samples.lit & m.fixedFunction; lanes; lanes &= lanes - 1)

@@ -37,8 +37,8 @@ struct LaneMaterials
     LaneMask diffuse = 0;       ///< physical, constant, Lambert only
     LaneMask fixedFunction = 0; ///< lit by OpenGL's equations
     LaneMask physical = 0;      ///< the other ones that scatter
-    LaneMask through = 0;       ///< lit from behind as well
-    LaneMask own = 0;           ///< with a colour of their own: emission, fixed-function lanes
+    LaneMask transmissive = 0;  ///< lit from behind as well
+    LaneMask emissive = 0;      ///< with a colour of their own: emission, fixed-function lanes
     Vec3Lanes normal;           ///< shading, towards the ray
     Vec3Lanes albedo;           ///< of diffuse lanes
     Bsdf* bsdfs = nullptr;      ///< of physical lanes, and of fixed-function ones below area lights
