@@ -125,16 +125,16 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
 void RayTraceDrawable::Implementation::noteProgress(const std::shared_ptr<ViewPresenter>& view,
                                                     const engine::SceneVersion& version)
 {
-    engine::TraceReport made = view->report(version);
-    const engine::Status& status = made.progress.status;
+    engine::TraceReport result = view->report(version);
+    const engine::Status& status = result.progress.status;
     if (!status.ok() && status.code != engine::StatusCode::EmptyScene)
         engine::warnOnce(status.message);
     const bool failed = status.code == engine::StatusCode::OutOfMemory ||
                         status.code == engine::StatusCode::DeviceFailure;
 
     std::lock_guard<std::mutex> lock(mutex);
-    if (failed && made.fresh && made.progress.passes == 0) untraceable = made.scene;
-    report = std::move(made);
+    if (failed && result.fresh && result.progress.passes == 0) untraceable = result.scene;
+    report = std::move(result);
     lastView = view;
 }
 

@@ -176,11 +176,11 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
             const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
             return tiles > 0 && spent.count() + ahead >= seconds;
         };
-    const auto keepGoing = [this, &progress](const engine::RenderProgress& made)
+    const auto keepGoing = [this, &progress](const engine::RenderProgress& result)
     {
         if (cancelled) return false;
         if (!progress) return true;
-        engine::setImageStatistics(statistics, made);
+        engine::setImageStatistics(statistics, result);
         return progress(statistics);
     };
     engine::setImageStatistics(statistics, session->render(rule, keepGoing));

@@ -244,25 +244,25 @@ void TracedScene::Implementation::makeMeshBvhs(const Implementation* old, const 
         const auto found = known.find(meshes[i].get());
         return found == known.end() || !fits(**found->second, i) ? nullptr : *found->second;
     };
-    const auto made = std::make_shared<MeshBvhs>(meshes.size());
+    const auto result = std::make_shared<MeshBvhs>(meshes.size());
     std::vector<std::size_t> missing;
     for (std::size_t i = 0; i < meshes.size(); ++i)
     {
         if (!needed[i]) continue;
-        (*made)[i] = knownMeshBvh(i);
+        (*result)[i] = knownMeshBvh(i);
         ++meshBvhCount;
-        if ((*made)[i])
+        if ((*result)[i])
             ++kept;
         else
             missing.push_back(i);
     }
     const auto make = [&](std::size_t i)
-    { (*made)[missing[i]] = pool->meshBvh(meshes[missing[i]], filtered[missing[i]], counts); };
+    { (*result)[missing[i]] = pool->meshBvh(meshes[missing[i]], filtered[missing[i]], counts); };
     if (missing.size() == 1)
         workers.run([&] { make(0); }); // Embree's own threads for a large one
     else
         workers.forEach(missing.size(), make);
-    meshBvhs = made;
+    meshBvhs = result;
     if (old && kept + deformed < old->meshBvhCount) forgetGone();
 }
 

@@ -103,10 +103,10 @@ bool SessionState::begin()
     }
     std::vector<Light> placed =
         engine::placedLights(scene->scene(), view); // before the film changes: it may throw
-    std::vector<EnvironmentStratum> made;
+    std::vector<EnvironmentStratum> newStrata;
     const PlacedEnvironment* environment = scene->lights().shiningEnvironment();
     if (environment && options.environmentSampling == EnvironmentSampling::Structured)
-        made = environment->strata(options.environmentSamples);
+        newStrata = environment->strata(options.environmentSamples);
     if (film.passes() > 0 && surfaces.finished) std::swap(surfaces, lastSurfaces);
     film.reset(view.width, view.height);
     photons.reset(film.tileCount());
@@ -116,7 +116,7 @@ bool SessionState::begin()
     filmOptions = options;
     filmSeed = sequence == 0 ? options.seed : hash(options.seed, sequence + 1); // 0 and 1: halves
     placedLights = std::move(placed);
-    strata = std::move(made);
+    strata = std::move(newStrata);
     progress = RenderProgress();
     progress.restarted = true;
     photonsCounted = 0;
@@ -172,16 +172,17 @@ TileCounts SessionState::renderTile(const PassContext& context, const Integrator
         result.gathered = &gathered;
         result.hitPoints = photons.hitPoints(tile, film.tilePasses(tile));
     }
-    SurfaceBlock met[kTileBlocks];
+    SurfaceBlock firstHits[kTileBlocks];
     const bool keeps = context.wantsDepth && surfaces.view.width > 0;
-    if (keeps) result.surfaces = met;
+    if (keeps) result.surfaces = firstHits;
     const bool keepsSamples = context.wantsDepth && hasSamples;
     const std::unique_ptr<SurfaceSample[]> seen(keepsSamples ? new SurfaceSample[kTilePixels]
                                                              : nullptr);
     result.samples = seen.get();
     integrator.renderTile(context, film.tileX(tile), film.tileY(tile), result);
     for (int b = 0; keeps && b < kTileBlocks; ++b)
-        setBlock(film.tileX(tile) + laneX(b, 0), film.tileY(tile) + laneY(b, 0), met[b], surfaces);
+        setBlock(film.tileX(tile) + laneX(b, 0), film.tileY(tile) + laneY(b, 0), firstHits[b],
+                 surfaces);
     if (keepsSamples)
         setSurfaceSamples(seen.get(), film.tileX(tile), film.tileY(tile), film.width(),
                           film.height(), samples);
@@ -297,22 +298,22 @@ RenderProgress SessionState::run(const StopRule& rule,
     const Clock::time_point start = Clock::now();
     const bool wantsError = rule.relativeError > 0.0 || static_cast<bool>(keepGoing);
     bool shown = true;
-    for (int made = 0; made < rule.newPasses && film.passes() < rule.passes; ++made)
+    for (int newPasses = 0; newPasses < rule.newPasses && film.passes() < rule.passes; ++newPasses)
     {
         const int pass = film.passes();
         if (progress.newTiles >= rule.newTiles) break;
-        if (made > 0 && secondsSince(start) >= rule.seconds) break;
-        if (made > 0 && rule.shouldStop &&
+        if (newPasses > 0 && secondsSince(start) >= rule.seconds) break;
+        if (newPasses > 0 && rule.shouldStop &&
             rule.shouldStop(progress.newTiles, photons.secondsOf(pass)))
             break;
         const Clock::time_point passStart = Clock::now();
         PassContext context = contextOfPass(pass);
         progress.lights = sampledLightCounts(context);
         preparePhotons(context, pass);
-        if (made == 0) progress.firstPhotonSeconds = progress.photonSeconds;
+        if (newPasses == 0) progress.firstPhotonSeconds = progress.photonSeconds;
         // In the pass that is likely to be the last one; tiles that only earlier ones of this call
         // reached are written as well.
-        shown = made + 1 == rule.newPasses || pass + 1 == rule.passes;
+        shown = newPasses + 1 == rule.newPasses || pass + 1 == rule.passes;
         const bool whole = renderPass(context, *integrator, rule, shown ? display : nullptr);
         progress.hitPointBytes = photons.viewBytes();
         progress.seconds += secondsSince(passStart);
@@ -332,10 +333,10 @@ RenderProgress SessionState::run(const StopRule& rule,
 double SessionState::imageShare() const
 {
     if (film.passes() > 0) return 1.0;
-    int made = 0;
+    int tiles = 0;
     for (int tile = 0; tile < film.tileCount(); ++tile)
-        made += film.tilePasses(tile) > 0;
-    return film.tileCount() > 0 ? double(made) / film.tileCount() : 0.0;
+        tiles += film.tilePasses(tile) > 0;
+    return film.tileCount() > 0 ? double(tiles) / film.tileCount() : 0.0;
 }
 
 /// What no pass of this call has shown.

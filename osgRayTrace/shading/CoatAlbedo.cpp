@@ -74,15 +74,15 @@ void CoatAlbedo::makeRow(int row)
         const double x = double(i) / (kSteps * kFine);
         fine[i] = albedoOf(std::max(x * x, 1e-6), alpha, _eta);
     }
-    CoatAlbedoRow& made = _rows[static_cast<std::size_t>(row)];
+    CoatAlbedoRow& result = _rows[static_cast<std::size_t>(row)];
     for (int i = 0; i <= kSteps; ++i)
-        made.albedo[static_cast<std::size_t>(i)] = static_cast<float>(fine[i * kFine]);
+        result.albedo[static_cast<std::size_t>(i)] = static_cast<float>(fine[i * kFine]);
     // Never less than the albedo, also at the bend that total reflection makes: the base may get
     // too little there, but not more than there is.
     for (int i = 0; i < kSteps; ++i)
     {
-        float &low = made.albedo[static_cast<std::size_t>(i)],
-              &high = made.albedo[static_cast<std::size_t>(i) + 1];
+        float &low = result.albedo[static_cast<std::size_t>(i)],
+              &high = result.albedo[static_cast<std::size_t>(i) + 1];
         for (int k = 1; k < kFine; ++k)
         {
             const float t = static_cast<float>(k) / kFine;
@@ -92,15 +92,15 @@ void CoatAlbedo::makeRow(int row)
             high = std::fmin(high + lack, 1.0f);
         }
     }
-    made.albedo[kSteps + 1] = made.albedo[kSteps];
+    result.albedo[kSteps + 1] = result.albedo[kSteps];
     // int 2 E c dc with c = x^2, of what is interpolated: midpoints of fine steps.
     double sum = 0.0;
     for (int i = 0; i < kSteps * 16; ++i)
     {
         const double x = (i + 0.5) / (kSteps * 16);
-        sum += made(static_cast<float>(x * x)) * 4.0 * x * x * x;
+        sum += result(static_cast<float>(x * x)) * 4.0 * x * x * x;
     }
-    made.average = static_cast<float>(sum / (kSteps * 16));
+    result.average = static_cast<float>(sum / (kSteps * 16));
     _made[static_cast<std::size_t>(row)] = true;
 }
 

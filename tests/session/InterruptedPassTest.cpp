@@ -102,10 +102,10 @@ TEST_CASE("interrupted passes: bit by bit the image of an uninterrupted render",
         int calls = 0;
         for (; spread.session.progress().passes < kPasses; ++calls)
         {
-            const RenderProgress made =
+            const RenderProgress result =
                 spread.session.render(someTiles(kPasses, 1 + calls * 5 % 17));
-            REQUIRE(made.status.ok());
-            REQUIRE(made.newTiles >= 1);
+            REQUIRE(result.status.ok());
+            REQUIRE(result.newTiles >= 1);
             REQUIRE(calls < 1000);
         }
         CHECK(calls > kPasses);
@@ -148,7 +148,7 @@ TEST_CASE(
             changed.reset(kWidth, kHeight);
             DisplayTarget target = display.target(true);
             target.changed = &changed;
-            const RenderProgress made = spread.session.render(rule, {}, &target);
+            const RenderProgress result = spread.session.render(rule, {}, &target);
             copyMarked(display, copy, changed);
             REQUIRE(copy.rgba == display.rgba); // nothing is written without a mark
             REQUIRE(copy.depth == display.depth);
@@ -163,7 +163,7 @@ TEST_CASE(
                 REQUIRE(pass <= kPasses); // torn, if it is none of them
                 sum += pass - before;
             }
-            REQUIRE(sum == made.newTiles); // and each tile that was traced is shown
+            REQUIRE(sum == result.newTiles); // and each tile that was traced is shown
             REQUIRE(*std::max_element(passOf.begin(), passOf.end()) <=
                     *std::min_element(passOf.begin(), passOf.end()) + 1);
         }
@@ -213,10 +213,10 @@ TEST_CASE("interrupted passes: so many tiles as are allowed, by any number of th
         some.newTiles = 13; // of 35
         for (int done = 0; done < 3 * 35; done += 13)
         {
-            const RenderProgress made = room.session.render(some);
+            const RenderProgress result = room.session.render(some);
             CAPTURE(threads, done);
-            CHECK(made.newTiles == std::min(13, 3 * 35 - done));
-            CHECK(made.passes == std::min(done + 13, 3 * 35) / 35);
+            CHECK(result.newTiles == std::min(13, 3 * 35 - done));
+            CHECK(result.passes == std::min(done + 13, 3 * 35) / 35);
         }
         CHECK(room.session.resolveRadiance() == whole.session.resolveRadiance());
     }

@@ -58,8 +58,8 @@ View viewAt(int frame, int width)
 /// Sixteen cells a side, of two grays, with finer ones in them.
 std::shared_ptr<const Texture> cells()
 {
-    auto made = std::make_shared<Texture>();
-    Texture& texture = *made;
+    auto result = std::make_shared<Texture>();
+    Texture& texture = *result;
     texture.width = texture.height = 256;
     texture.opaque = true;
     for (int y = 0; y < 256; ++y)
@@ -70,7 +70,7 @@ std::shared_ptr<const Texture> cells()
             texture.bytes.insert(texture.bytes.end(),
                                  {value, value, static_cast<uint8_t>(value / 2 + 100), 255});
         }
-    return made;
+    return result;
 }
 
 enum class Look

@@ -137,10 +137,10 @@ bool PlacePatcher::makeMesh(const osg::Geometry& geometry, const MeshRequest& re
     std::shared_ptr<const Mesh>& mesh = _scene.meshes[meshIndex];
     const ConversionCounts before = _geometries.lastCounts(geometry);
     ConversionReport report;
-    const auto made =
+    const auto result =
         _geometries.mesh(geometry, GeometryCache::kOwnVariant, request, mesh->name, report);
-    if (!made || report.counts() != before) return false;
-    mesh = made;
+    if (!result || report.counts() != before) return false;
+    mesh = result;
     return true;
 }
 

@@ -47,13 +47,13 @@ Material fallbackMaterial()
 }
 
 SceneBuilder::SceneBuilder(const ConversionInput& input, const CollectedGraph& graph,
-                           const BuildRules& rules, ConversionCaches& caches, ConvertedGraph& made,
-                           Scene& scene, ConversionReport& report)
+                           const BuildRules& rules, ConversionCaches& caches,
+                           ConvertedGraph& convertedGraph, Scene& scene, ConversionReport& report)
     : _input(input),
       _graph(graph),
       _rules(rules),
       _caches(caches),
-      _made(made),
+      _convertedGraph(convertedGraph),
       _scene(scene),
       _report(report),
       _materials({rules.linear, input.cullAllRays, rules.setsColor}, caches.textures,
@@ -79,7 +79,7 @@ void SceneBuilder::build()
     _caches.areaLights.resize(_graph.lights.areaLights.size());
     for (std::size_t i = 0; i < _graph.lights.areaLights.size(); ++i)
         addAreaLight(_graph.lights.areaLights[i], _caches.areaLights[i]);
-    _scene.materials = _made.materials.all();
+    _scene.materials = _convertedGraph.materials.all();
     if (_scene.materials.empty()) _scene.materials.push_back(fallbackMaterial());
     _caches.textures.end();
     _scene.textures = _caches.textures.all();
@@ -91,10 +91,10 @@ void SceneBuilder::build()
 void SceneBuilder::add(const CollectedGeometry& geometry)
 {
     _report.setPlace([&geometry] { return geometry.path; });
-    const std::size_t before = _scene.instances.size() - _made.instanceGaps.size();
+    const std::size_t before = _scene.instances.size() - _convertedGraph.instanceGaps.size();
     addGeometry(geometry);
     _report.count("converted.instance",
-                  _scene.instances.size() - _made.instanceGaps.size() - before);
+                  _scene.instances.size() - _convertedGraph.instanceGaps.size() - before);
     _report.setPlace({});
 }
 
@@ -110,26 +110,26 @@ MeshRequest SceneBuilder::requestFor(const CollectedGeometry& geometry,
 
 uint32_t SceneBuilder::addMesh(const std::shared_ptr<const Mesh>& mesh)
 {
-    if (_made.meshGaps.empty())
+    if (_convertedGraph.meshGaps.empty())
     {
         _scene.meshes.push_back(mesh);
         return static_cast<uint32_t>(_scene.meshes.size() - 1);
     }
-    const uint32_t index = _made.meshGaps.back();
-    _made.meshGaps.pop_back();
+    const uint32_t index = _convertedGraph.meshGaps.back();
+    _convertedGraph.meshGaps.pop_back();
     _scene.meshes[index] = mesh;
     return index;
 }
 
 uint32_t SceneBuilder::appendInstance(const Instance& instance)
 {
-    if (_made.instanceGaps.empty() || !instance.placed)
+    if (_convertedGraph.instanceGaps.empty() || !instance.placed)
     {
         _scene.instances.push_back(instance);
         return static_cast<uint32_t>(_scene.instances.size() - 1);
     }
-    const uint32_t index = _made.instanceGaps.back();
-    _made.instanceGaps.pop_back();
+    const uint32_t index = _convertedGraph.instanceGaps.back();
+    _convertedGraph.instanceGaps.pop_back();
     _scene.instances[index] = instance;
     return index;
 }
@@ -196,7 +196,7 @@ void SceneBuilder::putFlatFirst()
     {
         if (index != kInvalid) index = now[index];
     };
-    for (auto& [geometry, traced] : _made.index.geometries)
+    for (auto& [geometry, traced] : _convertedGraph.index.geometries)
         for (TracedUse& use : traced.uses)
             renumber(use.instance);
     for (uint32_t& instance : _instances)
@@ -226,7 +226,7 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 {
     const uint64_t remarks = _report.remarks();
     warnIfCoarse(geometry);
-    TracedGeometry& traced = _made.index.at(*geometry.geometry);
+    TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
     // One that is here twice has other primitive restart: only one of both is in the index.
     traced.patchable = traced.uses.empty() && geometry.watched;
     traced.uses.clear();
@@ -252,7 +252,7 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 
 void SceneBuilder::addNothing(const CollectedGeometry& geometry, const GeometryUse& use)
 {
-    _made.index.at(*geometry.geometry)
+    _convertedGraph.index.at(*geometry.geometry)
         .uses.push_back({kInvalid, effects(use.state, ConversionCounts())});
     _instances.push_back(kInvalid);
 }
@@ -301,7 +301,8 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
         if (clipping != Clipping::None || own.depthBias != 0.0f ||
             !placeInstance(instance, frame.localFromMesh * use.engineFromLocal))
         {
-            _made.index.at(*geometry.geometry).patchable = false; // not by the shared mesh
+            _convertedGraph.index.at(*geometry.geometry).patchable =
+                false; // not by the shared mesh
             addBaked(
                 geometry, use,
                 _caches.geometries.mesh(*geometry.geometry, variant, own, geometry.path, _report));
@@ -320,7 +321,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
 bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& use,
                           uint32_t before)
 {
-    TracedGeometry& traced = _made.index.at(*geometry.geometry);
+    TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
     const MeshRequest* request = _caches.geometries.lastRequest(*geometry.geometry);
     if (!request || traced.uses.empty() || depthBias(_graph.states[use.state]) != 0.0f)
         return false;
@@ -331,8 +332,8 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
     Instance instance;
     instance.mesh = _scene.instances[other].mesh;
     if (!placeInstance(instance, localFromMesh * use.engineFromLocal)) return false;
-    const TracedUse made = newInstance(geometry, use, instance);
-    traced.uses.insert(traced.uses.begin() + before, made);
+    const TracedUse result = newInstance(geometry, use, instance);
+    traced.uses.insert(traced.uses.begin() + before, result);
     _report.count("converted.instance");
     return true;
 }
@@ -340,9 +341,9 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
 void SceneBuilder::addInstance(const CollectedGeometry& geometry, const GeometryUse& use,
                                Instance instance)
 {
-    const TracedUse made = newInstance(geometry, use, instance);
-    _made.index.at(*geometry.geometry).uses.push_back(made);
-    _instances.push_back(made.instance);
+    const TracedUse result = newInstance(geometry, use, instance);
+    _convertedGraph.index.at(*geometry.geometry).uses.push_back(result);
+    _instances.push_back(result.instance);
 }
 
 TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const GeometryUse& use,
@@ -350,7 +351,7 @@ TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const Geo
 {
     const GraphState& state = _graph.states[use.state];
     _materialReport = ConversionReport();
-    instance.material = _made.materials.add(_materials.material(
+    instance.material = _convertedGraph.materials.add(_materials.material(
         state, surfaceInputs(*geometry.geometry), {use.engineFromLocal, &_graph.texGens}));
     _report.addHere(_materialReport);
     setAmbient(state);
@@ -364,7 +365,7 @@ uint32_t SceneBuilder::effects(uint32_t state, const ConversionCounts& counts)
     if (!known) known = stateEffectsOf(_graph.states[state], _caches.textures);
     StateEffects wanted = *known;
     wanted.counts = counts;
-    return _made.index.effects(wanted);
+    return _convertedGraph.index.effects(wanted);
 }
 
 /// One light model for all: OpenGL has one for each drawable, but scenes do not.
@@ -405,7 +406,7 @@ void SceneBuilder::addAreaLight(const CollectedAreaLight& source, ConversionCach
         quad.mesh = converted->mesh;
     }
     Instance instance;
-    instance.material = _made.materials.add(lampMaterial(quad.light.radiance));
+    instance.material = _convertedGraph.materials.add(lampMaterial(quad.light.radiance));
     instance.mesh = addMesh(quad.mesh);
     if (quad.dynamic || _caches.noStaticBvh) placeInstance(instance, osg::Matrixd());
     quad.instance = appendInstance(instance);

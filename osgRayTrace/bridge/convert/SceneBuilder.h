@@ -26,7 +26,7 @@ class SceneBuilder
 {
 public:
     SceneBuilder(const ConversionInput& input, const CollectedGraph& graph, const BuildRules& rules,
-                 ConversionCaches& caches, ConvertedGraph& made, Scene& scene,
+                 ConversionCaches& caches, ConvertedGraph& convertedGraph, Scene& scene,
                  ConversionReport& report);
 
     /// A new scene, all of it.
@@ -70,7 +70,7 @@ private:
     BuildRules _rules;
     bool _newJoinStatic = false;
     ConversionCaches& _caches;
-    ConvertedGraph& _made;
+    ConvertedGraph& _convertedGraph;
     Scene& _scene;
     ConversionReport& _report;
     ConversionReport _materialReport;

@@ -102,7 +102,7 @@ void addToCount(ConversionCounts& counts, const char* what, int64_t more)
 struct SceneConverter::Implementation
 {
     ConversionCaches caches;
-    ConvertedGraph made;
+    ConvertedGraph convertedGraph;
     ConversionInput input; ///< of last
     std::shared_ptr<const Scene> last;
     ConversionResult lastResult;
@@ -118,7 +118,7 @@ SceneConverter::~SceneConverter() = default;
 void SceneConverter::releaseGraph()
 {
     Implementation& state = *_implementation;
-    state.made = ConvertedGraph();
+    state.convertedGraph = ConvertedGraph();
     state.caches.vertices = SoftwareVertices();
     state.lastResult = ConversionResult();
     state.input = ConversionInput();
@@ -140,7 +140,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
 {
     const auto begin = std::chrono::steady_clock::now();
     Implementation& state = *_implementation;
-    state.made = ConvertedGraph();
+    state.convertedGraph = ConvertedGraph();
     state.input = input;
     BuildRules rules;
     rules.now = ++state.stamp;
@@ -152,7 +152,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     CollectedGraph graph = collector.take();
 
     rules.linear = isLinear(graph, input.colorRule);
-    rules.setsColor = state.made.setsColor = setsColor(graph);
+    rules.setsColor = state.convertedGraph.setsColor = setsColor(graph);
     state.caches.geometries.begin(rules.now);
     setBounds(graph, state.caches.geometries);
     const LengthCounts lengths = lengthsOf(graph);
@@ -164,9 +164,9 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
                        state.last->origin == origin && state.last->unit == rules.unit &&
                        state.last->displayReferred == !rules.linear;
     const auto scene = std::make_shared<Scene>();
-    SceneBuilder builder(input, graph, rules, state.caches, state.made, *scene, report);
+    SceneBuilder builder(input, graph, rules, state.caches, state.convertedGraph, *scene, report);
     builder.build();
-    state.made.materials.takeChanged();
+    state.convertedGraph.materials.takeChanged();
     ConversionReport lightReport;
     setLights(*scene, input, graph.lights, state.caches, lightReport);
     report.add(lightReport);
@@ -176,10 +176,10 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     ConversionResult result;
     if (input.picks) result.pickIndex = std::make_shared<PickIndex>(graph, builder.instances());
     state.ordinary = rules.unit == 1.0 && lengths.areOrdinary() && !hasClipping(graph.states);
-    state.made.lights = std::move(graph.lights);
-    state.made.lightCounts = lightReport.counts();
-    state.made.texGens = graph.texGens;
-    addUntraced(graph.rasterized, state.made.index);
+    state.convertedGraph.lights = std::move(graph.lights);
+    state.convertedGraph.lightCounts = lightReport.counts();
+    state.convertedGraph.texGens = graph.texGens;
+    addUntraced(graph.rasterized, state.convertedGraph.index);
     state.caches.vertices.end();
 
     result.scene = state.last;
@@ -204,7 +204,8 @@ std::optional<ConversionResult> SceneConverter::patch(const GraphChanges& change
     if (!state.last || !state.ordinary ||
         (state.caches.noStaticBvh && !state.caches.staticMeshes.empty()))
         return std::nullopt;
-    ScenePatcher patcher(*state.last, state.input, state.caches, state.made, ++state.stamp);
+    ScenePatcher patcher(*state.last, state.input, state.caches, state.convertedGraph,
+                         ++state.stamp);
     const std::shared_ptr<const Scene> scene = patcher.patch(changes);
     if (!scene) return std::nullopt;
     if (patcher.changed()) state.last = scene;
@@ -216,9 +217,10 @@ std::optional<ConversionResult> SceneConverter::patch(const GraphChanges& change
     addToCount(result.counts, "converted.geometry", patcher.geometriesMore());
     addToCount(result.counts, "converted.instance", patcher.instancesMore());
     result.counts["converted.light"] =
-        state.last->lights.size() - viewerLights(state.made.lightCounts);
-    result.emptyInstances = state.made.instanceGaps.size();
-    result.emptyMeshes = state.made.meshGaps.size() + (state.made.emptyMesh == kInvalid ? 0 : 1);
+        state.last->lights.size() - viewerLights(state.convertedGraph.lightCounts);
+    result.emptyInstances = state.convertedGraph.instanceGaps.size();
+    result.emptyMeshes =
+        state.convertedGraph.meshGaps.size() + (state.convertedGraph.emptyMesh == kInvalid ? 0 : 1);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;

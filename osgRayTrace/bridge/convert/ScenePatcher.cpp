@@ -48,11 +48,11 @@ osg::NodePath fromRoot(const osg::NodePath& path, osg::Node* root)
 } // namespace
 
 ScenePatcher::ScenePatcher(const Scene& last, const ConversionInput& input,
-                           ConversionCaches& caches, ConvertedGraph& made, Stamp now)
+                           ConversionCaches& caches, ConvertedGraph& convertedGraph, Stamp now)
     : _last(last),
       _input(input),
       _caches(caches),
-      _made(made),
+      _convertedGraph(convertedGraph),
       _now(now),
       _scene(std::make_shared<Scene>(last))
 {
@@ -77,7 +77,7 @@ std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
 
 bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
 {
-    PlacePatcher places(*_scene, _made.index, _caches.geometries, _now);
+    PlacePatcher places(*_scene, _convertedGraph.index, _caches.geometries, _now);
     for (const osg::Geometry* geometry : changes.deformed)
         _caches.geometries.recordMobility(*geometry, Mobility::Deforming);
     for (const MovedUse& use : changes.moved)
@@ -96,18 +96,20 @@ bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
     if (_input.materials) return false; // rules look at names
     StateStack states = statesAbove(_input);
     ConversionReport report;
-    MaterialConverter converter({!_scene->displayReferred, _input.cullAllRays, _made.setsColor},
-                                _caches.textures, report);
+    MaterialConverter converter(
+        {!_scene->displayReferred, _input.cullAllRays, _convertedGraph.setsColor}, _caches.textures,
+        report);
     for (const StateChange& use : uses)
         if (!changeState(use, states, converter, report)) return false;
-    if (_recolors && setsColor() != _made.setsColor) return false; // a rule of all materials
+    if (_recolors && setsColor() != _convertedGraph.setsColor)
+        return false; // a rule of all materials
     for (const auto& [instance, material] : _newMaterials)
-        _made.materials.release(_scene->instances[instance].material);
+        _convertedGraph.materials.release(_scene->instances[instance].material);
     for (const auto& [index, material] : _newMaterials)
     {
         Instance& instance = _scene->instances[index];
         const uint32_t before = instance.material;
-        instance.material = _made.materials.add(material);
+        instance.material = _convertedGraph.materials.add(material);
         if (instance.material == before) continue;
         instance.changed = _now;
         _changed = true;
@@ -118,8 +120,8 @@ bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
 /// Whether a state of the scene makes another colour current: see MaterialRules.
 bool ScenePatcher::setsColor() const
 {
-    const std::vector<StateEffects>& stateEffects = _made.index.stateEffects;
-    for (const auto& [geometry, traced] : _made.index.geometries)
+    const std::vector<StateEffects>& stateEffects = _convertedGraph.index.stateEffects;
+    for (const auto& [geometry, traced] : _convertedGraph.index.geometries)
         for (const TracedUse& use : traced.uses)
             if (use.effects != kInvalid && stateEffects[use.effects].setsColor) return true;
     return false;
@@ -128,8 +130,8 @@ bool ScenePatcher::setsColor() const
 bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
                                MaterialConverter& converter, ConversionReport& report)
 {
-    const auto found = _made.index.geometries.find(use.geometry);
-    if (found == _made.index.geometries.end() || !found->second.patchable) return false;
+    const auto found = _convertedGraph.index.geometries.find(use.geometry);
+    if (found == _convertedGraph.index.geometries.end() || !found->second.patchable) return false;
     if (found->second.uses.size() != use.uses) return false;
     TracedUse& traced = found->second.uses[use.use];
     if (traced.effects == kInvalid) return false;
@@ -145,14 +147,14 @@ bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
     for (; pushed > 0; --pushed)
         states.pop();
     StateEffects effects = stateEffectsOf(state, _caches.textures);
-    const StateEffects before = _made.index.stateEffects[traced.effects];
+    const StateEffects before = _convertedGraph.index.stateEffects[traced.effects];
     if (traced.instance == kInvalid) return effects == before;
     const Vec3d& origin = _scene->origin;
     report = ConversionReport();
     const Material material = converter.material(
         state, surfaceInputs(*use.geometry),
         {use.worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z),
-         &_made.texGens});
+         &_convertedGraph.texGens});
     effects.counts = report.counts();
     const bool setsColor = std::exchange(effects.setsColor, before.setsColor);
     if (!(effects == before)) return false;
@@ -160,9 +162,10 @@ bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
     {
         _recolors = true;
         effects.setsColor = setsColor;
-        traced.effects = _made.index.effects(effects);
+        traced.effects = _convertedGraph.index.effects(effects);
     }
-    if (!sameMaterial(material, _made.materials[_scene->instances[traced.instance].material]))
+    if (!sameMaterial(material,
+                      _convertedGraph.materials[_scene->instances[traced.instance].material]))
         _newMaterials.emplace_back(traced.instance, material);
     return true;
 }
@@ -170,9 +173,9 @@ bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
 /// Of area lights; their places and shapes are a matter of the whole graph.
 bool ScenePatcher::relightLamps()
 {
-    for (std::size_t i = 0; i < _made.lights.areaLights.size(); ++i)
+    for (std::size_t i = 0; i < _convertedGraph.lights.areaLights.size(); ++i)
     {
-        const CollectedAreaLight& source = _made.lights.areaLights[i];
+        const CollectedAreaLight& source = _convertedGraph.lights.areaLights[i];
         ConversionCaches::Quad& quad = _caches.areaLights[i];
         const auto converted = convertAreaLight(*source.light, source.engineFromLocal);
         if (converted.has_value() != (quad.instance != kInvalid)) return false;
@@ -183,9 +186,9 @@ bool ScenePatcher::relightLamps()
         quad.light = converted->light;
         Instance& instance = _scene->instances[quad.instance];
         const Material lamp = lampMaterial(quad.light.radiance);
-        if (sameMaterial(lamp, _made.materials[instance.material])) continue;
-        _made.materials.release(instance.material);
-        instance.material = _made.materials.add(lamp);
+        if (sameMaterial(lamp, _convertedGraph.materials[instance.material])) continue;
+        _convertedGraph.materials.release(instance.material);
+        instance.material = _convertedGraph.materials.add(lamp);
         instance.changed = _now;
         _changed = true;
     }
@@ -195,8 +198,8 @@ bool ScenePatcher::relightLamps()
 /// Those that have changed, and their textures.
 void ScenePatcher::takeMaterials()
 {
-    const std::vector<uint32_t> exchanged = _made.materials.takeChanged();
-    const std::vector<Material>& all = _made.materials.all();
+    const std::vector<uint32_t> exchanged = _convertedGraph.materials.takeChanged();
+    const std::vector<Material>& all = _convertedGraph.materials.all();
     if (!exchanged.empty())
     {
         if (!all.empty()) _scene->materials.resize(all.size());
@@ -205,7 +208,8 @@ void ScenePatcher::takeMaterials()
             _scene->materials[index] = all[index];
             _scene->materials[index].changed = _now;
         }
-        _caches.textures.keepOnly(_made.materials.usedTextures(_caches.textures.all().size()));
+        _caches.textures.keepOnly(
+            _convertedGraph.materials.usedTextures(_caches.textures.all().size()));
         _changed = true;
     }
     if (_scene->textures == _caches.textures.all()) return;
@@ -216,8 +220,8 @@ void ScenePatcher::takeMaterials()
 bool ScenePatcher::relight()
 {
     ConversionReport report;
-    setLights(*_scene, _input, _made.lights, _caches, report);
-    if (report.counts() != _made.lightCounts) return false;
+    setLights(*_scene, _input, _convertedGraph.lights, _caches, report);
+    if (report.counts() != _convertedGraph.lightCounts) return false;
     _changed |= stampLights(_scene->lights, _last.lights, _now);
     if (!anyShines(_last.lights) && !anyShines(_scene->lights)) return true;
     const std::size_t count = std::min(_last.instances.size(), _scene->instances.size());
@@ -238,19 +242,19 @@ bool ScenePatcher::remove(const GraphSplice& splice)
     // Before any goes: those that follow shorten the lists.
     for (const ChangedUse& gone : splice.removed)
     {
-        const auto found = _made.index.geometries.find(gone.geometry);
-        if (found == _made.index.geometries.end()) return false;
+        const auto found = _convertedGraph.index.geometries.find(gone.geometry);
+        if (found == _convertedGraph.index.geometries.end()) return false;
         const TracedGeometry& traced = found->second;
         if (!traced.patchable || !traced.plain || traced.uses.size() != gone.uses) return false;
     }
     // The last of each first: those before it keep their numbers.
     for (auto gone = splice.removed.rbegin(); gone != splice.removed.rend(); ++gone)
     {
-        const auto found = _made.index.geometries.find(gone->geometry);
+        const auto found = _convertedGraph.index.geometries.find(gone->geometry);
         if (!removeUse(found->second, gone->use)) return false;
         if (!found->second.uses.empty()) continue;
         _removed.push_back(found->second.geometry);
-        _made.index.geometries.erase(found);
+        _convertedGraph.index.geometries.erase(found);
         --_geometries;
     }
     return true;
@@ -262,24 +266,24 @@ bool ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
     if (gone.instance == kInvalid || gone.effects == kInvalid) return false;
     Instance& instance = _scene->instances[gone.instance];
     if (traced.uses.size() > 1 && !instance.placed) return false;
-    const StateEffects& effects = _made.index.stateEffects[gone.effects];
+    const StateEffects& effects = _convertedGraph.index.stateEffects[gone.effects];
     traced.uses.erase(traced.uses.begin() + use);
     if (!effects.counts.empty()) return false; // paths may be named
     if ((effects.hasAmbient || effects.physical || effects.setsColor) && isLastOf(gone.effects))
         return false;
 
     _leftStatic |= !instance.placed;
-    _made.materials.release(instance.material);
+    _convertedGraph.materials.release(instance.material);
     const uint32_t mesh = instance.mesh;
     instance = Instance();
     instance.mesh = emptyMeshIndex();
     instance.placed = true;
     instance.changed = _now;
-    _made.instanceGaps.push_back(gone.instance);
+    _convertedGraph.instanceGaps.push_back(gone.instance);
     --_instances;
     if (!traced.uses.empty()) return true;
     _scene->meshes[mesh] = emptyMesh();
-    _made.meshGaps.push_back(mesh);
+    _convertedGraph.meshGaps.push_back(mesh);
     return true;
 }
 
@@ -287,7 +291,7 @@ bool ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
 /// change.
 bool ScenePatcher::isLastOf(uint32_t effects) const
 {
-    for (const auto& [geometry, traced] : _made.index.geometries)
+    for (const auto& [geometry, traced] : _convertedGraph.index.geometries)
         for (const TracedUse& use : traced.uses)
             if (use.effects == effects && use.instance != kInvalid) return false;
     return true;
@@ -295,12 +299,12 @@ bool ScenePatcher::isLastOf(uint32_t effects) const
 
 uint32_t ScenePatcher::emptyMeshIndex()
 {
-    if (_made.emptyMesh == kInvalid)
+    if (_convertedGraph.emptyMesh == kInvalid)
     {
-        _made.emptyMesh = static_cast<uint32_t>(_scene->meshes.size());
+        _convertedGraph.emptyMesh = static_cast<uint32_t>(_scene->meshes.size());
         _scene->meshes.push_back(emptyMesh());
     }
-    return _made.emptyMesh;
+    return _convertedGraph.emptyMesh;
 }
 
 bool ScenePatcher::add(const GraphSplice& splice)
@@ -315,7 +319,7 @@ bool ScenePatcher::add(const GraphSplice& splice)
                        lights.environments.empty() && graph.rasterized.empty() && !graph.paged &&
                        report.counts().empty();
     if (!plain) return false;
-    graph.texGens = _made.texGens;
+    graph.texGens = _convertedGraph.texGens;
     uint64_t vertices = 0;
     for (CollectedGeometry& geometry : graph.geometries)
     {
@@ -338,20 +342,20 @@ bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeome
     {
         const StateEffects effects = stateEffectsOf(graph.states[use.state], _caches.textures);
         if (effects.physical && automatic && _scene->displayReferred) return false;
-        if (effects.setsColor && !_made.setsColor) return false;
+        if (effects.setsColor && !_convertedGraph.setsColor) return false;
         if (effects.hasAmbient && effects.ambient != _scene->ambient) return false;
         if (effects.clipPlanes != 0) return false;
     }
-    const auto known = _made.index.geometries.find(geometry.geometry);
-    const bool isNew = known == _made.index.geometries.end();
+    const auto known = _convertedGraph.index.geometries.find(geometry.geometry);
+    const bool isNew = known == _convertedGraph.index.geometries.end();
     if (!isNew && !(known->second.patchable && known->second.plain)) return false;
     ConversionReport report;
     BuildRules rules;
     rules.linear = !_scene->displayReferred;
-    rules.setsColor = _made.setsColor;
+    rules.setsColor = _convertedGraph.setsColor;
     rules.comparable = true;
     rules.now = _now;
-    SceneBuilder builder(_input, graph, rules, _caches, _made, *_scene, report);
+    SceneBuilder builder(_input, graph, rules, _caches, _convertedGraph, *_scene, report);
     std::vector<ChangedUse> uses;
     for (const ChangedUse& use : splice.uses)
         if (use.geometry == geometry.geometry) uses.push_back(use);
@@ -363,7 +367,7 @@ bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeome
             if (uses[i].use > known->second.uses.size() ||
                 !builder.addUse(geometry, geometry.uses[i], uses[i].use))
                 return false;
-    const TracedGeometry& traced = _made.index.at(*geometry.geometry);
+    const TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
     if (!traced.patchable || !traced.plain || traced.uses.size() != uses.front().uses) return false;
     const auto isThere = [this](const TracedUse& use)
     { return use.instance != kInvalid && _scene->instances[use.instance].placed; };
@@ -377,7 +381,8 @@ bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeome
 void ScenePatcher::dropRemoved()
 {
     for (const osg::ref_ptr<const osg::Geometry>& geometry : _removed)
-        if (_made.index.geometries.count(geometry) == 0) _caches.geometries.drop(geometry);
+        if (_convertedGraph.index.geometries.count(geometry) == 0)
+            _caches.geometries.drop(geometry);
 }
 
 } // namespace osgRayTrace::engine

@@ -14,14 +14,14 @@
 namespace osgRayTrace::engine
 {
 
-/// For one patch. What it does to made and caches belongs to the scene that patch() returns; if
-/// that is none, to no scene: then the graph must be converted again.
+/// For one patch. What it does to convertedGraph and caches belongs to the scene that patch()
+/// returns; if that is none, to no scene: then the graph must be converted again.
 class ScenePatcher
 {
 public:
     /// last: in units of 1, and of ordinary lengths (see SceneExtent).
     ScenePatcher(const Scene& last, const ConversionInput& input, ConversionCaches& caches,
-                 ConvertedGraph& made, Stamp now);
+                 ConvertedGraph& convertedGraph, Stamp now);
 
     /// Null if there is more to do than this knows.
     std::shared_ptr<Scene> patch(const GraphChanges& changes);
@@ -61,7 +61,7 @@ private:
     const Scene& _last;
     const ConversionInput& _input;
     ConversionCaches& _caches;
-    ConvertedGraph& _made;
+    ConvertedGraph& _convertedGraph;
     Stamp _now;
     std::shared_ptr<Scene> _scene;
     std::vector<std::pair<uint32_t, Material>>

@@ -251,11 +251,11 @@ void SceneUpdater::build(const ConversionResult& conversion)
     if (!traced || &traced->scene() != conversion.scene.get())
     {
         traced = TracedScene::build(conversion.scene, _workers, traced);
-        const BuildStatistics& made = traced->statistics();
-        _done.builtMeshes += made.builtMeshes;
-        _done.refitMeshes += made.refitMeshes;
-        _done.staticBuilds += made.staticBuilds;
-        _done.embreeCommits += made.commits;
+        const BuildStatistics& result = traced->statistics();
+        _done.builtMeshes += result.builtMeshes;
+        _done.refitMeshes += result.refitMeshes;
+        _done.staticBuilds += result.staticBuilds;
+        _done.embreeCommits += result.commits;
     }
     _done.convertedMeshes = _converter.convertedMeshes();
     Statistics statistics = _done;

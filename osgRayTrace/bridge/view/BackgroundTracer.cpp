@@ -97,7 +97,7 @@ struct BackgroundTracer::Worker
         tracing; // who traces: the worker; draw of a frame-locked view; who asks for radiance
     ViewTracer tracer;
     bool stepping = false; ///< the worker traces, and no one else
-    TracedImage made;      ///< that the worker writes
+    TracedImage result;    ///< that the worker writes
 
     std::mutex mutex;             // draw, the worker and those with a Lease; all below
     std::condition_variable wake; ///< the worker
@@ -243,9 +243,9 @@ Outcome BackgroundTracer::Worker::traceAndResolve(const TraceRequest& request)
     // What was given up may wait: an image of its request is there, and another one is wanted.
     if (tracer.needsResolve(request.version) && !outdated)
     {
-        makeRoom(made, tracer.displayWidth(), tracer.displayHeight());
-        made.slices = request.slices;
-        tracer.resolve(made.color->data(), reinterpret_cast<float*>(made.depth->data()));
+        makeRoom(result, tracer.displayWidth(), tracer.displayHeight());
+        result.slices = request.slices;
+        tracer.resolve(result.color->data(), reinterpret_cast<float*>(result.depth->data()));
         handOver();
     }
     if (request.traces) tracer.recordPresented();
@@ -258,7 +258,7 @@ void BackgroundTracer::Worker::handOver()
 {
     std::lock_guard<std::mutex> lock(mutex);
     if (stops) return tracer.forgetDisplay();
-    std::swap(made, newest);
+    std::swap(result, newest);
     fresh = handedOver = true;
     // Whatever else is wanted by now need not wait for more of this.
     outdated = number != taken;

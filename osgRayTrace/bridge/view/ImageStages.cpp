@@ -60,17 +60,17 @@ void ImageStages::leaveView(RenderSession& session, const ImageInputs& next)
 }
 
 void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
-                            const RenderProgress& made)
+                            const RenderProgress& result)
 {
-    if (made.restarted) _denoiser.forgetSurfaces();
-    if (made.restarted && made.status.code != StatusCode::InvalidView)
+    if (result.restarted) _denoiser.forgetSurfaces();
+    if (result.restarted && result.status.code != StatusCode::InvalidView)
     {
         _imageScene = next.scene;
         _imageView = next.view;
         _imageOptions = next.options;
         if (_history.leaving()) ++_sequence;
     }
-    if (_history.leaving() && made.passes > 0 && _imageView == next.view)
+    if (_history.leaving() && result.passes > 0 && _imageView == next.view)
         _history.enter(session, next.view, _viewDependence, *_workers);
 }
 

@@ -41,7 +41,7 @@ public:
     /// Before and after session.render(): takes what its image is worth to the next one, if nothing
     /// but the view changes.
     void leaveView(RenderSession& session, const ImageInputs& next);
-    void enterView(RenderSession& session, const ImageInputs& next, const RenderProgress& made);
+    void enterView(RenderSession& session, const ImageInputs& next, const RenderProgress& result);
 
     /// True if what is shown is not the session's image as it is; and if it will not be as soon as
     /// that has a whole pass.

@@ -241,11 +241,11 @@ void ViewTracer::traceFixed(int passes)
     StopRule rule;
     rule.newPasses = passes;
     const bool continues = _displayState == DisplayState::Whole;
-    const RenderProgress made = render(*_session, 1, rule, &_display);
-    if (!made.status.ok() || made.passes < 1) return;
+    const RenderProgress result = render(*_session, 1, rule, &_display);
+    if (!result.status.ok() || result.passes < 1) return;
     _displayState = DisplayState::Whole;
-    _imageChanged |= !continues && made.newTiles == 0;
-    if (made.newTiles > 0) estimateError();
+    _imageChanged |= !continues && result.newTiles == 0;
+    if (result.newTiles > 0) estimateError();
 }
 
 /// Time for one whole pass, at any resolution, must be.
@@ -294,13 +294,13 @@ bool ViewTracer::traceImage(const FramePlan& plan, const FrameSituation& frame, 
 bool ViewTracer::renderImage(int divider, StopRule& rule)
 {
     const bool reduced = divider > 1;
-    const RenderProgress made =
+    const RenderProgress result =
         render(reduced ? *_reduced : *_session, divider, rule, reduced ? nullptr : &_display);
-    _planner.notePhotons(made.firstPhotonSeconds);
-    if (!made.status.ok() || made.passes < 1) return false;
+    _planner.notePhotons(result.firstPhotonSeconds);
+    if (!result.status.ok() || result.passes < 1) return false;
     _displayState = reduced ? DisplayState::Reduced : DisplayState::Whole;
     _divider = divider;
-    _imageChanged |= made.newTiles == 0; // of an image that was there before
+    _imageChanged |= result.newTiles == 0; // of an image that was there before
     return true;
 }
 
@@ -330,15 +330,15 @@ void ViewTracer::addToImage(StopRule& rule)
     // The display may lack whatever it did not hold before: then it is resolved.
     const bool addsToDisplay = _holdsFull && _resolved && same(_display.toneMap, *_resolved);
     _display.holdsImage = true;
-    const RenderProgress made = render(*_session, 1, rule, addsToDisplay ? &_display : nullptr);
-    if (!made.status.ok()) return;
+    const RenderProgress result = render(*_session, 1, rule, addsToDisplay ? &_display : nullptr);
+    if (!result.status.ok()) return;
     const DisplayState before = _displayState;
-    if (made.passes > 0)
+    if (result.passes > 0)
         _displayState = DisplayState::Whole;
-    else if (made.newTiles > 0)
+    else if (result.newTiles > 0)
         _displayState = DisplayState::Mixed;
     _imageChanged |= _displayState != before && !_written;
-    if (made.newTiles > 0) estimateError();
+    if (result.newTiles > 0) estimateError();
 }
 
 void ViewTracer::traceAgreed(bool moved, FrameWork work, double budget)
@@ -441,41 +441,41 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     // Of what fills in, tiles are shown as they are; else the whole image is, once it is there.
     const bool writes = display && display->rgba && !stages.changes(session) &&
                         (display->holdsImage || !stages.willChange());
-    const RenderProgress made = session.render(rule, {}, writes ? display : nullptr);
-    stages.enterView(session, inputs, made);
-    _status = made.status;
-    _newTiles += made.newTiles;
+    const RenderProgress result = session.render(rule, {}, writes ? display : nullptr);
+    stages.enterView(session, inputs, result);
+    _status = result.status;
+    _newTiles += result.newTiles;
     const double seconds = _now() - start;
     _frame.traceSeconds += seconds;
-    _planner.noteTiles(divider, made.newTiles, seconds - made.photonSeconds);
+    _planner.noteTiles(divider, result.newTiles, seconds - result.photonSeconds);
     TracedPart::Passes& passes = divider > 1 ? _part.reduced : _part.full;
-    passes.tiles += made.newTiles;
-    passes.seconds += seconds - made.photonSeconds;
-    _part.photonSeconds += made.photonSeconds;
-    if (made.restarted && &session == _session.get())
+    passes.tiles += result.newTiles;
+    passes.seconds += seconds - result.photonSeconds;
+    _part.photonSeconds += result.photonSeconds;
+    if (result.restarted && &session == _session.get())
     {
         _relativeError = std::numeric_limits<double>::infinity();
         _nextEstimate = 2;
     }
-    if (made.newTiles == 0) return made;
+    if (result.newTiles == 0) return result;
 
     // A pass that was cut short may have left tiles of two images in the display; it is not shown
     // then.
-    const bool lacksDepth = made.restarted && display && !display->depth;
-    const bool complete =
-        made.status.ok() && !lacksDepth && (made.passes > 0 || (display && display->holdsImage));
+    const bool lacksDepth = result.restarted && display && !display->depth;
+    const bool complete = result.status.ok() && !lacksDepth &&
+                          (result.passes > 0 || (display && display->holdsImage));
     _written = writes && complete && !stages.changes(session);
     _holdsFull = _written;
     if (_written)
         _imageChanged = false;
-    else if (made.passes > 0 || !denoises()) // single tiles cannot be denoised: they are not seen
+    else if (result.passes > 0 || !denoises()) // single tiles cannot be denoised: they are not seen
         _imageChanged = true;
     if (_written)
     {
         _resolved = display->toneMap;
         _resolvedDenoise = DenoiseKind::Off;
     }
-    return made;
+    return result;
 }
 
 void ViewTracer::estimateError()
