@@ -90,8 +90,8 @@ struct RayTraceDrawable::Implementation
     std::weak_ptr<const engine::TracedScene> untraceable; ///< failed before it gave any image
 
     void draw(osg::RenderInfo& renderInfo);
-    void noteProgress(const std::shared_ptr<ViewPresenter>& view,
-                      const engine::SceneVersion& version);
+    void recordProgress(const std::shared_ptr<ViewPresenter>& view,
+                        const engine::SceneVersion& version);
     void fail(engine::StatusCode code, const char* message) noexcept;
     void failToDraw(engine::StatusCode code, const char* message) noexcept;
 };
@@ -113,17 +113,17 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     budget.frameNumber = pass.frameNumber;
     budget.again = found.shared;
     view.update({version, pass.view, found.slices, found.shared, budget, paused});
-    scene.noteDrawn(renderInfo.getCurrentCamera(),
-                    osg::Matrixd::inverse(state.getModelViewMatrix()).getTrans(),
-                    nearDistance(state.getProjectionMatrix()));
+    scene.recordDrawn(renderInfo.getCurrentCamera(),
+                      osg::Matrixd::inverse(state.getModelViewMatrix()).getTrans(),
+                      nearDistance(state.getProjectionMatrix()));
     const bool drawn = view.draw(renderInfo, pass.view);
-    noteProgress(found.state, version);
+    recordProgress(found.state, version);
     if (!drawn)
         fail(engine::StatusCode::DeviceFailure, "OpenGL cannot compile the display's shaders");
 }
 
-void RayTraceDrawable::Implementation::noteProgress(const std::shared_ptr<ViewPresenter>& view,
-                                                    const engine::SceneVersion& version)
+void RayTraceDrawable::Implementation::recordProgress(const std::shared_ptr<ViewPresenter>& view,
+                                                      const engine::SceneVersion& version)
 {
     engine::TraceReport result = view->report(version);
     const engine::Status& status = result.progress.status;
@@ -336,15 +336,15 @@ void RayTraceDrawable::resizeGLObjectBuffers(unsigned int maxSize)
     osg::Drawable::resizeGLObjectBuffers(maxSize);
 }
 
-void RayTraceDrawable::noteView(osgUtil::CullVisitor& visitor)
+void RayTraceDrawable::recordView(osgUtil::CullVisitor& visitor)
 {
     osgUtil::RenderStage* stage = visitor.getCurrentRenderStage();
     try
     {
-        _implementation->scene.noteView(stage ? stage->getCamera() : nullptr,
-                                        visitor.getFrameStamp(),
-                                        engine::viewingConditions(visitor));
-        if (const auto pass = passIdentity(visitor)) _implementation->views.note(*pass);
+        _implementation->scene.recordView(stage ? stage->getCamera() : nullptr,
+                                          visitor.getFrameStamp(),
+                                          engine::viewingConditions(visitor));
+        if (const auto pass = passIdentity(visitor)) _implementation->views.record(*pass);
     }
     catch (const std::exception& error)
     {

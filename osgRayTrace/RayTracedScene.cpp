@@ -149,7 +149,7 @@ void RayTracedScene::traverse(osg::NodeVisitor& visitor)
     if (cull)
     {
         // Converts at once if this is the first view, or if there was no update traversal.
-        _drawable->noteView(*cull);
+        _drawable->recordView(*cull);
         _drawable->updateScene(cull->getFrameStamp());
     }
     if (cull && _drawable->canTrace())

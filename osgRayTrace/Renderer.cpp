@@ -186,7 +186,7 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     engine::setImageStatistics(statistics, session->render(rule, keepGoing));
 }
 
-/// Notes how long it took.
+/// Records how long it took.
 engine::ResolvedImage Renderer::Implementation::denoisedImage()
 {
     engine::ResolvedImage image = session->resolvedImage();

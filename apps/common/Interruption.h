@@ -26,8 +26,8 @@ int interruptionCode();
 /// "SIGINT"
 std::string interruptionName();
 
-/// While one exists, the first signal is only noted, so that what was done so far can be written;
-/// the second one ends the process at once.
+/// While one exists, the first signal is only recorded, so that what was done so far can be
+/// written; the second one ends the process at once.
 class OrderlyEnd
 {
 public:

@@ -17,7 +17,7 @@ namespace
 // NAME=value of which those that begin with a tab are of pictures that this one was made from; an
 // empty line; the resolution.
 
-/// Of all lines together. Radiance notes every command that had to do with the picture.
+/// Of all lines together. Radiance records every command that had to do with the picture.
 constexpr std::size_t kLongestHeader = std::size_t(1) << 20;
 
 const char* const kTruncated = "the file ends within its header";

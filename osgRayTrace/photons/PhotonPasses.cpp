@@ -199,9 +199,9 @@ std::shared_ptr<const PhotonGuide> PhotonPasses::guideOf(int index)
     return _photonGuide = _emitter->learn(emitted, squares);
 }
 
-void PhotonPasses::noteSeen(const std::shared_ptr<const TracedScene>& traced,
-                            const std::vector<Light>& lights, const PhotonPassOptions& options,
-                            const void* view, std::vector<double> squares)
+void PhotonPasses::recordSeen(const std::shared_ptr<const TracedScene>& traced,
+                              const std::vector<Light>& lights, const PhotonPassOptions& options,
+                              const void* view, std::vector<double> squares)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     if (!_emitter || !isCurrent(traced, lights, options) || squares.size() != _emitter->guideBins())

@@ -39,12 +39,12 @@ struct PhotonDensity
 /// new image begins with: a camera that moves needs no new photons. Of these as many as kMostBytes
 /// have room for.
 ///
-/// The first kFirst passes are guided by the scene alone. Views note what they see of them, and
+/// The first kFirst passes are guided by the scene alone. Views record what they see of them, and
 /// with PhotonPassOptions::photonGuiding all later passes are guided to what the views that have
 /// done so see: a pass is an unbiased estimate by itself, whatever it is guided to, as nothing in
 /// its guide comes from its own photons. So it depends on the views, and on the order in which they
 /// come: two processes trace the same photons from kFirst on only if they show the same views;
-/// without photonGuiding always. A view that starts anew takes back what it noted.
+/// without photonGuiding always. A view that starts anew takes back what it recorded.
 class PhotonPasses
 {
 public:
@@ -61,9 +61,9 @@ public:
 
     /// What a view saw of all of the first passes: sums over some of its pixels of the squares of
     /// what single photons added to them, by bin. view: its name until it forgets.
-    void noteSeen(const std::shared_ptr<const TracedScene>& traced,
-                  const std::vector<Light>& lights, const PhotonPassOptions& options,
-                  const void* view, std::vector<double> squares);
+    void recordSeen(const std::shared_ptr<const TracedScene>& traced,
+                    const std::vector<Light>& lights, const PhotonPassOptions& options,
+                    const void* view, std::vector<double> squares);
     void forgetSeen(const void* view);
 
     /// Whether there are photons of a pass now. Not while some are traced: who would have to wait

@@ -42,8 +42,8 @@ float pixelWidth(const PassContext& context, int width, int height)
     return widths[widths.size() / 2];
 }
 
-constexpr std::size_t kNotedPixels = 16384;  ///< about as many of a pass are learnt from,
-constexpr std::size_t kMostNotedStride = 16; ///< and no fewer than one of these
+constexpr std::size_t kRecordedPixels = 16384;  ///< about as many of a pass are learnt from,
+constexpr std::size_t kMostRecordedStride = 16; ///< and no fewer than one of these
 
 /// Sums by bin of the squares of what single photons added, relative to the radiance of the tile as
 /// in RenderProgress::relativeError: dim places matter, too. There may be thousands of photons for
@@ -174,8 +174,8 @@ void PhotonState::finish(const std::shared_ptr<const TracedScene>& traced,
     if (_idle) return;
     sumUpSeen();
     if (pass + 1 < PhotonPasses::kFirst || _seenSquares.empty()) return;
-    _passes->noteSeen(traced, *context.lights, passOptions(context.options), this,
-                      std::move(_seenSquares));
+    _passes->recordSeen(traced, *context.lights, passOptions(context.options), this,
+                        std::move(_seenSquares));
     _guides = true;
     std::vector<std::vector<SeenSquares>>().swap(_seen);
     _seenSquares.clear();
@@ -230,7 +230,7 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
     {
         gathered.seenFirst = static_cast<uint32_t>(pass);
         gathered.seenStride = static_cast<uint32_t>(
-            std::clamp<std::size_t>(_pixels / kNotedPixels, 1, kMostNotedStride));
+            std::clamp<std::size_t>(_pixels / kRecordedPixels, 1, kMostRecordedStride));
     }
     gathered.separate = _local;
     for (std::size_t p = 0; p < kTilePixels; ++p)

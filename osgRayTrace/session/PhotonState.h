@@ -102,7 +102,7 @@ private:
     std::vector<HitPoints> _hitPoints;        ///< half, tile; empty unless passes share paths
     std::vector<std::vector<SeenSquares>>
         _seen;                        ///< tile; of the pass at work; empty unless it is learnt from
-    std::vector<double> _seenSquares; ///< of all those passes: see PhotonPasses::noteSeen
+    std::vector<double> _seenSquares; ///< of all those passes: see PhotonPasses::recordSeen
 };
 
 } // namespace osgRayTrace::engine

@@ -72,7 +72,7 @@ struct RenderProgress
     RayCounts rays;
     uint64_t droppedSamples = 0; ///< not finite, or above 1e30: left out of the image and counted
     double denoiseSeconds =
-        0.0; ///< of the last image that was denoised, noted by who does it: see Denoiser
+        0.0; ///< of the last image that was denoised, recorded by who does it: see Denoiser
     DenoiseReport denoised;     ///< what it went through
     bool restarted = false;     ///< this call began a new image
     int newTiles = 0;           ///< of this call, summed over its passes

@@ -156,13 +156,13 @@ LiveView::LiveView(osg::Node* root) : _root(root)
 {
     _settings->setThreads(2);
     _settings->setMaxPasses(1000);
-    noteEye(osg::Vec3d(1.2, -1.5, 4.0));
+    recordEye(osg::Vec3d(1.2, -1.5, 4.0));
     update();
 }
 
-void LiveView::noteEye(const osg::Vec3d& eye)
+void LiveView::recordEye(const osg::Vec3d& eye)
 {
-    _updater.noteView(nullptr, nullptr, conditionsOf(eye));
+    _updater.recordView(nullptr, nullptr, conditionsOf(eye));
 }
 
 void LiveView::update()

@@ -57,8 +57,8 @@ public:
     /// As RayTracedScene::dirtyScene.
     void setDirty() { _updater.setDirty(); }
 
-    /// Notes another eye; what is traced stays the same view.
-    void noteEye(const osg::Vec3d& eye);
+    /// Records another eye; what is traced stays the same view.
+    void recordEye(const osg::Vec3d& eye);
 
     /// Traces a pass and resolves it: linear RGBA.
     const std::vector<float>& image();

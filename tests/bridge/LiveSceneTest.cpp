@@ -73,7 +73,7 @@ TEST_CASE("live scene: nothing is redone for nothing, and the accumulated image 
     graph.hidden->setMatrix(osg::Matrixd::translate(1.0, 2.0, 3.0));
     graph.objects[0]->setNodeMask(0x7fffffffu);
     graph.objects[1]->setMatrix(graph.objects[1]->getMatrix());
-    view.noteEye(osg::Vec3d(1.3, -1.4, 4.1));
+    view.recordEye(osg::Vec3d(1.3, -1.4, 4.1));
     CHECK(updateOf(view, *graph.root) == Done{1, 0, 0, 0, 0, 0, 0, 0});
     CHECK(view.scene() == scene);
     CHECK(view.passes() > passes);

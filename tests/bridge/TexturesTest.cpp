@@ -493,7 +493,7 @@ TEST_CASE("textures that only OpenGL has leave their geometry to it", "[bridge]"
         SceneConverter converter;
         convertForViewer(converter, root);
         texture->setImage(nullptr);
-        texture->setTextureSize(1, 1); // as OSG notes it when it uploads
+        texture->setTextureSize(1, 1); // as OSG records it when it uploads
         const ConversionResult result = convertForViewer(converter, root);
         CHECK(countOf(result, reason) == 0);
         CHECK(soleMaterial(result).baseColorTexture == 0);

@@ -221,8 +221,8 @@ TEST_CASE("view registry: slices that are culled before the first draws are know
         const double eye = 0.1 * double(frame), middle = 10.0 + double(frame);
         const View far = viewAt(eye, middle, 100.0),
                    near = viewAt(eye, 1.0 / double(frame), middle);
-        registry.note(at(pass(1, 1, frame), far));
-        registry.note(at(pass(2, 1, frame), near));
+        registry.record(at(pass(1, 1, frame), far));
+        registry.record(at(pass(2, 1, frame), near));
         const auto a = acquireSlice(registry, at(pass(1, 1, frame), far));
         const auto b = acquireSlice(registry, at(pass(2, 1, frame), near));
         REQUIRE(a.slices.size() == 2u);

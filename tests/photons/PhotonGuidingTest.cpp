@@ -255,7 +255,7 @@ TEST_CASE("photon guiding: two views of a scene get photons both, from the same 
             left.upTo(pass);
             right.upTo(pass);
         }
-        left.upTo(5); // aims at what left has noted, then with right at both
+        left.upTo(5); // aims at what left has recorded, then with right at both
         right.upTo(5);
         left.upTo(6);
         const uint64_t rays = photons->tracedRays();

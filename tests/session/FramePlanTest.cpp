@@ -58,9 +58,9 @@ struct Machine
                      whole = photonSeconds + cost * tilesAt(plan.divider);
         const double most = photonSeconds + cost * tilesAt(plan.divider) * plan.passes;
         const double seconds = std::max(whole, std::min(most, budget));
-        planner.noteTiles(plan.divider, static_cast<int>((seconds - photonSeconds) / cost + 0.5),
-                          seconds - photonSeconds);
-        planner.notePhotons(photonSeconds);
+        planner.recordTiles(plan.divider, static_cast<int>((seconds - photonSeconds) / cost + 0.5),
+                            seconds - photonSeconds);
+        planner.recordPhotons(photonSeconds);
         return {plan.divider, whole, seconds};
     }
 
@@ -73,7 +73,7 @@ struct Machine
         frame.tilesLeft = tilesLeft;
         CHECK(planner.plan(frame).divider == 1);
         const double cost = tile(1);
-        planner.noteTiles(1, static_cast<int>(budget / cost), budget);
+        planner.recordTiles(1, static_cast<int>(budget / cost), budget);
     }
 };
 
@@ -244,7 +244,7 @@ TEST_CASE("frame plan: what turns out to be too much is given up in time", "[ses
     CHECK_FALSE(planner.givesUp(frame, 2, all * 3 / 4, 0.06 * 3 / 4)); // too late
     CHECK_FALSE(planner.givesUp(frame, FramePlanner::kLargestDivider, 40, 1.0));
 
-    planner.noteTiles(2, all / 4, 0.06 / 4);
+    planner.recordTiles(2, all / 4, 0.06 / 4);
     frame.seconds = 0.015;
     const FramePlan plan = planner.replan(frame);
     CHECK(plan.divider > 2);
@@ -261,7 +261,7 @@ TEST_CASE("frame plan: views of any size", "[session]")
         frame.height = height;
         frame.seconds = 1e-9;
         frame.moved = true;
-        planner.noteTiles(1, 1, 1.0);
+        planner.recordTiles(1, 1, 1.0);
         const FramePlan plan = planner.plan(frame);
         CHECK(reducedSize(width, plan.divider) >= 1);
         CHECK(plan.passes >= 1);

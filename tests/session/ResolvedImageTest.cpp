@@ -139,9 +139,9 @@ TEST_CASE("resolved image: samples tell lamps and mirrors from what scatters lig
     CHECK(samples[6 * 8 + 6].kind == SurfaceKind::Emitting);
 }
 
-TEST_CASE(
-    "resolved image: samples that a first pass through the middles notes are those traced for them",
-    "[session]")
+TEST_CASE("resolved image: samples that a first pass through the middles records are those traced "
+          "for them",
+          "[session]")
 {
     SceneBuilder builder = cornellBox();
     for (Material& material : builder.scene->materials)
@@ -181,22 +181,22 @@ TEST_CASE(
                 noting.render(rule);
                 CHECK(noting.surfaceSamples().empty()); // a part of them
                 rule.shouldStop = {};
-                rule.passes = 3; // of which the first one notes them
+                rule.passes = 3; // of which the first one records them
                 REQUIRE(noting.render(rule).status.ok());
 
-                const std::vector<SurfaceSample>& noted = noting.surfaceSamples();
+                const std::vector<SurfaceSample>& recorded = noting.surfaceSamples();
                 const std::vector<SurfaceSample>& traced = tracing.surfaceSamples();
-                REQUIRE(noted.size() == traced.size());
+                REQUIRE(recorded.size() == traced.size());
                 int kinds[3] = {}, nothing = 0;
                 for (std::size_t i = 0; i < traced.size(); ++i)
                 {
                     CAPTURE(i);
-                    REQUIRE(noted[i].normal == traced[i].normal);
-                    REQUIRE(noted[i].distance == traced[i].distance);
-                    REQUIRE(noted[i].albedo == traced[i].albedo);
-                    REQUIRE(noted[i].object == traced[i].object);
-                    REQUIRE(noted[i].lobe == traced[i].lobe);
-                    REQUIRE(noted[i].kind == traced[i].kind);
+                    REQUIRE(recorded[i].normal == traced[i].normal);
+                    REQUIRE(recorded[i].distance == traced[i].distance);
+                    REQUIRE(recorded[i].albedo == traced[i].albedo);
+                    REQUIRE(recorded[i].object == traced[i].object);
+                    REQUIRE(recorded[i].lobe == traced[i].lobe);
+                    REQUIRE(recorded[i].kind == traced[i].kind);
                     ++kinds[static_cast<int>(traced[i].kind)];
                     nothing += traced[i].object == 0;
                 }

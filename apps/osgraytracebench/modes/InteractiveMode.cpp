@@ -306,7 +306,7 @@ SceneVersion fieldVersion(const std::shared_ptr<Workers>& workers)
 {
     const ObjectField field(true);
     SceneUpdater updater;
-    updater.noteView(nullptr, nullptr, ViewingConditions());
+    updater.recordView(nullptr, nullptr, ViewingConditions());
     const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
     updater.update(field.root.get(), *settings, nullptr);
     SceneVersion version = updater.version();

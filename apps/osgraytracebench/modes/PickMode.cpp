@@ -119,7 +119,7 @@ void measure(Rows& rows, const std::string& name, osg::Node* content, int slowPi
                     1e3 * secondsAPick<RayIntersector>(*scene, lines, 1, false), "ms"});
     secondsAPick<RayIntersector>(*scene, lines, 1, false);
     engine::SceneUpdater updater;
-    updater.noteView(nullptr, nullptr, engine::ViewingConditions());
+    updater.recordView(nullptr, nullptr, engine::ViewingConditions());
     updater.update(content, *scene->getSettings(), nullptr);
     const auto traced = updater.version().scene;
 

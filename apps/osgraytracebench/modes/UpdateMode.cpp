@@ -28,7 +28,7 @@ public:
     explicit LiveScene(osg::Node* root) : _root(root)
     {
         _settings->setThreads(1);
-        _updater.noteView(nullptr, nullptr, ViewingConditions());
+        _updater.recordView(nullptr, nullptr, ViewingConditions());
         update();
     }
 

@@ -56,7 +56,7 @@ Subject subjectOf(const std::string& name, osg::Node* content, double distance)
     const View view = viewFromMatrices(looking, projection, kWidth, kHeight);
     SceneUpdater updater;
     osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
-    updater.noteView(nullptr, nullptr, conditions);
+    updater.recordView(nullptr, nullptr, conditions);
     updater.update(content, *settings, nullptr);
     return {name, updater.version().scene, view};
 }

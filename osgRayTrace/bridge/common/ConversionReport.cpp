@@ -49,7 +49,7 @@ bool begins(const std::string& text, const char* with)
 
 } // namespace
 
-void ConversionReport::notePath(const std::string& what, const std::string& path)
+void ConversionReport::recordPath(const std::string& what, const std::string& path)
 {
     std::vector<std::string>& paths = _paths[what];
     const bool isNew = std::find(paths.begin(), paths.end(), path) == paths.end();
@@ -61,8 +61,9 @@ void ConversionReport::count(const std::string& what, uint64_t number)
     _counts[what] += number;
     _remarks += !begins(what, "converted.");
     if (!_place || number == 0 || begins(what, kMissing)) return; // files are named instead
-    const auto noted = _paths.find(what);
-    if (noted == _paths.end() || noted->second.size() < kPathsKept) notePath(what, _place());
+    const auto recorded = _paths.find(what);
+    if (recorded == _paths.end() || recorded->second.size() < kPathsKept)
+        recordPath(what, _place());
 }
 
 void ConversionReport::add(const ConversionCounts& counts)
@@ -76,7 +77,7 @@ void ConversionReport::add(const ConversionReport& other)
     add(other._counts);
     for (const auto& [what, paths] : other._paths)
         for (const std::string& path : paths)
-            notePath(what, path);
+            recordPath(what, path);
     _named.insert(other._named.begin(), other._named.end());
 }
 
@@ -85,7 +86,7 @@ void ConversionReport::warn(const std::string& what, const std::string& object,
 {
     count(what);
     _named.insert(what);
-    if (!_place) notePath(what, object);
+    if (!_place) recordPath(what, object);
     warnOnce(object + ": " + message);
 }
 
@@ -94,7 +95,7 @@ void ConversionReport::missing(const std::string& what, const std::string& file,
 {
     count(what);
     _named.insert(what);
-    notePath(what, file);
+    recordPath(what, file);
     warnOnce(object + " " + file + ": the file cannot be read, " + instead);
 }
 
@@ -103,7 +104,8 @@ void ConversionReport::addHere(const ConversionReport& other)
     add(other._counts);
     for (const auto& [what, paths] : other._paths)
         for (const std::string& file : paths)
-            if (begins(what, kMissing)) notePath(what, _place ? file + ", for " + _place() : file);
+            if (begins(what, kMissing))
+                recordPath(what, _place ? file + ", for " + _place() : file);
     _named.insert(other._named.begin(), other._named.end());
 }
 

@@ -82,7 +82,7 @@ public:
     bool isNamed(const std::string& what) const { return _named.count(what) > 0; }
 
 private:
-    void notePath(const std::string& what, const std::string& path);
+    void recordPath(const std::string& what, const std::string& path);
 
     ConversionCounts _counts;
     ConversionPaths _paths;

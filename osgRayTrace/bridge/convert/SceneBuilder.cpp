@@ -69,7 +69,7 @@ void SceneBuilder::build()
     _scene.displayReferred = !_rules.linear;
     _scene.background = backgroundOf(_graph.clearColor.value_or(_input.clearColor), _rules.linear);
     _scene.ambient = Vec3(_input.lighting ? kViewerAmbient : kOpenGLAmbient);
-    noteNew();
+    recordNew();
     for (const CollectedGeometry& geometry : _graph.geometries)
     {
         _report.setPlace([&geometry] { return geometry.path; });
@@ -146,7 +146,7 @@ void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
 
 /// What comes into a scene gets BVHs of its own, unless it is so much that the flat one may as well
 /// be built again.
-void SceneBuilder::noteNew()
+void SceneBuilder::recordNew()
 {
     uint64_t vertices = 0;
     for (const CollectedGeometry& geometry : _graph.geometries)

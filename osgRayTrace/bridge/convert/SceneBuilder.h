@@ -44,7 +44,7 @@ public:
     bool addUse(const CollectedGeometry& geometry, const GeometryUse& use, uint32_t before);
 
 private:
-    void noteNew();
+    void recordNew();
     bool isPlaced(const CollectedGeometry& geometry);
     void putFlatFirst();
     void addGeometry(const CollectedGeometry& geometry);

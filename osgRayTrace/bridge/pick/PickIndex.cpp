@@ -1,4 +1,4 @@
-// PickIndex.cpp - notes of a conversion what its instances are. Layer: bridge.
+// PickIndex.cpp - records what its instances are. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/pick/PickIndex.h"
 

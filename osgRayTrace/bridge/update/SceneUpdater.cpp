@@ -31,29 +31,31 @@ osg::Vec3d finiteOrZero(const osg::Vec3d& point)
 
 } // namespace
 
-void SceneUpdater::noteView(const ObjectName& camera, const osg::FrameStamp* frameStamp,
-                            const ViewingConditions& conditions)
+void SceneUpdater::recordView(const ObjectName& camera, const osg::FrameStamp* frameStamp,
+                              const ViewingConditions& conditions)
 {
     const unsigned int frameNumber = frameNumberOf(frameStamp);
-    std::lock_guard<std::mutex> lock(_notedMutex);
-    if (_noted.conditions && _noted.camera != camera && ++_noted.othersSince < kReferenceExpiry)
+    std::lock_guard<std::mutex> lock(_recordedMutex);
+    if (_recorded.conditions && _recorded.camera != camera &&
+        ++_recorded.othersSince < kReferenceExpiry)
         return;
     // The second pass of a camera in one frame is its other eye.
-    const bool again = frameStamp && _noted.camera == camera && _noted.frameNumber == frameNumber;
-    _noted.othersSince = 0;
-    if (_noted.conditions && again) return;
-    _noted.camera = camera;
-    _noted.frameNumber = frameNumber;
-    _noted.conditions = conditions;
+    const bool again =
+        frameStamp && _recorded.camera == camera && _recorded.frameNumber == frameNumber;
+    _recorded.othersSince = 0;
+    if (_recorded.conditions && again) return;
+    _recorded.camera = camera;
+    _recorded.frameNumber = frameNumber;
+    _recorded.conditions = conditions;
 }
 
 bool SceneUpdater::isViewed() const
 {
-    std::lock_guard<std::mutex> lock(_notedMutex);
-    return _noted.conditions.has_value();
+    std::lock_guard<std::mutex> lock(_recordedMutex);
+    return _recorded.conditions.has_value();
 }
 
-void SceneUpdater::noteDrawn(const ObjectName& camera, const osg::Vec3d& eye, double nearDistance)
+void SceneUpdater::recordDrawn(const ObjectName& camera, const osg::Vec3d& eye, double nearDistance)
 {
     const SceneVersion drawn = version();
     if (!drawn.scene) return;
@@ -61,8 +63,8 @@ void SceneUpdater::noteDrawn(const ObjectName& camera, const osg::Vec3d& eye, do
     const double distance = (eye - osg::Vec3d(origin.x, origin.y, origin.z)).length();
     if (!(nearDistance > 0.0 && distance > kOriginDistance * nearDistance)) return;
 
-    std::lock_guard<std::mutex> lock(_notedMutex);
-    if (camera == _noted.camera) _noted.asked.origin = eye;
+    std::lock_guard<std::mutex> lock(_recordedMutex);
+    if (camera == _recorded.camera) _recorded.asked.origin = eye;
 }
 
 void SceneUpdater::releaseGraph()
@@ -77,8 +79,8 @@ void SceneUpdater::releaseGraph()
 
 void SceneUpdater::setDirty()
 {
-    std::lock_guard<std::mutex> lock(_notedMutex);
-    _noted.asked.dirty = _noted.asked.forget = true;
+    std::lock_guard<std::mutex> lock(_recordedMutex);
+    _recorded.asked.dirty = _recorded.asked.forget = true;
 }
 
 SceneVersion SceneUpdater::versionToPick(osg::Node* root, const RayTraceSettings& settings,
@@ -89,9 +91,9 @@ SceneVersion SceneUpdater::versionToPick(osg::Node* root, const RayTraceSettings
     if (viewed && now.pickIndex) return now;
     _picks = true;
     {
-        std::lock_guard<std::mutex> lock(_notedMutex);
-        if (!now.pickIndex) _noted.asked.dirty = true;
-        if (!viewed && !now.scene) _noted.asked.origin = start;
+        std::lock_guard<std::mutex> lock(_recordedMutex);
+        if (!now.pickIndex) _recorded.asked.dirty = true;
+        if (!viewed && !now.scene) _recorded.asked.origin = start;
     }
     update(root, settings, nullptr);
     return version();
@@ -119,7 +121,7 @@ void SceneUpdater::update(osg::Node* root, const RayTraceSettings& settings,
     try
     {
         takeSettings(settings);
-        convertIfChanged(root, takeNoted().value_or(ViewingConditions()), frameStamp);
+        convertIfChanged(root, takeRecorded().value_or(ViewingConditions()), frameStamp);
     }
     catch (const std::bad_alloc&)
     {
@@ -135,14 +137,14 @@ void SceneUpdater::update(osg::Node* root, const RayTraceSettings& settings,
     }
 }
 
-std::optional<ViewingConditions> SceneUpdater::takeNoted()
+std::optional<ViewingConditions> SceneUpdater::takeRecorded()
 {
-    std::lock_guard<std::mutex> lock(_notedMutex);
-    const Requests more = std::exchange(_noted.asked, Requests());
+    std::lock_guard<std::mutex> lock(_recordedMutex);
+    const Requests more = std::exchange(_recorded.asked, Requests());
     _asked.dirty |= more.dirty;
     _asked.forget |= more.forget;
     if (more.origin) _asked.origin = more.origin;
-    return _noted.conditions;
+    return _recorded.conditions;
 }
 
 void SceneUpdater::takeSettings(const RayTraceSettings& settings)

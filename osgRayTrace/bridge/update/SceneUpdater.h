@@ -38,25 +38,25 @@ struct SceneVersion
     bool paged = false; ///< see ConversionResult
 };
 
-/// Update converts, draw takes the version there is. Cull notes who looks at the scene: the first
+/// Update converts, draw takes the version there is. Cull records who looks at the scene: the first
 /// camera that did, as long as it does, is the reference for what all views share (levels of
 /// detail, the light that osgViewer adds, the background colour).
 class SceneUpdater
 {
 public:
     /// A camera is about to draw the scene. Cull threads.
-    void noteView(const ObjectName& camera, const osg::FrameStamp* frameStamp,
-                  const ViewingConditions& conditions);
+    void recordView(const ObjectName& camera, const osg::FrameStamp* frameStamp,
+                    const ViewingConditions& conditions);
 
-    /// True once a view was noted. Any thread.
+    /// True once a view was recorded. Any thread.
     bool isViewed() const;
 
     /// The camera has drawn from eye with its near plane at a distance; one engine origin has to
     /// serve near things and far ones, see kOriginDistance. Draw threads.
-    void noteDrawn(const ObjectName& camera, const osg::Vec3d& eye, double nearDistance);
+    void recordDrawn(const ObjectName& camera, const osg::Vec3d& eye, double nearDistance);
 
     /// Takes the settings over and redoes what changed of the graph, of the settings or of the
-    /// noted conditions; once for a frame number, unless the latter did. Null root: no scene.
+    /// recorded conditions; once for a frame number, unless the latter did. Null root: no scene.
     /// Update and cull threads. Does not throw: a failure leaves the last version and is in the
     /// statistics.
     void update(osg::Node* root, const RayTraceSettings& settings,
@@ -71,7 +71,7 @@ public:
     void setDirty();
 
     /// The version as of the last frame with its pickIndex, which is made from now on; as of now if
-    /// no view was noted. start: of the ray, in the scene. Threads that may look at the graph.
+    /// no view was recorded. start: of the ray, in the scene. Threads that may look at the graph.
     SceneVersion versionToPick(osg::Node* root, const RayTraceSettings& settings,
                                const osg::Vec3d& start);
 
@@ -93,7 +93,7 @@ private:
         std::optional<osg::Vec3d> origin;
     };
 
-    struct Noted
+    struct Recorded
     {
         ObjectName camera;            ///< the reference
         unsigned int frameNumber = 0; ///< it was last seen in
@@ -102,7 +102,7 @@ private:
         Requests asked{true, false, {}};
     };
 
-    std::optional<ViewingConditions> takeNoted();
+    std::optional<ViewingConditions> takeRecorded();
     void takeSettings(const RayTraceSettings& settings);
     void convertIfChanged(osg::Node* root, const ViewingConditions& conditions,
                           const osg::FrameStamp* frameStamp);
@@ -114,9 +114,9 @@ private:
                  const Statistics& statistics);
     void fail(const char* message) noexcept;
 
-    HostArraysRelease _release;     // after all that holds arrays
-    mutable std::mutex _notedMutex; // cull and draw threads write, update reads
-    Noted _noted;
+    HostArraysRelease _release;        // after all that holds arrays
+    mutable std::mutex _recordedMutex; // cull and draw threads write, update reads
+    Recorded _recorded;
 
     mutable std::mutex _versionMutex; // update and cull threads write, draw reads
     SceneVersion _version;

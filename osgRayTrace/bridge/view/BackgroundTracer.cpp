@@ -278,7 +278,7 @@ void BackgroundTracer::ask(const TraceRequest& request, uint64_t frame)
 {
     if (!_worker->ask(request, frame)) return;
     bool started = false;
-    const auto noteFailure = [&]
+    const auto recordFailure = [&]
     {
         if (started) return;
         std::lock_guard<std::mutex> lock(_worker->mutex);
@@ -292,11 +292,11 @@ void BackgroundTracer::ask(const TraceRequest& request, uint64_t frame)
             if (const std::shared_ptr<Worker> worker = weak.lock()) worker->end();
         };
         started = startBackgroundThread([worker = _worker] { worker->run(); }, stop);
-        noteFailure();
+        recordFailure();
     }
     catch (...)
     {
-        noteFailure();
+        recordFailure();
         throw;
     }
 }

@@ -60,19 +60,19 @@ public:
     };
 
     /// A pass over the view will be drawn. Cull threads.
-    void note(const PassIdentity& pass)
+    void record(const PassIdentity& pass)
     {
         if (!depthPlanes(pass.view)) return;
         std::lock_guard<std::mutex> lock(_mutex);
-        const auto noted =
-            std::find_if(_noted.begin(), _noted.end(),
+        const auto recorded =
+            std::find_if(_recorded.begin(), _recorded.end(),
                          [&](const PassIdentity& n)
                          { return sameCamera(n, pass) && n.renderStage == pass.renderStage; });
-        if (noted != _noted.end())
-            *noted = pass;
+        if (recorded != _recorded.end())
+            *recorded = pass;
         else
-            _noted.push_back(pass);
-        if (_noted.size() > kMostNoted) _noted.erase(_noted.begin());
+            _recorded.push_back(pass);
+        if (_recorded.size() > kMostRecorded) _recorded.erase(_recorded.begin());
     }
 
     /// The state of the pass, made by make() for a new view. Draw threads.
@@ -119,7 +119,8 @@ public:
         const auto ofFrame = [&](const CameraFrame& f) { return f.pass.contextId == contextId; };
         _frames.erase(std::remove_if(_frames.begin(), _frames.end(), ofFrame), _frames.end());
         const auto ofNote = [&](const PassIdentity& n) { return n.contextId == contextId; };
-        _noted.erase(std::remove_if(_noted.begin(), _noted.end(), ofNote), _noted.end());
+        _recorded.erase(std::remove_if(_recorded.begin(), _recorded.end(), ofNote),
+                        _recorded.end());
     }
 
     /// All states there are now. Any thread.
@@ -133,7 +134,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kMostNoted = 64;
+    static constexpr std::size_t kMostRecorded = 64;
 
     struct Entry
     {
@@ -197,8 +198,8 @@ private:
         return nullptr;
     }
 
-    /// All slices of the picture that are known: of this frame, those that are noted, and if these
-    /// are not all, as cull may come after draw, those of the last frame.
+    /// All slices of the picture that are known: of this frame, those that are recorded, and if
+    /// these are not all, as cull may come after draw, those of the last frame.
     std::vector<View> allSlices(const Entry& entry, const PassIdentity& pass) const
     {
         std::vector<View> slices = {pass.view};
@@ -211,9 +212,9 @@ private:
         };
         for (const View& slice : entry.slices)
             add(slice);
-        for (const PassIdentity& noted : _noted)
-            if (noted.frameNumber == pass.frameNumber && noted.contextId == pass.contextId)
-                add(noted.view);
+        for (const PassIdentity& recorded : _recorded)
+            if (recorded.frameNumber == pass.frameNumber && recorded.contextId == pass.contextId)
+                add(recorded.view);
         if (entry.lastSlices.size() <= slices.size()) return slices;
         for (const View& last : entry.lastSlices)
             add(withDepthOf(pass.view, last)); // the picture may have moved since
@@ -286,7 +287,7 @@ private:
     mutable std::mutex _mutex; // draw threads; cull threads; and releaseGLObjects, from any thread
     std::vector<Entry> _entries;
     std::vector<CameraFrame> _frames;
-    std::vector<PassIdentity> _noted; ///< the last one of each stage
+    std::vector<PassIdentity> _recorded; ///< the last one of each stage
     uint64_t _round = 0;
 };
 

@@ -296,7 +296,7 @@ bool ViewTracer::renderImage(int divider, StopRule& rule)
     const bool reduced = divider > 1;
     const RenderProgress result =
         render(reduced ? *_reduced : *_session, divider, rule, reduced ? nullptr : &_display);
-    _planner.notePhotons(result.firstPhotonSeconds);
+    _planner.recordPhotons(result.firstPhotonSeconds);
     if (!result.status.ok() || result.passes < 1) return false;
     _displayState = reduced ? DisplayState::Reduced : DisplayState::Whole;
     _divider = divider;
@@ -447,7 +447,7 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     _newTiles += result.newTiles;
     const double seconds = _now() - start;
     _frame.traceSeconds += seconds;
-    _planner.noteTiles(divider, result.newTiles, seconds - result.photonSeconds);
+    _planner.recordTiles(divider, result.newTiles, seconds - result.photonSeconds);
     TracedPart::Passes& passes = divider > 1 ? _part.reduced : _part.full;
     passes.tiles += result.newTiles;
     passes.seconds += seconds - result.photonSeconds;

@@ -121,7 +121,7 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce);
 void beginReuse(Tile& tile, PhotonUse use);
 
 /// Remembers where the camera rays of block b met diffuse surfaces.
-void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce);
+void recordFirstSurfaces(Tile& tile, int b, const Bounce& bounce);
 
 /// Marks for reuse the paths whose second surface is diffuse: what they find from here on is for
 /// all pixels of the group that see it.

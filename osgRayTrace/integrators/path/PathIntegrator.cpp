@@ -84,8 +84,8 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     addEmission(tile, block, bounce.surface, use);
     if (number == 0)
     {
-        noteFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface,
-                      tile.result);
+        recordFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface,
+                        tile.result);
         for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
             tile.sums.a[block.pixel[__builtin_ctz(lanes)] & kPixelBits] = 1.0f;
     }
@@ -109,7 +109,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
         if (use != PhotonUse::None) addPhotons(tile, block, bounce);
         sampleLights(tile, block, bounce);
     }
-    if (number == 0 && tile.reuse.active) noteFirstSurfaces(tile, b, bounce);
+    if (number == 0 && tile.reuse.active) recordFirstSurfaces(tile, b, bounce);
     scatter(tile, block, bounce);
 }
 

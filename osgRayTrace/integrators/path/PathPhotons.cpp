@@ -15,12 +15,12 @@ namespace
 constexpr float kGatherAlpha = 0.25f; ///< GGX width from which photons replace further bounces
 
 /// Where there are more around a point no guiding is needed to find some.
-constexpr uint32_t kMostNotedPhotons = 2048;
+constexpr uint32_t kMostRecordedPhotons = 2048;
 
-/// Notes the photons of a lookup, to which its radiance is laid by their power: what the surface
+/// Records the photons of a lookup, to which its radiance is laid by their power: what the surface
 /// makes of their directions does not matter for guiding.
-void noteSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
-              std::vector<SeenPhoton>& seen)
+void recordSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
+                std::vector<SeenPhoton>& seen)
 {
     std::vector<uint32_t> found;
     map.find(query, found);
@@ -113,8 +113,8 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
         const Vec3 flux = laneOf(block.throughput, i) * laneOf(sums.power, i);
         const float discArea = kPi * queries.radius[i] * queries.radius[i];
         if (gathered.seenStride && (pixel + gathered.seenFirst) % gathered.seenStride == 0 &&
-            sums.count[i] <= kMostNotedPhotons)
-            noteSeen(map, laneOf(queries, i), luminance(flux) / discArea, gathered.seen);
+            sums.count[i] <= kMostRecordedPhotons)
+            recordSeen(map, laneOf(queries, i), luminance(flux) / discArea, gathered.seen);
         if (gathered.separate)
         {
             gathered.count[pixel] += sums.count[i];

@@ -184,7 +184,7 @@ void beginReuse(Tile& tile, PhotonUse use)
         tile.reuse.turn[b] = hash(seed + b) % kLanes;
 }
 
-void noteFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
+void recordFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
 {
     for (LaneMask lanes = bounce.diffuse & ~bounce.terminating & ~bounce.surface.terminatorLanes;
          lanes; lanes &= lanes - 1)

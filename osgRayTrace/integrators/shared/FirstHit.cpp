@@ -215,23 +215,23 @@ void setSurfaces(const PassContext& context, const RayHitBlock& rays, const Surf
 } // namespace
 
 /// Not inlined: most passes do not want them, and shall not pay for its stack.
-[[gnu::noinline]] static void noteSamples(const PassContext& context, int block,
-                                          const RayHitBlock& rays, const SurfaceLanes& surface,
-                                          TileResult& result)
+[[gnu::noinline]] static void recordSamples(const PassContext& context, int block,
+                                            const RayHitBlock& rays, const SurfaceLanes& surface,
+                                            TileResult& result)
 {
     Vec3Lanes normal;
     facingNormalLanes(rays.ray, surface, normal);
     setSamples(context, rays, surface, normal, result.samples + block * kLanes);
 }
 
-void noteFirstHits(const PassContext& context, int left, int bottom, int block,
-                   const RayHitBlock& rays, const SurfaceLanes& surface, TileResult& result)
+void recordFirstHits(const PassContext& context, int left, int bottom, int block,
+                     const RayHitBlock& rays, const SurfaceLanes& surface, TileResult& result)
 {
     if (!context.wantsDepth) return;
     FloatLanes along;
     depthLanes(context.camera, left, bottom, block, surface, along, result.depth + block * kLanes);
     if (result.surfaces) setSurfaces(context, rays, surface, along, result.surfaces[block]);
-    if (result.samples) noteSamples(context, block, rays, surface, result);
+    if (result.samples) recordSamples(context, block, rays, surface, result);
 }
 
 void firstSurfaces(const PassContext& context, int left, int bottom, int block, SurfaceBlock& seen)

@@ -42,12 +42,12 @@ void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits
 void firstSamples(const PassContext& context, int left, int bottom,
                   SurfaceSample (&samples)[kTilePixels]);
 
-/// The same as noteFirstHits has it.
+/// The same as recordFirstHits has it.
 void firstSurfaces(const PassContext& context, int left, int bottom, int block, SurfaceBlock& seen);
 
 /// What camera rays of a pass tell about their first hits, as far as it is wanted: of block's rays,
 /// through whatever points of the pixels.
-void noteFirstHits(const PassContext& context, int left, int bottom, int block,
-                   const RayHitBlock& rays, const SurfaceLanes& surface, TileResult& result);
+void recordFirstHits(const PassContext& context, int left, int bottom, int block,
+                     const RayHitBlock& rays, const SurfaceLanes& surface, TileResult& result);
 
 } // namespace osgRayTrace::engine

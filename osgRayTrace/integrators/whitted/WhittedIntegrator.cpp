@@ -350,7 +350,7 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
         ShadingBlock& block = tile.group[k];
         countRays(tile, block, kAllLanes);
         if (block.passed) weigh(block.weight, block.radiance);
-        noteFirstHits(context, left, bottom, first + k, block.rays, block.surface, tile.result);
+        recordFirstHits(context, left, bottom, first + k, block.rays, block.surface, tile.result);
         RgbaLanes& rgba = tile.result.rgba[first + k];
         setPixels(block.radiance, block.surface.hits, rgba);
         for (LaneMask lanes = seen ? kAllLanes & ~block.surface.hits : 0; lanes; lanes &= lanes - 1)

@@ -159,8 +159,8 @@ FrameAgreement::Frame* FrameAgreement::frameOf(const Member& member)
 FrameWork FrameAgreement::giveUp(Member& member, const TracedPart& traced)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    member.costs.note(1, traced.full.tiles, traced.full.seconds);
-    member.costs.note(2, traced.reduced.tiles, traced.reduced.seconds);
+    member.costs.record(1, traced.full.tiles, traced.full.seconds);
+    member.costs.record(2, traced.reduced.tiles, traced.reduced.seconds);
     member.costs.expectReduced();
     _divider.reset();
     Frame* frame = frameOf(member);
@@ -190,8 +190,8 @@ void FrameAgreement::end(Member& member, const TracedPart& traced, double now)
     const double seconds = now - member.begun;
     const double share = seconds > 0.0 ? member.charged / seconds : 1.0;
     member.upsampleDivider = traced.upsampleDivider;
-    member.costs.note(1, traced.full.tiles, share * traced.full.seconds);
-    member.costs.note(2, traced.reduced.tiles, share * traced.reduced.seconds);
+    member.costs.record(1, traced.full.tiles, share * traced.full.seconds);
+    member.costs.record(2, traced.reduced.tiles, share * traced.reduced.seconds);
     constexpr double kFading = 0.9;
     member.stillTiles = member.moved ? 0.0 : kFading * member.stillTiles + traced.full.tiles;
     member.stillSeconds =

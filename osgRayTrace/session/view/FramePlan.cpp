@@ -36,7 +36,7 @@ int tilesOf(int width, int height)
     return tilesAlong(width) * tilesAlong(height);
 }
 
-void TileCosts::note(int divider, int tiles, double seconds)
+void TileCosts::record(int divider, int tiles, double seconds)
 {
     if (tiles <= 0 || !(seconds > 0.0)) return;
     const double seen = seconds / tiles;

@@ -30,7 +30,7 @@ class TileCosts
 {
 public:
     /// Tiles of passes that took so many seconds on the clock, all threads together.
-    void note(int divider, int tiles, double seconds);
+    void record(int divider, int tiles, double seconds);
 
     bool known() const { return _full > 0.0 || _reduced > 0.0; }
 
@@ -99,10 +99,13 @@ public:
     FramePlan replan(const FrameSituation& frame);
 
     /// See TileCosts::note.
-    void noteTiles(int divider, int tiles, double seconds) { _costs.note(divider, tiles, seconds); }
+    void recordTiles(int divider, int tiles, double seconds)
+    {
+        _costs.record(divider, tiles, seconds);
+    }
 
     /// What the photons of a moved frame took.
-    void notePhotons(double seconds) { _photonSeconds = seconds; }
+    void recordPhotons(double seconds) { _photonSeconds = seconds; }
 
     /// True if the first pass of a moved frame, with tiles begun in so many of its seconds, would
     /// take so much more than all of them that a coarser one is better.
