@@ -6,7 +6,7 @@
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/SurfaceAttributes.h"
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/photons/PhotonFlights.h"
+#include "osgRayTrace/photons/PhotonPaths.h"
 #include "osgRayTrace/sampling/Sampler.h"
 #include "osgRayTrace/sampling/Warp.h"
 #include "osgRayTrace/shading/SmoothLanes.h"
@@ -74,14 +74,16 @@ private:
     }
 
     void emitBlock(uint32_t first, uint32_t count);
-    void follow(FlightBlock block, LaneMask active, int bounce);
-    void findSurfaces(FlightBlock& block, LaneMask active, int bounce, SurfaceLanes& surface);
-    LaneMask passFaces(FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes, int bounce);
-    void leaveLight(FlightBlock& block, SurfaceLanes& surface) const;
+    void follow(PhotonPathBlock block, LaneMask active, int bounce);
+    void findSurfaces(PhotonPathBlock& block, LaneMask active, int bounce, SurfaceLanes& surface);
+    LaneMask passFaces(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+                       int bounce);
+    void leaveLight(PhotonPathBlock& block, SurfaceLanes& surface) const;
     LaneMask classify(const SurfaceLanes& surface);
-    void store(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes, int bounce);
-    void scatter(FlightBlock& block, const SurfaceLanes& surface, int bounce);
-    void scatterOne(const FlightBlock& block, int i, bool mustMirror);
+    void store(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+               int bounce);
+    void scatter(PhotonPathBlock& block, const SurfaceLanes& surface, int bounce);
+    void scatterOne(const PhotonPathBlock& block, int i, bool mustMirror);
     const Bsdf* bsdfAt(const SurfaceLanes& surface, int i);
 
     const TracedScene& _traced;
@@ -94,7 +96,7 @@ private:
     bool _shadowless; ///< there are lights without shadows
     Chunk& _chunk;
     uint32_t _first = 0; ///< photon of the chunk
-    FlightQueue _flights{kChunk};
+    PhotonPathQueue _paths{kChunk};
     // Of the block at work.
     RayHitBlock _rays;
     FloatLanes _u, _v, _lobe, _roulette; ///< of its bounce
@@ -131,7 +133,7 @@ const Bsdf* ChunkTracer::bsdfAt(const SurfaceLanes& surface, int i)
 }
 
 /// What the lights do not light is passed by, and fixed-function ones fade in their own ways.
-void ChunkTracer::leaveLight(FlightBlock& block, SurfaceLanes& surface) const
+void ChunkTracer::leaveLight(PhotonPathBlock& block, SurfaceLanes& surface) const
 {
     for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
     {
@@ -151,7 +153,7 @@ void ChunkTracer::leaveLight(FlightBlock& block, SurfaceLanes& surface) const
     }
 }
 
-void ChunkTracer::store(const FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+void ChunkTracer::store(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                         int bounce)
 {
     for (; lanes; lanes &= lanes - 1)
@@ -169,7 +171,7 @@ void ChunkTracer::store(const FlightBlock& block, const SurfaceLanes& surface, L
 }
 
 /// Samples the surface model of any lane.
-void ChunkTracer::scatterOne(const FlightBlock& block, int i, bool mustMirror)
+void ChunkTracer::scatterOne(const PhotonPathBlock& block, int i, bool mustMirror)
 {
     const Vec3 normal = laneOf(_normal, i), direction = laneOf(block.direction, i);
     Vec3 tangent, bitangent;
@@ -188,7 +190,7 @@ void ChunkTracer::scatterOne(const FlightBlock& block, int i, bool mustMirror)
 }
 
 /// Sends the photons of a block on from their surfaces.
-void ChunkTracer::scatter(FlightBlock& block, const SurfaceLanes& surface, int bounce)
+void ChunkTracer::scatter(PhotonPathBlock& block, const SurfaceLanes& surface, int bounce)
 {
     const bool mustMirror = mustReflect(bounce);
     if (mustMirror) _diffuse = 0;
@@ -219,7 +221,7 @@ void ChunkTracer::scatter(FlightBlock& block, const SurfaceLanes& surface, int b
         scatterOne(block, __builtin_ctz(lanes), mustMirror);
     _scattered.alive &= ~(_oneSided & ~(_seen ^ _scattered.transmitted));
     const LaneMask alive = leaveSurfaces(surface, _normal, _scattered, _roulette, block);
-    _flights.append(block, alive);
+    _paths.append(block, alive);
 }
 
 /// Sorts the lanes by what their surfaces are; returns those that photons are stored at.
@@ -258,7 +260,7 @@ LaneMask ChunkTracer::classify(const SurfaceLanes& surface)
 /// for others the faces that all rays pass from one side, where photons meet the side that is seen.
 /// A path from the eye meets that side only, so what it scatters to the other has come from there:
 /// such photons stay, see scatter(). Returns the lanes that go on.
-LaneMask ChunkTracer::passFaces(FlightBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+LaneMask ChunkTracer::passFaces(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                                 int bounce)
 {
     LaneMask passed = 0;
@@ -288,7 +290,7 @@ LaneMask ChunkTracer::passFaces(FlightBlock& block, const SurfaceLanes& surface,
     return passed;
 }
 
-void ChunkTracer::findSurfaces(FlightBlock& block, LaneMask active, int bounce,
+void ChunkTracer::findSurfaces(PhotonPathBlock& block, LaneMask active, int bounce,
                                SurfaceLanes& surface)
 {
     loadRays(block, _rays);
@@ -313,7 +315,7 @@ void ChunkTracer::findSurfaces(FlightBlock& block, LaneMask active, int bounce,
 
 /// Stores the photons of a block at what they meet, and sends them on. The block is a copy: what is
 /// appended to the queue may take its place.
-void ChunkTracer::follow(FlightBlock block, LaneMask active, int bounce)
+void ChunkTracer::follow(PhotonPathBlock block, LaneMask active, int bounce)
 {
     SurfaceLanes surface;
     findSurfaces(block, active, bounce, surface);
@@ -326,7 +328,7 @@ void ChunkTracer::follow(FlightBlock block, LaneMask active, int bounce)
 
 void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
 {
-    FlightBlock block;
+    PhotonPathBlock block;
     for (int i = 0; i < kLanes; ++i)
     {
         block.photon[i] = first + static_cast<uint32_t>(i);
@@ -349,7 +351,7 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
         block.power.y[i] = starts.power.y[i] * share;
         block.power.z[i] = starts.power.z[i] * share;
     }
-    _flights.append(block, lanes);
+    _paths.append(block, lanes);
     for (LaneMask m = lanes; m; m &= m - 1)
     {
         const int i = __builtin_ctz(m);
@@ -365,14 +367,14 @@ void ChunkTracer::trace(uint32_t first, uint32_t count)
     for (uint32_t k = 0; k < count; k += kLanes)
         emitBlock(first + k, std::min<uint32_t>(kLanes, count - k));
     readyRays(_rays);
-    for (int bounce = 0; _flights.size() > 0; ++bounce)
+    for (int bounce = 0; _paths.size() > 0; ++bounce)
     {
-        const uint32_t flying = _flights.size();
-        _flights.clear();
+        const uint32_t flying = _paths.size();
+        _paths.clear();
         for (uint32_t k = 0; k < flying; k += kLanes)
         {
             const uint32_t used = std::min<uint32_t>(kLanes, flying - k);
-            follow(_flights[k / kLanes], kAllLanes >> (kLanes - used), bounce);
+            follow(_paths[k / kLanes], kAllLanes >> (kLanes - used), bounce);
         }
     }
 }

@@ -1,4 +1,4 @@
-// PhotonFlights.h - photons on their way, sixteen to a block. Layer: photons.
+// PhotonPaths.h - photons on their way, sixteen to a block. Layer: photons.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,7 +9,7 @@ namespace osgRayTrace::engine
 {
 
 /// Sixteen photons.
-struct FlightBlock
+struct PhotonPathBlock
 {
     Vec3Lanes origin, direction, power;
     UintLanes photon; ///< its number within the pass
@@ -19,21 +19,21 @@ struct FlightBlock
 
 /// Photons in as few blocks as possible, in order. Those that fly on may be appended to the
 /// beginning of the blocks that they are taken from: a block that has been copied is free.
-class FlightQueue
+class PhotonPathQueue
 {
 public:
-    explicit FlightQueue(uint32_t capacity) : _blocks((capacity + kLanes - 1) / kLanes) {}
+    explicit PhotonPathQueue(uint32_t capacity) : _blocks((capacity + kLanes - 1) / kLanes) {}
 
     uint32_t size() const { return _count; }
-    const FlightBlock& operator[](uint32_t block) const { return _blocks[block]; }
+    const PhotonPathBlock& operator[](uint32_t block) const { return _blocks[block]; }
 
     void clear() { _count = 0; }
 
-    /// The flights of lanes.
-    void append(const FlightBlock& flights, LaneMask lanes);
+    /// The paths of lanes.
+    void append(const PhotonPathBlock& paths, LaneMask lanes);
 
 private:
-    UnclearedArray<FlightBlock> _blocks;
+    UnclearedArray<PhotonPathBlock> _blocks;
     uint32_t _count = 0;
 };
 
@@ -46,7 +46,7 @@ void secondPhotonPoints(const UintLanes& photons, uint32_t seed, FloatLanes& v);
 /// The rays of a block. What is alike for all of them has to be set once, by readyRays, and after a
 /// query the rest by loadRays.
 void readyRays(RayHitBlock& rays);
-void loadRays(const FlightBlock& block, RayHitBlock& rays);
+void loadRays(const PhotonPathBlock& block, RayHitBlock& rays);
 
 /// Where photons go from the surfaces that they met, as the surface models sampled it.
 struct Scattered
@@ -62,8 +62,9 @@ struct Scattered
 void diffuseDirections(const Vec3Lanes& normal, const FloatLanes& u, const FloatLanes& v,
                        Vec3Lanes& wi);
 
-/// Turns a block into the flights that go on from its surfaces; returns their lanes.
+/// Turns a block into the paths that go on from its surfaces; returns their lanes.
 LaneMask leaveSurfaces(const SurfaceLanes& surface, const Vec3Lanes& normal,
-                       const Scattered& scattered, const FloatLanes& roulette, FlightBlock& block);
+                       const Scattered& scattered, const FloatLanes& roulette,
+                       PhotonPathBlock& block);
 
 } // namespace osgRayTrace::engine

@@ -1,6 +1,6 @@
-// PhotonFlights.cpp - photons on their way, sixteen to a block. Layer: photons.
+// PhotonPaths.cpp - photons on their way, sixteen to a block. Layer: photons.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/photons/PhotonFlights.h"
+#include "osgRayTrace/photons/PhotonPaths.h"
 
 #include "osgRayTrace/sampling/Sobol.h"
 #include "osgRayTrace/sampling/Warp.h"
@@ -22,20 +22,20 @@ OSGRAYTRACE_INLINE float largestOf(float a, float b, float c)
 
 } // namespace
 
-void FlightQueue::append(const FlightBlock& flights, LaneMask lanes)
+void PhotonPathQueue::append(const PhotonPathBlock& paths, LaneMask lanes)
 {
     for (; lanes; lanes &= lanes - 1)
     {
         const int from = __builtin_ctz(lanes);
-        FlightBlock& block = _blocks[_count / kLanes];
+        PhotonPathBlock& block = _blocks[_count / kLanes];
         const int to = static_cast<int>(_count % kLanes);
         ++_count;
-        setLane(block.origin, to, laneOf(flights.origin, from));
-        setLane(block.direction, to, laneOf(flights.direction, from));
-        setLane(block.power, to, laneOf(flights.power, from));
-        block.photon[to] = flights.photon[from];
-        block.light[to] = flights.light[from];
-        block.direct[to] = flights.direct[from];
+        setLane(block.origin, to, laneOf(paths.origin, from));
+        setLane(block.direction, to, laneOf(paths.direction, from));
+        setLane(block.power, to, laneOf(paths.power, from));
+        block.photon[to] = paths.photon[from];
+        block.light[to] = paths.light[from];
+        block.direct[to] = paths.direct[from];
     }
 }
 
@@ -50,7 +50,7 @@ void readyRays(RayHitBlock& rays)
 }
 
 OSGRAYTRACE_KERNEL
-void loadRays(const FlightBlock& block, RayHitBlock& rays)
+void loadRays(const PhotonPathBlock& block, RayHitBlock& rays)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
@@ -121,7 +121,8 @@ void diffuseDirections(const Vec3Lanes& normal, const FloatLanes& u, const Float
 /// far as they can.
 OSGRAYTRACE_KERNEL
 LaneMask leaveSurfaces(const SurfaceLanes& surface, const Vec3Lanes& normal,
-                       const Scattered& scattered, const FloatLanes& roulette, FlightBlock& block)
+                       const Scattered& scattered, const FloatLanes& roulette,
+                       PhotonPathBlock& block)
 {
     const LaneMask transmitted = scattered.transmitted, mirrored = scattered.mirrored;
     LaneMask alive = 0;
