@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/OptionTable.h"
 
+#include "osgRayTrace/FormerOptions.h"
 #include "osgRayTrace/base/NeverDestroyed.h"
 #include "osgRayTrace/base/NumberText.h"
 #include "osgRayTrace/bridge/appearance/lights/LightSizes.h"
@@ -29,16 +30,6 @@ std::string plainName(std::string_view name)
     return plain;
 }
 
-std::string environmentName(const std::string& name)
-{
-    std::string variable = "OSGRAYTRACE_";
-    for (char c : name)
-    {
-        variable += c == '-' ? '_' : static_cast<char>(c - 'a' + 'A');
-    }
-    return variable;
-}
-
 /// False unless all of the text is one number within the range.
 template <typename T> bool parseWithin(const std::string& text, const Range<T>& range, T& value)
 {
@@ -51,7 +42,8 @@ template <typename T> bool parseWithin(const std::string& text, const Range<T>& 
 RayTraceSettings::Option describe(const std::string& name, const std::string& range,
                                   const std::string& help)
 {
-    return {name, environmentName(name), std::string(), range, help};
+    const std::string former(formerNameOf(name));
+    return {name, environmentName(name), std::string(), range, help, former};
 }
 
 template <typename T>
@@ -228,9 +220,25 @@ const OptionRow* findRow(const std::string& name)
     const std::string wanted = plain == "passes" ? "maxpasses" : plain;
     for (const OptionRow& row : optionTable())
     {
-        if (plainName(row.option.name) == wanted) return &row;
+        if (plainName(row.option.name) == wanted || isFormerName(row, name)) return &row;
     }
     return nullptr;
+}
+
+bool isFormerName(const OptionRow& row, const std::string& name)
+{
+    const std::string& former = row.option.formerName;
+    return !former.empty() && plainName(former) == plainName(name);
+}
+
+std::string environmentName(const std::string& name)
+{
+    std::string variable = "OSGRAYTRACE_";
+    for (char c : name)
+    {
+        variable += c == '-' ? '_' : static_cast<char>(c - 'a' + 'A');
+    }
+    return variable;
 }
 
 } // namespace osgRayTrace

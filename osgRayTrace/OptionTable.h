@@ -91,8 +91,14 @@ struct OptionRow
 /// In the order of the README's table.
 const std::vector<OptionRow>& optionTable();
 
-/// By any spelling of the name. Null if there is no such option.
+/// By any spelling of the name, or of its former name. Null if there is no such option.
 const OptionRow* findRow(const std::string& name);
+
+/// Whether a name is a spelling of the option's former name.
+bool isFormerName(const OptionRow& row, const std::string& name);
+
+/// The environment variable of an option of this name.
+std::string environmentName(const std::string& name);
 
 bool areLightSizes(const std::string& text);
 

@@ -51,13 +51,29 @@ void changeChoice(const char* name, Words words, T& member, T value, unsigned in
     change(member, value, modifiedCount);
 }
 
+void warnOfFormerName(const std::string& former, const std::string& name)
+{
+    warnOnce(former + " is called " + name + " now; the former name is still read");
+}
+
+/// Null if neither the environment variable of the option nor that of its former name is set.
+const char* environmentText(const RayTraceSettings::Option& option)
+{
+    const char* text = std::getenv(option.environment.c_str());
+    if (text || option.formerName.empty()) return text;
+    const std::string former = environmentName(option.formerName);
+    text = std::getenv(former.c_str());
+    if (text) warnOfFormerName(former, option.environment);
+    return text;
+}
+
 } // namespace
 
 RayTraceSettings::RayTraceSettings()
 {
     for (const OptionRow& row : optionTable())
     {
-        const char* text = std::getenv(row.option.environment.c_str());
+        const char* text = environmentText(row.option);
         if (!text || row.set(*this, text)) continue;
         warnOnce("environment variable " + row.option.environment + ": '" + text +
                  "' is not one of " + row.option.range + "; ignored");
@@ -291,6 +307,7 @@ std::vector<RayTraceSettings::Option> RayTraceSettings::options()
 bool RayTraceSettings::set(const std::string& name, const std::string& value)
 {
     const OptionRow* row = findRow(name);
+    if (row && isFormerName(*row, name)) warnOfFormerName(row->option.formerName, row->option.name);
     return row && row->set(*this, value);
 }
 

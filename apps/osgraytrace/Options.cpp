@@ -86,14 +86,21 @@ void addSettings(CLI::App& app, Options& options)
         const std::string help =
             passes ? "Stop after so many passes (64, unless --time or --error is given)"
                    : option.help;
-        const auto set = [&options, option](const std::string& value)
+        const auto setter = [&options, option](const std::string& spelling)
         {
-            options.assignments.emplace_back(option.name, value);
-            if (options.settings->set(option.name, value)) return;
-            throw CLI::ValidationError("--" + option.name, "'" + value + "' is not one of " +
-                                                               commaSeparated(option.range));
+            return [&options, option, spelling](const std::string& value)
+            {
+                options.assignments.emplace_back(option.name, value);
+                if (options.settings->set(spelling, value)) return;
+                throw CLI::ValidationError("--" + option.name, "'" + value + "' is not one of " +
+                                                                   commaSeparated(option.range));
+            };
         };
-        app.add_option_function<std::string>(name, set, help)
+        if (!option.formerName.empty())
+            app.add_option_function<std::string>("--" + option.formerName,
+                                                 setter(option.formerName))
+                ->group(""); // not shown
+        app.add_option_function<std::string>(name, setter(option.name), help)
             ->option_text(option.range)
             ->group("Settings");
     }

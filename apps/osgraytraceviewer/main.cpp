@@ -62,15 +62,20 @@ Assignments readSettings(osg::ArgumentParser& arguments)
     osg::ref_ptr<RayTraceSettings> trial = new RayTraceSettings;
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
     {
-        std::string value;
-        while (arguments.read("--" + option.name, value) ||
-               (option.name == kMaxPasses && arguments.read(kPasses, value)))
+        const auto readAll = [&](const std::string& argument, const std::string& name)
         {
-            assignments.emplace_back(option.name, value);
-            if (trial->set(option.name, value)) continue;
-            throw Failure(kUsage,
-                          "--" + option.name + " " + value + ": the values are " + option.range);
-        }
+            std::string value;
+            while (arguments.read(argument, value))
+            {
+                assignments.emplace_back(option.name, value);
+                if (trial->set(name, value)) continue;
+                throw Failure(kUsage, "--" + option.name + " " + value + ": the values are " +
+                                          option.range);
+            }
+        };
+        if (!option.formerName.empty()) readAll("--" + option.formerName, option.formerName);
+        readAll("--" + option.name, option.name);
+        if (option.name == kMaxPasses) readAll(kPasses, option.name);
     }
     return assignments;
 }

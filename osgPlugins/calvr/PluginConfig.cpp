@@ -152,9 +152,10 @@ std::string makeEqualOnAllNodes(RayTraceSettings& settings, const PluginConfig& 
     const auto options = RayTraceSettings::options();
     const auto isWanted = [&](const std::string& name)
     {
-        for (const std::string& given : config.given)
-            if (plainName(given) == plainName(name)) return true;
         const RayTraceSettings::Option* option = findOption(options, name);
+        const std::string former = option ? plainName(option->formerName) : std::string();
+        for (const std::string& given : config.given)
+            if (plainName(given) == plainName(name) || plainName(given) == former) return true;
         return option && std::getenv(option->environment.c_str());
     };
     std::string overruled;

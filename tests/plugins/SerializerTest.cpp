@@ -277,6 +277,28 @@ TEST_CASE("serializers: options of another version are passed over", "[plugins]"
     CHECK(copy->getMaxPasses() == 77);
 }
 
+TEST_CASE("serializers: options under their former names are read", "[plugins]")
+{
+    int formerNames = 0;
+    for (const auto& option : RayTraceSettings::options())
+    {
+        if (option.formerName.empty()) continue;
+        ++formerNames;
+        const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+        REQUIRE(settings->set(option.name, option.defaultValue == "true" ? "false" : "true"));
+        std::string text = written(*settings, kFormats[0]);
+        const auto position = text.find(option.name);
+        REQUIRE(position != std::string::npos);
+        text.replace(position, option.name.size(), option.formerName);
+
+        const osg::ref_ptr<osg::Object> object = read(text, kFormats[0]);
+        const auto* copy = dynamic_cast<RayTraceSettings*>(object.get());
+        REQUIRE(copy);
+        CHECK(copy->get(option.name) == settings->get(option.name));
+    }
+    CHECK(formerNames > 0);
+}
+
 TEST_CASE("serializers: RayTracedScene keeps children, switch and settings", "[plugins]")
 {
     const osg::ref_ptr<RayTracedScene> scene = new RayTracedScene;

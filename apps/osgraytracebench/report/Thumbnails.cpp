@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/report/Thumbnails.h"
 
+#include "apps/osgraytracebench/report/DisplayValues.h"
+
 #include <osgDB/Registry>
 
 #include <algorithm>
