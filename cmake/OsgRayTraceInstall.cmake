@@ -31,6 +31,6 @@ install(FILES
 set(OSGRAYTRACE_SHARE_DIR "${CMAKE_INSTALL_DATADIR}/osgRayTrace")
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}")
 install(FILES osgRayTrace/docs/architecture.md osgRayTrace/docs/coverage.md osgRayTrace/docs/references.md
-    DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace")
+    DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace/docs")
 install(DIRECTORY data/ DESTINATION "${OSGRAYTRACE_SHARE_DIR}/data"
     PATTERN CMakeLists.txt EXCLUDE PATTERN generator EXCLUDE)

@@ -6,6 +6,7 @@
 #include "tests/Statistics.h"
 
 #include "osgRayTrace/accel/Embree.h"
+#include "osgRayTrace/accel/Intersector.h"
 
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;

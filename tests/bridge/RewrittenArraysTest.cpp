@@ -1,6 +1,7 @@
 // RewrittenArraysTest.cpp - arrays that are marked as modified with the values that they had.
 // Layer: tests.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/common/MemoryHash.h"
 #include "osgRayTrace/bridge/geometry/BufferContents.h"
 
 #include "tests/Catch.h"

@@ -5,6 +5,7 @@
 
 #include "apps/osgraytracebench/Timing.h"
 #include "osgRayTrace/accel/Embree.h"
+#include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
 

@@ -1,4 +1,5 @@
-// BoundArrays.h - how arrays of a geometry are bound, and which one holds its positions. Layer: bridge.
+// BoundArrays.h - how arrays of a geometry are bound, and which one holds its positions. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -63,7 +63,8 @@ Vec3 channelColor(const PassContext& context, const RayHitBlock& rays, const Sur
 } // namespace
 
 /// Renders with the automatic integrator and shows what it counted.
-void DebugIntegrator::showDiagnostics(const PassContext& context, int left, int bottom, TileResult& result) const
+void DebugIntegrator::showDiagnostics(const PassContext& context, int left, int bottom,
+                                      TileResult& result) const
 {
     constexpr float kFullCost = 64.0f;
     PassContext inner = context;

@@ -24,7 +24,8 @@ public:
                     TileResult& result) const override;
 
 private:
-    void showDiagnostics(const PassContext& context, int left, int bottom, TileResult& result) const;
+    void showDiagnostics(const PassContext& context, int left, int bottom,
+                         TileResult& result) const;
 
     Factory _newIntegrator;
 };

@@ -1,4 +1,5 @@
-// IntegratorChoice.h - the integrator that a scene needs, and the photons that an integrator needs. Layer: integrators.
+// IntegratorChoice.h - the integrator that a scene needs, and the photons that an integrator needs.
+// Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
