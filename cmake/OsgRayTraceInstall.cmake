@@ -32,5 +32,6 @@ set(OSGRAYTRACE_SHARE_DIR "${CMAKE_INSTALL_DATADIR}/osgRayTrace")
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}")
 install(FILES osgRayTrace/docs/architecture.md osgRayTrace/docs/coverage.md osgRayTrace/docs/references.md
     DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace/docs")
+install(DIRECTORY apps/examples DESTINATION "${OSGRAYTRACE_SHARE_DIR}/apps" PATTERN build EXCLUDE)
 install(DIRECTORY data/ DESTINATION "${OSGRAYTRACE_SHARE_DIR}/data"
     PATTERN CMakeLists.txt EXCLUDE PATTERN generator EXCLUDE)
