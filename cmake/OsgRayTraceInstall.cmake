@@ -27,11 +27,13 @@ install(FILES
     "${PROJECT_SOURCE_DIR}/cmake/OsgRayTraceOpenSceneGraph.cmake"
     DESTINATION "${OSGRAYTRACE_PACKAGE_DIR}")
 
-# One folder in which the README's commands and links work: pages, pictures, scenes and configurations.
+# One folder in which the commands and links of README.md and of the pages in docs/ work: pages, pictures, scenes and
+# configurations.
 set(OSGRAYTRACE_SHARE_DIR "${CMAKE_INSTALL_DATADIR}/osgRayTrace")
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}")
-install(FILES osgRayTrace/docs/architecture.md osgRayTrace/docs/coverage.md osgRayTrace/docs/references.md
-    DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace/docs")
+install(FILES osgRayTrace/README.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace")
+install(DIRECTORY osgRayTrace/docs DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace")
+install(FILES tests/README.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}/tests")
 install(DIRECTORY apps/examples DESTINATION "${OSGRAYTRACE_SHARE_DIR}/apps" PATTERN build EXCLUDE)
 install(DIRECTORY data/ DESTINATION "${OSGRAYTRACE_SHARE_DIR}/data"
     PATTERN CMakeLists.txt EXCLUDE PATTERN generator EXCLUDE)

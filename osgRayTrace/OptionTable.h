@@ -88,7 +88,7 @@ struct OptionRow
     std::function<std::string(const RayTraceSettings&)> get;
 };
 
-/// In the order of the README's table.
+/// In the order of the table in docs/settings.md.
 const std::vector<OptionRow>& optionTable();
 
 /// By any spelling of the name, or of its former name. Null if there is no such option.

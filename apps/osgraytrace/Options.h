@@ -56,7 +56,7 @@ void takeStoredSettings(const RayTraceSettings& stored, Options& options);
 /// Nothing if the command line asked for help, which was printed then. Throws Failure(kUsage).
 std::optional<Options> parseOptions(int argc, char** argv);
 
-/// Every RayTraceSettings option as a Markdown table, as the README shows it.
+/// Every RayTraceSettings option as a Markdown table, as osgRayTrace/docs/settings.md shows it.
 std::string optionTable();
 
 } // namespace osgRayTrace::app

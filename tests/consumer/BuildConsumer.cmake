@@ -67,7 +67,8 @@ if(NOT output MATCHES "RMSE 0\n")
 endif()
 
 # Beside the installed README lies all that the pages name: links, and files of data.
-foreach(page README.md data/README.md osgRayTrace/docs/architecture.md osgRayTrace/docs/coverage.md)
+file(GLOB docs RELATIVE "${LIBRARY_SOURCE}" "${LIBRARY_SOURCE}/osgRayTrace/docs/*.md")
+foreach(page README.md data/README.md tests/README.md osgRayTrace/README.md ${docs})
     if(NOT EXISTS "${share}/${page}")
         message(FATAL_ERROR "${page} is not installed")
     endif()
