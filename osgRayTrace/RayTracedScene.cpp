@@ -25,7 +25,7 @@ public:
     explicit SceneRoot(RayTracedScene* owner) : _owner(owner) {}
     META_Node(osgRayTrace, SceneRoot)
 
-        void traverse(osg::NodeVisitor& visitor) override
+    void traverse(osg::NodeVisitor& visitor) override
     {
         if (_owner) _owner->accept(visitor); // with its state and mask
     }
