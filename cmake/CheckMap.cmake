@@ -1,5 +1,6 @@
 # Checks that osgRayTrace/README.md, the map of the code, names each header of the library.
 # Usage: cmake -D ROOT=<source folder> -P CheckMap.cmake; fails and names the headers that are missing.
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
 file(READ "${ROOT}/osgRayTrace/README.md" map)

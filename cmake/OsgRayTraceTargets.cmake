@@ -1,4 +1,5 @@
 # Helpers for this project's targets: warnings, kernel flags, sanitizers, OSG plugins.
+# SPDX-License-Identifier: MIT
 
 add_library(osgRayTraceWarnings INTERFACE)
 target_compile_options(osgRayTraceWarnings INTERFACE
