@@ -9,6 +9,8 @@
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
+# Formatting and API pages are checked with Debian 12's versions.
+PACKAGES+=(clang-format-14 doxygen graphviz)
 install_packages
 
 for folder in "$ROOT/../openscenegraph-data" "$ROOT/../shared/data/openscenegraph-data"; do
