@@ -1,5 +1,6 @@
 # Runs Doxygen and fails if it has anything to say about a public header.
-# Usage: cmake -D DOXYGEN=<program> -D DOXYFILE=<file> -D DOCS=<output folder> -P BuildApiPages.cmake
+# Usage: cmake -D ROOT=<source folder> -D DOXYGEN=<program> -D DOXYFILE=<file> -D DOCS=<output folder>
+#              -P BuildApiPages.cmake
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
@@ -12,6 +13,10 @@ endif()
 if(NOT EXISTS "${DOCS}/html/classosgRayTrace_1_1RayTracedScene.html")
     message(FATAL_ERROR "Doxygen wrote no page of RayTracedScene into ${DOCS}: ${output}")
 endif()
+
+# Pages name their pictures as from the root of the source.
+file(COPY "${ROOT}/data" DESTINATION "${DOCS}/html"
+    FILES_MATCHING PATTERN "*.png" PATTERN "*.gif" PATTERN "*.svg" PATTERN "generator" EXCLUDE)
 
 # Markdown is written for people and for GitHub, whose rules differ from Doxygen's: its warnings are shown.
 file(READ "${DOCS}/warnings.txt" warnings)

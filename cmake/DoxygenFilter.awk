@@ -1,10 +1,53 @@
-# Completes the comments of a public header for Doxygen, so that the source can be brief. Line numbers stay.
+# Completes the source for Doxygen, so that it can be brief. Line numbers stay.
+# In public headers:
 #   - A getter right below its documented setter, or below its documented other form, refers to that one.
 #   - Copy constructors and members that override OpenSceneGraph's say so.
+# In Markdown:
+#   - Headings get GitHub's anchors, with the page before them: "## Light sizes {#settings-light-sizes}".
+#   - Links to headings use these, and pictures are named as from the root of the source.
 # SPDX-License-Identifier: MIT
 
-# Markdown passes as it is.
-FILENAME ~ /\.md$/ { print; next }
+function page_of(path)
+{
+    if (match(path, /(data|tests)\/README\.md$/)) # pages of equal names
+        return tolower(substr(path, RSTART, index(substr(path, RSTART), "/") - 1)) "-readme"
+    sub(/.*\//, "", path)
+    sub(/\.md$/, "", path)
+    return tolower(path)
+}
+
+function anchor_of(heading)
+{
+    heading = tolower(heading)
+    gsub(/[^a-z0-9 _-]/, "", heading)
+    gsub(/ /, "-", heading)
+    return heading
+}
+
+FILENAME ~ /\.md$/ {
+    if (/^```/) fenced = !fenced
+    if (fenced) { print; next }
+    if (/^##+ /)
+    {
+        heading = $0
+        sub(/^#+ /, "", heading)
+        $0 = $0 " {#" page_of(FILENAME) "-" anchor_of(heading) "}"
+    }
+    done = ""
+    while (match($0, /\]\([A-Za-z\/._-]*(\.md)?#[a-z0-9_-]+\)/))
+    {
+        before = substr($0, 1, RSTART + 1)
+        link = substr($0, RSTART + 2, RLENGTH - 3)
+        $0 = substr($0, RSTART + RLENGTH)
+        hash = index(link, "#")
+        page = hash > 1 ? substr(link, 1, hash - 1) : FILENAME
+        done = done before "#" page_of(page) "-" substr(link, hash + 1) ")"
+    }
+    $0 = done $0
+    gsub(/(\.\.\/)+data\//, "data/")
+    print
+    next
+}
 
 {
     line = $0
