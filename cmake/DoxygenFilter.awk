@@ -1,5 +1,6 @@
 # Completes the source for Doxygen, so that it can be brief. Line numbers stay.
 # In public headers:
+#   - The first line describes the file; the include guard is of no interest.
 #   - A getter right below its documented setter, or below its documented other form, refers to that one.
 #   - Copy constructors and members that override OpenSceneGraph's say so.
 # In Markdown:
@@ -46,6 +47,14 @@ FILENAME ~ /\.md$/ {
     $0 = done $0
     gsub(/(\.\.\/)+data\//, "data/")
     print
+    next
+}
+
+/^#define OSGRAYTRACE_[A-Z_]+ 1$/ { print ""; next }
+
+FNR == 1 && /^\/\/ [A-Za-z]+ - / {
+    sub(/^\/\/ [A-Za-z]+ - /, "")
+    print "/** \\brief " toupper(substr($0, 1, 1)) substr($0, 2) " \\file */"
     next
 }
 
