@@ -13,6 +13,7 @@
 #   - DisplayTexture and offscreen alone call OpenGL
 #   - a public header includes only public headers, OpenSceneGraph and the C++ library
 # Usage: cmake -D ROOT=<source folder> -P CheckLayering.cmake; fails with one line for each offence.
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
 set(LAYERS base sampling film scene shading accel photons integrators session bridge API offscreen osgPlugins apps)

@@ -1,5 +1,6 @@
 # Finds what the project builds on. OpenSceneGraph gets imported targets here (osgRayTrace::OSG), once,
 # because CMake's own FindOpenSceneGraph defines none; the wrapper is installed for consumers as well.
+# SPDX-License-Identifier: MIT
 include(OsgRayTraceOpenSceneGraph)
 
 find_package(embree 4 QUIET CONFIG)

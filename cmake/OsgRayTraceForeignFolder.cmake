@@ -1,4 +1,5 @@
 # Modules that other programs load from a folder of theirs find our library from there, wherever that is.
+# SPDX-License-Identifier: MIT
 
 # Installs a module to a folder below the prefix, or to an absolute one. libraryDir: of the library, below the prefix.
 function(osgraytrace_install_module target folder libraryDir)

@@ -1,6 +1,7 @@
 # The installed, exported package: find_package(osgRayTrace) gives osgRayTrace::osgRayTrace and
 # osgRayTrace::offscreen. Nothing in it names a library by its path on the machine that built it:
 # OpenSceneGraph is found again where the package is used.
+# SPDX-License-Identifier: MIT
 include(CMakePackageConfigHelpers)
 
 set(OSGRAYTRACE_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/osgRayTrace")

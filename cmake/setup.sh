@@ -5,12 +5,12 @@
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 # Debian 12's names. xvfb, xauth and openscenegraph (osgviewer, osgconv) are used by the tests, gnuplot by
-# "osgraytracebench report".
+# "osgraytracebench report", clang-format of this version and doxygen by the tests of form.
 PACKAGES=(build-essential cmake ninja-build
           libopenscenegraph-dev libembree-dev libtbb-dev libglm-dev libopenexr-dev libpng-dev libjpeg-dev
           libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri
           libcli11-dev nlohmann-json3-dev catch2 openscenegraph xvfb xauth
-          gnuplot-nox)
+          gnuplot-nox clang-format-14 doxygen graphviz)
 
 say() { printf '%s\n' "$*" >&2; }
 

@@ -33,7 +33,7 @@ void changeNumber(const char* name, const Range<T>& range, T& member, T value,
     {
         warnOnce(std::string(name) + " " + textOf(value) + " is not in " + textOf(range.minimum) +
                  " .. " + textOf(range.maximum));
-        if (value != value) return;
+        if (value != value) return; // NOLINT(misc-redundant-expression): not a number
     }
     change(member, std::clamp(value, range.minimum, range.maximum), modifiedCount);
 }

@@ -203,7 +203,7 @@ TEST_CASE("equal views: two and four walls of any cost agree in each frame, in t
         Cave cave(costs);
         std::mt19937 random(3);
         double x = 0.0, movedSeconds = 0.0;
-        int moved = 0, atRest = 0;
+        int atRest = 0;
         for (int i = 0; i < 150; ++i)
         {
             const bool moves = i % 50 < 25 || random() % 12 == 0;
@@ -213,7 +213,6 @@ TEST_CASE("equal views: two and four walls of any cost agree in each frame, in t
             REQUIRE(allSame(pictures));
             if (i > 3) CHECK(cave.seconds < 1.1 * kBudget);
             if (i > 20 && i < 25) movedSeconds += cave.seconds / 4.0;
-            moved += moves;
             atRest += !moves && pictures[0].divider == 1 && pictures[0].passes > 0;
         }
         CHECK(movedSeconds > 0.4 * kBudget); // the next divider may take four times as long

@@ -1,4 +1,5 @@
 # Installs the library, moves the install elsewhere, and builds and runs the consumer project with it.
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
 function(run)

@@ -1,5 +1,6 @@
 # Gives cmake/CheckLayering.cmake one small source tree for each rule that breaks just that rule, and
 # one that breaks none.
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
 # check(<file> <text> <expected message or empty>): a tree of one good file and this one.

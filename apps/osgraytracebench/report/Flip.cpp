@@ -54,7 +54,7 @@ Color rgbFromXyz(const Color& xyz)
 {
     // Inverse of the matrix above by cofactors.
     const auto& m = kXyzFromRgb;
-    const auto cofactor = [&m](int r, int c)
+    const auto cofactor = [&](int r, int c)
     {
         const int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
         return m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1];
