@@ -70,17 +70,35 @@ struct LevelSums
     float r, g, b, variance, weight;
 };
 
-/// A tap of a level: light is summed as what it differs by, so that an even surface stays as it is.
-OSGRAYTRACE_INLINE void addTap(const Centre& centre, float r, float g, float b, float luminance,
-                               float perDeviation, const GuideTap& surface, const LightTap& light,
-                               int i, float dx, float dy, float kernel, LevelSums& sums)
+/// The light in the middle of the taps.
+struct CentreLight
 {
+    float r, g, b, luminance;
+    float perDeviation; ///< what a difference of luminance is multiplied by, as fallOff's argument
+};
+
+/// Where a tap is, in cells from the middle, and its weight in the kernel.
+struct TapPlace
+{
+    int i; ///< index of the cell in its row
+    float dx, dy, kernel;
+};
+
+/// Adds a tap of a level. The light is summed as its difference from the middle, so that an even
+/// surface stays as it is.
+OSGRAYTRACE_INLINE void addTap(const Centre& centre, const CentreLight& middle,
+                               const GuideTap& surface, const LightTap& light, TapPlace tap,
+                               LevelSums& sums)
+{
+    const int i = tap.i;
     const float tapR = light.r[i], tapG = light.g[i], tapB = light.b[i];
-    const float contrast = std::fabs(luminanceOf(tapR, tapG, tapB) - luminance) * perDeviation;
-    const float weight = kernel * fallOff(contrast + surfaceDistance(centre, surface, i, dx, dy));
-    sums.r += weight * (tapR - r);
-    sums.g += weight * (tapG - g);
-    sums.b += weight * (tapB - b);
+    const float contrast =
+        std::fabs(luminanceOf(tapR, tapG, tapB) - middle.luminance) * middle.perDeviation;
+    const float weight =
+        tap.kernel * fallOff(contrast + surfaceDistance(centre, surface, i, tap.dx, tap.dy));
+    sums.r += weight * (tapR - middle.r);
+    sums.g += weight * (tapG - middle.g);
+    sums.b += weight * (tapB - middle.b);
     sums.variance += weight * weight * light.variance[i];
     sums.weight += weight;
 }
@@ -109,15 +127,16 @@ void filterRow(const GuideTap (&guides)[3], const float* slopeX, const float* sl
         const float r = l1.r[i], g = l1.g[i], b = l1.b[i], v = l1.variance[i];
         const float luminance = luminanceOf(r, g, b);
         const float per = 1.0f / (kDeviations * std::sqrt(v) + kLeastContrast * luminance + 1e-20f);
+        const CentreLight m{r, g, b, luminance, per};
         LevelSums s{0.0f, 0.0f, 0.0f, 0.0625f * v, 0.25f};
-        addTap(c, r, g, b, luminance, per, g0, l0, i - step, -d, -d, 0.0625f, s);
-        addTap(c, r, g, b, luminance, per, g0, l0, i, 0.0f, -d, 0.125f, s);
-        addTap(c, r, g, b, luminance, per, g0, l0, i + step, d, -d, 0.0625f, s);
-        addTap(c, r, g, b, luminance, per, g1, l1, i - step, -d, 0.0f, 0.125f, s);
-        addTap(c, r, g, b, luminance, per, g1, l1, i + step, d, 0.0f, 0.125f, s);
-        addTap(c, r, g, b, luminance, per, g2, l2, i - step, -d, d, 0.0625f, s);
-        addTap(c, r, g, b, luminance, per, g2, l2, i, 0.0f, d, 0.125f, s);
-        addTap(c, r, g, b, luminance, per, g2, l2, i + step, d, d, 0.0625f, s);
+        addTap(c, m, g0, l0, {i - step, -d, -d, 0.0625f}, s);
+        addTap(c, m, g0, l0, {i, 0.0f, -d, 0.125f}, s);
+        addTap(c, m, g0, l0, {i + step, d, -d, 0.0625f}, s);
+        addTap(c, m, g1, l1, {i - step, -d, 0.0f, 0.125f}, s);
+        addTap(c, m, g1, l1, {i + step, d, 0.0f, 0.125f}, s);
+        addTap(c, m, g2, l2, {i - step, -d, d, 0.0625f}, s);
+        addTap(c, m, g2, l2, {i, 0.0f, d, 0.125f}, s);
+        addTap(c, m, g2, l2, {i + step, d, d, 0.0625f}, s);
         const float scale = 1.0f / s.weight;
         out.r[i] = r + scale * s.r;
         out.g[i] = g + scale * s.g;
@@ -131,48 +150,58 @@ struct Moments
     float weight, sum, squares, variance;
 };
 
-/// Without the middle itself; luminance from that of a cell nearby, as squares would lose what is
-/// small.
-OSGRAYTRACE_INLINE void addMoments(const Centre& centre, float reference, const GuideTap& surface,
-                                   const float* means, const float* variances, int i, float dx,
-                                   float dy, Moments& m)
+/// A row of cells of the neighbourhood.
+struct MomentTap
 {
-    const uint32_t known = maskOf(means[i] < 0.5f * kNoLight);
-    const float weight = select(known, fallOff(surfaceDistance(centre, surface, i, dx, dy)), 0.0f);
-    const float difference = select(known, means[i] - reference, 0.0f);
+    GuideTap surface;
+    const float *means, *variances;
+};
+
+/// Adds a cell of the neighbourhood to its moments. Luminance counts from that of a cell nearby
+/// (reference), as the squares of larger numbers would lose small differences.
+OSGRAYTRACE_INLINE void addMoments(const Centre& centre, float reference, const MomentTap& row,
+                                   int i, float dx, float dy, Moments& m)
+{
+    const uint32_t known = maskOf(row.means[i] < 0.5f * kNoLight);
+    const float weight =
+        select(known, fallOff(surfaceDistance(centre, row.surface, i, dx, dy)), 0.0f);
+    const float difference = select(known, row.means[i] - reference, 0.0f);
     m.weight += weight;
     m.sum += weight * difference;
     m.squares += weight * difference * difference;
-    m.variance += weight * variances[i];
+    m.variance += weight * row.variances[i];
 }
 
-OSGRAYTRACE_INLINE void addMomentsOfRow(const Centre& centre, float reference,
-                                        const GuideTap& surface, const float* means,
-                                        const float* variances, int i, float dy, Moments& m)
+/// Adds the cells of a row but for the one in its middle.
+OSGRAYTRACE_INLINE void addMomentsOfRow(const Centre& centre, float reference, const MomentTap& row,
+                                        int i, float dy, Moments& m)
 {
-    addMoments(centre, reference, surface, means, variances, i - 2, -2.0f, dy, m);
-    addMoments(centre, reference, surface, means, variances, i - 1, -1.0f, dy, m);
-    addMoments(centre, reference, surface, means, variances, i + 1, 1.0f, dy, m);
-    addMoments(centre, reference, surface, means, variances, i + 2, 2.0f, dy, m);
+    addMoments(centre, reference, row, i - 2, -2.0f, dy, m);
+    addMoments(centre, reference, row, i - 1, -1.0f, dy, m);
+    addMoments(centre, reference, row, i + 1, 1.0f, dy, m);
+    addMoments(centre, reference, row, i + 2, 2.0f, dy, m);
 }
 
-/// Over 5 x 5 cells.
+/// How the plane through each cell of a row lies.
+struct PlaneRow
+{
+    const float *slopeX, *slopeY, *sharpness;
+};
+
+/// Bounds the light of a row of cells by that of the 5 x 5 cells around each.
 OSGRAYTRACE_KERNEL
-void boundRow(const GuideTap (&guides)[5], const float* slopeX, const float* slopeY,
-              const float* sharpness, const float* const (&means)[5],
-              const float* const (&variances)[5], LightTap light, bool hasErrors, int count,
-              OutRow out)
+void boundRow(const MomentTap (&rows)[5], PlaneRow planes, LightTap light, bool hasErrors,
+              int count, OutRow out)
 {
-    const GuideTap g0 = guides[0], g1 = guides[1], g2 = guides[2], g3 = guides[3], g4 = guides[4];
-    const float *m0 = means[0], *m1 = means[1], *m2 = means[2], *m3 = means[3], *m4 = means[4];
-    const float *v0 = variances[0], *v1 = variances[1], *v2 = variances[2], *v3 = variances[3],
-                *v4 = variances[4];
+    const MomentTap t0 = rows[0], t1 = rows[1], t2 = rows[2], t3 = rows[3], t4 = rows[4];
+    const GuideTap g2 = t2.surface;
+    const float *m1 = t1.means, *m2 = t2.means, *m3 = t3.means, *v2 = t2.variances;
     const uint32_t errors = maskOf(hasErrors);
     OSGRAYTRACE_SIMD
     for (int i = 0; i < count; ++i)
     {
-        const Centre c{g2.normalX[i], g2.normalY[i], g2.normalZ[i], g2.distance[i],
-                       slopeX[i],     slopeY[i],     sharpness[i]};
+        const Centre c{g2.normalX[i],    g2.normalY[i],    g2.normalZ[i],      g2.distance[i],
+                       planes.slopeX[i], planes.slopeY[i], planes.sharpness[i]};
         const float mean = m2[i], own = v2[i];
         // The darkest around, as the middle may be brighter by orders of magnitude.
         const float besides = m2[i - 1] < m2[i + 1] ? m2[i - 1] : m2[i + 1];
@@ -180,15 +209,15 @@ void boundRow(const GuideTap (&guides)[5], const float* slopeX, const float* slo
         const float around = besides < above ? besides : above;
         const float reference = mean < around ? mean : around;
         Moments m{0.0f, 0.0f, 0.0f, 0.0f};
-        addMomentsOfRow(c, reference, g0, m0, v0, i, -2.0f, m);
-        addMoments(c, reference, g0, m0, v0, i, 0.0f, -2.0f, m);
-        addMomentsOfRow(c, reference, g1, m1, v1, i, -1.0f, m);
-        addMoments(c, reference, g1, m1, v1, i, 0.0f, -1.0f, m);
-        addMomentsOfRow(c, reference, g2, m2, v2, i, 0.0f, m);
-        addMomentsOfRow(c, reference, g3, m3, v3, i, 1.0f, m);
-        addMoments(c, reference, g3, m3, v3, i, 0.0f, 1.0f, m);
-        addMomentsOfRow(c, reference, g4, m4, v4, i, 2.0f, m);
-        addMoments(c, reference, g4, m4, v4, i, 0.0f, 2.0f, m);
+        addMomentsOfRow(c, reference, t0, i, -2.0f, m);
+        addMoments(c, reference, t0, i, 0.0f, -2.0f, m);
+        addMomentsOfRow(c, reference, t1, i, -1.0f, m);
+        addMoments(c, reference, t1, i, 0.0f, -1.0f, m);
+        addMomentsOfRow(c, reference, t2, i, 0.0f, m);
+        addMomentsOfRow(c, reference, t3, i, 1.0f, m);
+        addMoments(c, reference, t3, i, 0.0f, 1.0f, m);
+        addMomentsOfRow(c, reference, t4, i, 2.0f, m);
+        addMoments(c, reference, t4, i, 0.0f, 2.0f, m);
 
         const float scale = m.weight > 1e-6f ? 1.0f / m.weight : 0.0f;
         const float towards = scale * m.sum; // the neighbours' mean, from the reference
@@ -278,17 +307,13 @@ void filterCells(const DenoiseGuides& guides, const CellLight& light, int step, 
 void boundCells(const DenoiseGuides& guides, const CellStatistics& statistics,
                 const CellLight& light, bool hasErrors, int y, CellLight& bounded)
 {
-    GuideTap surfaces[5];
-    const float *means[5], *variances[5];
+    MomentTap rows[5];
     for (int i = 0; i < 5; ++i)
-    {
-        surfaces[i] = guideTap(guides, y + i - 2);
-        means[i] = statistics.mean.row(y + i - 2);
-        variances[i] = statistics.variance.row(y + i - 2);
-    }
-    boundRow(surfaces, guides.cells.slopeX.row(y), guides.cells.slopeY.row(y),
-             guides.cells.sharpness.row(y), means, variances, lightTap(light, y), hasErrors,
-             guides.cellsX,
+        rows[i] = {guideTap(guides, y + i - 2), statistics.mean.row(y + i - 2),
+                   statistics.variance.row(y + i - 2)};
+    const CellGuides& cells = guides.cells;
+    boundRow(rows, {cells.slopeX.row(y), cells.slopeY.row(y), cells.sharpness.row(y)},
+             lightTap(light, y), hasErrors, guides.cellsX,
              {bounded.r.row(y), bounded.g.row(y), bounded.b.row(y), bounded.variance.row(y)});
 }
 

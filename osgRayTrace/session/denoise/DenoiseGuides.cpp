@@ -47,14 +47,32 @@ void findScattering(const SurfaceSample* samples, int count, uint8_t* __restrict
     }
 }
 
-/// Of one row; pixels past its end have no surface. Nor has one beside a pixel that does not
-/// scatter: it may show some of a lamp or of the sky. below, here, above: the rows of
-/// findScattering, of which the pixels before the first and past the last are looked at.
-OSGRAYTRACE_KERNEL
-void unpack(const SurfaceSample* samples, const uint8_t* below, const uint8_t* here,
-            const uint8_t* above, int count, float* __restrict normalX, float* __restrict normalY,
-            float* __restrict normalZ, float* __restrict distance)
+/// The surfaces of a row of pixels or of cells.
+struct SurfaceRow
 {
+    float* __restrict normalX;
+    float* __restrict normalY;
+    float* __restrict normalZ;
+    float* __restrict distance;
+};
+
+SurfaceRow rowOf(Surfaces& s, int row)
+{
+    return {s.normalX[row], s.normalY[row], s.normalZ[row], s.distance[row]};
+}
+
+/// Three rows of findScattering. The pixels before the first and past the last are looked at.
+struct ScatterRows
+{
+    const uint8_t *below, *here, *above;
+};
+
+/// Unpacks the surfaces of one row. Pixels past its end have no surface. A pixel beside one that
+/// does not scatter has none either: it may show some of a lamp or of the sky.
+OSGRAYTRACE_KERNEL
+void unpack(const SurfaceSample* samples, ScatterRows scatters, int count, SurfaceRow row)
+{
+    const uint8_t *below = scatters.below, *here = scatters.here, *above = scatters.above;
     OSGRAYTRACE_SIMD
     for (int i = 0; i < count; ++i)
     {
@@ -62,15 +80,15 @@ void unpack(const SurfaceSample* samples, const uint8_t* below, const uint8_t* h
         const int scattering = below[i - 1] & below[i] & below[i + 1] & here[i - 1] & here[i] &
                                here[i + 1] & above[i - 1] & above[i] & above[i + 1];
         const uint32_t known = maskOf(scattering != 0);
-        normalX[i] = select(known, s.normal.x, 0.0f);
-        normalY[i] = select(known, s.normal.y, 0.0f);
-        normalZ[i] = select(known, s.normal.z, 0.0f);
-        distance[i] = select(known, s.distance, kNoSurface);
+        row.normalX[i] = select(known, s.normal.x, 0.0f);
+        row.normalY[i] = select(known, s.normal.y, 0.0f);
+        row.normalZ[i] = select(known, s.normal.z, 0.0f);
+        row.distance[i] = select(known, s.distance, kNoSurface);
     }
     for (int i = count; i < kSegment; ++i)
     {
-        normalX[i] = normalY[i] = normalZ[i] = 0.0f;
-        distance[i] = kNoSurface;
+        row.normalX[i] = row.normalY[i] = row.normalZ[i] = 0.0f;
+        row.distance[i] = kNoSurface;
     }
 }
 
@@ -89,17 +107,9 @@ void unpackAlbedo(const SurfaceSample* samples, const float* distance, int count
     }
 }
 
-struct CellRow
-{
-    float* __restrict normalX;
-    float* __restrict normalY;
-    float* __restrict normalZ;
-    float* __restrict distance;
-};
-
 /// The means over those pixels that show the same as the first that shows anything.
 OSGRAYTRACE_KERNEL
-void makeCells(const Surfaces& s, int count, CellRow cells, uint8_t* __restrict inCell0,
+void makeCells(const Surfaces& s, int count, SurfaceRow cells, uint8_t* __restrict inCell0,
                uint8_t* __restrict inCell1)
 {
     constexpr float kAlike = 2.0f; // of fallOff's argument: normals within 10 degrees
@@ -214,14 +224,21 @@ struct WeightRow
     uint8_t* __restrict acrossBoth;
 };
 
-/// For pixels of one row, count cells of them from firstCell on; cells, across: the row of cells
-/// that they are in, and the one that is next. offsetY: of the pixels from the middle of their
-/// cells. even, odd: of the columns.
+/// The cells whose pixels are weighed: count of them, from first on.
+struct CellRange
+{
+    int first, count;
+};
+
+/// Weighs the cells around each pixel of a row. cells and across are the row of cells that the
+/// pixels are in, and the next one; offsetY is the distance of the pixels from the middle of their
+/// cells; even and odd are the columns of the pixels.
 OSGRAYTRACE_KERNEL
-void weighCells(const float* nx, const float* ny, const float* nz, const float* distance,
-                int firstCell, int count, float offsetY, GuideRow cells, GuideRow across,
+void weighCells(SurfaceRow row, CellRange range, float offsetY, GuideRow cells, GuideRow across,
                 WeightRow even, WeightRow odd)
 {
+    const float *nx = row.normalX, *ny = row.normalY, *nz = row.normalZ, *distance = row.distance;
+    const int firstCell = range.first, count = range.count;
     const float far = offsetY > 0.0f ? offsetY - 1.0f : offsetY + 1.0f;
     OSGRAYTRACE_SIMD
     for (int i = 0; i < count; ++i)
@@ -239,6 +256,83 @@ void weighCells(const float* nx, const float* ny, const float* nz, const float* 
         odd.acrossBoth[i] = likeness(b, across, c + 1, -0.75f, far, 1.0f);
     }
 }
+
+/// Makes the guides of one row after the other, of pixels or of cells.
+struct GuideMaker
+{
+    DenoiseGuides& guides;
+    const std::vector<SurfaceSample>& surfaces;
+
+    const SurfaceSample* samplesAt(int x, int y) const
+    {
+        return &surfaces[static_cast<std::size_t>(y) * static_cast<std::size_t>(guides.width) +
+                         static_cast<std::size_t>(x)];
+    }
+
+    /// Unpacks a segment of row y, from column x on. Returns the number of pixels that it has.
+    int unpackAt(Surfaces& s, int row, int x, int y) const
+    {
+        const int count = y < guides.height ? std::min(kSegment, guides.width - x) : 0;
+        const int inside = std::min(y, guides.height - 1);
+        const auto scatters = [&](int above)
+        { return guides.scatters.row(inside + above) + x + 1; };
+        unpack(samplesAt(x, inside), {scatters(0), scatters(1), scatters(2)}, count, rowOf(s, row));
+        return count;
+    }
+
+    void findScatteringOf(int y) const
+    {
+        findScattering(samplesAt(0, y), guides.width, guides.scatters.row(y + 1) + 1);
+    }
+
+    void makeCellsOf(int row) const
+    {
+        Surfaces s;
+        CellGuides& cells = guides.cells;
+        for (int x = 0; x < guides.width; x += kSegment)
+        {
+            for (int i = 0; i < 2; ++i)
+            {
+                const int y = 2 * row + i, count = unpackAt(s, i, x, y);
+                if (count)
+                    unpackAlbedo(samplesAt(x, y), s.distance[i], count, guides.albedoR.row(y) + x,
+                                 guides.albedoG.row(y) + x, guides.albedoB.row(y) + x);
+            }
+            const int c = x / 2;
+            makeCells(s, std::min(kSegment / 2, guides.cellsX - c),
+                      {cells.normalX.row(row) + c, cells.normalY.row(row) + c,
+                       cells.normalZ.row(row) + c, cells.distance.row(row) + c},
+                      guides.inCell.row(2 * row) + x, guides.inCell.row(2 * row + 1) + x);
+        }
+    }
+
+    void makeSlopesOf(int y) const
+    {
+        CellGuides& cells = guides.cells;
+        makeSlopes(cells.distance.row(y + 1), cells.distance.row(y), cells.distance.row(y - 1),
+                   guides.cellsX, cells.slopeX.row(y), cells.slopeY.row(y), cells.sharpness.row(y));
+    }
+
+    void weighCellsOf(int y) const
+    {
+        const int side = 2 * (y & 1) - 1;
+        Surfaces s;
+        for (int x = 0; x < guides.width; x += kSegment)
+        {
+            unpackAt(s, 0, x, y);
+            const int c = x / 2;
+            const auto weights = [&](int first)
+            {
+                return WeightRow{guides.near.row(y) + first, guides.acrossX.row(y) + first,
+                                 guides.acrossY.row(y) + first, guides.acrossBoth.row(y) + first};
+            };
+            weighCells(rowOf(s, 0), {c, std::min(kSegment / 2, guides.cellsX - c)},
+                       0.25f * static_cast<float>(side), guideRow(guides.cells, y / 2),
+                       guideRow(guides.cells, y / 2 + side), weights(c),
+                       weights(guides.cellsX + c));
+        }
+    }
+};
 
 } // namespace
 
@@ -269,78 +363,13 @@ void DenoiseGuides::set(const std::vector<SurfaceSample>& surfaces, int pixelsX,
                         const Workers& workers)
 {
     allocate(pixelsX, pixelsY);
-    const auto samplesAt = [&](int x, int y)
-    {
-        return &surfaces[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                         static_cast<std::size_t>(x)];
-    };
-    const auto unpackAt = [&](Surfaces& s, int row, int x, int y)
-    {
-        const int count = y < height ? std::min(kSegment, width - x) : 0;
-        const int inside = std::min(y, height - 1);
-        unpack(samplesAt(x, inside), scatters.row(inside) + x + 1, scatters.row(inside + 1) + x + 1,
-               scatters.row(inside + 2) + x + 1, count, s.normalX[row], s.normalY[row],
-               s.normalZ[row], s.distance[row]);
-        return count;
-    };
-    workers.forEach(static_cast<std::size_t>(height),
-                    [&](std::size_t y)
-                    {
-                        const int row = static_cast<int>(y);
-                        findScattering(samplesAt(0, row), width, scatters.row(row + 1) + 1);
-                    });
-    const auto rows = static_cast<std::size_t>(cellsY);
-    workers.forEach(rows,
-                    [&](std::size_t index)
-                    {
-                        const int row = static_cast<int>(index);
-                        Surfaces s;
-                        for (int x = 0; x < width; x += kSegment)
-                        {
-                            for (int i = 0; i < 2; ++i)
-                            {
-                                const int y = 2 * row + i, count = unpackAt(s, i, x, y);
-                                if (count)
-                                    unpackAlbedo(samplesAt(x, y), s.distance[i], count,
-                                                 albedoR.row(y) + x, albedoG.row(y) + x,
-                                                 albedoB.row(y) + x);
-                            }
-                            const int c = x / 2;
-                            makeCells(s, std::min(kSegment / 2, cellsX - c),
-                                      {cells.normalX.row(row) + c, cells.normalY.row(row) + c,
-                                       cells.normalZ.row(row) + c, cells.distance.row(row) + c},
-                                      inCell.row(2 * row) + x, inCell.row(2 * row + 1) + x);
-                        }
-                    });
-    workers.forEach(rows,
-                    [&](std::size_t index)
-                    {
-                        const int y = static_cast<int>(index);
-                        makeSlopes(cells.distance.row(y + 1), cells.distance.row(y),
-                                   cells.distance.row(y - 1), cellsX, cells.slopeX.row(y),
-                                   cells.slopeY.row(y), cells.sharpness.row(y));
-                    });
-    workers.forEach(static_cast<std::size_t>(height),
-                    [&](std::size_t index)
-                    {
-                        const int y = static_cast<int>(index), side = 2 * (y & 1) - 1;
-                        Surfaces s;
-                        for (int x = 0; x < width; x += kSegment)
-                        {
-                            unpackAt(s, 0, x, y);
-                            const int c = x / 2;
-                            const auto weights = [&](int first)
-                            {
-                                return WeightRow{near.row(y) + first, acrossX.row(y) + first,
-                                                 acrossY.row(y) + first, acrossBoth.row(y) + first};
-                            };
-                            weighCells(s.normalX[0], s.normalY[0], s.normalZ[0], s.distance[0], c,
-                                       std::min(kSegment / 2, cellsX - c),
-                                       0.25f * static_cast<float>(side), guideRow(cells, y / 2),
-                                       guideRow(cells, y / 2 + side), weights(c),
-                                       weights(cellsX + c));
-                        }
-                    });
+    const GuideMaker maker{*this, surfaces};
+    const auto pixelRows = static_cast<std::size_t>(height);
+    const auto cellRows = static_cast<std::size_t>(cellsY);
+    workers.forEach(pixelRows, [&](std::size_t y) { maker.findScatteringOf(static_cast<int>(y)); });
+    workers.forEach(cellRows, [&](std::size_t y) { maker.makeCellsOf(static_cast<int>(y)); });
+    workers.forEach(cellRows, [&](std::size_t y) { maker.makeSlopesOf(static_cast<int>(y)); });
+    workers.forEach(pixelRows, [&](std::size_t y) { maker.weighCellsOf(static_cast<int>(y)); });
 }
 
 } // namespace osgRayTrace::engine

@@ -42,10 +42,10 @@ struct DenoiseGuides
 
     CellGuides cells;
 
+    PixelPlane<uint8_t> scatters; ///< 1: the pixel scatters light; with a margin of one pixel
+
 private:
     void allocate(int pixelsX, int pixelsY);
-
-    PixelPlane<uint8_t> scatters; ///< with a margin of one pixel
 };
 
 /// How alike surfaces are in their normals, as fallOff's argument [Schied17, eq. 4]: about cos^128.

@@ -79,12 +79,37 @@ struct ProjectedRow
     std::vector<float> limit;                  ///< of samples; 0: not in the old image
 };
 
+/// A row of surfaces of the new view.
+struct SurfaceRow
+{
+    const float* __restrict along;
+    const float* __restrict lobe;
+};
+
+/// A ProjectedRow as its loop writes it.
+struct ProjectedOut
+{
+    float* __restrict x;
+    float* __restrict y;
+    float* __restrict pointX;
+    float* __restrict pointY;
+    float* __restrict pointZ;
+    float* __restrict limit;
+};
+
+/// Returns the sine of the angle between two rays that meet at a point, less 1e-5, which may be
+/// rounding, and at least 0.
+OSGRAYTRACE_INLINE float sineBetween(float ax, float ay, float az, float dx, float dy, float dz)
+{
+    const float cx = ay * dz - az * dy, cy = az * dx - ax * dz, cz = ax * dy - ay * dx;
+    const float squares = (ax * ax + ay * ay + az * az) * (dx * dx + dy * dy + dz * dz);
+    const float sine = std::sqrt((cx * cx + cy * cy + cz * cz) / squares) - 1e-5f;
+    return select(sine > 0.0f, sine, 0.0f);
+}
+
 OSGRAYTRACE_KERNEL
 void projectRow(const Projection& projection, const ReprojectionLimits& limits, std::size_t width,
-                int row, const float* __restrict along, const float* __restrict lobe,
-                float* __restrict outX, float* __restrict outY, float* __restrict outPointX,
-                float* __restrict outPointY, float* __restrict outPointZ,
-                float* __restrict outLimit)
+                int row, SurfaceRow in, ProjectedOut out)
 {
     const Projection p = projection;
     const float most = limits.count, share = limits.lobeShare, turn = limits.turn;
@@ -102,7 +127,7 @@ void projectRow(const Projection& projection, const ReprojectionLimits& limits, 
     {
         const float xf = static_cast<float>(static_cast<int>(i)) + 0.5f;
         const double x = xf;
-        const float nearness = 1.0f / along[i];
+        const float nearness = 1.0f / in.along[i];
         const double n = nearness;
         const double clipX =
             n * (clipStart.x + x * clipStartDx.x) + clipAlong.x + x * clipAlongDx.x;
@@ -120,26 +145,22 @@ void projectRow(const Projection& projection, const ReprojectionLimits& limits, 
         const float py = nearness * (start.y + xf * startDx.y) + dy;
         const float pz = nearness * (start.z + xf * startDx.z) + dz;
 
-        // The angle between the two rays that meet at the point; 1e-5 of it may be rounding.
         const float ax = select(isParallel, parallel.x, px),
                     ay = select(isParallel, parallel.y, py),
                     az = select(isParallel, parallel.z, pz);
-        const float cx = ay * dz - az * dy, cy = az * dx - ax * dz, cz = ax * dy - ay * dx;
-        const float squares = (ax * ax + ay * ay + az * az) * (dx * dx + dy * dy + dz * dz);
-        const float sine = std::sqrt((cx * cx + cy * cy + cz * cz) / squares) - 1e-5f;
-        const float angle = select(sine > 0.0f, sine, 0.0f) + turn;
-        const float byLobe = share * lobe[i] / angle; // 0/0: neither of the two below
+        const float angle = sineBetween(ax, ay, az, dx, dy, dz) + turn;
+        const float byLobe = share * in.lobe[i] / angle; // 0/0: neither of the two below
         const float limit = select(byLobe < most, byLobe, most);
 
         const uint32_t inside = maskOf(clipW * p.wSign > 0.0) & maskOf(oldX >= 0.0) &
                                 maskOf(oldX < right) & maskOf(oldY >= 0.0) & maskOf(oldY < top) &
                                 maskOf(nearness >= 0.0f);
-        outX[i] = static_cast<float>(oldX - 0.5);
-        outY[i] = static_cast<float>(oldY - 0.5);
-        outPointX[i] = px;
-        outPointY[i] = py;
-        outPointZ[i] = pz;
-        outLimit[i] = select(inside, limit, 0.0f);
+        out.x[i] = static_cast<float>(oldX - 0.5);
+        out.y[i] = static_cast<float>(oldY - 0.5);
+        out.pointX[i] = px;
+        out.pointY[i] = py;
+        out.pointZ[i] = pz;
+        out.limit[i] = select(inside, limit, 0.0f);
     }
 }
 
@@ -319,15 +340,19 @@ std::size_t gatherRow(const Reprojector& reprojector, std::size_t first, std::si
     return found;
 }
 
+ProjectedOut outOf(ProjectedRow& row)
+{
+    return {row.x.data(),      row.y.data(),      row.pointX.data(),
+            row.pointY.data(), row.pointZ.data(), row.limit.data()};
+}
+
 std::size_t reprojectRow(const Reprojector& reprojector, std::size_t y, ProjectedRow& projected)
 {
     const SurfaceMap& to = reprojector.to;
     const auto width = static_cast<std::size_t>(to.view.width);
     const std::size_t first = y * width;
     projectRow(reprojector.projection, reprojector.limits, width, static_cast<int>(y),
-               &to.along[first], &to.lobe[first], projected.x.data(), projected.y.data(),
-               projected.pointX.data(), projected.pointY.data(), projected.pointZ.data(),
-               projected.limit.data());
+               {&to.along[first], &to.lobe[first]}, outOf(projected));
     return gatherRow(reprojector, first, width, projected);
 }
 
