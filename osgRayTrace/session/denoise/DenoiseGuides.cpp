@@ -3,6 +3,7 @@
 #include "osgRayTrace/session/denoise/DenoiseGuides.h"
 
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/session/denoise/DenoiseSurfaces.h"
 
 #include <algorithm>
 
@@ -12,153 +13,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr int kSegment = 256; ///< pixels of two rows that are worked on while they are in the cache
-
-/// Below this, light over albedo would be more noise than light.
-constexpr float kLeastAlbedo = 0.02f;
-
-/// How far distances on one surface may be from those on a plane: this much of the distance, and of
-/// what the plane changes from cell to cell.
-constexpr float kDistanceTolerance = 0.01f;
+/// What a slope may change, as a share of the slope.
 constexpr float kSlopeTolerance = 0.5f;
-
-/// One array for each quantity, for pixels of two rows.
-struct Surfaces
-{
-    float normalX[2][kSegment], normalY[2][kSegment], normalZ[2][kSegment];
-    float distance[2][kSegment];
-};
-
-/// 1 for pixels whose surface scatters the light that is seen there, and is finite.
-OSGRAYTRACE_KERNEL
-void findScattering(const SurfaceSample* samples, int count, uint8_t* __restrict scatters)
-{
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < count; ++i)
-    {
-        const SurfaceSample& s = samples[i];
-        const float length =
-            s.normal.x * s.normal.x + s.normal.y * s.normal.y + s.normal.z * s.normal.z;
-        const uint32_t known = maskOf(s.kind == SurfaceKind::Scattering) &
-                               maskOf(s.distance < kNoSurface) & maskOf(length > 0.5f) &
-                               maskOf(length < 2.0f) &
-                               maskOf(s.albedo.x + s.albedo.y + s.albedo.z < kNoSurface);
-        scatters[i] = static_cast<uint8_t>(known & 1u);
-    }
-}
-
-/// The surfaces of a row of pixels or of cells.
-struct SurfaceRow
-{
-    float* __restrict normalX;
-    float* __restrict normalY;
-    float* __restrict normalZ;
-    float* __restrict distance;
-};
-
-SurfaceRow rowOf(Surfaces& s, int row)
-{
-    return {s.normalX[row], s.normalY[row], s.normalZ[row], s.distance[row]};
-}
-
-/// Three rows of findScattering. The pixels before the first and past the last are looked at.
-struct ScatterRows
-{
-    const uint8_t *below, *here, *above;
-};
-
-/// Unpacks the surfaces of one row. Pixels past its end have no surface. A pixel beside one that
-/// does not scatter has none either: it may show some of a lamp or of the sky.
-OSGRAYTRACE_KERNEL
-void unpack(const SurfaceSample* samples, ScatterRows scatters, int count, SurfaceRow row)
-{
-    const uint8_t *below = scatters.below, *here = scatters.here, *above = scatters.above;
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < count; ++i)
-    {
-        const SurfaceSample& s = samples[i];
-        const int scattering = below[i - 1] & below[i] & below[i + 1] & here[i - 1] & here[i] &
-                               here[i + 1] & above[i - 1] & above[i] & above[i + 1];
-        const uint32_t known = maskOf(scattering != 0);
-        row.normalX[i] = select(known, s.normal.x, 0.0f);
-        row.normalY[i] = select(known, s.normal.y, 0.0f);
-        row.normalZ[i] = select(known, s.normal.z, 0.0f);
-        row.distance[i] = select(known, s.distance, kNoSurface);
-    }
-    for (int i = count; i < kSegment; ++i)
-    {
-        row.normalX[i] = row.normalY[i] = row.normalZ[i] = 0.0f;
-        row.distance[i] = kNoSurface;
-    }
-}
-
-OSGRAYTRACE_KERNEL
-void unpackAlbedo(const SurfaceSample* samples, const float* distance, int count,
-                  float* __restrict r, float* __restrict g, float* __restrict b)
-{
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < count; ++i)
-    {
-        const SurfaceSample& s = samples[i];
-        const uint32_t known = maskOf(distance[i] < kNoSurface);
-        r[i] = select(known, s.albedo.x > kLeastAlbedo ? s.albedo.x : kLeastAlbedo, 0.0f);
-        g[i] = select(known, s.albedo.y > kLeastAlbedo ? s.albedo.y : kLeastAlbedo, 0.0f);
-        b[i] = select(known, s.albedo.z > kLeastAlbedo ? s.albedo.z : kLeastAlbedo, 0.0f);
-    }
-}
-
-/// The means over those pixels that show the same as the first that shows anything.
-OSGRAYTRACE_KERNEL
-void makeCells(const Surfaces& s, int count, SurfaceRow cells, uint8_t* __restrict inCell0,
-               uint8_t* __restrict inCell1)
-{
-    constexpr float kAlike = 2.0f; // of fallOff's argument: normals within 10 degrees
-    OSGRAYTRACE_SIMD
-    for (int c = 0; c < count; ++c)
-    {
-        const float nx[4] = {s.normalX[0][2 * c], s.normalX[0][2 * c + 1], s.normalX[1][2 * c],
-                             s.normalX[1][2 * c + 1]};
-        const float ny[4] = {s.normalY[0][2 * c], s.normalY[0][2 * c + 1], s.normalY[1][2 * c],
-                             s.normalY[1][2 * c + 1]};
-        const float nz[4] = {s.normalZ[0][2 * c], s.normalZ[0][2 * c + 1], s.normalZ[1][2 * c],
-                             s.normalZ[1][2 * c + 1]};
-        const float d[4] = {s.distance[0][2 * c], s.distance[0][2 * c + 1], s.distance[1][2 * c],
-                            s.distance[1][2 * c + 1]};
-        float fx = nx[3], fy = ny[3], fz = nz[3], fd = d[3];
-        for (int i = 2; i >= 0; --i)
-        {
-            const uint32_t known = maskOf(d[i] < kNoSurface);
-            fx = select(known, nx[i], fx);
-            fy = select(known, ny[i], fy);
-            fz = select(known, nz[i], fz);
-            fd = select(known, d[i], fd);
-        }
-        float sumX = 0.0f, sumY = 0.0f, sumZ = 0.0f, sumD = 0.0f, sum = 0.0f;
-        float share[4];
-        for (int i = 0; i < 4; ++i)
-        {
-            const uint32_t same = maskOf(d[i] < kNoSurface) &
-                                  maskOf(normalDistance(fx, fy, fz, nx[i], ny[i], nz[i]) < kAlike) &
-                                  maskOf(std::fabs(d[i] - fd) < 5.0f * kDistanceTolerance * fd);
-            share[i] = select(same, 1.0f, 0.0f);
-            sumX += share[i] * nx[i];
-            sumY += share[i] * ny[i];
-            sumZ += share[i] * nz[i];
-            sumD += select(same, d[i], 0.0f);
-            sum += share[i];
-        }
-        const float length = std::sqrt(sumX * sumX + sumY * sumY + sumZ * sumZ);
-        const float scale = length > 0.0f ? 1.0f / length : 0.0f;
-        cells.normalX[c] = sumX * scale;
-        cells.normalY[c] = sumY * scale;
-        cells.normalZ[c] = sumZ * scale;
-        cells.distance[c] = sum > 0.0f ? sumD / sum : kNoSurface;
-        inCell0[2 * c] = static_cast<uint8_t>(share[0]);
-        inCell0[2 * c + 1] = static_cast<uint8_t>(share[1]);
-        inCell1[2 * c] = static_cast<uint8_t>(share[2]);
-        inCell1[2 * c + 1] = static_cast<uint8_t>(share[3]);
-    }
-}
 
 /// The smaller of the differences to both sides: that over an edge is larger.
 OSGRAYTRACE_INLINE float slopeOf(float before, float here, float after)
@@ -272,7 +128,7 @@ struct GuideMaker
     /// Unpacks a segment of row y, from column x on. Returns the number of pixels that it has.
     int unpackAt(Surfaces& s, int row, int x, int y) const
     {
-        const int count = y < guides.height ? std::min(kSegment, guides.width - x) : 0;
+        const int count = y < guides.height ? std::min(kSurfaceSegment, guides.width - x) : 0;
         const int inside = std::min(y, guides.height - 1);
         const auto scatters = [&](int above)
         { return guides.scatters.row(inside + above) + x + 1; };
@@ -289,7 +145,7 @@ struct GuideMaker
     {
         Surfaces s;
         CellGuides& cells = guides.cells;
-        for (int x = 0; x < guides.width; x += kSegment)
+        for (int x = 0; x < guides.width; x += kSurfaceSegment)
         {
             for (int i = 0; i < 2; ++i)
             {
@@ -299,7 +155,7 @@ struct GuideMaker
                                  guides.albedoG.row(y) + x, guides.albedoB.row(y) + x);
             }
             const int c = x / 2;
-            makeCells(s, std::min(kSegment / 2, guides.cellsX - c),
+            makeCells(s, std::min(kSurfaceSegment / 2, guides.cellsX - c),
                       {cells.normalX.row(row) + c, cells.normalY.row(row) + c,
                        cells.normalZ.row(row) + c, cells.distance.row(row) + c},
                       guides.inCell.row(2 * row) + x, guides.inCell.row(2 * row + 1) + x);
@@ -317,7 +173,7 @@ struct GuideMaker
     {
         const int side = 2 * (y & 1) - 1;
         Surfaces s;
-        for (int x = 0; x < guides.width; x += kSegment)
+        for (int x = 0; x < guides.width; x += kSurfaceSegment)
         {
             unpackAt(s, 0, x, y);
             const int c = x / 2;
@@ -326,7 +182,7 @@ struct GuideMaker
                 return WeightRow{guides.near.row(y) + first, guides.acrossX.row(y) + first,
                                  guides.acrossY.row(y) + first, guides.acrossBoth.row(y) + first};
             };
-            weighCells(rowOf(s, 0), {c, std::min(kSegment / 2, guides.cellsX - c)},
+            weighCells(rowOf(s, 0), {c, std::min(kSurfaceSegment / 2, guides.cellsX - c)},
                        0.25f * static_cast<float>(side), guideRow(guides.cells, y / 2),
                        guideRow(guides.cells, y / 2 + side), weights(c),
                        weights(guides.cellsX + c));
