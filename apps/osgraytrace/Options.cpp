@@ -27,7 +27,7 @@ const char* const kFooter =
     "Formats: .exr holds linear radiance and channels; .png and .jpg are tone mapped.\n"
     "Exit codes: 0 done, 1 usage, 2 cannot load, 3 cannot render, 4 cannot write.";
 
-/// What the command line holds before it is checked as a whole.
+/// Holds the values of the command line before they are checked as a whole.
 struct RawOptions
 {
     std::vector<int> size;

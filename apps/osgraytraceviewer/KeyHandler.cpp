@@ -55,8 +55,8 @@ std::string freeFileName()
 bool KeyHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action)
 {
     if (event.getHandled()) return false;
-    // Other handlers act on releases: the release of F is that of f, which is osgViewer's full
-    // screen, if Shift was let go before it.
+    // Other handlers act on releases. If Shift is let go before F, the release is that of f, which
+    // is osgViewer's key for full screen.
     if (event.getEventType() == osgGA::GUIEventAdapter::KEYUP)
         return _held.erase(lowerCase(event.getKey())) > 0;
     if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
