@@ -19,9 +19,8 @@ namespace
 {
 
 constexpr int kMostPixels = 32768;
-constexpr int kMost = 256; // most windows, channels or screens
-constexpr int64_t kMostTotalPixels = int64_t(1)
-                                     << 28; // most pixels of all windows, and of all walls
+constexpr int kMost = 256;                             // windows, channels, screens
+constexpr int64_t kMostTotalPixels = int64_t(1) << 28; // of all windows, of all walls
 
 /// Returns the number of elements that are numbered from 0 on without a gap.
 int countOf(const CaveFile& file, const std::string& path, const std::string& cap)

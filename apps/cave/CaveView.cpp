@@ -16,7 +16,7 @@ osg::Matrixd worldFromScreen(const CaveWall& wall, const osg::Matrixd& head)
     return wall.followsHead ? screen * head : screen;
 }
 
-/// Returns the direction from eye to eye if the head looked at the middle of the wall, upright.
+/// Returns the direction from eye to eye for a head that looks at the middle of the wall, upright.
 osg::Vec3d acrossTo(const osg::Vec3d& middle, const osg::Matrixd& head)
 {
     osg::Vec3d forward = middle - head.getTrans();

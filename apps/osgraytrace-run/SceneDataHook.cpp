@@ -43,8 +43,7 @@ bool holdsTracedScene(osg::Node& node)
         void apply(osg::Group& group) override
         {
             found = found || dynamic_cast<RayTracedScene*>(&group);
-            if (!found && visited.insert(&group).second)
-                traverse(group); // one of its paths is enough
+            if (!found && visited.insert(&group).second) traverse(group); // one path is enough
         }
         bool found = false;
         std::set<osg::ref_ptr<osg::Group>> visited;
