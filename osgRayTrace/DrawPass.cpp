@@ -1,4 +1,4 @@
-// DrawPass.cpp - what OSG says about the pass that is culled or drawn. Layer: public API.
+// DrawPass.cpp - reads cameras, viewports and matrices of OSG. Layer: public API.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/DrawPass.h"
 
@@ -20,7 +20,7 @@ namespace osgRayTrace
 namespace
 {
 
-/// A number of any type that the user set.
+/// Returns the user value of a camera as a number, whatever type of number the user set.
 std::optional<double> userNumber(const osg::Camera& camera, const char* name)
 {
     float single = 0.0f;

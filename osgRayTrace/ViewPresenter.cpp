@@ -1,4 +1,4 @@
-// ViewPresenter.cpp - the image of a view, and how it comes to the display. Layer: public API.
+// ViewPresenter.cpp - traces or asks for a view's image, and displays it. Layer: public API.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/ViewPresenter.h"
 
@@ -7,7 +7,8 @@
 namespace osgRayTrace
 {
 
-/// What has to be traced for a pass, if anything: not what another slice of its picture has made.
+/// Returns the view that has to be traced for a pass; nothing if another slice of its picture has
+/// been traced.
 std::optional<engine::View> ViewPresenter::viewToTrace(const ViewFrame& frame)
 {
     const engine::View& pass = frame.pass;
@@ -46,8 +47,8 @@ void ViewPresenter::traceNow(const ViewFrame& frame)
     _traced = wanted.has_value();
     if (wanted)
     {
-        // Traced into the display at once, unless its size changes: then it shows the last image
-        // until there is a new one.
+        // The tracer writes to the display at once, unless the size changes: the display then shows
+        // the last image until there is a new one.
         const bool fits = _display.width() == wanted->width && _display.height() == wanted->height;
         if (tracer->trace(frame.version, *wanted, frame.budget, fits ? _display.rgba() : nullptr,
                           fits ? _display.depth() : nullptr))

@@ -1,4 +1,4 @@
-// InteractiveMode.cpp - whether frames keep to their budgets. Layer: apps.
+// InteractiveMode.cpp - moves a camera under frame budgets. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/modes/InteractiveMode.h"
 
@@ -31,7 +31,7 @@ namespace
 
 constexpr double kBudgets[] = {16.0, 33.0, 100.0}; // [ms]
 
-/// A picture, and the copy of it that a driver takes of what has changed.
+/// Holds a picture, and the copy of its changed parts that a driver takes.
 struct Picture
 {
     int width = 0, height = 0;
@@ -50,7 +50,7 @@ struct Picture
         copiedDepth = UnclearedArray<float>(pixels);
     }
 
-    /// As DisplayTexture::reserve() does it; the copies are a driver's.
+    /// Reserves memory as DisplayTexture::reserve() does; the copies stand for a driver's.
     void reserve(int w, int h)
     {
         if (width > 0) return;
@@ -87,7 +87,7 @@ struct Picture
     }
 };
 
-/// What a viewer's frame does with a view, but for OpenGL.
+/// Does all that a viewer's frame does with a view, without OpenGL.
 struct Display
 {
     Picture full, reduced;
@@ -119,7 +119,7 @@ struct Display
 
 using Clock = std::function<double()>;
 
-/// [s]
+/// Returns the clock [s] of the options.
 Clock clockOf(const InteractiveOptions& options, int threads)
 {
     if (!options.cpuClock)
@@ -144,7 +144,7 @@ double secondsBy(const Clock& clock, const std::function<void()>& body)
     return clock() - begin;
 }
 
-/// The camera, turned a little.
+/// Returns the view, turned a little.
 View turned(View view, double yaw, double pitch)
 {
     const Mat4d turn =
@@ -162,12 +162,12 @@ struct Frame
 
 struct Trip
 {
-    std::vector<Frame> frames; ///< but for the first image and those after jumps
-    double first = 0.0;        ///< image of all [s]
-    std::vector<double> jumps; ///< the image after each [s]
+    std::vector<Frame> frames; ///< without the first image and those after jumps
+    double first = 0.0;        ///< time of the first image [s]
+    std::vector<double> jumps; ///< time of the image after each jump [s]
 };
 
-/// Moves, stops, jumps, and so on.
+/// Moves, stops and jumps, several times.
 Trip travel(const SceneVersion& version, const View& view, double budgetSeconds, const Clock& clock)
 {
     constexpr int kLegs = 4, kMoving = 25, kStill = 12;
@@ -239,7 +239,7 @@ void addTrip(Rows& rows, const std::string& name, const Trip& trip, double budge
     rows.push_back({name + ": largest divider", double(largest), ""});
 }
 
-/// Of a view that has its passes.
+/// Adds the cost of a view that has its passes.
 void addUnchanged(Rows& rows, const std::string& name, SceneVersion version, const View& view,
                   const Clock& clock)
 {
@@ -262,8 +262,8 @@ void addUnchanged(Rows& rows, const std::string& name, SceneVersion version, con
     rows.push_back({name + ": unchanged frame", 1e3 * median(seconds), "ms", Goal::AtMost, 1.0});
 }
 
-/// Resolving all of full resolution and its copy; while passes add up tiles are resolved in the
-/// pass.
+/// Adds the time to resolve all of full resolution and to copy it; while passes add up, tiles are
+/// resolved in the pass.
 void addPresenting(Rows& rows, const SceneVersion& version, const View& view, const Clock& clock)
 {
     RenderSession session(version.workers);
@@ -301,7 +301,7 @@ SceneVersion versionOf(const std::shared_ptr<const Scene>& scene,
     return version;
 }
 
-/// Ten thousand transforms that share one geometry, seen from above at a slant.
+/// Returns ten thousand transforms that share one geometry, seen from above at a slant.
 SceneVersion fieldVersion(const std::shared_ptr<Workers>& workers)
 {
     const ObjectField field(true);

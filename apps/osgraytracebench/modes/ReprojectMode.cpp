@@ -28,10 +28,10 @@ namespace
 using namespace engine;
 
 constexpr int kWarmUp = 20;  ///< frames before the first that is measured
-constexpr int kMeasured = 2; ///< frames, kStride apart
+constexpr int kMeasured = 2; ///< measured frames, kStride apart
 constexpr int kStride = 7;
 
-/// CPU time of all threads: what other programs take of a busy machine is not in it.
+/// Returns the CPU time of all threads, which holds no time of other programs on a busy machine.
 double processSeconds()
 {
     timespec time;
@@ -39,7 +39,8 @@ double processSeconds()
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// A head that sways and looks around in the box: one to two pixels a frame at a width of 320.
+/// Returns the view of a head that sways and looks around in the box: one to two pixels a frame at
+/// a width of 320.
 View viewAt(int frame, int width)
 {
     const double t = frame;
@@ -55,7 +56,7 @@ View viewAt(int frame, int width)
     return view;
 }
 
-/// Sixteen cells a side, of two grays, with finer ones in them.
+/// Returns a texture of sixteen cells a side, of two grays, with finer cells in them.
 std::shared_ptr<const Texture> cells()
 {
     auto result = std::make_shared<Texture>();
@@ -107,7 +108,7 @@ std::shared_ptr<const TracedScene> sceneOf(Look look, const std::shared_ptr<Work
     return TracedScene::build(scene, workers);
 }
 
-/// A view that is traced frame by frame.
+/// Holds a view that is traced frame by frame.
 struct Walker
 {
     Walker(const std::shared_ptr<const TracedScene>& scene, const std::shared_ptr<Workers>& workers,
@@ -122,7 +123,7 @@ struct Walker
         settings->setMaxPasses(1 << 20);
     }
 
-    /// CPU seconds of the frame, shown.
+    /// Traces and shows a frame; returns its CPU seconds.
     double show(const View& view)
     {
         rgba.resize(4 * static_cast<std::size_t>(view.width) *
@@ -218,7 +219,8 @@ void measureErrors(Rows& rows, const ReprojectOptions& options, const std::strin
                     2.0});
 }
 
-/// Frames of 1920 x 1080 of the cheapest kind: what carrying, and all of the frame, takes.
+/// Measures frames of 1920 x 1080 of the cheapest kind: the time of carrying, and of the whole
+/// frame.
 void measureCosts(Rows& rows, int threads)
 {
     const auto workers = std::make_shared<Workers>(threads);
@@ -232,7 +234,7 @@ void measureCosts(Rows& rows, int threads)
         const double alone = without.show(viewAt(frame, 1920));
         const double all = with.show(viewAt(frame, 1920));
         if (frame < 2)
-            continue; // the first that carries makes the map of the view that it leaves, too
+            continue; // the first frame that carries also makes the map of its previous view
         carried.push_back(with.tracer.progress().reprojectSeconds);
         shares.push_back(with.tracer.progress().reprojectedShare);
         added.push_back(all - alone);
