@@ -31,7 +31,7 @@ install(FILES
 # One folder in which the commands and links of README.md and of the pages in docs/ work: pages, pictures, scenes and
 # configurations.
 set(OSGRAYTRACE_SHARE_DIR "${CMAKE_INSTALL_DATADIR}/osgRayTrace")
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}")
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}")
 install(FILES osgRayTrace/README.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace")
 install(DIRECTORY osgRayTrace/docs DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace")
 install(FILES tests/README.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}/tests")

@@ -1,4 +1,5 @@
 # Builds apps/examples where BuildConsumer.cmake has installed them, runs each program without a display
+# SPDX-License-Identifier: MIT
 # as its user would, and looks at what comes out.
 cmake_minimum_required(VERSION 3.24)
 
