@@ -1,6 +1,6 @@
 # Builds apps/examples where BuildConsumer.cmake has installed them, runs each program without a display
-# SPDX-License-Identifier: MIT
 # as its user would, and looks at what comes out.
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
 function(run)

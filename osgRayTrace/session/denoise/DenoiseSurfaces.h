@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/session/denoise/DenoiseGuides.h"
+#include "osgRayTrace/base/Lanes.h"
+#include "osgRayTrace/session/denoise/DenoisePlanes.h"
+#include "osgRayTrace/session/image/ResolvedImage.h"
 
 namespace osgRayTrace::engine
 {
+
+constexpr float kNoSurface = 1e30f; ///< a distance that differs from all others
 
 constexpr int kSurfaceSegment =
     256; ///< pixels of two rows that are worked on while they are in the cache
@@ -53,5 +57,12 @@ void unpackAlbedo(const SurfaceSample* samples, const float* distance, int count
 /// The means over those pixels that show the same as the first that shows anything.
 void makeCells(const Surfaces& s, int count, SurfaceRow cells, uint8_t* __restrict inCell0,
                uint8_t* __restrict inCell1);
+
+/// How alike surfaces are in their normals, as fallOff's argument [Schied17, eq. 4]: about cos^128.
+OSGRAYTRACE_INLINE float normalDistance(float ax, float ay, float az, float bx, float by, float bz)
+{
+    const float cosine = ax * bx + ay * by + az * bz;
+    return 128.0f * (1.0f - cosine);
+}
 
 } // namespace osgRayTrace::engine

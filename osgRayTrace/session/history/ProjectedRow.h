@@ -3,13 +3,25 @@
 #pragma once
 
 #include "osgRayTrace/base/Math.h"
-#include "osgRayTrace/session/history/Reprojection.h"
+#include "osgRayTrace/session/image/SurfaceMap.h"
 
 #include <cstddef>
 #include <vector>
 
 namespace osgRayTrace::engine
 {
+
+/// What limits the samples that a pixel may take along.
+struct ReprojectionLimits
+{
+    float count = 32.0f; ///< of any pixel
+    float edgeCount =
+        4.0f; ///< of pixels that border on other surfaces: what they mix changes as these move
+    /// Of glossy surfaces: the viewer has moved around the point by this share of the lobe's width
+    /// since the oldest sample that counts, if it moves steadily.
+    float lobeShare = 0.5f;
+    float turn = 0.0f; ///< angle that is added to the viewer's move around all points [radians]
+};
 
 /// Where the surfaces of the new view's pixels are seen in the old one. Everything is divided by s,
 /// the distance along the new ray, and that is 1/s = 0 for what is infinitely far away.
