@@ -104,6 +104,12 @@ std::size_t PhotonMap::bytes() const
            (_normal.size() + _bin.size() + _first.size()) * sizeof(uint32_t) + _denseCells.bytes();
 }
 
+/// Neighbouring buckets that a line of cells along x is hashed to.
+struct PhotonMap::BucketLine
+{
+    uint32_t first, last; ///< first <= last
+};
+
 /// The ranges of photons that can be in the disc, in ascending order, none of them twice. Flat:
 /// a call of rangesIn would be a twentieth of a look-up.
 __attribute__((flatten)) int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
@@ -143,11 +149,7 @@ int PhotonMap::rangesIn(Vec3d low, Vec3d high, Range* ranges) const
     if (static_cast<uint64_t>(y1 - y0) >= kMaxRanges || lines > kMaxRanges / 2 || length > _mask)
         return everything();
 
-    struct Line
-    {
-        uint32_t first, last; ///< buckets, first <= last
-    };
-    Line found[kMaxRanges];
+    BucketLine found[kMaxRanges];
     int count = 0;
     for (int64_t z = z0; z <= z1; ++z)
         for (int64_t y = y0; y <= y1; ++y)
@@ -163,7 +165,13 @@ int PhotonMap::rangesIn(Vec3d low, Vec3d high, Range* ranges) const
             if (_first[first] < _count) found[count++] = {first, _mask};
             if (0 < _first[last + 1]) found[count++] = {0, last};
         }
-    // Lines that share a bucket by chance become one: no photon is seen twice.
+    return rangesOfLines(found, count, ranges);
+}
+
+/// Returns the photons of lines, sorted. Lines that share a bucket by chance become one, so no
+/// photon is read twice.
+int PhotonMap::rangesOfLines(BucketLine* found, int count, Range* ranges) const
+{
     for (int i = 1; i < count; ++i)
         for (int k = i; k > 0 && found[k].first < found[k - 1].first; --k)
             std::swap(found[k], found[k - 1]);

@@ -100,10 +100,20 @@ private:
 
     PhotonColumns columns() const;
 
+    // The sort by cell, and its steps: PhotonMapBuild.cpp.
+    struct Sorting;
     void sort(const std::vector<Photon>& photons, const Workers& workers, bool keepBins);
+    void findBuckets(Sorting& s, const Workers& workers) const;
+    static void orderByPart(Sorting& s, const Workers& workers);
+    std::vector<Range> sortPart(Sorting& s, std::size_t part);
+    void store(const Photon& p, uint32_t to);
+
+    // The ranges of photons that a look-up reads: PhotonMap.cpp, PhotonMapLanes.cpp.
+    struct BucketLine;
     int rangesOf(const PhotonQuery& query, Range* ranges) const;
     int rangesOf(const PhotonQueryLanes& queries, LaneMask group, Range* ranges) const;
     int rangesIn(Vec3d low, Vec3d high, Range* ranges) const;
+    int rangesOfLines(BucketLine* lines, int count, Range* ranges) const;
     template <class Together, class Alone>
     void forEachGroup(const PhotonQueryLanes& queries, const Together& together,
                       const Alone& alone) const;
