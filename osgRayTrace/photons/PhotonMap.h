@@ -118,6 +118,7 @@ private:
     void forEachGroup(const PhotonQueryLanes& queries, const Together& together,
                       const Alone& alone) const;
     template <class Add> void forEachFound(const PhotonQuery& query, const Add& add) const;
+    void findLane(const PhotonQueryLanes& queries, int lane, std::vector<FoundPhoton>& found) const;
     uint32_t bucketOf(int64_t x, int64_t y, int64_t z) const
     {
         const uint64_t line = static_cast<uint64_t>(y) * 0x9e3779b97f4a7c15ull ^

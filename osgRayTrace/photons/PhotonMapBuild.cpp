@@ -129,12 +129,21 @@ struct PhotonMap::Sorting
         : photons(p),
           chunks(p.size()),
           buckets(bucketCount),
-          partShift(__builtin_ctzll(bucketCount) - __builtin_ctz(kParts)),
+          partShift(shiftOf(bucketCount)),
           bucket(p.size()),
           offsets(chunks.count * kParts),
           partBegin(kParts + 1),
           entries(p.size())
     {
+    }
+
+    /// Buckets are a power of two.
+    static int shiftOf(std::size_t bucketCount)
+    {
+        int shift = 0;
+        while (std::size_t(kParts) << shift < bucketCount)
+            ++shift;
+        return shift;
     }
 
     const std::vector<Photon>& photons;
