@@ -10,12 +10,13 @@
 namespace osgRayTrace::engine
 {
 
-// What is packed with a photon's normal: three signed bytes; edges in seven bits, and direct.
+// A photon's normal is packed into three signed bytes, its edges into seven bits above them, and
+// direct into the highest bit.
 constexpr uint32_t kDirectBit = 1u << 31;
 
 inline uint32_t packNormal(Vec3 n)
 {
-    // To the nearest, halves away from zero.
+    // Rounds to the nearest, and halves away from zero.
     const auto byte = [](float v)
     {
         const float scaled = v * 127.0f;
@@ -40,7 +41,8 @@ OSGRAYTRACE_INLINE int32_t edgesOf(uint32_t packed)
     return static_cast<int32_t>((packed >> 24) & kMostEdges);
 }
 
-/// What a loop over a block of photons reads; its own index is a signed one, as vector loads need.
+/// What a loop over a block of photons reads. The loop's index counts from the block's first photon
+/// and is signed, as vector loads need.
 struct PhotonColumns
 {
     const float *x, *y, *z, *wiX, *wiY, *wiZ, *r, *g, *b;
@@ -52,41 +54,42 @@ struct PhotonColumns
     }
 };
 
-/// A vector as loops over lanes take it: GLM's own, made in the loop, keeps it from being
-/// vectorized.
-struct PlainVec3
+/// A disc of a look-up as loops over photons or lanes take it: see PhotonQuery.
+struct PlainDisc
 {
-    float x, y, z;
+    PlainVec3 position, normal;
+    float radius2;       ///< square of the radius; if negative, no photon is in the disc
+    float planeDistance; ///< photons farther from the disc's plane are not in it
+    int32_t mostEdges;
 };
 
-OSGRAYTRACE_INLINE PlainVec3 plainOf(const Vec3Lanes& lanes, int i)
+/// Whether a photon is in a disc, and where.
+struct DiscTest
 {
-    return {lanes.x[i], lanes.y[i], lanes.z[i]};
-}
-OSGRAYTRACE_INLINE PlainVec3 plainOf(Vec3 v)
-{
-    return {v.x, v.y, v.z};
-}
+    uint32_t in;     ///< all bits or none
+    float distance2; ///< square of the distance from the disc's centre
+    float off;       ///< distance from the disc's plane
+};
 
-/// Bit mask of photon k in the disc around a position, all bits or none. Also how far it is from
-/// the disc's centre and from its plane.
-OSGRAYTRACE_INLINE uint32_t insideDisc(const PhotonColumns& p, int k, PlainVec3 position,
-                                       PlainVec3 normal, int32_t mostEdges, float radius2,
-                                       float planeDistance, float& distance2, float& off)
+/// Tests photon k.
+OSGRAYTRACE_INLINE DiscTest insideDisc(const PhotonColumns& p, int k, PlainDisc disc)
 {
+    const PlainVec3 position = disc.position, normal = disc.normal;
     const float dx = p.x[k] - position.x, dy = p.y[k] - position.y, dz = p.z[k] - position.z;
-    distance2 = dx * dx + dy * dy + dz * dz;
-    off = std::fabs(dx * normal.x + dy * normal.y + dz * normal.z);
+    const float distance2 = dx * dx + dy * dy + dz * dz;
+    const float off = std::fabs(dx * normal.x + dy * normal.y + dz * normal.z);
     const float side = p.wiX[k] * normal.x + p.wiY[k] * normal.y + p.wiZ[k] * normal.z;
     const uint32_t packed = p.normal[k];
     const float turned =
         byteOf(packed, 0) * normal.x + byteOf(packed, 8) * normal.y + byteOf(packed, 16) * normal.z;
-    const uint32_t shortEnough = maskOf(edgesOf(packed) <= mostEdges);
-    return maskOf(distance2 <= radius2) & maskOf(off <= planeDistance) & maskOf(side > 0.0f) &
-           maskOf(turned >= kLeastNormalCosine) & shortEnough;
+    const uint32_t shortEnough = maskOf(edgesOf(packed) <= disc.mostEdges);
+    const uint32_t in = maskOf(distance2 <= disc.radius2) & maskOf(off <= disc.planeDistance) &
+                        maskOf(side > 0.0f) & maskOf(turned >= kLeastNormalCosine) & shortEnough;
+    return {in, distance2, off};
 }
 
-/// Of photon k and a shading normal, in a disc of that normal: the ratio of its cosines.
+/// Returns the ratio of photon k's cosines, to the shading normal and to the disc's normal; 0 if
+/// the photon is not in the disc or comes from below the shading normal.
 OSGRAYTRACE_INLINE float shadingWeight(const PhotonColumns& p, int k, uint32_t in, PlainVec3 normal,
                                        PlainVec3 shadingNormal)
 {

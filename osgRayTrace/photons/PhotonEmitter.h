@@ -88,6 +88,7 @@ public:
 
 private:
     struct Cones;
+    struct Discs;
     /// What an emission is told beside its numbers. light: as photonGuide numbers it.
     struct LightGuide
     {
@@ -104,6 +105,8 @@ private:
     std::optional<PhotonStart> emitEnvironment(const EmissionPoint& point, LightGuide guide) const;
     std::optional<PhotonStart> emitParallel(Vec3 direction, Vec3 irradiance,
                                             const EmissionPoint& point, LightGuide guide) const;
+    float parallelPdf(Vec3 q, Vec3 direction, const Discs& discs, float share,
+                      LightGuide guide) const;
     LaneMask emitSingly(const EmissionLanes& points, StartLanes& starts,
                         const PhotonGuide* photonGuide) const;
     Cones conesFrom(Vec3 origin, float spread, LightGuide guide) const;

@@ -30,6 +30,28 @@ uint32_t pickScaled(const float* weights, uint32_t count, float sum, float& u)
     return k;
 }
 
+/// Returns how many photons each bin of a light should have, in any unit. emitted, seen: of this
+/// light's bins, see PhotonGuide::PhotonGuide. 0 in targets of which nothing is known.
+std::vector<double> wantedOf(const uint32_t* emitted, const double* seen, uint32_t targets)
+{
+    std::vector<double> wanted(std::size_t(targets) * kGuideBins);
+    for (std::size_t target = 0; target < targets; ++target)
+    {
+        const std::size_t first = target * kGuideBins, end = first + kGuideBins;
+        double photons = 0.0, squares = 0.0;
+        for (std::size_t b = first; b < end; ++b)
+        {
+            photons += emitted[b];
+            squares += seen[b];
+        }
+        if (!(photons > 0.0) || !std::isfinite(squares)) continue;
+        for (std::size_t b = first; b < end; ++b)
+            wanted[b] = std::sqrt((seen[b] + kPriorPhotons * squares / photons) /
+                                  (emitted[b] + kPriorPhotons));
+    }
+    return wanted;
+}
+
 } // namespace
 
 PhotonGuide::PhotonGuide(uint32_t targets, const std::vector<uint32_t>& emitted,
@@ -37,35 +59,28 @@ PhotonGuide::PhotonGuide(uint32_t targets, const std::vector<uint32_t>& emitted,
     : _targets(targets), _weights(emitted.size(), 1.0f), _means(emitted.size() / kGuideBins, 1.0f)
 {
     const std::size_t perLight = std::size_t(targets) * kGuideBins;
-    const std::size_t lights = perLight ? emitted.size() / perLight : 0;
-    std::vector<double> useful(lights), sent(lights);
-    for (std::size_t light = 0; light < lights; ++light)
+    std::vector<LightUse> lights(perLight ? emitted.size() / perLight : 0);
+    for (std::size_t light = 0; light < lights.size(); ++light)
     {
-        std::vector<double> wanted(perLight);
         const std::size_t first = light * perLight;
-        for (std::size_t target = 0; target < targets; ++target)
-        {
-            double photons = 0.0, squares = 0.0;
-            for (std::size_t b = target * kGuideBins; b < (target + 1) * kGuideBins; ++b)
-            {
-                photons += emitted[first + b];
-                squares += seen[first + b];
-            }
-            if (!(photons > 0.0) || !std::isfinite(squares)) continue;
-            for (std::size_t b = target * kGuideBins; b < (target + 1) * kGuideBins; ++b)
-                wanted[b] = std::sqrt((seen[first + b] + kPriorPhotons * squares / photons) /
-                                      (emitted[first + b] + kPriorPhotons));
-        }
+        const std::vector<double> wanted = wantedOf(&emitted[first], &seen[first], targets);
+        LightUse& use = lights[light];
         for (std::size_t b = 0; b < perLight; ++b)
         {
-            useful[light] += emitted[first + b] * wanted[b];
-            sent[light] += emitted[first + b];
+            use.useful += emitted[first + b] * wanted[b];
+            use.sent += emitted[first + b];
         }
-        if (!(useful[light] > 0.0)) continue;
-        const double unit = sent[light] / useful[light]; // photons on the whole stay as many
+        if (!(use.useful > 0.0)) continue;
+        const double unit = use.sent / use.useful; // the number of photons on the whole stays
         for (std::size_t b = 0; b < perLight; ++b)
             _weights[first + b] = static_cast<float>(1.0 - kLearnt + kLearnt * unit * wanted[b]);
     }
+    sumWeights();
+    chooseLights(lights, pmf);
+}
+
+void PhotonGuide::sumWeights()
+{
     for (std::size_t t = 0; t < _means.size(); ++t)
     {
         float sum = 0.0f;
@@ -77,23 +92,26 @@ PhotonGuide::PhotonGuide(uint32_t targets, const std::vector<uint32_t>& emitted,
         }
         _means[t] = sum / kGuideBins;
     }
+}
 
-    // Lights get photons in proportion to the use of theirs.
+/// Gives lights photons in proportion to the use of theirs.
+void PhotonGuide::chooseLights(const std::vector<LightUse>& lights, const std::vector<float>& pmf)
+{
     double allUseful = 0.0, allSent = 0.0;
-    for (std::size_t light = 0; light < lights; ++light)
+    for (const LightUse& use : lights)
     {
-        allUseful += useful[light];
-        allSent += sent[light];
+        allUseful += use.useful;
+        allSent += use.sent;
     }
     double sum = 0.0;
     std::vector<double> sums;
     for (std::size_t e = 0; e < pmf.size(); ++e)
     {
         const uint32_t light = lightOf(e, pmf.size());
-        double factor = 1.0; // also of lights that cannot aim, as those within a target
-        if (allUseful > 0.0 && sent[light] > 0.0)
-            factor =
-                1.0 - kLearnt + kLearnt * (useful[light] / allUseful) * (allSent / sent[light]);
+        double factor = 1.0; // also for lights that guide no photons, as those within a target
+        if (allUseful > 0.0 && lights[light].sent > 0.0)
+            factor = 1.0 - kLearnt +
+                     kLearnt * (lights[light].useful / allUseful) * (allSent / lights[light].sent);
         sums.push_back(sum += static_cast<double>(pmf[e]) * factor);
     }
     for (const double s : sums)

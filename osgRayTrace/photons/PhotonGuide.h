@@ -93,6 +93,15 @@ public:
     const std::vector<float>& cumulative() const { return _cumulative; }
 
 private:
+    /// Photons that were guided for a light, and the use of them: their number, weighted by how
+    /// much more of them are wanted in their bins.
+    struct LightUse
+    {
+        double sent = 0.0, useful = 0.0;
+    };
+    void sumWeights();
+    void chooseLights(const std::vector<LightUse>& lights, const std::vector<float>& pmf);
+
     uint32_t _targets;
     std::vector<float> _weights; ///< by index()
     std::vector<float> _rings;   ///< light, target, ring: sum of its sectors

@@ -12,22 +12,34 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Sums by lane, so that the result does not depend on the vector width of the machine.
+/// Sums by lane, so that the result does not depend on the machine's vector width.
 struct LaneSums
 {
     FloatLanes r, g, b;
     UintLanes count;
 };
 
-/// Where the shading normal is the geometric one every weight is 1.
+/// A look-up as its loops over photons take it.
+struct PlainQuery
+{
+    explicit PlainQuery(const PhotonQuery& q)
+        : disc{plainOf(q.position), plainOf(q.normal), q.radius * q.radius, q.radius * kPlaneShare,
+               static_cast<int32_t>(q.mostEdges)},
+          shadingNormal(plainOf(q.shadingNormal)),
+          flat(q.shadingNormal == q.normal)
+    {
+    }
+    PlainDisc disc;
+    PlainVec3 shadingNormal;
+    bool flat; ///< the shading normal is the geometric one: every weight is 1
+};
+
 template <bool kFlat>
 OSGRAYTRACE_INLINE void addBlocks(const PhotonColumns& columns, uint32_t begin, uint32_t end,
-                                  const PhotonQuery& query, float radius2, float planeDistance,
-                                  LaneSums& sums)
+                                  const PlainQuery& query, LaneSums& sums)
 {
-    const PlainVec3 position = plainOf(query.position), normal = plainOf(query.normal);
-    const PlainVec3 shading = plainOf(query.shadingNormal);
-    const auto mostEdges = static_cast<int32_t>(query.mostEdges);
+    const PlainDisc disc = query.disc;
+    const PlainVec3 shading = query.shadingNormal;
     LaneSums s = sums;
     for (uint32_t block = begin; block < end; block += kLanes)
     {
@@ -36,12 +48,9 @@ OSGRAYTRACE_INLINE void addBlocks(const PhotonColumns& columns, uint32_t begin, 
         OSGRAYTRACE_SIMD
         for (int i = 0; i < kLanes; ++i)
         {
-            float distance2, off;
-            const uint32_t in = insideDisc(p, i, position, normal, mostEdges, radius2,
-                                           planeDistance, distance2, off) &
-                                maskOf(i < left);
+            const uint32_t in = insideDisc(p, i, disc).in & maskOf(i < left);
             const float weight =
-                kFlat ? select(in, 1.0f, 0.0f) : shadingWeight(p, i, in, normal, shading);
+                kFlat ? select(in, 1.0f, 0.0f) : shadingWeight(p, i, in, disc.normal, shading);
             s.r[i] += weight * p.r[i];
             s.g[i] += weight * p.g[i];
             s.b[i] += weight * p.b[i];
@@ -52,42 +61,38 @@ OSGRAYTRACE_INLINE void addBlocks(const PhotonColumns& columns, uint32_t begin, 
 }
 
 OSGRAYTRACE_KERNEL
-void addRange(const PhotonColumns& columns, uint32_t begin, uint32_t end, const PhotonQuery& query,
-              float radius2, float planeDistance, LaneSums& sums)
+void addRange(const PhotonColumns& columns, uint32_t begin, uint32_t end, const PlainQuery& query,
+              LaneSums& sums)
 {
-    if (query.shadingNormal == query.normal)
-        addBlocks<true>(columns, begin, end, query, radius2, planeDistance, sums);
+    if (query.flat)
+        addBlocks<true>(columns, begin, end, query, sums);
     else
-        addBlocks<false>(columns, begin, end, query, radius2, planeDistance, sums);
+        addBlocks<false>(columns, begin, end, query, sums);
 }
 
-/// Also the distances of the lanes: see insideDisc.
+/// Returns which of sixteen photons are in the disc, and sets their distances: see DiscTest.
 OSGRAYTRACE_KERNEL
 LaneMask insideLanes(const PhotonColumns& columns, uint32_t block, uint32_t end,
-                     const PhotonQuery& query, float radius2, float planeDistance,
-                     FloatLanes& distance2, FloatLanes& off)
+                     const PlainQuery& query, FloatLanes& distance2, FloatLanes& off)
 {
     const PhotonColumns p = columns.from(block);
-    const PlainVec3 position = plainOf(query.position), normal = plainOf(query.normal);
-    const auto mostEdges = static_cast<int32_t>(query.mostEdges);
+    const PlainDisc disc = query.disc;
     const int left = static_cast<int>(end - block);
     LaneMask inside = 0;
     OSGRAYTRACE_SIMD_OR(inside)
     for (int i = 0; i < kLanes; ++i)
     {
-        float d2, o;
-        const uint32_t in =
-            insideDisc(p, i, position, normal, mostEdges, radius2, planeDistance, d2, o);
-        distance2[i] = d2;
-        off[i] = o;
-        inside |= bitOfLane(in & maskOf(i < left), i);
+        const DiscTest test = insideDisc(p, i, disc);
+        distance2[i] = test.distance2;
+        off[i] = test.off;
+        inside |= bitOfLane(test.in & maskOf(i < left), i);
     }
     return inside;
 }
 
 float sumOf(const FloatLanes& lanes)
 {
-    // Always the same tree of additions.
+    // The tree of additions is always the same.
     float sums[kLanes];
     std::copy(lanes.v, lanes.v + kLanes, sums);
     for (int width = kLanes / 2; width > 0; width /= 2)
@@ -104,8 +109,14 @@ std::size_t PhotonMap::bytes() const
            (_normal.size() + _bin.size() + _first.size()) * sizeof(uint32_t) + _denseCells.bytes();
 }
 
-/// The ranges of photons that can be in the disc, in ascending order, none of them twice. Flat:
-/// a call of rangesIn would be a twentieth of a look-up.
+/// Neighbouring buckets that a line of cells along x is hashed to.
+struct PhotonMap::BucketLine
+{
+    uint32_t first, last; ///< first <= last
+};
+
+/// Finds the ranges of photons that can be in the disc, in ascending order, none of them twice.
+/// flatten: a call of rangesIn would be a twentieth of a look-up.
 __attribute__((flatten)) int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
 {
     if (_count == 0 || !(query.radius >= 0.0f)) return 0;
@@ -121,8 +132,8 @@ __attribute__((flatten)) int PhotonMap::rangesOf(const PhotonQuery& query, Range
     return rangesIn(centre - reach, centre + reach, ranges);
 }
 
-/// Of the cells that a box touches. One line of cells along x is one range, or two where the
-/// table ends within it.
+/// Finds the ranges of the cells that a box touches. One line of cells along x is one range, or two
+/// if the table ends within the line.
 int PhotonMap::rangesIn(Vec3d low, Vec3d high, Range* ranges) const
 {
     if (!(glm::all(glm::lessThanEqual(low, _high)) && glm::all(glm::greaterThanEqual(high, _low))))
@@ -143,11 +154,7 @@ int PhotonMap::rangesIn(Vec3d low, Vec3d high, Range* ranges) const
     if (static_cast<uint64_t>(y1 - y0) >= kMaxRanges || lines > kMaxRanges / 2 || length > _mask)
         return everything();
 
-    struct Line
-    {
-        uint32_t first, last; ///< buckets, first <= last
-    };
-    Line found[kMaxRanges];
+    BucketLine found[kMaxRanges];
     int count = 0;
     for (int64_t z = z0; z <= z1; ++z)
         for (int64_t y = y0; y <= y1; ++y)
@@ -163,7 +170,13 @@ int PhotonMap::rangesIn(Vec3d low, Vec3d high, Range* ranges) const
             if (_first[first] < _count) found[count++] = {first, _mask};
             if (0 < _first[last + 1]) found[count++] = {0, last};
         }
-    // Lines that share a bucket by chance become one: no photon is seen twice.
+    return rangesOfLines(found, count, ranges);
+}
+
+/// Returns the photons of lines, sorted. Lines that share a bucket by chance become one, so no
+/// photon is read twice.
+int PhotonMap::rangesOfLines(BucketLine* found, int count, Range* ranges) const
+{
     for (int i = 1; i < count; ++i)
         for (int k = i; k > 0 && found[k].first < found[k - 1].first; --k)
             std::swap(found[k], found[k - 1]);
@@ -198,19 +211,19 @@ PhotonSum PhotonMap::gather(const PhotonQuery& query) const
     PhotonSum sum;
     if (count == 0) return sum;
     const PhotonColumns all = columns();
-    const float radius2 = query.radius * query.radius, plane = query.radius * kPlaneShare;
+    const PlainQuery plain(query);
     LaneSums sums = {};
     DenseCellTrees::Visit dense;
     for (int i = 0; i < count; ++i)
     {
         const Range range = ranges[i];
         if (isDense(range))
-            _denseCells.visit(query, range, query.shadingNormal == query.normal, dense);
+            _denseCells.visit(query, range, plain.flat, dense);
         else
-            addRange(all, range.begin, range.end, query, radius2, plane, sums);
+            addRange(all, range.begin, range.end, plain, sums);
     }
     for (const Range& range : dense.read)
-        addRange(all, range.begin, range.end, query, radius2, plane, sums);
+        addRange(all, range.begin, range.end, plain, sums);
     for (int i = 0; i < kLanes; ++i)
         sum.count += sums.count[i];
     if (sum.count) sum.power = Vec3(sumOf(sums.r), sumOf(sums.g), sumOf(sums.b));
@@ -228,14 +241,13 @@ template <class Add> void PhotonMap::forEachFound(const PhotonQuery& query, cons
     Range ranges[kMaxRanges];
     const int count = rangesOf(query, ranges);
     const PhotonColumns all = columns();
-    const float radius2 = query.radius * query.radius, plane = query.radius * kPlaneShare;
+    const PlainQuery plain(query);
     FloatLanes distance2, off;
     const auto read = [&](Range range)
     {
         for (uint32_t block = range.begin; block < range.end; block += kLanes)
         {
-            const LaneMask lanes =
-                insideLanes(all, block, range.end, query, radius2, plane, distance2, off);
+            const LaneMask lanes = insideLanes(all, block, range.end, plain, distance2, off);
             if (lanes && !add(block, lanes, distance2, off)) return false;
         }
         return true;
@@ -257,8 +269,21 @@ void PhotonMap::find(const PhotonQuery& query, std::vector<uint32_t>& found) con
     forEachFound(query,
                  [&](uint32_t block, LaneMask lanes, const FloatLanes&, const FloatLanes&)
                  {
-                     for (; lanes; lanes &= lanes - 1)
-                         found.push_back(block + static_cast<uint32_t>(__builtin_ctz(lanes)));
+                     for (const int i : lanesIn(lanes))
+                         found.push_back(block + static_cast<uint32_t>(i));
+                     return true;
+                 });
+}
+
+/// Appends the photons of one lane's disc to those that sixteen look-ups have found.
+void PhotonMap::findLane(const PhotonQueryLanes& queries, int lane,
+                         std::vector<FoundPhoton>& found) const
+{
+    forEachFound(laneOf(queries, lane),
+                 [&](uint32_t block, LaneMask photons, const FloatLanes&, const FloatLanes&)
+                 {
+                     for (const int i : lanesIn(photons))
+                         found.push_back({block + static_cast<uint32_t>(i), 1u << lane});
                      return true;
                  });
 }
@@ -271,9 +296,8 @@ bool PhotonMap::findDistances(const PhotonQuery& query, std::size_t most,
     forEachFound(query,
                  [&](uint32_t, LaneMask lanes, const FloatLanes& distance2, const FloatLanes& off)
                  {
-                     for (; lanes; lanes &= lanes - 1)
+                     for (const int i : lanesIn(lanes))
                      {
-                         const int i = __builtin_ctz(lanes);
                          const float plane = off[i] / kPlaneShare;
                          radii2.push_back(std::max(distance2[i], plane * plane));
                      }

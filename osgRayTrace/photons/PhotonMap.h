@@ -100,14 +100,25 @@ private:
 
     PhotonColumns columns() const;
 
+    // The sort by cell, and its steps: PhotonMapBuild.cpp.
+    struct Sorting;
     void sort(const std::vector<Photon>& photons, const Workers& workers, bool keepBins);
+    void findBuckets(Sorting& s, const Workers& workers) const;
+    static void orderByPart(Sorting& s, const Workers& workers);
+    std::vector<Range> sortPart(Sorting& s, std::size_t part);
+    void store(const Photon& p, uint32_t to);
+
+    // The ranges of photons that a look-up reads: PhotonMap.cpp, PhotonMapLanes.cpp.
+    struct BucketLine;
     int rangesOf(const PhotonQuery& query, Range* ranges) const;
     int rangesOf(const PhotonQueryLanes& queries, LaneMask group, Range* ranges) const;
     int rangesIn(Vec3d low, Vec3d high, Range* ranges) const;
+    int rangesOfLines(BucketLine* lines, int count, Range* ranges) const;
     template <class Together, class Alone>
     void forEachGroup(const PhotonQueryLanes& queries, const Together& together,
                       const Alone& alone) const;
     template <class Add> void forEachFound(const PhotonQuery& query, const Add& add) const;
+    void findLane(const PhotonQueryLanes& queries, int lane, std::vector<FoundPhoton>& found) const;
     uint32_t bucketOf(int64_t x, int64_t y, int64_t z) const
     {
         const uint64_t line = static_cast<uint64_t>(y) * 0x9e3779b97f4a7c15ull ^

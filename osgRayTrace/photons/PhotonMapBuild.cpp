@@ -14,11 +14,11 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// The sort splits the buckets into parts by their upper bits; a part fits the cache.
+/// The sort splits the buckets into parts by their upper bits; a part fits into the cache.
 constexpr int kParts = 256;
 
-constexpr uint32_t kAhead =
-    16; ///< photons between the one that moves and the one that is asked for
+/// Photons between the one that moves and the one that is prefetched.
+constexpr std::ptrdiff_t kAhead = 16;
 
 /// Shares of the photons that one thread works on at a time.
 struct Chunks
@@ -76,7 +76,8 @@ struct Entry
     uint32_t bucket, photon;
 };
 
-/// Reorders the entries of dense buckets among themselves. held: photons of each bucket.
+/// Reorders the entries of each dense bucket among themselves. held: number of photons of each
+/// bucket.
 void sortDenseCells(const std::vector<Photon>& photons, const std::vector<uint32_t>& held,
                     std::size_t bucketBegin, Entry* begin, Entry* end)
 {
@@ -121,107 +122,148 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const W
     sort(photons, workers, keepBins);
 }
 
-void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers, bool keepBins)
+/// What the steps of the sort hand on.
+struct PhotonMap::Sorting
 {
-    const std::size_t buckets = static_cast<std::size_t>(_mask) + 1;
-    const int partShift = __builtin_ctzll(buckets) - __builtin_ctz(kParts);
+    Sorting(const std::vector<Photon>& p, std::size_t bucketCount)
+        : photons(p),
+          chunks(p.size()),
+          buckets(bucketCount),
+          partShift(shiftOf(bucketCount)),
+          bucket(p.size()),
+          offsets(chunks.count * kParts),
+          partBegin(kParts + 1),
+          entries(p.size())
+    {
+    }
 
-    // 1. The bucket of each photon, and how many of each chunk fall into each part.
-    const Chunks chunks(_count);
-    UnclearedArray<uint32_t> bucket(_count);
-    std::vector<uint32_t> offsets(chunks.count * kParts);
-    workers.forEach(chunks.count,
+    /// Buckets are a power of two.
+    static int shiftOf(std::size_t bucketCount)
+    {
+        int shift = 0;
+        while (std::size_t(kParts) << shift < bucketCount)
+            ++shift;
+        return shift;
+    }
+
+    const std::vector<Photon>& photons;
+    Chunks chunks;
+    std::size_t buckets;
+    int partShift;                   ///< a bucket's part is the bucket shifted right by this
+    UnclearedArray<uint32_t> bucket; ///< of each photon
+    std::vector<uint32_t> offsets;   ///< chunk, part: its photons, then where its entries go
+    std::vector<uint32_t> partBegin; ///< first entry of each part, and the end of the last
+    UnclearedArray<Entry> entries;   ///< part by part
+};
+
+/// Finds the bucket of each photon, and how many photons of each chunk fall into each part.
+void PhotonMap::findBuckets(Sorting& s, const Workers& workers) const
+{
+    workers.forEach(s.chunks.count,
                     [&](std::size_t c)
                     {
                         uint32_t counts[kParts] = {};
-                        for (std::size_t k = chunks.begin(c); k < chunks.begin(c + 1); ++k)
+                        for (std::size_t k = s.chunks.begin(c); k < s.chunks.begin(c + 1); ++k)
                         {
-                            const Vec3d at = (Vec3d(photons[k].position) - _low) * _cellsPerUnit;
-                            bucket[k] =
+                            const Vec3d at = (Vec3d(s.photons[k].position) - _low) * _cellsPerUnit;
+                            s.bucket[k] =
                                 bucketOf(static_cast<int64_t>(at.x), static_cast<int64_t>(at.y),
                                          static_cast<int64_t>(at.z));
-                            ++counts[bucket[k] >> partShift];
+                            ++counts[s.bucket[k] >> s.partShift];
                         }
-                        std::copy(counts, counts + kParts, &offsets[c * kParts]);
+                        std::copy(counts, counts + kParts, &s.offsets[c * kParts]);
                     });
+}
 
-    // 2. Where each chunk writes its share of each part; photons keep their order.
-    std::vector<uint32_t> partBegin(kParts + 1);
+/// Writes the entries part by part. Each chunk writes its share of each part, so photons keep their
+/// order within a part.
+void PhotonMap::orderByPart(Sorting& s, const Workers& workers)
+{
     uint32_t running = 0;
     for (std::size_t part = 0; part < kParts; ++part)
     {
-        partBegin[part] = running;
-        for (std::size_t c = 0; c < chunks.count; ++c)
+        s.partBegin[part] = running;
+        for (std::size_t c = 0; c < s.chunks.count; ++c)
         {
-            const uint32_t count = offsets[c * kParts + part];
-            offsets[c * kParts + part] = running;
+            const uint32_t count = s.offsets[c * kParts + part];
+            s.offsets[c * kParts + part] = running;
             running += count;
         }
     }
-    partBegin[kParts] = running;
+    s.partBegin[kParts] = running;
+    workers.forEach(s.chunks.count,
+                    [&](std::size_t c)
+                    {
+                        uint32_t next[kParts];
+                        std::copy_n(&s.offsets[c * kParts], kParts, next);
+                        for (std::size_t k = s.chunks.begin(c); k < s.chunks.begin(c + 1); ++k)
+                            s.entries[next[s.bucket[k] >> s.partShift]++] = {
+                                s.bucket[k], static_cast<uint32_t>(k)};
+                    });
+}
 
-    UnclearedArray<Entry> entries(_count);
-    workers.forEach(
-        chunks.count,
-        [&](std::size_t c)
-        {
-            uint32_t next[kParts];
-            std::copy_n(&offsets[c * kParts], kParts, next);
-            for (std::size_t k = chunks.begin(c); k < chunks.begin(c + 1); ++k)
-                entries[next[bucket[k] >> partShift]++] = {bucket[k], static_cast<uint32_t>(k)};
-        });
+/// Sorts the entries of one part by counting, and moves its photons to their columns. Returns the
+/// dense cells of the part.
+std::vector<PhotonMap::Range> PhotonMap::sortPart(Sorting& s, std::size_t part)
+{
+    const std::size_t bucketBegin = part << s.partShift;
+    const std::size_t bucketEnd = (part + 1) << s.partShift;
+    Entry* const begin = s.entries.data() + s.partBegin[part];
+    Entry* const end = s.entries.data() + s.partBegin[part + 1];
+    std::vector<uint32_t> next(bucketEnd - bucketBegin);
+    for (const Entry* entry = begin; entry != end; ++entry)
+        ++next[entry->bucket - bucketBegin];
+    std::vector<Range> denseCells;
+    uint32_t at = s.partBegin[part];
+    for (std::size_t b = bucketBegin; b < bucketEnd; ++b)
+    {
+        _first[b] = at;
+        at += next[b - bucketBegin];
+        if (next[b - bucketBegin] > kDenseCell) denseCells.push_back({_first[b], at});
+    }
+    if (!denseCells.empty()) sortDenseCells(s.photons, next, bucketBegin, begin, end);
+    std::copy_n(_first.data() + bucketBegin, next.size(), next.begin());
+    for (const Entry* entry = begin; entry != end; ++entry)
+    {
+        // The photons of a part are scattered over the whole list.
+        const Entry* const soon = entry + std::min(kAhead, end - 1 - entry);
+        prefetch(&s.photons[soon->photon], sizeof(Photon));
+        store(s.photons[entry->photon], next[entry->bucket - bucketBegin]++);
+    }
+    return denseCells;
+}
 
-    // 3. Each part by counting; its photons move once, to where they stay.
+OSGRAYTRACE_INLINE void PhotonMap::store(const Photon& p, uint32_t to)
+{
+    const float values[kColumns] = {p.position.x, p.position.y, p.position.z, p.wi.x,   p.wi.y,
+                                    p.wi.z,       p.power.x,    p.power.y,    p.power.z};
+    float* const columns = _columns.data();
+    const std::size_t step = stride();
+    for (int c = 0; c < kColumns; ++c)
+        columns[static_cast<std::size_t>(c) * step + to] = values[c];
+    _normal[to] =
+        packNormal(p.normal) | std::min(p.edges, kMostEdges) << 24 | (p.direct ? kDirectBit : 0u);
+    if (_bin.size()) _bin[to] = p.bin;
+}
+
+void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers, bool keepBins)
+{
+    Sorting s(photons, static_cast<std::size_t>(_mask) + 1);
+    findBuckets(s, workers);
+    orderByPart(s, workers);
+
     _columns = UnclearedArray<float>(kColumns * stride());
     _normal = UnclearedArray<uint32_t>(stride());
     if (keepBins) _bin = UnclearedArray<uint32_t>(_count);
     for (int c = 0; c < kColumns; ++c)
         std::fill_n(column(static_cast<Column>(c)) + _count, kLanes, 0.0f);
     std::fill_n(&_normal[_count], kLanes, 0u);
-    _first = UnclearedArray<uint32_t>(buckets + 1);
-    _first[buckets] = static_cast<uint32_t>(_count);
-    std::vector<std::vector<DenseCellTrees::Range>> denseCells(kParts);
-    workers.forEach(
-        kParts,
-        [&](std::size_t part)
-        {
-            const std::size_t bucketBegin = part << partShift;
-            const std::size_t bucketEnd = (part + 1) << partShift;
-            std::vector<uint32_t> next(bucketEnd - bucketBegin);
-            for (uint32_t e = partBegin[part]; e < partBegin[part + 1]; ++e)
-                ++next[entries[e].bucket - bucketBegin];
-            uint32_t at = partBegin[part];
-            for (std::size_t b = bucketBegin; b < bucketEnd; ++b)
-            {
-                _first[b] = at;
-                at += next[b - bucketBegin];
-                if (next[b - bucketBegin] > kDenseCell) denseCells[part].push_back({_first[b], at});
-            }
-            if (!denseCells[part].empty())
-                sortDenseCells(photons, next, bucketBegin, entries.data() + partBegin[part],
-                               entries.data() + partBegin[part + 1]);
-            std::copy_n(_first.data() + bucketBegin, next.size(), next.begin());
-            float* const columns = _columns.data();
-            const std::size_t step = stride();
-            for (uint32_t e = partBegin[part]; e < partBegin[part + 1]; ++e)
-            {
-                // Photons of a part come from all over.
-                const Photon* soon =
-                    &photons[entries[std::min(e + kAhead, partBegin[part + 1] - 1)].photon];
-                prefetch(soon, sizeof(Photon));
-                const uint32_t to = next[entries[e].bucket - bucketBegin]++;
-                const Photon& p = photons[entries[e].photon];
-                const float values[kColumns] = {p.position.x, p.position.y, p.position.z,
-                                                p.wi.x,       p.wi.y,       p.wi.z,
-                                                p.power.x,    p.power.y,    p.power.z};
-                for (int c = 0; c < kColumns; ++c)
-                    columns[static_cast<std::size_t>(c) * step + to] = values[c];
-                _normal[to] = packNormal(p.normal) | std::min(p.edges, kMostEdges) << 24 |
-                              (p.direct ? kDirectBit : 0u);
-                if (keepBins) _bin[to] = p.bin;
-            }
-        });
-    std::vector<DenseCellTrees::Range> all;
+    _first = UnclearedArray<uint32_t>(s.buckets + 1);
+    _first[s.buckets] = static_cast<uint32_t>(_count);
+    std::vector<std::vector<Range>> denseCells(kParts);
+    workers.forEach(kParts, [&](std::size_t part) { denseCells[part] = sortPart(s, part); });
+
+    std::vector<Range> all;
     for (const auto& list : denseCells)
         all.insert(all.end(), list.begin(), list.end());
     if (!all.empty()) _denseCells = DenseCellTrees(columns(), all, workers);

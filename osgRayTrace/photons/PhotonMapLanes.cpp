@@ -12,16 +12,17 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Discs of a group are this near to its first [radii], with radii within a factor of two of its
-/// own.
+/// Discs of a group are no farther from its first disc than this many of that disc's radii, and
+/// their radii are within a factor of two of that disc's.
 constexpr float kNear = 4.0f;
 
-/// Fewer discs than that are looked up one by one: photons are then what lanes hold. So are those
-/// with more photons around them, as their own ones fill lanes as well.
+/// Smaller groups are looked up disc by disc, with photons in the lanes. So are groups with more
+/// photons around them than kMostTogether, as the photons of each disc fill the lanes, too.
 constexpr int kLeastGroup = 4;
 constexpr uint32_t kMostTogether = 512;
 
-/// What a loop over lanes knows of the discs; those that do not take part have a negative radius2.
+/// What loops over the discs of a group read beside the queries. Discs that are not in the group
+/// have a negative radius2.
 struct Discs
 {
     FloatLanes radius2, plane;
@@ -54,11 +55,12 @@ float least(FloatLanes lanes)
     return lanes[0];
 }
 
-/// The box of places, and how far their discs reach beyond it at most.
+/// The box of the discs' centres, and how far the discs reach beyond the box at most: all as least
+/// values, so the highest coordinates and the reaches are negative.
 struct Bounds
 {
-    FloatLanes lowX, lowY, lowZ;       ///< of each lane; infinity of those that do not take part
-    FloatLanes highX, highY, highZ;    ///< negative
+    FloatLanes lowX, lowY, lowZ;    ///< of each lane; infinity in lanes that are not in the group
+    FloatLanes highX, highY, highZ; ///< negative
     FloatLanes reachX, reachY, reachZ; ///< negative
 };
 
@@ -72,7 +74,7 @@ void boundDiscs(const PhotonQueryLanes& q, LaneMask group, Bounds& bounds)
         const float nx = q.normal.x[i], ny = q.normal.y[i], nz = q.normal.z[i];
         const float px = q.position.x[i], py = q.position.y[i], pz = q.position.z[i];
         const float x2 = nx * nx, y2 = ny * ny, z2 = nz * nz;
-        // A disc is thin, as in the box of one look-up.
+        // A disc is thin: see PhotonMap::rangesOf(const PhotonQuery&, Range*).
         const float x = std::sqrt(y2 + z2) + std::fabs(nx) * kPlaneShare,
                     y = std::sqrt(z2 + x2) + std::fabs(ny) * kPlaneShare,
                     z = std::sqrt(x2 + y2) + std::fabs(nz) * kPlaneShare;
@@ -101,6 +103,13 @@ Discs discsOf(const PhotonQueryLanes& q, LaneMask group)
     return discs;
 }
 
+OSGRAYTRACE_INLINE PlainDisc discOf(const PhotonQueryLanes& q, const Discs& discs,
+                                    int32_t mostEdges, int i)
+{
+    return {plainOf(q.position, i), plainOf(q.normal, i), discs.radius2[i], discs.plane[i],
+            mostEdges};
+}
+
 /// True if all shading normals are the geometric ones.
 bool isFlat(const PhotonQueryLanes& q, LaneMask group)
 {
@@ -126,10 +135,7 @@ OSGRAYTRACE_INLINE void addPhotons(const PhotonColumns& columns, uint32_t begin,
         OSGRAYTRACE_SIMD
         for (int i = 0; i < kLanes; ++i)
         {
-            float distance2, off;
-            const uint32_t in =
-                insideDisc(p, 0, plainOf(q.position, i), plainOf(q.normal, i), mostEdges,
-                           discs.radius2[i], discs.plane[i], distance2, off);
+            const uint32_t in = insideDisc(p, 0, discOf(q, discs, mostEdges, i)).in;
             const float weight =
                 kFlat ? select(in, 1.0f, 0.0f)
                       : shadingWeight(p, 0, in, plainOf(q.normal, i), plainOf(q.shadingNormal, i));
@@ -152,7 +158,7 @@ void addRange(const PhotonColumns& columns, uint32_t begin, uint32_t end, const 
         addPhotons<false>(columns, begin, end, q, discs, sums);
 }
 
-/// The lanes whose discs photon k is in.
+/// Returns the lanes whose discs photon k is in.
 OSGRAYTRACE_KERNEL
 LaneMask lanesAround(const PhotonColumns& columns, uint32_t k, const PhotonQueryLanes& q,
                      const Discs& discs)
@@ -163,10 +169,7 @@ LaneMask lanesAround(const PhotonColumns& columns, uint32_t k, const PhotonQuery
     OSGRAYTRACE_SIMD_OR(around)
     for (int i = 0; i < kLanes; ++i)
     {
-        float distance2, off;
-        around |= bitOfLane(insideDisc(p, 0, plainOf(q.position, i), plainOf(q.normal, i),
-                                       mostEdges, discs.radius2[i], discs.plane[i], distance2, off),
-                            i);
+        around |= bitOfLane(insideDisc(p, 0, discOf(q, discs, mostEdges, i)).in, i);
     }
     return around;
 }
@@ -203,9 +206,9 @@ void PhotonMap::forEachGroup(const PhotonQueryLanes& queries, const Together& to
     };
     for (LaneMask left = queries.lanes, group; left; left &= ~group)
     {
-        const int first = __builtin_ctz(left);
+        const int first = firstLane(left);
         group = (lanesNear(queries, first) & left) | (1u << first);
-        if (__builtin_popcount(group) >= kLeastGroup)
+        if (countLanes(group) >= kLeastGroup)
         {
             const int count = rangesOf(queries, group, ranges);
             if (suits(count))
@@ -214,17 +217,17 @@ void PhotonMap::forEachGroup(const PhotonQueryLanes& queries, const Together& to
                 continue;
             }
         }
-        for (LaneMask lanes = group; lanes; lanes &= lanes - 1)
-            alone(__builtin_ctz(lanes));
+        for (const int i : lanesIn(group))
+            alone(i);
     }
 }
 
-/// The ranges of photons that can be in the discs of a group.
+/// Finds the ranges of photons that can be in the discs of a group.
 int PhotonMap::rangesOf(const PhotonQueryLanes& queries, LaneMask group, Range* ranges) const
 {
     Bounds bounds;
     boundDiscs(queries, group, bounds);
-    // Reaches are rounded, as are distances: hence a share of them more.
+    // Reaches and distances are rounded, hence a share of the reach more.
     constexpr double kMore = 1.0 + 0x1p-16;
     const Vec3d reach =
         -kMore * Vec3d(least(bounds.reachX), least(bounds.reachY), least(bounds.reachZ));
@@ -259,7 +262,6 @@ void PhotonMap::find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& 
 {
     if (_count == 0) return;
     const PhotonColumns all = columns();
-    std::vector<uint32_t> own;
     forEachGroup(
         queries,
         [&](LaneMask group, const Range* ranges, int count)
@@ -270,13 +272,7 @@ void PhotonMap::find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& 
                     if (const LaneMask lanes = lanesAround(all, k, queries, discs))
                         found.push_back({k, lanes});
         },
-        [&](int lane)
-        {
-            own.clear();
-            find(laneOf(queries, lane), own);
-            for (const uint32_t k : own)
-                found.push_back({k, 1u << lane});
-        });
+        [&](int lane) { findLane(queries, lane, found); });
 }
 
 } // namespace osgRayTrace::engine

@@ -15,11 +15,12 @@ namespace osgRayTrace::engine
 namespace
 {
 
-// "Unguided emission stays in the mix": what is not guided.
+// Share of the photons that are guided; the rest keeps all light within the mixture.
 constexpr float kGuidedCaustics = 0.9f;
 constexpr float kGuidedIndirect = 0.25f;
 
-/// Lights in eye space move with the view; the others belong to the scene.
+/// Returns whether lights are at the same places. Only lights in eye space move without a new
+/// scene: with the view.
 bool samePlaces(const std::vector<Light>& a, const std::vector<Light>& b)
 {
     if (&a == &b) return true;
@@ -29,7 +30,8 @@ bool samePlaces(const std::vector<Light>& a, const std::vector<Light>& b)
     return true;
 }
 
-/// Apart from all else that is known of photons: a search through all of them reads a fifth.
+/// Positions of photons, apart from all else that photons hold: a search through all of them then
+/// reads a fifth of the memory.
 struct Positions
 {
     explicit Positions(const std::vector<Photon>& photons)
@@ -45,13 +47,14 @@ struct Positions
     std::vector<float> x, y, z;
 };
 
-/// From a photon to the nearest others, of which the last counts; squared.
+/// Returns the square of the distance from a photon to the last of its nearest neighbours.
 float distance2ToNeighbour(const Positions& p, std::size_t chosen, std::size_t neighbours)
 {
     constexpr std::size_t kBlock = 64;
     float distances[kBlock];
     const float x = p.x[chosen], y = p.y[chosen], z = p.z[chosen];
-    std::vector<float> nearest(neighbours + 1, kInfinity); // a heap, the farthest first; and itself
+    // A heap, the farthest first; one more, as the photon finds itself.
+    std::vector<float> nearest(neighbours + 1, kInfinity);
     for (std::size_t begin = 0; begin < p.x.size(); begin += kBlock)
     {
         const std::size_t count = std::min(kBlock, p.x.size() - begin);
@@ -93,20 +96,14 @@ float densityRadius(const std::vector<Photon>& photons, const Workers& workers)
 
 } // namespace
 
-bool PhotonPasses::isCurrent(const std::shared_ptr<const TracedScene>& traced,
-                             const std::vector<Light>& lights,
-                             const PhotonPassOptions& options) const
+bool samePhotons(const PhotonScene& a, const PhotonScene& b)
 {
-    return traced == _traced && options.use == _options.use &&
-           options.photons == _options.photons && options.maxBounces == _options.maxBounces &&
-           options.seed == _options.seed && options.photonGuiding == _options.photonGuiding &&
-           samePlaces(lights, *_lights);
+    return a.traced == b.traced && a.options == b.options && samePlaces(*a.lights, *b.lights);
 }
 
-void PhotonPasses::begin(const std::shared_ptr<const TracedScene>& traced,
-                         const std::vector<Light>& lights, const PhotonPassOptions& options)
+void PhotonPasses::begin(const PhotonScene& scene)
 {
-    if (_emitter && isCurrent(traced, lights, options)) return;
+    if (_emitter && samePhotons(scene, _scene)) return;
     _emitter.reset();
     _first.reset();
     _density.reset();
@@ -114,44 +111,40 @@ void PhotonPasses::begin(const std::shared_ptr<const TracedScene>& traced,
     _emitted = {};
     _seen.clear();
     _photonGuide.reset();
-    _traced = traced;
-    // Those of the scene stay where they are while it is held; there may be millions.
-    const bool sceneOwns = &lights == &traced->scene().lights;
-    _placed = sceneOwns ? std::vector<Light>() : lights;
-    _lights = sceneOwns ? &traced->scene().lights : &_placed;
-    _options = options;
+    // The scene's own lights stay where they are while the scene is held; there may be millions.
+    const bool sceneOwns = scene.lights == &scene.traced->scene().lights;
+    _placed = sceneOwns ? std::vector<Light>() : *scene.lights;
+    _scene = scene;
+    if (!sceneOwns) _scene.lights = &_placed;
     _emitter = std::make_unique<PhotonEmitter>(
-        *traced, *_lights, options.use == PhotonUse::Caustics ? kGuidedCaustics : kGuidedIndirect);
+        *_scene.traced, *_scene.lights,
+        _scene.options.use == PhotonUse::Caustics ? kGuidedCaustics : kGuidedIndirect);
 }
 
-PhotonDensity PhotonPasses::density(const std::shared_ptr<const TracedScene>& traced,
-                                    const std::vector<Light>& lights,
-                                    const PhotonPassOptions& options, const Workers& workers)
+PhotonDensity PhotonPasses::density(const PhotonScene& scene, const Workers& workers)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    begin(traced, lights, options);
+    begin(scene);
     if (_density) return *_density;
     _first = std::make_unique<TracedPhotons>(trace(0, nullptr, workers));
     _density = std::make_unique<PhotonDensity>();
     _density->radius = densityRadius(_first->photons, workers);
-    const Sphere& scene = _emitter->scene();
-    _density->sceneRadius = scene.radius;
+    const Sphere& sphere = _emitter->scene();
+    _density->sceneRadius = sphere.radius;
     _density->emits = _emitter->emits();
     _density->caustics = _emitter->emits() && _emitter->hasTargets();
     _density->guideBins = _emitter->guideBins();
-    _density->largestCoordinate = std::max({std::fabs(scene.centre.x), std::fabs(scene.centre.y),
-                                            std::fabs(scene.centre.z)}) +
-                                  scene.radius;
+    _density->largestCoordinate = std::max({std::fabs(sphere.centre.x), std::fabs(sphere.centre.y),
+                                            std::fabs(sphere.centre.z)}) +
+                                  sphere.radius;
     return *_density;
 }
 
-std::shared_ptr<const PhotonPass>
-PhotonPasses::pass(const std::shared_ptr<const TracedScene>& traced,
-                   const std::vector<Light>& lights, const PhotonPassOptions& options, int index,
-                   float cellSize, const Workers& workers)
+std::shared_ptr<const PhotonPass> PhotonPasses::pass(const PhotonScene& scene, int index,
+                                                     float cellSize, const Workers& workers)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    begin(traced, lights, options);
+    begin(scene);
     const std::shared_ptr<const PhotonGuide> photonGuide = guideOf(index);
     for (const Entry& entry : _kept)
         if (entry.index == index && entry.cellSize == cellSize && entry.photonGuide == photonGuide)
@@ -165,8 +158,8 @@ PhotonPasses::pass(const std::shared_ptr<const TracedScene>& traced,
         photons = trace(index, photonGuide.get(), workers);
     _first.reset();
     auto pass = std::make_shared<PhotonPass>();
-    pass->map =
-        PhotonMap(photons.photons, cellSize, workers, options.photonGuiding && index < kFirst);
+    pass->map = PhotonMap(photons.photons, cellSize, workers,
+                          scene.options.photonGuiding && index < kFirst);
     pass->rays = photons.rays;
     pass->dropped = photons.dropped;
     pass->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -176,17 +169,17 @@ PhotonPasses::pass(const std::shared_ptr<const TracedScene>& traced,
 
 TracedPhotons PhotonPasses::trace(int index, const PhotonGuide* photonGuide, const Workers& workers)
 {
-    TracedPhotons photons =
-        tracePhotons(*_traced, *_lights, *_emitter, _options, index, workers, photonGuide);
+    TracedPhotons photons = tracePhotons(*_scene.traced, *_scene.lights, *_emitter, _scene.options,
+                                         index, workers, photonGuide);
     _tracedRays += photons.rays;
     if (index < kFirst) _emitted[static_cast<std::size_t>(index)] = photons.emitted;
     return photons;
 }
 
-/// Null: that of the scene.
+/// Returns the guide of a pass; null: the pass is guided by the scene alone.
 std::shared_ptr<const PhotonGuide> PhotonPasses::guideOf(int index)
 {
-    if (index < kFirst || !_options.photonGuiding || _seen.empty()) return nullptr;
+    if (index < kFirst || !_scene.options.photonGuiding || _seen.empty()) return nullptr;
     if (_photonGuide) return _photonGuide;
     std::vector<uint32_t> emitted(_emitter->guideBins());
     for (const std::vector<uint32_t>& pass : _emitted)
@@ -199,18 +192,20 @@ std::shared_ptr<const PhotonGuide> PhotonPasses::guideOf(int index)
     return _photonGuide = _emitter->learn(emitted, squares);
 }
 
-void PhotonPasses::recordSeen(const std::shared_ptr<const TracedScene>& traced,
-                              const std::vector<Light>& lights, const PhotonPassOptions& options,
-                              const void* view, std::vector<double> squares)
+ViewId PhotonPasses::newView()
+{
+    return static_cast<ViewId>(++_views);
+}
+
+void PhotonPasses::recordSeen(const PhotonScene& scene, ViewId view, std::vector<double> squares)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    if (!_emitter || !isCurrent(traced, lights, options) || squares.size() != _emitter->guideBins())
-        return;
+    if (!_emitter || !samePhotons(scene, _scene) || squares.size() != _emitter->guideBins()) return;
     _seen.push_back({view, std::move(squares)});
     _photonGuide.reset();
 }
 
-void PhotonPasses::forgetSeen(const void* view)
+void PhotonPasses::forgetSeen(ViewId view)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     const auto gone =
@@ -220,7 +215,8 @@ void PhotonPasses::forgetSeen(const void* view)
     _photonGuide.reset();
 }
 
-/// Makes room: at first among the last passes, then for the sake of memory among all of them.
+/// Keeps a pass. Makes room for it: at first among the last passes, then, if memory is short, among
+/// all of them.
 void PhotonPasses::keep(Entry entry)
 {
     const auto replaced = std::find_if(

@@ -6,11 +6,31 @@
 #include "osgRayTrace/photons/PhotonTracer.h"
 
 #include <array>
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 
 namespace osgRayTrace::engine
 {
+
+/// What photons are traced for: a scene, its lights as a view places them, and the options. Passes
+/// belong to one of these at a time, and views that agree on it share them.
+struct PhotonScene
+{
+    std::shared_ptr<const TracedScene> traced;
+    const std::vector<Light>* lights = nullptr; ///< the scene's own, or those placed for a view
+    PhotonPassOptions options;
+};
+
+/// Returns whether both have the same photons. A traced scene never changes, so it is compared by
+/// its identity, and so are lights that are the scene's own: there may be millions.
+bool samePhotons(const PhotonScene& a, const PhotonScene& b);
+
+/// Names a view to PhotonPasses: see PhotonPasses::newView.
+enum class ViewId : uint64_t
+{
+};
 
 /// The photons of one pass. Immutable.
 struct PhotonPass
@@ -18,62 +38,61 @@ struct PhotonPass
     PhotonMap map;
     uint64_t rays = 0;
     uint64_t dropped = 0;
-    double seconds = 0.0; ///< to trace and to sort
+    double seconds = 0.0; ///< time to trace and to sort
 };
 
 constexpr int kDensityPhotons = 16;
 
-/// What the radii of lookups are chosen by [length].
+/// What the radii of look-ups are chosen by [length].
 struct PhotonDensity
 {
     float radius = 0.0f; ///< holds kDensityPhotons photons of a pass around a photon, in the median
-    float sceneRadius = 0.0f;       ///< of a sphere that holds the scene
-    float largestCoordinate = 0.0f; ///< in it, absolute
+    float sceneRadius = 0.0f;       ///< radius of a sphere that holds the scene
+    float largestCoordinate = 0.0f; ///< largest absolute coordinate in that sphere
     bool emits = false;             ///< some light has power
-    bool caustics = false;          ///< something can make them
-    std::size_t guideBins = 0;      ///< of PhotonGuide; 0: there is nothing to learn
+    bool caustics = false;          ///< something in the scene can make caustics
+    std::size_t guideBins = 0;      ///< number of PhotonGuide's bins; 0: there is nothing to learn
 };
 
-/// Thread safe: views that ask for the same pass at once wait for one of them to trace it. Kept are
-/// the last few passes, which views that are rendered in turns share, and the first few, which each
-/// new image begins with: a camera that moves needs no new photons. Of these as many as kMostBytes
-/// have room for.
+/// Traces the passes of photons, once for all views, and keeps some of them. Thread safe: views
+/// that ask for the same pass at once wait for one of them to trace it. The last few passes are
+/// kept, which views that are rendered in turns share, and the first few, with which each new image
+/// begins: a camera that moves needs no new photons. kMostBytes limits how many are kept.
 ///
-/// The first kFirst passes are guided by the scene alone. Views record what they see of them, and
+/// The first kFirst passes are guided by the scene alone. Views record what they see of these, and
 /// with PhotonPassOptions::photonGuiding all later passes are guided to what the views that have
-/// done so see: a pass is an unbiased estimate by itself, whatever it is guided to, as nothing in
-/// its guide comes from its own photons. So it depends on the views, and on the order in which they
-/// come: two processes trace the same photons from kFirst on only if they show the same views;
-/// without photonGuiding always. A view that starts anew takes back what it recorded.
+/// recorded see. A pass is an unbiased estimate by itself, whatever it is guided to, as nothing in
+/// its guide comes from its own photons. So a later pass depends on the views and on their order:
+/// two processes trace the same photons from kFirst on only if they show the same views. Without
+/// photonGuiding they always do. A view that starts anew takes back what it recorded.
 class PhotonPasses
 {
 public:
-    /// Of the first pass.
-    PhotonDensity density(const std::shared_ptr<const TracedScene>& traced,
-                          const std::vector<Light>& lights, const PhotonPassOptions& options,
-                          const Workers& workers);
+    /// Returns the density of the photons of the first pass.
+    PhotonDensity density(const PhotonScene& scene, const Workers& workers);
 
-    /// Photons of pass number index, in cells of this size.
-    std::shared_ptr<const PhotonPass> pass(const std::shared_ptr<const TracedScene>& traced,
-                                           const std::vector<Light>& lights,
-                                           const PhotonPassOptions& options, int index,
-                                           float cellSize, const Workers& workers);
+    /// Returns the photons of pass number index, in cells of cellSize [length].
+    std::shared_ptr<const PhotonPass> pass(const PhotonScene& scene, int index, float cellSize,
+                                           const Workers& workers);
 
-    /// What a view saw of all of the first passes: sums over some of its pixels of the squares of
-    /// what single photons added to them, by bin. view: its name until it forgets.
-    void recordSeen(const std::shared_ptr<const TracedScene>& traced,
-                    const std::vector<Light>& lights, const PhotonPassOptions& options,
-                    const void* view, std::vector<double> squares);
-    void forgetSeen(const void* view);
+    /// Returns a name that no other view has.
+    ViewId newView();
 
-    /// Whether there are photons of a pass now. Not while some are traced: who would have to wait
-    /// for them is told false.
+    /// Records what a view saw of all of the first passes. squares: by bin, sums over some of the
+    /// view's pixels of the squares of what single photons added to them.
+    void recordSeen(const PhotonScene& scene, ViewId view, std::vector<double> squares);
+
+    /// Takes back all that a view has recorded.
+    void forgetSeen(ViewId view);
+
+    /// Returns whether photons of a pass are kept. False also while a pass is being traced, as the
+    /// caller would have to wait to learn it.
     bool keeps(int index) const;
 
-    uint64_t tracedRays() const; ///< of all passes that were traced
-    std::size_t bytes() const;   ///< of the maps that are kept
+    uint64_t tracedRays() const; ///< rays of all passes that were traced
+    std::size_t bytes() const;   ///< memory of the maps that are kept
     static constexpr std::size_t kMostBytes = std::size_t(1) << 29;
-    static constexpr int kFirst = 4; ///< passes that each image begins with
+    static constexpr int kFirst = 4; ///< number of passes that each image begins with
 
 private:
     struct Entry
@@ -85,8 +104,8 @@ private:
     };
     struct Seen
     {
-        const void* view;
-        std::vector<double> squares; ///< a bin
+        ViewId view;
+        std::vector<double> squares; ///< by bin
     };
     static constexpr int kLast = 4;
 
@@ -95,23 +114,19 @@ private:
     void keep(Entry entry);
     std::size_t keptBytes() const;
 
-    void begin(const std::shared_ptr<const TracedScene>& traced, const std::vector<Light>& lights,
-               const PhotonPassOptions& options);
-    bool isCurrent(const std::shared_ptr<const TracedScene>& traced,
-                   const std::vector<Light>& lights, const PhotonPassOptions& options) const;
+    void begin(const PhotonScene& scene);
 
-    mutable std::mutex _mutex; // everything below
-    std::shared_ptr<const TracedScene> _traced;
-    std::vector<Light> _placed; ///< the lights, if they are others than those of the scene
-    const std::vector<Light>* _lights = nullptr; ///< of the scene, or _placed
-    PhotonPassOptions _options;
-    std::unique_ptr<PhotonEmitter> _emitter;
-    std::unique_ptr<TracedPhotons> _first; ///< of density(), for the first pass
+    std::atomic<uint64_t> _views{0}; ///< number of names given; views are made while others trace
+    mutable std::mutex _mutex;       // guards everything below
+    PhotonScene _scene;         ///< of all photons below; its lights are the scene's own or _placed
+    std::vector<Light> _placed; ///< a copy of the lights unless they are the scene's own
+    std::unique_ptr<PhotonEmitter> _emitter; ///< null: there is no scene yet
+    std::unique_ptr<TracedPhotons> _first;   ///< traced by density(), for the first pass
     std::unique_ptr<PhotonDensity> _density;
     std::vector<Entry> _kept;                           ///< oldest first
-    std::array<std::vector<uint32_t>, kFirst> _emitted; ///< photons that were guided to a bin; pass
-    std::vector<Seen> _seen;                            ///< in the order of noting
-    std::shared_ptr<const PhotonGuide> _photonGuide;    ///< made of it; null: not yet
+    std::array<std::vector<uint32_t>, kFirst> _emitted; ///< by pass: TracedPhotons::emitted
+    std::vector<Seen> _seen;                            ///< in the order of recording
+    std::shared_ptr<const PhotonGuide> _photonGuide;    ///< learnt from _seen; null: not yet
     uint64_t _tracedRays = 0;
 };
 

@@ -24,9 +24,8 @@ OSGRAYTRACE_INLINE float largestOf(float a, float b, float c)
 
 void PhotonPathQueue::append(const PhotonPathBlock& paths, LaneMask lanes)
 {
-    for (; lanes; lanes &= lanes - 1)
+    for (const int from : lanesIn(lanes))
     {
-        const int from = __builtin_ctz(lanes);
         PhotonPathBlock& block = _blocks[_count / kLanes];
         const int to = static_cast<int>(_count % kLanes);
         ++_count;
@@ -112,13 +111,13 @@ void diffuseDirections(const Vec3Lanes& normal, const FloatLanes& u, const Float
     }
 }
 
-/// Light carries the other cosine than radiance where normals are interpolated: weights are times
+/// power_{k+1} of the estimator in PhotonTracer.cpp. Shading normals n other than the geometric
+/// normal g are not symmetric: weights of photons are to be multiplied by
 ///
-///   |wo.n| |wi.g| / (|wo.g| |wi.n|)                              [Veach97, sect. 5.3]
+///   factor = |wo.n| |wi.g| / (|wo.g| |wi.n|)                     [Veach97, sect. 5.3]
 ///
-/// g the geometric normal. Directions on the other side of the surface than the sample meant are
-/// absorbed. A photon survives with the largest of its weights, so survivors keep their power as
-/// far as they can.
+/// Photons are absorbed if their direction is on the other side of the surface than the sample
+/// meant.
 OSGRAYTRACE_KERNEL
 LaneMask leaveSurfaces(const SurfaceLanes& surface, const Vec3Lanes& normal,
                        const Scattered& scattered, const FloatLanes& roulette,

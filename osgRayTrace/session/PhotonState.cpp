@@ -80,6 +80,13 @@ PhotonPassOptions passOptions(const RenderOptions& options)
     return result;
 }
 
+/// traced: the scene of the context.
+PhotonScene photonScene(const std::shared_ptr<const TracedScene>& traced,
+                        const PassContext& context)
+{
+    return {traced, context.lights, passOptions(context.options)};
+}
+
 } // namespace
 
 void PhotonState::reset(int tileCount)
@@ -95,14 +102,14 @@ void PhotonState::reset(int tileCount)
     std::vector<HitPoints>().swap(_hitPoints);
     std::vector<std::vector<SeenSquares>>().swap(_seen);
     std::vector<double>().swap(_seenSquares);
-    _passes->forgetSeen(this);
+    _passes->forgetSeen(_view);
 }
 
-void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced,
-                              const PassContext& context, const PhotonPassOptions& options,
+void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& context,
                               const Workers& workers)
 {
-    const PhotonDensity density = _passes->density(traced, *context.lights, options, workers);
+    const PhotonPassOptions& options = scene.options;
+    const PhotonDensity density = _passes->density(scene, workers);
     _idle = options.use == PhotonUse::Caustics && (!density.caustics || options.photons == 0);
     _floor = 8.0f * 0x1p-23f * density.largestCoordinate;
     const float ceiling = std::max(density.sceneRadius, _floor);
@@ -136,12 +143,13 @@ void PhotonState::chooseRadii(const std::shared_ptr<const TracedScene>& traced,
 void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context,
                           int pass, const Workers& workers)
 {
-    const PhotonPassOptions options = passOptions(context.options);
+    const PhotonScene scene = photonScene(traced, context);
+    const PhotonPassOptions& options = scene.options;
     context.photonUse = options.use;
     if (options.use == PhotonUse::None) return;
     if (!(_largest > 0.0f))
     {
-        chooseRadii(traced, context, options, workers);
+        chooseRadii(scene, context, workers);
         _local = context.options.radiusSchedule == RadiusSchedule::Local &&
                  options.use == PhotonUse::Indirect;
         if (_local)
@@ -161,8 +169,8 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
     context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
     const float cell = 2.0f * std::max(_floor, _cellRadius * _shrink);
-    if (pass != _preparedPass || !_pass) // else those that the pass was begun with
-        _pass = _passes->pass(traced, *context.lights, options, pass, cell, workers);
+    if (pass != _preparedPass || !_pass) // else the pass keeps the photons that it began with
+        _pass = _passes->pass(scene, pass, cell, workers);
     context.photons = &_pass->map;
     _stored |= _pass->map.size() > 0;
     _preparedPass = pass;
@@ -174,8 +182,7 @@ void PhotonState::finish(const std::shared_ptr<const TracedScene>& traced,
     if (_idle) return;
     sumUpSeen();
     if (pass + 1 < PhotonPasses::kFirst || _seenSquares.empty()) return;
-    _passes->recordSeen(traced, *context.lights, passOptions(context.options), this,
-                        std::move(_seenSquares));
+    _passes->recordSeen(photonScene(traced, context), _view, std::move(_seenSquares));
     _guides = true;
     std::vector<std::vector<SeenSquares>>().swap(_seen);
     _seenSquares.clear();

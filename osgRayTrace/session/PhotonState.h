@@ -32,8 +32,11 @@ struct SeenSquares
 class PhotonState
 {
 public:
-    explicit PhotonState(std::shared_ptr<PhotonPasses> passes) : _passes(std::move(passes)) {}
-    ~PhotonState() { _passes->forgetSeen(this); }
+    explicit PhotonState(std::shared_ptr<PhotonPasses> passes)
+        : _passes(std::move(passes)), _view(_passes->newView())
+    {
+    }
+    ~PhotonState() { _passes->forgetSeen(_view); }
     PhotonState(const PhotonState&) = delete;
     PhotonState& operator=(const PhotonState&) = delete;
 
@@ -74,12 +77,12 @@ public:
     std::size_t viewBytes() const; ///< of hit points, radii and statistics of the pixels
 
 private:
-    void chooseRadii(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
-                     const PhotonPassOptions& options, const Workers& workers);
+    void chooseRadii(const PhotonScene& scene, const PassContext& context, const Workers& workers);
     void sumUpSeen();
     bool choosesAgain(int pass) const { return pass == PhotonPasses::kFirst && _guides && !_local; }
 
     std::shared_ptr<PhotonPasses> _passes;
+    ViewId _view;
     std::shared_ptr<const PhotonPass> _pass;
     // Radii [length]
     float _floor = 0.0f; ///< none is smaller

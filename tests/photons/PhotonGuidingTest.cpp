@@ -129,7 +129,7 @@ uint32_t photonsAround(SharedSession& s, const std::shared_ptr<const TracedScene
     passOptions.photonGuiding = options.photonGuiding;
     const Workers workers(2);
     const auto found =
-        s.photons->pass(traced, traced->scene().lights, passOptions, pass, 0.1f, workers);
+        s.photons->pass({traced, &traced->scene().lights, passOptions}, pass, 0.1f, workers);
     PhotonQuery query;
     query.position = at;
     query.normal = query.shadingNormal = Vec3(0, 0, 1);

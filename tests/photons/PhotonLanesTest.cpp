@@ -199,6 +199,7 @@ TEST_CASE("photon lanes: surfaces of all kinds send back what their BSDFs say", 
     const auto any = [&](std::size_t size)
     { return std::min(size - 1, static_cast<std::size_t>(uniform() * static_cast<float>(size))); };
     int lit = 0, dark = 0;
+    GatherScratch scratch; // one for all, as a tile has
     for (int round = 0; round < 2000; ++round)
     {
         CAPTURE(round);
@@ -227,7 +228,7 @@ TEST_CASE("photon lanes: surfaces of all kinds send back what their BSDFs say", 
         }
         points.queries.lanes = round % 5 ? kAllLanes : 0x37f1u;
         PhotonSumLanes sums = {};
-        gatherBsdf(map, points, sums);
+        gatherBsdf(map, points, sums, scratch);
         for (int i = 0; i < kLanes; ++i)
         {
             CAPTURE(i, bsdfs[i].alpha, bsdfs[i].eta, bsdfs[i].coat);

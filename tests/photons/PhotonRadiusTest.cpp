@@ -72,6 +72,7 @@ TEST_CASE("photon radius: look-ups with it hold the photons asked for, and large
 {
     const std::vector<Photon> photons = cloud(100000);
     const PhotonMap map(photons, 0.05f, Workers(1));
+    GatherScratch scratch;
     int atLeast = 0, between = 0, atLargest = 0, many = 0;
     for (std::size_t k = 0; k < 2000; ++k)
     {
@@ -80,7 +81,7 @@ TEST_CASE("photon radius: look-ups with it hold the photons asked for, and large
         query.normal = query.shadingNormal = photons[k].normal;
         query.mostEdges = k % 3 ? kMostEdges : 4;
         const float least = k % 5 ? 0.001f : 0.02f, largest = k % 7 ? 0.05f : 0.3f;
-        const float radius = radiusOf(map, query, least, largest);
+        const float radius = radiusOf(map, query, least, largest, scratch);
         CAPTURE(k, radius);
         if (radius > least) REQUIRE(countOf(map, query, radius) <= kRadiusPhotons);
         if (radius < largest)
@@ -105,18 +106,19 @@ TEST_CASE("photon radius: where photons lie on a lattice, where there are many a
 {
     const Workers workers(1);
     const PhotonMap map = halfLit(workers);
+    GatherScratch scratch;
     for (const float x : {-0.3f, -0.11f, -0.02f, 0.0f, 0.013f, 0.05f, 0.5f})
     {
         CAPTURE(x);
         const PhotonQuery query = queryAt(x);
-        const float radius = radiusOf(map, query, 0.001f, 1.0f);
+        const float radius = radiusOf(map, query, 0.001f, 1.0f, scratch);
         CHECK(countOf(map, query, radius) <= kRadiusPhotons); // several are equally far away
         CHECK(countOf(map, query, radius) >= kRadiusPhotons - 8);
         CHECK(countOf(map, query, 1.00001f * radius) > kRadiusPhotons);
     }
-    CHECK(radiusOf(map, queryAt(0.5f), 0.3f, 1.0f) == 0.3f);
-    CHECK(radiusOf(map, queryAt(-2.0f), 0.001f, 1.0f) == 1.0f);
-    CHECK(radiusOf(PhotonMap(), queryAt(0.0f), 0.001f, 1.0f) == 1.0f);
+    CHECK(radiusOf(map, queryAt(0.5f), 0.3f, 1.0f, scratch) == 0.3f);
+    CHECK(radiusOf(map, queryAt(-2.0f), 0.001f, 1.0f, scratch) == 1.0f);
+    CHECK(radiusOf(PhotonMap(), queryAt(0.0f), 0.001f, 1.0f, scratch) == 1.0f);
 }
 
 TEST_CASE("photon radius: the photons that chose it are right in the mean",
@@ -135,6 +137,7 @@ TEST_CASE("photon radius: the photons that chose it are right in the mean",
                  {400, 0.9f, 1.1f},
                  {12000, 0.01f, 20.0f}};
     const Workers workers(1);
+    GatherScratch scratch;
     for (const auto& c : cases)
     {
         Uniform uniform(5);
@@ -153,7 +156,8 @@ TEST_CASE("photon radius: the photons that chose it are right in the mean",
             }
             const PhotonMap map(photons, 2.0f * usual, workers);
             PhotonQuery query = queryAt(0.0f);
-            query.radius = radiusOf(map, query, c.least * usual, std::min(0.5f, c.largest * usual));
+            query.radius =
+                radiusOf(map, query, c.least * usual, std::min(0.5f, c.largest * usual), scratch);
             const double density = map.gather(query).power.x / (kPi * query.radius * query.radius);
             sum += density;
             squares += density * density;
@@ -171,6 +175,7 @@ TEST_CASE("photon radius: no ring around light that has shrunk", "[photons]")
 {
     const Workers workers(1);
     const PhotonMap map = halfLit(workers);
+    GatherScratch scratch;
     // The radius of a later pass, away from the light: what it gets never rises.
     for (const float shrink : {1.0f, 0.7f, 0.5f, 0.3f})
     {
@@ -178,7 +183,7 @@ TEST_CASE("photon radius: no ring around light that has shrunk", "[photons]")
         for (float x = 0.0f; x > -0.5f; x -= 0.004f)
         {
             PhotonQuery query = queryAt(x);
-            query.radius = shrink * radiusOf(map, query, 0.001f, 0.6f);
+            query.radius = shrink * radiusOf(map, query, 0.001f, 0.6f, scratch);
             const float got = map.gather(query).power.x / (kPi * query.radius * query.radius);
             CAPTURE(shrink, x, query.radius, got, last);
             // A fifth: photons are counted, and a few of them make what is left at a rim.

@@ -167,7 +167,7 @@ double photonPower(const Known& known, const RenderOptions& options)
     pass.photons = static_cast<uint32_t>(options.photons);
     pass.maxBounces = 2;
     PhotonPasses passes;
-    const auto first = passes.pass(traced, traced->scene().lights, pass, 0, 0.1f, Workers(1));
+    const auto first = passes.pass({traced, &traced->scene().lights, pass}, 0, 0.1f, Workers(1));
     REQUIRE(first->map.size() > 10);
     return double(first->map.photon(0).power.y);
 }

@@ -8,6 +8,7 @@
 #include "osgRayTrace/integrators/path/PathReuse.h"
 #include "osgRayTrace/integrators/shared/HitPoints.h"
 #include "osgRayTrace/integrators/shared/Integrator.h"
+#include "osgRayTrace/integrators/shared/PhotonGather.h"
 #include "osgRayTrace/integrators/shared/SampledLights.h"
 #include "osgRayTrace/photons/PhotonTracer.h"
 #include "osgRayTrace/sampling/Sobol.h"
@@ -67,7 +68,8 @@ struct Tile
     PixelSums sums;
     PathQueue paths;
     ReuseGroups reuse;
-    Bsdf bsdfs[kLanes]; ///< of the block at work
+    Bsdf bsdfs[kLanes];          ///< of the block at work
+    GatherScratch gatherScratch; ///< of all photon look-ups
 };
 
 /// What one bounce of a block knows.

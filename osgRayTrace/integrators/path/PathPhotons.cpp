@@ -1,4 +1,5 @@
-// PathPhotons.cpp - what paths leave to photons, and get from them. Layer: integrators.
+// PathPhotons.cpp - which surfaces of a path look up photons, and what paths get from them. Layer:
+// integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
@@ -14,15 +15,15 @@ namespace
 
 constexpr float kGatherAlpha = 0.25f; ///< GGX width from which photons replace further bounces
 
-/// Where there are more around a point no guiding is needed to find some.
+/// Look-ups with more photons are not recorded: no guiding is needed to find photons there.
 constexpr uint32_t kMostRecordedPhotons = 2048;
 
-/// Records the photons of a lookup, to which its radiance is laid by their power: what the surface
-/// makes of their directions does not matter for guiding.
+/// Records the photons of a look-up and what each of them added to its radiance. The shares go by
+/// power alone, as the BSDF's values for their directions do not matter for guiding.
 void recordSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
-                std::vector<SeenPhoton>& seen)
+                std::vector<uint32_t>& found, std::vector<SeenPhoton>& seen)
 {
-    std::vector<uint32_t> found;
+    found.clear();
     map.find(query, found);
     float power = 0.0f;
     for (const uint32_t k : found)
@@ -36,7 +37,8 @@ void recordSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
     }
 }
 
-/// The discs of the lanes that gather, with first radii where there are none yet.
+/// Returns the discs of the lanes that gather, and chooses the first radii of their pixels if those
+/// have none yet.
 PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bounce)
 {
     const auto edgesLeft = static_cast<uint32_t>(tile.context.options.maxBounces - bounce.number);
@@ -46,22 +48,23 @@ PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bou
     queries.shadingNormal = bounce.normal;
     queries.mostEdges = std::min(kMostEdges, edgesLeft);
     queries.lanes = bounce.gathering;
-    for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(bounce.gathering))
     {
-        const int i = __builtin_ctz(lanes);
         float& radius = tile.result.gathered->radius[block.pixel[i] & kPixelBits];
         if (radius == 0.0f)
-            radius = radiusOf(*tile.context.photons, laneOf(queries, i),
-                              tile.context.leastPhotonRadius, tile.context.largestPhotonRadius);
+            radius =
+                radiusOf(*tile.context.photons, laneOf(queries, i), tile.context.leastPhotonRadius,
+                         tile.context.largestPhotonRadius, tile.gatherScratch);
         queries.radius[i] = radius;
     }
     return queries;
 }
 
-/// What surfaces send back of the photons in their discs.
-void gatherLanes(const PhotonMap& map, PhotonQueryLanes queries, const PathBlock& block,
-                 const Bounce& bounce, PhotonSumLanes& sums)
+/// Sums f times power over the photons in the discs of all lanes that gather.
+void gatherLanes(Tile& tile, PhotonQueryLanes queries, const PathBlock& block, const Bounce& bounce,
+                 PhotonSumLanes& sums)
 {
+    const PhotonMap& map = *tile.context.photons;
     queries.lanes = bounce.gathering & bounce.diffuse;
     gatherDiffuse(map, queries, bounce.albedo, sums);
     queries.lanes = bounce.gathering & ~bounce.diffuse;
@@ -69,7 +72,7 @@ void gatherLanes(const PhotonMap& map, PhotonQueryLanes queries, const PathBlock
     GatherLanes points{queries, {}, bounce.bsdfs, bounce.gathering & ~bounce.rough};
     for (int i = 0; i < kLanes; ++i)
         setLane(points.wo, i, -directionOf(block.rays.ray, i));
-    gatherBsdf(map, points, sums);
+    gatherBsdf(map, points, sums, tile.gatherScratch);
 }
 
 } // namespace
@@ -77,44 +80,39 @@ void gatherLanes(const PhotonMap& map, PhotonQueryLanes queries, const PathBlock
 void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
 {
     bounce.gathering = bounce.rough = bounce.diffuse;
-    for (LaneMask lanes = bounce.general; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(bounce.general))
     {
-        const int i = __builtin_ctz(lanes);
         const Bsdf& bsdf = bounce.bsdfs[i];
         const bool rough = bsdf.diffuse != Vec3(0.0f) || bsdf.alpha >= kGatherAlpha;
         if (rough) bounce.rough |= 1u << i;
-        // In narrow lobes there are few photons: of those that paths can find further on, none is
-        // needed.
+        // In narrow lobes there are few photons. Paths go on there, and only caustics, which paths
+        // cannot find, are looked up.
         if (rough || (use == PhotonUse::Caustics && !bsdf.isSmooth())) bounce.gathering |= 1u << i;
     }
     bounce.terminating = use == PhotonUse::Indirect ? bounce.rough : 0u;
     if (use == PhotonUse::Indirect) return;
-    for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
+    for (const int i : lanesIn(bounce.gathering))
         if (block.pixel[i] & kTaken) bounce.gathering &= ~(1u << i);
-    }
     bounce.rough &= bounce.gathering;
 }
 
 void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
 {
     if (!bounce.gathering) return;
-    const PhotonMap& map = *tile.context.photons;
     GatheredPhotons& gathered = *tile.result.gathered;
     const PhotonQueryLanes queries = queriesOf(tile, block, bounce);
     PhotonSumLanes sums;
-    gatherLanes(map, queries, block, bounce, sums);
-    for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
+    gatherLanes(tile, queries, block, bounce, sums);
+    for (const int i : lanesIn(bounce.gathering))
     {
-        const int i = __builtin_ctz(lanes);
         if (sums.count[i] == 0) continue;
         const uint32_t pixel = block.pixel[i] & kPixelBits;
         const Vec3 flux = laneOf(block.throughput, i) * laneOf(sums.power, i);
         const float discArea = kPi * queries.radius[i] * queries.radius[i];
         if (gathered.seenStride && (pixel + gathered.seenFirst) % gathered.seenStride == 0 &&
             sums.count[i] <= kMostRecordedPhotons)
-            recordSeen(map, laneOf(queries, i), luminance(flux) / discArea, gathered.seen);
+            recordSeen(*tile.context.photons, laneOf(queries, i), luminance(flux) / discArea,
+                       tile.gatherScratch.found, gathered.seen);
         if (gathered.separate)
         {
             gathered.count[pixel] += sums.count[i];

@@ -1,5 +1,5 @@
-// BsdfGather.cpp - what surfaces of any kind make of the photons around sixteen points. Layer:
-// integrators.
+// BsdfGather.cpp - the light that surfaces of any kind reflect and transmit of the photons around
+// sixteen points. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/PhotonGather.h"
@@ -11,10 +11,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr std::size_t kUsuallyFound =
-    256; ///< photons around sixteen points beside each other, or fewer
-
-/// Adds what surfaces send back of a photon.
+/// Adds the light of one photon that the surfaces of lanes reflect.
 OSGRAYTRACE_KERNEL
 void addPhoton(const Photon& photon, const Vec3Lanes& wi, const Vec3Lanes& fCos,
                const Vec3Lanes& geometricNormal, LaneMask lanes, Vec3Lanes& power)
@@ -32,7 +29,7 @@ void addPhoton(const Photon& photon, const Vec3Lanes& wi, const Vec3Lanes& fCos,
     }
 }
 
-/// The BSDF of one point for light from wi on the side of wo.
+/// Returns f cosTheta of one point for light from wi; 0 if wi is not on the side of wo.
 Vec3 evalAlone(const GatherLanes& points, int i, Vec3 wi)
 {
     const Vec3 normal = laneOf(points.queries.shadingNormal, i);
@@ -40,43 +37,43 @@ Vec3 evalAlone(const GatherLanes& points, int i, Vec3 wi)
     return evalInWorld(points.bsdfs[i], normal, laneOf(points.wo, i), wi).fCos;
 }
 
-/// Light from the side of wo; light and shading normal must agree on that side, as for light
-/// samples.
-void addReflected(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes& sums)
+/// Adds light from the side of wo. As for light samples, light must come from above the shading
+/// normal as well.
+void addReflected(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes& sums,
+                  std::vector<FoundPhoton>& found)
 {
     const BsdfLanes bsdfs = bsdfLanes(points.bsdfs, points.queries.lanes);
-    std::vector<FoundPhoton> found;
-    found.reserve(kUsuallyFound);
+    found.clear();
     map.find(points.queries, found);
     Vec3Lanes wi, fCos;
     FloatLanes pdfW;
     for (const FoundPhoton& f : found)
     {
         const Photon photon = map.photon(f.photon);
-        for (LaneMask lanes = f.lanes; lanes; lanes &= lanes - 1)
-            ++sums.count[__builtin_ctz(lanes)];
+        for (const int i : lanesIn(f.lanes))
+            ++sums.count[i];
         const LaneMask lanes = photon.direct ? f.lanes : f.lanes & ~points.directOnly;
         if (!lanes) continue;
         for (int i = 0; i < kLanes; ++i)
             setLane(wi, i, photon.wi);
-        if (__builtin_popcount(lanes) < kLeastBsdfLanes)
-            for (LaneMask left = lanes; left; left &= left - 1)
-                setLane(fCos, __builtin_ctz(left),
-                        evalAlone(points, __builtin_ctz(left), photon.wi));
+        if (countLanes(lanes) < kLeastBsdfLanes)
+            for (const int i : lanesIn(lanes))
+                setLane(fCos, i, evalAlone(points, i, photon.wi));
         else
             evalBsdfLanes(bsdfs, points.queries.shadingNormal, points.wo, wi, lanes, fCos, pdfW);
         addPhoton(photon, wi, fCos, points.queries.normal, lanes, sums.power);
     }
 }
 
-/// Light from behind a rough surface that transmits.
-void addTransmitted(const PhotonMap& map, const GatherLanes& points, int i, PhotonSumLanes& sums)
+/// Adds light from behind a rough surface that transmits.
+void addTransmitted(const PhotonMap& map, const GatherLanes& points, int i, PhotonSumLanes& sums,
+                    std::vector<uint32_t>& found)
 {
     PhotonQuery behind = laneOf(points.queries, i);
     behind.normal = -behind.normal;
     const ShadingFrame frame(behind.shadingNormal);
     const Vec3 wo = frame.toLocal(laneOf(points.wo, i));
-    std::vector<uint32_t> found;
+    found.clear();
     map.find(behind, found);
     Vec3 power = laneOf(sums.power, i);
     for (const uint32_t k : found)
@@ -94,16 +91,14 @@ void addTransmitted(const PhotonMap& map, const GatherLanes& points, int i, Phot
 
 } // namespace
 
-void gatherBsdf(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes& sums)
+void gatherBsdf(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes& sums,
+                GatherScratch& scratch)
 {
     if (!points.queries.lanes) return;
-    addReflected(map, points, sums);
-    for (LaneMask lanes = points.queries.lanes; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
+    addReflected(map, points, sums, scratch.foundLanes);
+    for (const int i : lanesIn(points.queries.lanes))
         if (points.bsdfs[i].transmits() && !points.bsdfs[i].isSmooth())
-            addTransmitted(map, points, i, sums);
-    }
+            addTransmitted(map, points, i, sums, scratch.found);
 }
 
 } // namespace osgRayTrace::engine

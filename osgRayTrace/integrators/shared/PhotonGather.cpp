@@ -1,5 +1,5 @@
-// PhotonGather.cpp - first radii, and what plain Lambert surfaces make of the photons around
-// points. Layer: integrators.
+// PhotonGather.cpp - first radii, and the light that plain Lambert surfaces reflect of the photons
+// around points. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/PhotonGather.h"
 
@@ -12,18 +12,19 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Where the largest radius holds no more photons than this the radius comes from one look-up.
-/// Where it holds more it is narrowed down first, by sums that need not read the photons of a
-/// dense cell.
+/// If the largest radius holds no more photons than this, the radius comes from one look-up. If it
+/// holds more, the radius is narrowed down first, by sums that need not read the photons of dense
+/// cells.
 constexpr std::size_t kMostDistances = 4096;
-constexpr int kNarrowings = 8; ///< of the octave that the radius is in
+constexpr int kNarrowings = 8; ///< halvings of the octave that the radius is in
 
 } // namespace
 
-float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float largest)
+float radiusOf(const PhotonMap& map, PhotonQuery query, float least, float largest,
+               GatherScratch& scratch)
 {
     if (!(least < largest)) return largest;
-    NeighbourDistances distances;
+    NeighbourDistances& distances = scratch.distances;
     query.radius = largest;
     if (map.findDistances(query, kMostDistances, distances))
         return std::clamp(distances.radiusOfNearest(kRadiusPhotons), least, largest);
@@ -54,7 +55,7 @@ void gatherDiffuse(const PhotonMap& map, const PhotonQueryLanes& queries, const 
     map.gather(queries, sums);
     for (int i = 0; i < kLanes; ++i)
     {
-        const uint32_t in = laneBit(queries.lanes, i); // other albedos may hold anything
+        const uint32_t in = laneBit(queries.lanes, i); // albedos of other lanes are undefined
         sums.power.x[i] = select(in, sums.power.x[i] * albedo.x[i] * kInvPi, 0.0f);
         sums.power.y[i] = select(in, sums.power.y[i] * albedo.y[i] * kInvPi, 0.0f);
         sums.power.z[i] = select(in, sums.power.z[i] * albedo.z[i] * kInvPi, 0.0f);

@@ -1,0 +1,221 @@
+// ChunkTracer.cpp - what photons do at the surfaces that they meet. Layer: photons.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/photons/ChunkTracer.h"
+
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/SurfaceAttributes.h"
+#include "osgRayTrace/sampling/Warp.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Returns whether a surface looks up photons: one that mirrors alone, or that light passes
+/// unbent, has no use for them.
+bool storesPhotons(const Bsdf& bsdf)
+{
+    if (bsdf.diffuse != Vec3(0.0f)) return true;
+    return !bsdf.isSmooth() && (bsdf.reflects() || (bsdf.transmits() && bsdf.eta != 1.0f));
+}
+
+} // namespace
+
+/// Returns the surface model of a lane, which stays until the next block.
+const Bsdf* ChunkTracer::bsdfAt(const SurfaceLanes& surface, int i)
+{
+    const MaterialRecord& record = _inputs.traced.materials()[surface.material[i]];
+    const bool front = (surface.front >> i) & 1u;
+    if (record.constant) return front ? &record.front : &record.back;
+    const SurfaceRecord& where = _inputs.traced.surfaces()[surface.instance[i]];
+    const RayBlock& ray = _rays.ray;
+    const Vec3 direction(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
+    _textured[i] = _inputs.traced.materials().bsdf(
+        surface.material[i], materialPointOf(where, record, _rays.primitive[i], _rays.u[i],
+                                             _rays.v[i], front, direction));
+    return &_textured[i];
+}
+
+/// Drops the lanes on surfaces that their lights are switched off for, and applies the falloff of
+/// fixed-function lights.
+void ChunkTracer::leaveLight(PhotonPathBlock& block, SurfaceLanes& surface) const
+{
+    for (const int i : lanesIn(surface.hits))
+    {
+        const Light& light = _inputs.lights[block.light[i]];
+        if (light.kind != LightKind::Point && light.kind != LightKind::Directional) continue;
+        const Material& material = _inputs.traced.scene().materials[surface.material[i]];
+        if (!isLightEnabled(material, light.number)) surface.hits &= ~(1u << i);
+        const float distance =
+            isSoft(light)
+                ? std::max(light.radius, glm::length(laneOf(surface.position, i) - light.position))
+                : _rays.ray.tFar[i];
+        const float falloff = _inputs.emitter.falloff(block.light[i], distance);
+        block.power.x[i] *= falloff;
+        block.power.y[i] *= falloff;
+        block.power.z[i] *= falloff;
+    }
+}
+
+/// Stores the photons of lanes; those whose power is not finite are counted instead.
+void ChunkTracer::store(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+                        int bounce)
+{
+    for (const int i : lanesIn(lanes))
+    {
+        const Vec3 power = laneOf(block.power, i);
+        if (isFinite(power))
+            _chunk.photons.push_back({laneOf(surface.position, i), -laneOf(block.direction, i),
+                                      power, laneOf(surface.geometricNormal, i),
+                                      static_cast<uint32_t>(bounce) + 1, block.direct[i] != 0,
+                                      _chunk.bins[block.photon[i] - _first]});
+        else
+            ++_chunk.dropped;
+    }
+}
+
+/// Samples the surface model of one lane, of any kind.
+void ChunkTracer::scatterOne(const PhotonPathBlock& block, int i, bool mustMirror)
+{
+    const Vec3 normal = laneOf(_normal, i), direction = laneOf(block.direction, i);
+    Vec3 tangent, bitangent;
+    frameOf(normal.x, normal.y, normal.z, tangent, bitangent);
+    const Vec3 wo(-glm::dot(direction, tangent), -glm::dot(direction, bitangent),
+                  -glm::dot(direction, normal));
+    const std::optional<BsdfSample> sample =
+        sampleBsdf(*_bsdfs[i], wo, _lobe[i], _u[i], _v[i], Transport::Importance);
+    if (!sample || (mustMirror && !sample->delta)) return;
+    const Vec3 wi = tangent * sample->wi.x + bitangent * sample->wi.y + normal * sample->wi.z;
+    setLane(_scattered.wi, i, wi);
+    setLane(_scattered.weight, i, sample->weight);
+    _scattered.alive |= 1u << i;
+    _scattered.transmitted |= static_cast<LaneMask>(sample->transmitted) << i;
+    _scattered.mirrored |= static_cast<LaneMask>(sample->delta) << i;
+}
+
+/// Sends the photons of a block on from their surfaces.
+void ChunkTracer::scatter(PhotonPathBlock& block, const SurfaceLanes& surface, int bounce)
+{
+    const bool mustMirror = mustReflect(bounce);
+    if (mustMirror) _diffuse = 0;
+    if (!(_diffuse | _smooth | _general)) return;
+    facingNormalLanes(_rays.ray, surface, _normal);
+    const uint32_t lobeAndRoulette = dimension(bounceNumber(bounce) + 1);
+    if (_smooth | _general)
+        photonPoints(block.photon, lobeAndRoulette, _lobe, _roulette);
+    else
+        secondPhotonPoints(block.photon, lobeAndRoulette, _roulette);
+    if (_diffuse | _general) photonPoints(block.photon, dimension(bounceNumber(bounce)), _u, _v);
+
+    if (_diffuse) diffuseDirections(_normal, _u, _v, _scattered.wi);
+    _scattered.alive = _diffuse;
+    _scattered.transmitted = _scattered.mirrored = 0;
+    if (_smooth)
+    {
+        const IncidentLanes incident{block.direction.x, block.direction.y, block.direction.z,
+                                     _normal};
+        const SmoothLanes sampled =
+            sampleSmoothLanes(_interfaces, incident, _lobe, _smooth, Transport::Importance,
+                              _scattered.wi, _scattered.weight);
+        _scattered.alive |= sampled.alive;
+        _scattered.transmitted = sampled.transmitted;
+        _scattered.mirrored = _smooth;
+    }
+    for (const int i : lanesIn(_general))
+        scatterOne(block, i, mustMirror);
+    _scattered.alive &= ~(_oneSided & ~(_seen ^ _scattered.transmitted));
+    const LaneMask alive = leaveSurfaces(surface, _normal, _scattered, _roulette, block);
+    _paths.append(block, alive);
+}
+
+/// Sorts the lanes by what their surfaces are; returns those that photons are stored at.
+LaneMask ChunkTracer::classify(const SurfaceLanes& surface)
+{
+    const MaterialTable& materials = _inputs.traced.materials();
+    LaneMask stores = 0;
+    _diffuse = _smooth = _general = 0;
+    for (const int i : lanesIn(surface.hits))
+    {
+        const LaneMask lane = 1u << i;
+        const MaterialRecord& record = materials[surface.material[i]];
+        if (record.plainDiffuse)
+        {
+            setLane(_scattered.weight, i, record.front.diffuse);
+            if (record.front.diffuse != Vec3(0.0f)) _diffuse |= lane;
+            continue;
+        }
+        const Bsdf* const bsdf = bsdfAt(surface, i);
+        if (isSmoothInterface(*bsdf))
+        {
+            _interfaces.set(i, *bsdf);
+            _smooth |= lane;
+            continue;
+        }
+        _bsdfs[i] = bsdf;
+        _general |= lane;
+        if (storesPhotons(*bsdf)) stores |= lane;
+    }
+    return stores | _diffuse;
+}
+
+/// Lets half of the photons go on, twice as bright, where a surface is lit and lets light through
+/// all the same. All surfaces are such for photons that come straight from a light without shadows.
+/// For other photons those faces are that all rays pass from one side, if photons meet the side
+/// that is seen. A path from the eye meets that side only, so light that leaves on the other side
+/// is part of no path: scatter() absorbs it. Returns the lanes that go on.
+LaneMask ChunkTracer::passFaces(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+                                int bounce)
+{
+    LaneMask passed = 0;
+    for (const int i : lanesIn(lanes & surface.hits))
+    {
+        const Material& material = *_inputs.traced.materials()[surface.material[i]].material;
+        const LaneMask lane = 1u << i;
+        bool passes = bounce == 0 && !_inputs.lights[block.light[i]].castsShadows;
+        if (material.cullsAllRays)
+        {
+            _oneSided |= lane;
+            if (!isCulled(material, isFrontFace(material, (surface.front >> i) & 1u)))
+            {
+                _seen |= lane;
+                passes = true;
+            }
+        }
+        if (!passes) continue;
+        setLane(block.power, i, 2.0f * laneOf(block.power, i));
+        const uint32_t face = hash(surface.instance[i], _rays.primitive[i]);
+        if (hash(hash(dimension(bounceNumber(bounce)), block.photon[i]), face) & 0x80000000u)
+            passed |= lane;
+    }
+    _oneSided &= ~passed;
+    _seen &= ~passed;
+    return passed;
+}
+
+/// Finds the surfaces that the photons of a block meet and do not pass.
+void ChunkTracer::findSurfaces(PhotonPathBlock& block, LaneMask active, int bounce,
+                               SurfaceLanes& surface)
+{
+    loadRays(block, _rays);
+    _oneSided = _seen = 0;
+    for (LaneMask lanes = active;;)
+    {
+        _inputs.traced.intersector().closestHits(_rays, active, Coherence::Incoherent, kPhotonRays);
+        _chunk.rays += static_cast<uint64_t>(countLanes(active));
+        surfacesOf(_inputs.traced.surfaces(), _rays, active, surface);
+        if (!_inputs.culls && !(bounce == 0 && _inputs.shadowless)) return;
+        lanes = passFaces(block, surface, lanes, bounce);
+        if (!lanes) break;
+        for (const int i : lanesIn(lanes))
+            _rays.ray.tNear[i] = std::nextafter(_rays.ray.tFar[i], kInfinity);
+        std::fill_n(_rays.ray.tFar.v, kLanes,
+                    kInfinity); // the other lanes meet the same surface again
+    }
+    std::fill_n(_rays.ray.tNear.v, kLanes, 0.0f);
+}
+
+} // namespace osgRayTrace::engine

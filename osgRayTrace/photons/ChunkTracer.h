@@ -1,0 +1,105 @@
+// ChunkTracer.h - follows a chunk of a pass's photons, sixteen to a block. Layer: photons.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/photons/PhotonPaths.h"
+#include "osgRayTrace/photons/PhotonTracer.h"
+#include "osgRayTrace/sampling/Sampler.h"
+#include "osgRayTrace/shading/SmoothLanes.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// Number of photons that are followed together.
+constexpr uint32_t kPhotonChunk = 2048;
+
+/// Dimensions of a photon's sequence.
+enum PhotonDimension : uint32_t
+{
+    EmissionChoice = 0, ///< light, choice
+    EmissionPosition = 1,
+    EmissionDirection = 2,
+    BounceFirst = 3, ///< then for each bounce: direction; lobe and roulette
+};
+
+/// What all chunks of a pass read.
+struct ChunkInputs
+{
+    const TracedScene& traced;
+    const std::vector<Light>& lights;
+    const PhotonEmitter& emitter;
+    const PhotonGuide* photonGuide; ///< null: photons are guided by the scene alone
+    const PhotonPassOptions& options;
+    uint32_t seed;   ///< of the pass
+    bool culls;      ///< there are faces of which all rays pass one side
+    bool shadowless; ///< there are lights without shadows
+};
+
+/// What was traced of a chunk.
+struct PhotonChunk
+{
+    std::vector<Photon> photons;
+    std::vector<uint32_t> bins; ///< of PhotonGuide, for each photon that was emitted
+    uint64_t rays = 0;
+    uint64_t dropped = 0;
+};
+
+/// Emits and follows the photons of one chunk. The loop, with the estimator above it, is in
+/// PhotonTracer.cpp; what photons do at surfaces is in ChunkTracer.cpp.
+class ChunkTracer
+{
+public:
+    ChunkTracer(const ChunkInputs& inputs, PhotonChunk& chunk) : _inputs(inputs), _chunk(chunk) {}
+
+    /// Traces count photons, the first of which has the number first within the pass.
+    void trace(uint32_t first, uint32_t count);
+
+private:
+    uint32_t dimension(uint32_t number) const { return dimensionSeed(_inputs.seed, number); }
+    static uint32_t bounceNumber(int bounce)
+    {
+        return BounceFirst + 2 * static_cast<uint32_t>(bounce);
+    }
+
+    /// True if photons are wanted only from paths whose surface at this bounce is mirror-like.
+    bool mustReflect(int bounce) const
+    {
+        return bounce == 0 && _inputs.options.use == PhotonUse::Caustics;
+    }
+
+    void emitBlock(uint32_t first, uint32_t count);
+    void follow(PhotonPathBlock block, LaneMask active, int bounce);
+    void findSurfaces(PhotonPathBlock& block, LaneMask active, int bounce, SurfaceLanes& surface);
+    LaneMask passFaces(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+                       int bounce);
+    void leaveLight(PhotonPathBlock& block, SurfaceLanes& surface) const;
+    LaneMask classify(const SurfaceLanes& surface);
+    void store(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+               int bounce);
+    void scatter(PhotonPathBlock& block, const SurfaceLanes& surface, int bounce);
+    void scatterOne(const PhotonPathBlock& block, int i, bool mustMirror);
+    const Bsdf* bsdfAt(const SurfaceLanes& surface, int i);
+
+    const ChunkInputs& _inputs;
+    PhotonChunk& _chunk;
+    uint32_t _first = 0; ///< number of the chunk's first photon within the pass
+    PhotonPathQueue _paths{kPhotonChunk};
+    // The block at work.
+    RayHitBlock _rays;
+    FloatLanes _u, _v, _lobe, _roulette; ///< random numbers of the block's bounce
+    Vec3Lanes _normal;                   ///< shading, on the side of the ray
+    LaneMask _diffuse = 0; ///< lanes on plain Lambert surfaces; _scattered has their albedo
+    LaneMask _smooth = 0;  ///< lanes on smooth interfaces
+    InterfaceLanes _interfaces;
+    LaneMask _general = 0;  ///< lanes on all other surfaces that are not black
+    LaneMask _oneSided = 0; ///< lanes on faces that all rays pass from one side
+    LaneMask _seen = 0;     ///< lanes of _oneSided on the side of the face that is seen
+    const Bsdf* _bsdfs[kLanes] = {};
+    Bsdf _textured[kLanes]; ///< memory for those of _bsdfs that vary over their surface
+    Scattered _scattered;
+};
+
+} // namespace osgRayTrace::engine
