@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/photons/PhotonPaths.h"
-#include "osgRayTrace/photons/PhotonTracer.h"
+#include "osgRayTrace/photons/TracedPhotons.h"
 #include "osgRayTrace/sampling/Sampler.h"
 #include "osgRayTrace/shading/SmoothLanes.h"
 
