@@ -3,6 +3,7 @@
 #include "apps/common/Interruption.h"
 
 #include "osgRayTrace/base/OutputFile.h"
+#include "osgRayTrace/base/TemporaryFile.h"
 
 #include <unistd.h>
 
