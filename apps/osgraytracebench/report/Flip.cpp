@@ -157,8 +157,8 @@ double sumOf(const std::vector<double>& values)
     return sum;
 }
 
-/// Is a sqrt(pi / b) exp(-pi^2 r^2 / b), r in degrees: the eye's contrast sensitivity [Andersson20,
-/// eq. 4 and table 1].
+/// Describes the eye's contrast sensitivity, a sqrt(pi / b) exp(-pi^2 r^2 / b), r in degrees
+/// [Andersson20, eq. 4 and table 1].
 struct Gaussian
 {
     double a, b;

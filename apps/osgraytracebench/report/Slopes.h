@@ -22,8 +22,8 @@ struct Slope
     double error = 0.0; ///< standard error, by leaving out one series in turn
 };
 
-/// Is an independent repetition of an experiment: points (x, y) in an order that all series share;
-/// later points may be missing.
+/// Holds one of several independent repetitions of an experiment: points (x, y) in an order that
+/// all series share; later points may be missing.
 struct Series
 {
     std::vector<double> x, y;

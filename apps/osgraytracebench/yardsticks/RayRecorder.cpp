@@ -7,8 +7,8 @@ namespace
 
 osgRayTrace::bench::RecordedRays* recording = nullptr;
 
-/// Is true while Embree traces: calls from within Embree, for parts of the scene, have rays that
-/// are recorded already.
+/// This flag is true while Embree traces: calls from within Embree, for parts of the scene, have
+/// rays that are recorded already.
 thread_local bool tracing = false;
 
 struct Tracing
