@@ -42,13 +42,14 @@ struct CoatAlbedoRow
 class CoatAlbedo
 {
 public:
-    /// Returns the table of an index, shared by all that use it at the same time. Thread safe.
+    /// Returns the table of an index, shared by all that use it at the same time. It is thread
+    /// safe.
     static std::shared_ptr<CoatAlbedo> ofIndex(float eta);
 
     explicit CoatAlbedo(float eta) : _eta(eta) {}
 
-    /// Makes the rows around a roughness = sqrt(alpha) in [0, 1], or all. Thread safe: rows that
-    /// are made do not change.
+    /// Makes the rows around a roughness = sqrt(alpha) in [0, 1], or all. It is thread safe: rows
+    /// that are made do not change.
     void prepare(float roughness);
     void prepareAll();
 
