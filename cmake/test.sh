@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
-# test.sh [release|asan|tsan ...] - builds osgRayTrace and runs the test suite of the presets that are named, or
-# else of all three: everything in release; tests of parts, of OpenGL and of the programs and those with random
-# input again under AddressSanitizer and UBSan; the engine's threads and the drawable's under ThreadSanitizer
-# (what that does not see of OSG: tests/RaceSuppressions.txt).
-# CXX=clang++ builds with Clang, in a fresh clone; GCC is the default.
+# test.sh - builds osgRayTrace and runs the whole test suite. Everything runs in release; tests of parts, of
+# OpenGL, of the programs and with random input run again under AddressSanitizer and UBSan, and those of the
+# engine's and the drawable's threads under ThreadSanitizer (tests/RaceSuppressions.txt names what that does not
+# see of OSG).
 # OSGRAYTRACE_FUZZ_SEEDS=<number> takes that many random inputs.
 # Sample models of OpenSceneGraph are found by OSG_FILE_PATH, or in a folder openscenegraph-data beside
 # or near the source; tests that need them are skipped without.
@@ -33,7 +32,7 @@ done
 export OSG_FILE_PATH=${OSG_FILE_PATH:-}
 say "Sample models: ${OSG_FILE_PATH:-none, tests that need them are skipped}"
 
-# check PRESET [CTEST ARGUMENT ...]
+# check PRESET [CTEST ARGUMENT ...] runs the tests of a preset.
 check()
 {
     local preset=$1

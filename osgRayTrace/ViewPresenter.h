@@ -46,11 +46,11 @@ public:
     engine::TraceReport report(const engine::SceneVersion& version);
     bool inBackground() const { return _inBackground; } ///< any thread
 
-    /// Lets views that could not be traced until now be tried again. Any thread.
+    /// Lets views that could not be traced until now be tried again. May be called from any thread.
     void forgetFailures() { _tracer.forgetFailures(); }
 
-    /// Returns the accumulated linear radiance; null if there is none. Any thread; waits for the
-    /// thread that traces.
+    /// Returns the accumulated linear radiance; null if there is none. May be called from any
+    /// thread, and waits for the one that traces.
     osg::ref_ptr<osg::Image> radiance() const;
 
     /// Releases OpenGL's objects in any thread that OSG calls it from; null: of all contexts.

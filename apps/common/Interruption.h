@@ -17,7 +17,7 @@ namespace osgRayTrace::app
 /// an error of that write.
 void handleSignals();
 
-/// Returns whether one of the three signals has come. Any thread.
+/// Returns whether one of the three signals has come. May be called from any thread.
 bool isInterrupted();
 
 /// Returns 128 and the signal's number, as shells do; 0 without a signal.

@@ -29,8 +29,8 @@ public:
     virtual bool readFromMaster(void* data, int bytes) = 0;     ///< slaves
 };
 
-/// Is the message of a node: its offer, or the agreement. The size and the place of the version are
-/// those of all versions to come, so that nodes with different versions stay in step.
+/// Holds the message of a node: its offer, or the agreement. The size and the place of the version
+/// are those of all versions to come, so that nodes with different versions stay in step.
 struct WorkMessage
 {
     static constexpr int kVersion = 2; ///< 1 had a single number of passes

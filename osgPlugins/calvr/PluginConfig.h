@@ -34,8 +34,8 @@ PluginConfig readConfig(const std::vector<std::string>& names,
                         RayTraceSettings& settings);
 
 /// Returns all that the nodes of a cluster must have in common, as lines "option=value". The number
-/// of threads and the time that a node has are left out, and "trace" is included, for a click in
-/// the menu switches every node to the opposite state.
+/// of threads and the time that a node has are left out. "trace" is included, for a click in the
+/// menu switches every node to the opposite state.
 std::string sharedSettings(const RayTraceSettings& settings, const PluginConfig& config);
 
 /// Sets the options of such lines. Lines that fit no option are left out (the other node has

@@ -20,7 +20,7 @@ class RoomLights
 public:
     /// Keeps copies, as children of below, of the light sources that are children of room.
     /// belowFromRoom: takes places in room to places in below. Nothing is touched if nothing has
-    /// changed. Update thread.
+    /// changed. Called by the update thread.
     void update(const osg::Group& room, const osg::Matrixd& belowFromRoom, osg::Group& below);
 
     /// Removes the copies.

@@ -11,7 +11,7 @@ namespace osgRayTrace::calvr
 
 /// Puts a RayTracedScene between a node and its parents while it is on. Off, the graph is as it
 /// was: parents, their order and the places among their children. The converted scene is kept, so
-/// that switching to and fro converts nothing. Update thread.
+/// that switching to and fro converts nothing. Its functions are for the update thread.
 class TracedRoot
 {
 public:

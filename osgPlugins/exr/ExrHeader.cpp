@@ -22,8 +22,8 @@ constexpr long long kOffsetBytes =
     8; ///< size of a chunk's entry in the table that follows the headers
 
 /// A file can be smaller than its pixels by this factor. Deflate writes a bit or more for 129 bytes
-/// (a ratio of 1032 at most, and PXR24 leaves out a quarter first), and Huffman codes of PIZ are no
-/// smaller; DWA has runs beyond that.
+/// (a ratio of 1032 at most, and PXR24 leaves out a quarter first), and Huffman codes of PIZ reach
+/// less; runs of DWA reach more: see kLargestDwaRatio.
 constexpr long long kLargestRatio = 2048;
 constexpr long long kLargestDwaRatio = 1 << 16;
 

@@ -41,7 +41,7 @@ inline bool isRgbeSize(long long width, long long height)
 
 /// Reads a picture of any orientation: rows of single pixels or of runs, by the format of 1985 or
 /// of 1991. The function takes time and memory in proportion to the bytes of the stream, or to 2^24
-/// pixels if those are more, and takes memory for pixels after it has seen that all of them are
+/// pixels if those are more. It takes memory for pixels after it has seen that all of them are
 /// there. Bad input leaves image as it was.
 std::string readRgbe(std::istream& stream, RgbeImage& image);
 

@@ -9,9 +9,9 @@
 namespace osgRayTrace::engine
 {
 
-/// Is a context of fixed size whose native part exists from construction on. A subclass creates
-/// that part in its constructor, destroys it in closeImplementation() and calls close() in its
-/// destructor.
+/// This is the base of contexts of fixed size whose native part exists from construction on. A
+/// subclass creates that part in its constructor, destroys it in closeImplementation() and calls
+/// close() in its destructor.
 class PixelContext : public osg::GraphicsContext
 {
 public:

@@ -11,9 +11,9 @@ namespace osgRayTrace::engine
 {
 
 /// Holds radiance by latitude and longitude; each pixel is a patch of constant radiance. Column x +
-/// 1/2 of width is azimuth (x + 1/2) / width of a turn from -y clockwise as seen from above, so
-/// that the image's middle is +y and +x is to the right of the middle. Rows divide the angle from
-/// nadir (-z) to zenith (+z) evenly.
+/// 1/2 of width is azimuth (x + 1/2) / width of a turn from -y clockwise as seen from above. So the
+/// image's middle is +y, and +x is to the right of the middle. Rows divide the angle from nadir
+/// (-z) to zenith (+z) evenly.
 struct EnvironmentImage
 {
     int width = 0;

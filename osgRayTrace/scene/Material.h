@@ -146,7 +146,7 @@ struct Material
 
     Vec3 emission{0.0f}; ///< Physical: radiance [W/(m^2 sr)]; FixedFunction: GL emission
 
-    // How these members make the surface's opacity is told at MaterialTable::opacity.
+    // MaterialTable::opacity tells how these members make the surface's opacity.
     float alpha = 1.0f;
     bool blended = false; ///< true: alpha is the opacity; false: alpha is only tested
     AlphaTest alphaTest = AlphaTest::Always;

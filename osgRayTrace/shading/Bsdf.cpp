@@ -98,7 +98,7 @@ void addReflection(const Bsdf& bsdf, Vec3 wo, float fresnelO, Vec3 wi, float pmf
     if (length2 < 1e-14f) return;
     const float length = std::sqrt(length2);
     const Vec3 h = sum / length;
-    const float cosH = 0.5f * length; // the same for wo and wi, to the last bit
+    const float cosH = 0.5f * length; // equal for wo and wi, to the last bit
     const float d = evalGgx(h, bsdf.alpha);
     const float fresnelH = interfaceFresnel(bsdf, cosH);
     pmf *= refractsSmoothly(bsdf, wo) ? reflectedShare(bsdf, wo.z, fresnelO)

@@ -27,8 +27,8 @@ OSGRAYTRACE_INLINE float coatRowAlbedo(const float* albedo, float cosTheta)
 }
 
 /// Holds the directional albedo E(cos) of GGX reflection with the Fresnel factor of a dielectric,
-/// single scattering, and its average Eavg = 2 int E(c) c dc. A base under such a coat that is
-/// scaled by (1 - E(wo)) (1 - E(wi)) / (1 - Eavg) is reciprocal and takes no more than the coat
+/// single scattering, and its average Eavg = 2 int E(c) c dc. A base under such a coat is scaled by
+/// (1 - E(wo)) (1 - E(wi)) / (1 - Eavg): it is then reciprocal and takes no more than the coat
 /// leaves [Kelemen01, sect. 3].
 struct CoatAlbedoRow
 {
@@ -42,13 +42,14 @@ struct CoatAlbedoRow
 class CoatAlbedo
 {
 public:
-    /// Returns the table of an index, shared by all that use it at the same time. Thread safe.
+    /// Returns the table of an index, shared by all that use it at the same time. It is thread
+    /// safe.
     static std::shared_ptr<CoatAlbedo> ofIndex(float eta);
 
     explicit CoatAlbedo(float eta) : _eta(eta) {}
 
-    /// Makes the rows around a roughness = sqrt(alpha) in [0, 1], or all. Thread safe: rows that
-    /// are made do not change.
+    /// Makes the rows around a roughness = sqrt(alpha) in [0, 1], or all. It is thread safe: rows
+    /// that are made do not change.
     void prepare(float roughness);
     void prepareAll();
 

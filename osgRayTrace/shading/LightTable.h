@@ -20,7 +20,7 @@ struct AreaLightSample
     float cosThetaL = 0.0f; ///< cosine at the light, > 0 on an emitting side
     Vec2 uv{0.0f};          ///< texture coordinates of the point
     float pdfW = 0.0f;      ///< [1/sr] with respect to the lit point
-    Vec3 point{0.0f};       ///< on the light
+    Vec3 point{0.0f};       ///< the point on the light
     Vec3 normal{0.0f};      ///< unit, normal of the light at the point; of either side
     float offset =
         0.0f; ///< distance off the light's plane that is clear of its own surface [length]

@@ -64,8 +64,8 @@ public:
     /// bright with that reflection as with OpenGL's highlight, so that the reflectance is about
     /// specular * 8/(shininess+2). No more light leaves than comes: the highlight is limited to
     /// what the largest component of diffuse leaves of 1, but not to less than the 0.04 of an
-    /// interface of index 1.5. If the sum of both is above 1 even so, diffuse is scaled down by the
-    /// excess.
+    /// interface of index 1.5. If both together are above 1 even so, diffuse is scaled down to what
+    /// the highlight leaves.
     Bsdf bsdf(uint32_t material, const MaterialPoint& point) const;
 
     /// Returns the radiance that leaves the surface by itself: emission, or the colour of unlit

@@ -13,7 +13,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Samples an environment in engine space, where directions are unit vectors. Thread safe.
+/// Samples an environment in engine space, where directions are unit vectors. The class is thread
+/// safe.
 class PlacedEnvironment
 {
 public:

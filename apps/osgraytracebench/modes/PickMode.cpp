@@ -65,7 +65,7 @@ void cullOnce(osg::Node& scene)
     scene.accept(*cull);
 }
 
-/// Returns the seconds of a pick, from so many picks; the pickers take turns with the lines.
+/// Returns the seconds of a pick: the mean over the first count lines.
 template <class Picker>
 double secondsAPick(osg::Node& root, const std::vector<Line>& lines, int count, bool useKdTrees)
 {
