@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# test.sh - builds osgRayTrace and runs the whole test suite. Everything runs in release; tests of parts, of
-# OpenGL, of the programs and with random input run again under AddressSanitizer and UBSan, and those of the
-# engine's and the drawable's threads under ThreadSanitizer (tests/RaceSuppressions.txt names what that does not
-# see of OSG).
+# test.sh [release|asan|tsan ...] builds osgRayTrace and runs the test suite of the presets that are named, or
+# of all three if none is. Everything runs in release. Tests of parts, of OpenGL, of the programs and with random
+# input run again under AddressSanitizer and UBSan, and those of the threads of the engine and of the drawable
+# under ThreadSanitizer (tests/RaceSuppressions.txt names what that does not see of OSG).
+# CXX=clang++ builds with Clang, in a fresh clone; GCC is the default.
 # OSGRAYTRACE_FUZZ_SEEDS=<number> takes that many random inputs.
 # Sample models of OpenSceneGraph are found by OSG_FILE_PATH, or in a folder openscenegraph-data beside
 # or near the source; tests that need them are skipped without.
