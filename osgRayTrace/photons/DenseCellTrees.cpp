@@ -14,15 +14,16 @@ namespace osgRayTrace::engine
 namespace
 {
 
-// Roundings of insideDisc and of the boxes' own sums: relative to the radius, and of cosines.
+// Bounds of the rounding errors of insideDisc and of the boxes' own sums: relative to the radius,
+// and of cosines.
 constexpr double kRadiusError = 0x1p-20;
 constexpr float kCosineError = 1e-5f;
 
 constexpr int kAxisBits = 15;
 constexpr int kDigitBits = 12;
-constexpr int kDigits = 4; ///< of a key: three axes, and three bits for the side
+constexpr int kDigits = 4; ///< digits of a key: three axes, and three bits for the side
 
-/// Two bits of room after each bit of x.
+/// Returns x with two bits of room after each of its bits.
 uint64_t spread(uint64_t x)
 {
     x = (x | x << 16) & 0x0000ff0000ffull;
@@ -31,7 +32,7 @@ uint64_t spread(uint64_t x)
     return (x | x << 2) & 0x249249249249ull;
 }
 
-/// Of the six, the axis that a normal is nearest to.
+/// Returns which of the six half axes a normal is nearest to.
 uint64_t sideOf(Vec3 n)
 {
     const Vec3 size = glm::abs(n);
@@ -45,7 +46,7 @@ struct Keyed
     uint32_t photon;
 };
 
-/// By counting, digit by digit from the lowest.
+/// Sorts by counting, digit by digit from the lowest.
 void sortByKey(std::vector<Keyed>& list)
 {
     std::vector<Keyed> other(list.size());
@@ -247,7 +248,7 @@ void DenseCellTrees::visit(const PhotonQuery& query, Range range, bool sums, Vis
     auto denseCell =
         std::lower_bound(_denseCells.begin(), _denseCells.end(), range.begin, isBefore);
     uint32_t at = range.begin;
-    // Ranges are of whole cells: a dense cell is in them or is not.
+    // A range consists of whole cells, so a dense cell is in it or is not.
     for (; denseCell != _denseCells.end() && denseCell->range.end <= range.end; ++denseCell)
     {
         if (at < denseCell->range.begin) visit.read.push_back({at, denseCell->range.begin});

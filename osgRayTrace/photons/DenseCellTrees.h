@@ -19,9 +19,9 @@ struct PhotonQuery;
 /// Cells with more photons than this are dense.
 constexpr uint32_t kDenseCell = 2048;
 
-/// Puts the photons of a dense cell, by index into photons, into an order in which those that are
-/// near each other follow each other: by the side that their surface looks to, then along a Z
-/// curve. Equal places keep their order.
+/// Sorts the photons of a dense cell, by index into photons, so that photons near each other follow
+/// each other: by the side that their surface faces, then along a Z curve. Photons at equal places
+/// keep their order.
 void sortDenseCell(const std::vector<Photon>& photons, std::vector<uint32_t>& denseCell);
 
 /// Trees of boxes over sorted dense cells. Immutable once built; thread safe.
@@ -43,7 +43,7 @@ public:
     bool empty() const { return _denseCells.empty(); }
     std::size_t bytes() const;
 
-    /// What a look-up has yet to read, and what was added up without reading.
+    /// The photons that a look-up has yet to read, and the sums of those that it need not read.
     struct Visit
     {
         std::vector<Range> read;
@@ -52,8 +52,8 @@ public:
     };
 
     /// Goes through a range in ascending order. Boxes outside of the query's disc are left out.
-    /// With sums those whose photons are all in it, each of weight 1, are added up as they are, so
-    /// that only the disc's rim is read.
+    /// With sums, boxes whose photons are all in the disc, each of weight 1, are added up as they
+    /// are, so that only the disc's rim is read.
     void visit(const PhotonQuery& query, Range range, bool sums, Visit& visit) const;
 
 private:
@@ -61,9 +61,9 @@ private:
     struct Node
     {
         Vec3 low, high;
-        Vec3 normal;        ///< of the photons' surfaces, the mean
-        float normalSpread; ///< largest distance of one of them from it
-        float leastCosine;  ///< of a photon's direction and the mean
+        Vec3 normal;        ///< mean normal of the photons' surfaces
+        float normalSpread; ///< largest distance of one of these normals from the mean
+        float leastCosine;  ///< least cosine between a photon's direction and the mean normal
         uint32_t mostEdges;
         Vec3 power;
     };
@@ -73,7 +73,7 @@ private:
     struct DenseCell
     {
         Range range;
-        std::vector<std::vector<Node>> levels; ///< boxes of photons first; the last is one box
+        std::vector<std::vector<Node>> levels; ///< from boxes over photons up to one box over all
     };
 
     static Node leafOf(const PhotonColumns& columns, Range range);

@@ -10,19 +10,20 @@
 namespace osgRayTrace::engine
 {
 
-/// A flux that arrived at a surface.
+/// A flux that has arrived at a surface.
 struct Photon
 {
     Vec3 position{0.0f};
-    Vec3 wi{0.0f};           ///< unit, towards where it came from
+    Vec3 wi{0.0f};           ///< unit, towards the place that the photon came from
     Vec3 power{0.0f};        ///< [W], already divided by the number of emitted photons
-    Vec3 normal{0.0f};       ///< geometric, unit, on the side of wi
-    uint32_t edges = 0;      ///< of its path, from the light to here
-    bool direct = false;     ///< met mirror-like surfaces only
-    uint32_t bin = kInvalid; ///< of PhotonGuide that it was sent to, if it was
+    Vec3 normal{0.0f};       ///< the surface's geometric normal, unit, on the side of wi
+    uint32_t edges = 0;      ///< number of edges of the path from the light to here
+    bool direct = false;     ///< the path has met mirror-like surfaces only
+    uint32_t bin = kInvalid; ///< the bin of PhotonGuide that the photon was guided to, if any
 };
 
-/// Photon paths are told apart by their number of edges up to here; longer ones count as this.
+/// Photon paths are told apart by their number of edges up to this one; longer paths count as this
+/// long.
 constexpr uint32_t kMostEdges = 127;
 
 /// A disc on a surface that photons are looked for in.
@@ -33,7 +34,7 @@ struct PhotonQuery
     Vec3 shadingNormal{
         0.0f}; ///< unit; power is weighted by the ratio of its cosine to that of normal
     float radius = 0.0f;
-    uint32_t mostEdges = kMostEdges; ///< photons of more are left out
+    uint32_t mostEdges = kMostEdges; ///< photons of longer paths are left out
 };
 
 struct PhotonSum
@@ -42,24 +43,24 @@ struct PhotonSum
     uint32_t count = 0;
 };
 
-/// Sixteen discs. Those near each other read the photons around them once.
+/// Sixteen discs. Discs near each other read the photons around them once.
 struct PhotonQueryLanes
 {
     Vec3Lanes position, normal, shadingNormal; ///< see PhotonQuery
     FloatLanes radius;
     uint32_t mostEdges = kMostEdges;
-    LaneMask lanes = 0; ///< in use
+    LaneMask lanes = 0; ///< the lanes in use
 };
 
 PhotonQuery laneOf(const PhotonQueryLanes& queries, int i);
 
 struct PhotonSumLanes
 {
-    Vec3Lanes power; ///< undefined where the count is 0
-    UintLanes count; ///< 0 of lanes that are not in use
+    Vec3Lanes power; ///< undefined in lanes whose count is 0
+    UintLanes count; ///< 0 in lanes that are not in use
 };
 
-/// A photon, and the lanes whose discs it is in.
+/// A photon by its index, and the lanes whose discs hold it.
 struct FoundPhoton
 {
     uint32_t photon;
@@ -67,8 +68,8 @@ struct FoundPhoton
 };
 
 /// Photons near a corner or behind a thin wall do not belong to a surface although they are within
-/// the radius: those farther off its plane than this share of the radius are left out, as are those
-/// whose own surface is turned away by more than 60 degrees.
+/// the radius. Left out are photons that are farther from the surface's plane than kPlaneShare of
+/// the radius, and photons whose own surface is turned away by more than 60 degrees.
 constexpr float kPlaneShare = 0.25f;
 constexpr float kLeastNormalCosine = 0.5f;
 

@@ -29,12 +29,11 @@ struct PhotonEmitter::Cones
     {
         Vec3 axis;
         float oneMinusCosine;
-        float share; ///< of the photons that are guided: solid angle over 2 pi, times the target's
-                     ///< weight
+        float share; ///< share of the guided photons: 1 - cosine, times the target's weight
         uint32_t target;
     };
 
-    /// One of them, by share; u is rescaled to [0,1) of all.
+    /// Returns one of the cones, by share; u in [0,1).
     const Cone& choose(float u) const
     {
         float at = u * total;
@@ -46,7 +45,7 @@ struct PhotonEmitter::Cones
         return cones[count - 1];
     }
 
-    /// A direction within a cone, and its bin.
+    /// Samples a direction within a cone, and sets bin to the direction's bin within the cone.
     Vec3 sample(const Cone& cone, LightGuide guide, Vec2 u, uint32_t& bin) const
     {
         if (guide.photonGuide)
@@ -56,7 +55,7 @@ struct PhotonEmitter::Cones
         return turnedTo(cone.axis, squareToCone(u, cone.oneMinusCosine));
     }
 
-    /// [1/sr] of the guided part of the mixture.
+    /// Returns the density of the guided part of the mixture [1/sr].
     float pdf(LightGuide guide, Vec3 direction) const
     {
         float inside = 0.0f;
@@ -88,8 +87,8 @@ PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>
     _targets = std::move(targets.spheres);
     if (_targets.empty()) _guidedShare = 0.0f;
 
-    // In proportion to power; that of point and directional lights is what they send into the
-    // scene.
+    // Lights are chosen in proportion to power. The power of point and directional lights is what
+    // they send into the scene.
     std::vector<double> powers;
     double total = 0.0;
     for (uint32_t i = 0; i < lights.size(); ++i)
@@ -198,8 +197,8 @@ uint32_t PhotonEmitter::binOf(LightGuide guide, uint32_t target, uint32_t bin) c
     return PhotonGuide::index(guide.light, target, static_cast<uint32_t>(_targets.size()), bin);
 }
 
-/// The direction of a photon that is guided, by the first share of the numbers that choose; and its
-/// bin.
+/// Samples the direction of a photon that is guided, and sets its bin. share: of the photons that
+/// are guided; point.choice is below it.
 Vec3 PhotonEmitter::guidedDirection(const Cones& cones, float share, const EmissionPoint& point,
                                     LightGuide guide, uint32_t& bin) const
 {
@@ -210,8 +209,8 @@ Vec3 PhotonEmitter::guidedDirection(const Cones& cones, float share, const Emiss
     return direction;
 }
 
-/// Cones of the targets as seen from origin, and the sum of their solid angles over 2 pi. spread:
-/// photons start so far beside the origin.
+/// Returns the cones of the targets as seen from origin. spread: photons start up to so far beside
+/// the origin.
 PhotonEmitter::Cones PhotonEmitter::conesFrom(Vec3 origin, float spread, LightGuide guide) const
 {
     Cones result;
@@ -225,8 +224,8 @@ PhotonEmitter::Cones PhotonEmitter::conesFrom(Vec3 origin, float spread, LightGu
         const float distance2 = glm::dot(d, d);
         const float radius = target.radius + spread;
         const float sin2 = radius * radius / distance2;
-        if (!(sin2 < 0.999f)) continue; // around or beside the origin: the plain emission finds it
-        // 1 - cos without cancellation.
+        if (!(sin2 < 0.999f)) continue; // a target around the origin needs no guiding
+        // 1 - cosine without cancellation
         const float oneMinusCosine = sin2 / (1.0f + std::sqrt(1.0f - sin2));
         if (!(oneMinusCosine > 0.0f)) continue;
         const float share = weights ? weights[t] * oneMinusCosine : oneMinusCosine;

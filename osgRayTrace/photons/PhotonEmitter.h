@@ -21,10 +21,10 @@ struct PhotonStart
     Vec3 direction{0.0f}; ///< unit
     Vec3 power{0.0f};     ///< [W] times the number of photons emitted
     uint32_t light = kInvalid;
-    uint32_t bin = kInvalid; ///< of PhotonGuide that it was guided to, if it was
+    uint32_t bin = kInvalid; ///< the bin of PhotonGuide that the photon was guided to, if any
 };
 
-/// The numbers of [0,1) that an emission takes.
+/// The random numbers in [0,1) that an emission takes.
 struct EmissionPoint
 {
     float light = 0.0f;
@@ -33,7 +33,7 @@ struct EmissionPoint
     Vec2 direction{0.0f};
 };
 
-/// The same for sixteen photons.
+/// The random numbers of sixteen emissions: see EmissionPoint.
 struct EmissionLanes
 {
     FloatLanes light, choice, positionU, positionV, directionU, directionV;
@@ -45,51 +45,54 @@ struct StartLanes
     UintLanes light, bin;
 };
 
-/// Chooses lights in proportion to power, and directions by a mixture: a share of them uniformly
-/// within the cones (for distant lights: discs) that hold the mirror-like and transmissive
-/// instances, the rest as the light shines. The density is that of the mixture, so every share
-/// gives the same mean [Veach97, sect. 9.2]. Thread safe.
+/// Chooses lights in proportion to power, and directions by a mixture. A share of the directions is
+/// uniform within the cones (for distant lights: discs) that hold the mirror-like and transmissive
+/// instances, or follows a PhotonGuide there; the rest are as the light shines. The density is that
+/// of the mixture, so every share gives the same mean [Veach97, sect. 9.2]. Thread safe.
 class PhotonEmitter
 {
 public:
-    /// lights: the scene's, those of eye space placed. guidedShare in [0,1): of photons guided; 0
-    /// if nothing in the scene is specular.
+    /// lights: the scene's, with those of eye space placed. guidedShare: share of the photons that
+    /// are guided, in [0,1); 0 is used if nothing in the scene is specular.
     PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights, float guidedShare);
 
-    /// False if no light has any power.
+    /// Returns false if no light has any power.
     bool emits() const { return !_cumulative.empty(); }
 
-    /// Something in the scene reflects like a mirror or transmits.
+    /// Returns whether something in the scene reflects like a mirror or transmits.
     bool hasTargets() const { return !_targets.empty(); }
 
     std::optional<PhotonStart> emit(const EmissionPoint& point,
                                     const PhotonGuide* photonGuide = nullptr) const;
 
-    /// What emit returns for each lane, up to rounding; vector code where a parallelogram is the
-    /// only light. Returns the lanes that have a start.
+    /// Emits a photon in each lane as emit does, up to rounding: by vector code if a parallelogram
+    /// is the only light. Returns the lanes that have a start.
     LaneMask emitLanes(const EmissionLanes& points, StartLanes& starts,
                        const PhotonGuide* photonGuide = nullptr) const;
 
-    /// Of a PhotonGuide for this emitter; 0: there is nothing to aim at.
+    /// Returns the number of bins of a PhotonGuide for this emitter; 0: there is nothing to guide
+    /// photons to.
     std::size_t guideBins() const;
+
+    /// Makes a guide: see PhotonGuide's constructor.
     std::shared_ptr<const PhotonGuide> learn(const std::vector<uint32_t>& emitted,
                                              const std::vector<double>& seen) const;
 
-    /// Fixed-function lights may fade otherwise than with the square of the distance: what arrives
-    /// after a free flight from the light is the power times this. distance: to the light's centre,
-    /// or its radius where that is more.
+    /// Returns the factor on the power of photons that have come straight from a light. Only
+    /// fixed-function lights have one, which may fade otherwise than with the square of the
+    /// distance. distance: to the light's centre, or the light's radius if that is more.
     float falloff(uint32_t light, float distance) const;
 
-    /// At most this many.
+    /// Largest number of targets.
     static constexpr std::size_t kMaxTargets = 32;
 
-    /// Holds all geometry.
+    /// Returns a sphere that holds all geometry.
     const Sphere& scene() const { return _scene; }
 
 private:
     struct Cones;
     struct Discs;
-    /// What an emission is told beside its numbers. light: as photonGuide numbers it.
+    /// The guide of an emission, or null, and the light as the guide numbers it.
     struct LightGuide
     {
         const PhotonGuide* photonGuide;
@@ -119,8 +122,8 @@ private:
     float _guidedShare;
     Sphere _scene;
     std::vector<Sphere> _targets;
-    std::vector<uint32_t> _emitters; ///< index of a light
-    std::vector<float> _cumulative;  ///< an emitter; the last is 1
+    std::vector<uint32_t> _emitters; ///< indices of the lights that have power
+    std::vector<float> _cumulative;  ///< by emitter: cumulative probability; the last is 1
 };
 
 } // namespace osgRayTrace::engine

@@ -12,13 +12,13 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// A light that is a parallelogram, and what photons are guided to.
+/// A light that is a parallelogram, and the targets that photons are guided to.
 struct Source
 {
     Vec3 corner, edgeU, edgeV, normal;
     float offset, area;
     Vec3 radiance;
-    uint32_t twoSided; ///< all bits or none
+    uint32_t twoSided; ///< all bits or none are set
     const Sphere* targets;
     int targetCount;
     float guidedShare;
@@ -32,11 +32,11 @@ struct TargetCones
     FloatLanes oneMinusCosine; ///< 0: the point is in or beside the target
 };
 
-/// What is known of the lanes' points on the light before their directions.
+/// The lanes' points on the light, and the cones that their directions are sampled in.
 struct PointLanes
 {
     Vec3Lanes position;
-    FloatLanes total; ///< of 1 - cosine over the cones, times the target's weight
+    FloatLanes total; ///< sum of 1 - cosine over the cones, times the target's weight
     TargetCones targetCones[PhotonEmitter::kMaxTargets];
     Vec3Lanes chosenAxis;
     FloatLanes chosenCone;
@@ -61,7 +61,7 @@ void pointsOn(const Source& source, const EmissionLanes& e, PointLanes& p)
     }
 }
 
-/// As PhotonEmitter::conesFrom.
+/// Adds the cone of a target, as PhotonEmitter::conesFrom does.
 OSGRAYTRACE_KERNEL
 void addCone(const Sphere& sphere, float weight, PointLanes& p, TargetCones& targetCone)
 {
@@ -86,8 +86,8 @@ void addCone(const Sphere& sphere, float weight, PointLanes& p, TargetCones& tar
     }
 }
 
-/// One of the cones, by solid angle: at counts down to it. The last one catches what rounding
-/// leaves.
+/// Chooses the cone of a target in the lanes whose at has not yet been counted down below 0. Called
+/// for one target after the other, so the last cone stays chosen if rounding leaves a rest.
 OSGRAYTRACE_KERNEL
 void chooseCone(const TargetCones& targetCone, float weight, uint32_t target, FloatLanes& at,
                 PointLanes& p)
@@ -106,8 +106,8 @@ void chooseCone(const TargetCones& targetCone, float weight, uint32_t target, Fl
     }
 }
 
-/// The bins of the lanes that are guided, and where in the cone their directions are: e but for
-/// those lanes.
+/// Sets the bins of the lanes that are guided. Returns e, with the numbers for directions replaced
+/// in these lanes by their places in the cones.
 EmissionLanes chooseBins(const Source& source, const EmissionLanes& e, const PointLanes& p,
                          UintLanes& bins)
 {
@@ -130,7 +130,7 @@ EmissionLanes chooseBins(const Source& source, const EmissionLanes& e, const Poi
     return chosen;
 }
 
-/// Directions, guided or as the light shines.
+/// Samples directions, guided or as the light shines.
 OSGRAYTRACE_KERNEL
 void directions(const Source& source, const EmissionLanes& e, const PointLanes& p,
                 StartLanes& starts)
@@ -150,7 +150,7 @@ void directions(const Source& source, const EmissionLanes& e, const PointLanes& 
         float sine, cosine;
         sinCosTurn(e.directionU[i], sine, cosine);
         const float v = e.directionV[i];
-        // Uniform in a cone, or by the cosine: see squareToCone.
+        // Guided directions are uniform in a cone (see squareToCone), the others go by the cosine.
         const float height = v * p.chosenCone[i];
         const float lz = select(guided, 1.0f - height, std::sqrt(1.0f - v));
         const float radius = std::sqrt(select(guided, height * (2.0f - height), v));
@@ -164,6 +164,7 @@ void directions(const Source& source, const EmissionLanes& e, const PointLanes& 
     }
 }
 
+/// Counts the cones that directions lie in.
 OSGRAYTRACE_KERNEL
 void countInside(const TargetCones& targetCone, const StartLanes& starts, FloatLanes& inside)
 {
@@ -179,7 +180,7 @@ void countInside(const TargetCones& targetCone, const StartLanes& starts, FloatL
     }
 }
 
-/// The same where bins have weights. Most directions are in one cone.
+/// Adds the weights of the bins that directions lie in. Most directions are in one cone.
 void addWeightsInside(const PhotonGuide& weights, uint32_t target, const TargetCones& targetCone,
                       const StartLanes& starts, FloatLanes& inside)
 {
@@ -193,7 +194,8 @@ void addWeightsInside(const PhotonGuide& weights, uint32_t target, const TargetC
     }
 }
 
-/// Power over the density of the mixture; origins. Returns the lanes that leave a side that shines.
+/// Sets powers, divided by the density of the mixture, and origins. Returns the lanes that leave a
+/// side that shines.
 OSGRAYTRACE_KERNEL
 LaneMask powers(const Source& source, const PointLanes& p, const FloatLanes& inside,
                 StartLanes& starts)
@@ -258,7 +260,7 @@ LaneMask emitFrom(const Source& source, const EmissionLanes& points, StartLanes&
 LaneMask PhotonEmitter::emitLanes(const EmissionLanes& points, StartLanes& starts,
                                   const PhotonGuide* photonGuide) const
 {
-    // One plain light of area is the rule. All others go one by one.
+    // Most scenes have one parallelogram as their light. Photons of all others are emitted singly.
     if (_emitters.size() != 1 || _lights[_emitters[0]].kind != LightKind::Parallelogram)
         return emitSingly(points, starts, photonGuide);
     const uint32_t index = _emitters[0];

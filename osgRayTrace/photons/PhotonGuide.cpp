@@ -1,4 +1,4 @@
-// PhotonGuide.cpp - learns from what was seen of photons where to send more of them. Layer:
+// PhotonGuide.cpp - learns where to send more photons from what views saw of them. Layer:
 // photons.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/PhotonGuide.h"
@@ -12,14 +12,14 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Share of the weights that is learnt: a bin whose use was missed loses no more than the rest.
+/// Share of the weights that is learnt. A bin whose use was missed still has the rest.
 constexpr double kLearnt = 0.7;
 
-/// Bins are few enough to have been sent dozens of photons. To those with fewer the mean over their
-/// target counts as much as this many.
+/// Bins are few enough to have been sent dozens of photons each. In bins with fewer photons the
+/// mean over the target counts as much as this many photons.
 constexpr double kPriorPhotons = 4.0;
 
-/// Walks along weights to the one that holds u, which is rescaled to [0,1) within it.
+/// Returns which of the weights holds u, and rescales u to [0,1) within that weight.
 uint32_t pickScaled(const float* weights, uint32_t count, float sum, float& u)
 {
     float at = u * sum;

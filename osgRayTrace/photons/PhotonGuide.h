@@ -1,4 +1,4 @@
-// PhotonGuide.h - to which parts of their targets lights send photons more often. Layer: photons.
+// PhotonGuide.h - the parts of targets to which lights send photons more often. Layer: photons.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -18,11 +18,11 @@ namespace osgRayTrace::engine
 constexpr uint32_t kGuideSectors = 8, kGuideRings = 8;
 constexpr uint32_t kGuideBins = kGuideSectors * kGuideRings;
 
-/// Lights are told apart up to this number; more are taken together in groups.
+/// Lights are told apart up to this number; if there are more, groups of lights share their bins.
 constexpr uint32_t kMostGuideLights = 16;
 
-/// The bin of a point of the unit square that is mapped onto the cone: u the turn, v the share of
-/// the solid angle (for discs: of the area) within the ring.
+/// Returns the bin of a point of the unit square that is mapped onto the cone. u: the turn; v: the
+/// share of the solid angle (for discs: of the area) within the ring.
 inline uint32_t guideBinOf(float u, float v)
 {
     const auto cell = [](float x, uint32_t count)
@@ -33,8 +33,8 @@ inline uint32_t guideBinOf(float u, float v)
     return cell(v, kGuideRings) * kGuideSectors + cell(u, kGuideSectors);
 }
 
-/// The same from the coordinates across the axis, in any unit: an eighth of a turn needs no
-/// arctangent.
+/// Returns the bin for coordinates across the axis, in any unit. The sector is an eighth of a turn,
+/// so it needs no arctangent.
 inline uint32_t guideBinAt(float x, float y, float v)
 {
     static_assert(kGuideSectors == 8);
@@ -43,11 +43,11 @@ inline uint32_t guideBinAt(float x, float y, float v)
     return guideBinOf(0.0f, v) + 2u * quarter + (steep ^ (quarter & 1u));
 }
 
-/// Weights of the bins of each light and target, from what views saw of photons that were sent
-/// there before. The photons of a bin should be in proportion to the root mean square of what one
-/// of them adds to what is seen: that makes the variance of a sum over the bins least [Veach97,
-/// ch. 2]. A part of the weight is the same for all bins, so that light which
-/// nobody has noticed yet stays within a known factor. Immutable.
+/// Weights of the bins of each light and target, learnt from what views saw of photons that were
+/// sent there before. The number of photons of a bin should be in proportion to the root mean
+/// square of what one of them adds to the pictures: then the variance of a sum over the bins is
+/// least [Veach97, ch. 2]. A part of the weight is the same for all bins, so that light which no
+/// view has seen yet stays within a known factor. Immutable.
 class PhotonGuide
 {
 public:
@@ -57,9 +57,9 @@ public:
         return (light * targets + target) * kGuideBins + bin;
     }
 
-    /// emitted: photons that were guided to each bin. seen: sums of the squares of what each of
-    /// them added. pmf: probability of each emitter, of which several may be one light here: see
-    /// lightOf.
+    /// emitted: number of photons that were guided to each bin. seen: for each bin, the sum of the
+    /// squares of what each of its photons added. pmf: probability of each emitter, of which
+    /// several may be one light here: see lightOf.
     PhotonGuide(uint32_t targets, const std::vector<uint32_t>& emitted,
                 const std::vector<double>& seen, const std::vector<float>& pmf);
 
@@ -69,15 +69,15 @@ public:
             emitters <= kMostGuideLights ? emitter : emitter * kMostGuideLights / emitters);
     }
 
-    /// Mean over the bins of a target. Its own bins' are relative to the same unit.
+    /// Returns for each target of a light the mean weight of its bins, in the unit of weight().
     const float* targetWeights(uint32_t light) const { return &_means[light * _targets]; }
     float weight(uint32_t light, uint32_t target, uint32_t bin) const
     {
         return _weights[index(light, target, _targets, bin)];
     }
 
-    /// That of the bin in which off lies, which goes sideways from the axis [any length], at share
-    /// v of the target.
+    /// Returns the weight of the bin in which off lies, a vector that goes sideways from the axis
+    /// [any length], at share v of the target.
     float weightAt(uint32_t light, uint32_t target, Vec3 axis, Vec3 off, float v) const
     {
         Vec3 tangent, bitangent;
@@ -86,10 +86,11 @@ public:
                       guideBinAt(glm::dot(off, tangent), glm::dot(off, bitangent), v));
     }
 
-    /// A point of the unit square with a density of weight over mean; u uniform. Also its bin.
+    /// Samples a point of the unit square with a density of weight over mean, from u uniform in
+    /// [0,1)^2; sets bin to the bin of the point.
     Vec2 sample(uint32_t light, uint32_t target, Vec2 u, uint32_t& bin) const;
 
-    /// Of the emitters; the last is 1.
+    /// Returns the cumulative probabilities of the emitters; the last is 1.
     const std::vector<float>& cumulative() const { return _cumulative; }
 
 private:

@@ -1,4 +1,4 @@
-// PhotonMap.h - photons of one pass, sorted by cell, and what lies around a point. Layer: photons.
+// PhotonMap.h - photons of one pass, sorted by cell, and look-ups around points. Layer: photons.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,71 +16,72 @@ namespace osgRayTrace::engine
 
 class Workers;
 
-/// How large discs around one place have to be to hold its photons.
+/// How large a disc around one place has to be to hold each of the photons there.
 class NeighbourDistances
 {
 public:
     std::size_t size() const { return _radius2.size(); }
 
-    /// The largest radius of a look-up whose disc holds no more than count photons, to 5e-7 of it;
-    /// infinity if none that was found is left out. Reorders them.
+    /// Returns the largest radius of a look-up whose disc holds no more than count photons, to 5e-7
+    /// of the radius; infinity if the disc may hold all that were found. Reorders the distances.
     float radiusOfNearest(std::size_t count);
 
 private:
     friend class PhotonMap;
-    std::vector<float> _radius2; ///< square of the radius from which on a look-up finds the photon
+    std::vector<float> _radius2; ///< square of the least radius whose look-up finds the photon
 };
 
-/// A grid over hashed cells, its photons in cell order: those of neighbouring cells along x lie one
-/// after the other [Teschner03, spatial hashing; but only y and z are hashed, and x is added].
-/// Immutable once built; thread safe.
+/// A grid over hashed cells with its photons in cell order: photons of neighbouring cells along x
+/// lie one after the other [Teschner03, spatial hashing; but only y and z are hashed, and x is
+/// added]. Immutable once built; thread safe.
 class PhotonMap
 {
 public:
     PhotonMap() = default;
 
-    /// cellSize: twice the radius of most queries is best; any other is right, too. Stable: the
-    /// order of equal cells is that of photons, so results do not depend on threads.
-    /// keepBins: those of the photons, too.
+    /// cellSize: twice the radius of most queries is fastest; results are right with any size. The
+    /// sort is stable: photons of a cell keep the order of the list, so results do not depend on
+    /// threads. keepBins: photon() is to return Photon::bin, too.
     PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers,
               bool keepBins = false);
 
     std::size_t size() const { return _count; }
     std::size_t bytes() const;
 
-    /// Power through the disc of the query, as a surface with its shading normal would receive it
-    /// [Veach97, sect. 5.3].
+    /// Returns the power through the disc of the query, as a surface with the query's shading
+    /// normal would receive it [Veach97, sect. 5.3].
     PhotonSum gather(const PhotonQuery& query) const;
 
-    /// The same of sixteen, to rounding.
+    /// Sums the power of sixteen discs, which differs from that of single look-ups by rounding.
     void gather(const PhotonQueryLanes& queries, PhotonSumLanes& sums) const;
 
-    /// The photons of the disc, by index for photon(): appended to found.
+    /// Appends the photons of the disc to found, by index for photon().
     void find(const PhotonQuery& query, std::vector<uint32_t>& found) const;
 
-    /// The photons of sixteen discs: appended to found. A photon may be there more than once, for
-    /// other lanes.
+    /// Appends the photons of sixteen discs to found. A photon may be found more than once, for
+    /// different lanes.
     void find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& found) const;
 
-    /// The same photons, by what they are away from the place; what was in distances is replaced.
-    /// False if there are more than most: only some of them are there then.
+    /// Replaces distances by those of the disc's photons. Returns false if there are more photons
+    /// than most: distances then holds only some of them.
     bool findDistances(const PhotonQuery& query, std::size_t most,
                        NeighbourDistances& distances) const;
 
     Photon photon(uint32_t index) const;
 
-    /// How many photons gather reads for a query: what it costs. Of a dense cell with sums (see
-    /// DenseCellTrees) those at the rim of the disc; without them, those that it finds and a few
-    /// around. Beside dense cells at most kDenseCell photons of each cell that the disc touches. So
-    /// a pass reads no more than its look-ups times its photons, and by far less unless normals are
-    /// interpolated and all photons are in all discs.
+    /// Returns how many photons gather reads for a query, which is the cost of the query. In a
+    /// dense cell these are the photons at the rim of the disc, if sums are used (see
+    /// DenseCellTrees), or else those in the disc and a few around it. In other cells they are at
+    /// most kDenseCell for each cell that the disc touches. So a pass reads no more photons than
+    /// its look-ups times its photons, and far fewer unless normals are interpolated and all
+    /// photons are in all discs.
     std::size_t work(const PhotonQuery& query) const;
 
 private:
     using Range = DenseCellTrees::Range;
     static constexpr int kMaxRanges = 512;
 
-    /// What is stored of a photon beside its normal.
+    /// The values that are stored of a photon beside its normal.
     enum Column
     {
         X,
@@ -135,13 +136,13 @@ private:
     Vec3d _high{0.0};
     double _cellsPerUnit = 0.0;
     uint32_t _mask = 0;              ///< number of buckets - 1
-    UnclearedArray<uint32_t> _first; ///< a bucket, and one more; the end of the last
-    // In cell order. One column after the other, each with kLanes of padding: loops read whole
-    // blocks.
+    UnclearedArray<uint32_t> _first; ///< by bucket: its first photon; then the end of the last
+    // Photons are in cell order, one column after the other. Each column has kLanes of padding, as
+    // loops read whole blocks.
     UnclearedArray<float> _columns;
-    UnclearedArray<uint32_t> _normal; ///< three signed bytes; edges in seven bits, and direct
+    UnclearedArray<uint32_t> _normal; ///< with edges and direct: see packNormal
     DenseCellTrees _denseCells;       ///< boxes over the photons of dense buckets
-    UnclearedArray<uint32_t> _bin;    ///< empty unless kept
+    UnclearedArray<uint32_t> _bin;    ///< Photon::bin; empty unless kept
 };
 
 } // namespace osgRayTrace::engine

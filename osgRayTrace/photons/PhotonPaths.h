@@ -12,13 +12,13 @@ namespace osgRayTrace::engine
 struct PhotonPathBlock
 {
     Vec3Lanes origin, direction, power;
-    UintLanes photon; ///< its number within the pass
-    UintLanes light;  ///< that it came from
-    UintLanes direct; ///< 1: met nothing but mirror-like surfaces yet
+    UintLanes photon; ///< the photon's number within the pass
+    UintLanes light;  ///< the light that the photon came from
+    UintLanes direct; ///< 1: the path has met nothing but mirror-like surfaces yet
 };
 
-/// Photons in as few blocks as possible, in order. Those that fly on may be appended to the
-/// beginning of the blocks that they are taken from: a block that has been copied is free.
+/// Photons in as few blocks as possible, in order. Photons that go on may be appended while the
+/// blocks of the last bounce are being read: the place of a block that has been copied is free.
 class PhotonPathQueue
 {
 public:
@@ -29,7 +29,7 @@ public:
 
     void clear() { _count = 0; }
 
-    /// The paths of lanes.
+    /// Appends the paths of lanes.
     void append(const PhotonPathBlock& paths, LaneMask lanes);
 
 private:
@@ -37,28 +37,28 @@ private:
     uint32_t _count = 0;
 };
 
-/// The two numbers of a dimension of each lane's photon; seed is the dimension's.
+/// Sets the two random numbers of a dimension of each lane's photon. seed: of the dimension.
 void photonPoints(const UintLanes& photons, uint32_t seed, FloatLanes& u, FloatLanes& v);
 
-/// The second of them alone, which costs half.
+/// Sets the second of these numbers alone, at half the cost.
 void secondPhotonPoints(const UintLanes& photons, uint32_t seed, FloatLanes& v);
 
-/// The rays of a block. What is alike for all of them has to be set once, by readyRays, and after a
-/// query the rest by loadRays.
+/// Sets the rays of a block: readyRays once for the values that all blocks have in common, loadRays
+/// before each query for the rest.
 void readyRays(RayHitBlock& rays);
 void loadRays(const PhotonPathBlock& block, RayHitBlock& rays);
 
-/// Where photons go from the surfaces that they met, as the surface models sampled it.
+/// Where photons go from the surfaces that they have met, as sampled by the surface models.
 struct Scattered
 {
     Vec3Lanes wi;       ///< unit
-    Vec3Lanes weight;   ///< of the sample: f cosine / density
-    LaneMask alive = 0; ///< the others are absorbed
+    Vec3Lanes weight;   ///< f cosTheta / pdfW of the sample
+    LaneMask alive = 0; ///< photons of the other lanes are absorbed
     LaneMask transmitted = 0;
-    LaneMask mirrored = 0; ///< by mirror-like lobes
+    LaneMask mirrored = 0; ///< lanes scattered by mirror-like lobes
 };
 
-/// Cosine-distributed directions around the normals, in all lanes.
+/// Samples cosine-distributed directions around the normals, in all lanes.
 void diffuseDirections(const Vec3Lanes& normal, const FloatLanes& u, const FloatLanes& v,
                        Vec3Lanes& wi);
 

@@ -32,15 +32,15 @@ Box boxOf(const Scene& scene, const Instance& instance)
     return box;
 }
 
-/// The smallest sphere around the box's centre that holds it. Balls fill their box's sphere badly,
-/// but a cone that is too wide only wastes photons.
+/// Returns the smallest sphere around the box's centre that holds the box. It is too large for
+/// balls, but a cone that is too wide only wastes photons.
 Sphere sphereOf(const Box& box)
 {
     const Vec3d half = (box.high - box.low) * 0.5;
     return {Vec3((box.low + box.high) * 0.5), static_cast<float>(glm::length(half) * 1.000001)};
 }
 
-/// The sphere around the vertices with the box's centre: tight for balls.
+/// Returns the sphere around the box's centre that holds the vertices: tight for balls.
 Sphere tightSphere(const Scene& scene, const Instance& instance, const Box& box)
 {
     const Vec3 centre((box.low + box.high) * 0.5);
@@ -53,22 +53,22 @@ Sphere tightSphere(const Scene& scene, const Instance& instance, const Box& box)
     return {centre, std::sqrt(radius2) * 1.00001f};
 }
 
-/// True if a photon can be mirrored or let through by a mirror-like lobe.
+/// Returns whether a mirror-like lobe can reflect or transmit a photon.
 bool bendsLight(const MaterialRecord& record)
 {
     if (record.fixedFunction) return false; // highlights are never that narrow
     const auto bends = [&](const Bsdf& bsdf)
     {
         if (!bsdf.reflects() && !bsdf.transmits()) return false;
-        // Textures may make smooth what is rough on the average; without an interface nothing is
-        // bent.
+        // A texture may make parts of a surface smooth that is rough on average. Surfaces without
+        // an interface transmit without bending, and count as targets, too.
         return !record.constant || bsdf.isSmooth() || (bsdf.transmits() && bsdf.eta == 1.0f);
     };
     return bends(record.front) || bends(record.back);
 }
 
-/// Joins the two halves of a list, split at the median of its longest axis, until few enough are
-/// left.
+/// Groups spheres into at most limit of them: splits the list at the median of its longest axis
+/// until each half may have one sphere.
 void group(std::vector<Sphere> spheres, std::size_t limit, std::vector<Sphere>& groups)
 {
     if (limit <= 1 || spheres.size() <= 1)

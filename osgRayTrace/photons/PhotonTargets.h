@@ -1,4 +1,5 @@
-// PhotonTargets.h - what in a scene makes caustics, for photons to be guided to. Layer: photons.
+// PhotonTargets.h - the parts of a scene that make caustics: photons are guided to them. Layer:
+// photons.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -18,10 +19,11 @@ struct Sphere
 struct PhotonTargets
 {
     Sphere scene;                ///< holds all geometry
-    std::vector<Sphere> spheres; ///< hold all instances that reflect like mirrors or transmit
+    std::vector<Sphere> spheres; ///< together hold all instances that mirror or transmit
 };
 
-/// most: spheres; more instances than that are grouped.
+/// Finds the targets of a scene. most: number of spheres; if there are more instances, neighbours
+/// share spheres.
 PhotonTargets photonTargets(const TracedScene& traced, std::size_t most);
 
 } // namespace osgRayTrace::engine

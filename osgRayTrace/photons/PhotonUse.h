@@ -12,8 +12,8 @@ namespace osgRayTrace::engine
 enum class PhotonUse : uint8_t
 {
     None,
-    Caustics, ///< whose first surface was mirror-like: light, specular+, surface, and on from there
-    Indirect, ///< that met any surface before
+    Caustics, ///< photons whose first surface was mirror-like, there and on all surfaces after
+    Indirect, ///< photons that have met any surface before
 };
 
 } // namespace osgRayTrace::engine

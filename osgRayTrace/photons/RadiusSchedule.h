@@ -1,4 +1,4 @@
-// RadiusSchedule.h - how the radius of photon lookups shrinks, so that noise and bias both vanish.
+// RadiusSchedule.h - how the radius of photon look-ups shrinks, so that noise and bias both vanish.
 // Layer: photons.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -10,12 +10,12 @@
 namespace osgRayTrace::engine
 {
 
-/// Square of the radius of pass number pass (from 0) over that of the first: the product of
-/// (i + alpha) / (i + 1) for i = 1 to pass [Knaus11, the recurrence of the squared radii]; the
-/// product as gamma functions. Passes are independent of each other.
+/// Returns the square of the radius of pass number pass (from 0) over that of the first pass: the
+/// product of (i + alpha) / (i + 1) for i = 1 to pass [Knaus11, the recurrence of the squared
+/// radii], written as gamma functions. Passes are independent of each other.
 inline double globalRadiusSquared(int pass, double alpha)
 {
-    // std::lgamma also writes a sign that all threads share.
+    // std::lgamma also writes a sign, which all threads share.
     const auto logGamma = [](double x)
     {
         int sign = 1;
@@ -26,8 +26,8 @@ inline double globalRadiusSquared(int pass, double alpha)
 }
 
 /// Statistics of a pixel that shrinks its radius by the photons that it has seen: radius reduction
-/// and flux correction [Hachisuka08, sect. 4], shared by all hit points of the pixel [Hachisuka09,
-/// sect. 4].
+/// and flux correction [Hachisuka08, sect. 4], with statistics that all hit points of the pixel
+/// share [Hachisuka09, sect. 4].
 struct LocalStatistics
 {
     float photons = 0.0f; ///< N
@@ -36,7 +36,7 @@ struct LocalStatistics
     int passes = 0;
 };
 
-/// Adds a pass that found count photons with flux within the radius.
+/// Adds a pass that found count photons within the radius, whose flux is given.
 inline void addPhotons(LocalStatistics& s, uint32_t count, Vec3 flux, float alpha)
 {
     ++s.passes;
@@ -48,8 +48,7 @@ inline void addPhotons(LocalStatistics& s, uint32_t count, Vec3 flux, float alph
     s.flux = (s.flux + flux) * shrink;
 }
 
-/// Radiance after these passes; each pass emits the same number of photons, of whose power flux is
-/// made.
+/// Returns the radiance after these passes, each of which emits the same number of photons.
 inline Vec3 localRadiance(const LocalStatistics& s)
 {
     if (s.passes == 0 || !(s.radius2 > 0.0f)) return Vec3(0.0f);

@@ -1,4 +1,5 @@
-// PhotonState.cpp - what a view keeps for photon mapping from pass to pass. Layer: session.
+// PhotonState.cpp - the state that a view keeps for photon mapping from pass to pass. Layer:
+// session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/PhotonState.h"
 #include "osgRayTrace/integrators/IntegratorFactory.h"
@@ -15,8 +16,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Width of a pixel on the surfaces that the view shows, in the median over a grid of its pixels
-/// [length]; 0 if it shows none.
+/// Returns the width of a pixel on the surfaces that the view shows, in the median over a grid of
+/// its pixels [length]; 0 if the view shows no surface.
 float pixelWidth(const PassContext& context, int width, int height)
 {
     constexpr int kSide = 9;
@@ -42,11 +43,11 @@ float pixelWidth(const PassContext& context, int width, int height)
     return widths[widths.size() / 2];
 }
 
-constexpr std::size_t kRecordedPixels = 16384;  ///< about as many of a pass are learnt from,
-constexpr std::size_t kMostRecordedStride = 16; ///< and no fewer than one of these
+constexpr std::size_t kRecordedPixels = 16384;  ///< about as many pixels of a pass are recorded,
+constexpr std::size_t kMostRecordedStride = 16; ///< and at least one pixel of each so many
 
-/// Sums by bin of the squares of what single photons added, relative to the radiance of the tile as
-/// in RenderProgress::relativeError: dim places matter, too. There may be thousands of photons for
+/// Sums by bin the squares of what single photons added, relative to the radiance of the tile as in
+/// RenderProgress::relativeError: dim places matter, too. There may be thousands of photons for
 /// each bin.
 std::vector<SeenSquares> squaresOf(const std::vector<SeenPhoton>& seen, const RgbaLanes* rgba)
 {
@@ -125,8 +126,8 @@ void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& conte
     }
     for (float* radius : {&_least, &_largest})
         *radius = std::clamp(*radius, _floor, ceiling);
-    // Sums over cells are rounded otherwise if the cells are: those of all views should be the
-    // same, though their pixels differ. Cells a few times too small cost little.
+    // Cells of another size round sums otherwise. Cells are therefore the same for all views,
+    // though the views' pixels differ. Cells a few times too small cost little.
     _cellRadius =
         wanted > 0.0f || !(density.radius > 0.0f) ? _largest : std::max(density.radius, _floor);
     while (2.0f * _cellRadius < _largest)
@@ -194,8 +195,8 @@ double PhotonState::secondsOf(int pass) const
     return _pass->seconds;
 }
 
-/// Of a pass that is whole, in the order of the tiles, so that no thread's luck is in the sums, nor
-/// how often the pass was interrupted.
+/// Sums what a whole pass saw, in the order of the tiles: so the sums depend neither on threads nor
+/// on how often the pass was interrupted.
 void PhotonState::sumUpSeen()
 {
     for (std::vector<SeenSquares>& tile : _seen)
@@ -254,7 +255,7 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
     if (gathered.seenStride) _seen[static_cast<std::size_t>(tile)] = squaresOf(gathered.seen, rgba);
-    // By tile, so that no thread's luck decides which are kept.
+    // Each tile has its share, so which tiles keep theirs does not depend on threads.
     if (HitPoints* hits = hitPoints(tile, pass);
         hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())
         *hits = HitPoints();
@@ -273,7 +274,7 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
     {
         LocalStatistics& s = _statistics[((pass & 1) ? _pixels : 0) + first + p];
         if (s.radius2 == 0.0f) s.radius2 = gathered.radius[p] * gathered.radius[p];
-        // The film averages passes: what must be added for the average to become the new estimate.
+        // The film averages passes. The difference makes the average the new estimate.
         const Vec3d before = Vec3d(localRadiance(s)) * static_cast<double>(s.passes);
         const bool finite = isFinite(gathered.flux[p]);
         addPhotons(s, finite ? gathered.count[p] : 0, gathered.flux[p], alpha);
