@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/view/DepthSlices.h"
+#include "osgRayTrace/session/view/DepthSlices.h"
 #include "osgRayTrace/film/ChangedTiles.h"
 
 #include <osg/Geometry>

@@ -14,8 +14,8 @@
 #include "osgRayTrace/bridge/update/PageRequests.h"
 #include "osgRayTrace/bridge/update/SceneUpdater.h"
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
-#include "osgRayTrace/bridge/view/DepthSlices.h"
-#include "osgRayTrace/bridge/view/ViewRegistry.h"
+#include "osgRayTrace/session/view/DepthSlices.h"
+#include "osgRayTrace/session/view/ViewRegistry.h"
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/LOD>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "osgRayTrace/DisplayTexture.h"
-#include "osgRayTrace/bridge/view/BackgroundTracer.h"
+#include "osgRayTrace/session/view/BackgroundTracer.h"
 
 #include <osg/Image>
 #include <osg/RenderInfo>

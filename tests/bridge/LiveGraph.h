@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/update/SceneUpdater.h"
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include <osg/LightSource>
 #include <osg/Material>

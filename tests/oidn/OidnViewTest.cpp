@@ -1,6 +1,6 @@
 // OidnViewTest.cpp - views that are shown through Open Image Denoise, for which StandIn.h stands.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"

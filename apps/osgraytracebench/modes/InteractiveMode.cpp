@@ -7,7 +7,7 @@
 #include "apps/osgraytracebench/scenes/ObjectField.h"
 #include "osgRayTrace/base/LargeArray.h"
 #include "osgRayTrace/bridge/update/SceneUpdater.h"
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -7,7 +7,7 @@
 #include "apps/osgraytracebench/Timing.h"
 #include "apps/osgraytracebench/scenes/BenchScenes.h"
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include <osgRayTrace/RayTraceSettings>
 

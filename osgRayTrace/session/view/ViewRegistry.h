@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/common/ObjectIdentity.h"
-#include "osgRayTrace/bridge/view/DepthSlices.h"
+#include "osgRayTrace/session/view/DepthSlices.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // DepthSlices.cpp - passes that show one picture, each a slice of its depths. Layer: bridge.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/DepthSlices.h"
+#include "osgRayTrace/session/view/DepthSlices.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "tests/EngineScenes.h"
 
 #include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include <algorithm>
 #include <atomic>

@@ -5,8 +5,8 @@
 #include "tests/EngineScenes.h"
 
 #include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
-#include "osgRayTrace/bridge/view/BackgroundThreads.h"
-#include "osgRayTrace/bridge/view/BackgroundTracer.h"
+#include "osgRayTrace/session/view/BackgroundThreads.h"
+#include "osgRayTrace/session/view/BackgroundTracer.h"
 
 #include <chrono>
 #include <condition_variable>

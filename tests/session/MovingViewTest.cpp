@@ -1,7 +1,7 @@
 // MovingViewTest.cpp - a view that moves takes along what it has accumulated, and nothing that is
 // wrong.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/update/SceneUpdater.h"
-#include "osgRayTrace/bridge/view/ImageStages.h"
+#include "osgRayTrace/session/view/ImageStages.h"
 #include "osgRayTrace/session/RenderSession.h"
 #include "osgRayTrace/session/view/FrameAgreement.h"
 #include "osgRayTrace/session/view/FramePlan.h"

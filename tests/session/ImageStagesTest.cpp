@@ -3,7 +3,7 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
-#include "osgRayTrace/bridge/view/ImageStages.h"
+#include "osgRayTrace/session/view/ImageStages.h"
 
 #include <vector>
 

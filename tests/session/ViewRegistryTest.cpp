@@ -1,6 +1,6 @@
 // ViewRegistryTest.cpp - which passes are the same view. Layer: tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/ViewRegistry.h"
+#include "osgRayTrace/session/view/ViewRegistry.h"
 
 #include "tests/Catch.h"
 

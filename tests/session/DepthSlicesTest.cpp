@@ -1,7 +1,7 @@
 // DepthSlicesTest.cpp - one picture for slices of depth: planes and depths against matrices. Layer:
 // tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/DepthSlices.h"
+#include "osgRayTrace/session/view/DepthSlices.h"
 
 #include "tests/Catch.h"
 

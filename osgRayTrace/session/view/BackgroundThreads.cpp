@@ -1,7 +1,7 @@
 // BackgroundThreads.cpp - threads of our own, none of which outlives the process's orderly end.
 // Layer: bridge.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/BackgroundThreads.h"
+#include "osgRayTrace/session/view/BackgroundThreads.h"
 
 #include "osgRayTrace/base/NeverDestroyed.h"
 

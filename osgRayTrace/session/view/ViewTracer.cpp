@@ -1,6 +1,6 @@
 // ViewTracer.cpp - the accumulated image of one view, frame after frame. Layer: bridge.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
 #include "osgRayTrace/film/Enlarge.h"

@@ -1,9 +1,9 @@
 // BackgroundTracer.cpp - traces a view on a thread of its own, for draw to take the newest image.
 // Layer: bridge.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/BackgroundTracer.h"
+#include "osgRayTrace/session/view/BackgroundTracer.h"
 
-#include "osgRayTrace/bridge/view/BackgroundThreads.h"
+#include "osgRayTrace/session/view/BackgroundThreads.h"
 
 #include <atomic>
 #include <condition_variable>

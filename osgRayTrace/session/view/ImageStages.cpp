@@ -1,7 +1,7 @@
 // ImageStages.cpp - what is done to a view's images between accumulation and display. Layer:
 // bridge.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/ImageStages.h"
+#include "osgRayTrace/session/view/ImageStages.h"
 
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
