@@ -19,7 +19,7 @@ set(LAYERS base sampling film scene shading accel photons integrators session br
 set(ENGINE base sampling film scene shading accel photons integrators session)
 # Folders of a layer, each of which includes those left of it. "root" is the layer's own folder.
 set(FOLDERS_bridge common geometry appearance/textures appearance/lights appearance/materials
-    graph changes pick convert update view)
+    graph changes pick convert update)
 set(FOLDERS_session image denoise upsample root history view)
 set(FOLDERS_integrators shared whitted path debug root)
 set(PEERS_integrators whitted path debug)

@@ -168,6 +168,7 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     // The session would forget it at its first pass.
     if (cancelled) throw EngineError(StatusCode::Cancelled, "the render was cancelled");
 
+    engine::setDenoiseStatistics(statistics, engine::DenoiseReport(), 0.0);
     const auto begin = std::chrono::steady_clock::now();
     // A tile at least, so that there is an end, however short the time.
     if (seconds > 0.0)

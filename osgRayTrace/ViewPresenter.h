@@ -4,6 +4,7 @@
 #pragma once
 
 #include "osgRayTrace/DisplayTexture.h"
+#include "osgRayTrace/bridge/update/SceneVersion.h"
 #include "osgRayTrace/session/view/BackgroundTracer.h"
 
 #include <osg/Image>
@@ -28,14 +29,16 @@ struct ViewFrame
     bool paused = false;
 };
 
-/// Frame-locked, draw traces the view of its pass and shows that. In the background it asks the
-/// view's worker for it, and shows the newest image that there is, of whatever view that was asked
-/// for; before the first one it draws nothing. Both go on with the same accumulated image, so the
+/// Frame-locked, draw traces the view of its pass and shows that. In the background draw asks the
+/// view's worker for an image, and shows the newest that there is, of whatever view that was asked
+/// for; before the first image it draws nothing. Both go on with the same accumulated image, so the
 /// presentation may change from frame to frame. Draw thread of the view's context, unless stated
 /// otherwise.
 class ViewPresenter
 {
 public:
+    ViewPresenter();
+
     /// Brings the display up to date. Throws std::bad_alloc, std::system_error.
     void update(const ViewFrame& frame);
 
@@ -49,8 +52,8 @@ public:
     /// What could not be traced until now may be tried again. Any thread.
     void forgetFailures() { _tracer.forgetFailures(); }
 
-    /// Linear radiance as it is accumulated; null if there is none. Any thread; waits for who
-    /// traces.
+    /// Linear radiance as it is accumulated; null if there is none. Any thread; waits for
+    /// whoever traces.
     osg::ref_ptr<osg::Image> radiance() const;
 
     /// Any thread that OSG calls it from; null: all contexts.
@@ -61,6 +64,7 @@ private:
     std::optional<engine::View> viewToTrace(const ViewFrame& frame);
     void traceNow(const ViewFrame& frame);
     void askWorker(const ViewFrame& frame);
+    void showNewest();
 
     engine::BackgroundTracer _tracer;
     DisplayTexture _display;

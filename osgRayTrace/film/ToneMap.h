@@ -13,6 +13,12 @@ struct ToneMap
 {
     float exposureEv = 0.0f;
     bool displayReferred = false; ///< the film holds display values, not linear radiance
+
+    bool operator==(const ToneMap& other) const
+    {
+        return exposureEv == other.exposureEv && displayReferred == other.displayReferred;
+    }
+    bool operator!=(const ToneMap& other) const { return !(*this == other); }
 };
 
 float srgbFromLinear(float linear); ///< without clamping; odd: negative in, negative out

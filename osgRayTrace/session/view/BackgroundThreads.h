@@ -1,5 +1,5 @@
-// BackgroundThreads.h - threads of our own, none of which outlives the process's orderly end.
-// Layer: bridge.
+// BackgroundThreads.h - threads of the library, none of which outlives the process's orderly end.
+// Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,10 +8,10 @@
 namespace osgRayTrace::engine
 {
 
-/// Runs body on a new thread. stop: makes body return soon; called, by any thread, when the process
+/// Runs body on a new thread. stop makes body return soon; any thread calls stop when the process
 /// ends by exit() or from main: then all such threads are stopped and joined before libraries and
-/// static objects go. body is destroyed on its thread. False, and nothing done, if that has
-/// happened already. Throws std::system_error if there can be no thread. Any thread.
+/// static objects go. body is destroyed on its thread. The result is false, and nothing is done, if
+/// the process ends already. Throws std::system_error if there can be no thread. Any thread.
 bool startBackgroundThread(std::function<void()> body, std::function<void()> stop);
 
 } // namespace osgRayTrace::engine

@@ -1,12 +1,10 @@
 // BackgroundTracer.h - traces a view on a thread of its own, for draw to take the newest image.
-// Layer: bridge.
+// Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/LargeArray.h"
 #include "osgRayTrace/session/view/ViewTracer.h"
-
-#include <osg/Image>
-#include <osg/ref_ptr>
 
 #include <cstdint>
 #include <functional>
@@ -17,77 +15,88 @@
 namespace osgRayTrace::engine
 {
 
-/// What a frame wants to show.
+/// The image that a frame wants to show.
 struct TraceRequest
 {
-    SceneVersion version; ///< with a scene
+    ViewInputs inputs; ///< with a scene
     View view;
-    std::vector<View> slices; ///< of the passes that the view is for
+    std::vector<View> slices; ///< the views of the passes that the traced view is for
     FrameBudget budget;
-    bool traces = true; ///< false: the image stays what it is, but for how it is shown
+    bool traces = true; ///< false: the image gets no samples, and may be shown differently
 };
 
-/// For the display: rows from the bottom, as ViewTracer::resolve() writes them. All of it is of one
-/// view.
+/// Pixels for the display, as ViewTracer::resolve() writes them: rows from the bottom.
+struct TracedPixels
+{
+    TracedPixels(int w, int h);
+
+    int width, height;
+    UnclearedArray<uint8_t> rgba; ///< width * height * 4 values
+    UnclearedArray<float> depth;  ///< width * height values
+};
+
+/// An image for the display, all of which is of one view.
 struct TracedImage
 {
-    osg::ref_ptr<osg::Image> color; ///< null: none yet
-    osg::ref_ptr<osg::Image> depth;
-    std::vector<View> slices; ///< of its request
+    /// Null: there is none yet. Whoever shows the pixels may keep them longer than the image.
+    std::shared_ptr<TracedPixels> pixels;
+    std::vector<View> slices; ///< those of its request
 };
 
-/// Of the last step of the worker.
+/// The outcome of the last step of the worker.
 struct TraceReport
 {
-    RenderProgress progress;
+    ViewProgress progress;
     FrameReport frame;
     std::weak_ptr<const TracedScene> scene;
     bool fresh = false; ///< there was a step since the report before
-    int age =
-        0; ///< of the newest image: frames since its view was asked for; 0: it is the present one
+    /// Frames since the view of the newest image was asked for; 0: that view is the present one.
+    int age = 0;
 };
 
 /// A ViewTracer and the thread that works with it while images are asked for.
 ///
 /// The worker takes the newest request, traces what its budget has time for, hands the image over,
 /// and so on until the image is done; then it sleeps until another request comes. A request that
-/// differs makes it give up the pass at work, unless it has not handed over any image of its
-/// present request yet: so a view that moves in every frame has images all the same, each of one
-/// view, complete. If nobody asks any more it rests after kMostUnasked steps.
+/// differs makes the worker give up the pass at work, unless it has not handed over any image of
+/// its present request yet. So a view that moves in every frame has images all the same, each of
+/// one view and complete. If nobody asks any more, the worker rests after kMostUnasked steps.
 ///
-/// Locks: _mutex guards requests and the image that is handed over, and is held for moments only.
-/// _tracing guards the tracer, and is held while it traces: by the worker, or by who has a Lease.
-/// Who wants both takes _tracing first. Of the three images the worker writes one, draw shows
-/// another, and the third changes hands under _mutex. Destroyed, it does not wait for the worker,
-/// which gives up within a tile (or when the photons of its pass are traced) and takes what it
-/// needs until then with it.
+/// Locks: Worker::mutex guards requests and the image that is handed over, and is held for moments
+/// only. Worker::tracing guards the tracer, and is held while it traces: by the worker, or by
+/// whoever has a Lease. Whoever wants both takes tracing first. Of the three images the worker
+/// writes one, draw shows another, and the third changes hands under mutex. The destructor does not
+/// wait for the worker, which gives up within a tile (or when the photons of its pass are traced)
+/// and keeps what it needs until then alive.
 class BackgroundTracer
 {
 public:
     static constexpr int kMostUnasked = 64;
 
-    /// now: a clock [s], for tests.
-    explicit BackgroundTracer(std::function<double()> now = {});
+    /// now: a clock [s], for tests. prepareThread: called by each thread that works for the view
+    /// before it does so.
+    explicit BackgroundTracer(std::function<double()> now = {},
+                              std::function<void()> prepareThread = {});
     ~BackgroundTracer();
     BackgroundTracer(const BackgroundTracer&) = delete;
     BackgroundTracer& operator=(const BackgroundTracer&) = delete;
 
-    /// Wants an image of this from now on; frame: a number that grows from frame to frame. Starts
-    /// the worker if there is none. Never waits for it. Draw thread of the view.
+    /// Asks for images of the request from now on; frame is a number that grows from frame to
+    /// frame. Starts the worker if there is none, and never waits for it. Draw thread of the view.
     void ask(const TraceRequest& request, uint64_t frame);
 
-    /// Exchanges shown, which the caller is done with, for a newer image. False if there is none.
-    /// Never waits. Draw thread of the view.
+    /// Exchanges shown, whose pixels the caller reads no more, for a newer image. False if there is
+    /// none. Never waits. Draw thread of the view.
     bool takeNewest(TracedImage& shown);
 
-    /// Of the worker's last step. Never waits. Draw thread of the view.
+    /// The report of the worker's last step. Never waits. Draw thread of the view.
     TraceReport report(uint64_t frame);
 
-    /// Reports of what was asked for until now are not fresh: it is to be tried again. Any thread.
+    /// Reports of requests until now are not fresh: what failed is to be tried again. Any thread.
     void forgetFailures();
 
-    /// The worker gives up what it does, and ends; images that were not taken are dropped. Does not
-    /// wait.
+    /// Makes the worker give up what it does, and end; images that were not taken are dropped. Does
+    /// not wait.
     void stop();
 
     /// True unless the worker sleeps or has ended. Any thread.
@@ -97,7 +106,7 @@ private:
     struct Worker;
 
 public:
-    /// The tracer for one's own use while it lives.
+    /// While a lease lives, its owner uses the tracer, and the worker does not.
     class Lease
     {
     public:
@@ -116,7 +125,8 @@ public:
     Lease lease() const { return Lease(*_worker); }
 
 private:
-    std::shared_ptr<Worker> _worker; ///< its thread's, too
+    std::shared_ptr<Worker> _worker; ///< shared with its thread
+    std::function<void()> _prepareThread;
 };
 
 } // namespace osgRayTrace::engine
