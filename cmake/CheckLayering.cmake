@@ -22,7 +22,7 @@ set(ENGINE base sampling film scene shading accel photons integrators session)
 # Each folder of a layer may include those left of it. "root" is the layer's own folder. PEERS do not include
 # each other.
 set(FOLDERS_bridge common geometry appearance/textures appearance/lights appearance/materials
-    graph changes pick convert update view)
+    graph changes pick convert update)
 set(FOLDERS_session image denoise upsample root history view)
 set(FOLDERS_integrators shared whitted path debug root)
 set(PEERS_integrators whitted path debug)

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/view/DepthSlices.h"
 #include "osgRayTrace/film/ChangedTiles.h"
+#include "osgRayTrace/session/view/DepthSlices.h"
 
 #include <osg/Geometry>
 #include <osg/Image>

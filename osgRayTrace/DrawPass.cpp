@@ -4,6 +4,7 @@
 
 #include <osgRayTrace/RayTraceSettings>
 
+#include "osgRayTrace/bridge/common/ObjectIdentity.h"
 #include "osgRayTrace/bridge/common/ViewFromMatrices.h"
 
 #include <osg/ValueObject>
@@ -32,6 +33,11 @@ std::optional<double> userNumber(const osg::Camera& camera, const char* name)
     return {};
 }
 
+engine::HostName hostName(const osg::Referenced* object)
+{
+    return engine::ObjectName(object).hostName();
+}
+
 } // namespace
 
 Rectangle currentViewport(const osg::State& state)
@@ -47,8 +53,8 @@ engine::PassIdentity passIdentity(osg::RenderInfo& renderInfo, const Rectangle& 
     const osg::State& state = *renderInfo.getState();
     const auto& bins = renderInfo.getRenderBinStack();
     engine::PassIdentity pass;
-    pass.camera = renderInfo.getCurrentCamera();
-    pass.renderStage = bins.empty() ? nullptr : bins.back()->getStage();
+    pass.camera = hostName(renderInfo.getCurrentCamera());
+    pass.renderStage = hostName(bins.empty() ? nullptr : bins.back()->getStage());
     pass.contextId = state.getContextID();
     pass.frameNumber = state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0;
     pass.viewport = {viewport.x, viewport.y, viewport.width, viewport.height};
@@ -64,8 +70,8 @@ std::optional<engine::PassIdentity> passIdentity(osgUtil::CullVisitor& visitor)
         visitor.getComputeNearFarMode() != osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR)
         return std::nullopt;
     engine::PassIdentity pass;
-    pass.camera = visitor.getCurrentCamera();
-    pass.renderStage = visitor.getCurrentRenderStage();
+    pass.camera = hostName(visitor.getCurrentCamera());
+    pass.renderStage = hostName(visitor.getCurrentRenderStage());
     pass.contextId = visitor.getState() ? visitor.getState()->getContextID() : 0;
     pass.frameNumber = visitor.getFrameStamp() ? visitor.getFrameStamp()->getFrameNumber() : 0;
     pass.view = engine::viewFromMatrices(

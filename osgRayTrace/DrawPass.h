@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/view/ViewRegistry.h"
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/session/view/ViewRegistry.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include <osg/Camera>
 #include <osg/Matrixd>

@@ -14,8 +14,8 @@
 #include "osgRayTrace/bridge/update/PageRequests.h"
 #include "osgRayTrace/bridge/update/SceneUpdater.h"
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
-#include "osgRayTrace/bridge/view/DepthSlices.h"
-#include "osgRayTrace/bridge/view/ViewRegistry.h"
+#include "osgRayTrace/session/view/DepthSlices.h"
+#include "osgRayTrace/session/view/ViewRegistry.h"
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/LOD>
@@ -102,7 +102,7 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     const Rectangle viewport = currentViewport(state);
     if (viewport.width <= 0 || viewport.height <= 0) return;
     const engine::SceneVersion version = scene.version();
-    if (!version.scene) return;
+    if (!version.inputs.scene) return;
 
     const auto makeView = [] { return std::make_shared<ViewPresenter>(); };
     const engine::PassIdentity pass = passIdentity(renderInfo, viewport);
@@ -163,7 +163,7 @@ void RayTraceDrawable::Implementation::failToDraw(engine::StatusCode code,
     fail(code, message);
     const engine::SceneVersion version = scene.version();
     std::lock_guard<std::mutex> lock(mutex);
-    untraceable = version.scene;
+    untraceable = version.inputs.scene;
 }
 
 RayTraceDrawable::RayTraceDrawable()
@@ -222,6 +222,7 @@ Statistics RayTraceDrawable::getStatistics() const
     {
         std::lock_guard<std::mutex> lock(self.mutex);
         engine::setImageStatistics(statistics, self.report.progress);
+        engine::setStageStatistics(statistics, self.report.progress.stages);
         statistics.resolutionDivider = self.report.frame.divider;
         statistics.frameSeconds = self.report.frame.seconds;
         statistics.traceSeconds = self.report.frame.traceSeconds;
@@ -362,7 +363,7 @@ bool RayTraceDrawable::canTrace() const
 {
     const engine::SceneVersion version = _implementation->scene.version();
     std::lock_guard<std::mutex> lock(_implementation->mutex);
-    return version.scene && _implementation->untraceable.lock() != version.scene;
+    return version.inputs.scene && _implementation->untraceable.lock() != version.inputs.scene;
 }
 
 void RayTraceDrawable::cullRasterized(osgUtil::CullVisitor& visitor) const
@@ -387,12 +388,12 @@ bool RayTraceDrawable::pick(RayIntersector& ray, osgUtil::IntersectionVisitor& v
         const auto& local = static_cast<const osgUtil::LineSegmentIntersector&>(*clone);
         const engine::SceneVersion version =
             _implementation->scene.versionToPick(_scene.get(), *_settings, local.getStart());
-        if (!version.scene || !version.pickIndex) return false;
+        if (!version.inputs.scene || !version.pickIndex) return false;
 
         engine::HitRule rule;
         rule.solid = !ray.getVisibleOnly();
         rule.culls = rule.keepsBlended = ray.getVisibleOnly();
-        engine::ScenePicker picker(*version.scene, *version.pickIndex, visitor, rule);
+        engine::ScenePicker picker(*version.inputs.scene, *version.pickIndex, visitor, rule);
         const osgUtil::Intersector::IntersectionLimit limit = ray.getIntersectionLimit();
         auto hits = picker.pick(local.getStart(), local.getEnd(), bound, limit);
         for (auto& hit : engine::pickRasterized(*version.pickIndex, visitor, ray))

@@ -171,6 +171,7 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     // The session would forget the cancellation at its first pass.
     if (cancelled) throw EngineError(StatusCode::Cancelled, "the render was cancelled");
 
+    engine::setDenoiseStatistics(statistics, engine::DenoiseReport(), 0.0);
     const auto begin = std::chrono::steady_clock::now();
     // The render traces a tile at least, so that it comes to an end, however short the time is.
     if (seconds > 0.0)

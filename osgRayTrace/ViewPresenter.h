@@ -3,7 +3,8 @@
 #pragma once
 
 #include "osgRayTrace/DisplayTexture.h"
-#include "osgRayTrace/bridge/view/BackgroundTracer.h"
+#include "osgRayTrace/bridge/update/SceneVersion.h"
+#include "osgRayTrace/session/view/BackgroundTracer.h"
 
 #include <osg/Image>
 #include <osg/RenderInfo>
@@ -27,14 +28,16 @@ struct ViewFrame
     bool paused = false;
 };
 
-/// Presents the image of a view. Frame-locked, draw traces the view of its pass and shows that. In
-/// the background draw asks the view's worker for the image, and shows the newest one, of whatever
-/// view that was asked for; before the first image it draws nothing. Both go on with the same
-/// accumulated image, so that the presentation may change from frame to frame. Members are for the
-/// draw thread of the view's context, unless stated otherwise.
+/// Frame-locked, draw traces the view of its pass and shows that. In the background draw asks the
+/// view's worker for an image, and shows the newest that there is, of whatever view that was asked
+/// for; before the first image it draws nothing. Both go on with the same accumulated image, so the
+/// presentation may change from frame to frame. Draw thread of the view's context, unless stated
+/// otherwise.
 class ViewPresenter
 {
 public:
+    ViewPresenter();
+
     /// Brings the display up to date. Throws std::bad_alloc, std::system_error.
     void update(const ViewFrame& frame);
 
@@ -49,8 +52,8 @@ public:
     /// Lets views that could not be traced until now be tried again. May be called from any thread.
     void forgetFailures() { _tracer.forgetFailures(); }
 
-    /// Returns the accumulated linear radiance; null if there is none. May be called from any
-    /// thread, and waits for the one that traces.
+    /// Linear radiance as it is accumulated; null if there is none. Any thread; waits for
+    /// whoever traces.
     osg::ref_ptr<osg::Image> radiance() const;
 
     /// Releases OpenGL's objects in any thread that OSG calls it from; null: of all contexts.
@@ -61,6 +64,7 @@ private:
     std::optional<engine::View> viewToTrace(const ViewFrame& frame);
     void traceNow(const ViewFrame& frame);
     void askWorker(const ViewFrame& frame);
+    void showNewest();
 
     engine::BackgroundTracer _tracer;
     DisplayTexture _display;

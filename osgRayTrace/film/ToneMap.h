@@ -12,7 +12,13 @@ namespace osgRayTrace::engine
 struct ToneMap
 {
     float exposureEv = 0.0f;
-    bool displayReferred = false; ///< true: the film holds display values, not linear radiance
+    bool displayReferred = false; ///< the film holds display values, not linear radiance
+
+    bool operator==(const ToneMap& other) const
+    {
+        return exposureEv == other.exposureEv && displayReferred == other.displayReferred;
+    }
+    bool operator!=(const ToneMap& other) const { return !(*this == other); }
 };
 
 float srgbFromLinear(

@@ -121,7 +121,7 @@ void measure(Rows& rows, const std::string& name, osg::Node* content, int slowPi
     engine::SceneUpdater updater;
     updater.recordView(nullptr, nullptr, engine::ViewingConditions());
     updater.update(content, *scene->getSettings(), nullptr);
-    const auto traced = updater.version().scene;
+    const auto traced = updater.version().inputs.scene;
 
     std::vector<double> ours, plain, trees, rays, perPlain, perTree, perRay;
     for (int i = 0; i < kTurns; ++i)

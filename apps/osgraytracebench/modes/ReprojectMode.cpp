@@ -7,9 +7,8 @@
 #include "apps/osgraytracebench/Timing.h"
 #include "apps/osgraytracebench/scenes/BenchScenes.h"
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/bridge/view/ViewTracer.h"
-
-#include <osgRayTrace/RayTraceSettings>
+#include "osgRayTrace/photons/PhotonPasses.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include <osg/Image>
 
@@ -114,13 +113,12 @@ struct Walker
     Walker(const std::shared_ptr<const TracedScene>& scene, const std::shared_ptr<Workers>& workers,
            bool reproject)
     {
-        version.scene = scene;
-        version.workers = workers;
-        version.photons = std::make_shared<PhotonPasses>();
-        version.settings = settings;
-        settings->setIntegrator(RayTraceSettings::PATH);
-        settings->setReproject(reproject);
-        settings->setMaxPasses(1 << 20);
+        inputs.scene = scene;
+        inputs.workers = workers;
+        inputs.photons = std::make_shared<PhotonPasses>();
+        inputs.options.integrator = IntegratorKind::Path;
+        inputs.reprojects = reproject;
+        inputs.maxPasses = 1 << 20;
     }
 
     /// Traces and shows a frame; returns its CPU seconds.
@@ -130,13 +128,12 @@ struct Walker
                     static_cast<std::size_t>(view.height));
         depth.resize(rgba.size() / 4);
         const double begin = processSeconds();
-        tracer.trace(version, view, {}, rgba.data(), depth.data());
-        if (tracer.needsResolve(version)) tracer.resolve(rgba.data(), depth.data());
+        tracer.trace(inputs, view, {}, rgba.data(), depth.data());
+        if (tracer.needsResolve(inputs)) tracer.resolve(rgba.data(), depth.data());
         return processSeconds() - begin;
     }
 
-    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
-    SceneVersion version;
+    ViewInputs inputs;
     ViewTracer tracer;
     std::vector<uint8_t> rgba;
     std::vector<float> depth;
@@ -211,8 +208,8 @@ void measureErrors(Rows& rows, const ReprojectOptions& options, const std::strin
     const double passes = secondsWith / secondsWithout;
     rows.push_back({name + ": relMSE without", errorWithout, ""});
     rows.push_back({name + ": relMSE with reprojection", errorWith, ""});
-    rows.push_back(
-        {name + ": pixels reprojected", 100.0 * with.tracer.progress().reprojectedShare, "%"});
+    rows.push_back({name + ": pixels reprojected",
+                    100.0 * with.tracer.progress().stages.reprojectedShare, "%"});
     rows.push_back({name + ": CPU time with / without", passes, "times"});
     rows.push_back({name + ": relMSE without / with, at equal time",
                     errorWithout / passes / errorWith, "times", goal ? Goal::AtLeast : Goal::None,
@@ -227,16 +224,16 @@ void measureCosts(Rows& rows, int threads)
     const auto scene = sceneOf(Look::Diffuse, workers);
     Walker with(scene, workers, true), without(scene, workers, false);
     for (Walker* walker : {&with, &without})
-        walker->settings->setIntegrator(RayTraceSettings::WHITTED);
+        walker->inputs.options.integrator = IntegratorKind::Whitted;
     std::vector<double> carried, shares, added, plain;
     for (int frame = 0; frame < 8; ++frame)
     {
         const double alone = without.show(viewAt(frame, 1920));
         const double all = with.show(viewAt(frame, 1920));
         if (frame < 2)
-            continue; // the first frame that carries also makes the map of its previous view
-        carried.push_back(with.tracer.progress().reprojectSeconds);
-        shares.push_back(with.tracer.progress().reprojectedShare);
+            continue; // the first that carries makes the map of the view that it leaves, too
+        carried.push_back(with.tracer.progress().stages.reprojectSeconds);
+        shares.push_back(with.tracer.progress().stages.reprojectedShare);
         added.push_back(all - alone);
         plain.push_back(alone);
     }

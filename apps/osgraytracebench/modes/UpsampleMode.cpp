@@ -59,7 +59,7 @@ Subject subjectOf(const std::string& name, osg::Node* content, double distance)
     osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
     updater.recordView(nullptr, nullptr, conditions);
     updater.update(content, *settings, nullptr);
-    return {name, updater.version().scene, view};
+    return {name, updater.version().inputs.scene, view};
 }
 
 View reducedView(View view, int divider)

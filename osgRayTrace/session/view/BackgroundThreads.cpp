@@ -1,11 +1,9 @@
-// BackgroundThreads.cpp - threads of our own, none of which outlives the process's orderly end.
-// Layer: bridge.
+// BackgroundThreads.cpp - threads of the library, none of which outlives the process's orderly end.
+// Layer: session.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/BackgroundThreads.h"
+#include "osgRayTrace/session/view/BackgroundThreads.h"
 
 #include "osgRayTrace/base/NeverDestroyed.h"
-
-#include <OpenThreads/Thread>
 
 #include <atomic>
 #include <cstdlib>
@@ -24,12 +22,12 @@ struct BackgroundThread
 {
     std::thread thread;
     std::function<void()> stop;
-    std::shared_ptr<std::atomic<bool>> ended; ///< but for the thread's own last steps
+    std::shared_ptr<std::atomic<bool>> ended; ///< the body has returned and is destroyed
 };
 
 struct Threads
 {
-    std::mutex mutex; // whoever starts one, and exit()
+    std::mutex mutex; // held by whoever starts a thread, and by exit()
     std::list<BackgroundThread> all;
     bool exiting = false;
 };
@@ -53,7 +51,7 @@ void endAll()
     for (BackgroundThread& one : all)
     {
         if (one.thread.get_id() == std::this_thread::get_id())
-            one.thread.detach(); // it is the one that calls exit()
+            one.thread.detach(); // this thread calls exit()
         else
             one.thread.join();
     }
@@ -82,9 +80,6 @@ bool startBackgroundThread(std::function<void()> body, std::function<void()> sto
     one.thread = std::thread(
         [body = std::move(body), ended = one.ended]() mutable
         {
-            // Not that of the thread which started it: osgViewer binds those that draw to a
-            // processor.
-            OpenThreads::SetProcessorAffinityOfCurrentThread(OpenThreads::Affinity());
             body();
             body = nullptr;
             *ended = true;

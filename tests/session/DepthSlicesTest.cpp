@@ -1,7 +1,7 @@
 // DepthSlicesTest.cpp - one picture for slices of depth: planes and depths against matrices. Layer:
 // tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/DepthSlices.h"
+#include "osgRayTrace/session/view/DepthSlices.h"
 
 #include "tests/Catch.h"
 
@@ -43,7 +43,7 @@ constexpr double kPlanes[] = {kNear, 1.0, 100.0, kFar};
 
 } // namespace
 
-TEST_CASE("depth slices: planes of a view from its matrix", "[bridge]")
+TEST_CASE("depth slices: planes of a view from its matrix", "[session]")
 {
     struct Case
     {
@@ -78,7 +78,7 @@ TEST_CASE("depth slices: planes of a view from its matrix", "[bridge]")
     CHECK_FALSE(depthPlanes(viewOf(oblique)));
 }
 
-TEST_CASE("depth slices: depths of the traced view become those of each slice", "[bridge]")
+TEST_CASE("depth slices: depths of the traced view become those of each slice", "[session]")
 {
     const bool orthographic = GENERATE(false, true);
     const bool isReversed = GENERATE(false, true);
@@ -120,7 +120,7 @@ TEST_CASE("depth slices: depths of the traced view become those of each slice", 
     }
 }
 
-TEST_CASE("depth slices: rays and depths of views are compared apart", "[bridge]")
+TEST_CASE("depth slices: rays and depths of views are compared apart", "[session]")
 {
     const View a = viewOf(glm::perspective(0.8, 1.0, 1.0, 10.0));
     const View b = viewOf(glm::perspective(0.8, 1.0, 10.0, 100.0));

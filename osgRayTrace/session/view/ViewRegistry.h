@@ -1,9 +1,8 @@
-// ViewRegistry.h - which state belongs to the pass that draws now. Layer: bridge.
+// ViewRegistry.h - which state belongs to the pass that draws now. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/common/ObjectIdentity.h"
-#include "osgRayTrace/bridge/view/DepthSlices.h"
+#include "osgRayTrace/session/view/DepthSlices.h"
 
 #include <algorithm>
 #include <array>
@@ -16,13 +15,18 @@
 namespace osgRayTrace::engine
 {
 
+/// Name of an object of the host: two names are equal if they are of one object. The object's
+/// address would not do, as a later object may get that of a deleted one; a name keeps its value in
+/// use.
+using HostName = std::shared_ptr<const void>;
+
 /// One pass over a scene.
 struct PassIdentity
 {
-    ObjectName camera;
-    ObjectName renderStage; ///< one for each eye; viewers may alternate two sets
+    HostName camera;
+    HostName renderStage; ///< one for each eye; viewers may alternate two sets
     unsigned int contextId = 0;
-    uint64_t frameNumber = 0;      ///< of the camera's viewer; 0: it counts none
+    uint64_t frameNumber = 0;      ///< of the camera's viewer; 0: the viewer counts none
     std::array<int, 4> viewport{}; ///< x, y, width, height
     View view;
 };
@@ -32,34 +36,33 @@ struct PassIdentity
 /// A view is a camera, a context and an eye, and the viewport where one pass draws several. The eye
 /// is the place of the render stage among those that draw for the camera in this frame: neither
 /// matrices nor traversal masks nor cull visitors tell eyes apart in all of OSG's and its
-/// frameworks' stereo modes. If one of them does not draw in a frame, a view at rest is known by
-/// its matrices. What draws the scene several times in one pass has a view for each time. A view
+/// frameworks' stereo modes. If one of the stages does not draw in a frame, a view at rest is known
+/// by its matrices. A pass that draws the scene several times has a view for each time. A view
 /// whose viewport changes (a window is resized) keeps its state.
 ///
 /// Passes of a frame that differ in nothing but their depths, DepthSlices, share one state.
 ///
-/// What was not drawn for kExpiry rounds is forgotten; a round ends when some view draws for the
-/// second time. Of what drew once and no more only the last kMostSingles are kept: who makes a
-/// camera for each picture never ends a round.
+/// A view that did not draw for kExpiry rounds is forgotten; a round ends when some view draws for
+/// the second time. Of the views that drew once only the last kMostSingles are kept: a program that
+/// makes a camera for each picture never ends a round.
 ///
 /// Thread safe; the states are shared, and may outlive their entry while a draw thread uses them.
 template <class State> class ViewRegistry
 {
 public:
-    static constexpr uint64_t kExpiry = 120; ///< rounds
-    static constexpr std::size_t kMostTimes =
-        8; ///< that a pass draws the scene, each a view of its own
-    static constexpr std::size_t kMostSingles = 32; ///< of a context that drew once
+    static constexpr uint64_t kExpiry = 120;        ///< rounds
+    static constexpr std::size_t kMostTimes = 8;    ///< views of a pass that draws the scene often
+    static constexpr std::size_t kMostSingles = 32; ///< views of a context that drew once
 
     struct Pass
     {
         std::shared_ptr<State> state;
-        bool shared =
-            false; ///< another slice of this frame has drawn: its picture is this one's, too
+        /// Another slice of this frame has drawn: its picture is that of this pass, too.
+        bool shared = false;
         std::vector<View> slices; ///< of this frame or the last; one: there are no others
     };
 
-    /// A pass over the view will be drawn. Cull threads.
+    /// Records that the pass will be drawn. Cull threads.
     void record(const PassIdentity& pass)
     {
         if (!depthPlanes(pass.view)) return;
@@ -75,7 +78,7 @@ public:
         if (_recorded.size() > kMostRecorded) _recorded.erase(_recorded.begin());
     }
 
-    /// The state of the pass, made by make() for a new view. Draw threads.
+    /// Returns the state of the pass; for a new view make() makes it. Draw threads.
     template <class Make> Pass acquire(const PassIdentity& pass, Make make)
     {
         std::lock_guard<std::mutex> lock(_mutex);
@@ -106,7 +109,8 @@ public:
         return found;
     }
 
-    /// The context's objects are to go, as before it is closed: so do its views. Any thread.
+    /// Forgets the views of the context, whose objects are to go, as before it is closed. Any
+    /// thread.
     void forgetContext(unsigned int contextId)
     {
         std::vector<Entry> gone; // destroyed without the lock
@@ -123,7 +127,7 @@ public:
                         _recorded.end());
     }
 
-    /// All states there are now. Any thread.
+    /// Returns all states. Any thread.
     std::vector<std::shared_ptr<State>> states() const
     {
         std::lock_guard<std::mutex> lock(_mutex);
@@ -138,14 +142,14 @@ private:
 
     struct Entry
     {
-        PassIdentity pass; ///< the last one; of slices the first
+        PassIdentity pass; ///< the last pass; of slices the first
         std::size_t eye;
-        std::size_t time; ///< that the pass drew the scene
+        std::size_t time; ///< how often the pass had drawn the scene before
         uint64_t round;
         std::shared_ptr<State> state;
-        std::vector<View> slices;     ///< that drew since the first did so
-        std::vector<View> lastSlices; ///< the frame before
-        bool again = false;           ///< it has drawn more than once
+        std::vector<View> slices;     ///< those that drew since the first did so
+        std::vector<View> lastSlices; ///< those of the frame before
+        bool again = false;           ///< the view has drawn more than once
     };
 
     /// The stages that drew for a camera in its frame, in order.
@@ -153,7 +157,7 @@ private:
     {
         PassIdentity pass;
         uint64_t round;
-        std::vector<ObjectName> stages;
+        std::vector<HostName> stages;
     };
 
     static bool sameCamera(const PassIdentity& a, const PassIdentity& b)
@@ -182,7 +186,7 @@ private:
         return stages.size() - 1;
     }
 
-    /// The view that another slice of the pass's picture has drawn in this frame.
+    /// Finds the view that another slice of the pass's picture has drawn in this frame.
     Entry* findPresented(const PassIdentity& pass)
     {
         if (!depthPlanes(pass.view)) return nullptr;
@@ -198,8 +202,8 @@ private:
         return nullptr;
     }
 
-    /// All slices of the picture that are known: of this frame, those that are recorded, and if
-    /// these are not all, as cull may come after draw, those of the last frame.
+    /// Returns all known slices of the picture: those of this frame, those that are recorded, and
+    /// those of the last frame if there were more, as cull may come after draw.
     std::vector<View> allSlices(const Entry& entry, const PassIdentity& pass) const
     {
         std::vector<View> slices = {pass.view};
@@ -227,7 +231,7 @@ private:
                entry.pass.viewport == pass.viewport;
     }
 
-    /// How often the view has drawn the scene in this frame, each time from elsewhere.
+    /// Counts how often the view has drawn the scene in this frame, each time from elsewhere.
     std::size_t timesDrawn(const PassIdentity& pass, std::size_t eye) const
     {
         std::size_t times = 0;
@@ -236,8 +240,8 @@ private:
         return std::min(times, kMostTimes - 1);
     }
 
-    /// The view itself; one of the camera's at rest whose eye is not the same for this frame; or
-    /// one of the same eye that did not draw in this frame, whose viewport changed.
+    /// Finds the view itself, a view of the camera at rest whose eye is not the same for this
+    /// frame, or one of the same eye that did not draw in this frame, whose viewport changed.
     Entry* find(const PassIdentity& pass, std::size_t eye)
     {
         const std::size_t time = timesDrawn(pass, eye);
@@ -259,8 +263,8 @@ private:
         return atRest ? atRest : moved;
     }
 
-    /// Before a new view is made: of those of its context that drew once the last kMostSingles - 1
-    /// stay.
+    /// Called before a new view is made: of the views of its context that drew once, the last
+    /// kMostSingles - 1 stay.
     void forgetSingles(const PassIdentity& pass)
     {
         const auto single = [&](const Entry& entry)
@@ -284,10 +288,11 @@ private:
         _frames.erase(std::remove_if(_frames.begin(), _frames.end(), old), _frames.end());
     }
 
-    mutable std::mutex _mutex; // draw threads; cull threads; and releaseGLObjects, from any thread
+    mutable std::mutex
+        _mutex; // for draw, cull and releaseGLObjects, on any thread; guards all below
     std::vector<Entry> _entries;
     std::vector<CameraFrame> _frames;
-    std::vector<PassIdentity> _recorded; ///< the last one of each stage
+    std::vector<PassIdentity> _recorded; ///< the last pass of each stage
     uint64_t _round = 0;
 };
 

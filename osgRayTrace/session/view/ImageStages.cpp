@@ -1,7 +1,7 @@
 // ImageStages.cpp - what is done to a view's images between accumulation and display. Layer:
-// bridge.
+// session.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/ImageStages.h"
+#include "osgRayTrace/session/view/ImageStages.h"
 
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
@@ -14,14 +14,14 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// What upsampling takes of one thread for a pixel, and more for one in a cell at an edge, until it
-/// is known [s].
+/// Guesses of the time that one thread takes to upsample a pixel, and that a pixel in a cell at an
+/// edge takes on top, until they are known [s].
 constexpr double kUpsampleSeconds = 12e-9, kEdgeSeconds = 400e-9;
-/// Of a smaller share of edges one cannot tell.
+/// A smaller share of edges does not tell what edges cost.
 constexpr double kToldBy = 0.05;
-/// What it was known to take of time is forgotten while it is not done: it will be tried again.
+/// While nothing is upsampled, its known time shrinks by this factor: it will be tried again.
 constexpr double kForgets = 0.995;
-/// Of what is seen in what is known, where that was more.
+/// Weight of a new measurement that is less than the known value.
 constexpr double kNewWeight = 0.25;
 
 /// Share of the cells that upsampling with this limit takes for edges.
@@ -105,7 +105,7 @@ void ImageStages::show(const RenderSession& session, const ToneMap& toneMap, uin
         session.resolveDisplay(toneMap, rgba, depth);
 }
 
-/// Down to what is taken for dear: images without edges say nothing of how cheap these are.
+/// Shrinks the known time of edges, down to the guess: images without edges do not tell it.
 void ImageStages::forgetEdges()
 {
     const double guess = kEdgeSeconds / _workers->threads();
@@ -123,7 +123,7 @@ void ImageStages::presentUpsampled(const RenderSession& session, int width, int 
     const double mostTraced = std::min(kMostTraced, affordable);
     const UpsampleCounts counts = session.presentUpsampled(image, session.surfaceSamples(), width,
                                                            height, display, mostTraced);
-    // A frame that something else held up is not all there is to know.
+    // Something else may have held up this frame: the known time grows by no more than a factor.
     const double seen = (_now() - begin) / pixels;
     const double traced = edgesWithin(counts, mostTraced);
     if (traced > kToldBy)
@@ -134,17 +134,19 @@ void ImageStages::presentUpsampled(const RenderSession& session, int width, int 
     }
     else
         forgetEdges();
-    // Edges that there was no time for: of fewer pixels there may be.
+    // There was no time for these edges; there may be time for those of fewer pixels.
     const double missing = (edgesWithin(counts, kMostTraced) - traced) * _edgeSeconds;
     _upsampleSeconds = std::min(seen + missing, 2.0 * _upsampleSeconds);
 }
 
-void ImageStages::report(const RenderSession& session, RenderProgress& progress) const
+StageReport ImageStages::report(const RenderSession& session) const
 {
-    progress.denoiseSeconds = _denoiseSeconds;
-    progress.denoised = _denoiser.report();
-    progress.reprojectedShare = historyCounts(session) ? _history.share() : 0.0;
-    progress.reprojectSeconds = _history.seconds();
+    StageReport report;
+    report.denoiseSeconds = _denoiseSeconds;
+    report.denoised = _denoiser.report();
+    report.reprojectedShare = historyCounts(session) ? _history.share() : 0.0;
+    report.reprojectSeconds = _history.seconds();
+    return report;
 }
 
 } // namespace osgRayTrace::engine

@@ -1,7 +1,8 @@
 // MovingViewTest.cpp - a view that moves takes along what it has accumulated, and nothing that is
 // wrong.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/photons/PhotonPasses.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -37,14 +38,13 @@ struct Walker
     explicit Walker(std::shared_ptr<const TracedScene> scene, bool reproject = true,
                     unsigned seed = 0, int threads = 1)
     {
-        version.scene = std::move(scene);
-        version.workers = std::make_shared<Workers>(threads);
-        version.photons = std::make_shared<PhotonPasses>();
-        settings->setIntegrator(RayTraceSettings::PATH);
-        settings->setMaxPasses(1 << 20);
-        settings->setReproject(reproject);
-        settings->setSeed(seed);
-        version.settings = settings;
+        inputs.scene = std::move(scene);
+        inputs.workers = std::make_shared<Workers>(threads);
+        inputs.photons = std::make_shared<PhotonPasses>();
+        inputs.options.integrator = IntegratorKind::Path;
+        inputs.maxPasses = 1 << 20;
+        inputs.reprojects = reproject;
+        inputs.options.seed = seed;
     }
 
     /// What is shown of the frame: the display values, too, are those of the radiance.
@@ -53,14 +53,13 @@ struct Walker
         rgba.assign(
             4 * static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height), 0);
         std::vector<float> depth(rgba.size() / 4);
-        tracer.trace(version, view, {}, rgba.data(), depth.data());
-        if (tracer.needsResolve(version)) tracer.resolve(rgba.data(), depth.data());
+        tracer.trace(inputs, view, {}, rgba.data(), depth.data());
+        if (tracer.needsResolve(inputs)) tracer.resolve(rgba.data(), depth.data());
         return tracer.radiance();
     }
-    double share() const { return tracer.progress().reprojectedShare; }
+    double share() const { return tracer.progress().stages.reprojectedShare; }
 
-    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
-    SceneVersion version;
+    ViewInputs inputs;
     ViewTracer tracer;
     std::vector<uint8_t> rgba;
 };
@@ -68,8 +67,11 @@ struct Walker
 /// That of the first frame of a view that was never anywhere else.
 std::vector<float> fresh(const Walker& walker, const View& view)
 {
-    Walker other(walker.version.scene);
-    other.version.settings = walker.version.settings;
+    Walker other(walker.inputs.scene);
+    const ViewInputs own = other.inputs;
+    other.inputs = walker.inputs;
+    other.inputs.workers = own.workers;
+    other.inputs.photons = own.photons;
     return other.show(view);
 }
 
@@ -99,7 +101,7 @@ double meanOf(const std::vector<float>& picture)
 
 } // namespace
 
-TEST_CASE("moving view: without reprojection, and at rest, nothing changes", "[bridge]")
+TEST_CASE("moving view: without reprojection, and at rest, nothing changes", "[session]")
 {
     const auto scene = cornellBox().build();
     Walker with(scene), without(scene, false);
@@ -116,7 +118,7 @@ TEST_CASE("moving view: without reprojection, and at rest, nothing changes", "[b
     }
 }
 
-TEST_CASE("moving view: the samples of earlier frames lower the error of a frame", "[bridge]")
+TEST_CASE("moving view: the samples of earlier frames lower the error of a frame", "[session]")
 {
     const auto scene = cornellBox().build();
     Walker with(scene), without(scene, false);
@@ -145,7 +147,7 @@ TEST_CASE("moving view: the samples of earlier frames lower the error of a frame
     }
 }
 
-TEST_CASE("moving view: at rest the history fades, and the image is the film's own", "[bridge]")
+TEST_CASE("moving view: at rest the history fades, and the image is the film's own", "[session]")
 {
     const auto scene = cornellBox().build();
     Walker walker(scene);
@@ -169,11 +171,11 @@ TEST_CASE("moving view: at rest the history fades, and the image is the film's o
     CHECK(walker.share() == 0.0);
     // And from here on as fast as ever: display values are written while tiles are traced.
     std::vector<float> depth(kWidth * kHeight);
-    CHECK(walker.tracer.trace(walker.version, rest, {}, walker.rgba.data(), depth.data()));
+    CHECK(walker.tracer.trace(walker.inputs, rest, {}, walker.rgba.data(), depth.data()));
 }
 
 TEST_CASE("moving view: no change of the scene or the options leaves a trace of what was",
-          "[bridge]")
+          "[session]")
 {
     const auto scene = cornellBox().build();
     SceneBuilder brighter = cornellBox();
@@ -197,27 +199,27 @@ TEST_CASE("moving view: no change of the scene or the options leaves a trace of 
     for (const View& view : {viewAt(3), next})
     {
         auto walker = walked();
-        walker->version.scene = other;
+        walker->inputs.scene = other;
         check(*walker, view);
 
         walker = walked();
-        walker->settings->setMaxBounces(2);
+        walker->inputs.options.maxBounces = 2;
         check(*walker, view);
 
         walker = walked();
-        walker->settings->setIntegrator(RayTraceSettings::WHITTED);
+        walker->inputs.options.integrator = IntegratorKind::Whitted;
         check(*walker, view);
 
         walker = walked();
-        walker->version.workers = std::make_shared<Workers>(1);
+        walker->inputs.workers = std::make_shared<Workers>(1);
         check(*walker, view);
     }
 
     // Switched off, it is gone; switched on again, it begins anew.
     auto walker = walked();
-    walker->settings->setReproject(false);
+    walker->inputs.reprojects = false;
     check(*walker, next);
-    walker->settings->setReproject(true);
+    walker->inputs.reprojects = true;
     walker->show(next);
     CHECK(walker->share() == 0.0);
 
@@ -236,7 +238,7 @@ TEST_CASE("moving view: no change of the scene or the options leaves a trace of 
     CHECK(walker->share() > 0.5);
 }
 
-TEST_CASE("moving view: a view of another size takes along what it can", "[bridge]")
+TEST_CASE("moving view: a view of another size takes along what it can", "[session]")
 {
     const auto scene = cornellBox().build();
     // To more pixels, where each sample counts for less; to fewer; and back.
@@ -261,7 +263,7 @@ TEST_CASE("moving view: a view of another size takes along what it can", "[bridg
     CHECK(walker.show(lowViewAt(8)).size() == 4u * kWidth * kHeight);
 }
 
-TEST_CASE("moving view: lights and textures that follow the eye leave no history", "[bridge]")
+TEST_CASE("moving view: lights and textures that follow the eye leave no history", "[session]")
 {
     SceneBuilder lit = cornellBox();
     Light head = pointLight({0, 0, 0}, Vec3(1e5f));
@@ -286,7 +288,7 @@ TEST_CASE("moving view: lights and textures that follow the eye leave no history
     CHECK_FALSE(viewDependence(*shiny.scene).axes);
 }
 
-TEST_CASE("moving view: the mean of a diffuse scene stays what it is", "[bridge][statistics]")
+TEST_CASE("moving view: the mean of a diffuse scene stays what it is", "[session][statistics]")
 {
     // No lamp is seen: its edge would hide all else. Sixteen walks of twelve frames; false alarms:
     // see Estimate::agrees, 1e-3 each. Pixels on edges mix surfaces that move apart: their four
@@ -334,7 +336,7 @@ TEST_CASE("moving view: the mean of a diffuse scene stays what it is", "[bridge]
     CHECK(mean.agrees(expected, 0.02 * expected));
 }
 
-TEST_CASE("moving view: errors are those of film and history together", "[bridge]")
+TEST_CASE("moving view: errors are those of film and history together", "[session]")
 {
     const auto scene = cornellBox().build();
     const auto workers = std::make_shared<Workers>(1);

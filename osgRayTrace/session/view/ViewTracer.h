@@ -1,12 +1,13 @@
-// ViewTracer.h - the accumulated image of one view, frame after frame. Layer: bridge.
+// ViewTracer.h - the accumulated image of one view, frame after frame. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/update/SceneUpdater.h"
-#include "osgRayTrace/bridge/view/ImageStages.h"
 #include "osgRayTrace/session/RenderSession.h"
 #include "osgRayTrace/session/view/FrameAgreement.h"
 #include "osgRayTrace/session/view/FramePlan.h"
+#include "osgRayTrace/session/view/ImageStages.h"
+#include "osgRayTrace/session/view/ViewInputs.h"
+#include "osgRayTrace/session/view/ViewProgress.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -19,37 +20,28 @@
 namespace osgRayTrace::engine
 {
 
-/// OSG's culling clamps the planes of last frame's projection matrix again, so that the third
-/// column of a view at rest wanders by its last digits; an image must go on nevertheless.
+/// True if two views are the same but for rounding of depths. OSG's culling clamps the planes of
+/// last frame's projection matrix again, so that the third column of a view at rest wanders by its
+/// last digits; an image must go on nevertheless.
 bool sameButForRounding(const View& a, const View& b);
 
 /// How long a frame of a view may take, from trace() to recordPresented().
 struct FrameBudget
 {
-    double seconds = 0.0; ///< 0: as long as the settings' passes per frame take
+    double seconds = 0.0; ///< 0: as long as the inputs' passes per frame take
     bool degrade = true;  ///< the resolution may be reduced while the view moves
     /// Reduced images are upsampled along edges, to the largest size for which that takes no more
     /// than this of the seconds; OpenGL enlarges the rest of the way.
     double upsampleShare = 0.15;
-    /// If not null, it says what the view traces, as all views do, and the seconds are for all of
-    /// them.
+    /// If not null, the agreement says what this view traces, like all other views, and the seconds
+    /// are for all of them.
     std::shared_ptr<FrameAgreement> agreement = nullptr;
     uint64_t frameNumber = 0; ///< for the agreement; see AgreedFrame
     bool again = false;
 };
 
-/// Of the last frame.
-struct FrameReport
-{
-    /// Of the width and height of what is shown. While full resolution fills in: of the reduced
-    /// image that is seen where tiles are still missing.
-    int divider = 1;
-    double seconds = 0.0;      ///< from trace() to recordPresented()
-    double traceSeconds = 0.0; ///< of these, in passes and photons
-};
-
-/// A RenderSession under OSG: takes a frame's matrices and settings, and knows when there is
-/// something new to show. One thread at a time.
+/// The sessions of a view that is drawn frame after frame: the tracer takes a frame's matrices and
+/// inputs, and knows when there is something new to show. One thread at a time.
 ///
 /// With a budget there are two sessions. While the view moves, and no whole pass of full resolution
 /// fits into a frame, one makes images of reduced resolution. When the view rests the other adds
@@ -63,42 +55,42 @@ public:
     /// now: a clock [s], for tests.
     explicit ViewTracer(std::function<double()> now = {});
 
-    /// Asked before each tile, by any thread. True: trace() makes no more; parts of passes are
-    /// kept, and the next one does the rest.
+    /// Any thread asks interrupt before each tile. If it returns true, trace() makes no more tiles;
+    /// parts of passes are kept, and the next trace() does the rest.
     void setInterrupt(std::function<bool()> interrupt) { _interrupt = std::move(interrupt); }
 
-    /// Traces what a frame has time for, if the image needs any. Failures are in progress(),
-    /// the image stays. Throws std::bad_alloc only.
-    /// If rgba is not null, it and depth are what the last frame was shown from, of the pass's
+    /// Traces what a frame has time for, if the image needs any. The inputs have a scene. Failures
+    /// are in progress(), the image stays. Throws std::bad_alloc only.
+    /// If rgba is not null, rgba and depth are what the last frame was shown from, of the pass's
     /// size: they may take a new image as resolve() would write it, for less. True if they did:
     /// changed() tells where.
-    bool trace(const SceneVersion& version, const View& pass, const FrameBudget& budget = {},
+    bool trace(const ViewInputs& inputs, const View& pass, const FrameBudget& budget = {},
                uint8_t* rgba = nullptr, float* depth = nullptr);
 
     /// What the last trace() wrote to the display.
     const ChangedTiles& changed() const { return _changed; }
 
-    /// Takes the settings of how the image is shown. True if the image, or that, differs from what
+    /// Takes over tone map and denoiser. True if the image, or one of the two, differs from what
     /// was resolved last. False if there is no image.
-    bool needsResolve(const SceneVersion& version);
+    bool needsResolve(const ViewInputs& inputs);
 
-    /// Display values and window depths, displayWidth() * displayHeight() pixels.
+    /// Writes display values and window depths of displayWidth() * displayHeight() pixels.
     void resolve(uint8_t* rgba, float* depth);
 
-    /// The display no longer holds what was resolved last: it has to be resolved again.
+    /// The display no longer holds what was resolved last: the image has to be resolved again.
     void forgetDisplay();
 
     /// The frame that trace() began is on its way to the display.
     void recordPresented();
 
-    /// Another trace() for the same would do nothing.
+    /// True if another trace() of the same inputs and view would do nothing.
     bool isDone() const
     {
         return _session && _status.ok() && _displayState == DisplayState::Whole &&
                _session->progress().passes >= _maxPasses;
     }
 
-    /// Of what resolve() writes: less than the pass's while the resolution is reduced.
+    /// Size of what resolve() writes: less than the pass's while the resolution is reduced.
     int displayWidth() const
     {
         return upsamples() ? reducedSize(_view.width, displayDivider()) : image().width();
@@ -118,13 +110,13 @@ public:
     int width() const { return image().width(); }
     int height() const { return image().height(); }
 
-    /// Of that image. The error estimate is renewed when the passes have grown by an eighth: it
-    /// costs as much as a resolve.
-    RenderProgress progress() const;
+    /// Progress of that image. The error estimate is renewed when the passes have grown by an
+    /// eighth: it costs as much as a resolve.
+    ViewProgress progress() const;
     const FrameReport& frame() const { return _frame; }
 
 private:
-    /// What is shown.
+    /// The image that is shown.
     enum class DisplayState
     {
         Whole, ///< each tile of full resolution has a pass
@@ -132,18 +124,24 @@ private:
         Mixed, ///< tiles of full resolution over the enlarged reduced image
     };
 
-    /// What comes after tracing, by what it costs.
+    /// The work that comes after tracing, by what it costs.
     enum class PresentCost
     {
-        Whole,
-        Tiles,      ///< some of them, or their colours alone: the display has the rest
-        Reduced,    ///< as it is: OpenGL enlarges it
-        Upsampled,  ///< at least a part of the way
+        Whole,      ///< the image of full resolution
+        Tiles,      ///< some tiles, or their colours alone: the display has the rest
+        Reduced,    ///< the reduced image as it is: OpenGL enlarges it
+        Upsampled,  ///< the reduced image is upsampled, at least a part of the way
         FirstMixed, ///< the reduced image is enlarged
     };
     static constexpr int kPresentCosts = 5;
 
-    bool takeInputs(const SceneVersion& version, const View& pass);
+    /// Still frames before full resolution is begun: a hand that moves the view does not do so in
+    /// every frame.
+    static constexpr int kSettling = 2;
+
+    bool takeInputs(const ViewInputs& inputs, const View& pass);
+    void traceBudgeted(const FrameBudget& budget, bool moved);
+    PresentCost presentCostOfFrame() const;
     FrameAgreement::Part joinFrame(const FrameBudget& budget, bool moved);
     PresentCost expectedPresentCost(bool moved) const;
     void setDeadline(double budget, bool moved, PresentCost presentCost);
@@ -171,12 +169,12 @@ private:
         return &session == _session.get() ? _stages : _reducedStages;
     }
 
-    /// Of a reduced image of this divider.
+    /// Cost of presenting a reduced image of this divider.
     PresentCost presentCostOf(int divider) const
     {
         return _upsampleDivider < divider ? PresentCost::Upsampled : PresentCost::Reduced;
     }
-    /// Of the width and height of what resolve() writes.
+    /// Divides the width and height of what resolve() writes.
     int displayDivider() const
     {
         return _displayState == DisplayState::Reduced ? std::min(_upsampleDivider, _divider) : 1;
@@ -198,7 +196,7 @@ private:
     DisplayState _displayState = DisplayState::Whole;
     int _divider = 1; ///< of the reduced image
 
-    // Of the inputs of the last frame
+    // The inputs of the last frame.
     View _view;
     std::shared_ptr<const TracedScene> _scene;
     RenderOptions _options;
@@ -210,7 +208,7 @@ private:
     int _nextEstimate = 2; ///< passes
     double _estimateSeconds = 0.0;
 
-    // The frame's time
+    // The time of the frame.
     FramePlanner _planner;
     FrameReport _frame;
     double _begin = 0.0;
@@ -221,7 +219,7 @@ private:
     double _afterSeconds[kPresentCosts] =
         {}; ///< by _presentCost: from _traceEnd to recordPresented()
 
-    // What all views agree on
+    // The agreement of all views.
     std::shared_ptr<FrameAgreement> _agreement; ///< of this frame; null: none
     std::shared_ptr<FrameAgreement::Member> _member;
     TracedPart _part; ///< of this frame
@@ -229,16 +227,16 @@ private:
     /// view has moved under the agreement.
     std::optional<int64_t> _agreedProgress;
 
-    // What the display holds
+    // The contents of the display.
     ToneMap _toneMap;
-    DisplayTarget _display;     ///< of this frame; rgba is null where it cannot be used
-    bool _written = false;      ///< the frame's image is in it
-    ChangedTiles _changed;      ///< by this frame
-    bool _holdsFull = false;    ///< what resolve() would write, of full size: tiles may be added
-    bool _imageChanged = false; ///< since it was resolved
+    DisplayTarget _display;     ///< of this frame; rgba is null if it cannot be used
+    bool _written = false;      ///< the image of the frame is in _display
+    ChangedTiles _changed;      ///< the tiles that this frame wrote
+    bool _holdsFull = false;    ///< the display has the image in full size: tiles may be added
+    bool _imageChanged = false; ///< the image has changed since it was resolved
     std::optional<ToneMap> _resolved;
 
-    // What is done to images between the two
+    // The stages between sessions and display.
     ImageStages _stages, _reducedStages; ///< of _session, of _reduced
     double _upsampleBudget = 0.0;        ///< [s]
     int _upsampleDivider = 1;            ///< of the size that reduced images are upsampled to

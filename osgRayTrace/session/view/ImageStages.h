@@ -1,10 +1,11 @@
-// ImageStages.h - what is done to a view's images between accumulation and display. Layer: bridge.
+// ImageStages.h - what is done to a view's images between accumulation and display. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/session/RenderSession.h"
 #include "osgRayTrace/session/denoise/Denoiser.h"
 #include "osgRayTrace/session/history/ViewHistory.h"
+#include "osgRayTrace/session/view/ViewProgress.h"
 
 #include <cstdint>
 #include <functional>
@@ -14,7 +15,7 @@
 namespace osgRayTrace::engine
 {
 
-/// What an image is of.
+/// What an image shows, and how it is traced.
 struct ImageInputs
 {
     std::shared_ptr<const TracedScene> scene;
@@ -43,35 +44,35 @@ public:
     void leaveView(RenderSession& session, const ImageInputs& next);
     void enterView(RenderSession& session, const ImageInputs& next, const RenderProgress& result);
 
-    /// True if what is shown is not the session's image as it is; and if it will not be as soon as
-    /// that has a whole pass.
+    /// changes: true if what is shown is not the session's image as it is. willChange: true if that
+    /// will be so as soon as the image has a whole pass.
     bool changes(const RenderSession& session) const
     {
         return denoises() || historyCounts(session);
     }
     bool willChange() const { return denoises() || _history.leaving(); }
 
-    /// The session's image as it is shown: linear RGBA, or display values and window depths of its
-    /// size.
+    /// The session's image as it is shown: radiance() returns linear RGBA; show() writes display
+    /// values and window depths, of the image's size.
     std::vector<float> radiance(const RenderSession& session);
     void show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba, float* depth);
 
-    /// The image at a larger size, along the edges of what is seen as far as the seconds go, which
-    /// earlier times tell; a target of that size.
+    /// Writes the image at a larger size, which is that of the target. It is made along the edges
+    /// of what is seen as far as the seconds go, by the times that earlier images took.
     void presentUpsampled(const RenderSession& session, int width, int height,
                           const DisplayTarget& display, double seconds);
 
-    /// Of the pixels of a reduced image, those that may be traced to upsample it.
+    /// Share of the pixels of a reduced image that may be traced to upsample it.
     static constexpr double kMostTraced = 0.25;
 
-    /// What upsampling takes with all edges that are worth it, going by the times before [s].
+    /// Time that upsampling with all edges that are worth it takes, by earlier times [s].
     double upsampleSeconds(int width, int height) const
     {
         return _upsampleSeconds * width * height;
     }
 
-    /// What the stages did to the session's image.
-    void report(const RenderSession& session, RenderProgress& progress) const;
+    /// Report of what the stages did to the session's image.
+    StageReport report(const RenderSession& session) const;
 
 private:
     bool historyCounts(const RenderSession& session) const
@@ -85,12 +86,12 @@ private:
     std::function<double()> _now;
     std::shared_ptr<Workers> _workers;
 
-    // What the session's image is of, and what is left of its earlier views.
+    // What the session's image shows, and what is left of its earlier views.
     bool _reprojects = false;
     std::weak_ptr<const TracedScene> _imageScene;
     View _imageView;
     RenderOptions _imageOptions;
-    uint32_t _sequence = 0; ///< of random numbers, which is another one for each view that is left
+    uint32_t _sequence = 0; ///< of random numbers: each view that is left gets another one
     ViewDependence _viewDependence;
     ViewHistory _history;
 
@@ -98,8 +99,8 @@ private:
     Denoiser _denoiser;
     double _denoiseSeconds = 0.0;
 
-    double _upsampleSeconds = 0.0; ///< a pixel
-    double _edgeSeconds = 0.0;     ///< more, one in a cell at an edge
+    double _upsampleSeconds = 0.0; ///< for a pixel
+    double _edgeSeconds = 0.0;     ///< on top, for a pixel in a cell at an edge
 };
 
 } // namespace osgRayTrace::engine

@@ -3,7 +3,7 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
-#include "osgRayTrace/bridge/view/ImageStages.h"
+#include "osgRayTrace/session/view/ImageStages.h"
 
 #include <vector>
 
@@ -102,7 +102,7 @@ struct Enlarged
 
 } // namespace
 
-TEST_CASE("image stages: edges are traced where there is time for them", "[bridge]")
+TEST_CASE("image stages: edges are traced where there is time for them", "[session]")
 {
     Enlarged enlarged;
     enlarged.taken = 0.040;
@@ -126,7 +126,7 @@ TEST_CASE("image stages: edges are traced where there is time for them", "[bridg
     CHECK(frames < 300);
 }
 
-TEST_CASE("image stages: the first picture along edges takes no more than it may", "[bridge]")
+TEST_CASE("image stages: the first picture along edges takes no more than it may", "[session]")
 {
     // Nothing is known of edges, as where the views before had none.
     Enlarged enlarged;
@@ -136,7 +136,7 @@ TEST_CASE("image stages: the first picture along edges takes no more than it may
     CHECK(enlarged.traced(0.020) == Traced::Around);
 }
 
-TEST_CASE("image stages: images without edges do not make edges cheap", "[bridge]")
+TEST_CASE("image stages: images without edges do not make edges cheap", "[session]")
 {
     Enlarged enlarged;
     enlarged.taken = 0.040;

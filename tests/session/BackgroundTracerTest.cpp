@@ -4,9 +4,9 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
-#include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
-#include "osgRayTrace/bridge/view/BackgroundThreads.h"
-#include "osgRayTrace/bridge/view/BackgroundTracer.h"
+#include "osgRayTrace/photons/PhotonPasses.h"
+#include "osgRayTrace/session/view/BackgroundThreads.h"
+#include "osgRayTrace/session/view/BackgroundTracer.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -90,9 +90,10 @@ struct Pixels
 
     bool operator==(const TracedImage& image) const
     {
-        return image.color && image.color->s() == kWidth && image.color->t() == kHeight &&
-               std::memcmp(image.color->data(), rgba.data(), rgba.size()) == 0 &&
-               std::memcmp(image.depth->data(), depth.data(), depth.size() * sizeof(float)) == 0;
+        const TracedPixels* pixels = image.pixels.get();
+        return pixels && pixels->width == kWidth && pixels->height == kHeight &&
+               std::memcmp(pixels->rgba.data(), rgba.data(), rgba.size()) == 0 &&
+               std::memcmp(pixels->depth.data(), depth.data(), depth.size() * sizeof(float)) == 0;
     }
 };
 
@@ -103,22 +104,19 @@ struct Desk
         : gate(std::make_shared<Gate>()), // the worker's, too, which outlives this
           tracer(std::make_unique<BackgroundTracer>([gate = gate] { return gate->look(); }))
     {
-        settings->setIntegrator(RayTraceSettings::PATH);
-        settings->setMaxBounces(1);
-        settings->setMaxPasses(1);
-        version.scene = cornellBox().build();
-        version.workers = std::make_shared<Workers>(1);
-        version.photons = std::make_shared<PhotonPasses>();
-        takeSettings();
+        inputs.options.integrator = IntegratorKind::Path;
+        inputs.options.maxBounces = 1;
+        inputs.maxPasses = 1;
+        inputs.scene = cornellBox().build();
+        inputs.workers = std::make_shared<Workers>(1);
+        inputs.photons = std::make_shared<PhotonPasses>();
     }
     ~Desk() { gate->pass(kAll); }
-
-    void takeSettings() { version.settings = new RayTraceSettings(*settings); }
 
     void ask(double x)
     {
         const View view = viewAt(x);
-        tracer->ask({version, view, {view}, budget, true}, ++frame);
+        tracer->ask({inputs, view, {view}, budget, true}, ++frame);
     }
 
     /// What a session makes of a view that nobody interrupts.
@@ -129,9 +127,9 @@ struct Desk
         pixels.rgba.resize(4 * kWidth * kHeight);
         pixels.depth.resize(kWidth * kHeight);
         RenderSession session(std::make_shared<Workers>(1));
-        session.setScene(version.scene);
+        session.setScene(inputs.scene);
         session.setView(viewAt(x));
-        session.setOptions(renderOptionsFromSettings(*settings));
+        session.setOptions(inputs.options);
         StopRule rule;
         rule.passes = passes;
         session.render(rule);
@@ -157,8 +155,7 @@ struct Desk
     }
 
     std::shared_ptr<Gate> gate;
-    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
-    SceneVersion version;
+    ViewInputs inputs;
     FrameBudget budget;
     uint64_t frame = 0;
     TracedImage shown;
@@ -168,7 +165,7 @@ struct Desk
 
 } // namespace
 
-TEST_CASE("background: who asks never waits, and what was begun first is shown first", "[bridge]")
+TEST_CASE("background: who asks never waits, and what was begun first is shown first", "[session]")
 {
     Desk desk;
     desk.ask(0.0);
@@ -191,7 +188,7 @@ TEST_CASE("background: who asks never waits, and what was begun first is shown f
 }
 
 TEST_CASE("background: a view that moves has images all the time, each of one view and complete",
-          "[bridge]")
+          "[session]")
 {
     Desk desk;
     desk.gate->pass(kAll);
@@ -211,11 +208,10 @@ TEST_CASE("background: a view that moves has images all the time, each of one vi
 }
 
 TEST_CASE("background: once an image is there, another view cuts the pass at work short",
-          "[bridge]")
+          "[session]")
 {
     Desk desk;
-    desk.settings->setMaxPasses(100000);
-    desk.takeSettings();
+    desk.inputs.maxPasses = 100000;
     desk.budget = {2000.0, false}; // looks: each tile is one
     const auto stepEnds = [&] { return desk.tracer->report(desk.frame).fresh; };
     desk.ask(0.0);
@@ -237,11 +233,10 @@ TEST_CASE("background: once an image is there, another view cuts the pass at wor
 
 TEST_CASE(
     "background: at rest passes add up to those of a frame-locked view, bit by bit, then it sleeps",
-    "[bridge]")
+    "[session]")
 {
     Desk desk;
-    desk.settings->setMaxPasses(5);
-    desk.takeSettings();
+    desk.inputs.maxPasses = 5;
     const bool budgeted = GENERATE(false, true);
     if (budgeted) desk.budget.seconds = 5.0; // less than half a pass
     desk.gate->pass(kAll);
@@ -257,14 +252,13 @@ TEST_CASE(
     const long looks = desk.gate->looks();
     View same = viewAt(0.0);
     same.clipFromView[2][2] *= 1.0 + 1e-15;
-    desk.tracer->ask({desk.version, same, {same}, desk.budget, true}, ++desk.frame);
+    desk.tracer->ask({desk.inputs, same, {same}, desk.budget, true}, ++desk.frame);
     desk.ask(0.0);
     CHECK_FALSE(desk.tracer->isWorking());
     CHECK(desk.gate->looks() == looks);
 
     // Another exposure: another picture of the same samples.
-    desk.settings->setExposure(1.0f);
-    desk.takeSettings();
+    desk.inputs.exposureEv = 1.0f;
     desk.ask(0.0);
     REQUIRE(desk.rests());
     REQUIRE(desk.tracer->takeNewest(desk.shown));
@@ -272,11 +266,10 @@ TEST_CASE(
     CHECK(desk.tracer->report(desk.frame).progress.rays.total() == done.rays.total());
 }
 
-TEST_CASE("background: a view that nobody asks for any more rests", "[bridge]")
+TEST_CASE("background: a view that nobody asks for any more rests", "[session]")
 {
     Desk desk;
-    desk.settings->setMaxPasses(100000);
-    desk.takeSettings();
+    desk.inputs.maxPasses = 100000;
     desk.gate->pass(kAll);
     desk.ask(0.0);
     REQUIRE(desk.rests());
@@ -287,14 +280,14 @@ TEST_CASE("background: a view that nobody asks for any more rests", "[bridge]")
 }
 
 TEST_CASE("background: destroyed while its worker traces it does not wait, and nothing stays",
-          "[bridge]")
+          "[session]")
 {
     Desk desk;
-    const std::weak_ptr<const TracedScene> scene = desk.version.scene;
+    const std::weak_ptr<const TracedScene> scene = desk.inputs.scene;
     desk.ask(0.0);
     desk.gate->awaitHeld();
     desk.tracer.reset();
-    desk.version = SceneVersion();
+    desk.inputs = ViewInputs();
     CHECK_FALSE(scene.expired()); // it is traced still
     desk.gate->pass(kAll);
     CHECK(eventually([&] { return scene.expired(); }));
@@ -302,11 +295,10 @@ TEST_CASE("background: destroyed while its worker traces it does not wait, and n
 
 TEST_CASE(
     "background: stopped, the image goes on in the hands of others, and in the background again",
-    "[bridge]")
+    "[session]")
 {
     Desk desk;
-    desk.settings->setMaxPasses(100000);
-    desk.takeSettings();
+    desk.inputs.maxPasses = 100000;
     desk.ask(0.0);
     desk.passUntil([&] { return desk.tracer->report(desk.frame).progress.passes == 3; });
     desk.tracer->stop();
@@ -317,24 +309,22 @@ TEST_CASE(
         passes = tracer->progress().passes;
         CHECK(passes >= 3);
         tracer->forgetDisplay();
-        tracer->trace(desk.version, viewAt(0.0));
+        tracer->trace(desk.inputs, viewAt(0.0));
         CHECK(tracer->progress().passes == passes + 1);
     }
     CHECK_FALSE(desk.tracer->takeNewest(desk.shown)); // of before
     CHECK(desk.rests());                              // the thread ends
-    desk.settings->setMaxPasses(passes + 4);
-    desk.takeSettings();
+    desk.inputs.maxPasses = passes + 4;
     desk.ask(0.0);
     REQUIRE(desk.rests());
     REQUIRE(desk.tracer->takeNewest(desk.shown));
     CHECK(desk.reference(0.0, passes + 4) == desk.shown);
 }
 
-TEST_CASE("background: who borrows the tracer comes before the next step", "[bridge]")
+TEST_CASE("background: who borrows the tracer comes before the next step", "[session]")
 {
     Desk desk;
-    desk.settings->setMaxPasses(100000);
-    desk.takeSettings();
+    desk.inputs.maxPasses = 100000;
     desk.gate->pass(kAll);
     for (int i = 0; i < 50; ++i)
     {
@@ -345,7 +335,7 @@ TEST_CASE("background: who borrows the tracer comes before the next step", "[bri
 
 TEST_CASE("background: what cannot be traced is reported, not tried on and on, and tried again "
           "when asked for",
-          "[bridge]")
+          "[session]")
 {
     Desk desk;
     desk.gate->pass(kAll);
@@ -353,13 +343,13 @@ TEST_CASE("background: what cannot be traced is reported, not tried on and on, a
     view.width = view.height = 20000; // more pixels than a film holds
     for (int i = 0; i < 3; ++i)
     {
-        desk.tracer->ask({desk.version, view, {view}, {}, true}, ++desk.frame);
+        desk.tracer->ask({desk.inputs, view, {view}, {}, true}, ++desk.frame);
         REQUIRE(desk.rests());
         const TraceReport report = desk.tracer->report(desk.frame);
         CHECK_FALSE(report.progress.status.ok());
         CHECK(report.progress.passes == 0);
         CHECK(report.fresh);
-        CHECK((report.scene.lock() == desk.version.scene));
+        CHECK((report.scene.lock() == desk.inputs.scene));
         CHECK_FALSE(desk.tracer->takeNewest(desk.shown));
         CHECK_FALSE(desk.tracer->report(desk.frame).fresh);
     }
@@ -370,19 +360,18 @@ TEST_CASE("background: what cannot be traced is reported, not tried on and on, a
     CHECK(desk.reference(0.0) == desk.shown);
 }
 
-TEST_CASE("background: several views share a pool of threads, photons and a scene", "[bridge]")
+TEST_CASE("background: several views share a pool of threads, photons and a scene", "[session]")
 {
     Desk desk;
-    desk.settings->setIntegrator(RayTraceSettings::PPM);
-    desk.settings->setPhotons(2000);
-    desk.settings->setMaxPasses(3);
-    desk.settings->setPhotonGuiding(false);
-    desk.takeSettings();
+    desk.inputs.options.integrator = IntegratorKind::Ppm;
+    desk.inputs.options.photons = 2000;
+    desk.inputs.maxPasses = 3;
+    desk.inputs.options.photonGuiding = false;
     std::vector<std::unique_ptr<BackgroundTracer>> tracers;
     for (int i = 0; i < 4; ++i)
     {
         tracers.push_back(std::make_unique<BackgroundTracer>());
-        tracers[i]->ask({desk.version, viewAt(i), {viewAt(i)}, {}, true}, 1);
+        tracers[i]->ask({desk.inputs, viewAt(i), {viewAt(i)}, {}, true}, 1);
     }
     for (int i = 0; i < 4; ++i)
     {
@@ -390,6 +379,36 @@ TEST_CASE("background: several views share a pool of threads, photons and a scen
         REQUIRE(tracers[i]->takeNewest(desk.shown));
         CHECK(desk.reference(i, 3) == desk.shown);
     }
+}
+
+TEST_CASE("background: each thread of a worker is prepared once, before it traces", "[session]")
+{
+    Desk desk;
+    desk.gate->pass(kAll);
+    std::vector<std::thread::id> prepared;
+    long looks = -1; // before the first one was prepared
+    desk.tracer =
+        std::make_unique<BackgroundTracer>([gate = desk.gate] { return gate->look(); },
+                                           [&]
+                                           {
+                                               if (looks < 0) looks = desk.gate->looks();
+                                               prepared.push_back(std::this_thread::get_id());
+                                           });
+    desk.ask(0.0);
+    REQUIRE(desk.rests());
+    REQUIRE(prepared.size() == 1);
+    CHECK(prepared.front() != std::this_thread::get_id());
+    CHECK(looks == 0);
+    CHECK(desk.gate->looks() > 0);
+
+    desk.ask(1.0);
+    REQUIRE(desk.rests());
+    CHECK(prepared.size() == 1);
+    desk.tracer->stop();
+    REQUIRE(desk.rests());
+    desk.ask(2.0);
+    REQUIRE(desk.rests());
+    CHECK(prepared.size() == 2);
 }
 
 // A test of its own: what it checks is that the process ends.

@@ -1,6 +1,6 @@
-// DepthSlices.cpp - passes that show one picture, each a slice of its depths. Layer: bridge.
+// DepthSlices.cpp - passes that show one picture, each a slice of its depths. Layer: session.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/DepthSlices.h"
+#include "osgRayTrace/session/view/DepthSlices.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +91,7 @@ std::optional<DepthPlanes> depthPlanes(const View& view)
     const bool reversed = planes.reversed();
     planes.near = reversed ? atPlus : atMinus;
     planes.far = reversed ? atMinus : atPlus;
-    // At infinity a sign is what rounding makes of it.
+    // The sign of a far plane at infinity depends on rounding.
     if (!planes.orthographic && !(planes.far > planes.near))
         planes.far = std::numeric_limits<double>::infinity();
     const bool usable = std::isfinite(planes.near) && planes.far > planes.near &&

@@ -4,8 +4,8 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
-#include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/photons/PhotonPasses.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include <algorithm>
 #include <atomic>
@@ -50,18 +50,15 @@ struct Cave
 {
     explicit Cave(const std::vector<double>& costs) : agreement(std::make_shared<FrameAgreement>())
     {
-        settings->setIntegrator(RayTraceSettings::WHITTED);
-        settings->setLightSamples(1);
-        settings->setMaxPasses(kMaxPasses);
-        version.scene = cornellBox().build();
-        version.workers = std::make_shared<Workers>(2);
-        version.photons = std::make_shared<PhotonPasses>();
-        takeSettings();
+        inputs.options.integrator = IntegratorKind::Whitted;
+        inputs.options.lightSamples = 1;
+        inputs.maxPasses = kMaxPasses;
+        inputs.scene = cornellBox().build();
+        inputs.workers = std::make_shared<Workers>(2);
+        inputs.photons = std::make_shared<PhotonPasses>();
         for (const double cost : costs)
             add(cost);
     }
-
-    void takeSettings() { version.settings = new RayTraceSettings(*settings); }
 
     void add(double cost)
     {
@@ -96,7 +93,7 @@ struct Cave
     {
         FrameBudget frame;
         frame.seconds = budget;
-        frame.degrade = settings->getDegradeWhileMoving();
+        frame.degrade = degrade;
         frame.upsampleShare = 0.0;
         if (equal) frame.agreement = agreement;
         frame.frameNumber = number;
@@ -108,9 +105,9 @@ struct Cave
         ViewTracer& tracer = wall.tracer;
         const View view = viewOf(wall.number, x);
         const bool fits = wall.displayWidth == kWidth;
-        tracer.trace(version, view, frameBudget(equal), fits ? wall.rgba.data() : nullptr,
+        tracer.trace(inputs, view, frameBudget(equal), fits ? wall.rgba.data() : nullptr,
                      fits ? wall.depth.data() : nullptr);
-        if (tracer.needsResolve(version))
+        if (tracer.needsResolve(inputs))
         {
             const auto pixels = std::size_t(tracer.displayWidth() * tracer.displayHeight());
             wall.rgba.resize(4 * pixels);
@@ -136,10 +133,10 @@ struct Cave
 
     std::atomic<double> clock{0.0};
     double budget = kBudget;
+    bool degrade = true;
     double seconds = 0.0; ///< that the last frame took
     uint64_t number = 100;
-    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
-    SceneVersion version;
+    ViewInputs inputs;
     std::shared_ptr<FrameAgreement> agreement;
     std::vector<std::unique_ptr<Wall>> walls; ///< after what they refer to
 };
@@ -157,9 +154,9 @@ std::vector<uint8_t> reference(const Cave& cave, int wall, double x, const WallP
     view.width = reducedSize(kWidth, shown.divider);
     view.height = reducedSize(kHeight, shown.divider);
     RenderSession session(std::make_shared<Workers>(1));
-    session.setScene(cave.version.scene);
+    session.setScene(cave.inputs.scene);
     session.setView(view);
-    RenderOptions options = renderOptionsFromSettings(*cave.settings);
+    RenderOptions options = cave.inputs.options;
     options.centredFirstPass = shown.divider > 1;
     session.setOptions(options);
     StopRule rule;
@@ -173,7 +170,7 @@ std::vector<uint8_t> reference(const Cave& cave, int wall, double x, const WallP
 } // namespace
 
 TEST_CASE("equal views: without agreement walls of different cost differ, with it never",
-          "[bridge]")
+          "[session]")
 {
     int differing = 0;
     for (const bool equal : {false, true})
@@ -194,7 +191,7 @@ TEST_CASE("equal views: without agreement walls of different cost differ, with i
 }
 
 TEST_CASE("equal views: two and four walls of any cost agree in each frame, in the time of one",
-          "[bridge]")
+          "[session]")
 {
     for (const std::vector<double>& costs :
          {std::vector<double>{1.0, 1.0}, std::vector<double>{0.01, 6.0},
@@ -222,7 +219,7 @@ TEST_CASE("equal views: two and four walls of any cost agree in each frame, in t
 
 TEST_CASE(
     "equal views: at rest all walls complete each pass in the same frame, though it takes several",
-    "[bridge]")
+    "[session]")
 {
     Cave cave({0.5, 8.0, 3.0}); // 920 of 250 for a pass
     for (int i = 0; i < 15; ++i)
@@ -249,7 +246,7 @@ TEST_CASE(
 }
 
 TEST_CASE("equal views: across the edge both walls show pictures of the same resolution and passes",
-          "[bridge]")
+          "[session]")
 {
     Cave cave({0.05, 4.0});
     std::vector<WallPicture> pictures;
@@ -263,7 +260,7 @@ TEST_CASE("equal views: across the edge both walls show pictures of the same res
 TEST_CASE(
     "equal views: a wall that comes is coarse once and then as the others, one that goes gives "
     "its time to them",
-    "[bridge]")
+    "[session]")
 {
     Cave cave({0.05, 0.05});
     for (int i = 0; i < 10; ++i)
@@ -301,7 +298,8 @@ TEST_CASE(
     CHECK(cave.frame(90.0)[0].divider == 1);
 }
 
-TEST_CASE("equal views: one that moves beside one at rest: both within the time of all", "[bridge]")
+TEST_CASE("equal views: one that moves beside one at rest: both within the time of all",
+          "[session]")
 {
     Cave cave({3.0, 3.0});
     for (int i = 0; i < 10; ++i)
@@ -321,7 +319,7 @@ TEST_CASE("equal views: one that moves beside one at rest: both within the time 
 }
 
 TEST_CASE("equal views: what becomes five thousand times as dear is given up after ten budgets",
-          "[bridge]")
+          "[session]")
 {
     Cave cave({0.02, 0.02});
     for (int i = 0; i < 10; ++i)
@@ -340,11 +338,10 @@ TEST_CASE("equal views: what becomes five thousand times as dear is given up aft
 }
 
 TEST_CASE("equal views: passes that take far too long are fewer, for those that come later, too",
-          "[bridge]")
+          "[session]")
 {
     Cave cave({0.5, 0.02}); // 40 for a pass
-    cave.settings->setMaxPasses(100);
-    cave.takeSettings();
+    cave.inputs.maxPasses = 100;
     for (int i = 0; i < 10; ++i)
         cave.frame(i);
     const int passes = cave.frame(10.0)[0].passes;
@@ -356,7 +353,7 @@ TEST_CASE("equal views: passes that take far too long are fewer, for those that 
 }
 
 TEST_CASE("equal views: frames that nobody numbers, or whose number stays, are frames all the same",
-          "[bridge]")
+          "[session]")
 {
     for (const uint64_t number : {0, 7})
     {
@@ -374,7 +371,7 @@ TEST_CASE("equal views: frames that nobody numbers, or whose number stays, are f
     }
 }
 
-TEST_CASE("equal views: passes that are imposed are traced, whatever they take", "[bridge]")
+TEST_CASE("equal views: passes that are imposed are traced, whatever they take", "[session]")
 {
     Cave cave({1.0, 30.0});
     FrameWork work;
@@ -397,7 +394,7 @@ TEST_CASE("equal views: passes that are imposed are traced, whatever they take",
 }
 
 TEST_CASE("equal views: an offer is by the cost of all views, not of the one drawn last",
-          "[bridge]")
+          "[session]")
 {
     Cave dear({6.0}), empty({0.01}), both({6.0, 0.01});
     std::optional<FrameWork> offers[3];
@@ -417,7 +414,7 @@ TEST_CASE("equal views: an offer is by the cost of all views, not of the one dra
     CHECK(offers[2]->progress <= offers[0]->progress);
 }
 
-TEST_CASE("equal views: traced by several threads at once they agree, too", "[bridge]")
+TEST_CASE("equal views: traced by several threads at once they agree, too", "[session]")
 {
     constexpr int kWalls = 4, kFrames = 60;
     Cave cave({0.05, 3.0, 0.5, 0.2});

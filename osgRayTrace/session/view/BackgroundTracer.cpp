@@ -1,9 +1,9 @@
 // BackgroundTracer.cpp - traces a view on a thread of its own, for draw to take the newest image.
-// Layer: bridge.
+// Layer: session.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/BackgroundTracer.h"
+#include "osgRayTrace/session/view/BackgroundTracer.h"
 
-#include "osgRayTrace/bridge/view/BackgroundThreads.h"
+#include "osgRayTrace/session/view/BackgroundThreads.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -17,47 +17,30 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Whether the image of one is as good for the other. Settings are copied when they change, and not
-/// before.
+/// True if the image of one is as good for the other.
 bool same(const TraceRequest& a, const TraceRequest& b)
 {
-    return a.version.scene == b.version.scene && a.version.workers == b.version.workers &&
-           a.version.photons == b.version.photons && a.version.settings == b.version.settings &&
-           sameButForRounding(a.view, b.view) && a.slices.size() == b.slices.size() &&
-           a.budget.seconds == b.budget.seconds && a.budget.degrade == b.budget.degrade &&
-           a.traces == b.traces;
-}
-
-/// Without the parts of the scene graph that draw and cull have it for: the worker may be the last
-/// to let go of a request.
-TraceRequest withoutGraph(TraceRequest request)
-{
-    request.version.rasterized.reset();
-    request.version.pickIndex.reset();
-    return request;
+    return sameImage(a.inputs, b.inputs) && sameButForRounding(a.view, b.view) &&
+           a.slices.size() == b.slices.size() && a.budget.seconds == b.budget.seconds &&
+           a.budget.degrade == b.budget.degrade && a.traces == b.traces;
 }
 
 void makeRoom(TracedImage& image, int width, int height)
 {
-    if (image.color && image.color->s() == width && image.color->t() == height) return;
-    image = TracedImage(); // until both are there
-    osg::ref_ptr<osg::Image> color = new osg::Image;
-    osg::ref_ptr<osg::Image> depth = new osg::Image;
-    color->allocateImage(width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE);
-    depth->allocateImage(width, height, 1, GL_LUMINANCE, GL_FLOAT);
-    image.color = color;
-    image.depth = depth;
+    if (image.pixels && image.pixels->width == width && image.pixels->height == height) return;
+    image = TracedImage(); // the old pixels are freed before there are others
+    image.pixels = std::make_shared<TracedPixels>(width, height);
 }
 
-/// Of a step of the worker.
+/// The outcome of a step of the worker.
 struct Outcome
 {
-    RenderProgress progress;
+    ViewProgress progress;
     FrameReport frame;
     bool done = true; ///< nothing is left to do for its request, or nothing can be done
 };
 
-/// Memory may be what is missing: then the message is one that fits into a string as it is.
+/// If memory is what is missing, the message is one that fits into a string without an allocation.
 Outcome failedOutcome(StatusCode code, const char* message) noexcept
 {
     Outcome outcome;
@@ -94,34 +77,34 @@ struct BackgroundTracer::Worker
     bool mayStep() const { return due && guests == 0 && unasked < kMostUnasked; }
 
     std::mutex
-        tracing; // who traces: the worker; draw of a frame-locked view; who asks for radiance
+        tracing; // held by whoever traces or reads: worker, frame-locked draw, request for radiance
     ViewTracer tracer;
     bool stepping = false; ///< the worker traces, and no one else
-    TracedImage result;    ///< that the worker writes
+    TracedImage result;    ///< the image that the worker writes
 
-    std::mutex mutex;             // draw, the worker and those with a Lease; all below
+    std::mutex mutex;             // draw, the worker and leases; guards all members below
     std::condition_variable wake; ///< the worker
-    std::shared_ptr<const TraceRequest> wanted; ///< null: nothing yet
-    uint64_t number = 0;     ///< of that; it grows with each that differs, or is tried again
-    uint64_t askedAt = 0;    ///< frame that wanted it last
-    bool due = false;        ///< there is something to do, or may be
-    bool failed = false;     ///< the last step did; nobody has asked since
-    int unasked = 0;         ///< steps since a frame asked
-    int guests = 0;          ///< who have a Lease, or wait for one
-    bool running = false;    ///< there is a thread
-    bool stops = false;      ///< it shall end, unless somebody asks before it does
-    bool ended = false;      ///< the process ends: it shall end whoever asks
-    bool working = false;    ///< it is in a step
-    uint64_t taken = 0;      ///< number of the request that the worker is at
-    bool handedOver = false; ///< an image of that
+    std::shared_ptr<const TraceRequest> wanted; ///< null: nothing was asked for yet
+    uint64_t number = 0;  ///< of wanted; it grows with each request that differs or is tried again
+    uint64_t askedAt = 0; ///< the last frame that asked
+    bool due = false;     ///< there is something to do, or may be
+    bool failed = false;  ///< the last step did; nobody has asked since
+    int unasked = 0;      ///< steps since a frame asked
+    int guests = 0;       ///< leases, and those who wait for one
+    bool running = false; ///< there is a thread
+    bool stops = false;   ///< the thread shall end, unless somebody asks before it does
+    bool ended = false;   ///< the process ends: the thread shall end whoever asks
+    bool working = false; ///< the thread is in a step
+    uint64_t taken = 0;   ///< number of the request that the worker is at
+    bool handedOver = false;           ///< an image of the taken request was handed over
     std::atomic<bool> outdated{false}; ///< the step is to be given up; read without the mutex
-    TracedImage newest;                ///< if fresh; else one that draw is done with
+    TracedImage newest;                ///< the newest image if fresh; otherwise a used one
     bool fresh = false;
     TraceReport report;
-    uint64_t reportOf = 0;   ///< number of its request
-    uint64_t forgotten = 0;  ///< failures up to this number
+    uint64_t reportOf = 0;   ///< number of the request that report is about
+    uint64_t forgotten = 0;  ///< failures of requests up to this number do not count
     uint64_t reported = 0;   ///< number of the newest image's request
-    uint64_t reportedAt = 0; ///< frame that wanted it when its step began
+    uint64_t reportedAt = 0; ///< the last frame that had asked for it when its step began
 };
 
 /// True if a thread has to be started.
@@ -133,8 +116,7 @@ bool BackgroundTracer::Worker::ask(const TraceRequest& request, uint64_t frame)
         std::lock_guard<std::mutex> lock(mutex);
         if (ended) return false;
         const bool differs = !wanted || !same(*wanted, request);
-        if (differs)
-            old = std::exchange(wanted, std::make_shared<TraceRequest>(withoutGraph(request)));
+        if (differs) old = std::exchange(wanted, std::make_shared<TraceRequest>(request));
         if (differs) outdated = handedOver;
         if (differs || failed) ++number;
         starts = !running;
@@ -159,7 +141,7 @@ void BackgroundTracer::Worker::stop()
     wake.notify_one();
 }
 
-/// When the process ends: other threads may draw, and so ask, until the very end of it.
+/// Called when the process ends: other threads may draw, and so ask, until its very end.
 void BackgroundTracer::Worker::end()
 {
     {
@@ -169,7 +151,7 @@ void BackgroundTracer::Worker::end()
     stop();
 }
 
-/// On the worker's thread.
+/// Runs on the worker's thread.
 void BackgroundTracer::Worker::run() noexcept
 {
     std::unique_lock<std::mutex> lock(mutex);
@@ -187,7 +169,7 @@ void BackgroundTracer::Worker::run() noexcept
 
         lock.unlock();
         Outcome outcome = step(*request);
-        const std::weak_ptr<const TracedScene> scene = request->version.scene;
+        const std::weak_ptr<const TracedScene> scene = request->inputs.scene;
         request.reset(); // it may be the last to hold its scene
         lock.lock();
 
@@ -213,7 +195,7 @@ Outcome BackgroundTracer::Worker::step(const TraceRequest& request) noexcept
     return outcome;
 }
 
-/// Draw catches the same: see RayTraceDrawable.
+/// Catches what RayTraceDrawable catches of draw.
 Outcome BackgroundTracer::Worker::tryToTrace(const TraceRequest& request) noexcept
 {
     try
@@ -239,13 +221,13 @@ Outcome BackgroundTracer::Worker::tryToTrace(const TraceRequest& request) noexce
 
 Outcome BackgroundTracer::Worker::traceAndResolve(const TraceRequest& request)
 {
-    if (request.traces) tracer.trace(request.version, request.view, request.budget);
-    // What was given up may wait: an image of its request is there, and another one is wanted.
-    if (tracer.needsResolve(request.version) && !outdated)
+    if (request.traces) tracer.trace(request.inputs, request.view, request.budget);
+    // A pass that was given up need not be shown: its request has an image, and another is wanted.
+    if (tracer.needsResolve(request.inputs) && !outdated)
     {
         makeRoom(result, tracer.displayWidth(), tracer.displayHeight());
         result.slices = request.slices;
-        tracer.resolve(result.color->data(), reinterpret_cast<float*>(result.depth->data()));
+        tracer.resolve(result.pixels->rgba.data(), result.pixels->depth.data());
         handOver();
     }
     if (request.traces) tracer.recordPresented();
@@ -260,12 +242,20 @@ void BackgroundTracer::Worker::handOver()
     if (stops) return tracer.forgetDisplay();
     std::swap(result, newest);
     fresh = handedOver = true;
-    // Whatever else is wanted by now need not wait for more of this.
+    // If another request came meanwhile, it need not wait for more passes of this one.
     outdated = number != taken;
 }
 
-BackgroundTracer::BackgroundTracer(std::function<double()> now)
-    : _worker(std::make_shared<Worker>(std::move(now)))
+TracedPixels::TracedPixels(int w, int h)
+    : width(w),
+      height(h),
+      rgba(4 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)),
+      depth(static_cast<std::size_t>(w) * static_cast<std::size_t>(h))
+{
+}
+
+BackgroundTracer::BackgroundTracer(std::function<double()> now, std::function<void()> prepareThread)
+    : _worker(std::make_shared<Worker>(std::move(now))), _prepareThread(std::move(prepareThread))
 {
 }
 
@@ -291,7 +281,13 @@ void BackgroundTracer::ask(const TraceRequest& request, uint64_t frame)
         {
             if (const std::shared_ptr<Worker> worker = weak.lock()) worker->end();
         };
-        started = startBackgroundThread([worker = _worker] { worker->run(); }, stop);
+        started = startBackgroundThread(
+            [worker = _worker, prepare = _prepareThread]
+            {
+                if (prepare) prepare();
+                worker->run();
+            },
+            stop);
         recordFailure();
     }
     catch (...)

@@ -4,11 +4,11 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
-#include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
-#include "osgRayTrace/bridge/view/ViewTracer.h"
 #include "osgRayTrace/film/ChangedTiles.h"
 #include "osgRayTrace/film/Enlarge.h"
 #include "osgRayTrace/film/Film.h"
+#include "osgRayTrace/photons/PhotonPasses.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include <algorithm>
 #include <cstring>
@@ -82,8 +82,7 @@ bool sameTile(const Pixels& a, const Pixels& b, int tile)
 class References
 {
 public:
-    References(std::shared_ptr<const TracedScene> traced, const RayTraceSettings& settings)
-        : _traced(std::move(traced)), _options(renderOptionsFromSettings(settings))
+    explicit References(const ViewInputs& inputs) : _traced(inputs.scene), _options(inputs.options)
     {
     }
 
@@ -119,13 +118,12 @@ struct Screen
 {
     explicit Screen(double tile = kTile) : tileSeconds(tile), tracer([this] { return look(); })
     {
-        settings->setIntegrator(RayTraceSettings::PATH);
-        settings->setMaxBounces(1);
-        settings->setMaxPasses(3);
-        version.scene = cornellBox().build();
-        version.workers = std::make_shared<Workers>(1);
-        version.photons = std::make_shared<PhotonPasses>();
-        takeSettings();
+        inputs.options.integrator = IntegratorKind::Path;
+        inputs.options.maxBounces = 1;
+        inputs.maxPasses = 3;
+        inputs.scene = cornellBox().build();
+        inputs.workers = std::make_shared<Workers>(1);
+        inputs.photons = std::make_shared<PhotonPasses>();
     }
 
     double look()
@@ -135,21 +133,19 @@ struct Screen
         return clock += tileSeconds;
     }
 
-    void takeSettings() { version.settings = new RayTraceSettings(*settings); }
-
     void frame(double x, bool keepsDisplay = true)
     {
         at = x;
         FrameBudget frameBudget;
         frameBudget.seconds = budget;
-        frameBudget.degrade = settings->getDegradeWhileMoving();
+        frameBudget.degrade = degrade;
         frameBudget.upsampleShare = upsampleShare;
         if (!keepsDisplay) display = Pixels();
         const bool fits = display.width == kWidth && display.height == kHeight;
         const bool written =
-            tracer.trace(version, viewAt(x), frameBudget, fits ? display.rgba.data() : nullptr,
+            tracer.trace(inputs, viewAt(x), frameBudget, fits ? display.rgba.data() : nullptr,
                          fits ? display.depth.data() : nullptr);
-        resolved = tracer.needsResolve(version);
+        resolved = tracer.needsResolve(inputs);
         if (resolved)
         {
             if (tracer.displayWidth() != display.width || tracer.displayHeight() != display.height)
@@ -198,9 +194,9 @@ struct Screen
         for (int tile = 0; tile < tilesOf(shown.width, shown.height); ++tile)
         {
             bool traced = false;
-            for (int pass = 1; pass <= settings->getMaxPasses() && !traced; ++pass)
+            for (int pass = 1; pass <= inputs.maxPasses && !traced; ++pass)
             {
-                const Pixels& whole = references.image(x, divider, pass, settings->getExposure());
+                const Pixels& whole = references.image(x, divider, pass, inputs.exposureEv);
                 traced = whole.width == shown.width && sameTile(shown, whole, tile);
             }
             const bool enlarged = !traced && under.width > 0 && sameTile(shown, under, tile);
@@ -214,12 +210,12 @@ struct Screen
     double clock = 0.0, tileSeconds;
     double at = 0.0; ///< the last frame's
     double budget = kBudget;
+    bool degrade = true;
     double upsampleSeconds = 0.0;      ///< that it takes, beside looks at the clock
     double upsamplePixelSeconds = 0.0; ///< the same, of a pixel of its result
     int resolveLooks = 0;              ///< that are still to come
     double upsampleShare = 0.0;        ///< reduced pictures are shown as they are
-    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
-    SceneVersion version;
+    ViewInputs inputs;
     ViewTracer tracer;
     /// What a resolve of all makes of the present image.
     Pixels whole()
@@ -239,10 +235,10 @@ struct Screen
 } // namespace
 
 TEST_CASE("frame budget: a moving view is whole in each frame, of one resolution, in time",
-          "[bridge]")
+          "[session]")
 {
     Screen screen;
-    References references(screen.version.scene, *screen.settings);
+    References references(screen.inputs);
     std::vector<int> dividers;
     for (int i = 0; i < 30; ++i)
     {
@@ -260,10 +256,10 @@ TEST_CASE("frame budget: a moving view is whole in each frame, of one resolution
 }
 
 TEST_CASE("frame budget: at rest full resolution fills in, passes add up, then nothing is done",
-          "[bridge]")
+          "[session]")
 {
     Screen screen;
-    References references(screen.version.scene, *screen.settings);
+    References references(screen.inputs);
     for (int i = 0; i < 5; ++i)
         screen.frame(i);
     int before = 0, mixed = 0;
@@ -301,10 +297,10 @@ TEST_CASE("frame budget: at rest full resolution fills in, passes add up, then n
 }
 
 TEST_CASE("frame budget: moved, stopped, slowed down and redrawn at random no tile is ever torn",
-          "[bridge]")
+          "[session]")
 {
     Screen screen;
-    References references(screen.version.scene, *screen.settings);
+    References references(screen.inputs);
     std::mt19937 random(5);
     double x = 0.0;
     int stillFrames = 0, mixed = 0;
@@ -328,10 +324,10 @@ TEST_CASE("frame budget: moved, stopped, slowed down and redrawn at random no ti
 
 TEST_CASE(
     "frame budget: an exposure that changes while full resolution fills in is that of all tiles",
-    "[bridge]")
+    "[session]")
 {
     Screen screen;
-    References references(screen.version.scene, *screen.settings);
+    References references(screen.inputs);
     for (int i = 0; i < 3; ++i)
         screen.frame(i);
     for (int i = 0; i < 4; ++i)
@@ -339,32 +335,30 @@ TEST_CASE(
     const Screen::Tiles before = screen.tiles(2.0, references);
     CHECK(before.enlarged > 100);
     const Pixels old = screen.shown;
-    screen.settings->setExposure(1.0f);
-    screen.takeSettings();
+    screen.inputs.exposureEv = 1.0f;
     screen.frame(2.0);
     CHECK(screen.tiles(2.0, references).traced > before.traced);
     for (int tile = 0; tile < kTiles; ++tile)
         CHECK_FALSE(sameTile(screen.shown, old, tile));
 }
 
-TEST_CASE("frame budget: reduced pictures are upsampled where there is time for it", "[bridge]")
+TEST_CASE("frame budget: reduced pictures are upsampled where there is time for it", "[session]")
 {
     Screen screen;
     screen.upsampleShare = 0.2;
-    screen.settings->setMaxPasses(1);
-    screen.takeSettings();
+    screen.inputs.maxPasses = 1;
     for (int i = 0; i < 6; ++i)
     {
         screen.frame(i);
         const int divider = screen.tracer.frame().divider;
         REQUIRE(divider > 1);
-        RenderOptions options = renderOptionsFromSettings(*screen.settings);
+        RenderOptions options = screen.inputs.options;
         options.centredFirstPass = true;
         View view = viewAt(i);
         view.width = reducedSize(kWidth, divider);
         view.height = reducedSize(kHeight, divider);
         RenderSession session(std::make_shared<Workers>(1));
-        session.setScene(screen.version.scene);
+        session.setScene(screen.inputs.scene);
         session.setView(view);
         session.setOptions(options);
         StopRule rule;
@@ -384,7 +378,8 @@ TEST_CASE("frame budget: reduced pictures are upsampled where there is time for 
     CHECK(screen.shown.width < kWidth);
 }
 
-TEST_CASE("frame budget: reduced pictures are upsampled as far as there is time for it", "[bridge]")
+TEST_CASE("frame budget: reduced pictures are upsampled as far as there is time for it",
+          "[session]")
 {
     Screen screen;
     screen.upsampleShare = 0.2;
@@ -435,7 +430,7 @@ TEST_CASE("frame budget: reduced pictures are upsampled as far as there is time 
 }
 
 TEST_CASE("frame budget: tiles laid over the upsampled picture make that of a full resolve",
-          "[bridge]")
+          "[session]")
 {
     Screen screen;
     screen.upsampleShare = 0.2;
@@ -455,7 +450,7 @@ TEST_CASE("frame budget: tiles laid over the upsampled picture make that of a fu
     CHECK(screen.colorCopies > 3); // depths are those of the first pass
 }
 
-TEST_CASE("frame budget: after a jump there is time for upsampling", "[bridge]")
+TEST_CASE("frame budget: after a jump there is time for upsampling", "[session]")
 {
     Screen screen;
     screen.upsampleShare = 0.2;
@@ -478,7 +473,7 @@ TEST_CASE("frame budget: after a jump there is time for upsampling", "[bridge]")
     }
 }
 
-TEST_CASE("frame budget: copies of what is marked equal the whole, whatever changes", "[bridge]")
+TEST_CASE("frame budget: copies of what is marked equal the whole, whatever changes", "[session]")
 {
     Screen screen;
     std::mt19937 random(11);
@@ -487,16 +482,14 @@ TEST_CASE("frame budget: copies of what is marked equal the whole, whatever chan
     {
         if (random() % 12 == 0) x = double(random() % 4);
         if (random() % 40 == 0) screen.upsampleShare = 0.2 - screen.upsampleShare;
-        if (random() % 40 == 0) screen.settings->setExposure(float(random() % 2));
-        if (random() % 40 == 0) screen.settings->setMaxBounces(1 + random() % 2);
+        if (random() % 40 == 0) screen.inputs.exposureEv = float(random() % 2);
+        if (random() % 40 == 0) screen.inputs.options.maxBounces = 1 + int(random() % 2);
         if (random() % 40 == 0)
-            screen.settings->setDenoise(random() % 3 ? RayTraceSettings::OFF
-                                                     : RayTraceSettings::FILTER);
-        if (random() % 40 == 0) screen.settings->setDegradeWhileMoving(random() % 3);
-        if (random() % 60 == 0) screen.settings->setReproject(random() % 2);
-        if (random() % 60 == 0) screen.version.scene = cornellBox().build();
+            screen.inputs.denoise = random() % 3 ? DenoiseKind::Off : DenoiseKind::Filter;
+        if (random() % 40 == 0) screen.degrade = random() % 3 != 0;
+        if (random() % 60 == 0) screen.inputs.reprojects = random() % 2 != 0;
+        if (random() % 60 == 0) screen.inputs.scene = cornellBox().build();
         screen.budget = random() % 30 == 0 ? 0.0 : kBudget;
-        screen.takeSettings();
         screen.frame(x, random() % 30 != 0); // which requires it
     }
     INFO(screen.copies << ", of colours alone " << screen.colorCopies);
@@ -504,7 +497,7 @@ TEST_CASE("frame budget: copies of what is marked equal the whole, whatever chan
     CHECK(screen.colorCopies > 20);
 }
 
-TEST_CASE("frame budget: the first image and one after a jump take a frame", "[bridge]")
+TEST_CASE("frame budget: the first image and one after a jump take a frame", "[session]")
 {
     for (const double tile : {0.02, 0.3, 1.0, 3.0})
     {
@@ -522,7 +515,7 @@ TEST_CASE("frame budget: the first image and one after a jump take a frame", "[b
 }
 
 TEST_CASE("frame budget: what becomes five times as slow is late once, not twice as much",
-          "[bridge]")
+          "[session]")
 {
     Screen screen(0.3);
     for (int i = 0; i < 20; ++i)
@@ -538,11 +531,10 @@ TEST_CASE("frame budget: what becomes five times as slow is late once, not twice
     }
 }
 
-TEST_CASE("frame budget: what becomes a third as slow takes all of its time at once", "[bridge]")
+TEST_CASE("frame budget: what becomes a third as slow takes all of its time at once", "[session]")
 {
     Screen screen(0.9);
-    screen.settings->setMaxPasses(100);
-    screen.takeSettings();
+    screen.inputs.maxPasses = 100;
     for (int i = 0; i < 20; ++i)
         screen.frame(i);
     screen.tileSeconds = 0.3;
@@ -557,11 +549,11 @@ TEST_CASE("frame budget: what becomes a third as slow takes all of its time at o
 
 TEST_CASE(
     "frame budget: without degrading a moving view is of full resolution, however long it takes",
-    "[bridge]")
+    "[session]")
 {
     Screen screen;
-    References references(screen.version.scene, *screen.settings);
-    screen.settings->setDegradeWhileMoving(false);
+    References references(screen.inputs);
+    screen.degrade = false;
     for (int i = 0; i < 4; ++i)
     {
         screen.frame(i);
@@ -574,7 +566,7 @@ TEST_CASE(
 }
 
 TEST_CASE("frame budget: a scene that changes is not held by an image that is not shown",
-          "[bridge]")
+          "[session]")
 {
     Screen screen;
     for (int i = 0; i < 20; ++i)
@@ -582,8 +574,8 @@ TEST_CASE("frame budget: a scene that changes is not held by an image that is no
     std::vector<std::weak_ptr<const TracedScene>> scenes;
     for (int i = 0; i < 4; ++i)
     {
-        scenes.push_back(screen.version.scene);
-        screen.version.scene = cornellBox().build();
+        scenes.push_back(screen.inputs.scene);
+        screen.inputs.scene = cornellBox().build();
         screen.frame(0.0);
     }
     CHECK(scenes[0].expired());
@@ -591,25 +583,23 @@ TEST_CASE("frame budget: a scene that changes is not held by an image that is no
     CHECK(scenes[2].expired());
 }
 
-TEST_CASE("frame budget: none, then so many passes as are set, as ever", "[bridge]")
+TEST_CASE("frame budget: none, then so many passes as are set, as ever", "[session]")
 {
     Screen screen;
-    screen.settings->setPassesPerFrame(2);
-    screen.takeSettings();
+    screen.inputs.passesPerFrame = 2;
     for (const int expected : {2, 3, 3})
     {
-        screen.tracer.trace(screen.version, viewAt(0.0));
+        screen.tracer.trace(screen.inputs, viewAt(0.0));
         CHECK(screen.tracer.progress().passes == expected);
         CHECK(screen.tracer.displayWidth() == kWidth);
     }
 }
 
 TEST_CASE("frame budget: what fills in is not denoised: the picture under it is made once",
-          "[bridge]")
+          "[session]")
 {
     Screen screen;
-    screen.settings->setDenoise(RayTraceSettings::FILTER);
-    screen.takeSettings();
+    screen.inputs.denoise = DenoiseKind::Filter;
     for (int frame = 0; frame < 6; ++frame)
         screen.frame(10.0 * frame);
     REQUIRE(screen.tracer.frame().divider > 1);

@@ -1,4 +1,4 @@
-// DepthSlices.h - passes that show one picture, each a slice of its depths. Layer: bridge.
+// DepthSlices.h - passes that show one picture, each a slice of its depths. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -20,7 +20,7 @@ bool sameRays(const View& a, const View& b);
 /// True if depth is written the same way, too.
 bool sameDepth(const View& a, const View& b);
 
-/// The view with depth as another one has it.
+/// The view with the depth rows of another one.
 View withDepthOf(View view, const View& other);
 
 /// The planes of a view whose depth depends on the distance v along -z alone, as it does but for
@@ -37,7 +37,7 @@ struct DepthPlanes
     bool reversed() const { return orthographic ? factor < 0.0 : factor > 0.0; }
 };
 
-/// Nothing for other views, whose pictures are not shared.
+/// The planes of the view. Nothing for views of other kinds, whose pictures are not shared.
 std::optional<DepthPlanes> depthPlanes(const View& view);
 
 /// The view that is traced for slices: the rays begin at the nearest plane, and depth has the
@@ -46,20 +46,20 @@ std::optional<DepthPlanes> depthPlanes(const View& view);
 /// empty.
 View viewOfSlices(const std::vector<View>& slices);
 
-/// How depths of the traced view become those of a pass: scale * depth + offset. What is not from 0
-/// to 1 then belongs to other slices.
+/// Depths of the traced view become those of a pass by scale * depth + offset. Results that are not
+/// from 0 to 1 belong to other slices.
 struct DepthMap
 {
     float scale = 1.0f;
     float offset = 0.0f;
-    float background =
-        0.0f; ///< depth of what has none, right in front of the background; < 0: not drawn here
+    /// Depth of pixels that have none, right in front of the background; < 0: they are not drawn.
+    float background = 0.0f;
 };
 
-/// For the view that is traced itself.
+/// The map for a pass that is the traced view itself.
 DepthMap depthMap(const View& pass);
 
-/// For a pass that is one of the slices.
+/// The map for a pass that is one of the slices.
 DepthMap depthMap(const View& pass, const std::vector<View>& slices);
 
 } // namespace osgRayTrace::engine
