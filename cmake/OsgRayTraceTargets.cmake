@@ -22,6 +22,9 @@ if(OSGRAYTRACE_SANITIZE)
     # Sanitized code cannot run in the resolvers of function clones, which the loader calls first.
     target_compile_definitions(osgRayTraceBuild INTERFACE OSGRAYTRACE_NO_CLONES)
 endif()
+# Debug and sanitized builds check assertions; others only if they are asked to.
+target_compile_definitions(osgRayTraceBuild INTERFACE
+    $<$<OR:$<CONFIG:Debug>,$<BOOL:${OSGRAYTRACE_SANITIZE}>,$<BOOL:${OSGRAYTRACE_ASSERTS}>>:OSGRAYTRACE_ASSERTS>)
 
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)

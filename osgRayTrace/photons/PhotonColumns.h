@@ -52,22 +52,6 @@ struct PhotonColumns
     }
 };
 
-/// A vector as loops over lanes take it: GLM's own, made in the loop, keeps it from being
-/// vectorized.
-struct PlainVec3
-{
-    float x, y, z;
-};
-
-OSGRAYTRACE_INLINE PlainVec3 plainOf(const Vec3Lanes& lanes, int i)
-{
-    return {lanes.x[i], lanes.y[i], lanes.z[i]};
-}
-OSGRAYTRACE_INLINE PlainVec3 plainOf(Vec3 v)
-{
-    return {v.x, v.y, v.z};
-}
-
 /// Bit mask of photon k in the disc around a position, all bits or none. Also how far it is from
 /// the disc's centre and from its plane.
 OSGRAYTRACE_INLINE uint32_t insideDisc(const PhotonColumns& p, int k, PlainVec3 position,
