@@ -227,8 +227,8 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
             block.tFar[i] = single.tfar;
         }
     }
-    for (LaneMask lanes = refused; lanes; lanes &= lanes - 1)
-        block.tFar[__builtin_ctz(lanes)] = -kInfinity;
+    for (const int i : lanesIn(refused))
+        block.tFar[i] = -kInfinity;
     return refused;
 }
 

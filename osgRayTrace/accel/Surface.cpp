@@ -346,9 +346,8 @@ bool isMirrored(const SurfaceRecord& record)
 void turnMirrored(LaneMask lanes, SurfaceLanes& s)
 {
     s.front ^= lanes;
-    for (; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(lanes))
     {
-        const int i = __builtin_ctz(lanes);
         s.shadingNormal.x[i] = -s.shadingNormal.x[i];
         s.shadingNormal.y[i] = -s.shadingNormal.y[i];
         s.shadingNormal.z[i] = -s.shadingNormal.z[i];
@@ -413,7 +412,7 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
     const LaneMask hits = hitLanes(block, active);
     surface.hits = hits;
     surface.terminatorLanes = 0;
-    const int first = hits ? __builtin_ctz(hits) : 0;
+    const int first = hits ? firstLane(hits) : 0;
     if (hits && isOneTriangle(block, hits, first))
     {
         if (last && isOn(*last, block, first)) return surfacesOfOne(block, *last, start, surface);

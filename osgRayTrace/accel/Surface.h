@@ -41,9 +41,8 @@ inline const Vec3Lanes& trianglePoints(const SurfaceLanes& surface)
 /// Puts the positions of lanes back onto their triangles.
 inline void dropTerminatorOffset(SurfaceLanes& surface, LaneMask lanes)
 {
-    for (LaneMask m = surface.terminatorLanes & lanes; m; m &= m - 1)
+    for (const int i : lanesIn(surface.terminatorLanes & lanes))
     {
-        const int i = __builtin_ctz(m);
         surface.position.x[i] = surface.onTriangle.x[i];
         surface.position.y[i] = surface.onTriangle.y[i];
         surface.position.z[i] = surface.onTriangle.z[i];

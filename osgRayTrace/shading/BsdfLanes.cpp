@@ -111,7 +111,7 @@ BsdfLanes bsdfLanes(const Bsdf* bsdfs, LaneMask lanes)
     BsdfLanes result;
     for (int i = 0; i < kLanes; ++i)
     {
-        const Bsdf& bsdf = bsdfs[(lanes >> i) & 1u ? i : __builtin_ctz(lanes)];
+        const Bsdf& bsdf = bsdfs[(lanes >> i) & 1u ? i : firstLane(lanes)];
         const bool coated = bsdf.coat > 0.0f && bsdf.diffuse != Vec3(0.0f);
         setLane(result.diffuse, i, bsdf.diffuse);
         setLane(result.reflectance, i, bsdf.reflectance);
@@ -135,13 +135,10 @@ void evalBsdfLanes(const BsdfLanes& bsdfs, const Vec3Lanes& normal, const Vec3La
     pdfW = {};
     for (LaneMask left = lanes, same; left; left &= ~same) // once, where lanes are of one material
     {
-        const CoatAlbedoRow* rows = bsdfs.coatRows[__builtin_ctz(left)];
+        const CoatAlbedoRow* rows = bsdfs.coatRows[firstLane(left)];
         same = 0;
-        for (LaneMask others = left; others; others &= others - 1)
-        {
-            const int i = __builtin_ctz(others);
+        for (const int i : lanesIn(left))
             same |= static_cast<LaneMask>(bsdfs.coatRows[i] == rows) << i;
-        }
         evalAlike(bsdfs, rows, normal, wo, wi, same, fCos, pdfW);
     }
 }

@@ -42,9 +42,8 @@ void sampleOneStratum(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMa
     LightLanes samples;
     samples.lit = 0;
     LaneMask lit = 0;
-    for (LaneMask m = lanes; m; m &= m - 1)
+    for (const int i : lanesIn(lanes))
     {
-        const int i = __builtin_ctz(m);
         stratumLanes(strata[chosen[i]], static_cast<float>(count), bounce.surface, 1u << i,
                      bounce.transmissive, samples);
         lit |= samples.lit;
@@ -87,9 +86,8 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
     const PlacedEnvironment* environment = tile.context.traced->lights().shiningEnvironment();
     if (number == 0 && !visibleEnvironment(tile.context))
         return; // the clear colour is not ours to add
-    for (; missed; missed &= missed - 1)
+    for (const int i : lanesIn(missed))
     {
-        const int i = __builtin_ctz(missed);
         const Vec3 throughput = laneOf(block.throughput, i);
         if (number == 0) tile.sums.a[block.pixel[i] & kPixelBits] = 1.0f;
         if (!(block.pixel[i] & kScattered))

@@ -37,9 +37,8 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
     facingNormalLanes(block.rays.ray, bounce.surface, bounce.normal);
     const MaterialTable& materials = tile.context.traced->materials();
     bounce.diffuse = bounce.general = bounce.smooth = bounce.transmissive = 0;
-    for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(bounce.surface.hits))
     {
-        const int i = __builtin_ctz(lanes);
         const MaterialRecord& record = materials[bounce.surface.material[i]];
         if (record.plainDiffuse)
         {
@@ -71,7 +70,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     const Coherence coherence = number == 0 ? Coherence::Coherent : Coherence::Incoherent;
     traced.intersector().closestHits(block.rays, block.active, coherence,
                                      number == 0 ? kCameraRays : HitRule());
-    const auto rays = static_cast<uint64_t>(__builtin_popcount(block.active));
+    const auto rays = static_cast<uint64_t>(countLanes(block.active));
     (number == 0 ? tile.counts.cameraRays : tile.counts.secondaryRays) += rays;
     countRays(tile, block, block.active);
 
@@ -86,8 +85,8 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     {
         recordFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface,
                         tile.result);
-        for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
-            tile.sums.a[block.pixel[__builtin_ctz(lanes)] & kPixelBits] = 1.0f;
+        for (const int i : lanesIn(bounce.surface.hits))
+            tile.sums.a[block.pixel[i] & kPixelBits] = 1.0f;
     }
     if (last)
     {

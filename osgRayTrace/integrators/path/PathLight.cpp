@@ -12,8 +12,8 @@ namespace osgRayTrace::engine
 void countRays(Tile& tile, const PathBlock& block, LaneMask lanes)
 {
     if (!tile.diagnostics) return;
-    for (; lanes; lanes &= lanes - 1)
-        tile.diagnostics->rays[block.pixel[__builtin_ctz(lanes)] & (kTilePixels - 1)] += 1.0f;
+    for (const int i : lanesIn(lanes))
+        tile.diagnostics->rays[block.pixel[i] & (kTilePixels - 1)] += 1.0f;
 }
 
 OSGRAYTRACE_KERNEL
@@ -33,9 +33,8 @@ void dimensionPoints(const UintLanes& seeds, uint32_t passIndex, uint32_t dimens
 void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface, PhotonUse use)
 {
     const TracedScene& traced = *tile.context.traced;
-    for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(surface.hits))
     {
-        const int i = __builtin_ctz(lanes);
         if (!traced.materials()[surface.material[i]].emits) continue;
         const Vec3 emission = emissionTowardsRay(tile.context, block.rays, surface, i);
         if (emission == Vec3(0.0f)) continue;
@@ -93,11 +92,8 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
         Vec3Lanes radiance;
         diffuseLight(bounce.normal, bounce.albedo, light, visible & bounce.diffuse,
                      block.throughput, (visible & bounce.diffuse & withoutMis) != 0, radiance);
-        for (LaneMask lanes = visible & bounce.diffuse; lanes; lanes &= lanes - 1)
-        {
-            const int i = __builtin_ctz(lanes);
+        for (const int i : lanesIn(visible & bounce.diffuse))
             tile.sums.add(block.pixel[i], laneOf(radiance, i));
-        }
     }
     const LaneMask general = visible & bounce.general;
     if (!general) return;
@@ -105,9 +101,8 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
     FloatLanes pdfW;
     evalTowardsLight(block.rays.ray, bounce.surface, bounce.normal, bounce.bsdfs, light.wi, general,
                      fCos, pdfW);
-    for (LaneMask lanes = general; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(general))
     {
-        const int i = __builtin_ctz(lanes);
         if (!(pdfW[i] > 0.0f)) continue;
         const float mis =
             (withoutMis >> i) & 1u ? 1.0f : powerHeuristic(1.0f, pdfW[i] * light.weight[i]);
@@ -181,15 +176,14 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
                     bounceDimension(bounce.number, DimensionLightChoice), choice, unused);
     LaneMask open = lanes;
     LightTable::Choice chosen[kLanes];
-    for (LaneMask m = lanes; m; m &= m - 1)
-        chosen[__builtin_ctz(m)] = table.chooseAreaLight(choice[__builtin_ctz(m)]);
+    for (const int i : lanesIn(lanes))
+        chosen[i] = table.chooseAreaLight(choice[i]);
     while (open)
     {
-        const LightTable::Choice& first = chosen[__builtin_ctz(open)];
+        const LightTable::Choice& first = chosen[firstLane(open)];
         LaneMask same = 0;
-        for (LaneMask m = open; m; m &= m - 1)
-            same |= static_cast<LaneMask>(chosen[__builtin_ctz(m)].light == first.light)
-                    << __builtin_ctz(m);
+        for (const int i : lanesIn(open))
+            same |= static_cast<LaneMask>(chosen[i].light == first.light) << i;
         sampleOneLight(tile, block, bounce, first.light, first.pmf, same, u, v);
         open &= ~same;
     }

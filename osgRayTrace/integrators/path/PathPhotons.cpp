@@ -46,9 +46,8 @@ PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bou
     queries.shadingNormal = bounce.normal;
     queries.mostEdges = std::min(kMostEdges, edgesLeft);
     queries.lanes = bounce.gathering;
-    for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(bounce.gathering))
     {
-        const int i = __builtin_ctz(lanes);
         float& radius = tile.result.gathered->radius[block.pixel[i] & kPixelBits];
         if (radius == 0.0f)
             radius = radiusOf(*tile.context.photons, laneOf(queries, i),
@@ -77,9 +76,8 @@ void gatherLanes(const PhotonMap& map, PhotonQueryLanes queries, const PathBlock
 void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
 {
     bounce.gathering = bounce.rough = bounce.diffuse;
-    for (LaneMask lanes = bounce.general; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(bounce.general))
     {
-        const int i = __builtin_ctz(lanes);
         const Bsdf& bsdf = bounce.bsdfs[i];
         const bool rough = bsdf.diffuse != Vec3(0.0f) || bsdf.alpha >= kGatherAlpha;
         if (rough) bounce.rough |= 1u << i;
@@ -89,11 +87,8 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
     }
     bounce.terminating = use == PhotonUse::Indirect ? bounce.rough : 0u;
     if (use == PhotonUse::Indirect) return;
-    for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
+    for (const int i : lanesIn(bounce.gathering))
         if (block.pixel[i] & kTaken) bounce.gathering &= ~(1u << i);
-    }
     bounce.rough &= bounce.gathering;
 }
 
@@ -105,9 +100,8 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
     const PhotonQueryLanes queries = queriesOf(tile, block, bounce);
     PhotonSumLanes sums;
     gatherLanes(map, queries, block, bounce, sums);
-    for (LaneMask lanes = bounce.gathering; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(bounce.gathering))
     {
-        const int i = __builtin_ctz(lanes);
         if (sums.count[i] == 0) continue;
         const uint32_t pixel = block.pixel[i] & kPixelBits;
         const Vec3 flux = laneOf(block.throughput, i) * laneOf(sums.power, i);

@@ -119,11 +119,10 @@ LaneMask seeingMembers(Tile& tile, int group, LaneMask facing, int own, RayBlock
     const LaneMask asked = facing & ~(1u << own);
     if (!asked) return facing;
     tile.context.traced->intersector().occlusion(shadow, asked);
-    tile.counts.shadowRays += static_cast<uint64_t>(__builtin_popcount(asked));
+    tile.counts.shadowRays += static_cast<uint64_t>(countLanes(asked));
     LaneMask seeing = facing;
-    for (LaneMask members = asked; members; members &= members - 1)
+    for (const int i : lanesIn(asked))
     {
-        const int i = __builtin_ctz(members);
         if (!(shadow.tFar[i] >= 0.0f)) seeing &= ~(1u << i);
         if (tile.diagnostics) tile.diagnostics->rays[tile.reuse.pixelOf(group, i)] += 1.0f;
     }
@@ -155,9 +154,8 @@ bool isFinite(Vec3 radiance)
 void connectGroup(Tile& tile, int group)
 {
     Vec3Lanes shares = {};
-    for (LaneMask members = tile.reuse.reused[group]; members; members &= members - 1)
+    for (const int own : lanesIn(tile.reuse.reused[group]))
     {
-        const int own = __builtin_ctz(members);
         const int pixel = tile.reuse.pixelOf(group, own);
         const Vec3 radiance = Vec3(tile.sums.r[kReused + pixel], tile.sums.g[kReused + pixel],
                                    tile.sums.b[kReused + pixel]);
@@ -186,10 +184,9 @@ void beginReuse(Tile& tile, PhotonUse use)
 
 void recordFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
 {
-    for (LaneMask lanes = bounce.diffuse & ~bounce.terminating & ~bounce.surface.terminatorLanes;
-         lanes; lanes &= lanes - 1)
+    for (const int i :
+         lanesIn(bounce.diffuse & ~bounce.terminating & ~bounce.surface.terminatorLanes))
     {
-        const int i = __builtin_ctz(lanes);
         FirstSurfaces& first =
             tile.reuse.first[tile.reuse.groupOf(static_cast<uint32_t>(b * kLanes + i))];
         first.lanes |= 1u << b;
@@ -203,10 +200,8 @@ void recordFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
 
 void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce)
 {
-    for (LaneMask lanes = bounce.diffuse & ~bounce.surface.terminatorLanes; lanes;
-         lanes &= lanes - 1)
+    for (const int i : lanesIn(bounce.diffuse & ~bounce.surface.terminatorLanes))
     {
-        const int i = __builtin_ctz(lanes);
         const uint32_t pixel = block.pixel[i] & kPixelBits;
         const int group = tile.reuse.groupOf(pixel);
         const uint32_t own = pixel / kLanes;

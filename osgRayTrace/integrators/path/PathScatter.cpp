@@ -67,16 +67,15 @@ LaneMask mirror(PathBlock& block, const Bounce& bounce, const FloatLanes& lobe, 
 {
     if (!bounce.smooth) return 0;
     InterfaceLanes interfaces;
-    for (LaneMask lanes = bounce.smooth; lanes; lanes &= lanes - 1)
-        interfaces.set(__builtin_ctz(lanes), bounce.bsdfs[__builtin_ctz(lanes)]);
+    for (const int i : lanesIn(bounce.smooth))
+        interfaces.set(i, bounce.bsdfs[i]);
     const RayBlock& ray = block.rays.ray;
     const IncidentLanes incident{ray.directionX, ray.directionY, ray.directionZ, bounce.normal};
     const SmoothLanes sampled = sampleSmoothLanes(interfaces, incident, lobe, bounce.smooth,
                                                   Transport::Radiance, wi, weight);
     LaneMask alive = 0;
-    for (LaneMask lanes = sampled.alive; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(sampled.alive))
     {
-        const int i = __builtin_ctz(lanes);
         const bool transmitted = (sampled.transmitted >> i) & 1u;
         const Vec3 direction = laneOf(wi, i);
         if (isAboveFacet(bounce.surface, i, direction) == transmitted) continue;
@@ -197,9 +196,8 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, tNear, pdfW) &
         bounce.diffuse & ~bounce.terminating;
     alive |= mirror(block, bounce, lobe, wi, origin, tNear, weight, pdfW);
-    for (LaneMask lanes = bounce.general & ~bounce.smooth; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(bounce.general & ~bounce.smooth))
     {
-        const int i = __builtin_ctz(lanes);
         const ShadingFrame frame(laneOf(bounce.normal, i));
         const Vec3 wo = frame.toLocal(-directionOf(block.rays.ray, i));
         const std::optional<BsdfSample> sample =

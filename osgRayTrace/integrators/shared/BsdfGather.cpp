@@ -53,16 +53,15 @@ void addReflected(const PhotonMap& map, const GatherLanes& points, PhotonSumLane
     for (const FoundPhoton& f : found)
     {
         const Photon photon = map.photon(f.photon);
-        for (LaneMask lanes = f.lanes; lanes; lanes &= lanes - 1)
-            ++sums.count[__builtin_ctz(lanes)];
+        for (const int i : lanesIn(f.lanes))
+            ++sums.count[i];
         const LaneMask lanes = photon.direct ? f.lanes : f.lanes & ~points.directOnly;
         if (!lanes) continue;
         for (int i = 0; i < kLanes; ++i)
             setLane(wi, i, photon.wi);
-        if (__builtin_popcount(lanes) < kLeastBsdfLanes)
-            for (LaneMask left = lanes; left; left &= left - 1)
-                setLane(fCos, __builtin_ctz(left),
-                        evalAlone(points, __builtin_ctz(left), photon.wi));
+        if (countLanes(lanes) < kLeastBsdfLanes)
+            for (const int i : lanesIn(lanes))
+                setLane(fCos, i, evalAlone(points, i, photon.wi));
         else
             evalBsdfLanes(bsdfs, points.queries.shadingNormal, points.wo, wi, lanes, fCos, pdfW);
         addPhoton(photon, wi, fCos, points.queries.normal, lanes, sums.power);
@@ -98,9 +97,8 @@ void gatherBsdf(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes&
 {
     if (!points.queries.lanes) return;
     addReflected(map, points, sums);
-    for (LaneMask lanes = points.queries.lanes; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(points.queries.lanes))
     {
-        const int i = __builtin_ctz(lanes);
         if (points.bsdfs[i].transmits() && !points.bsdfs[i].isSmooth())
             addTransmitted(map, points, i, sums);
     }

@@ -65,9 +65,8 @@ void forEachMaterial(const PassContext& context, const SurfaceLanes& surface,
     uint32_t known = kInvalid;
     bool knownFront = false;
     decltype(valueOf(0)) value{};
-    for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(surface.hits))
     {
-        const int i = __builtin_ctz(lanes);
         const uint32_t material = surface.material[i];
         const bool front = (surface.front >> i) & 1u;
         if (material != known || front != knownFront)
@@ -131,8 +130,8 @@ void setSamples(const PassContext& context, const RayHitBlock& rays, const Surfa
 {
     const Scene& scene = context.traced->scene();
     constexpr SurfaceSample kNothing{Vec3(0.0f), kInfinity, Vec3(0.0f), 0u};
-    for (LaneMask lanes = kAllLanes & ~surface.hits; lanes; lanes &= lanes - 1)
-        samples[__builtin_ctz(lanes)] = kNothing;
+    for (const int i : lanesIn(kAllLanes & ~surface.hits))
+        samples[i] = kNothing;
     forEachMaterial(
         context, surface, isConstant,
         [&](int i) { return seenMaterial(context, rays, surface, i); },

@@ -142,9 +142,8 @@ void areaLightLanes(const PassContext& context, uint32_t index, float pmf,
         return;
     }
     samples.lit = 0;
-    for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(active))
     {
-        const int i = __builtin_ctz(lanes);
         if (meshLane(context, index, pmf, surface, i, u[i], v[i], (transmissive >> i) & 1u,
                      samples))
             samples.lit |= 1u << i;
@@ -159,9 +158,8 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLa
     const bool soft = isSoft(light);
     transmissive |= surface.terminatorLanes;
     samples.lit = 0;
-    for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(active))
     {
-        const int i = __builtin_ctz(lanes);
         const Material& material = context.traced->scene().materials[surface.material[i]];
         if (!isLightEnabled(material, light.number)) continue;
         const Vec3 point = laneOf(trianglePoints(surface), i);
@@ -203,7 +201,7 @@ LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCount
 {
     if (!context.options.shadows || !samples.lit) return samples.lit;
     context.traced->intersector().occlusion(samples.shadow, samples.lit);
-    counts.shadowRays += static_cast<uint64_t>(__builtin_popcount(samples.lit));
+    counts.shadowRays += static_cast<uint64_t>(countLanes(samples.lit));
     return unoccluded(samples.shadow) & samples.lit;
 }
 
