@@ -88,16 +88,16 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
         return; // the clear colour is not ours to add
     for (const int i : lanesIn(missed))
     {
+        const PathFlags path = block.flagsOf(i);
         const Vec3 throughput = laneOf(block.throughput, i);
-        if (number == 0) tile.sums.a[block.pixel[i] & kPixelBits] = 1.0f;
-        if (!(block.pixel[i] & kScattered))
+        if (number == 0) tile.sums.a[path.pixel()] = 1.0f;
+        if (!path.isScattered())
         {
-            tile.sums.add(block.pixel[i],
-                          throughput * radianceBehind(tile.context, block.rays.ray, i));
+            tile.sums.add(path, throughput * radianceBehind(tile.context, block.rays.ray, i));
             continue;
         }
         if (!environment) continue; // a backdrop is no light
-        if (use == PhotonUse::Caustics && (block.pixel[i] & kCausticChain)) continue; // of photons
+        if (use == PhotonUse::Caustics && path.isOnCausticChain()) continue; // of photons
         const bool sampled = block.pdfW[i] < kInfinity;
         if (sampled && tile.context.strata) continue; // they hold all of it
         const Vec3 direction = directionOf(block.rays.ray, i);
@@ -105,7 +105,7 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
             sampled ? powerHeuristic(block.pdfW[i],
                                      environmentPdfW(tile.context, *environment, direction))
                     : 1.0f;
-        tile.sums.add(block.pixel[i], throughput * environment->radiance(direction) * weight);
+        tile.sums.add(path, throughput * environment->radiance(direction) * weight);
     }
 }
 

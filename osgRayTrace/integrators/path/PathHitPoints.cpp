@@ -43,7 +43,7 @@ void restore(const HitPoints& hits, const HitPointBlock& points, PathBlock& bloc
     block.rays.ray.directionY = points.direction.y;
     block.rays.ray.directionZ = points.direction.z;
     block.seed = points.seed;
-    block.pixel = points.pixel;
+    block.flags = points.flags;
     for (const int i : lanesIn(bounce.general))
         bounce.bsdfs[i] = hits.bsdfs[points.bsdf[i]];
 }
@@ -78,7 +78,7 @@ void keepLane(HitPointBlock& points, int to, const PathBlock& block, const Bounc
     points.material[to] = surface.material[i];
     points.instance[to] = surface.instance[i];
     points.seed[to] = block.seed[i];
-    points.pixel[to] = block.pixel[i];
+    points.flags[to] = block.flags[i];
     points.bsdf[to] = bsdf;
 }
 

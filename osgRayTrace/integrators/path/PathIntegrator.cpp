@@ -86,7 +86,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
         recordFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface,
                         tile.result);
         for (const int i : lanesIn(bounce.surface.hits))
-            tile.sums.a[block.pixel[i] & kPixelBits] = 1.0f;
+            tile.sums.a[block.flagsOf(i).pixel()] = 1.0f;
     }
     if (last)
     {
@@ -125,7 +125,7 @@ void tracePaths(Tile& tile, PhotonUse use)
             setLane(block.throughput, i, Vec3(1.0f));
             block.pdfW[i] = kInfinity;
             block.etaScale[i] = 1.0f;
-            block.pixel[i] = static_cast<uint32_t>(b * kLanes + i);
+            block.flags[i] = PathFlags::ofPixel(static_cast<uint32_t>(b * kLanes + i)).word();
         }
         block.active = kAllLanes;
     }

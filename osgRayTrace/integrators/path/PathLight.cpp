@@ -13,7 +13,7 @@ void countRays(Tile& tile, const PathBlock& block, LaneMask lanes)
 {
     if (!tile.diagnostics) return;
     for (const int i : lanesIn(lanes))
-        tile.diagnostics->rays[block.pixel[i] & (kTilePixels - 1)] += 1.0f;
+        tile.diagnostics->rays[block.flagsOf(i).pixel()] += 1.0f;
 }
 
 OSGRAYTRACE_KERNEL
@@ -42,7 +42,7 @@ void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface
         const uint32_t light = traced.surfaces()[surface.instance[i]].light;
         if (light != kInvalid && traced.lights().areaLightPmf(light) > 0.0f)
         {
-            if (use == PhotonUse::Caustics && (block.pixel[i] & kCausticChain))
+            if (use == PhotonUse::Caustics && block.flagsOf(i).isOnCausticChain())
                 continue; // of photons
             const Vec3 direction = directionOf(block.rays.ray, i);
             const float cosThetaL =
@@ -52,7 +52,7 @@ void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface
                 traced.lights().pdfArea(light, block.rays.ray.tFar[i], cosThetaL);
             weight = powerHeuristic(block.pdfW[i], pdfLight);
         }
-        tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * emission * weight);
+        tile.sums.add(block.flagsOf(i), laneOf(block.throughput, i) * emission * weight);
     }
 }
 
@@ -93,7 +93,7 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
         diffuseLight(bounce.normal, bounce.albedo, light, visible & bounce.diffuse,
                      block.throughput, (visible & bounce.diffuse & withoutMis) != 0, radiance);
         for (const int i : lanesIn(visible & bounce.diffuse))
-            tile.sums.add(block.pixel[i], laneOf(radiance, i));
+            tile.sums.add(block.flagsOf(i), laneOf(radiance, i));
     }
     const LaneMask general = visible & bounce.general;
     if (!general) return;
@@ -107,8 +107,8 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
         const float mis =
             (withoutMis >> i) & 1u ? 1.0f : powerHeuristic(1.0f, pdfW[i] * light.weight[i]);
         const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
-        tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * laneOf(fCos, i) * radiance *
-                                          (light.weight[i] * mis));
+        tile.sums.add(block.flagsOf(i), laneOf(block.throughput, i) * laneOf(fCos, i) * radiance *
+                                            (light.weight[i] * mis));
     }
 }
 

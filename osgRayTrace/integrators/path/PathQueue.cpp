@@ -25,7 +25,7 @@ void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
     to.pdfW[k] = from.pdfW[i];
     to.etaScale[k] = from.etaScale[i];
     to.seed[k] = from.seed[i];
-    to.pixel[k] = from.pixel[i];
+    to.flags[k] = from.flags[i];
 }
 
 } // namespace

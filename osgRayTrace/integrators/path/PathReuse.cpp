@@ -133,7 +133,7 @@ LaneMask seeingMembers(Tile& tile, int group, LaneMask facing, int own, RayBlock
 void connectPath(Tile& tile, int group, int own, Vec3 radiance, Vec3Lanes& shares)
 {
     const FirstSurfaces& x = tile.reuse.first[group];
-    const int pixel = tile.reuse.pixelOf(group, own);
+    const uint32_t pixel = tile.reuse.pixelOf(group, own);
     FloatLanes density;
     RayBlock shadow;
     const LaneMask facing = densitiesOf(x, tile.reuse.second[pixel], density, shadow);
@@ -142,13 +142,7 @@ void connectPath(Tile& tile, int group, int own, Vec3 radiance, Vec3Lanes& share
     if (sum > 0.0f)
         shareOut(x, density, radiance / sum, shares);
     else // rounding: the path exists
-        tile.sums.add(static_cast<uint32_t>(pixel), laneOf(x.albedo, own) * radiance);
-}
-
-bool isFinite(Vec3 radiance)
-{
-    return std::fabs(radiance.x) < kInfinity && std::fabs(radiance.y) < kInfinity &&
-           std::fabs(radiance.z) < kInfinity;
+        tile.sums.add(PathFlags::ofPixel(pixel), laneOf(x.albedo, own) * radiance);
 }
 
 void connectGroup(Tile& tile, int group)
@@ -156,17 +150,16 @@ void connectGroup(Tile& tile, int group)
     Vec3Lanes shares = {};
     for (const int own : lanesIn(tile.reuse.reused[group]))
     {
-        const int pixel = tile.reuse.pixelOf(group, own);
-        const Vec3 radiance = Vec3(tile.sums.r[kReused + pixel], tile.sums.g[kReused + pixel],
-                                   tile.sums.b[kReused + pixel]);
+        const PathFlags path = PathFlags::ofPixel(tile.reuse.pixelOf(group, own));
+        const Vec3 radiance = tile.sums.reused(path);
         if (radiance == Vec3(0.0f)) continue;
         if (isFinite(radiance))
             connectPath(tile, group, own, radiance, shares);
         else // dropped and counted, alone
-            tile.sums.add(static_cast<uint32_t>(pixel), radiance);
+            tile.sums.add(path, radiance);
     }
     for (int i = 0; i < kTileBlocks; ++i)
-        tile.sums.add(static_cast<uint32_t>(tile.reuse.pixelOf(group, i)), laneOf(shares, i));
+        tile.sums.add(PathFlags::ofPixel(tile.reuse.pixelOf(group, i)), laneOf(shares, i));
 }
 
 } // namespace
@@ -202,7 +195,7 @@ void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce)
 {
     for (const int i : lanesIn(bounce.diffuse & ~bounce.surface.terminatorLanes))
     {
-        const uint32_t pixel = block.pixel[i] & kPixelBits;
+        const uint32_t pixel = block.flagsOf(i).pixel();
         const int group = tile.reuse.groupOf(pixel);
         const uint32_t own = pixel / kLanes;
         if (!((tile.reuse.first[group].lanes >> own) & 1u)) continue;
@@ -211,7 +204,8 @@ void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce)
         tile.reuse.second[pixel] = {laneOf(bounce.surface.position, i), normal,
                                     bounce.surface.offset[i]};
         tile.reuse.reused[group] |= 1u << own;
-        block.pixel[i] |= kReused;
+        block.flags[i] = block.flagsOf(i).reused().word();
+        OSGRAYTRACE_ASSERT(block.flagsOf(i).hasTaken() || !tile.looksUpPhotons());
         // Roulette goes on as if the path were still its own pixel's alone.
         const Vec3 throughput = laneOf(block.throughput, i);
         block.etaScale[i] *= std::max(throughput.x, std::max(throughput.y, throughput.z));

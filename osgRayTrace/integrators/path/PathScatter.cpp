@@ -163,15 +163,8 @@ void spawnRays(PathBlock& block, const Vec3Lanes& origin, const FloatLanes& tNea
         block.throughput.z[i] = throughput.z[i];
         block.pdfW[i] = pdfW[i];
 
-        const uint32_t pixel = block.pixel[i];
-        const uint32_t taken = (pixel | laneBit(rough, i)) & kTaken;
-        const uint32_t gathered =
-            (laneBit(gathering, i) & kGathered) | (taken / kTaken * kGathered);
-        const uint32_t scattered =
-            (pixel & ~(kCausticChain | kGathered)) | kScattered | taken | gathered;
-        const uint32_t mirrored = pixel | ((0u - ((pixel / kGathered) & 1u)) & kCausticChain);
-        const uint32_t isMirrored = maskOf(!(pdfW[i] < kInfinity));
-        block.pixel[i] = (mirrored & isMirrored) | (scattered & ~isMirrored);
+        block.flags[i] = PathFlags::afterSurface(block.flags[i], laneBit(gathering, i),
+                                                 laneBit(rough, i), maskOf(!(pdfW[i] < kInfinity)));
     }
 }
 
