@@ -29,10 +29,12 @@ OSGRAYTRACE_INLINE float lambdaOf(float alpha2, float cosTheta)
 
 /// Bsdf.h and Bsdf.cpp have the formulas.
 template <bool kRows>
-OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const float* firstRow, const float* secondRow,
+OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const CoatAlbedoRow* rows,
                                   const Vec3Lanes& normal, const Vec3Lanes& wo, const Vec3Lanes& wi,
                                   LaneMask lanes, Vec3Lanes& fCos, FloatLanes& pdfW)
 {
+    const float* const firstRow = kRows ? rows[0].albedo.data() : nullptr;
+    const float* const secondRow = kRows ? rows[1].albedo.data() : nullptr;
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
@@ -98,10 +100,9 @@ void evalAlike(const BsdfLanes& bsdfs, const CoatAlbedoRow* rows, const Vec3Lane
                FloatLanes& pdfW)
 {
     if (rows)
-        evalLanes<true>(bsdfs, rows[0].albedo.data(), rows[1].albedo.data(), normal, wo, wi, lanes,
-                        fCos, pdfW);
+        evalLanes<true>(bsdfs, rows, normal, wo, wi, lanes, fCos, pdfW);
     else
-        evalLanes<false>(bsdfs, nullptr, nullptr, normal, wo, wi, lanes, fCos, pdfW);
+        evalLanes<false>(bsdfs, nullptr, normal, wo, wi, lanes, fCos, pdfW);
 }
 
 } // namespace

@@ -119,7 +119,7 @@ void sampleOneLight(Tile& tile, PathBlock& block, const Bounce& bounce, uint32_t
                     LaneMask lanes, const FloatLanes& u, const FloatLanes& v)
 {
     LightLanes samples;
-    areaLightLanes(tile.context, light, pmf, bounce.surface, lanes, bounce.transmissive, u, v,
+    areaLightLanes(tile.context, light, pmf, {bounce.surface, lanes, bounce.transmissive, u, v},
                    samples);
     countRays(tile, block, samples.lit);
     const LaneMask visible = visibleLanes(tile.context, samples, tile.counts);
@@ -151,7 +151,7 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
             dimensionPoints(seedsOfLight(seeds, index), tile.context.key.index,
                             bounceDimension(bounce.number, DimensionLightPoint), u, v);
         LightLanes samples;
-        deltaLightLanes(tile.context, index, bounce.surface, lanes, bounce.transmissive, u, v,
+        deltaLightLanes(tile.context, index, {bounce.surface, lanes, bounce.transmissive, u, v},
                         samples);
         for (int i = 0; i < kLanes; ++i)
             samples.weight[i] *= weight;

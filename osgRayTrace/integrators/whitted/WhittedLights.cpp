@@ -104,8 +104,9 @@ void addAreaLights(WhittedTile& tile, ShadingBlock* blocks, int count)
                       {
                           FloatLanes u = block.firstU, v = block.firstV;
                           if (k + j > 0) grid.draw(k, j, block.seed, u, v);
-                          areaLightLanes(context, lights[k].light, 1.0f, block.surface, lanes,
-                                         block.materials.transmissive, u, v, block.light);
+                          areaLightLanes(context, lights[k].light, 1.0f,
+                                         {block.surface, lanes, block.materials.transmissive, u, v},
+                                         block.light);
                       });
         }
     }
@@ -146,8 +147,9 @@ void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float
     const Light& light = (*context.lights)[index];
     const LaneMaterials& m = block.materials;
     LightLanes& samples = block.light;
-    deltaLightLanes(context, index, block.surface, m.diffuse | m.physical | m.fixedFunction,
-                    m.transmissive, u, v, samples);
+    deltaLightLanes(context, index,
+                    {block.surface, m.diffuse | m.physical | m.fixedFunction, m.transmissive, u, v},
+                    samples);
     // Fixed-function lanes that face away get the light's ambient term only: no ray for them.
     const LaneMask reached = samples.lit;
     for (const int i : lanesIn(samples.lit & m.fixedFunction))
