@@ -58,7 +58,7 @@ struct Tile
         : context(c),
           result(r),
           counts(r.counts),
-          diagnostics(r.diagnostics),
+          debug(r.debug),
           deltaLights(sampledDeltaLights(c)),
           left(l),
           bottom(b)
@@ -70,7 +70,7 @@ struct Tile
     const PassContext& context;
     TileResult& result;
     TileCounts& counts;
-    TileDiagnostics* diagnostics;
+    DebugOutputs* debug;
     SampledLights deltaLights; ///< of the pass
     int left, bottom;
     PixelSums sums;

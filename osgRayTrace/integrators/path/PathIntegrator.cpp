@@ -84,7 +84,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     if (number == 0)
     {
         recordFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface,
-                        tile.result);
+                        tile.result.firstHits);
         for (const int i : lanesIn(bounce.surface.hits))
             tile.sums.a[block.flagsOf(i).pixel()] = 1.0f;
     }
@@ -101,7 +101,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     }
     if (number == 1 && tile.reuse.active) reusePaths(tile, block, bounce);
     if (use != PhotonUse::None) chooseGathering(block, bounce, use);
-    if (HitPoints* hits = tile.result.hitPoints)
+    if (HitPoints* hits = tile.result.photons.hitPoints)
         keepHitPoints(block, bounce, *hits);
     else
     {
@@ -168,7 +168,7 @@ void readSums(const RgbaLanes* rgba, Tile& tile)
 /// found, until the pass has other paths.
 void gatherOnly(Tile& tile, PhotonUse use)
 {
-    HitPoints& hits = *tile.result.hitPoints;
+    HitPoints& hits = *tile.result.photons.hitPoints;
     const uint32_t paths = tile.context.pathKey.index;
     if (hits.paths == paths)
         readSums(hits.seen.data(), tile);
@@ -192,7 +192,7 @@ void PathIntegrator::renderTile(const PassContext& context, int left, int bottom
 {
     Tile tile(context, left, bottom, result);
     const PhotonUse use = context.photons ? context.photonUse : PhotonUse::None;
-    if (result.hitPoints)
+    if (result.photons.hitPoints)
         gatherOnly(tile, use);
     else
         tracePaths(tile, use);

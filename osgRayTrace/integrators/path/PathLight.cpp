@@ -11,9 +11,9 @@ namespace osgRayTrace::engine
 
 void countRays(Tile& tile, const PathBlock& block, LaneMask lanes)
 {
-    if (!tile.diagnostics) return;
+    if (!tile.debug) return;
     for (const int i : lanesIn(lanes))
-        tile.diagnostics->rays[block.flagsOf(i).pixel()] += 1.0f;
+        tile.debug->rays[block.flagsOf(i).pixel()] += 1.0f;
 }
 
 OSGRAYTRACE_KERNEL

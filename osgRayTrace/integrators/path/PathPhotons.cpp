@@ -50,7 +50,7 @@ PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bou
     {
         const PathFlags path = block.flagsOf(i);
         OSGRAYTRACE_ASSERT(!path.isReused()); // it has taken photons: chooseGathering left it out
-        float& radius = tile.result.gathered->radius[path.pixel()];
+        float& radius = tile.result.photons.gathered->radius[path.pixel()];
         if (radius == 0.0f)
             radius = radiusOf(*tile.context.photons, laneOf(queries, i),
                               tile.context.leastPhotonRadius, tile.context.largestPhotonRadius);
@@ -98,7 +98,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
 {
     if (!bounce.gathering) return;
     const PhotonMap& map = *tile.context.photons;
-    GatheredPhotons& gathered = *tile.result.gathered;
+    GatheredPhotons& gathered = *tile.result.photons.gathered;
     const PhotonQueryLanes queries = queriesOf(tile, block, bounce);
     PhotonSumLanes sums;
     gatherLanes(map, queries, block, bounce, sums);

@@ -124,7 +124,7 @@ LaneMask seeingMembers(Tile& tile, int group, LaneMask facing, int own, RayBlock
     for (const int i : lanesIn(asked))
     {
         if (!(shadow.tFar[i] >= 0.0f)) seeing &= ~(1u << i);
-        if (tile.diagnostics) tile.diagnostics->rays[tile.reuse.pixelOf(group, i)] += 1.0f;
+        if (tile.debug) tile.debug->rays[tile.reuse.pixelOf(group, i)] += 1.0f;
     }
     return seeing;
 }
@@ -166,7 +166,7 @@ void connectGroup(Tile& tile, int group)
 
 void beginReuse(Tile& tile, PhotonUse use)
 {
-    const GatheredPhotons* gathered = tile.result.gathered;
+    const GatheredPhotons* gathered = tile.result.photons.gathered;
     tile.reuse.active = use != PhotonUse::Indirect && !(gathered && gathered->separate);
     const PassKey& key = tile.context.key;
     const uint32_t seed =

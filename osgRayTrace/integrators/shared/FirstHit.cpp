@@ -216,21 +216,21 @@ void setSurfaces(const PassContext& context, const RayHitBlock& rays, const Surf
 /// Not inlined: most passes do not want them, and shall not pay for its stack.
 [[gnu::noinline]] static void recordSamples(const PassContext& context, int block,
                                             const RayHitBlock& rays, const SurfaceLanes& surface,
-                                            TileResult& result)
+                                            FirstHitOutputs& outputs)
 {
     Vec3Lanes normal;
     facingNormalLanes(rays.ray, surface, normal);
-    setSamples(context, rays, surface, normal, result.samples + block * kLanes);
+    setSamples(context, rays, surface, normal, outputs.samples + block * kLanes);
 }
 
 void recordFirstHits(const PassContext& context, int left, int bottom, int block,
-                     const RayHitBlock& rays, const SurfaceLanes& surface, TileResult& result)
+                     const RayHitBlock& rays, const SurfaceLanes& surface, FirstHitOutputs& outputs)
 {
     if (!context.wantsDepth) return;
     FloatLanes along;
-    depthLanes(context.camera, left, bottom, block, surface, along, result.depth + block * kLanes);
-    if (result.surfaces) setSurfaces(context, rays, surface, along, result.surfaces[block]);
-    if (result.samples) recordSamples(context, block, rays, surface, result);
+    depthLanes(context.camera, left, bottom, block, surface, along, outputs.depth + block * kLanes);
+    if (outputs.surfaces) setSurfaces(context, rays, surface, along, outputs.surfaces[block]);
+    if (outputs.samples) recordSamples(context, block, rays, surface, outputs);
 }
 
 void firstSurfaces(const PassContext& context, int left, int bottom, int block, SurfaceBlock& seen)

@@ -80,7 +80,7 @@ void dropNotFinite(TileResult& result)
         {
             rgba.r[i] = rgba.g[i] = rgba.b[i] = 0.0f;
             ++result.counts.droppedSamples;
-            if (result.diagnostics) result.diagnostics->dropped[b * kLanes + i] += 1.0f;
+            if (result.debug) result.debug->dropped[b * kLanes + i] += 1.0f;
         }
     }
 }

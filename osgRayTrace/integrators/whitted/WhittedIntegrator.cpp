@@ -342,7 +342,8 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
         ShadingBlock& block = tile.group[k];
         countRays(tile, block, kAllLanes);
         if (block.passed) weigh(block.weight, block.radiance);
-        recordFirstHits(context, left, bottom, first + k, block.rays, block.surface, tile.result);
+        recordFirstHits(context, left, bottom, first + k, block.rays, block.surface,
+                        tile.result.firstHits);
         RgbaLanes& rgba = tile.result.rgba[first + k];
         setPixels(block.radiance, block.surface.hits, rgba);
         for (const int i : lanesIn(seen ? kAllLanes & ~block.surface.hits : 0))

@@ -10,9 +10,9 @@ namespace osgRayTrace::engine
 
 void countRays(WhittedTile& tile, const ShadingBlock& block, LaneMask lanes)
 {
-    if (!tile.result.diagnostics) return;
+    if (!tile.result.debug) return;
     for (const int i : lanesIn(lanes))
-        tile.result.diagnostics->rays[block.pixel[i]] += 1.0f;
+        tile.result.debug->rays[block.pixel[i]] += 1.0f;
 }
 
 void drawFirstPoints(const WhittedTile& tile, ShadingBlock& block)
