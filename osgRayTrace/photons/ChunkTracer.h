@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/photons/PhotonEmitter.h"
 #include "osgRayTrace/photons/PhotonPaths.h"
 #include "osgRayTrace/photons/TracedPhotons.h"
 #include "osgRayTrace/sampling/Sampler.h"
