@@ -17,14 +17,15 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr unsigned int kReferenceExpiry = 500; // passes of others without it: another takes over
+/// So many passes of other cameras without one of the reference make another camera the reference.
+constexpr unsigned int kReferenceExpiry = 500;
 
 unsigned int frameNumberOf(const osg::FrameStamp* frameStamp)
 {
     return frameStamp ? frameStamp->getFrameNumber() : 0;
 }
 
-/// Of a singular view matrix.
+/// The point, or zero if a singular view matrix gave no finite one.
 osg::Vec3d finiteOrZero(const osg::Vec3d& point)
 {
     return std::isfinite(point.length2()) ? point : osg::Vec3d();
@@ -208,7 +209,8 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const ViewingConditions& co
     build(*conversion);
 }
 
-/// What has changed; the graph is remembered as it is now, whatever becomes of its conversion.
+/// Returns what has changed; the graph is remembered as it is now, whatever becomes of its
+/// conversion.
 GraphChanges SceneUpdater::look(osg::Node& root, bool same, bool sameRoot,
                                 const ViewingConditions& conditions)
 {
@@ -217,8 +219,8 @@ GraphChanges SceneUpdater::look(osg::Node& root, bool same, bool sameRoot,
     changes.record = !sameRoot;
     if (sameRoot)
     {
-        // Also under other conditions: then all changes are known, and the next look finds none of
-        // them.
+        // The watch looks under other conditions, too: then all changes are known, and the next
+        // look finds none of them.
         GraphChanges found = _watch.look(root, conditions);
         const bool record = found.record;
         if (same) changes = std::move(found);
@@ -273,7 +275,7 @@ void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene,
 {
     std::shared_ptr<const RasterizedParts> rasterized = conversion.rasterized;
     std::lock_guard<std::mutex> lock(_versionMutex);
-    // The old ones are freed after the lock, unless a view still draws them.
+    // The old scene and parts are freed after the lock, unless a view still draws them.
     _version.inputs.scene.swap(scene);
     _version.rasterized.swap(rasterized);
     _version.pickIndex = conversion.pickIndex;

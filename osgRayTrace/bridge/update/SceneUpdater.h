@@ -25,9 +25,9 @@
 namespace osgRayTrace::engine
 {
 
-/// Update converts, draw takes the version there is. Cull records who looks at the scene: the first
-/// camera that did, as long as it does, is the reference for what all views share (levels of
-/// detail, the light that osgViewer adds, the background colour).
+/// Update converts the scene, and draw takes the version that there is. Cull records which cameras
+/// look at the scene: the first of them, as long as it looks, is the reference for what all views
+/// share (levels of detail, the light that osgViewer adds, the background colour).
 class SceneUpdater
 {
 public:
@@ -38,52 +38,53 @@ public:
     /// True once a view was recorded. Any thread.
     bool isViewed() const;
 
-    /// The camera has drawn from eye with its near plane at a distance; one engine origin has to
-    /// serve near things and far ones, see kOriginDistance. Draw threads.
+    /// Records that the camera has drawn from eye with its near plane at a distance. One engine
+    /// origin has to serve near things and far ones, see kOriginDistance. Draw threads.
     void recordDrawn(const ObjectName& camera, const osg::Vec3d& eye, double nearDistance);
 
-    /// Takes the settings over and redoes what changed of the graph, of the settings or of the
-    /// recorded conditions; once for a frame number, unless the latter did. Null root: no scene.
-    /// Update and cull threads. Does not throw: a failure leaves the last version and is in the
-    /// statistics.
+    /// Takes the settings over and redoes what changed in the graph, in the settings or in the
+    /// recorded conditions. The graph is looked at once for a frame number, unless the conditions
+    /// changed. Null root: there is no scene. Does not throw: a failure leaves the last version and
+    /// is in the statistics. Update and cull threads.
     void update(osg::Node* root, const RayTraceSettings& settings,
                 const osg::FrameStamp* frameStamp);
 
-    /// Keeps no node of the graph alive until the next update, which converts. For when there may
-    /// be none. Threads that may change the graph.
+    /// Keeps no node of the graph alive until the next update, which converts. This is for times
+    /// when there may be no update. Threads that may change the graph.
     void releaseGraph();
 
-    /// The next update converts, whatever it sees, with all arrays and images read again. Any
+    /// Makes the next update convert, whatever it sees, and read all arrays and images again. Any
     /// thread.
     void setDirty();
 
-    /// The version as of the last frame with its pickIndex, which is made from now on; as of now if
-    /// no view was recorded. start: of the ray, in the scene. Threads that may look at the graph.
+    /// Returns the version of the last frame with its pickIndex, which is made from now on; if no
+    /// view was recorded, the graph as it is now. start: where the ray begins, in the scene.
+    /// Threads that may look at the graph.
     SceneVersion versionToPick(osg::Node* root, const RayTraceSettings& settings,
                                const osg::Vec3d& start);
 
     /// Any thread.
     SceneVersion version() const;
 
-    /// The scene's part; ok and message are those of the last conversion. Any thread.
+    /// Returns the scene's part; ok and message are those of the last conversion. Any thread.
     Statistics statistics() const;
 
 private:
     /// Beyond this many near distances from the eye, float coordinates are coarser than a pixel.
     static constexpr double kOriginDistance = 2048.0;
 
-    /// What the next update shall do.
+    /// Requests to the next update.
     struct Requests
     {
-        bool dirty = false;  ///< convert, whatever there is to see
-        bool forget = false; ///< and take nothing for unchanged
+        bool dirty = false;  ///< it shall convert, whatever it sees
+        bool forget = false; ///< it shall take nothing for unchanged
         std::optional<osg::Vec3d> origin;
     };
 
     struct Recorded
     {
-        ObjectName camera;            ///< the reference
-        unsigned int frameNumber = 0; ///< it was last seen in
+        ObjectName camera;            ///< the reference camera
+        unsigned int frameNumber = 0; ///< the frame in which it was last seen
         unsigned int othersSince = 0; ///< passes of other cameras since then
         std::optional<ViewingConditions> conditions;
         Requests asked{true, false, {}};
@@ -101,7 +102,7 @@ private:
                  const Statistics& statistics);
     void fail(const char* message) noexcept;
 
-    HostArraysRelease _release;        // after all that holds arrays
+    HostArraysRelease _release;        // destroyed after all that holds arrays
     mutable std::mutex _recordedMutex; // cull and draw threads write, update reads
     Recorded _recorded;
 
@@ -111,23 +112,23 @@ private:
 
     std::atomic<bool> _picks{false}; ///< somebody has picked; never taken back
 
-    std::mutex _updateMutex; // all below; one update or cull thread at a time
+    std::mutex _updateMutex; // guards all below: one update or cull thread at a time
     SceneConverter _converter;
-    Requests _asked; ///< and not yet heard: what comes before may throw
-    osg::ref_ptr<const RayTraceSettings>
-        _settings; ///< as they were in the last update: the same copy until they change
-    osg::ref_ptr<const RayTraceSettings> _settingsOf; ///< whose copy that is
-    unsigned int _settingsCount = 0;                  ///< of its changes then
+    Requests _asked; ///< requests that are not served yet: what comes before may throw
+    /// A copy of the settings of the last update: the same copy until they change.
+    osg::ref_ptr<const RayTraceSettings> _settings;
+    osg::ref_ptr<const RayTraceSettings> _settingsOf; ///< the settings that were copied
+    unsigned int _settingsCount = 0;                  ///< count of their changes at that time
     std::shared_ptr<Workers> _workers;
     std::optional<unsigned int> _frameNumber; ///< last looked at
-    // Last looked at for, and converted successfully or not:
+    // What the last look and the last conversion, successful or not, were for:
     std::optional<ViewingConditions> _conditions;
     ConversionSettings _conversionSettings;
     MaterialLibraryFile _materialFile;
     ObjectName _root;
     GraphWatch _watch;
     bool _released = true; ///< see releaseGraph()
-    Statistics _done;      ///< its totals alone
+    Statistics _done;      ///< the totals alone
     bool _stale = false;   ///< the last conversion failed: the converter has not seen all changes
     std::optional<osg::Vec3d> _origin;
 };
