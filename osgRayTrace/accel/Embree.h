@@ -43,7 +43,7 @@ struct FilterContext : RayQueryContext
 
 /// Traces a part of the scene within a callback that was asked to: the query goes on with the rays
 /// as they are now.
-template <int N> void intersectPart(const RTCIntersectFunctionNArguments* args, RTCScene scene)
+template <int N> void tracePart(const RTCIntersectFunctionNArguments* args, RTCScene scene)
 {
     void* const rays = args->rayhit;
 #if OSGRAYTRACE_EMBREE == 4
@@ -68,7 +68,7 @@ template <int N> void intersectPart(const RTCIntersectFunctionNArguments* args, 
 }
 
 /// The same for occlusion, which has no coherent queries.
-template <int N> void occludePart(const RTCOccludedFunctionNArguments* args, RTCScene scene)
+template <int N> void tracePart(const RTCOccludedFunctionNArguments* args, RTCScene scene)
 {
     void* const rays = args->ray;
 #if OSGRAYTRACE_EMBREE == 4
@@ -110,35 +110,35 @@ public:
     }
 
 #if OSGRAYTRACE_EMBREE == 4
-    void intersect16(const int* valid, RTCScene scene, RTCRayHit16* rays)
+    void intersect(const int* valid, RTCScene scene, RTCRayHit16* rays)
     {
         rtcIntersect16(valid, scene, rays, &_intersect);
     }
-    void intersect8(const int* valid, RTCScene scene, RTCRayHit8* rays)
+    void intersect(const int* valid, RTCScene scene, RTCRayHit8* rays)
     {
         rtcIntersect8(valid, scene, rays, &_intersect);
     }
-    void intersect4(const int* valid, RTCScene scene, RTCRayHit4* rays)
+    void intersect(const int* valid, RTCScene scene, RTCRayHit4* rays)
     {
         rtcIntersect4(valid, scene, rays, &_intersect);
     }
-    void intersect1(RTCScene scene, RTCRayHit* ray)
+    void intersect(RTCScene scene, RTCRayHit* ray)
     {
         rtcIntersect1(scene, ray, &_intersect);
     }
-    void occluded16(const int* valid, RTCScene scene, RTCRay16* rays)
+    void occluded(const int* valid, RTCScene scene, RTCRay16* rays)
     {
         rtcOccluded16(valid, scene, rays, &_occluded);
     }
-    void occluded8(const int* valid, RTCScene scene, RTCRay8* rays)
+    void occluded(const int* valid, RTCScene scene, RTCRay8* rays)
     {
         rtcOccluded8(valid, scene, rays, &_occluded);
     }
-    void occluded4(const int* valid, RTCScene scene, RTCRay4* rays)
+    void occluded(const int* valid, RTCScene scene, RTCRay4* rays)
     {
         rtcOccluded4(valid, scene, rays, &_occluded);
     }
-    void occluded1(RTCScene scene, RTCRay* ray)
+    void occluded(RTCScene scene, RTCRay* ray)
     {
         rtcOccluded1(scene, ray, &_occluded);
     }
@@ -148,35 +148,35 @@ private:
     RTCOccludedArguments _occluded;
     FilterContext _context;
 #else
-    void intersect16(const int* valid, RTCScene scene, RTCRayHit16* rays)
+    void intersect(const int* valid, RTCScene scene, RTCRayHit16* rays)
     {
         rtcIntersect16(valid, scene, &_context, rays);
     }
-    void intersect8(const int* valid, RTCScene scene, RTCRayHit8* rays)
+    void intersect(const int* valid, RTCScene scene, RTCRayHit8* rays)
     {
         rtcIntersect8(valid, scene, &_context, rays);
     }
-    void intersect4(const int* valid, RTCScene scene, RTCRayHit4* rays)
+    void intersect(const int* valid, RTCScene scene, RTCRayHit4* rays)
     {
         rtcIntersect4(valid, scene, &_context, rays);
     }
-    void intersect1(RTCScene scene, RTCRayHit* ray)
+    void intersect(RTCScene scene, RTCRayHit* ray)
     {
         rtcIntersect1(scene, &_context, ray);
     }
-    void occluded16(const int* valid, RTCScene scene, RTCRay16* rays)
+    void occluded(const int* valid, RTCScene scene, RTCRay16* rays)
     {
         rtcOccluded16(valid, scene, &_context, rays);
     }
-    void occluded8(const int* valid, RTCScene scene, RTCRay8* rays)
+    void occluded(const int* valid, RTCScene scene, RTCRay8* rays)
     {
         rtcOccluded8(valid, scene, &_context, rays);
     }
-    void occluded4(const int* valid, RTCScene scene, RTCRay4* rays)
+    void occluded(const int* valid, RTCScene scene, RTCRay4* rays)
     {
         rtcOccluded4(valid, scene, &_context, rays);
     }
-    void occluded1(RTCScene scene, RTCRay* ray)
+    void occluded(RTCScene scene, RTCRay* ray)
     {
         rtcOccluded1(scene, &_context, ray);
     }

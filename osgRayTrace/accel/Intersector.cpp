@@ -21,13 +21,13 @@ constexpr float kSmallestDirection = 1e-6f;
 /// Of so many rays or fewer a packet does not pay on incoherent rays.
 constexpr int kFewRays = 2;
 
-OSGRAYTRACE_INLINE bool traceable(float reach, float ox, float oy, float oz, float dx, float dy,
-                                  float dz, float tNear, float tFar)
+OSGRAYTRACE_INLINE bool traceable(float reach, PlainVec3 origin, PlainVec3 direction, float tNear,
+                                  float tFar)
 {
     // Comparisons with NaN are false, so each of them refuses it. No branches: this runs on lanes.
-    const float origin = std::fabs(ox) + std::fabs(oy) + std::fabs(oz);
-    const float direction = std::fabs(dx) + std::fabs(dy) + std::fabs(dz);
-    return (origin < reach) & (direction > kSmallestDirection) & (direction < kLargestDirection) &
+    const float distance = std::fabs(origin.x) + std::fabs(origin.y) + std::fabs(origin.z);
+    const float length = std::fabs(direction.x) + std::fabs(direction.y) + std::fabs(direction.z);
+    return (distance < reach) & (length > kSmallestDirection) & (length < kLargestDirection) &
            (tNear >= 0.0f) & (tNear <= tFar);
 }
 
@@ -39,9 +39,8 @@ LaneMask checkRays(const RayBlock& ray, float reach, LaneMask active, Lanes<int>
     OSGRAYTRACE_SIMD_OR(refused)
     for (int i = 0; i < kLanes; ++i)
     {
-        const bool ok =
-            traceable(reach, ray.originX[i], ray.originY[i], ray.originZ[i], ray.directionX[i],
-                      ray.directionY[i], ray.directionZ[i], ray.tNear[i], ray.tFar[i]);
+        const bool ok = traceable(reach, plainOrigin(ray, i), plainDirection(ray, i), ray.tNear[i],
+                                  ray.tFar[i]);
         const uint32_t good = maskOf(ok);
         valid[i] = static_cast<int>(good & laneBit(active, i));
         refused |= bitOfLane(~good, i);
@@ -56,8 +55,22 @@ bool areFew(LaneMask rays)
     return rays == 0;
 }
 
-/// Rays first..first+width-1 of a block as one of Embree's narrower packets, and back.
-template <class Packet, int Width> void loadRays(const RayBlock& block, int first, Packet& packet)
+/// Embree's packets that are narrower than a block.
+template <int Width> struct PacketTypes;
+template <> struct PacketTypes<4>
+{
+    using Ray = RTCRay4;
+    using RayHit = RTCRayHit4;
+};
+template <> struct PacketTypes<8>
+{
+    using Ray = RTCRay8;
+    using RayHit = RTCRayHit8;
+};
+
+/// Rays first..first+Width-1 of a block as a packet, and back.
+template <int Width>
+void loadRays(const RayBlock& block, int first, typename PacketTypes<Width>::Ray& packet)
 {
     const std::size_t bytes = Width * sizeof(float);
     std::memcpy(packet.org_x, &block.originX[first], bytes);
@@ -74,8 +87,8 @@ template <class Packet, int Width> void loadRays(const RayBlock& block, int firs
     std::memcpy(packet.flags, &block.flags[first], bytes);
 }
 
-template <class Packet, int Width>
-void storeHits(const Packet& packet, int first, RayHitBlock& block)
+template <int Width>
+void storeHits(const typename PacketTypes<Width>::RayHit& packet, int first, RayHitBlock& block)
 {
     const std::size_t bytes = Width * sizeof(float);
     std::memcpy(&block.ray.tFar[first], packet.ray.tfar, bytes);
@@ -86,10 +99,38 @@ void storeHits(const Packet& packet, int first, RayHitBlock& block)
     std::memcpy(&block.instance[first], packet.hit.instID[0], bytes);
 }
 
-template <class Packet, int Width> void clearHits(Packet& packet)
+/// Closest hits of a block, packet by packet.
+template <int Width>
+void intersectPackets(QueryArguments& arguments, RTCScene scene, const Lanes<int>& valid,
+                      RayHitBlock& block)
 {
-    std::memset(packet.hit.geomID, 0xff, Width * sizeof(unsigned));
-    std::memset(packet.hit.instID[0], 0xff, Width * sizeof(unsigned));
+    for (int first = 0; first < kLanes; first += Width)
+    {
+        alignas(4 * Width) typename PacketTypes<Width>::RayHit packet;
+        alignas(4 * Width) int packetValid[Width];
+        std::memcpy(packetValid, &valid[first], sizeof(packetValid));
+        loadRays<Width>(block.ray, first, packet.ray);
+        std::memset(packet.hit.geomID, 0xff, Width * sizeof(unsigned));
+        std::memset(packet.hit.instID[0], 0xff, Width * sizeof(unsigned));
+        arguments.intersect(packetValid, scene, &packet);
+        storeHits<Width>(packet, first, block);
+    }
+}
+
+/// Occlusion of a block, packet by packet.
+template <int Width>
+void occludePackets(QueryArguments& arguments, RTCScene scene, const Lanes<int>& valid,
+                    RayBlock& block)
+{
+    for (int first = 0; first < kLanes; first += Width)
+    {
+        alignas(4 * Width) typename PacketTypes<Width>::Ray packet;
+        alignas(4 * Width) int packetValid[Width];
+        std::memcpy(packetValid, &valid[first], sizeof(packetValid));
+        loadRays<Width>(block, first, packet);
+        arguments.occluded(packetValid, scene, &packet);
+        std::memcpy(&block.tFar[first], packet.tfar, sizeof(packet.tfar));
+    }
 }
 
 RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar)
@@ -127,6 +168,7 @@ Intersector::Intersector(void* embreeScene, int nativeWidth, float reach, const 
 LaneMask Intersector::closestHits(RayHitBlock& block, LaneMask active, Coherence coherence,
                                   HitRule rule) const
 {
+    OSGRAYTRACE_ASSERT(active <= kAllLanes);
     Lanes<int> valid;
     const LaneMask refused = checkRays(block.ray, _reach, active, valid);
     std::memset(&block.geometry, 0xff, sizeof(block.geometry));
@@ -143,38 +185,9 @@ void Intersector::query(RayHitBlock& block, const Lanes<int>& valid, LaneMask ac
     const bool packets =
         coherence == Coherence::Coherent || (_nativeWidth == 16 && !areFew(active));
     if (packets && _nativeWidth == 16)
-    {
-        arguments.intersect16(valid.v, scene, reinterpret_cast<RTCRayHit16*>(&block));
-        return;
-    }
-    if (packets && _nativeWidth == 8)
-    {
-        for (int first = 0; first < kLanes; first += 8)
-        {
-            alignas(32) RTCRayHit8 packet;
-            alignas(32) int packetValid[8];
-            std::memcpy(packetValid, &valid[first], sizeof(packetValid));
-            loadRays<RTCRay8, 8>(block.ray, first, packet.ray);
-            clearHits<RTCRayHit8, 8>(packet);
-            arguments.intersect8(packetValid, scene, &packet);
-            storeHits<RTCRayHit8, 8>(packet, first, block);
-        }
-        return;
-    }
-    if (packets && _nativeWidth == 4)
-    {
-        for (int first = 0; first < kLanes; first += 4)
-        {
-            alignas(16) RTCRayHit4 packet;
-            alignas(16) int packetValid[4];
-            std::memcpy(packetValid, &valid[first], sizeof(packetValid));
-            loadRays<RTCRay4, 4>(block.ray, first, packet.ray);
-            clearHits<RTCRayHit4, 4>(packet);
-            arguments.intersect4(packetValid, scene, &packet);
-            storeHits<RTCRayHit4, 4>(packet, first, block);
-        }
-        return;
-    }
+        return arguments.intersect(valid.v, scene, reinterpret_cast<RTCRayHit16*>(&block));
+    if (packets && _nativeWidth == 8) return intersectPackets<8>(arguments, scene, valid, block);
+    if (packets && _nativeWidth == 4) return intersectPackets<4>(arguments, scene, valid, block);
     for (int i = 0; i < kLanes; ++i)
     {
         if (!valid[i]) continue;
@@ -182,7 +195,7 @@ void Intersector::query(RayHitBlock& block, const Lanes<int>& valid, LaneMask ac
         single.ray = singleRay(block.ray, i);
         single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        arguments.intersect1(scene, &single);
+        arguments.intersect(scene, &single);
         block.ray.tFar[i] = single.ray.tfar;
         block.u[i] = single.hit.u;
         block.v[i] = single.hit.v;
@@ -194,6 +207,7 @@ void Intersector::query(RayHitBlock& block, const Lanes<int>& valid, LaneMask ac
 
 LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
 {
+    OSGRAYTRACE_ASSERT(active <= kAllLanes);
     const auto scene = static_cast<RTCScene>(_scene);
     Lanes<int> valid;
     const LaneMask refused = checkRays(block, _reach, active, valid);
@@ -201,49 +215,37 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
     // Never the coherent flag here: it makes occlusion packets slower, and with instances
     // Embree 3.13.5 may not return at all.
     QueryArguments query(false, _filter);
+    // Four shadow rays go different ways as soon as two do: like other incoherent rays, they are
+    // traced one by one on CPUs of that width.
     if (_nativeWidth == 16 && !areFew(active))
-    {
-        query.occluded16(valid.v, scene, reinterpret_cast<RTCRay16*>(&block));
-    }
+        query.occluded(valid.v, scene, reinterpret_cast<RTCRay16*>(&block));
     else if (_nativeWidth == 8 && !areFew(active))
-    {
-        for (int first = 0; first < kLanes; first += 8)
-        {
-            alignas(32) RTCRay8 packet;
-            alignas(32) int packetValid[8];
-            std::memcpy(packetValid, &valid[first], sizeof(packetValid));
-            loadRays<RTCRay8, 8>(block, first, packet);
-            query.occluded8(packetValid, scene, &packet);
-            std::memcpy(&block.tFar[first], packet.tfar, sizeof(packet.tfar));
-        }
-    }
+        occludePackets<8>(query, scene, valid, block);
     else
     {
         for (int i = 0; i < kLanes; ++i)
         {
             if (!valid[i]) continue;
             RTCRay single = singleRay(block, i);
-            query.occluded1(scene, &single);
+            query.occluded(scene, &single);
             block.tFar[i] = single.tfar;
         }
     }
-    for (LaneMask lanes = refused; lanes; lanes &= lanes - 1)
-        block.tFar[__builtin_ctz(lanes)] = -kInfinity;
+    for (const int i : lanesIn(refused))
+        block.tFar[i] = -kInfinity;
     return refused;
 }
 
 std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar,
                                            HitRule rule) const
 {
-    if (!traceable(_reach, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-                   tNear, tFar))
-        return std::nullopt;
+    if (!traceable(_reach, plainOf(origin), plainOf(direction), tNear, tFar)) return std::nullopt;
     RTCRayHit single;
     single.ray = singleRay(origin, direction, tNear, tFar);
     single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     QueryArguments query(false, _filter, rule);
-    query.intersect1(static_cast<RTCScene>(_scene), &single);
+    query.intersect(static_cast<RTCScene>(_scene), &single);
     if (single.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     Hit hit;
     hit.instance = hitInstance(single.hit.geomID, single.hit.instID[0]);
@@ -256,12 +258,10 @@ std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tN
 
 bool Intersector::occluded(Vec3 origin, Vec3 direction, float tNear, float tFar) const
 {
-    if (!traceable(_reach, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-                   tNear, tFar))
-        return true;
+    if (!traceable(_reach, plainOf(origin), plainOf(direction), tNear, tFar)) return true;
     RTCRay single = singleRay(origin, direction, tNear, tFar);
     QueryArguments query(false, _filter);
-    query.occluded1(static_cast<RTCScene>(_scene), &single);
+    query.occluded(static_cast<RTCScene>(_scene), &single);
     return single.tfar < 0.0f;
 }
 

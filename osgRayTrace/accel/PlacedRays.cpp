@@ -53,109 +53,76 @@ template <int N> OSGRAYTRACE_INLINE void takeOut(const Ends<N>& outside, float* 
     }
 }
 
-template <int N>
-OSGRAYTRACE_INLINE void intersectIn(const RTCIntersectFunctionNArguments* args,
-                                    const PlacedScene& placed)
+float* raysOf(const RTCIntersectFunctionNArguments* args)
 {
-    auto* const rays = reinterpret_cast<float*>(args->rayhit);
-    Ends<N> outside;
-    takeIn<N>(placed, rays, outside);
-    intersectPart<N>(args, placed.scene);
-    takeOut<N>(outside, rays);
+    return reinterpret_cast<float*>(args->rayhit);
+}
+float* raysOf(const RTCOccludedFunctionNArguments* args)
+{
+    return reinterpret_cast<float*>(args->ray);
 }
 
-template <int N>
-OSGRAYTRACE_INLINE void occludeIn(const RTCOccludedFunctionNArguments* args,
-                                  const PlacedScene& placed)
+/// The rays stay as they are.
+struct InPlace
 {
-    auto* const rays = reinterpret_cast<float*>(args->ray);
-    Ends<N> outside;
-    takeIn<N>(placed, rays, outside);
-    occludePart<N>(args, placed.scene);
-    takeOut<N>(outside, rays);
-}
+    template <int N, class Arguments>
+    OSGRAYTRACE_INLINE static void trace(const Arguments* args, const PlacedScene& placed)
+    {
+        tracePart<N>(args, placed.scene);
+    }
+};
 
-void intersectInPlace(const RTCIntersectFunctionNArguments* args, RTCScene scene)
+/// The rays are taken into the scene's space and back.
+struct InSpaceOfScene
+{
+    template <int N, class Arguments>
+    OSGRAYTRACE_INLINE static void trace(const Arguments* args, const PlacedScene& placed)
+    {
+        float* const rays = raysOf(args);
+        Ends<N> outside;
+        takeIn<N>(placed, rays, outside);
+        tracePart<N>(args, placed.scene);
+        takeOut<N>(outside, rays);
+    }
+};
+
+/// Way::trace for as many rays as Embree has sent.
+template <class Way, class Arguments>
+OSGRAYTRACE_INLINE void traceWidth(const Arguments* args, const PlacedScene& placed)
 {
     switch (args->N)
     {
     case 1:
-        return intersectPart<1>(args, scene);
+        return Way::template trace<1>(args, placed);
     case 4:
-        return intersectPart<4>(args, scene);
+        return Way::template trace<4>(args, placed);
     case 8:
-        return intersectPart<8>(args, scene);
+        return Way::template trace<8>(args, placed);
     case 16:
-        return intersectPart<16>(args, scene);
+        return Way::template trace<16>(args, placed);
     }
 }
 
-void occludeInPlace(const RTCOccludedFunctionNArguments* args, RTCScene scene)
+template <class Arguments> OSGRAYTRACE_INLINE void tracePlaced(const Arguments* args)
 {
-    switch (args->N)
-    {
-    case 1:
-        return occludePart<1>(args, scene);
-    case 4:
-        return occludePart<4>(args, scene);
-    case 8:
-        return occludePart<8>(args, scene);
-    case 16:
-        return occludePart<16>(args, scene);
-    }
-}
-
-template <class Arguments> const PlacedScene& placedScene(const Arguments* args)
-{
-    return (*static_cast<const PlacedScenes*>(args->geometryUserPtr))[args->primID];
+    const PlacedScene& placed =
+        (*static_cast<const PlacedScenes*>(args->geometryUserPtr))[args->primID];
+    if (placed.instance == kInvalid) return traceWidth<InPlace>(args, placed);
+    args->context->instID[0] = placed.instance;
+    traceWidth<InSpaceOfScene>(args, placed);
+    args->context->instID[0] = kInvalid;
 }
 
 OSGRAYTRACE_KERNEL
 void intersect(const RTCIntersectFunctionNArguments* args)
 {
-    const PlacedScene& placed = placedScene(args);
-    if (placed.instance == kInvalid) return intersectInPlace(args, placed.scene);
-    args->context->instID[0] = placed.instance;
-    switch (args->N)
-    {
-    case 1:
-        intersectIn<1>(args, placed);
-        break;
-    case 4:
-        intersectIn<4>(args, placed);
-        break;
-    case 8:
-        intersectIn<8>(args, placed);
-        break;
-    case 16:
-        intersectIn<16>(args, placed);
-        break;
-    }
-    args->context->instID[0] = kInvalid;
+    tracePlaced(args);
 }
 
 OSGRAYTRACE_KERNEL
 void occlude(const RTCOccludedFunctionNArguments* args)
 {
-    const PlacedScene& placed = placedScene(args);
-    if (placed.instance == kInvalid) return occludeInPlace(args, placed.scene);
-    args->context->instID[0] = placed.instance;
-    switch (args->N)
-    {
-    case 1:
-        occludeIn<1>(args, placed);
-        break;
-    case 4:
-        occludeIn<4>(args, placed);
-        break;
-    case 8:
-        occludeIn<8>(args, placed);
-        break;
-    case 16:
-        occludeIn<16>(args, placed);
-        break;
-    }
-    args->context->instID[0] = kInvalid;
+    tracePlaced(args);
 }
 
 } // namespace

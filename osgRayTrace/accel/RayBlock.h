@@ -20,6 +20,34 @@ struct RayBlock
     UintLanes mask, id, flags;
 };
 
+OSGRAYTRACE_INLINE PlainVec3 plainOrigin(const RayBlock& ray, int i)
+{
+    return {ray.originX[i], ray.originY[i], ray.originZ[i]};
+}
+
+OSGRAYTRACE_INLINE PlainVec3 plainDirection(const RayBlock& ray, int i)
+{
+    return {ray.directionX[i], ray.directionY[i], ray.directionZ[i]};
+}
+
+/// Sets all of lane i.
+OSGRAYTRACE_INLINE void setRay(RayBlock& ray, int i, PlainVec3 origin, PlainVec3 direction,
+                               float tNear, float tFar)
+{
+    ray.originX[i] = origin.x;
+    ray.originY[i] = origin.y;
+    ray.originZ[i] = origin.z;
+    ray.tNear[i] = tNear;
+    ray.directionX[i] = direction.x;
+    ray.directionY[i] = direction.y;
+    ray.directionZ[i] = direction.z;
+    ray.time[i] = 0.0f;
+    ray.tFar[i] = tFar;
+    ray.mask[i] = 0xffffffffu;
+    ray.id[i] = 0;
+    ray.flags[i] = 0;
+}
+
 /// Rays of closest-hit queries with their hits. primitive, geometry and instance are Embree's; use
 /// hitInstance(). geometry == kInvalid: no hit.
 struct RayHitBlock

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/Surface.h"
 
+#include "osgRayTrace/accel/SmoothSurface.h"
+#include "osgRayTrace/accel/TrianglePlane.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace osgRayTrace::engine
 {
@@ -12,35 +14,12 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr float kOffsetScale = 32.0f * 0x1p-24f;
-constexpr float kEdgeScale = 8.0f * 0x1p-24f;
-
-/// Rays whose cosine is above kMinCosine begin on their very point if the offset is no more than
-/// this share of the triangle's edges: the way that they skip, four offsets at most, then hides
-/// nothing.
-constexpr float kFineOffset = 1e-4f;
-constexpr float kMinCosine = 0.25f;
-constexpr float kNever = 2.0f;
-
-constexpr float kSmallestTerminatorOffset = 4.0f; ///< [error bounds]
-constexpr float kShortestNormal2 = 1e-12f;        ///< squared length below which a normal is none
-/// Squared cosine of 40 degrees. A facet that a vertex normal leaves by more is no piece of a
-/// smooth surface, but a side of a body whose edges were averaged: two sides of a box make 45
-/// degrees.
-constexpr float kLargestTurn2 = 0.5868f;
-
-void store(Vec3Lanes& lanes, int i, Vec3 value)
-{
-    lanes.x[i] = value.x;
-    lanes.y[i] = value.y;
-    lanes.z[i] = value.z;
-}
-
 float largestOf(Vec3 v)
 {
     return std::max(std::fabs(v.x), std::max(std::fabs(v.y), std::fabs(v.z)));
 }
 
+/// The magnitude of what is added up when a transform places the vertices.
 float transformMagnitude(const Affine& m, Vec3 a, Vec3 b, Vec3 c)
 {
     const float vertex = std::max(largestOf(a), std::max(largestOf(b), largestOf(c)));
@@ -48,6 +27,7 @@ float transformMagnitude(const Affine& m, Vec3 a, Vec3 b, Vec3 c)
     return vertex * row + largestOf(m.translation);
 }
 
+/// Reads a triangle into lane i. Returns whether it has vertex normals.
 OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primitive, int i,
                                      TriangleLanes& lanes)
 {
@@ -64,9 +44,9 @@ OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primi
         b = transformPoint(m, b);
         c = transformPoint(m, c);
     }
-    store(lanes.a, i, a);
-    store(lanes.b, i, b);
-    store(lanes.c, i, c);
+    setLane(lanes.a, i, a);
+    setLane(lanes.b, i, b);
+    setLane(lanes.c, i, c);
     if (!record.normals) return false;
 
     Vec3 na = record.normals[t.x];
@@ -81,103 +61,51 @@ OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primi
         nb = glm::normalize(normalFromLocal * nb);
         nc = glm::normalize(normalFromLocal * nc);
     }
-    store(lanes.na, i, na);
-    store(lanes.nb, i, nb);
-    store(lanes.nc, i, nc);
+    setLane(lanes.na, i, na);
+    setLane(lanes.nb, i, nb);
+    setLane(lanes.nc, i, nc);
     return true;
 }
 
-OSGRAYTRACE_INLINE float largestOf(float a, float b, float c)
+void clearLane(TriangleLanes& lanes, int i)
 {
-    const float ab = std::fabs(a) > std::fabs(b) ? std::fabs(a) : std::fabs(b);
-    return ab > std::fabs(c) ? ab : std::fabs(c);
+    setLane(lanes.a, i, Vec3(0.0f));
+    setLane(lanes.b, i, Vec3(0.0f));
+    setLane(lanes.c, i, Vec3(0.0f));
+    lanes.transformBound[i] = 0.0f;
 }
 
-/// 2^-n for x in [2^n, 2^(n+1)), 2^127 for 0.
-OSGRAYTRACE_INLINE float inversePowerOfTwo(float x)
-{
-    uint32_t bits;
-    std::memcpy(&bits, &x, sizeof(bits));
-    bits = (254u << 23) - (bits & 0x7f800000u);
-    float result;
-    std::memcpy(&result, &bits, sizeof(result));
-    return result;
-}
-
-/// The plane of a triangle: its unit normal on the counter-clockwise side, 0 for a triangle without
-/// area; and the error bound of points on it. Numbers and no struct: one that is made in a loop
-/// over lanes and passed on is kept in memory, lane after lane, and the loop then becomes no vector
-/// code.
-OSGRAYTRACE_INLINE void planeOf(float ax, float ay, float az, float bx, float by, float bz,
-                                float cx, float cy, float cz, float transformBound, float& normalX,
-                                float& normalY, float& normalZ, float& offset, float& minCosine)
-{
-    const float e1x = bx - ax, e1y = by - ay, e1z = bz - az;
-    const float e2x = cx - ax, e2y = cy - ay, e2z = cz - az;
-    // Edges are scaled to about 1 first, by a power of two: the product of micrometre edges would
-    // be denormal.
-    const float edge1 = largestOf(e1x, e1y, e1z), edge2 = largestOf(e2x, e2y, e2z);
-    const float edge = edge1 > edge2 ? edge1 : edge2;
-    const float scale = inversePowerOfTwo(edge);
-    const float ux = e1x * scale, uy = e1y * scale, uz = e1z * scale;
-    const float vx = e2x * scale, vy = e2y * scale, vz = e2z * scale;
-    const float nx = uy * vz - uz * vy;
-    const float ny = uz * vx - ux * vz;
-    const float nz = ux * vy - uy * vx;
-    const float length2 = nx * nx + ny * ny + nz * nz;
-    const float inverse = select(length2 > 0.0f, 1.0f / std::sqrt(length2), 0.0f);
-    normalX = nx * inverse;
-    normalY = ny * inverse;
-    normalZ = nz * inverse;
-    const float bound = largestOf(ax, bx, cx) * std::fabs(normalX) +
-                        largestOf(ay, by, cy) * std::fabs(normalY) +
-                        largestOf(az, bz, cz) * std::fabs(normalZ);
-    offset = kOffsetScale * (bound + 2.0f * transformBound) + kEdgeScale * edge;
-    minCosine = select(offset <= kFineOffset * edge, kMinCosine, kNever);
-}
-
-/// Everything about lane i of a surface but its interpolated normal. Returns all bits if the ray
-/// comes from the front.
-OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, float nx, float ny,
-                                       float nz, float offset, float minCosine, float ax, float ay,
-                                       float az, float bx, float by, float bz, float cx, float cy,
-                                       float cz, SurfaceLanes& s)
+/// Sets lane i of a surface, all but its interpolated normal. Returns all bits if the ray comes
+/// from the front.
+OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, const PlainTriangle& t,
+                                       const TrianglePlane& plane, SurfaceLanes& s)
 {
     const float u = block.u[i], v = block.v[i], w = 1.0f - u - v;
-    s.position.x[i] = w * ax + u * bx + v * cx;
-    s.position.y[i] = w * ay + u * by + v * cy;
-    s.position.z[i] = w * az + u * bz + v * cz;
-    const float cosine =
-        nx * block.ray.directionX[i] + ny * block.ray.directionY[i] + nz * block.ray.directionZ[i];
+    setLane(s.position, i, interpolated(t, w, u, v));
+    const float cosine = dot(plane.normal, plainDirection(block.ray, i));
     const float side = select(cosine > 0.0f, -1.0f, 1.0f);
-    s.geometricNormal.x[i] = nx * side;
-    s.geometricNormal.y[i] = ny * side;
-    s.geometricNormal.z[i] = nz * side;
-    s.shadingNormal.x[i] = nx;
-    s.shadingNormal.y[i] = ny;
-    s.shadingNormal.z[i] = nz;
-    s.offset[i] = offset;
-    s.minCosine[i] = minCosine;
+    setLane(s.geometricNormal, i, plane.normal * side);
+    setLane(s.shadingNormal, i, plane.normal);
+    s.offset[i] = plane.offset;
+    s.minCosine[i] = plane.minCosine;
     return maskOf(cosine <= 0.0f);
 }
 
+/// The same for the triangle of lane i.
+OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i,
+                                       const TriangleLanes& triangles, SurfaceLanes& s)
+{
+    const PlainTriangle t = triangleOf(triangles, i);
+    return setSurface(block, i, t, planeOf(t, triangles.transformBound[i]), s);
+}
+
 OSGRAYTRACE_KERNEL
-void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
+void geometry(const RayHitBlock& block, const TriangleLanes& triangles, SurfaceLanes& s)
 {
     LaneMask front = 0;
     OSGRAYTRACE_SIMD_OR(front)
     for (int i = 0; i < kLanes; ++i)
-    {
-        const float ax = t.a.x[i], ay = t.a.y[i], az = t.a.z[i];
-        const float bx = t.b.x[i], by = t.b.y[i], bz = t.b.z[i];
-        const float cx = t.c.x[i], cy = t.c.y[i], cz = t.c.z[i];
-        float nx, ny, nz, offset, minCosine;
-        planeOf(ax, ay, az, bx, by, bz, cx, cy, cz, t.transformBound[i], nx, ny, nz, offset,
-                minCosine);
-        front |= bitOfLane(setSurface(block, i, nx, ny, nz, offset, minCosine, ax, ay, az, bx, by,
-                                      bz, cx, cy, cz, s),
-                           i);
-    }
+        front |= bitOfLane(setSurface(block, i, triangles, s), i);
     s.front = front;
 }
 
@@ -185,106 +113,13 @@ void geometry(const RayHitBlock& block, const TriangleLanes& t, SurfaceLanes& s)
 OSGRAYTRACE_KERNEL
 void geometryOfOne(const RayHitBlock& block, const LastTriangle& last, SurfaceLanes& s)
 {
-    const TriangleLanes& t = last.lanes;
-    const float ax = t.a.x[0], ay = t.a.y[0], az = t.a.z[0];
-    const float bx = t.b.x[0], by = t.b.y[0], bz = t.b.z[0];
-    const float cx = t.c.x[0], cy = t.c.y[0], cz = t.c.z[0];
-    const float nx = last.normal.x, ny = last.normal.y, nz = last.normal.z;
-    const float offset = last.offset, minCosine = last.minCosine;
+    const PlainTriangle t = triangleOf(last.lanes, 0);
+    const TrianglePlane plane = last.plane;
     LaneMask front = 0;
     OSGRAYTRACE_SIMD_OR(front)
     for (int i = 0; i < kLanes; ++i)
-        front |= bitOfLane(setSurface(block, i, nx, ny, nz, offset, minCosine, ax, ay, az, bx, by,
-                                      bz, cx, cy, cz, s),
-                           i);
+        front |= bitOfLane(setSurface(block, i, t, plane, s), i);
     s.front = front;
-}
-
-OSGRAYTRACE_KERNEL
-void interpolateNormals(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth,
-                        SurfaceLanes& s)
-{
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < kLanes; ++i)
-    {
-        const float u = block.u[i], v = block.v[i], w = 1.0f - u - v;
-        const float nx = w * t.na.x[i] + u * t.nb.x[i] + v * t.nc.x[i];
-        const float ny = w * t.na.y[i] + u * t.nb.y[i] + v * t.nc.y[i];
-        const float nz = w * t.na.z[i] + u * t.nb.z[i] + v * t.nc.z[i];
-        const float length2 = nx * nx + ny * ny + nz * nz;
-        const float inverse = 1.0f / std::sqrt(length2);
-        // Opposite normals can cancel: then, and without normals, the geometric one stays.
-        const uint32_t use = maskOf(length2 > 1e-12f) & laneBit(smooth, i);
-        s.shadingNormal.x[i] = select(use, nx * inverse, s.shadingNormal.x[i]);
-        s.shadingNormal.y[i] = select(use, ny * inverse, s.shadingNormal.y[i]);
-        s.shadingNormal.z[i] = select(use, nz * inverse, s.shadingNormal.z[i]);
-    }
-}
-
-/// The terms of the terminator offset that one vertex adds to: how far the point is below the
-/// vertex's tangent plane, along its normal n of any length, on the side of the sign.
-struct TerminatorOffset
-{
-    float scale;     ///< times n is the way to the tangent plane; 0 if the point is above it
-    uint32_t usable; ///< n is about that of the facet
-};
-
-OSGRAYTRACE_INLINE TerminatorOffset terminatorOffset(float px, float py, float pz, float vx,
-                                                     float vy, float vz, float nx, float ny,
-                                                     float nz, float gx, float gy, float gz)
-{
-    const float length2 = nx * nx + ny * ny + nz * nz;
-    const float cosine = nx * gx + ny * gy + nz * gz;
-    const float height = (px - vx) * nx + (py - vy) * ny + (pz - vz) * nz;
-    TerminatorOffset result;
-    // Both signs change with n: the terminator offset is to the ray's side, where g is, whichever
-    // way n looks.
-    const float below = select(height * cosine < 0.0f, -height, 0.0f);
-    result.usable =
-        maskOf(length2 > kShortestNormal2) & maskOf(cosine * cosine > kLargestTurn2 * length2);
-    result.scale = below / select(length2 > kShortestNormal2, length2, 1.0f);
-    return result;
-}
-
-/// Moves points, from where rays start, onto the tangent planes of the vertices, weighted as the
-/// vertices are [Hanika21]. On a sphere this is as far above the sphere as the facet is below it,
-/// enough for every ray above the plane of the shading normal to clear the facets around. On hollow
-/// sides nothing moves.
-OSGRAYTRACE_KERNEL
-void offsetTerminator(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth,
-                      SurfaceLanes& s)
-{
-    LaneMask terminatorLanes = 0;
-    OSGRAYTRACE_SIMD_OR(terminatorLanes)
-    for (int i = 0; i < kLanes; ++i)
-    {
-        const float u = block.u[i], v = block.v[i], w = 1.0f - u - v;
-        const float px = s.position.x[i], py = s.position.y[i], pz = s.position.z[i];
-        const float gx = s.geometricNormal.x[i], gy = s.geometricNormal.y[i],
-                    gz = s.geometricNormal.z[i];
-        const TerminatorOffset a = terminatorOffset(px, py, pz, t.a.x[i], t.a.y[i], t.a.z[i],
-                                                    t.na.x[i], t.na.y[i], t.na.z[i], gx, gy, gz);
-        const TerminatorOffset b = terminatorOffset(px, py, pz, t.b.x[i], t.b.y[i], t.b.z[i],
-                                                    t.nb.x[i], t.nb.y[i], t.nb.z[i], gx, gy, gz);
-        const TerminatorOffset c = terminatorOffset(px, py, pz, t.c.x[i], t.c.y[i], t.c.z[i],
-                                                    t.nc.x[i], t.nc.y[i], t.nc.z[i], gx, gy, gz);
-        const float wa = w * a.scale, wb = u * b.scale, wc = v * c.scale;
-        const float x = wa * t.na.x[i] + wb * t.nb.x[i] + wc * t.nc.x[i];
-        const float y = wa * t.na.y[i] + wb * t.nb.y[i] + wc * t.nc.y[i];
-        const float z = wa * t.na.z[i] + wb * t.nb.z[i] + wc * t.nc.z[i];
-        // Less than a few error bounds is rounding, as on flat facets.
-        const uint32_t clear =
-            maskOf(x * gx + y * gy + z * gz > kSmallestTerminatorOffset * s.offset[i]);
-        const uint32_t use = clear & a.usable & b.usable & c.usable & laneBit(smooth, i);
-        s.onTriangle.x[i] = px;
-        s.onTriangle.y[i] = py;
-        s.onTriangle.z[i] = pz;
-        s.position.x[i] = px + select(use, x, 0.0f);
-        s.position.y[i] = py + select(use, y, 0.0f);
-        s.position.z[i] = pz + select(use, z, 0.0f);
-        terminatorLanes |= bitOfLane(use, i);
-    }
-    s.terminatorLanes = terminatorLanes & s.hits;
 }
 
 /// True if all hits are on one triangle: the rule where triangles are larger than pixels.
@@ -329,14 +164,6 @@ void broadcast(Vec3Lanes& a, Vec3Lanes& b, Vec3Lanes& c)
     }
 }
 
-void clearLane(TriangleLanes& lanes, int i)
-{
-    store(lanes.a, i, Vec3(0.0f));
-    store(lanes.b, i, Vec3(0.0f));
-    store(lanes.c, i, Vec3(0.0f));
-    lanes.transformBound[i] = 0.0f;
-}
-
 bool isMirrored(const SurfaceRecord& record)
 {
     return record.placed && record.placed->mirrored;
@@ -346,9 +173,8 @@ bool isMirrored(const SurfaceRecord& record)
 void turnMirrored(LaneMask lanes, SurfaceLanes& s)
 {
     s.front ^= lanes;
-    for (; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(lanes))
     {
-        const int i = __builtin_ctz(lanes);
         s.shadingNormal.x[i] = -s.shadingNormal.x[i];
         s.shadingNormal.y[i] = -s.shadingNormal.y[i];
         s.shadingNormal.z[i] = -s.shadingNormal.z[i];
@@ -367,9 +193,7 @@ void setLast(const SurfaceTable& table, const RayHitBlock& block, int lane, Last
     last.smooth = loadTriangle(record, last.primitive, 0, t);
     last.mirrored = isMirrored(record);
     last.material = record.material;
-    planeOf(t.a.x[0], t.a.y[0], t.a.z[0], t.b.x[0], t.b.y[0], t.b.z[0], t.c.x[0], t.c.y[0],
-            t.c.z[0], t.transformBound[0], last.normal.x, last.normal.y, last.normal.z, last.offset,
-            last.minCosine);
+    last.plane = planeOf(triangleOf(t, 0), t.transformBound[0]);
     if (last.smooth)
     {
         broadcast(t.a, t.b, t.c);
@@ -413,7 +237,7 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
     const LaneMask hits = hitLanes(block, active);
     surface.hits = hits;
     surface.terminatorLanes = 0;
-    const int first = hits ? __builtin_ctz(hits) : 0;
+    const int first = hits ? firstLane(hits) : 0;
     if (hits && isOneTriangle(block, hits, first))
     {
         if (last && isOn(*last, block, first)) return surfacesOfOne(block, *last, start, surface);

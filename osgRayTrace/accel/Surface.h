@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/accel/RayBlock.h"
 #include "osgRayTrace/accel/SurfaceTable.h"
+#include "osgRayTrace/accel/TriangleLanes.h"
 #include "osgRayTrace/base/Lanes.h"
 
 namespace osgRayTrace::engine
@@ -41,24 +42,14 @@ inline const Vec3Lanes& trianglePoints(const SurfaceLanes& surface)
 /// Puts the positions of lanes back onto their triangles.
 inline void dropTerminatorOffset(SurfaceLanes& surface, LaneMask lanes)
 {
-    for (LaneMask m = surface.terminatorLanes & lanes; m; m &= m - 1)
+    for (const int i : lanesIn(surface.terminatorLanes & lanes))
     {
-        const int i = __builtin_ctz(m);
         surface.position.x[i] = surface.onTriangle.x[i];
         surface.position.y[i] = surface.onTriangle.y[i];
         surface.position.z[i] = surface.onTriangle.z[i];
     }
     surface.terminatorLanes &= ~lanes;
 }
-
-/// What is read from the meshes, lane by lane; everything after it is arithmetic on lanes.
-struct TriangleLanes
-{
-    Vec3Lanes a, b, c;    ///< vertices, engine space
-    Vec3Lanes na, nb, nc; ///< vertex normals, engine space, any length; zero: geometric normal
-    FloatLanes
-        transformBound; ///< magnitude of what was added up to place the vertices; 0 if not placed
-};
 
 /// The triangle that all hits of an earlier block were on: the next one is often on the same. Of
 /// one scene.
@@ -67,8 +58,7 @@ struct LastTriangle
     uint32_t geometry = kInvalid, instance = kInvalid, primitive = kInvalid; ///< Embree's
     uint32_t sceneInstance, material;
     bool smooth, mirrored;
-    Vec3 normal; ///< unit, on the counter-clockwise side
-    float offset, minCosine;
+    TrianglePlane plane;
     TriangleLanes lanes; ///< in the first lane; in all if smooth
 };
 

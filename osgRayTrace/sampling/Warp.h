@@ -30,12 +30,18 @@ OSGRAYTRACE_INLINE void sinCosTurn(float turn, float& sine, float& cosine)
 }
 
 /// Cosine-distributed direction around +z: pdfW = cosTheta / pi.
-OSGRAYTRACE_INLINE Vec3 squareToCosineHemisphere(float u, float v)
+OSGRAYTRACE_INLINE PlainVec3 squareToCosineHemispherePlain(float u, float v)
 {
     float sine, cosine;
     sinCosTurn(u, sine, cosine);
     const float radius = std::sqrt(v);
-    return Vec3(radius * cosine, radius * sine, std::sqrt(1.0f - v > 0.0f ? 1.0f - v : 0.0f));
+    return {radius * cosine, radius * sine, std::sqrt(1.0f - v > 0.0f ? 1.0f - v : 0.0f)};
+}
+
+OSGRAYTRACE_INLINE Vec3 squareToCosineHemisphere(float u, float v)
+{
+    const PlainVec3 w = squareToCosineHemispherePlain(u, v);
+    return Vec3(w.x, w.y, w.z);
 }
 
 inline float squareToCosineHemispherePdf(float cosTheta)
@@ -55,14 +61,35 @@ inline Vec3 squareToCone(Vec2 u, float oneMinusCosine)
     return Vec3(radius * cosine, radius * sine, z);
 }
 
-/// Two unit vectors that make a right-handed frame with the unit normal n [Duff17, listing 3].
+/// A right-handed frame of unit vectors.
+struct PlainFrame
+{
+    PlainVec3 tangent, bitangent, normal;
+};
+
+/// The frame around a unit normal [Duff17, listing 3].
+OSGRAYTRACE_INLINE PlainFrame frameOf(PlainVec3 n)
+{
+    const float sign = n.z >= 0.0f ? 1.0f : -1.0f;
+    const float a = -1.0f / (sign + n.z);
+    const float b = n.x * n.y * a;
+    return {
+        {1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
+}
+
+OSGRAYTRACE_INLINE PlainVec3 toWorld(const PlainFrame& frame, PlainVec3 local)
+{
+    const PlainVec3 &t = frame.tangent, &b = frame.bitangent, &n = frame.normal;
+    return {t.x * local.x + b.x * local.y + n.x * local.z,
+            t.y * local.x + b.y * local.y + n.y * local.z,
+            t.z * local.x + b.z * local.y + n.z * local.z};
+}
+
 OSGRAYTRACE_INLINE void frameOf(float nx, float ny, float nz, Vec3& tangent, Vec3& bitangent)
 {
-    const float sign = nz >= 0.0f ? 1.0f : -1.0f;
-    const float a = -1.0f / (sign + nz);
-    const float b = nx * ny * a;
-    tangent = Vec3(1.0f + sign * nx * nx * a, sign * b, -sign * nx);
-    bitangent = Vec3(b, sign + ny * ny * a, -ny);
+    const PlainFrame frame = frameOf(PlainVec3{nx, ny, nz});
+    tangent = Vec3(frame.tangent.x, frame.tangent.y, frame.tangent.z);
+    bitangent = Vec3(frame.bitangent.x, frame.bitangent.y, frame.bitangent.z);
 }
 
 /// A direction around +z turned to around the unit vector axis.

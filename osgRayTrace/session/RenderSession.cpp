@@ -169,16 +169,16 @@ TileCounts SessionState::renderTile(const PassContext& context, const Integrator
     if (photons.active())
     {
         photons.begin(tile, film.tilePasses(tile), gathered);
-        result.gathered = &gathered;
-        result.hitPoints = photons.hitPoints(tile, film.tilePasses(tile));
+        result.photons.gathered = &gathered;
+        result.photons.hitPoints = photons.hitPoints(tile, film.tilePasses(tile));
     }
     SurfaceBlock firstHits[kTileBlocks];
     const bool keeps = context.wantsDepth && surfaces.view.width > 0;
-    if (keeps) result.surfaces = firstHits;
+    if (keeps) result.firstHits.surfaces = firstHits;
     const bool keepsSamples = context.wantsDepth && hasSamples;
     const std::unique_ptr<SurfaceSample[]> seen(keepsSamples ? new SurfaceSample[kTilePixels]
                                                              : nullptr);
-    result.samples = seen.get();
+    result.firstHits.samples = seen.get();
     integrator.renderTile(context, film.tileX(tile), film.tileY(tile), result);
     for (int b = 0; keeps && b < kTileBlocks; ++b)
         setBlock(film.tileX(tile) + laneX(b, 0), film.tileY(tile) + laneY(b, 0), firstHits[b],
@@ -189,7 +189,8 @@ TileCounts SessionState::renderTile(const PassContext& context, const Integrator
     if (photons.active())
         photons.end(tile, film.tilePasses(tile), gathered, context.options.photonAlpha,
                     result.rgba);
-    if (context.wantsDepth) std::copy(result.depth, result.depth + kTilePixels, film.depth(tile));
+    if (context.wantsDepth)
+        std::copy(result.firstHits.depth, result.firstHits.depth + kTilePixels, film.depth(tile));
     if (inFilm)
         film.finishPass(tile);
     else

@@ -29,10 +29,12 @@ OSGRAYTRACE_INLINE float lambdaOf(float alpha2, float cosTheta)
 
 /// Bsdf.h and Bsdf.cpp have the formulas.
 template <bool kRows>
-OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const float* firstRow, const float* secondRow,
+OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const CoatAlbedoRow* rows,
                                   const Vec3Lanes& normal, const Vec3Lanes& wo, const Vec3Lanes& wi,
                                   LaneMask lanes, Vec3Lanes& fCos, FloatLanes& pdfW)
 {
+    const float* const firstRow = kRows ? rows[0].albedo.data() : nullptr;
+    const float* const secondRow = kRows ? rows[1].albedo.data() : nullptr;
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
@@ -98,10 +100,9 @@ void evalAlike(const BsdfLanes& bsdfs, const CoatAlbedoRow* rows, const Vec3Lane
                FloatLanes& pdfW)
 {
     if (rows)
-        evalLanes<true>(bsdfs, rows[0].albedo.data(), rows[1].albedo.data(), normal, wo, wi, lanes,
-                        fCos, pdfW);
+        evalLanes<true>(bsdfs, rows, normal, wo, wi, lanes, fCos, pdfW);
     else
-        evalLanes<false>(bsdfs, nullptr, nullptr, normal, wo, wi, lanes, fCos, pdfW);
+        evalLanes<false>(bsdfs, nullptr, normal, wo, wi, lanes, fCos, pdfW);
 }
 
 } // namespace
@@ -111,7 +112,7 @@ BsdfLanes bsdfLanes(const Bsdf* bsdfs, LaneMask lanes)
     BsdfLanes result;
     for (int i = 0; i < kLanes; ++i)
     {
-        const Bsdf& bsdf = bsdfs[(lanes >> i) & 1u ? i : __builtin_ctz(lanes)];
+        const Bsdf& bsdf = bsdfs[(lanes >> i) & 1u ? i : firstLane(lanes)];
         const bool coated = bsdf.coat > 0.0f && bsdf.diffuse != Vec3(0.0f);
         setLane(result.diffuse, i, bsdf.diffuse);
         setLane(result.reflectance, i, bsdf.reflectance);
@@ -135,13 +136,10 @@ void evalBsdfLanes(const BsdfLanes& bsdfs, const Vec3Lanes& normal, const Vec3La
     pdfW = {};
     for (LaneMask left = lanes, same; left; left &= ~same) // once, where lanes are of one material
     {
-        const CoatAlbedoRow* rows = bsdfs.coatRows[__builtin_ctz(left)];
+        const CoatAlbedoRow* rows = bsdfs.coatRows[firstLane(left)];
         same = 0;
-        for (LaneMask others = left; others; others &= others - 1)
-        {
-            const int i = __builtin_ctz(others);
+        for (const int i : lanesIn(left))
             same |= static_cast<LaneMask>(bsdfs.coatRows[i] == rows) << i;
-        }
         evalAlike(bsdfs, rows, normal, wo, wi, same, fCos, pdfW);
     }
 }

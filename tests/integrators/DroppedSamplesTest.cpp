@@ -17,10 +17,10 @@ TEST_CASE("dropped samples: each value and channel that is none, and no other", 
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     const float none[] = {kNan, kInf, -kInf, std::numeric_limits<float>::max(), -1e31f};
     TileRgba rgba;
-    const auto diagnostics = std::make_unique<TileDiagnostics>();
+    const auto debug = std::make_unique<DebugOutputs>();
     TileResult result;
     result.rgba = rgba;
-    result.diagnostics = diagnostics.get();
+    result.debug = debug.get();
     const auto valueOf = [](int b, int i) { return static_cast<float>(1 + b * kLanes + i); };
     // Every other pixel is bad in one of its channels.
     uint64_t bad = 0;
@@ -48,7 +48,7 @@ TEST_CASE("dropped samples: each value and channel that is none, and no other", 
             CAPTURE(b, i);
             REQUIRE(Vec3(block.r[i], block.g[i], block.b[i]) == Vec3(expected));
             REQUIRE(block.a[i] == 0.5f);
-            REQUIRE(diagnostics->dropped[b * kLanes + i] == (dropped ? 1.0f : 0.0f));
+            REQUIRE(debug->dropped[b * kLanes + i] == (dropped ? 1.0f : 0.0f));
         }
     }
 }

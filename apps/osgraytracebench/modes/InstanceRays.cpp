@@ -138,17 +138,7 @@ using Packets = std::vector<RayBlock>;
 
 void setRay(RayBlock& block, int lane, Vec3 origin, Vec3 direction)
 {
-    block.originX[lane] = origin.x;
-    block.originY[lane] = origin.y;
-    block.originZ[lane] = origin.z;
-    block.directionX[lane] = direction.x;
-    block.directionY[lane] = direction.y;
-    block.directionZ[lane] = direction.z;
-    block.tNear[lane] = 1e-4f;
-    block.tFar[lane] = kInfinity;
-    block.mask[lane] = 0xffffffffu;
-    block.time[lane] = 0.0f;
-    block.id[lane] = block.flags[lane] = 0;
+    engine::setRay(block, lane, plainOf(origin), plainOf(direction), 1e-4f, kInfinity);
 }
 
 Packets cameraRays(bool turned)
@@ -201,7 +191,7 @@ void traceBare(RTCScene scene, const Packets& packets, bool coherent)
         block.ray = rays;
         std::memset(&block.geometry, 0xff, sizeof(block.geometry));
         std::memset(&block.instance, 0xff, sizeof(block.instance));
-        query.intersect16(kAllValid, scene, reinterpret_cast<RTCRayHit16*>(&block));
+        query.intersect(kAllValid, scene, reinterpret_cast<RTCRayHit16*>(&block));
     }
 }
 
@@ -235,7 +225,7 @@ void traceBareSingly(RTCScene scene, const Packets& packets)
                        0,
                        0};
             ray.hit.geomID = ray.hit.instID[0] = kInvalid;
-            query.intersect1(scene, &ray);
+            query.intersect(scene, &ray);
         }
 }
 
@@ -252,7 +242,7 @@ void shadowBare(RTCScene scene, const Packets& packets)
 {
     QueryArguments query(false, nullptr);
     for (RayBlock block : packets)
-        query.occluded16(kAllValid, scene, reinterpret_cast<RTCRay16*>(&block));
+        query.occluded(kAllValid, scene, reinterpret_cast<RTCRay16*>(&block));
 }
 
 void shadowOurs(const Intersector& intersector, const Packets& packets)

@@ -70,14 +70,14 @@ void DebugIntegrator::showDiagnostics(const PassContext& context, int left, int 
     PassContext inner = context;
     inner.options.integrator =
         chooseIntegrator(IntegratorKind::Automatic, context.traced->traits());
-    TileDiagnostics diagnostics;
-    result.diagnostics = &diagnostics;
+    DebugOutputs debug;
+    result.debug = &debug;
     _newIntegrator(inner.options.integrator)->renderTile(inner, left, bottom, result);
-    result.diagnostics = nullptr;
+    result.debug = nullptr;
     const bool cost = context.options.debugChannel == DebugChannel::Cost;
     for (int pixel = 0; pixel < kTilePixels; ++pixel)
     {
-        const float value = cost ? diagnostics.rays[pixel] / kFullCost : diagnostics.dropped[pixel];
+        const float value = cost ? debug.rays[pixel] / kFullCost : debug.dropped[pixel];
         RgbaLanes& block = result.rgba[pixel / kLanes];
         block.r[pixel % kLanes] = block.g[pixel % kLanes] = block.b[pixel % kLanes] = value;
         block.a[pixel % kLanes] = 1.0f;
@@ -114,7 +114,7 @@ void DebugIntegrator::renderTile(const PassContext& context, int left, int botto
             result.rgba[b].g[i] = color.y;
             result.rgba[b].b[i] = color.z;
             result.rgba[b].a[i] = hit ? 1.0f : 0.0f;
-            result.depth[b * kLanes + i] = depth[i];
+            result.firstHits.depth[b * kLanes + i] = depth[i];
         }
     }
 }

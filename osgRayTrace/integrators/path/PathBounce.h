@@ -27,20 +27,27 @@ OSGRAYTRACE_INLINE float powerHeuristic(float a, float b)
 
 constexpr int kRouletteBounce = 3; ///< paths are not ended by chance before this bounce
 
-/// Sums of the tile, pixel by pixel; from kReused on those of reused paths.
+/// Sums of the tile, pixel by pixel; after them those of reused paths. See PathFlags::sum.
 struct PixelSums
 {
-    float r[kReused + kTilePixels] = {};
-    float g[kReused + kTilePixels] = {};
-    float b[kReused + kTilePixels] = {};
+    float r[2 * kTilePixels] = {};
+    float g[2 * kTilePixels] = {};
+    float b[2 * kTilePixels] = {};
     float a[kTilePixels] = {};
 
-    void add(uint32_t pixelBits, Vec3 radiance)
+    void add(PathFlags path, Vec3 radiance)
     {
-        const uint32_t pixel = pixelBits & kPixelBits;
-        r[pixel] += radiance.x;
-        g[pixel] += radiance.y;
-        b[pixel] += radiance.z;
+        const uint32_t sum = path.sum();
+        r[sum] += radiance.x;
+        g[sum] += radiance.y;
+        b[sum] += radiance.z;
+    }
+
+    /// The light that the reused path of a pixel has found from its second surface on.
+    Vec3 reused(PathFlags path) const
+    {
+        const uint32_t sum = path.reused().sum();
+        return Vec3(r[sum], g[sum], b[sum]);
     }
 };
 
@@ -52,17 +59,19 @@ struct Tile
         : context(c),
           result(r),
           counts(r.counts),
-          diagnostics(r.diagnostics),
+          debug(r.debug),
           deltaLights(sampledDeltaLights(c)),
           left(l),
           bottom(b)
     {
     }
 
+    bool looksUpPhotons() const { return context.photons && context.photonUse != PhotonUse::None; }
+
     const PassContext& context;
     TileResult& result;
     TileCounts& counts;
-    TileDiagnostics* diagnostics;
+    DebugOutputs* debug;
     SampledLights deltaLights; ///< of the pass
     int left, bottom;
     PixelSums sums;

@@ -42,9 +42,8 @@ void sampleOneStratum(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMa
     LightLanes samples;
     samples.lit = 0;
     LaneMask lit = 0;
-    for (LaneMask m = lanes; m; m &= m - 1)
+    for (const int i : lanesIn(lanes))
     {
-        const int i = __builtin_ctz(m);
         stratumLanes(strata[chosen[i]], static_cast<float>(count), bounce.surface, 1u << i,
                      bounce.transmissive, samples);
         lit |= samples.lit;
@@ -87,19 +86,18 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
     const PlacedEnvironment* environment = tile.context.traced->lights().shiningEnvironment();
     if (number == 0 && !visibleEnvironment(tile.context))
         return; // the clear colour is not ours to add
-    for (; missed; missed &= missed - 1)
+    for (const int i : lanesIn(missed))
     {
-        const int i = __builtin_ctz(missed);
+        const PathFlags path = block.flagsOf(i);
         const Vec3 throughput = laneOf(block.throughput, i);
-        if (number == 0) tile.sums.a[block.pixel[i] & kPixelBits] = 1.0f;
-        if (!(block.pixel[i] & kScattered))
+        if (number == 0) tile.sums.a[path.pixel()] = 1.0f;
+        if (!path.isScattered())
         {
-            tile.sums.add(block.pixel[i],
-                          throughput * radianceBehind(tile.context, block.rays.ray, i));
+            tile.sums.add(path, throughput * radianceBehind(tile.context, block.rays.ray, i));
             continue;
         }
         if (!environment) continue; // a backdrop is no light
-        if (use == PhotonUse::Caustics && (block.pixel[i] & kCausticChain)) continue; // of photons
+        if (use == PhotonUse::Caustics && path.isOnCausticChain()) continue; // of photons
         const bool sampled = block.pdfW[i] < kInfinity;
         if (sampled && tile.context.strata) continue; // they hold all of it
         const Vec3 direction = directionOf(block.rays.ray, i);
@@ -107,7 +105,7 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
             sampled ? powerHeuristic(block.pdfW[i],
                                      environmentPdfW(tile.context, *environment, direction))
                     : 1.0f;
-        tile.sums.add(block.pixel[i], throughput * environment->radiance(direction) * weight);
+        tile.sums.add(path, throughput * environment->radiance(direction) * weight);
     }
 }
 

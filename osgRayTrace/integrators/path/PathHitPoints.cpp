@@ -43,12 +43,9 @@ void restore(const HitPoints& hits, const HitPointBlock& points, PathBlock& bloc
     block.rays.ray.directionY = points.direction.y;
     block.rays.ray.directionZ = points.direction.z;
     block.seed = points.seed;
-    block.pixel = points.pixel;
-    for (LaneMask lanes = bounce.general; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
+    block.flags = points.flags;
+    for (const int i : lanesIn(bounce.general))
         bounce.bsdfs[i] = hits.bsdfs[points.bsdf[i]];
-    }
 }
 
 /// A block with room for a point after so many bounces.
@@ -81,7 +78,7 @@ void keepLane(HitPointBlock& points, int to, const PathBlock& block, const Bounc
     points.material[to] = surface.material[i];
     points.instance[to] = surface.instance[i];
     points.seed[to] = block.seed[i];
-    points.pixel[to] = block.pixel[i];
+    points.flags[to] = block.flags[i];
     points.bsdf[to] = bsdf;
 }
 
@@ -89,9 +86,8 @@ void keepLane(HitPointBlock& points, int to, const PathBlock& block, const Bounc
 
 void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits)
 {
-    for (LaneMask lanes = bounce.diffuse | bounce.general; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(bounce.diffuse | bounce.general))
     {
-        const int i = __builtin_ctz(lanes);
         uint32_t kept = kInvalid;
         if (!((bounce.diffuse >> i) & 1u))
         {

@@ -37,9 +37,8 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
     facingNormalLanes(block.rays.ray, bounce.surface, bounce.normal);
     const MaterialTable& materials = tile.context.traced->materials();
     bounce.diffuse = bounce.general = bounce.smooth = bounce.transmissive = 0;
-    for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(bounce.surface.hits))
     {
-        const int i = __builtin_ctz(lanes);
         const MaterialRecord& record = materials[bounce.surface.material[i]];
         if (record.plainDiffuse)
         {
@@ -71,7 +70,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     const Coherence coherence = number == 0 ? Coherence::Coherent : Coherence::Incoherent;
     traced.intersector().closestHits(block.rays, block.active, coherence,
                                      number == 0 ? kCameraRays : HitRule());
-    const auto rays = static_cast<uint64_t>(__builtin_popcount(block.active));
+    const auto rays = static_cast<uint64_t>(countLanes(block.active));
     (number == 0 ? tile.counts.cameraRays : tile.counts.secondaryRays) += rays;
     countRays(tile, block, block.active);
 
@@ -85,9 +84,9 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     if (number == 0)
     {
         recordFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface,
-                        tile.result);
-        for (LaneMask lanes = bounce.surface.hits; lanes; lanes &= lanes - 1)
-            tile.sums.a[block.pixel[__builtin_ctz(lanes)] & kPixelBits] = 1.0f;
+                        tile.result.firstHits);
+        for (const int i : lanesIn(bounce.surface.hits))
+            tile.sums.a[block.flagsOf(i).pixel()] = 1.0f;
     }
     if (last)
     {
@@ -102,7 +101,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     }
     if (number == 1 && tile.reuse.active) reusePaths(tile, block, bounce);
     if (use != PhotonUse::None) chooseGathering(block, bounce, use);
-    if (HitPoints* hits = tile.result.hitPoints)
+    if (HitPoints* hits = tile.result.photons.hitPoints)
         keepHitPoints(block, bounce, *hits);
     else
     {
@@ -126,7 +125,7 @@ void tracePaths(Tile& tile, PhotonUse use)
             setLane(block.throughput, i, Vec3(1.0f));
             block.pdfW[i] = kInfinity;
             block.etaScale[i] = 1.0f;
-            block.pixel[i] = static_cast<uint32_t>(b * kLanes + i);
+            block.flags[i] = PathFlags::ofPixel(static_cast<uint32_t>(b * kLanes + i)).word();
         }
         block.active = kAllLanes;
     }
@@ -169,7 +168,7 @@ void readSums(const RgbaLanes* rgba, Tile& tile)
 /// found, until the pass has other paths.
 void gatherOnly(Tile& tile, PhotonUse use)
 {
-    HitPoints& hits = *tile.result.hitPoints;
+    HitPoints& hits = *tile.result.photons.hitPoints;
     const uint32_t paths = tile.context.pathKey.index;
     if (hits.paths == paths)
         readSums(hits.seen.data(), tile);
@@ -193,7 +192,7 @@ void PathIntegrator::renderTile(const PassContext& context, int left, int bottom
 {
     Tile tile(context, left, bottom, result);
     const PhotonUse use = context.photons ? context.photonUse : PhotonUse::None;
-    if (result.hitPoints)
+    if (result.photons.hitPoints)
         gatherOnly(tile, use);
     else
         tracePaths(tile, use);

@@ -11,9 +11,9 @@ namespace osgRayTrace::engine
 
 void countRays(Tile& tile, const PathBlock& block, LaneMask lanes)
 {
-    if (!tile.diagnostics) return;
-    for (; lanes; lanes &= lanes - 1)
-        tile.diagnostics->rays[block.pixel[__builtin_ctz(lanes)] & (kTilePixels - 1)] += 1.0f;
+    if (!tile.debug) return;
+    for (const int i : lanesIn(lanes))
+        tile.debug->rays[block.flagsOf(i).pixel()] += 1.0f;
 }
 
 OSGRAYTRACE_KERNEL
@@ -33,9 +33,8 @@ void dimensionPoints(const UintLanes& seeds, uint32_t passIndex, uint32_t dimens
 void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface, PhotonUse use)
 {
     const TracedScene& traced = *tile.context.traced;
-    for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(surface.hits))
     {
-        const int i = __builtin_ctz(lanes);
         if (!traced.materials()[surface.material[i]].emits) continue;
         const Vec3 emission = emissionTowardsRay(tile.context, block.rays, surface, i);
         if (emission == Vec3(0.0f)) continue;
@@ -43,7 +42,7 @@ void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface
         const uint32_t light = traced.surfaces()[surface.instance[i]].light;
         if (light != kInvalid && traced.lights().areaLightPmf(light) > 0.0f)
         {
-            if (use == PhotonUse::Caustics && (block.pixel[i] & kCausticChain))
+            if (use == PhotonUse::Caustics && block.flagsOf(i).isOnCausticChain())
                 continue; // of photons
             const Vec3 direction = directionOf(block.rays.ray, i);
             const float cosThetaL =
@@ -53,7 +52,7 @@ void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface
                 traced.lights().pdfArea(light, block.rays.ray.tFar[i], cosThetaL);
             weight = powerHeuristic(block.pdfW[i], pdfLight);
         }
-        tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * emission * weight);
+        tile.sums.add(block.flagsOf(i), laneOf(block.throughput, i) * emission * weight);
     }
 }
 
@@ -93,11 +92,8 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
         Vec3Lanes radiance;
         diffuseLight(bounce.normal, bounce.albedo, light, visible & bounce.diffuse,
                      block.throughput, (visible & bounce.diffuse & withoutMis) != 0, radiance);
-        for (LaneMask lanes = visible & bounce.diffuse; lanes; lanes &= lanes - 1)
-        {
-            const int i = __builtin_ctz(lanes);
-            tile.sums.add(block.pixel[i], laneOf(radiance, i));
-        }
+        for (const int i : lanesIn(visible & bounce.diffuse))
+            tile.sums.add(block.flagsOf(i), laneOf(radiance, i));
     }
     const LaneMask general = visible & bounce.general;
     if (!general) return;
@@ -105,15 +101,14 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
     FloatLanes pdfW;
     evalTowardsLight(block.rays.ray, bounce.surface, bounce.normal, bounce.bsdfs, light.wi, general,
                      fCos, pdfW);
-    for (LaneMask lanes = general; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(general))
     {
-        const int i = __builtin_ctz(lanes);
         if (!(pdfW[i] > 0.0f)) continue;
         const float mis =
             (withoutMis >> i) & 1u ? 1.0f : powerHeuristic(1.0f, pdfW[i] * light.weight[i]);
         const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
-        tile.sums.add(block.pixel[i], laneOf(block.throughput, i) * laneOf(fCos, i) * radiance *
-                                          (light.weight[i] * mis));
+        tile.sums.add(block.flagsOf(i), laneOf(block.throughput, i) * laneOf(fCos, i) * radiance *
+                                            (light.weight[i] * mis));
     }
 }
 
@@ -124,7 +119,7 @@ void sampleOneLight(Tile& tile, PathBlock& block, const Bounce& bounce, uint32_t
                     LaneMask lanes, const FloatLanes& u, const FloatLanes& v)
 {
     LightLanes samples;
-    areaLightLanes(tile.context, light, pmf, bounce.surface, lanes, bounce.transmissive, u, v,
+    areaLightLanes(tile.context, light, pmf, {bounce.surface, lanes, bounce.transmissive, u, v},
                    samples);
     countRays(tile, block, samples.lit);
     const LaneMask visible = visibleLanes(tile.context, samples, tile.counts);
@@ -156,7 +151,7 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
             dimensionPoints(seedsOfLight(seeds, index), tile.context.key.index,
                             bounceDimension(bounce.number, DimensionLightPoint), u, v);
         LightLanes samples;
-        deltaLightLanes(tile.context, index, bounce.surface, lanes, bounce.transmissive, u, v,
+        deltaLightLanes(tile.context, index, {bounce.surface, lanes, bounce.transmissive, u, v},
                         samples);
         for (int i = 0; i < kLanes; ++i)
             samples.weight[i] *= weight;
@@ -181,15 +176,14 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
                     bounceDimension(bounce.number, DimensionLightChoice), choice, unused);
     LaneMask open = lanes;
     LightTable::Choice chosen[kLanes];
-    for (LaneMask m = lanes; m; m &= m - 1)
-        chosen[__builtin_ctz(m)] = table.chooseAreaLight(choice[__builtin_ctz(m)]);
+    for (const int i : lanesIn(lanes))
+        chosen[i] = table.chooseAreaLight(choice[i]);
     while (open)
     {
-        const LightTable::Choice& first = chosen[__builtin_ctz(open)];
+        const LightTable::Choice& first = chosen[firstLane(open)];
         LaneMask same = 0;
-        for (LaneMask m = open; m; m &= m - 1)
-            same |= static_cast<LaneMask>(chosen[__builtin_ctz(m)].light == first.light)
-                    << __builtin_ctz(m);
+        for (const int i : lanesIn(open))
+            same |= static_cast<LaneMask>(chosen[i].light == first.light) << i;
         sampleOneLight(tile, block, bounce, first.light, first.pmf, same, u, v);
         open &= ~same;
     }

@@ -50,7 +50,9 @@ PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bou
     queries.lanes = bounce.gathering;
     for (const int i : lanesIn(bounce.gathering))
     {
-        float& radius = tile.result.gathered->radius[block.pixel[i] & kPixelBits];
+        const PathFlags path = block.flagsOf(i);
+        OSGRAYTRACE_ASSERT(!path.isReused()); // it has taken photons: chooseGathering left it out
+        float& radius = tile.result.photons.gathered->radius[path.pixel()];
         if (radius == 0.0f)
             radius =
                 radiusOf(*tile.context.photons, laneOf(queries, i), tile.context.leastPhotonRadius,
@@ -92,21 +94,21 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
     bounce.terminating = use == PhotonUse::Indirect ? bounce.rough : 0u;
     if (use == PhotonUse::Indirect) return;
     for (const int i : lanesIn(bounce.gathering))
-        if (block.pixel[i] & kTaken) bounce.gathering &= ~(1u << i);
+        if (block.flagsOf(i).hasTaken()) bounce.gathering &= ~(1u << i);
     bounce.rough &= bounce.gathering;
 }
 
 void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
 {
     if (!bounce.gathering) return;
-    GatheredPhotons& gathered = *tile.result.gathered;
+    GatheredPhotons& gathered = *tile.result.photons.gathered;
     const PhotonQueryLanes queries = queriesOf(tile, block, bounce);
     PhotonSumLanes sums;
     gatherLanes(tile, queries, block, bounce, sums);
     for (const int i : lanesIn(bounce.gathering))
     {
         if (sums.count[i] == 0) continue;
-        const uint32_t pixel = block.pixel[i] & kPixelBits;
+        const uint32_t pixel = block.flagsOf(i).pixel();
         const Vec3 flux = laneOf(block.throughput, i) * laneOf(sums.power, i);
         const float discArea = kPi * queries.radius[i] * queries.radius[i];
         if (gathered.seenStride && (pixel + gathered.seenFirst) % gathered.seenStride == 0 &&
@@ -119,7 +121,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
             gathered.flux[pixel] += flux;
         }
         else
-            tile.sums.add(pixel, flux / discArea);
+            tile.sums.add(block.flagsOf(i), flux / discArea);
     }
 }
 

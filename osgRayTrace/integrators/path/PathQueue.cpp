@@ -25,7 +25,7 @@ void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
     to.pdfW[k] = from.pdfW[i];
     to.etaScale[k] = from.etaScale[i];
     to.seed[k] = from.seed[i];
-    to.pixel[k] = from.pixel[i];
+    to.flags[k] = from.flags[i];
 }
 
 } // namespace
@@ -36,11 +36,11 @@ void compactPaths(PathQueue& paths)
     for (int b = 0; b < paths.count; ++b)
     {
         PathBlock& from = paths.blocks[b];
-        for (LaneMask lanes = from.active; lanes; lanes &= lanes - 1, ++count)
+        for (const int i : lanesIn(from.active))
         {
-            const int i = __builtin_ctz(lanes);
             if (count != b * kLanes + i)
                 moveLane(from, i, paths.blocks[count / kLanes], count % kLanes);
+            ++count;
         }
     }
     paths.count = (count + kLanes - 1) / kLanes;

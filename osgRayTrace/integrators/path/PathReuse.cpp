@@ -119,13 +119,12 @@ LaneMask seeingMembers(Tile& tile, int group, LaneMask facing, int own, RayBlock
     const LaneMask asked = facing & ~(1u << own);
     if (!asked) return facing;
     tile.context.traced->intersector().occlusion(shadow, asked);
-    tile.counts.shadowRays += static_cast<uint64_t>(__builtin_popcount(asked));
+    tile.counts.shadowRays += static_cast<uint64_t>(countLanes(asked));
     LaneMask seeing = facing;
-    for (LaneMask members = asked; members; members &= members - 1)
+    for (const int i : lanesIn(asked))
     {
-        const int i = __builtin_ctz(members);
         if (!(shadow.tFar[i] >= 0.0f)) seeing &= ~(1u << i);
-        if (tile.diagnostics) tile.diagnostics->rays[tile.reuse.pixelOf(group, i)] += 1.0f;
+        if (tile.debug) tile.debug->rays[tile.reuse.pixelOf(group, i)] += 1.0f;
     }
     return seeing;
 }
@@ -134,7 +133,7 @@ LaneMask seeingMembers(Tile& tile, int group, LaneMask facing, int own, RayBlock
 void connectPath(Tile& tile, int group, int own, Vec3 radiance, Vec3Lanes& shares)
 {
     const FirstSurfaces& x = tile.reuse.first[group];
-    const int pixel = tile.reuse.pixelOf(group, own);
+    const uint32_t pixel = tile.reuse.pixelOf(group, own);
     FloatLanes density;
     RayBlock shadow;
     const LaneMask facing = densitiesOf(x, tile.reuse.second[pixel], density, shadow);
@@ -143,39 +142,31 @@ void connectPath(Tile& tile, int group, int own, Vec3 radiance, Vec3Lanes& share
     if (sum > 0.0f)
         shareOut(x, density, radiance / sum, shares);
     else // rounding: the path exists
-        tile.sums.add(static_cast<uint32_t>(pixel), laneOf(x.albedo, own) * radiance);
-}
-
-bool isFinite(Vec3 radiance)
-{
-    return std::fabs(radiance.x) < kInfinity && std::fabs(radiance.y) < kInfinity &&
-           std::fabs(radiance.z) < kInfinity;
+        tile.sums.add(PathFlags::ofPixel(pixel), laneOf(x.albedo, own) * radiance);
 }
 
 void connectGroup(Tile& tile, int group)
 {
     Vec3Lanes shares = {};
-    for (LaneMask members = tile.reuse.reused[group]; members; members &= members - 1)
+    for (const int own : lanesIn(tile.reuse.reused[group]))
     {
-        const int own = __builtin_ctz(members);
-        const int pixel = tile.reuse.pixelOf(group, own);
-        const Vec3 radiance = Vec3(tile.sums.r[kReused + pixel], tile.sums.g[kReused + pixel],
-                                   tile.sums.b[kReused + pixel]);
+        const PathFlags path = PathFlags::ofPixel(tile.reuse.pixelOf(group, own));
+        const Vec3 radiance = tile.sums.reused(path);
         if (radiance == Vec3(0.0f)) continue;
         if (isFinite(radiance))
             connectPath(tile, group, own, radiance, shares);
         else // dropped and counted, alone
-            tile.sums.add(static_cast<uint32_t>(pixel), radiance);
+            tile.sums.add(path, radiance);
     }
     for (int i = 0; i < kTileBlocks; ++i)
-        tile.sums.add(static_cast<uint32_t>(tile.reuse.pixelOf(group, i)), laneOf(shares, i));
+        tile.sums.add(PathFlags::ofPixel(tile.reuse.pixelOf(group, i)), laneOf(shares, i));
 }
 
 } // namespace
 
 void beginReuse(Tile& tile, PhotonUse use)
 {
-    const GatheredPhotons* gathered = tile.result.gathered;
+    const GatheredPhotons* gathered = tile.result.photons.gathered;
     tile.reuse.active = use != PhotonUse::Indirect && !(gathered && gathered->separate);
     const PassKey& key = tile.context.key;
     const uint32_t seed =
@@ -186,10 +177,9 @@ void beginReuse(Tile& tile, PhotonUse use)
 
 void recordFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
 {
-    for (LaneMask lanes = bounce.diffuse & ~bounce.terminating & ~bounce.surface.terminatorLanes;
-         lanes; lanes &= lanes - 1)
+    for (const int i :
+         lanesIn(bounce.diffuse & ~bounce.terminating & ~bounce.surface.terminatorLanes))
     {
-        const int i = __builtin_ctz(lanes);
         FirstSurfaces& first =
             tile.reuse.first[tile.reuse.groupOf(static_cast<uint32_t>(b * kLanes + i))];
         first.lanes |= 1u << b;
@@ -203,11 +193,9 @@ void recordFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
 
 void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce)
 {
-    for (LaneMask lanes = bounce.diffuse & ~bounce.surface.terminatorLanes; lanes;
-         lanes &= lanes - 1)
+    for (const int i : lanesIn(bounce.diffuse & ~bounce.surface.terminatorLanes))
     {
-        const int i = __builtin_ctz(lanes);
-        const uint32_t pixel = block.pixel[i] & kPixelBits;
+        const uint32_t pixel = block.flagsOf(i).pixel();
         const int group = tile.reuse.groupOf(pixel);
         const uint32_t own = pixel / kLanes;
         if (!((tile.reuse.first[group].lanes >> own) & 1u)) continue;
@@ -216,7 +204,8 @@ void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce)
         tile.reuse.second[pixel] = {laneOf(bounce.surface.position, i), normal,
                                     bounce.surface.offset[i]};
         tile.reuse.reused[group] |= 1u << own;
-        block.pixel[i] |= kReused;
+        block.flags[i] = block.flagsOf(i).reused().word();
+        OSGRAYTRACE_ASSERT(block.flagsOf(i).hasTaken() || !tile.looksUpPhotons());
         // Roulette goes on as if the path were still its own pixel's alone.
         const Vec3 throughput = laneOf(block.throughput, i);
         block.etaScale[i] *= std::max(throughput.x, std::max(throughput.y, throughput.z));

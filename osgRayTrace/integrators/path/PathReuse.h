@@ -8,10 +8,6 @@
 namespace osgRayTrace::engine
 {
 
-/// Set in the pixel of a path from its second surface on if others get the light that it finds
-/// there, too: the sums of such paths are apart.
-constexpr uint32_t kReused = 0x100u;
-
 /// Pixels share paths in groups, one pixel of each of the tile's blocks: pixels that
 /// share samples share their error, and next to each other they would look like a coarser picture.
 /// Which pixel of a block is in which group is random, but the same in all passes of a half: the
@@ -40,9 +36,9 @@ struct ReuseGroups
     {
         return static_cast<int>((pixel ^ turn[pixel / kLanes]) % kLanes);
     }
-    int pixelOf(int group, int block) const
+    uint32_t pixelOf(int group, int block) const
     {
-        return block * kLanes + (group ^ static_cast<int>(turn[block]));
+        return static_cast<uint32_t>(block * kLanes + (group ^ static_cast<int>(turn[block])));
     }
 
     bool active = false;

@@ -18,72 +18,65 @@ namespace
 /// Cornell box, where 0.33 to 0.5 are equally good.
 constexpr float kRouletteThroughput = 0.4f;
 
-/// Next directions of diffuse lanes: vector code. Weight is the albedo, pdfW = cos/pi. Returns the
-/// lanes whose direction is one that light comes from: see isAbove.
+/// The ray of each lane that goes on.
+struct NextRays
+{
+    Vec3Lanes wi, origin;
+    FloatLanes tNear, pdfW;
+    Vec3Lanes weight; ///< times the throughput is that of the next ray
+};
+
+OSGRAYTRACE_INLINE uint32_t diffuseDirection(const Vec3Lanes& normals, const SurfaceLanes& surface,
+                                             int i, float u, float v, NextRays& next)
+{
+    const PlainVec3 local = squareToCosineHemispherePlain(u, v);
+    const PlainVec3 wi = toWorld(frameOf(plainOf(normals, i)), local);
+    setLane(next.wi, i, wi);
+    next.pdfW[i] = local.z * kInvPi;
+    const PlainVec3 facet = plainOf(surface.geometricNormal, i);
+    const float above = dot(wi, facet);
+    const bool steep = above > surface.minCosine[i];
+    const float offset = select(steep, 0.0f, surface.offset[i]);
+    setLane(next.origin, i, mad(facet, offset, plainOf(surface.position, i)));
+    next.tNear[i] = select(steep, surface.offset[i] / std::max(above, surface.minCosine[i]), 0.0f);
+    const uint32_t leaves = maskOf(above > 0.0f) | laneBit(surface.terminatorLanes, i);
+    return leaves & maskOf(local.z > 0.0f);
+}
+
+/// Next directions of diffuse lanes: vector code. pdfW = cos/pi. Returns the lanes whose direction
+/// is one that light comes from: see isAbove.
 OSGRAYTRACE_KERNEL
 LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface,
-                           const FloatLanes& u, const FloatLanes& v, Vec3Lanes& wi,
-                           Vec3Lanes& origin, FloatLanes& tNear, FloatLanes& pdfW)
+                           const FloatLanes& u, const FloatLanes& v, NextRays& next)
 {
-    const LaneMask terminatorLanes = surface.terminatorLanes;
     LaneMask alive = 0;
     OSGRAYTRACE_SIMD_OR(alive)
     for (int i = 0; i < kLanes; ++i)
-    {
-        const float nx = normal.x[i], ny = normal.y[i], nz = normal.z[i];
-        float sine, cosine;
-        sinCosTurn(u[i], sine, cosine);
-        const float radius = std::sqrt(v[i]);
-        const float lx = radius * cosine, ly = radius * sine;
-        const float lz = std::sqrt(1.0f - v[i]);
-        const float sign = nz >= 0.0f ? 1.0f : -1.0f;
-        const float a = -1.0f / (sign + nz);
-        const float b = nx * ny * a;
-        const float wx = (1.0f + sign * nx * nx * a) * lx + b * ly + nx * lz;
-        const float wy = sign * b * lx + (sign + ny * ny * a) * ly + ny * lz;
-        const float wz = -sign * nx * lx - ny * ly + nz * lz;
-        const float gx = surface.geometricNormal.x[i], gy = surface.geometricNormal.y[i],
-                    gz = surface.geometricNormal.z[i];
-        wi.x[i] = wx;
-        wi.y[i] = wy;
-        wi.z[i] = wz;
-        pdfW[i] = lz * kInvPi;
-        const float above = wx * gx + wy * gy + wz * gz;
-        const bool steep = above > surface.minCosine[i];
-        const float offset = select(steep, 0.0f, surface.offset[i]);
-        origin.x[i] = surface.position.x[i] + gx * offset;
-        origin.y[i] = surface.position.y[i] + gy * offset;
-        origin.z[i] = surface.position.z[i] + gz * offset;
-        tNear[i] = select(steep, surface.offset[i] / std::max(above, surface.minCosine[i]), 0.0f);
-        const uint32_t leaves = maskOf(above > 0.0f) | laneBit(terminatorLanes, i);
-        alive |= bitOfLane(leaves & maskOf(lz > 0.0f), i);
-    }
+        alive |= bitOfLane(diffuseDirection(normal, surface, i, u[i], v[i], next), i);
     return alive;
 }
 
 /// The lanes at smooth interfaces; returns those that go on.
-LaneMask mirror(PathBlock& block, const Bounce& bounce, const FloatLanes& lobe, Vec3Lanes& wi,
-                Vec3Lanes& origin, FloatLanes& tNear, Vec3Lanes& weight, FloatLanes& pdfW)
+LaneMask mirror(PathBlock& block, const Bounce& bounce, const FloatLanes& lobe, NextRays& next)
 {
     if (!bounce.smooth) return 0;
     InterfaceLanes interfaces;
-    for (LaneMask lanes = bounce.smooth; lanes; lanes &= lanes - 1)
-        interfaces.set(__builtin_ctz(lanes), bounce.bsdfs[__builtin_ctz(lanes)]);
+    for (const int i : lanesIn(bounce.smooth))
+        interfaces.set(i, bounce.bsdfs[i]);
     const RayBlock& ray = block.rays.ray;
     const IncidentLanes incident{ray.directionX, ray.directionY, ray.directionZ, bounce.normal};
     const SmoothLanes sampled = sampleSmoothLanes(interfaces, incident, lobe, bounce.smooth,
-                                                  Transport::Radiance, wi, weight);
+                                                  Transport::Radiance, next.wi, next.weight);
     LaneMask alive = 0;
-    for (LaneMask lanes = sampled.alive; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(sampled.alive))
     {
-        const int i = __builtin_ctz(lanes);
         const bool transmitted = (sampled.transmitted >> i) & 1u;
-        const Vec3 direction = laneOf(wi, i);
+        const Vec3 direction = laneOf(next.wi, i);
         if (isAboveFacet(bounce.surface, i, direction) == transmitted) continue;
         const RayBegin begin = leaveFacet(bounce.surface, i, direction);
-        setLane(origin, i, begin.origin);
-        tNear[i] = begin.tNear;
-        pdfW[i] = kInfinity;
+        setLane(next.origin, i, begin.origin);
+        next.tNear[i] = begin.tNear;
+        next.pdfW[i] = kInfinity;
         if (transmitted) block.etaScale[i] *= bounce.bsdfs[i].eta * bounce.bsdfs[i].eta;
         alive |= 1u << i;
     }
@@ -144,10 +137,11 @@ LaneMask playRoulette(const FloatLanes& roulette, const FloatLanes& survival, Ve
 
 /// Sets the rays of all lanes, whether they go on or not.
 OSGRAYTRACE_KERNEL
-void spawnRays(PathBlock& block, const Vec3Lanes& origin, const FloatLanes& tNear,
-               const Vec3Lanes& wi, const Vec3Lanes& throughput, const FloatLanes& pdfW,
+void spawnRays(PathBlock& block, const NextRays& next, const Vec3Lanes& throughput,
                LaneMask gathering, LaneMask rough)
 {
+    const Vec3Lanes &origin = next.origin, &wi = next.wi;
+    const FloatLanes &tNear = next.tNear, &pdfW = next.pdfW;
     RayBlock& ray = block.rays.ray;
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
@@ -164,15 +158,8 @@ void spawnRays(PathBlock& block, const Vec3Lanes& origin, const FloatLanes& tNea
         block.throughput.z[i] = throughput.z[i];
         block.pdfW[i] = pdfW[i];
 
-        const uint32_t pixel = block.pixel[i];
-        const uint32_t taken = (pixel | laneBit(rough, i)) & kTaken;
-        const uint32_t gathered =
-            (laneBit(gathering, i) & kGathered) | (taken / kTaken * kGathered);
-        const uint32_t scattered =
-            (pixel & ~(kCausticChain | kGathered)) | kScattered | taken | gathered;
-        const uint32_t mirrored = pixel | ((0u - ((pixel / kGathered) & 1u)) & kCausticChain);
-        const uint32_t isMirrored = maskOf(!(pdfW[i] < kInfinity));
-        block.pixel[i] = (mirrored & isMirrored) | (scattered & ~isMirrored);
+        block.flags[i] = PathFlags::afterSurface(block.flags[i], laneBit(gathering, i),
+                                                 laneBit(rough, i), maskOf(!(pdfW[i] < kInfinity)));
     }
 }
 
@@ -190,16 +177,13 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
     dimensionPoints(block.seed, pass, bounceDimension(bounce.number, DimensionBsdfDirection), u, v);
     if (bounce.general) lobeAndRoulette();
 
-    Vec3Lanes wi, origin;
-    FloatLanes tNear, pdfW;
-    Vec3Lanes weight = bounce.albedo;
-    LaneMask alive =
-        diffuseDirections(bounce.normal, bounce.surface, u, v, wi, origin, tNear, pdfW) &
-        bounce.diffuse & ~bounce.terminating;
-    alive |= mirror(block, bounce, lobe, wi, origin, tNear, weight, pdfW);
-    for (LaneMask lanes = bounce.general & ~bounce.smooth; lanes; lanes &= lanes - 1)
+    NextRays next;
+    next.weight = bounce.albedo;
+    LaneMask alive = diffuseDirections(bounce.normal, bounce.surface, u, v, next) & bounce.diffuse &
+                     ~bounce.terminating;
+    alive |= mirror(block, bounce, lobe, next);
+    for (const int i : lanesIn(bounce.general & ~bounce.smooth))
     {
-        const int i = __builtin_ctz(lanes);
         const ShadingFrame frame(laneOf(bounce.normal, i));
         const Vec3 wo = frame.toLocal(-directionOf(block.rays.ray, i));
         const std::optional<BsdfSample> sample =
@@ -210,26 +194,26 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         const bool above =
             sample->delta ? isAboveFacet(surface, i, direction) : isAbove(surface, i, direction);
         if (above == sample->transmitted) continue;
-        setLane(wi, i, direction);
+        setLane(next.wi, i, direction);
         const RayBegin begin =
             sample->delta ? leaveFacet(surface, i, direction) : leave(surface, i, direction);
-        setLane(origin, i, begin.origin);
-        tNear[i] = begin.tNear;
-        setLane(weight, i, sample->weight);
-        pdfW[i] = sample->delta ? kInfinity : sample->pdfW;
+        setLane(next.origin, i, begin.origin);
+        next.tNear[i] = begin.tNear;
+        setLane(next.weight, i, sample->weight);
+        next.pdfW[i] = sample->delta ? kInfinity : sample->pdfW;
         if (sample->transmitted) block.etaScale[i] *= bounce.bsdfs[i].eta * bounce.bsdfs[i].eta;
         alive |= 1u << i;
     }
 
     Vec3Lanes throughput;
     FloatLanes survival;
-    block.active = weigh(block, weight, throughput, survival) & alive;
+    block.active = weigh(block, next.weight, throughput, survival) & alive;
     if (bounce.number + 1 >= kRouletteBounce && (lanesBelowOne(survival) & block.active))
     {
         if (!bounce.general) lobeAndRoulette();
         block.active &= playRoulette(roulette, survival, throughput);
     }
-    spawnRays(block, origin, tNear, wi, throughput, pdfW, bounce.gathering, bounce.rough);
+    spawnRays(block, next, throughput, bounce.gathering, bounce.rough);
 }
 
 } // namespace osgRayTrace::engine

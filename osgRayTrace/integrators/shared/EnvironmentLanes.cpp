@@ -46,9 +46,8 @@ void environmentLanes(const PassContext& context, const SurfaceLanes& surface, L
     const bool uniform = context.options.environmentSampling == EnvironmentSampling::Uniform;
     transmissive |= surface.terminatorLanes;
     samples.lit = 0;
-    for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(active))
     {
-        const int i = __builtin_ctz(lanes);
         const EnvironmentSample sample =
             uniform ? uniformSample(environment, u[i], v[i]) : environment.sample(u[i], v[i]);
         if (!(sample.pdfW > 0.0f)) continue;
@@ -63,9 +62,8 @@ void stratumLanes(const EnvironmentStratum& stratum, float inversePmf, const Sur
 {
     transmissive |= surface.terminatorLanes;
     samples.lit = 0;
-    for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(active))
     {
-        const int i = __builtin_ctz(lanes);
         const bool lit = setLane(surface, i, stratum.direction, (transmissive >> i) & 1u,
                                  stratum.integral, inversePmf, samples);
         samples.lit |= static_cast<LaneMask>(lit) << i;

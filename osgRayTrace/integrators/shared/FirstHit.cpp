@@ -65,9 +65,8 @@ void forEachMaterial(const PassContext& context, const SurfaceLanes& surface,
     uint32_t known = kInvalid;
     bool knownFront = false;
     decltype(valueOf(0)) value{};
-    for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(surface.hits))
     {
-        const int i = __builtin_ctz(lanes);
         const uint32_t material = surface.material[i];
         const bool front = (surface.front >> i) & 1u;
         if (material != known || front != knownFront)
@@ -131,8 +130,8 @@ void setSamples(const PassContext& context, const RayHitBlock& rays, const Surfa
 {
     const Scene& scene = context.traced->scene();
     constexpr SurfaceSample kNothing{Vec3(0.0f), kInfinity, Vec3(0.0f), 0u};
-    for (LaneMask lanes = kAllLanes & ~surface.hits; lanes; lanes &= lanes - 1)
-        samples[__builtin_ctz(lanes)] = kNothing;
+    for (const int i : lanesIn(kAllLanes & ~surface.hits))
+        samples[i] = kNothing;
     forEachMaterial(
         context, surface, isConstant,
         [&](int i) { return seenMaterial(context, rays, surface, i); },
@@ -217,21 +216,21 @@ void setSurfaces(const PassContext& context, const RayHitBlock& rays, const Surf
 /// Not inlined: most passes do not want them, and shall not pay for its stack.
 [[gnu::noinline]] static void recordSamples(const PassContext& context, int block,
                                             const RayHitBlock& rays, const SurfaceLanes& surface,
-                                            TileResult& result)
+                                            FirstHitOutputs& outputs)
 {
     Vec3Lanes normal;
     facingNormalLanes(rays.ray, surface, normal);
-    setSamples(context, rays, surface, normal, result.samples + block * kLanes);
+    setSamples(context, rays, surface, normal, outputs.samples + block * kLanes);
 }
 
 void recordFirstHits(const PassContext& context, int left, int bottom, int block,
-                     const RayHitBlock& rays, const SurfaceLanes& surface, TileResult& result)
+                     const RayHitBlock& rays, const SurfaceLanes& surface, FirstHitOutputs& outputs)
 {
     if (!context.wantsDepth) return;
     FloatLanes along;
-    depthLanes(context.camera, left, bottom, block, surface, along, result.depth + block * kLanes);
-    if (result.surfaces) setSurfaces(context, rays, surface, along, result.surfaces[block]);
-    if (result.samples) recordSamples(context, block, rays, surface, result);
+    depthLanes(context.camera, left, bottom, block, surface, along, outputs.depth + block * kLanes);
+    if (outputs.surfaces) setSurfaces(context, rays, surface, along, outputs.surfaces[block]);
+    if (outputs.samples) recordSamples(context, block, rays, surface, outputs);
 }
 
 void firstSurfaces(const PassContext& context, int left, int bottom, int block, SurfaceBlock& seen)

@@ -48,6 +48,7 @@ void firstSurfaces(const PassContext& context, int left, int bottom, int block, 
 /// What camera rays of a pass tell about their first hits, as far as it is wanted: of block's rays,
 /// through whatever points of the pixels.
 void recordFirstHits(const PassContext& context, int left, int bottom, int block,
-                     const RayHitBlock& rays, const SurfaceLanes& surface, TileResult& result);
+                     const RayHitBlock& rays, const SurfaceLanes& surface,
+                     FirstHitOutputs& outputs);
 
 } // namespace osgRayTrace::engine

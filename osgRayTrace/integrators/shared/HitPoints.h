@@ -29,7 +29,7 @@ struct HitPointBlock
     FloatLanes offset, minCosine; ///< see SurfaceLanes
     UintLanes material, instance;
     UintLanes seed;  ///< of the pixel
-    UintLanes pixel; ///< with the path's flags
+    UintLanes flags; ///< of the path
     UintLanes bsdf;  ///< index into HitPoints::bsdfs unless diffuse
     int number = 0;  ///< of bounces before
     int count = 0;

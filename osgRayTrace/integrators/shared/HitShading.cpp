@@ -76,12 +76,11 @@ void dropNotFinite(TileResult& result)
     for (int b = 0; b < kTileBlocks; ++b)
     {
         RgbaLanes& rgba = result.rgba[b];
-        for (LaneMask lanes = ~finiteLanes(rgba) & kAllLanes; lanes; lanes &= lanes - 1)
+        for (const int i : lanesIn(~finiteLanes(rgba) & kAllLanes))
         {
-            const int i = __builtin_ctz(lanes);
             rgba.r[i] = rgba.g[i] = rgba.b[i] = 0.0f;
             ++result.counts.droppedSamples;
-            if (result.diagnostics) result.diagnostics->dropped[b * kLanes + i] += 1.0f;
+            if (result.debug) result.debug->dropped[b * kLanes + i] += 1.0f;
         }
     }
 }

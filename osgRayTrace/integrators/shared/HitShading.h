@@ -52,28 +52,9 @@ struct RayBegin
     float tNear;
 };
 
-OSGRAYTRACE_INLINE void setRay(RayBlock& ray, int i, float ox, float oy, float oz, float dx,
-                               float dy, float dz, float tFar)
-{
-    ray.originX[i] = ox;
-    ray.originY[i] = oy;
-    ray.originZ[i] = oz;
-    ray.directionX[i] = dx;
-    ray.directionY[i] = dy;
-    ray.directionZ[i] = dz;
-    ray.tNear[i] = 0.0f;
-    ray.tFar[i] = tFar;
-    ray.time[i] = 0.0f;
-    ray.mask[i] = 0xffffffffu;
-    ray.id[i] = 0;
-    ray.flags[i] = 0;
-}
-
 inline void setRay(RayBlock& ray, int i, const RayBegin& begin, Vec3 direction, float tFar)
 {
-    setRay(ray, i, begin.origin.x, begin.origin.y, begin.origin.z, direction.x, direction.y,
-           direction.z, tFar);
-    ray.tNear[i] = begin.tNear;
+    setRay(ray, i, plainOf(begin.origin), plainOf(direction), begin.tNear, tFar);
 }
 
 /// Of a ray that leaves the surface towards wi: of the point itself, from where it is clear of the

@@ -16,9 +16,8 @@ void evalTowardsLight(const RayBlock& rays, const SurfaceLanes& surface, const V
     for (int i = 0; i < kLanes; ++i)
         setLane(wo, i, -directionOf(rays, i));
     LaneMask reflecting = 0, alone = 0;
-    for (; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(lanes))
     {
-        const int i = __builtin_ctz(lanes);
         const Vec3 towards = laneOf(wi, i);
         const bool above = glm::dot(towards, laneOf(normal, i)) > 0.0f;
         if (above != isAbove(surface, i, towards)) continue;
@@ -26,13 +25,12 @@ void evalTowardsLight(const RayBlock& rays, const SurfaceLanes& surface, const V
     }
     fCos = {};
     pdfW = {};
-    if (__builtin_popcount(reflecting) < kLeastBsdfLanes)
+    if (countLanes(reflecting) < kLeastBsdfLanes)
         alone |= reflecting;
     else
         evalBsdfLanes(bsdfLanes(bsdfs, reflecting), normal, wo, wi, reflecting, fCos, pdfW);
-    for (; alone; alone &= alone - 1)
+    for (const int i : lanesIn(alone))
     {
-        const int i = __builtin_ctz(alone);
         const BsdfValue value =
             evalInWorld(bsdfs[i], laneOf(normal, i), laneOf(wo, i), laneOf(wi, i));
         setLane(fCos, i, value.fCos);

@@ -14,11 +14,11 @@ namespace
 {
 
 OSGRAYTRACE_KERNEL
-void lightPoints(LightSampling strategy, uint32_t j, uint32_t n, uint32_t samples,
-                 uint32_t passIndex, uint32_t dimension, const UintLanes& seeds, FloatLanes& u,
-                 FloatLanes& v)
+void lightPoints(const LightGridLayout& grid, uint32_t j, uint32_t dimension,
+                 const UintLanes& seeds, FloatLanes& u, FloatLanes& v)
 {
-    switch (strategy)
+    const uint32_t n = grid.side, samples = grid.samples, passIndex = grid.passIndex;
+    switch (grid.strategy)
     {
     case LightSampling::Random:
         OSGRAYTRACE_SIMD
@@ -46,18 +46,18 @@ void lightPoints(LightSampling strategy, uint32_t j, uint32_t n, uint32_t sample
 } // namespace
 
 LightGrid::LightGrid(const PassContext& context, std::size_t lights)
-    : _strategy(context.options.lightSampling),
-      _samples(static_cast<uint32_t>(samplesOfEach(context.options, lights))),
-      _side(static_cast<uint32_t>(std::lround(std::sqrt(static_cast<float>(_samples))))),
-      _passIndex(context.key.index)
 {
+    const auto samples = static_cast<uint32_t>(samplesOfEach(context.options, lights));
+    const auto side = std::lround(std::sqrt(static_cast<float>(samples)));
+    _layout = {context.options.lightSampling, samples, static_cast<uint32_t>(side),
+               context.key.index};
 }
 
 void LightGrid::draw(std::size_t light, uint32_t j, const UintLanes& seeds, FloatLanes& u,
                      FloatLanes& v) const
 {
     const uint32_t dimension = bounceDimension(static_cast<int>(light), DimensionLightPoint);
-    lightPoints(_strategy, j, _side, _samples, _passIndex, dimension, seeds, u, v);
+    lightPoints(_layout, j, dimension, seeds, u, v);
 }
 
 } // namespace osgRayTrace::engine

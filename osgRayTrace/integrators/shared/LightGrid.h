@@ -7,6 +7,14 @@
 namespace osgRayTrace::engine
 {
 
+struct LightGridLayout
+{
+    LightSampling strategy;
+    uint32_t samples; ///< that a hit takes of each light in the pass
+    uint32_t side;    ///< of the square of cells
+    uint32_t passIndex;
+};
+
 /// Points by the strategy of the options, samples of them for each hit and light.
 class LightGrid
 {
@@ -15,17 +23,14 @@ public:
     LightGrid(const PassContext& context, std::size_t lights);
 
     /// Samples that a hit takes of each light in the pass.
-    uint32_t samples() const { return _samples; }
+    uint32_t samples() const { return _layout.samples; }
 
     /// Points number j, below samples(), on the light-th area light, for pixels with these seeds.
     void draw(std::size_t light, uint32_t j, const UintLanes& seeds, FloatLanes& u,
               FloatLanes& v) const;
 
 private:
-    LightSampling _strategy;
-    uint32_t _samples;
-    uint32_t _side; ///< of the square of cells
-    uint32_t _passIndex;
+    LightGridLayout _layout;
 };
 
 } // namespace osgRayTrace::engine

@@ -36,72 +36,77 @@ Quad quadOf(const Light& light, const LightTable& table, uint32_t index)
             light.twoSided,      light.radiance};
 }
 
+/// The sample of lane i. Returns all bits if the light can reach the surface.
+OSGRAYTRACE_INLINE uint32_t quadLane(const Quad& q, float inversePmf, const SurfaceLanes& surface,
+                                     int i, uint32_t transmissive, PlainVec3 l, LightLanes& samples)
+{
+    const PlainVec3 p = plainOf(surface.position, i), n = plainOf(surface.geometricNormal, i);
+    const PlainVec3 lightNormal = plainOf(q.normal);
+
+    // Which side of the light the point is on, and which side of the surface the light is on.
+    const PlainVec3 towards = p - l;
+    const float height = dot(towards, lightNormal);
+    const float lightSide = select(height >= 0.0f, q.offset, -q.offset);
+    const float above = -dot(towards, n);
+    const float offset = surface.offset[i];
+    const float surfaceSide = select(above >= 0.0f, offset, -offset);
+
+    const PlainVec3 origin = p + n * surfaceSide;
+    const PlainVec3 d = l + lightNormal * lightSide - origin;
+    const float distance = std::sqrt(dot(d, d));
+    const float perDistance = 1.0f / distance;
+
+    // The shadow ray is moved off both surfaces; the geometry term is not, or the light of large
+    // surfaces would be wrong by their error bound.
+    const float inverse = 1.0f / std::sqrt(dot(towards, towards));
+    const PlainVec3 wi = -towards * inverse;
+    setLane(samples.wi, i, wi);
+
+    const float cosL = -dot(wi, lightNormal);
+    const float cosine = select(q.twoSided, std::fabs(cosL), cosL);
+    const float weight = cosine * q.area * inverse * inverse;
+    samples.weight[i] = weight * inversePmf;
+    samples.radiance[0][i] = q.radiance.x;
+    samples.radiance[1][i] = q.radiance.y;
+    samples.radiance[2][i] = q.radiance.z;
+    setRay(samples.shadow, i, origin, d * perDistance, 0.0f, distance);
+    const uint32_t reachable = maskOf(above > 0.0f) | transmissive;
+    return maskOf(weight > 0.0f) & maskOf(weight < 1e30f) & reachable;
+}
+
+OSGRAYTRACE_INLINE PlainVec3 pointOn(const Quad& q, float u, float v)
+{
+    return {q.corner.x + u * q.edgeU.x + v * q.edgeV.x, q.corner.y + u * q.edgeU.y + v * q.edgeV.y,
+            q.corner.z + u * q.edgeU.z + v * q.edgeV.z};
+}
+
 OSGRAYTRACE_KERNEL
-LaneMask quadLanes(const Quad& quad, float pmf, const SurfaceLanes& surface, LaneMask active,
-                   LaneMask transmissive, const FloatLanes& u, const FloatLanes& v,
-                   LightLanes& samples)
+LaneMask quadLanes(const Quad& quad, float pmf, const LightReceivers& receivers,
+                   LaneMask transmissive, LightLanes& samples)
 {
     const Quad q = quad;
+    const SurfaceLanes& surface = receivers.surface;
+    const FloatLanes &u = receivers.u, &v = receivers.v;
     const float inversePmf = 1.0f / pmf;
     LaneMask lit = 0;
     OSGRAYTRACE_SIMD_OR(lit)
     for (int i = 0; i < kLanes; ++i)
-    {
-        const float px = surface.position.x[i], py = surface.position.y[i],
-                    pz = surface.position.z[i];
-        const float nx = surface.geometricNormal.x[i], ny = surface.geometricNormal.y[i],
-                    nz = surface.geometricNormal.z[i];
-        const float lx = q.corner.x + u[i] * q.edgeU.x + v[i] * q.edgeV.x;
-        const float ly = q.corner.y + u[i] * q.edgeU.y + v[i] * q.edgeV.y;
-        const float lz = q.corner.z + u[i] * q.edgeU.z + v[i] * q.edgeV.z;
-
-        // Which side of the light the point is on, and which side of the surface the light is on.
-        const float towardsX = px - lx, towardsY = py - ly, towardsZ = pz - lz;
-        const float height = towardsX * q.normal.x + towardsY * q.normal.y + towardsZ * q.normal.z;
-        const float lightSide = select(height >= 0.0f, q.offset, -q.offset);
-        const float above = -(towardsX * nx + towardsY * ny + towardsZ * nz);
-        const float offset = surface.offset[i];
-        const float surfaceSide = select(above >= 0.0f, offset, -offset);
-
-        const float ox = px + nx * surfaceSide, oy = py + ny * surfaceSide,
-                    oz = pz + nz * surfaceSide;
-        const float dx = lx + q.normal.x * lightSide - ox;
-        const float dy = ly + q.normal.y * lightSide - oy;
-        const float dz = lz + q.normal.z * lightSide - oz;
-        const float distance = std::sqrt(dx * dx + dy * dy + dz * dz);
-        const float perDistance = 1.0f / distance;
-
-        // The shadow ray is moved off both surfaces; the geometry term is not, or the light of
-        // large surfaces would be wrong by their error bound.
-        const float inverse =
-            1.0f / std::sqrt(towardsX * towardsX + towardsY * towardsY + towardsZ * towardsZ);
-        const float wx = -towardsX * inverse, wy = -towardsY * inverse, wz = -towardsZ * inverse;
-        samples.wi.x[i] = wx;
-        samples.wi.y[i] = wy;
-        samples.wi.z[i] = wz;
-
-        const float cosL = -(wx * q.normal.x + wy * q.normal.y + wz * q.normal.z);
-        const float cosine = select(q.twoSided, std::fabs(cosL), cosL);
-        const float weight = cosine * q.area * inverse * inverse;
-        samples.weight[i] = weight * inversePmf;
-        const uint32_t reachable = maskOf(above > 0.0f) | laneBit(transmissive, i);
-        lit |= bitOfLane(maskOf(weight > 0.0f) & maskOf(weight < 1e30f) & reachable, i);
-        samples.radiance[0][i] = q.radiance.x;
-        samples.radiance[1][i] = q.radiance.y;
-        samples.radiance[2][i] = q.radiance.z;
-        setRay(samples.shadow, i, ox, oy, oz, dx * perDistance, dy * perDistance, dz * perDistance,
-               distance);
-    }
-    return lit & active;
+        lit |= bitOfLane(quadLane(q, inversePmf, surface, i, laneBit(transmissive, i),
+                                  pointOn(q, u[i], v[i]), samples),
+                         i);
+    return lit & receivers.active;
 }
 
 /// A lane whose light sample is on an emissive mesh.
-bool meshLane(const PassContext& context, uint32_t light, float pmf, const SurfaceLanes& surface,
-              int i, float u, float v, bool transmissive, LightLanes& samples)
+bool meshLane(const PassContext& context, uint32_t light, float pmf,
+              const LightReceivers& receivers, int i, LightLanes& samples)
 {
     const LightTable& table = context.traced->lights();
+    const SurfaceLanes& surface = receivers.surface;
+    const bool transmissive = ((receivers.throughSurface | surface.terminatorLanes) >> i) & 1u;
     const Vec3 p = laneOf(surface.position, i);
-    const std::optional<AreaLightSample> sample = table.sampleArea(light, p, u, v);
+    const std::optional<AreaLightSample> sample =
+        table.sampleArea(light, p, receivers.u[i], receivers.v[i]);
     if (!sample) return false;
     const Vec3 n = laneOf(surface.geometricNormal, i);
     if (!transmissive && glm::dot(n, sample->wi) <= 0.0f) return false;
@@ -130,43 +135,38 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf, const Surfa
 } // namespace
 
 void areaLightLanes(const PassContext& context, uint32_t index, float pmf,
-                    const SurfaceLanes& surface, LaneMask active, LaneMask transmissive,
-                    const FloatLanes& u, const FloatLanes& v, LightLanes& samples)
+                    const LightReceivers& receivers, LightLanes& samples)
 {
+    OSGRAYTRACE_ASSERT(index < context.lights->size());
     const Light& light = (*context.lights)[index];
-    transmissive |= surface.terminatorLanes;
     if (light.kind == LightKind::Parallelogram)
     {
-        samples.lit = quadLanes(quadOf(light, context.traced->lights(), index), pmf, surface,
-                                active, transmissive, u, v, samples);
+        const LaneMask transmissive = receivers.throughSurface | receivers.surface.terminatorLanes;
+        samples.lit = quadLanes(quadOf(light, context.traced->lights(), index), pmf, receivers,
+                                transmissive, samples);
         return;
     }
     samples.lit = 0;
-    for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
-        if (meshLane(context, index, pmf, surface, i, u[i], v[i], (transmissive >> i) & 1u,
-                     samples))
-            samples.lit |= 1u << i;
-    }
+    for (const int i : lanesIn(receivers.active))
+        if (meshLane(context, index, pmf, receivers, i, samples)) samples.lit |= 1u << i;
 }
 
-void deltaLightLanes(const PassContext& context, uint32_t index, const SurfaceLanes& surface,
-                     LaneMask active, LaneMask transmissive, const FloatLanes& u,
-                     const FloatLanes& v, LightLanes& samples)
+void deltaLightLanes(const PassContext& context, uint32_t index, const LightReceivers& receivers,
+                     LightLanes& samples)
 {
+    OSGRAYTRACE_ASSERT(index < context.lights->size());
     const Light& light = (*context.lights)[index];
     const bool soft = isSoft(light);
-    transmissive |= surface.terminatorLanes;
+    const SurfaceLanes& surface = receivers.surface;
+    const LaneMask transmissive = receivers.throughSurface | surface.terminatorLanes;
     samples.lit = 0;
-    for (LaneMask lanes = active; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(receivers.active))
     {
-        const int i = __builtin_ctz(lanes);
         const Material& material = context.traced->scene().materials[surface.material[i]];
         if (!isLightEnabled(material, light.number)) continue;
         const Vec3 point = laneOf(trianglePoints(surface), i);
         const SoftLightSample sample =
-            sampleSoft(light, point, soft ? Vec2(u[i], v[i]) : Vec2(0.0f));
+            sampleSoft(light, point, soft ? Vec2(receivers.u[i], receivers.v[i]) : Vec2(0.0f));
         if (!(sample.attenuation > 0.0f)) continue;
         if (!((transmissive >> i) & 1u) &&
             glm::dot(laneOf(surface.geometricNormal, i), sample.wi) <= 0.0f)
@@ -203,7 +203,7 @@ LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCount
 {
     if (!context.options.shadows || !samples.lit) return samples.lit;
     context.traced->intersector().occlusion(samples.shadow, samples.lit);
-    counts.shadowRays += static_cast<uint64_t>(__builtin_popcount(samples.lit));
+    counts.shadowRays += static_cast<uint64_t>(countLanes(samples.lit));
     return unoccluded(samples.shadow) & samples.lit;
 }
 

@@ -29,17 +29,24 @@ inline void setSample(LightLanes& samples, int i, Vec3 wi, Vec3 radiance, float 
     samples.weight[i] = weight;
 }
 
-/// Point (u, v) of area light number light for the lanes of active. Lanes whose geometric normal
-/// faces away from the light are left out unless throughSurface has them: these get light from
-/// behind, too. pmf: probability with which each lane chose this light.
-void areaLightLanes(const PassContext& context, uint32_t light, float pmf,
-                    const SurfaceLanes& surface, LaneMask active, LaneMask throughSurface,
-                    const FloatLanes& u, const FloatLanes& v, LightLanes& samples);
+/// Surface points that ask for a light sample.
+struct LightReceivers
+{
+    const SurfaceLanes& surface;
+    LaneMask active;
+    LaneMask throughSurface; ///< lanes that get light from behind the surface, too
+    const FloatLanes &u, &v; ///< the point on the light
+};
 
-/// The same for a directional, point or spot light. u, v: not read where it has no size.
-void deltaLightLanes(const PassContext& context, uint32_t light, const SurfaceLanes& surface,
-                     LaneMask active, LaneMask throughSurface, const FloatLanes& u,
-                     const FloatLanes& v, LightLanes& samples);
+/// Point (u, v) of area light number light for the active receivers. Lanes whose geometric normal
+/// faces away from the light are left out unless throughSurface has them. pmf: probability with
+/// which each lane chose this light.
+void areaLightLanes(const PassContext& context, uint32_t light, float pmf,
+                    const LightReceivers& receivers, LightLanes& samples);
+
+/// The same for a directional, point or spot light. u, v: not read if the light has no size.
+void deltaLightLanes(const PassContext& context, uint32_t light, const LightReceivers& receivers,
+                     LightLanes& samples);
 
 /// The lanes of samples.lit that see the light. Counts the rays.
 LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts);

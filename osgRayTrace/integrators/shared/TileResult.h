@@ -21,8 +21,8 @@ struct TileCounts
     uint64_t droppedSamples = 0;
 };
 
-/// By pixel of the tile, for the debug channels: index is block * kLanes + lane.
-struct TileDiagnostics
+/// What the debug channels show, by pixel of the tile: block * kLanes + lane.
+struct DebugOutputs
 {
     float rays[kTilePixels] = {};
     float dropped[kTilePixels] = {};
@@ -66,17 +66,31 @@ struct SurfaceBlock
     UintLanes object; ///< instance + 1
 };
 
+/// What the camera rays of a pass tell about what they met first. Written if
+/// PassContext::wantsDepth.
+struct FirstHitOutputs
+{
+    float depth[kTilePixels];         ///< window depth at pixel centres
+    SurfaceBlock* surfaces = nullptr; ///< kTileBlocks; null: nobody wants them
+    SurfaceSample* samples = nullptr; ///< kTilePixels; null: nobody wants them
+};
+
+/// What lookups of photons read and write. Needed if PassContext::photonUse is not None.
+struct PhotonOutputs
+{
+    GatheredPhotons* gathered = nullptr;
+    /// Of passes that share camera paths: the paths are followed anew if pathKey is another. Null:
+    /// no passes share them.
+    HitPoints* hitPoints = nullptr;
+};
+
 struct TileResult
 {
     RgbaLanes* rgba = nullptr; ///< kTileBlocks of radiance and coverage, one sample a pixel; finite
-    float depth[kTilePixels];  ///< window depth at pixel centres; if wanted
-    SurfaceBlock* surfaces = nullptr; ///< kTileBlocks, written with depth; null: nobody wants them
-    SurfaceSample* samples = nullptr; ///< kTilePixels, written with depth; null: nobody wants them
     TileCounts counts;
-    TileDiagnostics* diagnostics = nullptr; ///< null: nobody wants them
-    GatheredPhotons* gathered = nullptr;    ///< needed if photonUse
-    HitPoints* hitPoints =
-        nullptr; ///< of passes that share camera paths: followed if pathKey is another
+    FirstHitOutputs firstHits;
+    PhotonOutputs photons;
+    DebugOutputs* debug = nullptr; ///< null: nobody wants them
 };
 
 } // namespace osgRayTrace::engine

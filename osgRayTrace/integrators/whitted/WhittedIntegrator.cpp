@@ -66,7 +66,7 @@ void classify(WhittedTile& tile, ShadingBlock& block)
     const MaterialTable& materials = tile.context.traced->materials();
     const LaneMask hits = block.surface.hits;
     if (!hits) return;
-    const uint32_t first = block.surface.material[__builtin_ctz(hits)];
+    const uint32_t first = block.surface.material[firstLane(hits)];
     const MaterialRecord& firstRecord = materials[first];
     if (firstRecord.plainDiffuse && !firstRecord.emits && !firstRecord.fixedFunction &&
         isOneMaterial(block.surface.material, hits, first))
@@ -83,9 +83,8 @@ void classify(WhittedTile& tile, ShadingBlock& block)
     const std::ptrdiff_t slot = (&block - tile.group) * kLanes;
     m.bsdfs = &tile.bsdfs[static_cast<std::size_t>(slot)];
     m.points = &tile.points[static_cast<std::size_t>(slot)];
-    for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(block.surface.hits))
     {
-        const int i = __builtin_ctz(lanes);
         const uint32_t material = block.surface.material[i];
         const MaterialRecord& record = materials[material];
         m.emissive |= static_cast<LaneMask>(record.emits || record.fixedFunction) << i;
@@ -132,9 +131,8 @@ void push(WhittedTile& tile, const ShadingBlock& block, int i, Vec3 direction, V
 void spawn(WhittedTile& tile, const ShadingBlock& block)
 {
     const LaneMaterials& m = block.materials;
-    for (LaneMask lanes = m.physical; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(m.physical))
     {
-        const int i = __builtin_ctz(lanes);
         if (block.depth[i] >= tile.context.options.maxBounces) continue;
         const ShadingFrame frame(laneOf(m.normal, i));
         const Vec3 wo = frame.toLocal(-directionOf(block.rays.ray, i));
@@ -164,12 +162,11 @@ LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
     const MaterialTable& materials = tile.context.traced->materials();
     const LaneMask hits = block.surface.hits;
     if (!hits) return 0;
-    const uint32_t first = block.surface.material[__builtin_ctz(hits)];
+    const uint32_t first = block.surface.material[firstLane(hits)];
     if (!materials[first].partial && isOneMaterial(block.surface.material, hits, first)) return 0;
     LaneMask passed = 0;
-    for (LaneMask lanes = hits; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(hits))
     {
-        const int i = __builtin_ctz(lanes);
         const uint32_t material = block.surface.material[i];
         if (!materials[material].partial || !materials[material].material->blended) continue;
         if (block.layers[i] >= kMostLayers) continue;
@@ -205,9 +202,8 @@ LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
 void addOwnLight(const WhittedTile& tile, ShadingBlock& block)
 {
     const LaneMaterials& m = block.materials;
-    for (LaneMask lanes = m.emissive; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(m.emissive))
     {
-        const int i = __builtin_ctz(lanes);
         if ((m.fixedFunction >> i) & 1u)
             addLane(block.radiance, i, litColor(tile.context, m.points[i]));
         else
@@ -260,13 +256,12 @@ void traceSecondary(WhittedTile& tile)
         tile.stack.pop_back();
     }
     traced.intersector().closestHits(block.rays, active, Coherence::Incoherent, {fromCamera, true});
-    tile.result.counts.secondaryRays += static_cast<uint64_t>(__builtin_popcount(active));
+    tile.result.counts.secondaryRays += static_cast<uint64_t>(countLanes(active));
     countRays(tile, block, active);
     surfacesOf(traced.surfaces(), block.rays, active, block.surface,
                rayStart(tile.context.options));
-    for (LaneMask lanes = active & ~block.surface.hits; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(active & ~block.surface.hits))
     {
-        const int i = __builtin_ctz(lanes);
         if (fromCamera && !seen)
             tile.uncover(block.pixel[i], block.weight.x[i]);
         else
@@ -276,11 +271,8 @@ void traceSecondary(WhittedTile& tile)
     if (!block.surface.hits) return;
     drawFirstPoints(tile, block);
     shade(tile, &block, 1);
-    for (LaneMask lanes = block.surface.hits; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
+    for (const int i : lanesIn(block.surface.hits))
         tile.add(block.pixel[i], laneOf(block.weight, i) * laneOf(block.radiance, i));
-    }
 }
 
 OSGRAYTRACE_KERNEL
@@ -350,12 +342,12 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
         ShadingBlock& block = tile.group[k];
         countRays(tile, block, kAllLanes);
         if (block.passed) weigh(block.weight, block.radiance);
-        recordFirstHits(context, left, bottom, first + k, block.rays, block.surface, tile.result);
+        recordFirstHits(context, left, bottom, first + k, block.rays, block.surface,
+                        tile.result.firstHits);
         RgbaLanes& rgba = tile.result.rgba[first + k];
         setPixels(block.radiance, block.surface.hits, rgba);
-        for (LaneMask lanes = seen ? kAllLanes & ~block.surface.hits : 0; lanes; lanes &= lanes - 1)
+        for (const int i : lanesIn(seen ? kAllLanes & ~block.surface.hits : 0))
         {
-            const int i = __builtin_ctz(lanes);
             tile.add(block.pixel[i], radianceBehind(context, block.rays.ray, i));
             rgba.a[i] = 1.0f;
         }

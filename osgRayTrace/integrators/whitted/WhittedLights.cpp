@@ -10,9 +10,9 @@ namespace osgRayTrace::engine
 
 void countRays(WhittedTile& tile, const ShadingBlock& block, LaneMask lanes)
 {
-    if (!tile.result.diagnostics) return;
-    for (; lanes; lanes &= lanes - 1)
-        tile.result.diagnostics->rays[block.pixel[__builtin_ctz(lanes)]] += 1.0f;
+    if (!tile.result.debug) return;
+    for (const int i : lanesIn(lanes))
+        tile.result.debug->rays[block.pixel[i]] += 1.0f;
 }
 
 void drawFirstPoints(const WhittedTile& tile, ShadingBlock& block)
@@ -55,9 +55,8 @@ void addGeneral(ShadingBlock& block, LaneMask visible, float scale)
     FloatLanes pdfW;
     evalTowardsLight(block.rays.ray, block.surface, block.materials.normal, block.materials.bsdfs,
                      light.wi, visible, fCos, pdfW);
-    for (LaneMask lanes = visible; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(visible))
     {
-        const int i = __builtin_ctz(lanes);
         const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
         addLane(block.radiance, i, laneOf(fCos, i) * radiance * (light.weight[i] * scale));
     }
@@ -105,8 +104,9 @@ void addAreaLights(WhittedTile& tile, ShadingBlock* blocks, int count)
                       {
                           FloatLanes u = block.firstU, v = block.firstV;
                           if (k + j > 0) grid.draw(k, j, block.seed, u, v);
-                          areaLightLanes(context, lights[k].light, 1.0f, block.surface, lanes,
-                                         block.materials.transmissive, u, v, block.light);
+                          areaLightLanes(context, lights[k].light, 1.0f,
+                                         {block.surface, lanes, block.materials.transmissive, u, v},
+                                         block.light);
                       });
         }
     }
@@ -147,20 +147,17 @@ void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float
     const Light& light = (*context.lights)[index];
     const LaneMaterials& m = block.materials;
     LightLanes& samples = block.light;
-    deltaLightLanes(context, index, block.surface, m.diffuse | m.physical | m.fixedFunction,
-                    m.transmissive, u, v, samples);
+    deltaLightLanes(context, index,
+                    {block.surface, m.diffuse | m.physical | m.fixedFunction, m.transmissive, u, v},
+                    samples);
     // Fixed-function lanes that face away get the light's ambient term only: no ray for them.
     const LaneMask reached = samples.lit;
-    for (LaneMask lanes = samples.lit & m.fixedFunction; lanes; lanes &= lanes - 1)
-    {
-        const int i = __builtin_ctz(lanes);
+    for (const int i : lanesIn(samples.lit & m.fixedFunction))
         if (glm::dot(m.points[i].normal, laneOf(samples.wi, i)) <= 0.0f) samples.lit &= ~(1u << i);
-    }
     if (light.castsShadows) countRays(tile, block, samples.lit);
     const LaneMask visible = visibleLanes(context, light, samples, tile.result.counts);
-    for (LaneMask lanes = reached & m.fixedFunction; lanes; lanes &= lanes - 1)
+    for (const int i : lanesIn(reached & m.fixedFunction))
     {
-        const int i = __builtin_ctz(lanes);
         addLight(m.points[i], light, laneOf(samples.wi, i), samples.attenuation[i] * share,
                  (visible >> i) & 1u ? samples.weight[i] : 0.0f);
     }

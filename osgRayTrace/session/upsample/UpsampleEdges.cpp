@@ -306,8 +306,8 @@ void traceUpsampled(const UpsampleSource& source, int left, int bottom, Upsample
     for (int k = 0; k < 4; ++k)
         addNeighbours(source, place, at, k & 1, k >> 1, inverseUnit, means);
     const LaneMask poor = modulate(means, hits.albedo, block.rgba, block.unlike);
-    for (LaneMask lanes = poor; lanes; lanes &= lanes - 1)
-        lookFarther(source, place, at, hits.rays.ray, __builtin_ctz(lanes), block.rgba);
+    for (const int i : lanesIn(poor))
+        lookFarther(source, place, at, hits.rays.ray, i, block.rgba);
 }
 
 } // namespace osgRayTrace::engine

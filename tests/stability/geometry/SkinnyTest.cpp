@@ -109,9 +109,8 @@ TEST_CASE("stability 7: grazing rays meet skinny triangles on them", "[stability
                 traced->intersector().closestHits(block, kAllLanes, Coherence::Incoherent);
                 SurfaceLanes surface;
                 surfacesOf(traced->surfaces(), block, kAllLanes, surface);
-                for (LaneMask lanes = surface.hits; lanes; lanes &= lanes - 1)
+                for (const int i : lanesIn(surface.hits))
                 {
-                    const int i = __builtin_ctz(lanes);
                     const Vec3d p(surface.position.x[i], surface.position.y[i],
                                   surface.position.z[i]);
                     worst = std::max(worst, distanceTo(t, p) / ulp);
