@@ -1,25 +1,28 @@
-# Checks that each include points to its own layer or one left of it, and the few rules beside that:
+# Checks that each include points to its own layer or to one left of it, and these rules:
 #   base < sampling < film < scene < shading < accel < photons < integrators < session < bridge < API
 #        < offscreen < osgPlugins < apps
-#   - inside three layers, folders have an order, too; files of the layer itself are "":
+#   - inside three layers, folders have an order, too; "" stands for files of the layer itself:
 #       bridge: common < geometry < appearance/textures < appearance/lights < appearance/materials
-#               < graph < changes < pick < convert < update
+#               < graph < changes < pick < convert < update < view
 #       session: image < denoise < upsample < "" < history < view
 #       integrators: shared < whitted, path, debug (which do not include each other) < ""
-#   - the bridge converts the classes of the API: it includes their public headers, nothing else of it
-#   - accel alone includes Embree (and apps/osgraytracebench, which measures against it)
-#   - base/Parallel.cpp alone includes TBB, session/denoise/DenoiseOidn.cpp alone Open Image Denoise
+#   - the bridge converts the classes of the API: of the API it includes the public headers alone
+#   - accel alone includes Embree (and apps/osgraytracebench, which measures against Embree)
+#   - base/Parallel.cpp alone includes TBB, session/denoise/DenoiseOidn.cpp alone includes Open Image
+#     Denoise
 #   - base to session include neither OpenSceneGraph nor OpenGL
 #   - DisplayTexture and offscreen alone call OpenGL
 #   - a public header includes only public headers, OpenSceneGraph and the C++ library
-# Usage: cmake -D ROOT=<source folder> -P CheckLayering.cmake; fails with one line for each offence.
+# Usage: cmake -D ROOT=<source folder> -P CheckLayering.cmake. The script fails with one line for each offence.
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
 set(LAYERS base sampling film scene shading accel photons integrators session bridge API offscreen osgPlugins apps)
 set(ENGINE base sampling film scene shading accel photons integrators session)
-# Folders of a layer, each of which includes those left of it. "root" is the layer's own folder.
+# Each folder of a layer may include those left of it. "root" is the layer's own folder. PEERS do not include
+# each other.
 set(FOLDERS_bridge common geometry appearance/textures appearance/lights appearance/materials
-    graph changes pick convert update view)
+    graph changes pick convert update)
 set(FOLDERS_session image denoise upsample root history view)
 set(FOLDERS_integrators shared whitted path debug root)
 set(PEERS_integrators whitted path debug)
@@ -31,7 +34,7 @@ macro(report file reason)
     message(NOTICE "${file}: ${reason}")
 endmacro()
 
-# Layer of a path below ROOT; empty if it is none of ours.
+# Sets result to the layer of a path below ROOT; empty if the path is none of ours.
 function(layer_of path result)
     set(layer "")
     if(path MATCHES "^osgRayTrace/([A-Za-z]+)/")
@@ -44,7 +47,7 @@ function(layer_of path result)
     set(${result} "${layer}" PARENT_SCOPE)
 endfunction()
 
-# Folder of a path inside its layer: "root" for the layer's own.
+# Sets result to the folder of a path inside its layer: "root" for the layer's own.
 function(room_of path layer result)
     get_filename_component(room "${path}" DIRECTORY)
     string(REGEX REPLACE "^osgRayTrace/${layer}/?" "" room "${room}")
@@ -69,7 +72,7 @@ macro(check_room file layer target)
 endmacro()
 
 macro(check_include file layer include)
-    # A path without a folder is a neighbour.
+    # A path without a folder names a file in the folder of this one.
     set(target "${include}")
     if(NOT target MATCHES "/" AND EXISTS "${ROOT}/${folder}/${target}")
         set(target "${folder}/${target}")

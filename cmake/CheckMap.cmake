@@ -1,5 +1,6 @@
 # Checks that osgRayTrace/docs/architecture.md, the map of the code, names each header of the library.
-# Usage: cmake -D ROOT=<source folder> -P CheckMap.cmake; fails and names the headers that are missing.
+# Usage: cmake -D ROOT=<source folder> -P CheckMap.cmake. The script fails and names the headers that are missing.
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
 file(READ "${ROOT}/osgRayTrace/docs/architecture.md" map)

@@ -1,5 +1,6 @@
 # Checks that osgRayTrace/docs/references.md lists each work that the code cites by a key such as [Kajiya86].
-# Usage: cmake -D ROOT=<source folder> -P CheckReferences.cmake; fails and names the keys that are missing.
+# Usage: cmake -D ROOT=<source folder> -P CheckReferences.cmake. The script fails and names the keys that are missing.
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
 file(READ "${ROOT}/osgRayTrace/docs/references.md" references)

@@ -1,5 +1,6 @@
-# Finds what the project builds on. OpenSceneGraph gets imported targets here (osgRayTrace::OSG), once,
+# Finds the libraries that the project builds on. OpenSceneGraph gets imported targets here (osgRayTrace::OSG), once,
 # because CMake's own FindOpenSceneGraph defines none; the wrapper is installed for consumers as well.
+# SPDX-License-Identifier: MIT
 include(OsgRayTraceOpenSceneGraph)
 
 find_package(embree 4 QUIET CONFIG)
@@ -11,7 +12,8 @@ find_package(glm REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
 find_package(Threads REQUIRED)
 
-# Open Image Denoise is optional: OSGRAYTRACE_HAS_OIDN. Its package takes a version of its own major one only.
+# Open Image Denoise is optional: OSGRAYTRACE_HAS_OIDN tells whether it is used. Its package accepts a wanted
+# version only of its own major version, so the version is compared here.
 set(OSGRAYTRACE_HAS_OIDN FALSE)
 if(NOT OSGRAYTRACE_OIDN)
     message(STATUS "Open Image Denoise: left out, OSGRAYTRACE_OIDN is off")

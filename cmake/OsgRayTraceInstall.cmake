@@ -1,6 +1,7 @@
-# The installed, exported package: find_package(osgRayTrace) gives osgRayTrace::osgRayTrace and
-# osgRayTrace::offscreen. Nothing in it names a library by its path on the machine that built it:
-# OpenSceneGraph is found again where the package is used.
+# Installs the exported package: find_package(osgRayTrace) gives osgRayTrace::osgRayTrace and
+# osgRayTrace::offscreen. The package names no library by its path on the machine that built it:
+# OpenSceneGraph is found again on the machine that uses the package.
+# SPDX-License-Identifier: MIT
 include(CMakePackageConfigHelpers)
 
 set(OSGRAYTRACE_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/osgRayTrace")
@@ -11,7 +12,7 @@ install(TARGETS osgRayTrace osgRayTraceOffscreen EXPORT osgRayTraceTargets
     FILE_SET generatedHeaders DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(EXPORT osgRayTraceTargets NAMESPACE osgRayTrace:: DESTINATION "${OSGRAYTRACE_PACKAGE_DIR}")
 
-# Target all_verify_interface_header_sets compiles each public header alone; a test builds it.
+# The target all_verify_interface_header_sets compiles each public header alone; a test builds the target.
 set_target_properties(osgRayTrace osgRayTraceOffscreen PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 
 configure_package_config_file(
@@ -27,10 +28,12 @@ install(FILES
     "${PROJECT_SOURCE_DIR}/cmake/OsgRayTraceOpenSceneGraph.cmake"
     DESTINATION "${OSGRAYTRACE_PACKAGE_DIR}")
 
-# One folder in which the README's commands and links work: pages, pictures, scenes and configurations.
+# The README's commands and links work in this one folder: pages, pictures, scenes and configurations.
 set(OSGRAYTRACE_SHARE_DIR "${CMAKE_INSTALL_DATADIR}/osgRayTrace")
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}")
-install(FILES osgRayTrace/docs/architecture.md osgRayTrace/docs/coverage.md osgRayTrace/docs/references.md
-    DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace/docs")
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}")
+install(FILES osgRayTrace/README.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace")
+install(DIRECTORY osgRayTrace/docs DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace")
+install(FILES tests/README.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}/tests")
+install(DIRECTORY apps/examples DESTINATION "${OSGRAYTRACE_SHARE_DIR}/apps" PATTERN build EXCLUDE)
 install(DIRECTORY data/ DESTINATION "${OSGRAYTRACE_SHARE_DIR}/data"
     PATTERN CMakeLists.txt EXCLUDE PATTERN generator EXCLUDE)

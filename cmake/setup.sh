@@ -1,20 +1,20 @@
-# setup.sh - what run.sh and test.sh share: finds the source, installs what is missing, builds.
-# Sourced by bash. Sets ROOT, the source folder.
+# setup.sh - finds the source, installs missing packages and builds, for run.sh and test.sh.
+# Bash scripts source this file. It sets ROOT, the source folder.
 # SPDX-License-Identifier: MIT
 
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-# Debian 12's names. xvfb, xauth and openscenegraph (osgviewer, osgconv) are used by the tests, gnuplot by
-# "osgraytracebench report".
+# The names are Debian 12's. The tests use xvfb, xauth and openscenegraph (osgviewer, osgconv), and
+# "osgraytracebench report" uses gnuplot. The tests of form use clang-format of this version and doxygen.
 PACKAGES=(build-essential cmake ninja-build
           libopenscenegraph-dev libembree-dev libtbb-dev libglm-dev libopenexr-dev libpng-dev libjpeg-dev
           libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri
           libcli11-dev nlohmann-json3-dev catch2 openscenegraph xvfb xauth
-          gnuplot-nox)
+          gnuplot-nox clang-format-14 doxygen graphviz)
 
 say() { printf '%s\n' "$*" >&2; }
 
-# Installs the packages that are missing: as root, or with sudo; otherwise names them and ends with 1.
+# Installs the packages that are missing, as root or with sudo; otherwise names them and ends with 1.
 install_packages()
 {
     if ! command -v dpkg-query >/dev/null; then
@@ -43,7 +43,7 @@ install_packages()
         apt-get -qq install -y --no-install-recommends "${missing[@]}" >&2
 }
 
-# build PRESET [TARGET ...]: configures and builds, everything if no target is given.
+# build PRESET [TARGET ...] configures and builds; it builds everything if no target is given.
 build()
 {
     local preset=$1

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# test.sh - builds osgRayTrace and runs the whole test suite: everything in release, tests of parts, of
-# OpenGL and of the programs and those with random input again under AddressSanitizer and UBSan, the engine's
-# threads and the drawable's under ThreadSanitizer (what that does not see of OSG: tests/RaceSuppressions.txt).
+# test.sh [release|asan|tsan ...] builds osgRayTrace and runs the test suite of the presets that are named, or
+# of all three if none is. Everything runs in release. Tests of parts, of OpenGL, of the programs and with random
+# input run again under AddressSanitizer and UBSan, and those of the threads of the engine and of the drawable
+# under ThreadSanitizer (tests/RaceSuppressions.txt names what that does not see of OSG).
+# CXX=clang++ builds with Clang, in a fresh clone; GCC is the default.
 # OSGRAYTRACE_FUZZ_SEEDS=<number> takes that many random inputs.
 # Sample models of OpenSceneGraph are found by OSG_FILE_PATH, or in a folder openscenegraph-data beside
 # or near the source; tests that need them are skipped without.
@@ -9,6 +11,18 @@
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
+[ $# -gt 0 ] || set -- release asan tsan
+for preset in "$@"; do
+    case $preset in
+    release | asan | tsan) ;;
+    *)
+        say "There are no tests of a preset '$preset'; there are those of release, asan and tsan."
+        exit 2
+        ;;
+    esac
+done
+
+case ${CXX:-} in *clang*) PACKAGES+=(clang libclang-rt-14-dev) ;; esac
 install_packages
 
 for folder in "$ROOT/../openscenegraph-data" "$ROOT/../shared/data/openscenegraph-data"; do
@@ -19,7 +33,7 @@ done
 export OSG_FILE_PATH=${OSG_FILE_PATH:-}
 say "Sample models: ${OSG_FILE_PATH:-none, tests that need them are skipped}"
 
-# check PRESET [CTEST ARGUMENT ...]
+# check PRESET [CTEST ARGUMENT ...] runs the tests of a preset.
 check()
 {
     local preset=$1
@@ -28,11 +42,19 @@ check()
     (cd "$ROOT" && ctest --preset "$preset" --parallel "$(nproc)" "$@")
 }
 
-build release
-check release
-
-build asan
-check asan -L 'unit|gl|fuzz'
-
-build tsan baseTest sessionTest displayTest viewsTest backgroundTracerTest backgroundTest
-check tsan -R '^(base|session|display|views|backgroundTracer|background)Test$'
+for preset in "$@"; do
+    case $preset in
+    release)
+        build release
+        check release
+        ;;
+    asan)
+        build asan
+        check asan -L 'unit|gl|fuzz'
+        ;;
+    tsan)
+        build tsan baseTest sessionTest displayTest viewsTest backgroundTracerTest backgroundTest
+        check tsan -R '^(base|session|display|views|backgroundTracer|background)Test$'
+        ;;
+    esac
+done

@@ -13,15 +13,15 @@ namespace osgRayTrace::engine
 {
 
 /// Puts the library folder that this plugin was loaded from first in OSG's list. OSG has plugins of
-/// its own for .exr and .hdr; which is taken depends on the order of folders alone. As the registry
-/// asks every plugin of a name that it finds for a file that one has refused, a damaged file must
-/// not find OSG's.
+/// its own for .exr and .hdr; the order of folders alone decides which plugin is taken. The
+/// registry asks every plugin of a name for a file that one has refused, so that OSG's plugin must
+/// not be found at all for a damaged file.
 inline void preferOwnFolder()
 {
     static const int ours = 0;
     Dl_info info{};
     if (!dladdr(&ours, &info) || !info.dli_fname) return;
-    // <folder>/osgPlugins-<version>/<plugin>
+    // The plugin's path is <folder>/osgPlugins-<version>/<plugin>.
     const std::filesystem::path plugins = std::filesystem::path(info.dli_fname).parent_path();
     if (!plugins.is_absolute()) return;
     osgDB::FilePathList& folders = osgDB::Registry::instance()->getLibraryFilePathList();

@@ -28,8 +28,8 @@ float shown(float radiance)
     return engine::srgbFromLinear(std::clamp(radiance, 0.0f, 1.0f));
 }
 
-/// In the order of a triangle strip: its first triangle is (corner, U, V), so the front is cross(U,
-/// V).
+/// Returns the corners in the order of a triangle strip: its first triangle is (corner, U, V), so
+/// that the front faces cross(U, V).
 std::array<osg::Vec3, 4> corners(const AreaLight& light)
 {
     const osg::Vec3& corner = light.getCorner();
@@ -37,8 +37,8 @@ std::array<osg::Vec3, 4> corners(const AreaLight& light)
             corner + light.getEdgeU() + light.getEdgeV()};
 }
 
-/// Unlit and untextured whatever the state above. A new one each time: optimizers share equal state
-/// sets.
+/// Returns state that keeps the quad unlit and untextured, whatever the state above says. Each call
+/// makes a new StateSet: optimizers share equal state sets.
 osg::ref_ptr<osg::StateSet> quadState(bool twoSided)
 {
     const auto off = osg::StateAttribute::OFF | osg::StateAttribute::PROTECTED;
@@ -55,8 +55,8 @@ osg::ref_ptr<osg::StateSet> quadState(bool twoSided)
 AreaLight::AreaLight() : _geometry(new osg::Geometry), _anchor(new osg::MatrixTransform)
 {
     // osgUtil::Optimizer folds static transforms into the geometry below them, as osgviewer has it
-    // do, and would leave this node's own vectors behind. It spares a transform that has another
-    // one below.
+    // do, and would leave this node's own vectors behind. The optimizer spares a transform that has
+    // another transform below.
     _anchor->setDataVariance(osg::Object::DYNAMIC);
     _anchor->addChild(_geometry);
 

@@ -1,6 +1,8 @@
-// DisplayTexture.cpp - a picture with depth on the screen. Layer: public API, private.
+// DisplayTexture.cpp - the shaders, and what OSG and OpenGL are told. Layer: public API, private.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/DisplayTexture.h"
+
+#include "osgRayTrace/DisplayShaders.h"
 
 #include <osg/BlendFunc>
 #include <osg/GLExtensions>
@@ -30,54 +32,6 @@ constexpr unsigned int kColorUnit = 0;
 constexpr unsigned int kDepthUnit = 1;
 constexpr unsigned int kCornerLocation = 0;
 
-// GLSL 1.20, and 3.30 for contexts that take no older one: one text, two dialects.
-constexpr const char* kVertexDialect = "#version 120\n"
-                                       "#define IN attribute\n"
-                                       "#define OUT varying\n";
-constexpr const char* kFragmentDialect = "#version 120\n"
-                                         "#define IN varying\n"
-                                         "#define SAMPLE texture2D\n"
-                                         "#define FRAGMENT gl_FragColor\n";
-constexpr const char* kCoreVertexDialect = "#version 330 core\n"
-                                           "#define IN in\n"
-                                           "#define OUT out\n";
-constexpr const char* kCoreFragmentDialect = "#version 330 core\n"
-                                             "#define IN in\n"
-                                             "#define SAMPLE texture\n"
-                                             "out vec4 fragment;\n"
-                                             "#define FRAGMENT fragment\n";
-
-constexpr const char* kVertexShader = R"(
-IN vec2 corner;
-OUT vec2 position;
-void main()
-{
-    position = 0.5 * corner + 0.5;
-    gl_Position = vec4(corner, 0.0, 1.0);
-}
-)";
-
-// gl_FragDepth is not mapped by glDepthRange, so the shader does that. Edges whose first sample
-// missed have the depth of the background, but must pass the test against it: they are drawn right
-// in front of it. A pass that shows a slice of the depths leaves the rest to others.
-constexpr const char* kFragmentShader = R"(
-uniform sampler2D osgRayTrace_color;
-uniform sampler2D osgRayTrace_depth;
-uniform vec3 osgRayTrace_depthMap; // scale, offset, background
-IN vec2 position;
-void main()
-{
-    vec4 color = SAMPLE(osgRayTrace_color, position);
-    if (color.a == 0.0) discard;
-    float traced = SAMPLE(osgRayTrace_depth, position).r;
-    float depth = traced < 1.0 ? osgRayTrace_depthMap.x * traced + osgRayTrace_depthMap.y
-                               : osgRayTrace_depthMap.z;
-    if (depth < 0.0 || depth > 1.0) discard;
-    FRAGMENT = color;
-    gl_FragDepth = gl_DepthRange.near + gl_DepthRange.diff * min(depth, 0.99999994);
-}
-)";
-
 osg::ref_ptr<osg::Program> createProgram(const std::string& vertexDialect,
                                          const std::string& fragmentDialect)
 {
@@ -103,7 +57,8 @@ osg::ref_ptr<osg::Texture2D> createTexture(osg::Image* image, GLint internalForm
     return texture;
 }
 
-/// Its lower left half covers the viewport. A generic attribute works in every profile.
+/// Returns a triangle whose lower left half covers the viewport. A generic attribute works in every
+/// profile.
 osg::ref_ptr<osg::Geometry> createTriangle()
 {
     osg::ref_ptr<osg::Vec2Array> corners = new osg::Vec2Array(osg::Array::BIND_PER_VERTEX);
@@ -127,8 +82,9 @@ bool isCoreProfile(const osg::GLExtensions& extensions)
     return (profile & GL_CONTEXT_CORE_PROFILE_BIT) != 0;
 }
 
-/// The depth of what is right in front of the background, where a buffer has fewer bits than the 24
-/// that it was chosen for. A core profile does not tell: 24 are taken for granted there.
+/// Returns the depth right in front of the background in a buffer that has fewer bits than the 24
+/// for which depth was chosen. A core profile does not tell its bits: 24 are taken for granted
+/// there.
 float inFrontOfBackground(float depth, const osg::State& state)
 {
     GLint bits = 24;
@@ -138,27 +94,28 @@ float inFrontOfBackground(float depth, const osg::State& state)
     return std::clamp(depth, unit, 1.0f - unit);
 }
 
-/// Otherwise osg::State would go on with a buffer that may have been released by then.
+/// Makes osg::State forget its vertex arrays: it would go on with a buffer that may have been
+/// released by then.
 void forgetVertexArrays(osg::State& state)
 {
     state.lazyDisablingOfVertexAttributes();
     state.applyDisablingOfVertexAttributes();
 }
 
-/// The image is applied even if osg::State thinks that the texture is bound: its values may be new,
-/// or it may stand at the address of one that is gone.
+/// Applies the image even if osg::State thinks that the texture is bound: the image's values may be
+/// new, or the texture may stand at the address of one that is gone.
 void applyTexture(osg::State& state, unsigned int unit, const osg::Texture2D& texture)
 {
     state.haveAppliedTextureAttribute(unit, osg::StateAttribute::TEXTURE);
     state.applyTextureAttribute(unit, &texture);
 }
 
-/// To the texture that is applied, of the image's size.
+/// Copies rectangles of the image to the texture that is applied, which has the image's size.
 void copyRects(osg::State& state, const osg::Image& image,
                const std::vector<engine::PixelRect>& rects)
 {
     state.unbindPixelBufferObject();
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 4); // of both formats
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4); // right for both formats
     glPixelStorei(GL_UNPACK_ROW_LENGTH, image.s());
     for (const engine::PixelRect& rect : rects)
         glTexSubImage2D(GL_TEXTURE_2D, 0, rect.x, rect.y, rect.width, rect.height,
@@ -166,8 +123,8 @@ void copyRects(osg::State& state, const osg::Image& image,
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-/// The texture as the image is: all of it, if the image is dirty or OpenGL has lost it; otherwise
-/// what is marked.
+/// Brings the texture up to the image: all of it, if the image is dirty or OpenGL has lost the
+/// texture; otherwise the marked tiles.
 void applyChanged(osg::State& state, unsigned int unit, const osg::Texture2D& texture,
                   osg::Image& image, const std::vector<uint8_t>& marks)
 {
@@ -179,7 +136,7 @@ void applyChanged(osg::State& state, unsigned int unit, const osg::Texture2D& te
         copyRects(state, image, rects);
         return;
     }
-    image.dirty(); // OpenGL has a smaller one, as it takes none that large
+    image.dirty(); // OpenGL takes no image that large and has a smaller one
     applyTexture(state, unit, texture);
 }
 
@@ -234,7 +191,7 @@ void DisplayTexture::allocate(Picture& picture, int width, int height)
 {
     if (width == picture.width && height == picture.height) return;
     picture.width = picture.height =
-        0; // until all is there: memory may suffice for some of it only
+        0; // 0 until all is allocated: memory may suffice for a part only
     picture.color->allocateImage(width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE);
     picture.depth->allocateImage(width, height, 1, GL_LUMINANCE, GL_FLOAT);
     picture.changed.reset(width, height);
@@ -269,10 +226,10 @@ void DisplayTexture::show(osg::Image* color, osg::Image* depth)
     modified();
 }
 
-/// OSG makes its lists of a context's deleted programs and shaders when the first one is deleted,
-/// in whatever thread that happens and without a lock, while the context's own thread may go
-/// through them: osg::ContextData::get() of OSG 3.6.5. Views that nobody draws any more are
-/// forgotten by the next one to draw, which may be of another context.
+/// Makes OSG create its lists of a context's deleted programs and shaders. OSG would do so when the
+/// first one is deleted, in whatever thread that happens and without a lock, while the context's
+/// own thread may go through the lists: osg::ContextData::get() of OSG 3.6.5. The next view that
+/// draws, which may be of another context, forgets the views that nobody draws any more.
 static void makeDeletionLists(osg::State& state)
 {
     const osg::ref_ptr<osg::Program> program = new osg::Program;
@@ -309,7 +266,7 @@ void DisplayTexture::applyPicture(osg::State& state)
     changed.reset(picture.width, picture.height);
 }
 
-/// Pixel by pixel where sizes agree: a linear filter rounds, and takes longer.
+/// Chooses the nearest pixel if sizes agree: a linear filter rounds and takes longer.
 void DisplayTexture::chooseFilter(const osg::State& state) const
 {
     const osg::Viewport* viewport = state.getCurrentViewport();
@@ -332,8 +289,8 @@ bool DisplayTexture::useProgram(osg::State& state) const
     {
         _shown->depth->setPixelFormat(GL_RED);
         _shown->depthTexture->setInternalFormat(GL_R32F);
-        // Elsewhere not: with it OSG 3.6 leaves the vertex buffer bound, which breaks client-side
-        // arrays.
+        // Only a core profile gets a vertex array object: OSG 3.6 leaves the vertex buffer bound
+        // with it, which breaks client-side arrays.
         _triangle->setUseVertexArrayObject(true);
     }
     state.haveAppliedAttribute(osg::StateAttribute::PROGRAM);

@@ -1,9 +1,9 @@
-// DisplayTexture.h - a picture with depth on the screen, all of OpenGL. Layer: public API, private.
+// DisplayTexture.h - a picture with depth on the screen, by OpenGL. Layer: public API, private.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/view/DepthSlices.h"
 #include "osgRayTrace/film/ChangedTiles.h"
+#include "osgRayTrace/session/view/DepthSlices.h"
 
 #include <osg/Geometry>
 #include <osg/Image>
@@ -18,11 +18,11 @@
 namespace osgRayTrace
 {
 
-/// Colour and depth of one view, drawn as a triangle that covers the viewport and writes
-/// gl_FragDepth. The objects belong to the one context that draws it. Storage here and in OpenGL is
-/// kept while the size stays, for a picture of the view's size and for one of fewer pixels, which
-/// may take turns; of a picture that changes in parts these alone are copied to OpenGL. Draw thread
-/// of that context, unless stated otherwise.
+/// Holds colour and depth of one view, drawn as a triangle that covers the viewport and writes
+/// gl_FragDepth. The objects belong to the one context that draws the view. Storage here and in
+/// OpenGL is kept while the size stays, for a picture of the view's size and for one of fewer
+/// pixels, which may take turns. If a picture changes in parts, only these parts are copied to
+/// OpenGL. Members are for the draw thread of that context, unless stated otherwise.
 class DisplayTexture
 {
 public:
@@ -30,38 +30,38 @@ public:
     DisplayTexture(const DisplayTexture&) = delete;
     DisplayTexture& operator=(const DisplayTexture&) = delete;
 
-    /// State that the drawable needs in its StateSet; what draw() sets beyond it is known to
-    /// osg::State. Premultiplied blending, a solid unculled triangle, drawn after the opaque things
-    /// of bin 0.
+    /// Returns the state that the drawable needs in its StateSet: premultiplied blending and a
+    /// solid unculled triangle, drawn after the opaque things of bin 0. osg::State knows all that
+    /// draw() sets beyond it.
     static osg::ref_ptr<osg::StateSet> createStateSet();
 
-    /// Makes room for width * height pixels; values are lost if that is a change. full: of the
-    /// view's size.
+    /// Makes room for width * height pixels; values are lost if the size changes. full: the picture
+    /// has the view's size.
     void resize(int width, int height, bool full);
 
-    /// Once, memory for pictures of full size: the system takes long to hand it out, and the frame
-    /// in which a view comes to rest has no time for that.
+    /// Allocates memory for pictures of full size, once: the system takes long to hand it out, and
+    /// the frame in which a view comes to rest has no time for that.
     void reserve(int width, int height);
     int width() const { return _shown->width; }
     int height() const { return _shown->height; }
 
-    /// To be written to, then modified(). Row 0 at the bottom. Display values, 4 bytes a pixel:
-    /// alpha is coverage, where it is 0 nothing is drawn; colours are multiplied with it. Window
-    /// depths in [0,1].
+    /// Returns the display values, to be written before a call of modified(): 4 bytes a pixel, row
+    /// 0 at the bottom. Alpha is coverage, nothing is drawn if it is 0, and colours are multiplied
+    /// with it. depth() returns window depths in [0,1].
     uint8_t* rgba() { return _shown->color->data(); }
     float* depth() { return reinterpret_cast<float*>(_shown->depth->data()); }
     void modified();
-    void modified(const engine::ChangedTiles& tiles); ///< nothing but these
+    void modified(const engine::ChangedTiles& tiles); ///< tiles: all that was modified
 
-    /// Images of equal size, allocated as resize() does it, in place of those that there are.
+    /// Puts images of equal size, allocated as resize() does it, in place of the present ones.
     void show(osg::Image* color, osg::Image* depth);
 
-    /// Fills the current viewport, whose size may be another: colours are smooth then, depths are
-    /// not, as those between two things are of neither. Depths are as the map makes them. False,
-    /// and nothing drawn, if the context has no usable GLSL.
+    /// Fills the current viewport, which may have another size than the picture: colours are then
+    /// smooth, and depths are not, because a depth between two surfaces belongs to neither. Depths
+    /// are mapped by depthMap. Returns false, and draws nothing, if the context has no usable GLSL.
     bool draw(osg::RenderInfo& renderInfo, const engine::DepthMap& depthMap);
 
-    /// Any thread that OSG calls it from; null: all contexts.
+    /// Releases OpenGL's objects in any thread that OSG calls it from; null: of all contexts.
     void releaseGLObjects(osg::State* state) const;
     void resizeGLObjectBuffers(unsigned int maxSize);
 
@@ -76,7 +76,7 @@ private:
         osg::ref_ptr<osg::Image> depth;
         osg::ref_ptr<osg::Texture2D> colorTexture;
         osg::ref_ptr<osg::Texture2D> depthTexture;
-        engine::ChangedTiles changed; ///< since the textures were as the images
+        engine::ChangedTiles changed; ///< tiles changed since the textures last held the images
     };
 
     static void allocate(Picture& picture, int width, int height);

@@ -1,9 +1,10 @@
-// DrawPass.cpp - what OSG says about the pass that is culled or drawn. Layer: public API.
+// DrawPass.cpp - reads cameras, viewports and matrices of OSG. Layer: public API.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/DrawPass.h"
 
 #include <osgRayTrace/RayTraceSettings>
 
+#include "osgRayTrace/bridge/common/ObjectIdentity.h"
 #include "osgRayTrace/bridge/common/ViewFromMatrices.h"
 
 #include <osg/ValueObject>
@@ -20,7 +21,7 @@ namespace osgRayTrace
 namespace
 {
 
-/// A number of any type that the user set.
+/// Returns the user value of a camera as a number, whatever type of number the user set.
 std::optional<double> userNumber(const osg::Camera& camera, const char* name)
 {
     float single = 0.0f;
@@ -30,6 +31,11 @@ std::optional<double> userNumber(const osg::Camera& camera, const char* name)
     if (camera.getUserValue(name, single)) return double(single);
     if (camera.getUserValue(name, whole)) return double(whole);
     return {};
+}
+
+engine::HostName hostName(const osg::Referenced* object)
+{
+    return engine::ObjectName(object).hostName();
 }
 
 } // namespace
@@ -47,8 +53,8 @@ engine::PassIdentity passIdentity(osg::RenderInfo& renderInfo, const Rectangle& 
     const osg::State& state = *renderInfo.getState();
     const auto& bins = renderInfo.getRenderBinStack();
     engine::PassIdentity pass;
-    pass.camera = renderInfo.getCurrentCamera();
-    pass.renderStage = bins.empty() ? nullptr : bins.back()->getStage();
+    pass.camera = hostName(renderInfo.getCurrentCamera());
+    pass.renderStage = hostName(bins.empty() ? nullptr : bins.back()->getStage());
     pass.contextId = state.getContextID();
     pass.frameNumber = state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0;
     pass.viewport = {viewport.x, viewport.y, viewport.width, viewport.height};
@@ -64,8 +70,8 @@ std::optional<engine::PassIdentity> passIdentity(osgUtil::CullVisitor& visitor)
         visitor.getComputeNearFarMode() != osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR)
         return std::nullopt;
     engine::PassIdentity pass;
-    pass.camera = visitor.getCurrentCamera();
-    pass.renderStage = visitor.getCurrentRenderStage();
+    pass.camera = hostName(visitor.getCurrentCamera());
+    pass.renderStage = hostName(visitor.getCurrentRenderStage());
     pass.contextId = visitor.getState() ? visitor.getState()->getContextID() : 0;
     pass.frameNumber = visitor.getFrameStamp() ? visitor.getFrameStamp()->getFrameNumber() : 0;
     pass.view = engine::viewFromMatrices(

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/view/ViewRegistry.h"
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/session/view/ViewRegistry.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include <osg/Camera>
 #include <osg/Matrixd>
@@ -28,20 +28,24 @@ struct Rectangle
     int x, y, width, height;
 };
 
-/// In pixels, as osg::Viewport gives it to OpenGL; no area if there is none.
+/// Returns the viewport in pixels, as osg::Viewport gives it to OpenGL; it has no area if there is
+/// none.
 Rectangle currentViewport(const osg::State& state);
 
-/// Of the pass that is drawn.
+/// Returns the identity of the pass that is drawn.
 engine::PassIdentity passIdentity(osg::RenderInfo& renderInfo, const Rectangle& viewport);
 
-/// Of the pass that is culled; nothing if its near and far planes are not known yet.
+/// Returns the identity of the pass that is culled; nothing if its near and far planes are not
+/// known yet.
 std::optional<engine::PassIdentity> passIdentity(osgUtil::CullVisitor& visitor);
 
-/// Distance of the near plane in the middle of the view; of orthographic views, whose near plane
-/// may be anywhere, half the height of the picture. 0 if the matrix cannot be inverted.
+/// Returns the distance of the near plane in the middle of the view, and 0 if the matrix cannot be
+/// inverted. For orthographic views, whose near plane may be anywhere, the result is half the
+/// height of the picture.
 double nearDistance(const osg::Matrixd& projection);
 
-/// The camera's own, or that of the settings, which may be for all views of the agreement.
+/// Returns the camera's own budget, or that of the settings, which may be for all views of the
+/// agreement.
 engine::FrameBudget frameBudget(const osg::Camera* camera, const RayTraceSettings& settings,
                                 const std::shared_ptr<engine::FrameAgreement>& agreement);
 

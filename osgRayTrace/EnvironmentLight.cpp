@@ -1,4 +1,4 @@
-// EnvironmentLight.cpp - the parameters of light from all around. Layer: public API.
+// EnvironmentLight.cpp - setters that refuse bad values. Layer: public API.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/EnvironmentLight>
 

@@ -17,7 +17,7 @@ constexpr FormerOption kFormerOptions[] = {
     {"photon-guiding", "aim-at-views"},
 };
 
-/// The earlier name of an option; empty if it never had another one.
+/// Returns the earlier name of an option; empty if it never had another one.
 constexpr std::string_view formerNameOf(std::string_view name)
 {
     for (const FormerOption& option : kFormerOptions)

@@ -17,8 +17,8 @@ namespace
 
 constexpr std::string_view kSwitchWords[] = {"false", "true"};
 
-/// Lower case without dashes and underscores: "light-samples", "LIGHT_SAMPLES" and "lightSamples"
-/// agree.
+/// Returns the name in lower case without dashes and underscores: "light-samples", "LIGHT_SAMPLES"
+/// and "lightSamples" agree.
 std::string plainName(std::string_view name)
 {
     std::string plain;
@@ -30,7 +30,7 @@ std::string plainName(std::string_view name)
     return plain;
 }
 
-/// False unless all of the text is one number within the range.
+/// Sets value if all of the text is one number within the range, else returns false.
 template <typename T> bool parseWithin(const std::string& text, const Range<T>& range, T& value)
 {
     const std::optional<T> number = engine::parseNumber<T>(text);
@@ -91,7 +91,8 @@ OptionRow choiceRow(const std::string& name, Words words, T (RayTraceSettings::*
     return row;
 }
 
-/// As a choice; 0 and 1, off and on, no and yes are understood too.
+/// Returns the row of an option that is true or false; its text may also be 0 and 1, off and on, no
+/// and yes.
 OptionRow switchRow(const std::string& name, bool (RayTraceSettings::*get)() const,
                     void (RayTraceSettings::*set)(bool), const std::string& help)
 {
@@ -106,7 +107,7 @@ OptionRow switchRow(const std::string& name, bool (RayTraceSettings::*get)() con
     return row;
 }
 
-/// Any text that isGood takes.
+/// Returns the row of an option that takes any text for which isGood is true.
 OptionRow textRow(const std::string& name, const std::string& range,
                   const std::string& (RayTraceSettings::*get)() const,
                   void (RayTraceSettings::*set)(const std::string&),
@@ -213,7 +214,7 @@ const std::vector<OptionRow>& optionTable()
     return *table;
 }
 
-/// Null if there is no such option.
+/// Returns the row of an option; null if there is no such option.
 const OptionRow* findRow(const std::string& name)
 {
     const std::string plain = plainName(name);

@@ -1,4 +1,4 @@
-// OptionTable.h - what options there are, by their names, ranges and words. Layer: public API.
+// OptionTable.h - the options with their names, ranges and words. Layer: public API.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -20,7 +20,7 @@ template <typename T> struct Range
     T minimum;
     T maximum;
 
-    /// False for NaN.
+    /// Returns whether the value is within the range; false for NaN.
     bool contains(T value) const { return value >= minimum && value <= maximum; }
 };
 
@@ -39,7 +39,7 @@ constexpr Range<int> kPhotonsRange{0, 1 << 24};
 constexpr Range<float> kPhotonRadiusRange{0.0f, 1e30f};
 constexpr Range<float> kPhotonAlphaRange{0.1f, 0.99f};
 
-/// The words of a choice, which stand in an array that is never destroyed.
+/// Refers to the words of a choice, which stand in an array that is never destroyed.
 class Words
 {
 public:
@@ -72,7 +72,7 @@ inline constexpr std::string_view kDenoiseWords[] = {"off", "filter", "oidn"};
 inline constexpr std::string_view kPresentationWords[] = {"frame-locked", "background"};
 inline constexpr std::string_view kColorRuleWords[] = {"auto", "display-referred", "linear"};
 
-/// Shortest text that reads back as the same value, in any locale.
+/// Returns the shortest text that reads back as the same value, in any locale.
 template <typename T> std::string textOf(T value)
 {
     char buffer[64];
@@ -80,24 +80,25 @@ template <typename T> std::string textOf(T value)
     return std::string(buffer, result.ptr);
 }
 
-/// One row of the table.
+/// Holds one row of the table.
 struct OptionRow
 {
-    RayTraceSettings::Option option; ///< but for the default value
+    RayTraceSettings::Option option; ///< without the default value
     std::function<bool(RayTraceSettings&, const std::string&)> set;
     std::function<std::string(const RayTraceSettings&)> get;
 };
 
-/// In the order of the README's table.
+/// Returns all rows in the order of the documents' table of settings.
 const std::vector<OptionRow>& optionTable();
 
-/// By any spelling of the name, or of its former name. Null if there is no such option.
+/// Returns the row of an option, by any spelling of its name or of its former name; null if there
+/// is no such option.
 const OptionRow* findRow(const std::string& name);
 
-/// Whether a name is a spelling of the option's former name.
+/// Returns whether a name is a spelling of the option's former name.
 bool isFormerName(const OptionRow& row, const std::string& name);
 
-/// The environment variable of an option of this name.
+/// Returns the environment variable of an option of this name.
 std::string environmentName(const std::string& name);
 
 bool areLightSizes(const std::string& text);

@@ -16,7 +16,7 @@ namespace
 
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-/// Sets member to the value nearest to it within the range; leaves it if the value is NaN or
+/// Sets member to the value nearest to it within the range; leaves member if the value is NaN or
 /// infinite.
 void assign(const char* name, float& member, float value, float minimum, float maximum)
 {
@@ -40,7 +40,7 @@ void assign(const char* name, osg::Vec3& member, const osg::Vec3& value, float m
     }
 }
 
-/// As StateAttribute::compare; null comes first.
+/// Compares textures in the manner of StateAttribute::compare; null comes first.
 int compareTextures(const osg::Texture2D* left, const osg::Texture2D* right)
 {
     if (left == right) return 0;
@@ -56,8 +56,8 @@ osg::Texture2D* copied(const osg::CopyOp& copyop, const osg::ref_ptr<osg::Textur
 
 } // namespace
 
-// StateAttribute::Type ends with CAPABILITY = 100; its representation, and so what may be cast to
-// it, ends at 127.
+// StateAttribute::Type ends with CAPABILITY = 100; its representation, and so the range of numbers
+// that may be cast to it, ends at 127.
 const osg::StateAttribute::Type PhysicalMaterial::ATTRIBUTE_TYPE =
     static_cast<osg::StateAttribute::Type>(122);
 

@@ -1,4 +1,4 @@
-// RayIntersector.cpp - what tells a picker from osgUtil's own. Layer: public API.
+// RayIntersector.cpp - the constructors, which set the limit to one hit. Layer: public API.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/RayIntersector>
 

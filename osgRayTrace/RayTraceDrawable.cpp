@@ -14,8 +14,8 @@
 #include "osgRayTrace/bridge/update/PageRequests.h"
 #include "osgRayTrace/bridge/update/SceneUpdater.h"
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
-#include "osgRayTrace/bridge/view/DepthSlices.h"
-#include "osgRayTrace/bridge/view/ViewRegistry.h"
+#include "osgRayTrace/session/view/DepthSlices.h"
+#include "osgRayTrace/session/view/ViewRegistry.h"
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/LOD>
@@ -53,7 +53,7 @@ struct BoundsVisitor : osg::ComputeBoundsVisitor
         if (!isTooMuch(node)) osg::ComputeBoundsVisitor::apply(node);
     }
 
-    /// All levels: which one is active depends on the view.
+    /// Visits all levels: which level is active depends on the view.
     void apply(osg::LOD& node) override
     {
         if (isTooMuch(node)) return;
@@ -62,7 +62,7 @@ struct BoundsVisitor : osg::ComputeBoundsVisitor
     }
 
 private:
-    /// True after too many paths: then the node counts by its sphere, which OSG keeps.
+    /// Returns true after too many paths: the node then counts by its sphere, which OSG keeps.
     bool isTooMuch(osg::Node& node)
     {
         if (_budget.take()) return false;
@@ -85,7 +85,7 @@ struct RayTraceDrawable::Implementation
     std::atomic<bool> paused{false};
 
     mutable std::mutex mutex;   // draw threads write, any thread reads
-    engine::TraceReport report; ///< of the view drawn last
+    engine::TraceReport report; ///< report of the view drawn last
     std::shared_ptr<ViewPresenter> lastView;
     std::weak_ptr<const engine::TracedScene> untraceable; ///< failed before it gave any image
 
@@ -102,7 +102,7 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     const Rectangle viewport = currentViewport(state);
     if (viewport.width <= 0 || viewport.height <= 0) return;
     const engine::SceneVersion version = scene.version();
-    if (!version.scene) return;
+    if (!version.inputs.scene) return;
 
     const auto makeView = [] { return std::make_shared<ViewPresenter>(); };
     const engine::PassIdentity pass = passIdentity(renderInfo, viewport);
@@ -138,7 +138,8 @@ void RayTraceDrawable::Implementation::recordProgress(const std::shared_ptr<View
     lastView = view;
 }
 
-/// Memory may be what is missing: then the message is one that fits into a string as it is.
+/// Sets a status. Memory may be what is missing: the message then is one that fits into a string
+/// without allocation.
 void RayTraceDrawable::Implementation::fail(engine::StatusCode code, const char* message) noexcept
 {
     std::lock_guard<std::mutex> lock(mutex);
@@ -155,14 +156,14 @@ void RayTraceDrawable::Implementation::fail(engine::StatusCode code, const char*
     }
 }
 
-/// Nothing was drawn: the children take its place.
+/// Sets a status of a pass that drew nothing: the children take its place.
 void RayTraceDrawable::Implementation::failToDraw(engine::StatusCode code,
                                                   const char* message) noexcept
 {
     fail(code, message);
     const engine::SceneVersion version = scene.version();
     std::lock_guard<std::mutex> lock(mutex);
-    untraceable = version.scene;
+    untraceable = version.inputs.scene;
 }
 
 RayTraceDrawable::RayTraceDrawable()
@@ -171,7 +172,7 @@ RayTraceDrawable::RayTraceDrawable()
     setSupportsDisplayList(false);
     setUseDisplayList(false);
     setDataVariance(osg::Object::STATIC); // update need not wait for draw: it works on versions
-    setCullingActive(false);              // the triangle is no small feature of the scene
+    setCullingActive(false);              // the triangle is no small feature
     setStateSet(DisplayTexture::createStateSet().get());
 }
 
@@ -221,6 +222,7 @@ Statistics RayTraceDrawable::getStatistics() const
     {
         std::lock_guard<std::mutex> lock(self.mutex);
         engine::setImageStatistics(statistics, self.report.progress);
+        engine::setStageStatistics(statistics, self.report.progress.stages);
         statistics.resolutionDivider = self.report.frame.divider;
         statistics.frameSeconds = self.report.frame.seconds;
         statistics.traceSeconds = self.report.frame.traceSeconds;
@@ -361,7 +363,7 @@ bool RayTraceDrawable::canTrace() const
 {
     const engine::SceneVersion version = _implementation->scene.version();
     std::lock_guard<std::mutex> lock(_implementation->mutex);
-    return version.scene && _implementation->untraceable.lock() != version.scene;
+    return version.inputs.scene && _implementation->untraceable.lock() != version.inputs.scene;
 }
 
 void RayTraceDrawable::cullRasterized(osgUtil::CullVisitor& visitor) const
@@ -375,7 +377,8 @@ void RayTraceDrawable::requestPages(osg::Group& scene, osgUtil::CullVisitor& vis
     if (_implementation->scene.version().paged) engine::requestPages(scene, visitor);
 }
 
-/// False: osgUtil shall look for hits in the children. bound: of them.
+/// Picks in the traced scene; false: osgUtil has to look for hits in the children. bound: bound of
+/// the children.
 bool RayTraceDrawable::pick(RayIntersector& ray, osgUtil::IntersectionVisitor& visitor,
                             const osg::BoundingSphere& bound)
 {
@@ -385,12 +388,12 @@ bool RayTraceDrawable::pick(RayIntersector& ray, osgUtil::IntersectionVisitor& v
         const auto& local = static_cast<const osgUtil::LineSegmentIntersector&>(*clone);
         const engine::SceneVersion version =
             _implementation->scene.versionToPick(_scene.get(), *_settings, local.getStart());
-        if (!version.scene || !version.pickIndex) return false;
+        if (!version.inputs.scene || !version.pickIndex) return false;
 
         engine::HitRule rule;
         rule.solid = !ray.getVisibleOnly();
         rule.culls = rule.keepsBlended = ray.getVisibleOnly();
-        engine::ScenePicker picker(*version.scene, *version.pickIndex, visitor, rule);
+        engine::ScenePicker picker(*version.inputs.scene, *version.pickIndex, visitor, rule);
         const osgUtil::Intersector::IntersectionLimit limit = ray.getIntersectionLimit();
         auto hits = picker.pick(local.getStart(), local.getEnd(), bound, limit);
         for (auto& hit : engine::pickRasterized(*version.pickIndex, visitor, ray))
@@ -412,7 +415,7 @@ bool RayTraceDrawable::pick(RayIntersector& ray, osgUtil::IntersectionVisitor& v
     }
 }
 
-/// Keeps no node of the scene alive until the next updateScene().
+/// Lets go of the scene: the drawable keeps no node of it alive until the next updateScene().
 void RayTraceDrawable::releaseScene()
 {
     try

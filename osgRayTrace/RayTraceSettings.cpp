@@ -24,7 +24,8 @@ template <typename T> void change(T& member, T value, unsigned int& modifiedCoun
     ++modifiedCount;
 }
 
-/// Out of range: the nearest value; NaN: the value that it had.
+/// Sets a member. A value out of range becomes the nearest one within; NaN leaves the member as it
+/// is.
 template <typename T>
 void changeNumber(const char* name, const Range<T>& range, T& member, T value,
                   unsigned int& modifiedCount)
@@ -33,12 +34,12 @@ void changeNumber(const char* name, const Range<T>& range, T& member, T value,
     {
         warnOnce(std::string(name) + " " + textOf(value) + " is not in " + textOf(range.minimum) +
                  " .. " + textOf(range.maximum));
-        if (value != value) return;
+        if (value != value) return; // NOLINT(misc-redundant-expression): not a number
     }
     change(member, std::clamp(value, range.minimum, range.maximum), modifiedCount);
 }
 
-/// Not an enumerator: ignored.
+/// Sets a member, unless the value is no enumerator.
 template <typename T>
 void changeChoice(const char* name, Words words, T& member, T value, unsigned int& modifiedCount)
 {
@@ -56,7 +57,8 @@ void warnOfFormerName(const std::string& former, const std::string& name)
     warnOnce(former + " is called " + name + " now; the former name is still read");
 }
 
-/// Null if neither the environment variable of the option nor that of its former name is set.
+/// Returns the text of the environment variable of an option or of its former name; null if neither
+/// is set.
 const char* environmentText(const RayTraceSettings::Option& option)
 {
     const char* text = std::getenv(option.environment.c_str());

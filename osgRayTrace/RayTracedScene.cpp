@@ -1,4 +1,5 @@
-// RayTracedScene.cpp - the decorator: its children, ray traced. Layer: public API.
+// RayTracedScene.cpp - which traversals see the children, and which the drawable. Layer: public
+// API.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/RayTracedScene>
 
@@ -17,8 +18,8 @@ namespace osgRayTrace
 namespace
 {
 
-/// Near and far planes are computed from what is drawn; a drawable without primitives counts by its
-/// bound.
+/// Makes the drawable count by its bound, although it has no primitives, when near and far planes
+/// are computed from what is drawn.
 class BoundingVolumeNearFar
 {
 public:
@@ -44,9 +45,9 @@ private:
     const osg::CullSettings::InheritanceMask _inheritance;
 };
 
-/// Goes through a scene before its first frame and uploads all of it. Textures may be set to let go
-/// of their images then, which are needed here; what OSG goes on drawing is uploaded when it is
-/// drawn.
+/// Returns whether a visitor goes through a scene before its first frame and uploads all of it.
+/// Textures may be set to let go of their images then, which the ray tracer needs; OSG uploads the
+/// parts that it draws when it draws them.
 bool uploads(const osg::NodeVisitor& visitor)
 {
     const auto* objects = dynamic_cast<const osgUtil::GLObjectsVisitor*>(&visitor);
@@ -78,7 +79,7 @@ RayTracedScene::RayTracedScene(const RayTracedScene& other, const osg::CopyOp& c
 RayTracedScene::~RayTracedScene()
 {
     static_cast<engine::SceneRoot*>(_children.get())->detach();
-    _drawable->releaseScene(); // others may keep it
+    _drawable->releaseScene(); // others may keep the drawable
 }
 
 void RayTracedScene::setHint(osg::Node* node, Hint hint)
@@ -148,7 +149,8 @@ void RayTracedScene::traverse(osg::NodeVisitor& visitor)
     osgUtil::CullVisitor* cull = _enabled ? visitor.asCullVisitor() : nullptr;
     if (cull)
     {
-        // Converts at once if this is the first view, or if there was no update traversal.
+        // This call converts at once if this is the first view, or if there was no update
+        // traversal.
         _drawable->recordView(*cull);
         _drawable->updateScene(cull->getFrameStamp());
     }
@@ -168,12 +170,12 @@ void RayTracedScene::traverse(osg::NodeVisitor& visitor)
     osg::Group::traverse(visitor);
     const bool update = visitor.getVisitorType() == osg::NodeVisitor::UPDATE_VISITOR;
     if (update && !_enabled) _drawable->releaseScene(); // nobody looks at what is removed
-    // Before the first cull the light and the eye are not known: that cull converts.
+    // Before the first cull the light and the eye are not known: the first cull converts.
     if (update && _enabled && _drawable->isViewed())
         _drawable->updateScene(visitor.getFrameStamp());
 }
 
-/// True if the visitor picks with a ray and has its hits.
+/// Returns true if the visitor picks with a ray and has its hits.
 bool RayTracedScene::pick(osg::NodeVisitor& visitor)
 {
     osgUtil::IntersectionVisitor* picks = visitor.asIntersectionVisitor();
@@ -185,7 +187,7 @@ bool RayTracedScene::pick(osg::NodeVisitor& visitor)
 osg::BoundingSphere RayTracedScene::computeBound() const
 {
     _drawable->dirtyBound();
-    _drawable->getBound(); // now: several cull threads may ask for it at once
+    _drawable->getBound(); // computed here: several cull threads may ask for it at once
     return osg::Group::computeBound();
 }
 

@@ -37,14 +37,15 @@ constexpr int64_t kMostPixels = int64_t(1) << 28;
 
 using Progress = std::function<bool(const Statistics&)>;
 
-/// osg::Node computes its bound when it is asked for it, and renderers may share a graph.
+/// Returns the mutex for graphs: osg::Node computes its bound when it is asked for it, and
+/// renderers may share a graph.
 std::mutex& graphMutex()
 {
     static std::mutex mutex;
     return mutex;
 }
 
-/// What a conversion depends on, but for the graph.
+/// Holds all that a conversion depends on beside the graph.
 struct ConversionKey
 {
     osg::Vec3d eye;
@@ -60,7 +61,7 @@ struct ConversionKey
     }
 };
 
-/// The light of osgViewer's HEADLIGHT mode: osg::Light's default position is (0, 0, 1, 0).
+/// Returns the light of osgViewer's HEADLIGHT mode: osg::Light's default position is (0, 0, 1, 0).
 osg::ref_ptr<const osg::Light> viewerHeadlight()
 {
     osg::ref_ptr<osg::Light> light = new osg::Light(0);
@@ -92,7 +93,7 @@ std::optional<engine::Channel> channelOf(const std::string& name)
     return std::nullopt;
 }
 
-/// Null, with a warning, if the function runs out of memory.
+/// Returns the function's image; null, with a warning, if the function runs out of memory.
 template <typename Resolve> osg::ref_ptr<osg::Image> withinMemory(const Resolve& resolve)
 {
     try
@@ -114,7 +115,7 @@ struct Renderer::Implementation
     bool sceneDirty = true;
     osg::Matrixd viewMatrix;
     osg::Matrixd projectionMatrix;
-    std::optional<double> homeFovyDegrees; ///< set: both matrices come from the scene's bound
+    std::optional<double> homeFovyDegrees; ///< if set, both matrices come from the scene's bound
     int width = 0;
     int height = 0;
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f};
@@ -122,9 +123,9 @@ struct Renderer::Implementation
     osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
 
     Statistics statistics;
-    int threads = -1; ///< that the session was made for
+    int threads = -1; ///< threads for which the session was made
     std::shared_ptr<engine::Workers> workers;
-    engine::HostArraysRelease release; // after all that holds arrays
+    engine::HostArraysRelease release; // destroyed after all members that hold arrays
     engine::SceneConverter converter;
     engine::MaterialLibraryFile materialFile;
     ConversionKey convertedFor;
@@ -132,7 +133,8 @@ struct Renderer::Implementation
     std::unique_ptr<engine::RenderSession> session;
     engine::Denoiser denoiser;
 
-    /// cancel(), any thread, against render(), which replaces the session.
+    /// Guards the session between cancel(), on any thread, and render(), which replaces the
+    /// session.
     std::mutex sessionMutex;
     std::atomic<bool> cancelled{false};
 
@@ -142,7 +144,8 @@ struct Renderer::Implementation
     void convertScene();
     engine::ConversionInput conversionInput(const ConversionKey& key) const;
     bool hasImage() const { return session && session->progress().imageShare > 0.0; }
-    /// Single tiles cannot be denoised: they are as they are.
+    /// Returns whether images are denoised. An image with missing tiles is not: single tiles cannot
+    /// be denoised.
     bool denoises() const
     {
         return session->progress().passes > 0 &&
@@ -165,11 +168,12 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     convertScene();
     session->setView(engine::viewFromMatrices(viewMatrix, projectionMatrix, width, height));
     session->setOptions(engine::renderOptionsFromSettings(*settings));
-    // The session would forget it at its first pass.
+    // The session would forget the cancellation at its first pass.
     if (cancelled) throw EngineError(StatusCode::Cancelled, "the render was cancelled");
 
+    engine::setDenoiseStatistics(statistics, engine::DenoiseReport(), 0.0);
     const auto begin = std::chrono::steady_clock::now();
-    // A tile at least, so that there is an end, however short the time.
+    // The render traces a tile at least, so that it comes to an end, however short the time is.
     if (seconds > 0.0)
         rule.shouldStop = [begin, seconds](int tiles, double ahead)
         {
@@ -186,7 +190,7 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     engine::setImageStatistics(statistics, session->render(rule, keepGoing));
 }
 
-/// Records how long it took.
+/// Returns the denoised image and records how long the denoiser took.
 engine::ResolvedImage Renderer::Implementation::denoisedImage()
 {
     engine::ResolvedImage image = session->resolvedImage();
@@ -200,7 +204,8 @@ engine::ResolvedImage Renderer::Implementation::denoisedImage()
     return image;
 }
 
-/// Does nothing if matrices were set, or if there is nothing to look at yet.
+/// Sets both matrices to the home view; does nothing if matrices were set, or if there is nothing
+/// to look at yet.
 void Renderer::Implementation::placeHomeView()
 {
     if (!homeFovyDegrees || !scene || width <= 0 || height <= 0) return;
@@ -332,7 +337,8 @@ bool Renderer::render(double seconds, double relativeError, const Progress& prog
 {
     Implementation& self = *_implementation;
     self.cancelled = false;
-    // Memory may be what is missing: then the message is one that fits into a string as it is.
+    // Memory may be what is missing: the message then is one that fits into a string without
+    // allocation.
     const auto failed = [&self](const char* message)
     {
         self.statistics.ok = false;

@@ -16,7 +16,7 @@ struct ReportClass
     const char* title;
 };
 
-/// In the order of the report.
+/// The classes stand in the order of the report.
 constexpr ReportClass kClasses[] = {
     {"converted.", "Ray traced"},
     {"rasterized.", "Has triangles, but is left to OSG to draw"},
@@ -29,7 +29,7 @@ constexpr ReportClass kClasses[] = {
     {"skipped.", "Bad data, left out"},
 };
 
-/// "texture-size": "texture size".
+/// Turns "texture-size" into "texture size".
 std::string words(std::string reason)
 {
     std::replace(reason.begin(), reason.end(), '-', ' ');
@@ -43,7 +43,7 @@ std::string rightAligned(uint64_t count)
     return std::string(digits.size() < kWidth ? kWidth - digits.size() : 0, ' ') + digits;
 }
 
-/// What no class above claims.
+/// Returns whether no class above claims a key.
 bool isOther(const std::string& what)
 {
     const auto claims = [&what](const ReportClass& c) { return what.rfind(c.prefix, 0) == 0; };

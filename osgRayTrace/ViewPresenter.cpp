@@ -1,13 +1,46 @@
-// ViewPresenter.cpp - the image of a view, and how it comes to the display. Layer: public API.
+// ViewPresenter.cpp - traces or asks for a view's image, and displays it. Layer: public API.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/ViewPresenter.h"
+
+#include <OpenThreads/Thread>
 
 #include <algorithm>
 
 namespace osgRayTrace
 {
 
-/// What has to be traced for a pass, if anything: not what another slice of its picture has made.
+namespace
+{
+
+/// Values of traced pixels as OSG wants them.
+class PixelsImage : public osg::Image
+{
+public:
+    PixelsImage(std::shared_ptr<engine::TracedPixels> pixels, GLenum format, GLenum type,
+                unsigned char* values)
+        : _pixels(std::move(pixels))
+    {
+        setImage(_pixels->width, _pixels->height, 1, static_cast<GLint>(format), format, type,
+                 values, NO_DELETE);
+    }
+
+private:
+    std::shared_ptr<engine::TracedPixels> _pixels;
+};
+
+/// A worker does not keep to the processor of the thread that starts it: osgViewer binds the
+/// threads that draw.
+void leaveProcessor()
+{
+    OpenThreads::SetProcessorAffinityOfCurrentThread(OpenThreads::Affinity());
+}
+
+} // namespace
+
+ViewPresenter::ViewPresenter() : _tracer({}, leaveProcessor) {}
+
+/// Returns the view that has to be traced for a pass; nothing if another slice of its picture has
+/// been traced.
 std::optional<engine::View> ViewPresenter::viewToTrace(const ViewFrame& frame)
 {
     const engine::View& pass = frame.pass;
@@ -46,14 +79,14 @@ void ViewPresenter::traceNow(const ViewFrame& frame)
     _traced = wanted.has_value();
     if (wanted)
     {
-        // Traced into the display at once, unless its size changes: then it shows the last image
-        // until there is a new one.
+        // The tracer writes to the display at once, unless the size changes: the display then shows
+        // the last image until there is a new one.
         const bool fits = _display.width() == wanted->width && _display.height() == wanted->height;
-        if (tracer->trace(frame.version, *wanted, frame.budget, fits ? _display.rgba() : nullptr,
-                          fits ? _display.depth() : nullptr))
+        if (tracer->trace(frame.version.inputs, *wanted, frame.budget,
+                          fits ? _display.rgba() : nullptr, fits ? _display.depth() : nullptr))
             _display.modified(tracer->changed());
     }
-    if (tracer->needsResolve(frame.version))
+    if (tracer->needsResolve(frame.version.inputs))
     {
         const int width = tracer->displayWidth(), height = tracer->displayHeight();
         _display.resize(width, height, width == frame.pass.width && height == frame.pass.height);
@@ -74,11 +107,23 @@ void ViewPresenter::askWorker(const ViewFrame& frame)
         wanted = viewToTrace(frame);
     else if (!frame.shared)
         wanted = frame.pass;
-    if (wanted) _tracer.ask({frame.version, *wanted, _slices, frame.budget, !waits}, _frames);
+    if (wanted)
+        _tracer.ask({frame.version.inputs, *wanted, _slices, frame.budget, !waits}, _frames);
     // All slices of a frame show one image.
     if (frame.shared || !_tracer.takeNewest(_newest)) return;
-    _display.show(_newest.color.get(), _newest.depth.get());
+    showNewest();
     _presentedSlices = _newest.slices;
+}
+
+/// Without a copy: the images of the display hold the pixels while it has them.
+void ViewPresenter::showNewest()
+{
+    const std::shared_ptr<engine::TracedPixels>& pixels = _newest.pixels;
+    const osg::ref_ptr<osg::Image> color =
+        new PixelsImage(pixels, GL_RGBA, GL_UNSIGNED_BYTE, pixels->rgba.data());
+    const osg::ref_ptr<osg::Image> depth = new PixelsImage(
+        pixels, GL_LUMINANCE, GL_FLOAT, reinterpret_cast<unsigned char*>(pixels->depth.data()));
+    _display.show(color.get(), depth.get());
 }
 
 bool ViewPresenter::draw(osg::RenderInfo& renderInfo, const engine::View& pass)
@@ -95,7 +140,7 @@ engine::TraceReport ViewPresenter::report(const engine::SceneVersion& version)
 {
     if (_inBackground) return _tracer.report(_frames);
     const auto tracer = _tracer.lease();
-    return {tracer->progress(), tracer->frame(), version.scene, true, 0};
+    return {tracer->progress(), tracer->frame(), version.inputs.scene, true, 0};
 }
 
 osg::ref_ptr<osg::Image> ViewPresenter::radiance() const

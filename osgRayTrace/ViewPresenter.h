@@ -1,10 +1,10 @@
-// ViewPresenter.h - the image of a view, and how it comes to the display. Layer: public API,
-// private.
+// ViewPresenter.h - the image of a view, and how it comes to the display. Layer: public API.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/DisplayTexture.h"
-#include "osgRayTrace/bridge/view/BackgroundTracer.h"
+#include "osgRayTrace/bridge/update/SceneVersion.h"
+#include "osgRayTrace/session/view/BackgroundTracer.h"
 
 #include <osg/Image>
 #include <osg/RenderInfo>
@@ -17,43 +17,46 @@
 namespace osgRayTrace
 {
 
-/// One pass of a view in a frame.
+/// Describes one pass of a view in a frame.
 struct ViewFrame
 {
-    const engine::SceneVersion& version; ///< with a scene
+    const engine::SceneVersion& version; ///< holds a scene
     engine::View pass;
-    std::vector<engine::View> slices; ///< of its picture: see ViewRegistry
-    bool shared = false;              ///< another slice of this frame has drawn
+    std::vector<engine::View> slices; ///< all slices of the pass's picture: see ViewRegistry
+    bool shared = false;              ///< true: another slice of this frame has drawn
     engine::FrameBudget budget;
     bool paused = false;
 };
 
-/// Frame-locked, draw traces the view of its pass and shows that. In the background it asks the
-/// view's worker for it, and shows the newest image that there is, of whatever view that was asked
-/// for; before the first one it draws nothing. Both go on with the same accumulated image, so the
+/// Frame-locked, draw traces the view of its pass and shows that. In the background draw asks the
+/// view's worker for an image, and shows the newest that there is, of whatever view that was asked
+/// for; before the first image it draws nothing. Both go on with the same accumulated image, so the
 /// presentation may change from frame to frame. Draw thread of the view's context, unless stated
 /// otherwise.
 class ViewPresenter
 {
 public:
+    ViewPresenter();
+
     /// Brings the display up to date. Throws std::bad_alloc, std::system_error.
     void update(const ViewFrame& frame);
 
-    /// False, and nothing drawn, if the context has no usable GLSL.
+    /// Draws the display's image. Returns false, and draws nothing, if the context has no usable
+    /// GLSL.
     bool draw(osg::RenderInfo& renderInfo, const engine::View& pass);
 
-    /// Of the last update().
+    /// Returns the report of the last update().
     engine::TraceReport report(const engine::SceneVersion& version);
     bool inBackground() const { return _inBackground; } ///< any thread
 
-    /// What could not be traced until now may be tried again. Any thread.
+    /// Lets views that could not be traced until now be tried again. May be called from any thread.
     void forgetFailures() { _tracer.forgetFailures(); }
 
-    /// Linear radiance as it is accumulated; null if there is none. Any thread; waits for who
-    /// traces.
+    /// Linear radiance as it is accumulated; null if there is none. Any thread; waits for
+    /// whoever traces.
     osg::ref_ptr<osg::Image> radiance() const;
 
-    /// Any thread that OSG calls it from; null: all contexts.
+    /// Releases OpenGL's objects in any thread that OSG calls it from; null: of all contexts.
     void releaseGLObjects(osg::State* state) const { _display.releaseGLObjects(state); }
     void resizeGLObjectBuffers(unsigned int maxSize) { _display.resizeGLObjectBuffers(maxSize); }
 
@@ -61,16 +64,17 @@ private:
     std::optional<engine::View> viewToTrace(const ViewFrame& frame);
     void traceNow(const ViewFrame& frame);
     void askWorker(const ViewFrame& frame);
+    void showNewest();
 
     engine::BackgroundTracer _tracer;
     DisplayTexture _display;
-    std::vector<engine::View> _slices; ///< that are asked for
+    std::vector<engine::View> _slices; ///< slices that are asked for
     std::vector<engine::View>
-        _presentedSlices; ///< of the passes that the display's image was traced for
+        _presentedSlices; ///< slices of the passes for which the display's image was traced
     std::atomic<bool> _inBackground{false};
     bool _traced = false;        ///< in this frame, by draw
-    uint64_t _frames = 0;        ///< that the view has drawn
-    engine::TracedImage _newest; ///< what the display shows in the background
+    uint64_t _frames = 0;        ///< frames that the view has drawn
+    engine::TracedImage _newest; ///< image that the display shows in the background
 };
 
 } // namespace osgRayTrace

@@ -35,7 +35,7 @@ bool hasHost(const std::string& hosts, const std::string& host)
     return false;
 }
 
-/// Children of blocks with this name go to the end of what is around the block, if kept.
+/// Unwraps blocks with this name: children of blocks that are kept go to the end of parent.
 template <class Keeps> void unwrap(CaveElement& parent, const char* name, const Keeps& keeps)
 {
     std::deque<CaveElement> left = std::move(parent.children);
@@ -54,7 +54,7 @@ template <class Keeps> void unwrap(CaveElement& parent, const char* name, const 
     }
 }
 
-/// In the order of the file.
+/// Takes the includes out of parent, in the order of the file.
 void takeIncludes(CaveElement& parent, std::vector<CaveElement>& includes)
 {
     std::deque<CaveElement> all = std::move(parent.children);
@@ -90,7 +90,7 @@ std::string includedFile(const CaveElement& include)
     failAt(include, ": there is no file " + name);
 }
 
-/// "Name" or "Name:suffix", which asks for name="suffix".
+/// Holds a step of a path: "Name" or "Name:suffix", which asks for name="suffix".
 struct Step
 {
     explicit Step(const std::string& text)
@@ -113,7 +113,7 @@ bool matches(const CaveElement& element, const Step& step)
     return name && *name == step.name;
 }
 
-/// Depth first, with other ways tried where one leads to nothing.
+/// Finds an element depth first; other ways are tried if one leads to nothing.
 const CaveElement* findBelow(const CaveElement& parent, const std::vector<Step>& steps,
                              std::size_t step, const std::string& attribute)
 {

@@ -1,5 +1,4 @@
-// CaveParser.cpp - elements and attributes, leniently; what cannot be meant is refused. Layer:
-// apps.
+// CaveParser.cpp - elements and attributes, read leniently; nonsense is refused. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/cave/CaveFile.h"
 
@@ -56,7 +55,7 @@ private:
             take();
     }
 
-    /// Past end; what: for the message.
+    /// Skips past end. what: name of the part, for the message.
     void skipPast(const char* end, const char* what)
     {
         const int line = _line;
@@ -68,7 +67,7 @@ private:
         _at += std::string(end).size();
     }
 
-    /// Up to the end tag of the element, or of the file.
+    /// Reads up to the end tag of the element, or of the file.
     void parseContent(CaveElement& parent, std::size_t depth)
     {
         while (!atEnd())
@@ -101,7 +100,7 @@ private:
         if (atEnd() || take() != '>') fail(_line, "</" + name + " has no >");
     }
 
-    /// One more element or attribute.
+    /// Counts one more element or attribute.
     void countPart()
     {
         if (_partsLeft-- == 0)
@@ -123,7 +122,7 @@ private:
         parent.children.push_back(std::move(element));
     }
 
-    /// True if it ends with them.
+    /// Reads attributes; returns true if the element ends with them.
     bool parseAttributes(CaveElement& element)
     {
         for (;;)

@@ -1,4 +1,4 @@
-// CaveSetup.cpp - what a configuration says of windows, channels and screens. Layer: apps.
+// CaveSetup.cpp - reads windows, channels and screens of a configuration. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/cave/CaveSetup.h"
 
@@ -20,9 +20,9 @@ namespace
 
 constexpr int kMostPixels = 32768;
 constexpr int kMost = 256;                             // windows, channels, screens
-constexpr int64_t kMostTotalPixels = int64_t(1) << 28; // of all windows, and of all walls
+constexpr int64_t kMostTotalPixels = int64_t(1) << 28; // of all windows, of all walls
 
-/// How many there are: numbered from 0 on without a gap.
+/// Returns the number of elements that are numbered from 0 on without a gap.
 int countOf(const CaveFile& file, const std::string& path, const std::string& cap)
 {
     const int most = file.integer(cap, "value", 100, 0, 100000);
@@ -34,7 +34,7 @@ int countOf(const CaveFile& file, const std::string& path, const std::string& ca
     return count;
 }
 
-/// T: with a width and a height.
+/// Checks the pixels of all parts together. T: a type with a width and a height.
 template <class T>
 void checkTotal(const std::string& file, const std::vector<T>& parts, const char* what)
 {
@@ -139,7 +139,7 @@ CaveWall wallOf(const CaveFile& file, int screen, int channels, int windows)
     wall.followsHead = mode.followsHead;
     wall.fixedViewer = mode.fixedViewer;
     wall.swapsEyes = file.flag(path, "swapStereoEyes", false);
-    const std::string eye = file.text(path, "eye", ""); // ours: CalVR shows HMDs the middle
+    const std::string eye = file.text(path, "eye", ""); // ours: CalVR shows HMDs the middle eye
     if (eye == "LEFT") wall.eye = CaveEye::Left;
     if (eye == "RIGHT") wall.eye = CaveEye::Right;
     wall.viewer = poseOf(file, path + ".ViewerPosition", "x", "y", "z").position;

@@ -8,14 +8,15 @@ namespace osgRayTrace::app
 namespace
 {
 
-/// From the screen's own frame: it lies in the plane of x and z, and is seen along +y.
+/// Returns the matrix from the screen's own frame, in which the screen lies in the plane of x and z
+/// and is seen along +y.
 osg::Matrixd worldFromScreen(const CaveWall& wall, const osg::Matrixd& head)
 {
     const osg::Matrixd screen = wall.screen.matrix();
     return wall.followsHead ? screen * head : screen;
 }
 
-/// As if the head looked at the middle of the wall, upright.
+/// Returns the direction from eye to eye for a head that looks at the middle of the wall, upright.
 osg::Vec3d acrossTo(const osg::Vec3d& middle, const osg::Matrixd& head)
 {
     osg::Vec3d forward = middle - head.getTrans();

@@ -9,17 +9,17 @@
 namespace osgRayTrace::app
 {
 
-/// In OSG's row-vector convention.
+/// Holds matrices in OSG's row-vector convention.
 struct CaveView
 {
     osg::Matrixd view, projection;
 };
 
-/// Where the eye is in the world, with the head in this place.
+/// Returns the place of the eye in the world, with the head in this place.
 osg::Vec3d eyePosition(const CaveSetup& setup, const CaveWall& wall, CaveEye eye,
                        const osg::Matrixd& head);
 
-/// Nothing if the eye is not before the wall: on its plane or behind it.
+/// Returns the matrices of an eye; nothing if the eye is on the wall's plane or behind it.
 std::optional<CaveView> caveView(const CaveSetup& setup, const CaveWall& wall, CaveEye eye,
                                  const osg::Matrixd& head);
 

@@ -1,4 +1,4 @@
-// HeadPath.cpp - a text file of poses. Layer: apps.
+// HeadPath.cpp - reads poses, and interpolates them. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/cave/HeadPath.h"
 

@@ -1,4 +1,4 @@
-// HeadPath.h - where the head is at a time. Layer: apps.
+// HeadPath.h - the poses of the head over time. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,15 +10,16 @@
 namespace osgRayTrace::app
 {
 
-/// Poses at times that rise, from a text file: a line each, "seconds x y z h p r"; "#" begins a
+/// Holds poses at rising times, from a text file: a line each, "seconds x y z h p r"; "#" begins a
 /// comment.
 class HeadPath
 {
 public:
-    /// Throws Failure(kCannotLoad) with the line.
+    /// Reads a path. Throws Failure(kCannotLoad) with the line.
     static HeadPath read(const std::string& file);
 
-    /// In between linearly, angles too; before and after it stays.
+    /// Returns the pose at a time: in between linearly, angles too; before and after the path it
+    /// stays.
     CavePose at(double seconds) const;
 
     double end() const { return _keys.back().seconds; }

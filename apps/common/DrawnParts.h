@@ -1,4 +1,4 @@
-// DrawnParts.h - what of a scene is not in the traced radiance of its picture. Layer: apps.
+// DrawnParts.h - parts of a scene that the traced radiance does not hold. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,7 +9,8 @@
 namespace osgRayTrace::app
 {
 
-/// Parts of the scene that OSG draws where there is a context, and nobody where there is none.
+/// Returns the number of parts of the scene that OSG draws if there is a context, and that nobody
+/// draws without one.
 uint64_t partsDrawnByOsg(const Statistics& statistics);
 
 } // namespace osgRayTrace::app

@@ -9,7 +9,7 @@
 namespace osgRayTrace::app
 {
 
-/// Over the linear RGB values x of a picture and r of its reference.
+/// Holds measures over the linear RGB values x of a picture and r of its reference.
 struct ErrorMeasures
 {
     double rmse = 0.0;      ///< root of mean((x - r)^2)
@@ -17,9 +17,9 @@ struct ErrorMeasures
     double meanRatio = 0.0; ///< mean(x) / mean(r)
 };
 
-constexpr double kRelMseOffset = 0.01; ///< keeps dark pixels from deciding
+constexpr double kRelMseOffset = 0.01; ///< keeps dark pixels from dominating
 
-/// The measures of values that are added one by one.
+/// Computes the measures of values that are added one by one.
 class ErrorSum
 {
 public:
@@ -46,7 +46,7 @@ private:
     int64_t _count = 0;
 };
 
-/// Both of the same size, GL_RGB or GL_RGBA, GL_FLOAT.
+/// Returns the measures of two images of one size, GL_RGB or GL_RGBA, GL_FLOAT.
 ErrorMeasures errorMeasures(const osg::Image& picture, const osg::Image& reference);
 
 } // namespace osgRayTrace::app

@@ -7,7 +7,8 @@
 namespace osgRayTrace::app
 {
 
-/// "1.8 %"; in words from 100 % on, where the number says no more than that.
+/// Returns an error as "1.8 %"; in words from 100 % on, since the number then says no more than
+/// that.
 std::string errorText(double relativeError);
 
 } // namespace osgRayTrace::app

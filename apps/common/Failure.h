@@ -1,4 +1,4 @@
-// Failure.h - why a program ends early, and with which exit code. Layer: apps.
+// Failure.h - an exception with the exit code of the program. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -17,11 +17,11 @@ enum ExitCode
     kCannotWrite = 4,
 };
 
-/// Caught by runProgram, which prints the message as one line.
+/// Ends a program: runProgram catches it and prints the message as one line.
 class Failure : public std::runtime_error
 {
 public:
-    /// code: an ExitCode, or what a signal ends with.
+    /// Makes a failure. code: an ExitCode, or the exit code of a signal.
     Failure(int code, const std::string& message) : std::runtime_error(message), _code(code) {}
     int code() const { return _code; }
 

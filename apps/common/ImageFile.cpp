@@ -1,5 +1,4 @@
-// ImageFile.cpp - libpng's simplified API, and libjpeg with an error handler that returns.
-// Layer: apps.
+// ImageFile.cpp - libpng's simplified API, and libjpeg with its own error handler. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/common/ImageFile.h"
 
@@ -27,7 +26,7 @@ namespace osgRayTrace::app
 namespace
 {
 
-constexpr int kJpegQuality = 100;    ///< of OSG's plugin
+constexpr int kJpegQuality = 100;    ///< quality of OSG's plugin
 constexpr int kLargestPng = 1000000; ///< libpng's own limit of width and height
 
 bool isJpeg(const std::string& extension)
@@ -35,7 +34,7 @@ bool isJpeg(const std::string& extension)
     return extension == "jpg" || extension == "jpeg";
 }
 
-/// Without alpha, which JPEG has not and which a picture for display does not need.
+/// Returns the image without alpha, which JPEG lacks and which a picture for display does not need.
 osg::ref_ptr<osg::Image> withoutAlpha(const osg::Image& image)
 {
     const bool hasAlpha = image.getPixelFormat() == GL_RGBA;
@@ -68,10 +67,10 @@ void writePng(const std::string& file, const osg::Image& rgb)
         throw std::runtime_error(errno ? std::strerror(errno) : png.message);
 }
 
-/// libjpeg's own handler calls exit().
+/// Replaces libjpeg's own error handler, which calls exit().
 struct JpegErrors
 {
-    jpeg_error_mgr manager; ///< first: libjpeg knows this part alone
+    jpeg_error_mgr manager; ///< comes first: libjpeg knows this part alone
     std::jmp_buf giveUp;
     char message[JMSG_LENGTH_MAX];
 };
@@ -85,15 +84,15 @@ extern "C" void giveUpJpeg(j_common_ptr jpeg)
 
 extern "C" void ignoreJpegMessage(j_common_ptr) {}
 
-/// False: see the message. Nothing here has a destructor, as the jump out of libjpeg would not call
-/// it.
+/// Writes an image; false: see errors.message. No object in the function has a destructor, as the
+/// jump out of libjpeg would not call it.
 bool compressJpeg(std::FILE* file, const osg::Image& rgb, JpegErrors& errors)
 {
     jpeg_compress_struct jpeg;
     jpeg.err = jpeg_std_error(&errors.manager);
     errors.manager.error_exit = giveUpJpeg;
     errors.manager.output_message = ignoreJpegMessage;
-    jpeg.mem = nullptr; // for jpeg_destroy_compress, should creating it fail
+    jpeg.mem = nullptr; // jpeg_destroy_compress reads it if the creation fails
     if (setjmp(errors.giveUp) != 0)
     {
         jpeg_destroy_compress(&jpeg);

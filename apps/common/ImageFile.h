@@ -9,14 +9,14 @@
 namespace osgRayTrace::app
 {
 
-/// Why no image of this size can be in a file of this extension ("png", "jpg", ...); empty if it
-/// can.
+/// Returns why no image of this size can be in a file of this extension ("png", "jpg", ...); empty
+/// if it can.
 std::string whyNotInFormat(const std::string& extension, int width, int height);
 
-/// Writes an image, row 0 at the bottom, to a file, whole or not at all, by its extension. PNG and
-/// JPEG get the colours of GL_RGB or GL_RGBA, GL_UNSIGNED_BYTE, without alpha, by libpng and
-/// libjpeg: OSG's plugins let the errors of these end the process. Others are left to the plugins.
-/// Throws Failure(kCannotWrite).
+/// Writes an image, row 0 at the bottom, to a file, whole or not at all, in the format of the
+/// extension. PNG and JPEG get the colours of GL_RGB or GL_RGBA, GL_UNSIGNED_BYTE, without alpha,
+/// by libpng and libjpeg: OSG's plugins let errors of these libraries end the process. Other
+/// formats are left to the plugins. Throws Failure(kCannotWrite).
 void writeImageFile(const std::string& path, const osg::Image& image);
 
 } // namespace osgRayTrace::app

@@ -3,6 +3,7 @@
 #include "apps/common/Interruption.h"
 
 #include "osgRayTrace/base/OutputFile.h"
+#include "osgRayTrace/base/TemporaryFile.h"
 
 #include <unistd.h>
 
@@ -25,7 +26,7 @@ std::atomic<int> cameSignal{0};
 std::atomic<int> orderlyEnds{0};
 static_assert(std::atomic<int>::is_always_lock_free, "signal handlers use them");
 
-struct sigaction beforeOurs[NSIG]; ///< of kCrashing
+struct sigaction beforeOurs[NSIG]; ///< actions for kCrashing before ours
 
 extern "C" void endBySignal(int signal)
 {
@@ -35,7 +36,8 @@ extern "C" void endBySignal(int signal)
     _exit(128 + signal);
 }
 
-/// Leaves the rest to whoever would have had the signal: the system, or a sanitizer.
+/// Removes temporary files and leaves the signal to whoever would have had it: the system, or a
+/// sanitizer.
 extern "C" void crashBySignal(int signal)
 {
     engine::removeTemporaryFiles();
@@ -58,7 +60,7 @@ void handleSignals()
     action.sa_flags = SA_RESTART;
     action.sa_handler = endBySignal;
     for (const int signal : kEnding)
-        if (!isIgnored(signal)) sigaction(signal, &action, nullptr); // ignored: by nohup
+        if (!isIgnored(signal)) sigaction(signal, &action, nullptr); // nohup has signals ignored
     action.sa_handler = crashBySignal;
     for (const int signal : kCrashing)
         if (!isIgnored(signal)) sigaction(signal, &action, &beforeOurs[signal]);

@@ -12,29 +12,29 @@ namespace osgRayTrace::app
 {
 
 /// Takes over SIGINT, SIGTERM and SIGHUP, unless they are ignored: outside of any OrderlyEnd they
-/// end the process at once, with the code of interruptionCode(). These, and the signals of crashes,
-/// remove temporary files first. Writing to a closed pipe or beyond a size limit becomes an error
-/// of that write.
+/// end the process at once, with the code of interruptionCode(). These signals, and those of
+/// crashes, remove temporary files first. Writing to a closed pipe or beyond a size limit becomes
+/// an error of that write.
 void handleSignals();
 
-/// Whether one of the three signals has come. Any thread.
+/// Returns whether one of the three signals has come. May be called from any thread.
 bool isInterrupted();
 
-/// 128 and the signal's number, as shells have it; 0 without one.
+/// Returns 128 and the signal's number, as shells do; 0 without a signal.
 int interruptionCode();
 
-/// "SIGINT"
+/// Returns the name of the signal: "SIGINT".
 std::string interruptionName();
 
-/// While one exists, the first signal is only recorded, so that what was done so far can be
-/// written; the second one ends the process at once.
+/// Lets the first signal only be recorded while one exists, so that the results so far can be
+/// written; the second signal ends the process at once.
 class OrderlyEnd
 {
 public:
-    /// stop: called from a thread of its own when the signal comes, and again every few
-    /// milliseconds, as what it stops may only be about to begin. May be empty.
+    /// Begins. stop: called from a thread of its own when the signal comes, and again every few
+    /// milliseconds, because the work that it stops may only be about to begin. stop may be empty.
     explicit OrderlyEnd(std::function<void()> stop = {});
-    ~OrderlyEnd(); ///< stop is called no more
+    ~OrderlyEnd(); ///< afterwards stop is called no more
 
     OrderlyEnd(const OrderlyEnd&) = delete;
     OrderlyEnd& operator=(const OrderlyEnd&) = delete;

@@ -1,4 +1,4 @@
-// ModelFiles.cpp - reads models through osgDB, and refuses what would make it hang. Layer: apps.
+// ModelFiles.cpp - reads models through osgDB; refuses files that make it hang. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "ModelFiles.h"
 
@@ -20,8 +20,8 @@ namespace osgRayTrace::app
 namespace
 {
 
-/// Whether an .osgt file ends before its first block, or within one or a string, where osgDB 3.6
-/// may read on for ever.
+/// Returns whether an .osgt file ends before its first block, or within a block or a string: osgDB
+/// 3.6 may read such a file for ever.
 bool isCutShort(const std::string& file)
 {
     std::ifstream stream(file, std::ios::binary);
@@ -64,7 +64,8 @@ osg::ref_ptr<osg::Node> readModel(const std::string& file)
     osgDB::Registry* registry = osgDB::Registry::instance();
     const osg::ref_ptr<osgDB::Options> options =
         registry->getOptions() ? registry->getOptions()->cloneOptions() : new osgDB::Options;
-    options->setPluginStringData("ForceReadingImage", "true"); // names of those that are missing
+    options->setPluginStringData("ForceReadingImage",
+                                 "true"); // keeps the names of images that are missing
     osgDB::ReaderWriter::ReadResult result = registry->readNode(file, options.get());
     if (!result.validNode()) throw cannotLoad(file, result);
     return result.getNode();

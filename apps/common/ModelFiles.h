@@ -13,10 +13,10 @@
 namespace osgRayTrace::app
 {
 
-/// One file's node, or a group of several. Throws Failure(kCannotLoad).
+/// Returns the node of one file, or a group of those of several. Throws Failure(kCannotLoad).
 osg::ref_ptr<osg::Node> readScene(const std::vector<std::string>& files);
 
-/// What to throw for a file that osgDB could not read.
+/// Returns the failure for a file that osgDB could not read.
 Failure cannotLoad(const std::string& file, const osgDB::ReaderWriter::ReadResult& result);
 
 } // namespace osgRayTrace::app

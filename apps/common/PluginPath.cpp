@@ -16,7 +16,7 @@ void addPluginPath()
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
     if (error) return;
     osgDB::FilePathList& libraries = osgDB::Registry::instance()->getLibraryFilePathList();
-    // The second is the first again, unless the installer splits lib by architecture.
+    // The second folder is the first again, unless the installer splits lib by architecture.
     for (const char* fromProgram : {"../lib", OSGRAYTRACE_LIBRARIES_FROM_PROGRAMS})
     {
         libraries.push_front((program.parent_path() / fromProgram).lexically_normal().string());

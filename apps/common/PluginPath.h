@@ -5,8 +5,8 @@
 namespace osgRayTrace::app
 {
 
-/// Lets osgDB look for plugins beside this program, in the build tree or where it was installed,
-/// before it looks where OpenSceneGraph is. Call it before any file is read.
+/// Lets osgDB look for plugins beside this program, in the build tree or in the folder of its
+/// installation, before it looks in OpenSceneGraph's. Call it before any file is read.
 void addPluginPath();
 
 } // namespace osgRayTrace::app

@@ -1,4 +1,4 @@
-// Program.cpp - the frame around a program. Layer: apps.
+// Program.cpp - runs a program between setup and its exit code. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/common/Program.h"
 
@@ -18,8 +18,9 @@ namespace osgRayTrace::app
 namespace
 {
 
-/// A standard stream that is closed would be the next file that is opened, and get what is printed.
-/// Opened the wrong way round, it fails as a closed one does.
+/// Opens standard streams that are closed: otherwise the next file that is opened would take their
+/// place, and get what is printed. They are opened the wrong way round, so that they fail as closed
+/// ones do.
 void holdStandardStreams()
 {
     for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

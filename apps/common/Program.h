@@ -14,8 +14,8 @@ namespace osgRayTrace::app
 int reportFailure(const std::string& name, const Failure& failure);
 
 /// Runs a program and returns its exit code. Failures and other exceptions become a line on
-/// standard error; what could not be printed to standard output ends with kCannotWrite. After a
-/// signal that an OrderlyEnd has recorded the exit code is the signal's, unless something failed.
+/// standard error; text that could not be printed to standard output ends with kCannotWrite. After
+/// a signal that an OrderlyEnd has recorded the exit code is the signal's, unless something failed.
 int runProgram(const std::string& name, const std::function<int()>& run);
 
 } // namespace osgRayTrace::app

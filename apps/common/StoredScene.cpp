@@ -1,4 +1,4 @@
-// StoredScene.cpp - finds the ray traced scene that a model brings with it. Layer: apps.
+// StoredScene.cpp - visits the nodes of a model, each once. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "StoredScene.h"
 
@@ -19,7 +19,7 @@ struct FindTracedScene : osg::NodeVisitor
     void apply(osg::Group& node) override
     {
         if (!found) found = dynamic_cast<RayTracedScene*>(&node);
-        if (!found && visited.insert(&node).second) traverse(node); // on one of its paths
+        if (!found && visited.insert(&node).second) traverse(node); // one path is enough
     }
 
     osg::ref_ptr<RayTracedScene> found;

@@ -7,8 +7,8 @@
 namespace osgRayTrace::app
 {
 
-/// The first RayTracedScene in a model, as in "cow.osgt.raytrace" or where a file holds one. Null
-/// if there is none.
+/// Returns the first RayTracedScene in a model, as in "cow.osgt.raytrace" or in a file that holds
+/// one; null if there is none.
 osg::ref_ptr<RayTracedScene> storedScene(osg::Node& model);
 
 } // namespace osgRayTrace::app

@@ -14,13 +14,13 @@ namespace osgRayTrace::app
 namespace
 {
 
-/// The first node of a class, and its place: its own transform is part of the matrix.
+/// Finds the first node of a class, and its place: the node's own transform is part of the matrix.
 template <typename NodeClass> class FindFirst : public osg::NodeVisitor
 {
 public:
     FindFirst() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
 
-    /// Each once, however many paths there are to it.
+    /// Visits each node once, however many paths lead to it.
     void apply(osg::Node& node) override
     {
         if (!found && _visited.insert(&node).second) traverse(node);

@@ -1,4 +1,4 @@
-// StoredView.h - how a scene says that it wants to be seen. Layer: apps.
+// StoredView.h - the view and background that a scene asks for. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,13 +16,14 @@ struct Placement
     osg::Vec3d eye;
     osg::Vec3d center; ///< a point on the line of sight
     osg::Vec3d up;
-    double fovyDegrees = 0.0; ///< vertical
+    double fovyDegrees = 0.0; ///< vertical [degrees]
 };
 
-/// Of the first osg::CameraView, world space; at unit distance. Nothing if the scene has none.
+/// Returns the placement of the first osg::CameraView, in world space, with the centre at unit
+/// distance; nothing if the scene has none.
 std::optional<Placement> storedPlacement(osg::Node& scene);
 
-/// Of the first osg::ClearNode. Nothing if the scene has none.
+/// Returns the colour of the first osg::ClearNode; nothing if the scene has none.
 std::optional<osg::Vec4> storedClearColor(osg::Node& scene);
 
 } // namespace osgRayTrace::app

@@ -1,8 +1,8 @@
-// SceneDataHook.cpp - osgViewer::View::setSceneData, with the scene below a RayTracedScene. Layer:
-// apps.
+// SceneDataHook.cpp - setSceneData that puts a RayTracedScene above the scene. Layer: apps.
 // SPDX-License-Identifier: MIT
 //
-// Preloaded, this definition is found before that of libosgViewer, which it calls.
+// Preloaded, this definition of osgViewer::View::setSceneData is found before that of libosgViewer,
+// which it calls.
 #include "ToggleKey.h"
 
 #include "osgRayTrace/base/NeverDestroyed.h"
@@ -34,7 +34,7 @@ SetSceneData original()
     return function;
 }
 
-/// The program does it itself.
+/// Returns whether the program ray traces the scene itself.
 bool holdsTracedScene(osg::Node& node)
 {
     struct Find : osg::NodeVisitor
@@ -43,7 +43,7 @@ bool holdsTracedScene(osg::Node& node)
         void apply(osg::Group& group) override
         {
             found = found || dynamic_cast<RayTracedScene*>(&group);
-            if (!found && visited.insert(&group).second) traverse(group); // on one of its paths
+            if (!found && visited.insert(&group).second) traverse(group); // one path is enough
         }
         bool found = false;
         std::set<osg::ref_ptr<osg::Group>> visited;
@@ -52,7 +52,7 @@ bool holdsTracedScene(osg::Node& node)
     return find.found;
 }
 
-/// One for each scene: views that show the same one share it.
+/// Returns one RayTracedScene for each scene: views that show the same scene share it.
 osg::ref_ptr<RayTracedScene> tracedScene(osg::Node& node)
 {
     static std::mutex mutex;
@@ -88,7 +88,7 @@ void addToggleKey(osgViewer::View& view, RayTracedScene* scene)
     view.addEventHandler(new ToggleKey(scene, toggleKey()));
 }
 
-/// What the view is to show; the node itself if it cannot be ray traced.
+/// Returns the node that the view has to show; the node itself if it cannot be ray traced.
 osg::ref_ptr<osg::Node> shownFor(osgViewer::View& view, osg::Node* node)
 {
     if (!node || holdsTracedScene(*node)) return node;

@@ -1,4 +1,4 @@
-// ToggleKey.cpp - a key that switches ray tracing off and on in a program of others. Layer: apps.
+// ToggleKey.cpp - names of keys, and the switch. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "ToggleKey.h"
 

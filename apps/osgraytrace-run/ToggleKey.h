@@ -1,4 +1,4 @@
-// ToggleKey.h - a key that switches ray tracing off and on in a program of others. Layer: apps.
+// ToggleKey.h - a key that switches ray tracing in a foreign program. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,16 +12,17 @@
 namespace osgRayTrace::app
 {
 
-/// Of osgGA: "F1" to "F12" or one character; nothing for other names.
+/// Returns osgGA's key: "F1" to "F12" or one character; nothing for other names.
 std::optional<int> keyFromName(const std::string& name);
 
-/// The program's own handlers see every other key.
+/// Switches ray tracing with one key; the program's own handlers see every other key.
 class ToggleKey : public osgGA::GUIEventHandler
 {
 public:
     ToggleKey(RayTracedScene* scene, int key) : _scene(scene), _key(key) {}
 
-    /// Two for one scene in a view would undo each other.
+    /// Returns whether the key is for this scene: two keys for one scene in a view would undo each
+    /// other.
     bool isFor(const RayTracedScene* scene) const { return _scene.get() == scene; }
 
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;

@@ -1,4 +1,4 @@
-// main.cpp - osgraytrace-run: starts a program of others with its scenes ray traced. Layer: apps.
+// main.cpp - osgraytrace-run: starts a foreign program with its scenes ray traced. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include <unistd.h>
 
@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr int kUsage = 1, kNoLibrary = 2, kCannotWrite = 4;
-constexpr int kCannotStart = 127; // as shells have it
+constexpr int kCannotStart = 127; // code of shells
 
 constexpr long kMostPasses = 1 << 24;
 

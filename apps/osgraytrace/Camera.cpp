@@ -17,9 +17,10 @@ namespace osgRayTrace::app
 namespace
 {
 
-constexpr double kOsgViewerFovyDegrees = 29.148431; ///< of its default display settings
+constexpr double kOsgViewerFovyDegrees =
+    29.148431; ///< osgViewer's default display settings [degrees]
 const osg::Vec4 kOsgViewerClearColor(0.2f, 0.2f, 0.4f, 1.0f);
-constexpr double kNearFarRatio = 0.0005; ///< osg::CullSettings' default
+constexpr double kNearFarRatio = 0.0005; ///< default of osg::CullSettings
 
 Placement homePlacement(const Options& options, osg::Node& scene)
 {
@@ -37,13 +38,14 @@ Placement homePlacement(const Options& options, osg::Node& scene)
     return placement;
 }
 
-/// From the eye, along the line of sight.
+/// Holds distances from the eye along the line of sight.
 struct DepthRange
 {
     double nearest = 0.0, farthest = 0.0;
 };
 
-/// Of the scene's bound, and of its drawables where they are larger: bounds may be stored.
+/// Returns the depths of the scene's bound, and of its drawables if these are larger: bounds may be
+/// stored.
 DepthRange depthsOf(osg::Node& scene, const osg::Matrixd& view)
 {
     DepthRange range;

@@ -1,4 +1,4 @@
-// Camera.h - from which side the scene is seen, and before which background. Layer: apps.
+// Camera.h - the view of the scene and the background. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,12 +15,12 @@ struct Camera
 {
     osg::Matrixd view;
     osg::Matrixd projection;
-    osg::Vec4 clearColor; ///< of the scene's first osg::ClearNode, or else osgViewer's
+    osg::Vec4 clearColor; ///< colour of the scene's first osg::ClearNode, or else osgViewer's
 };
 
-/// The first osg::CameraView of the scene, or else the view that osgviewer opens with; what the
-/// options state replaces it. Near and far planes are those that osgviewer would compute from the
-/// scene's bound. Throws Failure(kUsage) if the options define no view.
+/// Returns the first osg::CameraView of the scene, or else the view that osgviewer opens with;
+/// values of the options replace those of the view. Near and far planes are those that osgviewer
+/// would compute from the scene's bound. Throws Failure(kUsage) if the options define no view.
 Camera cameraOf(const Options& options, osg::Node& scene);
 
 } // namespace osgRayTrace::app

@@ -27,7 +27,7 @@ const char* const kFooter =
     "Formats: .exr holds linear radiance and channels; .png and .jpg are tone mapped.\n"
     "Exit codes: 0 done, 1 usage, 2 cannot load, 3 cannot render, 4 cannot write.";
 
-/// What the command line holds before it is checked as a whole.
+/// Holds the values of the command line before they are checked as a whole.
 struct RawOptions
 {
     std::vector<int> size;
@@ -45,7 +45,7 @@ std::string commaSeparated(std::string range)
     return range;
 }
 
-/// A number within (low, high), low and high themselves excluded.
+/// Returns a validator for numbers within (low, high), low and high themselves excluded.
 CLI::Validator between(double low, double high, const std::string& wanted)
 {
     const auto problem = [=](const std::string& text)
@@ -76,7 +76,7 @@ CLI::Validator oneOf(const std::string& words)
     return CLI::Validator(problem, "");
 }
 
-/// One command line option for each option of RayTraceSettings, by the same name.
+/// Adds a command line option for each option of RayTraceSettings, by its name.
 void addSettings(CLI::App& app, Options& options)
 {
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
@@ -99,7 +99,7 @@ void addSettings(CLI::App& app, Options& options)
         if (!option.formerName.empty())
             app.add_option_function<std::string>("--" + option.formerName,
                                                  setter(option.formerName))
-                ->group(""); // not shown
+                ->group(""); // hidden from the help
         app.add_option_function<std::string>(name, setter(option.name), help)
             ->option_text(option.range)
             ->group("Settings");
@@ -180,8 +180,8 @@ void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
     if (raw.context == "egl") options.context = Context::Egl;
 }
 
-/// The default of 64 passes holds unless something else says when to stop; of 1 where no picture is
-/// wanted, but a report.
+/// Sets the default of 64 passes unless another option says when to stop; the default is 1 if a
+/// report is wanted without a picture.
 void applyPasses(const CLI::App& app, Options& options)
 {
     if (app.count("--passes") || std::getenv("OSGRAYTRACE_MAX_PASSES")) return;

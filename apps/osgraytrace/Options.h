@@ -1,4 +1,4 @@
-// Options.h - what the command line asks for. Layer: apps.
+// Options.h - the values of the command line. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -28,7 +28,8 @@ struct Options
     int width = 1280; ///< [pixels]
     int height = 720; ///< [pixels]
 
-    // The view: what is not given is taken from the scene. See Camera.h.
+    // The following members describe the view; members that are not given are taken from the scene:
+    // see Camera.h.
     std::optional<osg::Vec3d> eye;
     std::optional<osg::Vec3d> center;
     std::optional<osg::Vec3d> up;
@@ -44,19 +45,20 @@ struct Options
     bool listOptions = false;
     osg::ref_ptr<RayTraceSettings> settings; ///< maxPasses is the limit of passes
 
-    /// What the command line states of the settings: names and values.
+    /// Holds the settings that the command line states: names and values.
     std::vector<std::pair<std::string, std::string>> assignments;
-    std::optional<int> defaultPasses; ///< the limit of passes unless somebody states one
+    std::optional<int> defaultPasses; ///< limit of passes unless somebody states one
 };
 
-/// Takes over the settings that a scene brings with it; what the command line states goes before
-/// them. A limit of passes that is RayTraceSettings' own default states nothing.
+/// Takes over the settings that a scene brings with it; settings that the command line states win.
+/// A limit of passes that is RayTraceSettings' own default states nothing.
 void takeStoredSettings(const RayTraceSettings& stored, Options& options);
 
-/// Nothing if the command line asked for help, which was printed then. Throws Failure(kUsage).
+/// Returns the options; nothing if the command line asked for help, which was then printed. Throws
+/// Failure(kUsage).
 std::optional<Options> parseOptions(int argc, char** argv);
 
-/// Every RayTraceSettings option as a Markdown table, as the README shows it.
+/// Returns every RayTraceSettings option as a Markdown table, as the documents show it.
 std::string optionTable();
 
 } // namespace osgRayTrace::app

@@ -1,4 +1,4 @@
-// Picture.h - what a render leaves, and the two ways to make it. Layer: apps.
+// Picture.h - the results of a render, and the two ways to make them. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -21,15 +21,15 @@ struct Picture
 {
     osg::ref_ptr<osg::Image> radiance; ///< linear, GL_RGBA, GL_FLOAT
     osg::ref_ptr<osg::Image> display;  ///< tone mapped, GL_RGBA, GL_UNSIGNED_BYTE
-    std::map<std::string, osg::ref_ptr<osg::Image>> channels; ///< those that the options ask for
+    std::map<std::string, osg::ref_ptr<osg::Image>> channels; ///< channels that the options ask for
     Statistics statistics;
 };
 
-/// With osgRayTrace::Renderer. Throws Failure(kCannotRender).
+/// Renders with osgRayTrace::Renderer. Throws Failure(kCannotRender).
 Picture renderWithoutContext(const Options& options, osg::Node& scene, const Camera& camera,
                              Progress& progress);
 
-/// Through a RayTraceDrawable in an OpenGL context. Throws Failure(kCannotRender).
+/// Renders through a RayTraceDrawable in an OpenGL context. Throws Failure(kCannotRender).
 Picture renderInContext(const Options& options, osg::Node& scene, const Camera& camera,
                         Progress& progress);
 

@@ -31,7 +31,8 @@ void appendChannels(engine::ExrImage& exr, const osg::Image& image,
     }
 }
 
-/// By custom: depth and distance are Z, directions and positions X, Y, Z, the rest colours.
+/// Returns the customary names: depth and distance are Z, directions and positions X, Y, Z, the
+/// rest colours.
 std::vector<std::string> exrNames(const std::string& channel, bool vector)
 {
     if (channel == "id") return {"id.I"};
@@ -41,7 +42,7 @@ std::vector<std::string> exrNames(const std::string& channel, bool vector)
     return {channel + ".R", channel + ".G", channel + ".B"};
 }
 
-/// Radiance and channels.
+/// Returns an image of radiance and channels.
 engine::ExrImage exrImageOf(const Picture& picture)
 {
     engine::ExrImage exr;

@@ -10,8 +10,8 @@
 namespace osgRayTrace::app
 {
 
-/// By the extension. EXR: radiance and the picture's channels; else the display image. Throws
-/// Failure(kCannotWrite).
+/// Writes a picture in the format of the extension: EXR gets radiance and the picture's channels,
+/// other formats the display image. Throws Failure(kCannotWrite).
 void writePicture(const std::string& path, const Picture& picture);
 
 } // namespace osgRayTrace::app

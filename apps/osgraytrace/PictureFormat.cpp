@@ -1,4 +1,4 @@
-// PictureFormat.cpp - formats of pictures, by the extensions of their files. Layer: apps.
+// PictureFormat.cpp - looks extensions up. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "PictureFormat.h"
 

@@ -15,10 +15,10 @@ enum class Format
     Jpeg,
 };
 
-/// By the extension; nothing if it is none of them.
+/// Returns the format of the path's extension; nothing if no format has it.
 std::optional<Format> formatOf(const std::string& path);
 
-/// Why no picture of this size can be in such a file, by its extension; empty if it can.
+/// Returns why no picture of this size can be in such a file, by its extension; empty if it can.
 std::string whyNotInFile(const std::string& path, int width, int height);
 
 } // namespace osgRayTrace::app

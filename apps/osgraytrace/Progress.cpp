@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr int kBarWidth = 30;
-constexpr double kInterval = 0.1; ///< between two pictures of the bar [s]
+constexpr double kInterval = 0.1; ///< time between two pictures of the bar [s]
 
 } // namespace
 
@@ -62,7 +62,8 @@ void Progress::show(const Statistics& statistics)
     std::fflush(stderr);
 }
 
-/// Of the limit that is nearest. The error falls with the root of the number of passes.
+/// Returns the fraction of the nearest limit. The error falls with the root of the number of
+/// passes.
 double Progress::fraction(const Statistics& statistics) const
 {
     double done = double(statistics.passes) / _options.settings->getMaxPasses();

@@ -11,7 +11,7 @@
 namespace osgRayTrace::app
 {
 
-/// One line on standard error, written over again and again; silent where that is no terminal.
+/// Shows one line on standard error, written over again and again; silent if that is no terminal.
 class Progress
 {
 public:
@@ -23,7 +23,7 @@ public:
 
     void show(const Statistics& statistics);
 
-    /// Wall clock since construction.
+    /// Returns the wall clock time since construction.
     double seconds() const;
 
 private:

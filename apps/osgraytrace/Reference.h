@@ -9,8 +9,8 @@
 namespace osgRayTrace::app
 {
 
-/// GL_RGB or GL_RGBA, GL_FLOAT. Throws Failure(kCannotLoad); Failure(kUsage) if its size is
-/// another.
+/// Returns the image as GL_RGB or GL_RGBA, GL_FLOAT. Throws Failure(kCannotLoad); Failure(kUsage)
+/// if the image has another size.
 osg::ref_ptr<osg::Image> readReference(const std::string& file, int width, int height);
 
 } // namespace osgRayTrace::app

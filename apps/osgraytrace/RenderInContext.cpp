@@ -1,4 +1,4 @@
-// RenderInContext.cpp - a picture as an application with a viewer makes it. Layer: apps.
+// RenderInContext.cpp - renders like an application with a viewer. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "Picture.h"
 
@@ -32,7 +32,8 @@ osg::ref_ptr<osg::GraphicsContext> createContext(const Options& options)
                                      std::to_string(options.height));
 }
 
-/// A signal ends it with the pass at work: a drawable's passes are not cut short.
+/// Returns whether the picture is done. A signal ends the picture with the pass at work: a
+/// drawable's passes are not cut short.
 bool finished(const Options& options, const Statistics& statistics)
 {
     if (isInterrupted()) return true;
@@ -59,7 +60,7 @@ Picture renderInContext(const Options& options, osg::Node& scene, const Camera& 
     master->setGraphicsContext(createContext(options).get());
     master->setViewport(0, 0, options.width, options.height);
     master->setClearColor(camera.clearColor);
-    // The matrices as they are: the same rays as without a context.
+    // The matrices stay as they are: the rays are those of a render without a context.
     master->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
     master->setViewMatrix(camera.view);
     master->setProjectionMatrix(camera.projection);

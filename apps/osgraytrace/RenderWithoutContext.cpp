@@ -1,4 +1,4 @@
-// RenderWithoutContext.cpp - a picture by osgRayTrace::Renderer. Layer: apps.
+// RenderWithoutContext.cpp - renders with osgRayTrace::Renderer. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "Picture.h"
 

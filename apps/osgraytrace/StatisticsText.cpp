@@ -22,7 +22,7 @@ uint64_t allRays(const Statistics& statistics)
            statistics.photonRays;
 }
 
-/// Why a picture shows nothing; empty: it shows something. radiance: GL_RGBA, GL_FLOAT.
+/// Returns why a picture shows nothing; empty if it shows something. radiance: GL_RGBA, GL_FLOAT.
 std::string blankness(const osg::Image& radiance)
 {
     bool hit = false;
@@ -90,7 +90,7 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
                              {"relMse", measures->relMse},
                              {"meanRatio", measures->meanRatio}};
     }
-    // File names may be of any encoding; what is no UTF-8 is replaced.
+    // File names may be of any encoding; bytes that are no UTF-8 are replaced.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

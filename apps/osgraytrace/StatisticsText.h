@@ -14,12 +14,13 @@
 namespace osgRayTrace::app
 {
 
-/// Keys are the names of Statistics' members; numbers that are not finite are null.
+/// Returns JSON whose keys are the names of Statistics' members; numbers that are not finite are
+/// null.
 std::string statisticsJson(const Options& options, const Statistics& statistics,
                            const std::optional<ErrorMeasures>& measures);
 
-/// "path, 64 passes in 3.2 s, 41 M rays/s, estimated error 0.81 %", and whether that is what was
-/// asked for. Of a picture that shows nothing it says so instead of its error.
+/// Returns "path, 64 passes in 3.2 s, 41 M rays/s, estimated error 0.81 %", and whether that is
+/// what was asked for. If the picture shows nothing the line says so instead of the error.
 std::string statisticsLine(const Options& options, const Statistics& statistics,
                            const osg::Image& radiance);
 

@@ -48,8 +48,8 @@ Picture render(const Options& options, osg::Node& scene)
     return picture;
 }
 
-/// As osgviewer's first frame before it is drawn: slides are chosen, skeletons are posed, clocks
-/// are set.
+/// Brings the scene to the state of osgviewer's first frame before it is drawn: slides are chosen,
+/// skeletons are posed, clocks are set.
 void goToFirstFrame(osg::Node& scene)
 {
     osgViewer::Viewer viewer;
@@ -71,7 +71,7 @@ void goToFirstFrame(osg::Node& scene)
     viewer.updateTraversal();
 }
 
-/// Those of the command line, over those of the scene. Throws Failure(kCannotLoad).
+/// Takes the settings of the scene; those of the command line win. Throws Failure(kCannotLoad).
 void takeSettingsOf(osg::Node& scene, Options& options)
 {
     const osg::ref_ptr<RayTracedScene> stored = storedScene(scene);
@@ -81,7 +81,7 @@ void takeSettingsOf(osg::Node& scene, Options& options)
     if (!error.empty()) throw Failure(kCannotLoad, "materials of the scene: " + error);
 }
 
-/// Radiance is that of what is ray traced alone.
+/// Warns of parts that are missing: radiance is that of the ray traced parts alone.
 void warnOfMissingParts(const std::string& output, const Options& options,
                         const Statistics& statistics)
 {
@@ -98,7 +98,7 @@ void printMeasures(const ErrorMeasures& measures)
                 measures.meanRatio);
 }
 
-/// Says what a signal has left of the picture.
+/// Says how much of the picture a signal has left.
 void reportInterruption(const Options& options, const Statistics& statistics)
 {
     std::string left = std::to_string(statistics.passes) + " of at most " +
@@ -112,8 +112,8 @@ void reportInterruption(const Options& options, const Statistics& statistics)
     std::cerr << "osgraytrace: " << interruptionName() << ": " << left << '\n';
 }
 
-/// The outputs that a picture of this size can be written to. What cannot be is said, and
-/// remembered in code.
+/// Returns the outputs that a picture of this size can be written to. The others are reported, and
+/// recorded in code.
 std::vector<std::string> writableOutputs(const Options& options, int& code)
 {
     std::vector<std::string> writable;
@@ -128,7 +128,7 @@ std::vector<std::string> writableOutputs(const Options& options, int& code)
     return writable;
 }
 
-/// Writes what can be written, whatever else cannot be.
+/// Writes all that can be written, whatever else fails.
 int writeAll(const Options& options, const std::vector<std::string>& outputs,
              const Picture& picture, const std::optional<ErrorMeasures>& measures)
 {
@@ -163,7 +163,7 @@ int writeAll(const Options& options, const std::vector<std::string>& outputs,
 
 int run(Options options)
 {
-    // What can fail without rendering fails first.
+    // Steps that can fail without rendering come first.
     std::vector<Output> files;
     for (const std::string& output : options.outputs)
     {
@@ -183,7 +183,7 @@ int run(Options options)
     takeSettingsOf(*scene, options);
     goToFirstFrame(*scene);
 
-    const OrderlyEnd end; // from here on there is something to write
+    const OrderlyEnd end; // from here on there are results to write
     const Picture picture = render(options, *scene);
     std::optional<ErrorMeasures> measures;
     if (reference) measures = errorMeasures(*picture.radiance, *reference);

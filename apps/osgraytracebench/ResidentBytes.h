@@ -10,7 +10,7 @@
 namespace osgRayTrace::bench
 {
 
-/// What was freed is given back first.
+/// Returns the bytes that the process holds; freed memory is given back to the system first.
 inline double residentBytes()
 {
     malloc_trim(0);

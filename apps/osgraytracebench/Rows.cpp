@@ -1,4 +1,4 @@
-// Rows.cpp - the result of a benchmark: rows for people and for programs. Layer: apps.
+// Rows.cpp - prints rows, and writes them as JSON. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/Rows.h"
 

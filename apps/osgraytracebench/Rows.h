@@ -26,19 +26,19 @@ struct Row
     bool meets() const;
 };
 
-/// A signal has come: no more shall be measured.
+/// Is thrown after a signal: no more shall be measured.
 struct Interrupted
 {
 };
 
-/// Throws Interrupted if one has.
+/// Throws Interrupted if a signal has come.
 void endIfInterrupted();
 
-/// Of what is measured one after the other.
+/// Holds the rows of measurements that run one after the other.
 class Rows
 {
 public:
-    /// Ends as endIfInterrupted, with the row.
+    /// Adds a row, then calls endIfInterrupted.
     void push_back(Row row);
 
     const std::vector<Row>& list() const { return _list; }
@@ -47,11 +47,11 @@ private:
     std::vector<Row> _list;
 };
 
-/// A table on standard output.
+/// Prints a table on standard output.
 void printRows(const Rows& rows);
 
-/// {"rows":[{"name","value","unit","goal","meets"}, ...]}; goal is null for rows without one.
-/// Throws app::Failure(kCannotWrite).
+/// Writes {"rows":[{"name","value","unit","goal","meets"}, ...]}; goal is null for rows without
+/// one. Throws app::Failure(kCannotWrite).
 void writeRows(const Rows& rows, const std::string& file);
 
 } // namespace osgRayTrace::bench

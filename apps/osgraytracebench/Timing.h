@@ -21,7 +21,8 @@ inline double secondsOf(const std::function<void()>& body)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Of the calling thread: what other programs take of a busy machine is not in it.
+/// Returns the calling thread's own seconds, which hold no time of other programs on a busy
+/// machine.
 inline double threadSecondsOf(const std::function<void()>& body)
 {
     const auto now = []
@@ -50,13 +51,15 @@ struct PairedTimes
 
 using Stopwatch = double (*)(const std::function<void()>&);
 
-/// For work on so many threads: of one alone its own time, of more that on the wall.
+/// Returns the clock for work on so many threads: one thread's own time, or wall clock time for
+/// more.
 inline Stopwatch stopwatchFor(int threads)
 {
     return threads == 1 ? threadSecondsOf : secondsOf;
 }
 
-/// Runs the two in turn, after one turn that is not counted. Throws Interrupted after a signal.
+/// Runs first and second in turn, after one turn that is not counted. Throws Interrupted after a
+/// signal.
 inline PairedTimes timePair(int runs, const std::function<void()>& first,
                             const std::function<void()>& second, Stopwatch stopwatch = secondsOf)
 {

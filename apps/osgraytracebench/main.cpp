@@ -33,8 +33,8 @@ namespace
 constexpr const char* kProgram = "osgraytracebench";
 constexpr int kCompareUsage = 2;
 
-/// A mode that makes rows. What can fail without measuring fails first; a signal leaves the rows so
-/// far.
+/// Runs a mode that makes rows. Steps that can fail without measuring come first; a signal leaves
+/// the rows measured so far.
 int runRows(const std::function<void(Rows&)>& measure, const std::string& json,
             const std::string& pictures = {})
 {
@@ -62,7 +62,7 @@ int runRows(const std::function<void(Rows&)>& measure, const std::string& json,
     return app::kDone;
 }
 
-/// The modes of the command line.
+/// Holds the modes of the command line.
 struct CommandLine
 {
     CommandLine()
@@ -243,7 +243,7 @@ int main(int argc, char** argv)
                                catch (const CLI::ParseError& error)
                                {
                                    if (commandLine.application.exit(error) == 0) return app::kDone;
-                                   // compare's 1 says that something changed.
+                                   // compare's exit code 1 says that something changed.
                                    const bool comparing =
                                        argc > 1 && std::string(argv[1]) == "compare";
                                    return comparing ? kCompareUsage : app::kUsage;

@@ -26,7 +26,7 @@ namespace osgRayTrace::app
 namespace
 {
 
-/// Lights the scene for all walls alike: a headlight would be another one for each of them.
+/// This light is equal for all walls: a headlight would differ from wall to wall.
 const osg::Vec4 kLightFrom(0.2f, -0.5f, 1.0f, 0.0f);
 
 struct Rectangle
@@ -34,14 +34,14 @@ struct Rectangle
     int left = 0, bottom = 0, width = 0, height = 0;
 };
 
-/// What one eye sees of one wall.
+/// Holds what one eye sees of one wall.
 struct WallPicture
 {
     const CaveWall* wall = nullptr;
     CaveEye eye = CaveEye::Centre;
-    Rectangle place; ///< in the window
+    Rectangle place; ///< viewport in the window
     osg::ref_ptr<osg::Camera> camera = new osg::Camera;
-    osg::ref_ptr<FrameCapture> capture; ///< of offscreen pictures
+    osg::ref_ptr<FrameCapture> capture; ///< set for offscreen pictures
 };
 
 Rectangle placeOf(const CaveWall& wall, CaveEye eye)
@@ -79,7 +79,7 @@ std::vector<WallPicture> picturesOf(const CaveSetup& setup)
     return pictures;
 }
 
-/// The second picture on the same pixels leaves those of the first.
+/// Lets the second picture on the same pixels leave those of the first.
 void separateEyes(const WallPicture& picture, bool offscreen)
 {
     if (offscreen) return;
@@ -162,8 +162,8 @@ void addSlaves(osgViewer::Viewer& viewer, const CaveSetup& setup,
     {
         osg::Camera& camera = *picture.camera;
         camera.setName("wall " + std::to_string(picture.wall->index));
-        camera.setReferenceFrame(osg::Transform::ABSOLUTE_RF); // its matrices are its own
-        camera.setNodeMask(0);                                 // until moveHead has a view for it
+        camera.setReferenceFrame(osg::Transform::ABSOLUTE_RF); // its matrices are absolute
+        camera.setNodeMask(0);                                 // hidden until moveHead has a view
         camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
         camera.setClearColor(setup.background);
         separateEyes(picture, offscreen);
@@ -171,8 +171,8 @@ void addSlaves(osgViewer::Viewer& viewer, const CaveSetup& setup,
     }
 }
 
-/// A wall that the eye is not before keeps its last picture, and has none before it has seen the
-/// eye.
+/// Moves the eyes. A wall that the eye is not before keeps its last picture, and has no picture
+/// before it has seen the eye.
 void moveHead(const CaveSetup& setup, const std::vector<WallPicture>& pictures,
               const CavePose& pose)
 {
@@ -187,7 +187,8 @@ void moveHead(const CaveSetup& setup, const std::vector<WallPicture>& pictures,
     }
 }
 
-/// Into the middle of the CAVE and as large as the configuration wants models to be.
+/// Returns the model moved to the middle of the CAVE and scaled to the size that the configuration
+/// wants.
 osg::ref_ptr<osg::Node> fitted(osg::Node* root, double size)
 {
     const osg::BoundingSphere bound = root->getBound();
@@ -210,7 +211,7 @@ std::string fileOf(const std::string& output, const WallPicture& picture)
     return name + '.' + (extension.empty() ? "png" : extension);
 }
 
-/// What a picture a wall is written to, for walls that the head is before.
+/// Returns the files of the pictures, one a wall, for walls that the head is before.
 std::vector<Output> filesOf(const std::vector<WallPicture>& pictures, const std::string& output)
 {
     std::vector<Output> files;

@@ -16,15 +16,15 @@
 namespace osgRayTrace::app
 {
 
-/// Of the command line.
+/// Holds the CAVE options of the command line.
 struct CaveOptions
 {
-    std::string file; ///< empty: no CAVE
+    std::string file; ///< configuration; empty: no CAVE
     std::string host;
-    std::optional<CavePose> head; ///< else the configuration's
-    std::string headPath;         ///< file; empty: the head keeps still
-    double time = 0.0;            ///< of pictures [s]
-    std::string output;           ///< a picture a wall; empty: windows
+    std::optional<CavePose> head; ///< nothing: the configuration's head
+    std::string headPath;         ///< file of poses; empty: the head keeps still
+    double time = 0.0;            ///< time of the pictures [s]
+    std::string output;           ///< file name for a picture a wall; empty: windows
 };
 
 void describeCave(osg::ApplicationUsage& usage);
@@ -32,8 +32,8 @@ void describeCave(osg::ApplicationUsage& usage);
 /// Takes the options off the command line. Throws Failure(kUsage).
 CaveOptions readCaveOptions(osg::ArgumentParser& arguments);
 
-/// Shows what is below root, with scene in it, until the user ends it; or writes the pictures.
-/// title: of the windows. Throws Failure.
+/// Shows all that is below root, with scene in it, until the user ends it; or writes the pictures.
+/// title: title of the windows. Throws Failure.
 int runCave(const CaveOptions& options, osg::Node* root, RayTracedScene* scene,
             const std::string& title);
 

@@ -1,4 +1,4 @@
-// KeyHandler.cpp - the keys that steer the ray tracer. Layer: apps.
+// KeyHandler.cpp - reacts to the keys, and lists them. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "KeyHandler.h"
 
@@ -55,8 +55,8 @@ std::string freeFileName()
 bool KeyHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action)
 {
     if (event.getHandled()) return false;
-    // Other handlers act on releases: that of F is f if Shift was let go before it, which
-    // osgViewer's full screen is.
+    // Other handlers act on releases. If Shift is let go before F, the release is that of f, which
+    // is osgViewer's key for full screen.
     if (event.getEventType() == osgGA::GUIEventAdapter::KEYUP)
         return _held.erase(lowerCase(event.getKey())) > 0;
     if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
@@ -105,7 +105,7 @@ bool KeyHandler::press(int key, osgViewer::View* view)
     }
 }
 
-/// A view without a manipulator keeps its matrices.
+/// Freezes or frees the view; a view without a manipulator keeps its matrices.
 void KeyHandler::freeze(osgViewer::View* view)
 {
     _frozen = !_frozen;

@@ -22,11 +22,11 @@ public:
 
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
 
-    /// The keys, for the on-screen help and --help.
+    /// Adds the keys to the on-screen help and --help.
     void getUsage(osg::ApplicationUsage& usage) const override;
 
-    /// The view is to stay where it is, so that its image converges: the manipulator has been taken
-    /// from it, and who else moves it asks here.
+    /// Returns whether the view has to stay where it is, so that its image converges. The
+    /// manipulator has been taken from the view; whoever else moves the view asks here.
     bool isFrozen() const { return _frozen; }
 
 private:
@@ -38,7 +38,7 @@ private:
     bool _frozen = false;
     std::set<int>
         _held; ///< keys whose press was handled here, in lower case: their release is, too
-    osg::ref_ptr<osgGA::CameraManipulator> _manipulator; ///< of the view, while it is frozen
+    osg::ref_ptr<osgGA::CameraManipulator> _manipulator; ///< taken from the view while it is frozen
 };
 
 } // namespace osgRayTrace::app

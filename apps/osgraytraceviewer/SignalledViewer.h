@@ -11,7 +11,7 @@
 namespace osgRayTrace::app
 {
 
-/// Once realized, it is done when a signal comes, as if Escape had been pressed; a second signal
+/// Ends when a signal comes, once it is realized, as if Escape had been pressed; a second signal
 /// ends the process.
 class SignalledViewer : public osgViewer::Viewer
 {

@@ -1,4 +1,4 @@
-// StatusLine.cpp - one line over the picture: what the ray tracer does. Layer: apps.
+// StatusLine.cpp - the text, its place and its plate. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "StatusLine.h"
 
@@ -26,14 +26,15 @@ osg::ref_ptr<osgText::Text> createText()
     text->setDataVariance(osg::Object::DYNAMIC);
     text->setCharacterSize(kCharacterSize);
     text->setPosition(osg::Vec3(kMargin, kMargin, 0.0f));
-    // A dark plate: outlines close over decimal points.
+    // The plate is dark: outlines would close over decimal points.
     text->setDrawMode(osgText::Text::TEXT | osgText::Text::FILLEDBOUNDINGBOX);
     text->setBoundingBoxColor(osg::Vec4(0.0f, 0.0f, 0.0f, 0.75f));
     text->setBoundingBoxMargin(kPlateMargin);
     return text;
 }
 
-/// Over everything, in pixels, and no part of the scene's depth range.
+/// Returns a camera that draws over everything, in pixels, and is no part of the scene's depth
+/// range.
 osg::ref_ptr<osg::Camera> createOverlay(osg::Drawable* drawable)
 {
     osg::ref_ptr<osg::Camera> camera = new osg::Camera;

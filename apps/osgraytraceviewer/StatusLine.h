@@ -15,13 +15,13 @@
 namespace osgRayTrace::app
 {
 
-/// What statusText says, at the lower left of the window.
+/// Shows statusText at the lower left of the window.
 class StatusLine : public osgGA::GUIEventHandler
 {
 public:
     StatusLine(RayTracedScene* scene, const KeyHandler* keys);
 
-    /// To be put into the graph, beside the scene.
+    /// Returns the camera that has to be put into the graph, beside the scene.
     osg::Camera* camera() { return _camera.get(); }
 
     /// Renews the text once a frame, and follows the window's size.
@@ -35,9 +35,9 @@ private:
     std::string _shown;
 };
 
-/// "path   37 of 1024 passes   12.4 M rays/s   error 1.8 %", and what else is not as usual: a
-/// reduced resolution, an exposure, a denoiser, a view that is frozen or paused. Or why there is no
-/// picture.
+/// Returns "path   37 of 1024 passes   12.4 M rays/s   error 1.8 %" and all that is not as usual: a
+/// reduced resolution, an exposure, a denoiser, a view that is frozen or paused. If there is no
+/// picture, it returns why.
 std::string statusText(const RayTracedScene& scene, bool frozen);
 
 } // namespace osgRayTrace::app

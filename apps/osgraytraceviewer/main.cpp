@@ -36,7 +36,7 @@ namespace
 {
 
 const char* const kMaxPasses = "max-passes";
-const char* const kPasses = "--passes"; ///< the same, as osgraytrace has it
+const char* const kPasses = "--passes"; ///< osgraytrace's name of the option
 
 using Assignments = std::vector<std::pair<std::string, std::string>>;
 
@@ -55,7 +55,7 @@ void describe(osg::ApplicationUsage& usage)
     describeCave(usage);
 }
 
-/// Names and values of the settings on the command line. Throws Failure(kUsage).
+/// Returns names and values of the settings on the command line. Throws Failure(kUsage).
 Assignments readSettings(osg::ArgumentParser& arguments)
 {
     Assignments assignments;
@@ -102,7 +102,7 @@ void addHandlers(osgViewer::Viewer& viewer, KeyHandler* keys, StatusLine* status
     viewer.addEventHandler(new osgViewer::HelpHandler(usage));
 }
 
-/// Of the window: "cow.osgt, glider.osgt".
+/// Returns the title of the window: "cow.osgt, glider.osgt".
 std::string titleOf(const std::vector<std::string>& models)
 {
     std::string title;
@@ -111,7 +111,7 @@ std::string titleOf(const std::vector<std::string>& models)
     return title;
 }
 
-/// The view and background that the scene brings with it, if any.
+/// Sets the view and background that the scene brings with it, if any.
 void showAsStored(osgViewer::Viewer& viewer, osg::Node& scene)
 {
     osg::Camera* camera = viewer.getCamera();
@@ -119,7 +119,8 @@ void showAsStored(osgViewer::Viewer& viewer, osg::Node& scene)
     const std::optional<Placement> placement = storedPlacement(scene);
     if (!placement) return;
 
-    // The trackball turns around the scene's middle, or what the view has before it there.
+    // The trackball turns around the scene's middle, or around the point of the line of sight
+    // nearest to it.
     const osg::Vec3d sight = placement->center - placement->eye;
     const osg::Vec3d middle = scene.getBound().center();
     const double distance = std::max((middle - placement->eye) * sight, 1.0);
@@ -130,14 +131,14 @@ void showAsStored(osgViewer::Viewer& viewer, osg::Node& scene)
     camera->setProjectionMatrixAsPerspective(placement->fovyDegrees, 1.25, 1.0, 10000.0);
 }
 
-/// Models with the ray traced scene that they are in.
+/// Holds models with the ray traced scene that they are in.
 struct Models
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     osg::ref_ptr<RayTracedScene> scene;
 };
 
-/// Throws Failure(kCannotLoad).
+/// Returns the models below a ray traced scene. Throws Failure(kCannotLoad).
 Models readModels(const std::vector<std::string>& names, const Assignments& assignments)
 {
     Models models;
@@ -157,8 +158,8 @@ Models readModels(const std::vector<std::string>& names, const Assignments& assi
     return models;
 }
 
-/// The walls of a CAVE show one picture, unless the environment or the command line wants
-/// otherwise.
+/// Adds the settings with which the walls of a CAVE show one picture, unless the environment or the
+/// command line wants otherwise.
 Assignments wallSettings(Assignments assignments)
 {
     if (!std::getenv("OSGRAYTRACE_EQUAL_VIEWS"))

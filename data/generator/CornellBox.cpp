@@ -13,8 +13,8 @@ namespace
 
 using osg::Vec3;
 
-// Positions as measured [CornellBox]: x to the left in the picture, y up, z away from the camera
-// [mm].
+// Positions are those measured in [CornellBox]: x to the left in the picture, y up, z away from the
+// camera [mm].
 const Quad kFloor{Vec3(552.8f, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 559.2f), Vec3(549.6f, 0, 559.2f)};
 const Quad kCeiling{Vec3(556, 548.8f, 0), Vec3(556, 548.8f, 559.2f), Vec3(0, 548.8f, 559.2f),
                     Vec3(0, 548.8f, 0)};
@@ -42,14 +42,14 @@ const std::vector<Quad> kTallBlock{
     {Vec3(265, 0, 296), Vec3(265, 330, 296), Vec3(423, 330, 247), Vec3(423, 0, 247)},
 };
 
-// Linear RGB stand-ins for the measured spectra, as other renderers use them.
+// These linear RGB colours stand for the measured spectra, as in other renderers.
 const Vec3 kWhite(0.73f, 0.73f, 0.73f);
 const Vec3 kRed(0.65f, 0.05f, 0.05f);
 const Vec3 kGreen(0.12f, 0.45f, 0.15f);
 const Vec3 kRadiance(17.0f, 12.0f, 4.0f);
 
-/// The frame between an outer quad and an inner one: the ceiling around the light, which lies in
-/// it.
+/// Returns the frame between an outer quad and an inner one: the ceiling around the light, which
+/// lies in the ceiling's plane.
 std::vector<Quad> frame(const Quad& outer, const Quad& inner)
 {
     std::vector<Quad> quads;
@@ -86,7 +86,7 @@ osg::ref_ptr<osg::Group> cornellBox(CornellVariant variant)
     if (!blocks)
         scene->addChild(sphere("glass sphere", Vec3(278, 121, 279.6f), 120.0f, glass(1.5f).get()));
 
-    // Its front, cross(edgeU, edgeV), looks down.
+    // The light's front, which faces cross(edgeU, edgeV), looks down.
     osg::ref_ptr<AreaLight> light =
         new AreaLight(kLight[0], kLight[1] - kLight[0], kLight[3] - kLight[0], kRadiance);
     light->setName("light");

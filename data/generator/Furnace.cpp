@@ -10,7 +10,7 @@ namespace osgRayTrace::data
 
 osg::ref_ptr<osg::Group> furnace()
 {
-    // Radiance = emission / (1 - albedo) = 1.
+    // The radiance is emission / (1 - albedo) = 1.
     const osg::Vec3 half(0.5f, 0.5f, 0.5f);
     const osg::ref_ptr<PhysicalMaterial> wall = lambert(half);
     wall->setEmission(half);
@@ -21,7 +21,7 @@ osg::ref_ptr<osg::Group> furnace()
                  {osg::Vec3d(0, -4, 0), center, up, 40.0});
     const osg::ref_ptr<osg::Geode> room =
         surface("room", boxQuads(osg::Vec3(-1, -1, -1), osg::Vec3(1, 1, 1)), wall.get());
-    // Whoever stands outside sees through the outer sides.
+    // Faces are culled so that whoever stands outside sees through the outer sides.
     room->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT));
     scene->addChild(room);
     return scene;

@@ -18,10 +18,11 @@ constexpr float kGlass = 1.5f, kWater = 1.33f; ///< indices of refraction
 
 constexpr int kColumns = 144, kRimSteps = 8;
 constexpr double kOuter = 6.0, kWall = 0.4, kInner = kOuter - kWall; ///< radii of the glass [cm]
-constexpr double kHeight = 17.0, kBase = 1.4, kLevel = 11.5;         ///< the water's surface
+constexpr double kHeight = 17.0, kBase = 1.4,
+                 kLevel = 11.5; ///< height of the glass, its base and the water's surface [cm]
 
-/// Where glass meets air, where it meets water, where water meets air: each surface once, and
-/// normals out of the denser side, which its index is that of.
+/// Adds each of three surfaces once: glass to air, glass to water, and water to air. The normals
+/// point out of the denser side, to which the index belongs.
 void addGlassOfWater(osg::Group& scene, const Vec3d& base)
 {
     const double half = 0.5 * kWall;
@@ -42,7 +43,7 @@ void addGlassOfWater(osg::Group& scene, const Vec3d& base)
 
 osg::ref_ptr<osg::Group> glasses()
 {
-    const float w = 30.0f, h = 45.0f; // half the width; the height [cm]
+    const float w = 30.0f, h = 45.0f; // half the width and the height [cm]
     const osg::ref_ptr<PhysicalMaterial> white = lambert(Vec3(0.75f, 0.75f, 0.73f));
     osg::ref_ptr<osg::MatrixTransform> scene =
         newScene("glasses", {Vec3d(0, -84, 36), Vec3d(1.5, 0, 9.5), Vec3d(0, 0, 1), 28.0},
@@ -61,7 +62,7 @@ osg::ref_ptr<osg::Group> glasses()
     scene->addChild(sphere("glass sphere", Vec3(-11.5f, 3.0f, 8.05f), 8.0f, glass(kGlass).get()));
     addGlassOfWater(*scene, Vec3d(6.5, -4.0, 0.05));
 
-    // Small, high on the left, towards the back: caustics fall to the front right.
+    // The lamp is small, high on the left, towards the back: caustics fall to the front right.
     osg::ref_ptr<AreaLight> lamp =
         new AreaLight(Vec3(-27, 2, 32), Vec3(0, 3, 0), Vec3(2, 0, 2.2f), Vec3(420, 380, 320));
     lamp->setName("lamp");

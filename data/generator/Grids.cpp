@@ -1,5 +1,4 @@
-// Grids.cpp - lattices under an area light, for soft shadows of many edges. Part of the scene
-// generator.
+// Grids.cpp - lattices under an area light, for soft shadows. Part of the scene generator.
 // SPDX-License-Identifier: MIT
 #include "Scenes.h"
 #include "Surfaces.h"
@@ -18,7 +17,7 @@ constexpr int kCells = 6;
 constexpr float kBarWidth = 0.12f;
 constexpr float kGridSize = 3.0f;
 
-/// A square lattice of bars in the plane z = 0, centred on the origin.
+/// Returns a square lattice of bars in the plane z = 0, centred on the origin.
 std::vector<Quad> lattice()
 {
     const float half = 0.5f * kGridSize;
@@ -61,7 +60,7 @@ osg::ref_ptr<osg::Group> grids()
     const Quad floor{Vec3(-12, -12, 0), Vec3(12, -12, 0), Vec3(12, 12, 0), Vec3(-12, 12, 0)};
     scene->addChild(surface("floor", {floor}, lambert(Vec3(0.7f, 0.7f, 0.7f)).get()));
 
-    // One grid, used three times: lying near the floor, lying high above it, standing.
+    // One grid is used three times: lying near the floor, lying high above it, standing.
     const osg::ref_ptr<osg::Geode> grid =
         surface("grid", lattice(), lambert(Vec3(0.6f, 0.35f, 0.2f)).get());
     scene->addChild(placed("low grid", osg::Matrixd::translate(-3.6, 0.0, 0.5), grid.get()));

@@ -18,12 +18,13 @@ namespace
 using osg::Vec3;
 using osg::Vec3d;
 
-constexpr double kSide = 8.0, kHeight = 7.0; ///< of the prism: equilateral, upright [cm]
-constexpr double kStands = 0.02;             ///< above the table
+constexpr double kSide = 8.0,
+                 kHeight = 7.0;  ///< side and height of the prism: equilateral, upright [cm]
+constexpr double kStands = 0.02; ///< gap between prism and table [cm]
 
 constexpr float kRoom = 60.0f, kPlank = 3.0f; ///< half the room's side, width of a plank [cm]
 
-/// Every other plank of the table: what is seen through glass shows best on stripes.
+/// Returns every other plank of the table: stripes show best what glass does to a view.
 std::vector<Quad> planks(int first)
 {
     std::vector<Quad> quads;
@@ -36,7 +37,7 @@ std::vector<Quad> planks(int first)
     return quads;
 }
 
-/// Three upright sides, bottom and top, normals outwards.
+/// Returns three upright sides, bottom and top, with normals outwards.
 std::vector<Quad> prismSides()
 {
     const double radius = kSide / std::sqrt(3.0);
@@ -54,7 +55,7 @@ std::vector<Quad> prismSides()
         const Vec3d &a = corner[i], &b = corner[(i + 1) % 3];
         quads.push_back({Vec3(a), Vec3(b), Vec3(b + up), Vec3(a + up)});
     }
-    // A triangle as a quad with its first side halved.
+    // The quad is a triangle with its first side halved.
     const Vec3d middle = (corner[0] + corner[1]) * 0.5;
     quads.push_back({Vec3(corner[0]), Vec3(corner[2]), Vec3(corner[1]), Vec3(middle)});
     quads.push_back(
@@ -62,8 +63,9 @@ std::vector<Quad> prismSides()
     return quads;
 }
 
-/// Enters the side with the corner at 210 degrees in its middle, as for the least deviation: 48.59
-/// degrees to its normal, 18.59 to the x axis [sin 48.59 = 1.5 sin 30]; a little downwards.
+/// Returns a beam that enters the side with the corner at 210 degrees in its middle, as for the
+/// least deviation: 48.59 degrees to its normal, 18.59 to the x axis [sin 48.59 = 1.5 sin 30]; a
+/// little downwards.
 osg::ref_ptr<osg::LightSource> beam()
 {
     const double turn = std::asin(0.75) - osg::PI / 6.0, distance = 42.0, fall = 5.5;

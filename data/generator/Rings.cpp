@@ -14,7 +14,7 @@ namespace
 using osg::Vec3;
 using osg::Vec3d;
 
-/// Upright walls inside and outside, a round rim; it stands on the table.
+/// Returns a ring with upright walls inside and outside and a round rim, which stands on the table.
 osg::ref_ptr<osg::Geode> ring(const std::string& name, const Vec3d& base, double inner,
                               double thickness, double height, const Vec3& color)
 {
@@ -50,7 +50,8 @@ osg::ref_ptr<osg::Group> rings()
     scene->addChild(
         ring("copper ring", Vec3d(1.6, -2.6, 0), 1.5, 0.22, 1.0, Vec3(0.95f, 0.64f, 0.54f)).get());
 
-    // A lamp low on the left, small so that the caustics are sharp; its front looks at the rings.
+    // The lamp is low on the left, small so that the caustics are sharp; its front looks at the
+    // rings.
     osg::ref_ptr<AreaLight> lamp =
         new AreaLight(Vec3(-26.0f, -13.0f, 17.0f), Vec3(0.55f, 0.3f, 0.95f),
                       Vec3(0.52f, -1.0f, 0.0f), Vec3(2100, 1900, 1600));

@@ -1,5 +1,4 @@
-// Scenes.h - our own scenes; data/README.md says where each comes from. Part of the scene
-// generator.
+// Scenes.h - our own scenes, whose sources data/README.md names. Part of the scene generator.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -20,27 +19,29 @@ enum class CornellVariant
 
 osg::ref_ptr<osg::Group> cornellBox(CornellVariant variant);
 
-/// Lattices between an area light and a floor [McCarthy17, fig. 1-3].
+/// Returns lattices between an area light and a floor [McCarthy17, fig. 1-3].
 osg::ref_ptr<osg::Group> grids();
 
-/// Three metal rings on a table, their caustics seen directly and in a looking-glass
-/// [McCarthy17, fig. 6]. Centimetres, z up.
+/// Returns three metal rings on a table, with caustics seen directly and in a looking-glass
+/// [McCarthy17, fig. 6]. Lengths are centimetres, z is up.
 osg::ref_ptr<osg::Group> rings();
 
-/// A glass sphere and a glass of water in a box, under a small lamp. Centimetres, z up.
+/// Returns a glass sphere and a glass of water in a box, under a small lamp. Lengths are
+/// centimetres, z is up.
 osg::ref_ptr<osg::Group> glasses();
 
-/// An upright prism of glass in the beam of a spot light. Centimetres, z up.
+/// Returns an upright prism of glass in the beam of a spot light. Lengths are centimetres, z is up.
 osg::ref_ptr<osg::Group> prism();
 
-/// Balls of chrome, glass, plaster and rough gold on a terrace below sky.exr. Metres, z up.
+/// Returns balls of chrome, glass, plaster and rough gold on a terrace below sky.exr. Lengths are
+/// metres, z is up.
 osg::ref_ptr<osg::Group> terrace();
 
-/// The sky of it: 128 x 64 pixels, one of which is the sun, with half of the light. Returns what is
-/// wrong, or nothing.
+/// Writes the sky of the terrace: 128 x 64 pixels, one of which is the sun, with half of the light.
+/// Returns what is wrong; empty: nothing.
 std::string writeSky(const std::string& path);
 
-/// A closed room whose walls all emit 1/2 and reflect 1/2: seen from within, radiance is 1
+/// Returns a closed room whose walls all emit 1/2 and reflect 1/2: seen from within, radiance is 1
 /// everywhere.
 osg::ref_ptr<osg::Group> furnace();
 

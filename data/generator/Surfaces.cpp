@@ -38,7 +38,8 @@ osg::ref_ptr<osg::Geometry> geometryOf(const Quad& quad, const PhysicalMaterial&
     return geometry;
 }
 
-/// What is to the right in the view becomes +x, what is ahead +y, what is up +z.
+/// Returns the rotation that turns the view's right to +x, its line of sight to +y and its up to
+/// +z.
 osg::Matrixd turnedTo(const SceneView& view)
 {
     osg::Vec3d ahead = view.center - view.eye;
@@ -194,11 +195,13 @@ osg::ref_ptr<osg::MatrixTransform> newScene(const std::string& name, const Scene
 {
     osg::ref_ptr<osg::MatrixTransform> scene = new osg::MatrixTransform(turnedTo(home));
     makeEmpty(*scene, name);
-    scene->setDataVariance(osg::Object::DYNAMIC); // osgUtil's optimizer would turn geometry alone
+    scene->setDataVariance(
+        osg::Object::DYNAMIC); // osgUtil's optimizer would turn the geometry alone
     const double halfHeight =
         (home.center - home.eye).length() * std::tan(osg::DegreesToRadians(0.5 * home.fovyDegrees));
     scene->setInitialBound(osg::BoundingSphere(home.center * scene->getMatrix(), halfHeight));
-    // The base class adds nothing to the initial bound, in place of the children's bounds.
+    // With this callback the base class adds nothing to the initial bound, in place of the
+    // children's bounds.
     scene->setComputeBoundingSphereCallback(new osg::Node::ComputeBoundingSphereCallback);
     scene->setCullingActive(false);
     scene->addChild(cameraView(stored).get());

@@ -1,5 +1,4 @@
-// Terrace.cpp - things on a terrace in the sun, and the sky around them. Part of the scene
-// generator.
+// Terrace.cpp - balls on a terrace in the sun, and the sky. Part of the scene generator.
 // SPDX-License-Identifier: MIT
 #include "Scenes.h"
 #include "Surfaces.h"
@@ -27,7 +26,7 @@ constexpr int kSunColumn = 40, kSunRow = 46; ///< to the left of the middle, 41 
 constexpr float kHalf = 4.0f;                ///< half the terrace's side [m]
 constexpr float kTile = 0.5f;
 
-/// Towards the middle of a pixel, in EnvironmentLight's axes.
+/// Returns the direction towards the middle of a pixel, in EnvironmentLight's axes.
 Vec3d directionOf(int column, int row)
 {
     const double azimuth = ((column + 0.5) / kWidth - 0.5) * 2.0 * osg::PI;
@@ -43,7 +42,7 @@ double solidAngle(int row)
     return 2.0 * osg::PI / kWidth * (high - low);
 }
 
-/// Blue above, pale at the horizon, brighter around the sun; grassland below.
+/// Returns the sky: blue above, pale at the horizon, brighter around the sun; grassland below.
 Vec3 skyWithoutSun(const Vec3d& direction)
 {
     const double z = direction.z();
@@ -95,7 +94,7 @@ std::string writeSky(const std::string& path)
                 if (c == 1) energy += value * solidAngle(row);
             }
     }
-    // As much green light as from all the rest.
+    // The sun has as much green light as all the rest.
     const Vec3 sun = Vec3(1.08f, 1.0f, 0.82f) * float(energy / solidAngle(kSunRow));
     for (int c = 0; c < 3; ++c)
         image.channels[static_cast<std::size_t>(c)].values[kSunRow * kWidth + kSunColumn] = sun[c];
@@ -104,7 +103,7 @@ std::string writeSky(const std::string& path)
 
 osg::ref_ptr<osg::Group> terrace()
 {
-    // At home the terrace is level, and seen from the height of what stands on it.
+    // At home the terrace is level, and seen from the height of the balls on it.
     osg::ref_ptr<osg::MatrixTransform> scene =
         newScene("terrace", {Vec3d(0.6, -4.4, 1.75), Vec3d(0.0, 0.0, 0.55), Vec3d(0, 0, 1), 38.0},
                  {Vec3d(0.0, -5.0, 0.9), Vec3d(0.0, 0.0, 0.9), Vec3d(0, 0, 1), 38.0});
@@ -121,7 +120,7 @@ osg::ref_ptr<osg::Group> terrace()
     gold->setRoughness(0.35f);
     scene->addChild(sphere("gold", Vec3(1.35f, -0.35f, 0.401f), 0.4f, gold.get()));
 
-    // By name: the file lies beside the scene.
+    // The image is stored by name: the file lies beside the scene.
     osg::ref_ptr<osg::Image> image = new osg::Image;
     image->setFileName("sky.exr");
     image->allocateImage(1, 1, 1, GL_RGB, GL_FLOAT);

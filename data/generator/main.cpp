@@ -37,7 +37,7 @@ int main(int argc, char** argv)
         {"prism.osgt", prism()},
         {"terrace.osgt", terrace()},
     };
-    // Images by their names.
+    // Images are stored by their names.
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("WriteImageHint=UseExternal");
     for (const File& file : files)
     {

@@ -1,5 +1,4 @@
-// CalVRConnections.cpp - calls of ComController, which takes what it sends as not const. Layer:
-// plugins.
+// CalVRConnections.cpp - calls of ComController, whose send functions lack const. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #include "CalVRConnections.h"
 

@@ -10,7 +10,7 @@ namespace osgRayTrace::calvr
 namespace
 {
 
-constexpr int kMostTextBytes = 1 << 20; // more is no text of ours: the nodes are out of step
+constexpr int kMostTextBytes = 1 << 20; // a longer text is none of ours: the nodes are out of step
 constexpr int kMessageBytes = static_cast<int>(sizeof(WorkMessage));
 
 WorkMessage messageOf(const std::optional<FrameWork>& work)

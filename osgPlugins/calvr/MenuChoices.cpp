@@ -10,7 +10,7 @@ namespace osgRayTrace::calvr
 namespace
 {
 
-/// All words of an option that is a choice.
+/// Returns a submenu of all words of an option that is a choice.
 MenuChoice choiceOf(const std::string& title, const std::string& name)
 {
     MenuChoice choice{title, {}};
@@ -25,7 +25,8 @@ MenuChoice choiceOf(const std::string& title, const std::string& name)
     return choice;
 }
 
-/// Each step takes four times as long and leaves half of the noise that photons make.
+/// Returns a submenu in which each step takes four times as long and leaves half of the noise that
+/// photons make.
 MenuChoice photonChoice()
 {
     MenuChoice choice{"Photons a pass", {}};

@@ -1,4 +1,4 @@
-// MenuChoices.h - what the menu offers, as settings. Layer: plugins.
+// MenuChoices.h - the lines of the menu, as settings. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,26 +11,26 @@
 namespace osgRayTrace::calvr
 {
 
-/// One line of a submenu: options and their values.
+/// Describes one line of a submenu: options and their values.
 struct MenuEntry
 {
     std::string label;
     std::vector<std::pair<std::string, std::string>> values;
 };
 
-/// A submenu of which one line is chosen.
+/// Describes a submenu of which one line is chosen.
 struct MenuChoice
 {
     std::string title;
     std::vector<MenuEntry> entries;
 };
 
-/// Integrator, light sampling, photons a pass, quality.
+/// Returns the submenus: integrator, light sampling, photons a pass, quality.
 std::vector<MenuChoice> menuChoices();
 
 void choose(const MenuEntry& entry, RayTraceSettings& settings);
 
-/// Index of the entry whose values the settings have; -1: they have others.
+/// Returns the index of the entry whose values the settings have; -1: they have others.
 int chosenEntry(const MenuChoice& choice, const RayTraceSettings& settings);
 
 } // namespace osgRayTrace::calvr

@@ -15,7 +15,7 @@ namespace osgRayTrace::calvr
 namespace
 {
 
-constexpr double kMostMilliseconds = 60000.0; // of frame-budget
+constexpr double kMostMilliseconds = 60000.0; // limit of frame-budget
 
 bool readSwitch(const std::string& text, bool& value)
 {
@@ -38,7 +38,7 @@ bool readMilliseconds(const std::string& text, double& value)
     return true;
 }
 
-/// Nodes may have more or fewer processors.
+/// Returns whether an option is each node's own: nodes may have more or fewer processors.
 bool isOfOneNode(const std::string& option)
 {
     return option == "threads" || option == "frame-budget";
@@ -53,7 +53,7 @@ const RayTraceSettings::Option* findOption(const std::vector<RayTraceSettings::O
     return found == options.end() ? nullptr : &*found;
 }
 
-/// "frame-budget" as an element is called.
+/// Returns the name of an option's element: "FrameBudget" for "frame-budget".
 std::string elementName(const std::string& option)
 {
     std::string name;
@@ -66,7 +66,7 @@ std::string elementName(const std::string& option)
     return name;
 }
 
-/// Equal for all spellings of an option's name.
+/// Returns a text that is equal for all spellings of an option's name.
 std::string plainName(const std::string& name)
 {
     std::string letters;

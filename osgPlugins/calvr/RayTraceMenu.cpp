@@ -26,9 +26,9 @@ RayTraceMenu::RayTraceMenu(cvr::MenuCallback& callback, osg::ref_ptr<RayTraceSet
     cvr::MenuSystem::instance()->addMenuItem(_menu.get());
 }
 
-/// CalVR's board menu reads past an element of a map that it has just erased when an item is
-/// deleted which it has drawn. It deletes plugins at its own end alone, so the items are left to
-/// that of the process; nothing calls back any more.
+/// Removes the menu, but leaves the items to the end of the process: when an item is deleted which
+/// CalVR's board menu has drawn, the menu reads past an element of a map that it has just erased.
+/// CalVR deletes plugins at its own end alone; no item calls back any more.
 RayTraceMenu::~RayTraceMenu()
 {
     cvr::MenuSystem::instance()->removeMenuItem(_menu.get());
@@ -65,7 +65,7 @@ void RayTraceMenu::showChosen(const Lines& lines)
         lines.boxes[i]->setValue(static_cast<int>(i) == chosen);
 }
 
-/// An item that is set is drawn again.
+/// Sets the item only if it changes: an item that is set is drawn again.
 void RayTraceMenu::showFrozen(bool frozen)
 {
     if (_freeze->getValue() != frozen) _freeze->setValue(frozen);

@@ -14,12 +14,12 @@
 namespace osgRayTrace::calvr
 {
 
-/// Submenus of check boxes, which all of CalVR's menus can show. Shows what the settings are and
-/// changes them; the caller asks for the rest.
+/// Offers the settings in submenus of check boxes, which all of CalVR's menus can show. The menu
+/// shows and changes the settings; its owner asks for the other states.
 class RayTraceMenu
 {
 public:
-    /// callback: of all items. Adds itself to CalVR's main menu.
+    /// Adds the menu to CalVR's main menu. callback: callback of all items.
     RayTraceMenu(cvr::MenuCallback& callback, osg::ref_ptr<RayTraceSettings> settings, bool on,
                  bool frozen);
     ~RayTraceMenu();
@@ -40,7 +40,7 @@ private:
     {
         MenuChoice choice;
         std::unique_ptr<cvr::SubMenu> menu;
-        std::vector<std::unique_ptr<cvr::MenuCheckbox>> boxes; ///< one for each entry
+        std::vector<std::unique_ptr<cvr::MenuCheckbox>> boxes; ///< one box for each entry
     };
 
     void addChoice(const MenuChoice& choice, cvr::MenuCallback& callback);

@@ -1,4 +1,4 @@
-// RayTracePlugin.cpp - what CalVR calls, and when. Layer: plugins.
+// RayTracePlugin.cpp - the functions that CalVR calls, and their order. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #include "RayTracePlugin.h"
 
@@ -28,7 +28,7 @@ void warn(const std::string& sentence)
     OSG_WARN << "RayTrace: " << sentence << std::endl;
 }
 
-/// An exception ends the function alone, with a warning.
+/// Calls a function; an exception ends that function alone, with a warning.
 template <typename Function> void guarded(const char* what, Function function) noexcept
 {
     try
@@ -74,10 +74,10 @@ void RayTracePlugin::readSettings()
         warn("configuration: " + complaint);
 }
 
-/// The master's settings hold on all nodes: environments and LOCAL blocks may differ.
+/// Gives the master's settings to all nodes: environments and LOCAL blocks may differ.
 void RayTracePlugin::shareSettings()
 {
-    _agreement.emplace(_connections); // whatever else fails, this node goes on making the calls
+    _agreement.emplace(_connections); // this node goes on making the calls, whatever else fails
     if (_settings)
     {
         // The slaves' own wishes do not count either way.
@@ -99,7 +99,8 @@ void RayTracePlugin::start()
     _menu = std::make_unique<RayTraceMenu>(*this, _settings, _config.trace, frozen);
 }
 
-/// The scene is not looked at here: update callbacks are still to come. It is converted in cull.
+/// Prepares the frame without a look at the scene: update callbacks are still to come, and cull
+/// converts.
 void RayTracePlugin::preFrame()
 {
     guarded("frame", [this] { switchAndLight(); });
@@ -109,7 +110,7 @@ void RayTracePlugin::preFrame()
     if (_agreement) agree(offered);
 }
 
-/// The calls over the network are outside of what is guarded: no node may leave them out.
+/// Agrees on the work outside of guarded(): no node may leave out the calls over the network.
 void RayTracePlugin::agree(const std::optional<FrameWork>& offer)
 {
     const FrameWork agreed = _agreement->agree(offer);
@@ -134,7 +135,7 @@ void RayTracePlugin::switchAndLight()
                         cvr::PluginHelper::getWorldToObjectTransform());
 }
 
-/// Others freeze the head, too.
+/// Shows whether the head is frozen, which CalVR or another plugin may also change.
 void RayTracePlugin::showFreeze()
 {
     if (_menu) _menu->showFrozen(!cvr::TrackingManager::instance()->getUpdateHeadTracking());
@@ -158,7 +159,7 @@ void RayTracePlugin::menuCallback(cvr::MenuItem* item)
                     cvr::TrackingManager::instance()->setUpdateHeadTracking(!_menu->isFrozen());
                 if (!_menu->isReport(item)) return;
                 OSG_NOTICE << _root->scene().getConversionReport() << std::flush;
-                std::fflush(stdout); // which OSG writes it to, and which may be a file
+                std::fflush(stdout); // OSG writes to stdout, which may be a file
             });
 }
 

@@ -15,23 +15,23 @@
 namespace osgRayTrace::calvr
 {
 
-/// All of it on CalVR's main thread. No exception leaves it. In a cluster every node makes the same
-/// calls over the network, in init and once in each preFrame, whether or not it traces: a node that
-/// left one out would stop all.
+/// Ray traces CalVR's objects, all of it on CalVR's main thread. No exception leaves the plugin. In
+/// a cluster every node makes the same calls over the network, in init and once in each preFrame,
+/// whether or not it traces: a node that left one out would stop all.
 class RayTracePlugin : public cvr::CVRPlugin, public cvr::MenuCallback
 {
 public:
     RayTracePlugin() = default;
     ~RayTracePlugin() override;
 
-    /// Always true: a node without the plugin would not make the calls of the others.
+    /// Returns true in any case: a node without the plugin would not make the calls of the others.
     bool init() override;
     void preFrame() override;
     void menuCallback(cvr::MenuItem* item) override;
     int getPriority() override
     {
         return -1000;
-    } ///< last: where others have moved the objects to counts
+    } ///< called last: other plugins may move the objects before
 
 private:
     void readSettings();
@@ -45,8 +45,8 @@ private:
     osg::ref_ptr<RayTraceSettings> _settings;
     PluginConfig _config;
     CalVRConnections _connections;
-    bool _toldVersion = false;               ///< that another node has another one
-    std::optional<WorkAgreement> _agreement; ///< in a cluster
+    bool _toldVersion = false; ///< true: the user was told that another node has another version
+    std::optional<WorkAgreement> _agreement; ///< set in a cluster
     std::unique_ptr<TracedRoot> _root;
     std::unique_ptr<RayTraceMenu> _menu;
 };

@@ -21,7 +21,7 @@ std::vector<const osg::LightSource*> lightSourcesOf(const osg::Group& room)
     return sources;
 }
 
-/// Values alone, so that the copy stays the same object.
+/// Copies values alone, so that the copy stays the same object.
 void assign(osg::Light& to, const osg::Light& from)
 {
     to.setName(from.getName());
@@ -49,7 +49,8 @@ osg::ref_ptr<osg::Light> placedLight(const osg::Light& light, const osg::Matrixd
     direction.normalize();
     placed->setDirection(osg::Vec3(direction));
 
-    // OpenGL measures the distance in the eye's units, so in those of there.
+    // OpenGL measures the distance in the eye's units, that is in the units of the coordinates
+    // there.
     const osg::Matrixd& m = hereFromThere;
     const osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
         z(m(2, 0), m(2, 1), m(2, 2));

@@ -1,5 +1,4 @@
-// RoomLights.h - the lights that shine from beside a traced node, in its coordinates. Layer:
-// plugins.
+// RoomLights.h - lights beside a traced node, copied to its coordinates. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,18 +12,18 @@
 namespace osgRayTrace::calvr
 {
 
-/// OpenGL's lights light what is anywhere in the graph, and CalVR has its own beside the objects
-/// root, not above it; a RayTracedScene knows those alone that are below it. So each gets a copy
-/// there, which keeps its number: where OSG draws, the original is set later and wins.
+/// Copies lights below a RayTracedScene, which knows only the lights below it. OpenGL's lights
+/// light all of the graph, and CalVR has its own lights beside the objects root, not above it. A
+/// copy keeps the number of its light: when OSG draws, the original is set later and wins.
 class RoomLights
 {
 public:
     /// Keeps copies, as children of below, of the light sources that are children of room.
     /// belowFromRoom: takes places in room to places in below. Nothing is touched if nothing has
-    /// changed. Update thread.
+    /// changed. Called by the update thread.
     void update(const osg::Group& room, const osg::Matrixd& belowFromRoom, osg::Group& below);
 
-    /// Takes the copies away.
+    /// Removes the copies.
     void clear(osg::Group& below);
 
 private:
@@ -32,10 +31,10 @@ private:
 
     bool sameSources(const std::vector<const osg::LightSource*>& sources) const;
 
-    std::vector<Pair> _copies; ///< the original, its copy
+    std::vector<Pair> _copies; ///< original and copy
 };
 
-/// The light as it is in other coordinates: place, direction, and how it weakens with distance.
+/// Returns the light in other coordinates: place, direction, and how it weakens with distance.
 osg::ref_ptr<osg::Light> placedLight(const osg::Light& light, const osg::Matrixd& hereFromThere);
 
 } // namespace osgRayTrace::calvr

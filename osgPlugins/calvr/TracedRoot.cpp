@@ -25,7 +25,7 @@ void TracedRoot::switchOn(osg::Group* root)
     for (osg::Group* parent : parents)
         parent->replaceChild(root, _scene);
     _scene->insertChild(0, root);
-    _scene->setEnabled(true); // what failed is tried again
+    _scene->setEnabled(true); // tries again what failed
 }
 
 void TracedRoot::switchOff()

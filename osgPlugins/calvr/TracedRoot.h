@@ -1,5 +1,4 @@
-// TracedRoot.h - a node of somebody else's graph, put under ray tracing and taken out again. Layer:
-// plugins.
+// TracedRoot.h - puts a node of a foreign graph under ray tracing and back. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,9 +9,9 @@
 namespace osgRayTrace::calvr
 {
 
-/// While it is on there is a RayTracedScene between the node and its parents; off, the graph is as
-/// it was: parents, their order and the places among their children. What was converted is kept, so
-/// that switching to and fro converts nothing. Update thread.
+/// Puts a RayTracedScene between a node and its parents while it is on. Off, the graph is as it
+/// was: parents, their order and the places among their children. The converted scene is kept, so
+/// that switching to and fro converts nothing. Its functions are for the update thread.
 class TracedRoot
 {
 public:
@@ -21,20 +20,20 @@ public:
     TracedRoot(const TracedRoot&) = delete;
     TracedRoot& operator=(const TracedRoot&) = delete;
 
-    /// Without effect if it is on, or if root is null or has no parents.
+    /// Puts the scene above root; without effect if it is on, or if root is null or has no parents.
     void switchOn(osg::Group* root);
     void switchOff();
     bool isOn() const { return _root.valid(); }
 
-    /// See RoomLights; without effect when off.
+    /// Updates the lights: see RoomLights; without effect if it is off.
     void updateLights(const osg::Group& room, const osg::Matrixd& rootFromRoom);
 
-    /// The one that is put between. Never null.
+    /// Returns the scene that is put between; never null.
     RayTracedScene& scene() { return *_scene; }
 
 private:
     osg::ref_ptr<RayTracedScene> _scene;
-    osg::ref_ptr<osg::Group> _root; ///< null: off
+    osg::ref_ptr<osg::Group> _root; ///< null: switched off
     RoomLights _lights;
 };
 

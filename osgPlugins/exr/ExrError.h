@@ -9,7 +9,7 @@
 namespace osgRayTrace::engine
 {
 
-/// What function returns, or what it throws as one sentence.
+/// Returns what function returns, or the exception that it throws as one sentence.
 template <class Function> std::string caught(const Function& function)
 {
     try

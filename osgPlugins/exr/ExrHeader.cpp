@@ -1,4 +1,4 @@
-// ExrHeader.cpp - what an OpenEXR file claims, before memory is taken for it. Layer: osgPlugins.
+// ExrHeader.cpp - reads the headers of all parts, whatever they claim. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/exr/ExrHeader.h"
 
@@ -12,22 +12,23 @@ namespace
 {
 
 // The layout is that of "OpenEXR File Layout", openexr.com: little endian; a header is a list of
-// (name \0 type \0 size value) that ends with an empty name, the list of parts ends with an empty
-// header.
+// (name \0 type \0 size value) that ends with an empty name, and the list of parts ends with an
+// empty header.
 constexpr std::uint32_t kMagic = 20000630;
 constexpr std::uint32_t kMultiPartFlag = 0x1000;
 constexpr std::size_t kMaxNameLength = 255;
 constexpr long long kMaxScanlinesInChunk = 256;
-constexpr long long kOffsetBytes = 8; ///< of a chunk in the table that follows the headers
+constexpr long long kOffsetBytes =
+    8; ///< size of a chunk's entry in the table that follows the headers
 
-/// How much smaller a file can be than its pixels. Deflate writes a bit or more for 129 bytes (a
-/// ratio of 1032 at most, and PXR24 leaves out a quarter first), Huffman codes of PIZ less; DWA has
-/// runs below that.
+/// A file can be smaller than its pixels by this factor. Deflate writes a bit or more for 129 bytes
+/// (a ratio of 1032 at most, and PXR24 leaves out a quarter first), and Huffman codes of PIZ reach
+/// less; runs of DWA reach more: see kLargestDwaRatio.
 constexpr long long kLargestRatio = 2048;
 constexpr long long kLargestDwaRatio = 1 << 16;
 
-/// Pixels of a display window for which a file need not be of any length: what lies outside of its
-/// data window is 0.
+/// A display window of so many pixels needs no file of any length: pixels outside of the data
+/// window are 0.
 constexpr long long kFreePixels = 1LL << 24;
 
 const char* const kTruncated = "the file ends within its header";
@@ -47,8 +48,9 @@ struct Part
     std::int32_t tileWidth = 0; ///< 0: scanlines
     std::int32_t tileHeight = 0;
     std::int32_t chunkCount = 0;
-    std::uint8_t compression = 0; ///< as in the file
-    long long pixelBytes = 0;     ///< not compressed, of channels with a value for each pixel
+    std::uint8_t compression = 0; ///< number in the file
+    long long pixelBytes =
+        0; ///< bytes of all pixels, not compressed, of channels with a value for each pixel
 
     long long largestRatio() const
     {
@@ -146,7 +148,8 @@ private:
         }
     }
 
-    /// Of a list of (name, type, 4 bytes, sampling in x, in y) that ends with an empty name.
+    /// Returns the bytes of a pixel in a list of (name, type, 4 bytes, sampling in x, in y) that
+    /// ends with an empty name.
     long long pixelBytes(std::istream::pos_type end)
     {
         constexpr std::int32_t kHalf = 1;

@@ -22,11 +22,11 @@ struct ExrImage
     int height = 0;
     std::vector<ExrChannel> channels;
 
-    /// Null if there is no channel of this name.
+    /// Returns the channel of this name; null if there is none.
     const ExrChannel* find(const std::string& name) const;
 };
 
-/// All of them lossless.
+/// Names the compressions, all of them lossless.
 enum class ExrCompression
 {
     Zip,
@@ -36,23 +36,24 @@ enum class ExrCompression
 
 // Each function returns an empty string, or one sentence that says what is wrong; none throws.
 
-/// The display window of the first part, scanlines or tiles: what lies outside is cut off, what the
-/// file leaves out is 0. Only the channels in wanted, unless it is empty. Integers become floats.
-/// At most 2^28 pixels, 2^20 a side and 2^30 values, and no more than a file of this length can
-/// hold. Bad input leaves image as it was.
+/// Reads the display window of the first part, scanlines or tiles: pixels outside of the window are
+/// cut off, and pixels that the file leaves out are 0. Only the channels in wanted are read, unless
+/// wanted is empty. Integers become floats. The limits are 2^28 pixels, 2^20 a side and 2^30
+/// values, and no more pixels than a file of this length can hold. Bad input leaves image as it
+/// was.
 std::string readExr(const std::string& path, ExrImage& image,
                     const std::vector<std::string>& wanted = {});
 
-/// The file begins where the stream stands, which must be able to seek.
+/// Reads a file that begins at the position of the stream, which must be able to seek.
 std::string readExr(std::istream& stream, ExrImage& image,
                     const std::vector<std::string>& wanted = {});
 
-/// There is the whole file then, or what was there before: see writeFileWhole.
-/// Finite values beyond half's range become its largest.
+/// Writes the whole file, or leaves the file that was there before: see writeFileWhole. Finite
+/// values beyond half's range become its largest.
 std::string writeExr(const std::string& path, const ExrImage& image,
                      ExrCompression compression = ExrCompression::Zip);
 
-/// Nothing of a file that cannot be encoded reaches the stream.
+/// Writes to a stream; nothing of a file that cannot be encoded reaches the stream.
 std::string writeExr(std::ostream& stream, const ExrImage& image,
                      ExrCompression compression = ExrCompression::Zip);
 

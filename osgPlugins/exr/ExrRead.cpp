@@ -1,4 +1,4 @@
-// ExrRead.cpp - reads OpenEXR files as named channels. Layer: osgPlugins.
+// ExrRead.cpp - selects channels and reads them row by row. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/exr/ExrError.h"
 #include "osgPlugins/exr/ExrHeader.h"
@@ -21,8 +21,7 @@ namespace
 
 constexpr long long kMaxValues = 1LL << 30;
 
-/// The named channels, empty of values. Throws if there is one whose rows are not those of the
-/// others.
+/// Returns the named channels, empty of values. Throws if a channel has other rows than the others.
 std::vector<ExrChannel> selectChannels(const Imf::ChannelList& list,
                                        const std::vector<std::string>& wanted)
 {
@@ -43,7 +42,7 @@ std::vector<ExrChannel> selectChannels(const Imf::ChannelList& list,
     return channels;
 }
 
-/// Each channel's row goes to its own part of row, whatever y is.
+/// Returns a frame buffer in which each channel's row goes to its own part of row, whatever y is.
 Imf::FrameBuffer rowFrameBuffer(const ExrImage& image, const Imath::Box2i& dataWindow,
                                 std::vector<float>& row)
 {

@@ -20,7 +20,7 @@ public:
     {
     }
 
-    /// False if these were the last bytes.
+    /// Reads bytes; returns false if these were the last of the stream.
     bool read(char bytes[], int count) override
     {
         _stream.read(bytes, count);

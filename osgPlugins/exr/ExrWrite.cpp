@@ -1,4 +1,4 @@
-// ExrWrite.cpp - writes named channels as OpenEXR files. Layer: osgPlugins.
+// ExrWrite.cpp - checks channels and writes them row by row. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/exr/ExrError.h"
 #include "osgPlugins/exr/ExrHeader.h"
@@ -25,7 +25,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// What is wrong with an image that a caller made; empty if nothing.
+/// Returns what is wrong with an image that a caller made; empty if nothing is.
 std::string checkImage(const ExrImage& image)
 {
     if (!isExrSize(image.width, image.height)) return "an image of this size cannot be written";
@@ -63,8 +63,8 @@ half toHalf(float value)
     return half(std::clamp(value, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX)));
 }
 
-/// Throws. Only the stream knows whether the table of offsets, which OpenEXR writes last, got
-/// there.
+/// Writes an image; throws. Only the stream knows whether the table of offsets, which OpenEXR
+/// writes last, got there.
 void writeImage(std::ostream& stream, const ExrImage& image, ExrCompression compression)
 {
     Imf::Header header(image.width, image.height);
@@ -80,7 +80,7 @@ void writeImage(std::ostream& stream, const ExrImage& image, ExrCompression comp
         const Imf::PixelType type = channel.half ? Imf::HALF : Imf::FLOAT;
         header.channels().insert(channel.name, Imf::Channel(type));
 
-        // A stride of 0 from row to row: each is written from the same memory.
+        // A stride of 0 from row to row has each row written from the same memory.
         floatRows[i].resize(channel.half ? 0 : width);
         halfRows[i].resize(channel.half ? width : 0);
         char* row = channel.half ? reinterpret_cast<char*>(halfRows[i].data())
@@ -106,7 +106,7 @@ void writeImage(std::ostream& stream, const ExrImage& image, ExrCompression comp
     }
 }
 
-/// Throws.
+/// Writes a file; throws.
 void writeFile(const std::string& path, const ExrImage& image, ExrCompression compression)
 {
     errno = 0;
@@ -123,7 +123,7 @@ void writeFile(const std::string& path, const ExrImage& image, ExrCompression co
     }
     catch (const std::exception&)
     {
-        check(); // OpenEXR's own words do not tell what a write failed for
+        check(); // OpenEXR's own words do not tell why a write failed
         throw;
     }
     stream.close();

@@ -1,4 +1,4 @@
-// ImageConversion.cpp - osg::Image to OpenEXR channels and back. Layer: osgPlugins.
+// ImageConversion.cpp - interleaves channels, and takes images apart. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/exr/ImageConversion.h"
 
@@ -21,13 +21,13 @@ namespace
 /// osg::Image counts bytes in 32 bits.
 constexpr std::size_t kMaxImageBytes = 0xffffffff;
 
-/// How an osg::Image stores what a file has under these names.
+/// Tells how an osg::Image stores the channels that a file has under these names.
 struct Layout
 {
     GLenum pixelFormat;
     std::vector<std::string> channels;
-    GLint floatTexture = 0; ///< internal format; 0: is never made by reading
-    GLint halfTexture = 0;  ///< the same; bytes have pixelFormat
+    GLint floatTexture = 0; ///< internal format of float images; 0: reading never makes this layout
+    GLint halfTexture = 0;  ///< internal format of half images; images of bytes have pixelFormat
 };
 
 const std::vector<Layout>& layouts()
@@ -72,7 +72,7 @@ float linearFromSrgbByte(unsigned char byte)
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-/// Not a number gives 0.
+/// Returns the byte of a value in [0,1]; not a number gives 0.
 unsigned char byteFromUnit(float value)
 {
     if (!(value > 0.0f)) return 0;
@@ -91,7 +91,7 @@ GLint internalFormat(const Layout& layout, GLenum type)
     return type == GL_HALF_FLOAT ? layout.halfTexture : static_cast<GLint>(layout.pixelFormat);
 }
 
-/// The linear value at an address in an image of a supported type.
+/// Reads the linear value at an address in an image of a supported type.
 class ValueReader
 {
 public:
@@ -130,7 +130,8 @@ std::size_t sizeOf(GLenum type)
     return type == GL_UNSIGNED_BYTE ? 1 : 0;
 }
 
-/// Writes one component of every pixel; 0 if there is no such channel. convert: float to Value.
+/// Writes one component of every pixel, 0 if there is no such channel. convert: turns a float into
+/// a Value.
 template <class Value, class Convert>
 void interleave(const ExrChannel* channel, std::size_t component, std::size_t components,
                 osg::Image& image, const Convert& convert)
@@ -161,7 +162,7 @@ void interleaveAs(GLenum type, const ExrChannel* channel, std::size_t component,
                                   alpha ? byteFromUnit : srgbByteFromLinear);
 }
 
-/// All channels of image; the caller has checked that layout and image fit.
+/// Returns all channels of image; the caller has checked that layout and image fit.
 ExrImage deinterleave(const osg::Image& image, const Layout& layout, bool asHalf)
 {
     ExrImage result;

@@ -9,17 +9,20 @@
 namespace osgRayTrace::engine
 {
 
-// Both return an empty string, or one sentence that says why there is no result; none throws.
-// OpenEXR's values are linear; bytes are sRGB [IEC61966] from 0 to 1, their alpha is linear.
+// Both conversions return an empty string, or one sentence that says why there is no result;
+// neither throws. OpenEXR's values are linear; bytes are sRGB [IEC61966] from 0 to 1, and their
+// alpha is linear.
 
-/// The channels of which toOsgImage makes an image.
+/// Returns the channels of which toOsgImage makes an image.
 const std::vector<std::string>& exrColorChannels();
 
-/// R, G, B become GL_RGB (a missing one is 0), Y GL_LUMINANCE, each with A if there is one; A alone
-/// GL_ALPHA. type is GL_FLOAT, GL_HALF_FLOAT or GL_UNSIGNED_BYTE.
+/// Makes an osg::Image: R, G, B become GL_RGB (a missing one is 0), and Y becomes GL_LUMINANCE,
+/// each with A if there is one; A alone becomes GL_ALPHA. type is GL_FLOAT, GL_HALF_FLOAT or
+/// GL_UNSIGNED_BYTE.
 std::string toOsgImage(const ExrImage& image, GLenum type, osg::ref_ptr<osg::Image>& result);
 
-/// Takes images of these three types. half: of all channels in the file.
+/// Makes channels of an image of one of these three types. half: the file has 16 bits a value in
+/// all channels.
 std::string toExrImage(const osg::Image& image, bool half, ExrImage& result);
 
 } // namespace osgRayTrace::engine

@@ -15,13 +15,13 @@ namespace
 
 using namespace osgRayTrace::engine;
 
-/// Those of OSG's own plugin, with its meaning.
+/// Holds the options of OSG's own plugin, with its meaning.
 struct HdrOptions
 {
     RgbeKind kind = RgbeKind::Float;
     float factor = 1.0f;
-    bool flipped = false;    ///< reading
-    bool upsideDown = false; ///< writing
+    bool flipped = false;    ///< for reading
+    bool upsideDown = false; ///< for writing
 
     explicit HdrOptions(const osgDB::Options* options)
     {
@@ -99,7 +99,7 @@ public:
         return written(problem.empty() ? writeRgbe(stream, rgbe) : problem);
     }
 
-    /// An image that cannot be encoded leaves the file as it was.
+    /// Writes a file; an image that cannot be encoded leaves the file as it was.
     WriteResult writeImage(const osg::Image& image, const std::string& file,
                            const Options* options) const override
     {

@@ -1,4 +1,4 @@
-// RgbeConversion.cpp - osg::Image to Radiance's pixels and back. Layer: osgPlugins.
+// RgbeConversion.cpp - decodes and encodes pixels of shared exponents. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/hdr/RgbeConversion.h"
 
@@ -16,7 +16,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr int kExponentBias = 136; ///< of 128, and 8 for mantissas of integers
+constexpr int kExponentBias = 136; ///< 128, and 8 for mantissas of integers
 constexpr float kLargest = 255.0f * 0x1p119f;
 
 /// osg::Image counts bytes in 32 bits.
@@ -24,8 +24,8 @@ constexpr long long kMaxImageBytes = 0xffffffff;
 
 using Color = std::array<double, 3>;
 
-/// From CIE X, Y, Z of luminances in candelas to linear radiance: Radiance takes 179 lumens for a
-/// watt.
+/// Converts CIE X, Y, Z of luminances in candelas to linear radiance: Radiance takes 179 lumens for
+/// a watt.
 Color rgbFromXyz(const Color& xyz)
 {
     constexpr double kEfficacy = 179.0;
@@ -38,7 +38,7 @@ Color rgbFromXyz(const Color& xyz)
     return rgb;
 }
 
-/// Pixels to linear colours, for all of an image.
+/// Decodes pixels to linear colours, for all of an image.
 class Decoder
 {
 public:
@@ -62,7 +62,7 @@ public:
 
 private:
     const RgbeImage& _image;
-    std::array<double, 256> _scale{}; ///< of an exponent
+    std::array<double, 256> _scale{}; ///< factor of each exponent
 };
 
 float finite(double value)
@@ -71,7 +71,7 @@ float finite(double value)
     return static_cast<float>(std::clamp(value, -kMost, kMost));
 }
 
-/// Cut off, as OSG's plugin does it.
+/// Returns the byte of a value in [0,1], cut off as OSG's plugin does it.
 unsigned char byteOf(double value)
 {
     return value > 0.0 ? static_cast<unsigned char>(std::min(value, 1.0) * 255.0) : 0;
@@ -87,7 +87,8 @@ osg::ref_ptr<osg::Image> allocated(const RgbeImage& image, RgbeKind kind)
     return made;
 }
 
-/// Of the largest component, which has its mantissa between 128 and 255 then.
+/// Encodes a colour with the exponent of its largest component, whose mantissa is then between 128
+/// and 255.
 Rgbe encoded(float r, float g, float b)
 {
     const float values[] = {r, g, b};
@@ -96,7 +97,8 @@ Rgbe encoded(float r, float g, float b)
         if (values[c] > 0.0f) sound[c] = std::min(values[c], kLargest);
     const float largest = std::max({sound[0], sound[1], sound[2]});
     int exponent = 0;
-    if (std::frexp(largest, &exponent) >= 255.5f / 256.0f) ++exponent; // would be rounded to 256
+    if (std::frexp(largest, &exponent) >= 255.5f / 256.0f)
+        ++exponent; // else the mantissa would be rounded to 256
     if (!(largest > 0.0f) || exponent <= -128) return {0, 0, 0, 0};
     Rgbe pixel;
     for (std::size_t c = 0; c < 3; ++c)

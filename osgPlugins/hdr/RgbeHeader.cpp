@@ -13,11 +13,12 @@ namespace osgRayTrace::engine
 namespace
 {
 
-// As in "Radiance File Formats", radsite.lbl.gov: lines "#?RADIANCE", comments, variables
-// NAME=value of which those that begin with a tab are of pictures that this one was made from; an
-// empty line; the resolution.
+// The format is that of "Radiance File Formats", radsite.lbl.gov: lines "#?RADIANCE", comments and
+// variables NAME=value, then an empty line and the resolution. Variables that begin with a tab
+// belong to pictures that this one was made from.
 
-/// Of all lines together. Radiance records every command that had to do with the picture.
+/// This limit counts all lines together. Radiance records every command that had to do with the
+/// picture.
 constexpr std::size_t kLongestHeader = std::size_t(1) << 20;
 
 const char* const kTruncated = "the file ends within its header";
@@ -106,7 +107,7 @@ private:
         return values && value >= 1 / kLargest && value <= kLargest;
     }
 
-    /// "-Y 512 +X 1024": the axis of the lines, and that within a line.
+    /// Reads "-Y 512 +X 1024": the axis of the lines, and the axis within a line.
     std::string resolution(const std::string& text)
     {
         std::istringstream values(text);

@@ -7,15 +7,16 @@
 namespace osgRayTrace::engine
 {
 
-/// The order of pixels in a file: lines of pixels, each of which is a row or a column of the
+/// Tells the order of pixels in a file: lines of pixels, each of which is a row or a column of the
 /// picture.
 struct RgbeOrder
 {
-    bool columns = false;       ///< lines are columns
-    bool linesFromEnd = false;  ///< the first line is the top row, or the rightmost column
-    bool pixelsFromEnd = false; ///< the first pixel of a line is its rightmost, or its top one
+    bool columns = false;      ///< true: lines are columns
+    bool linesFromEnd = false; ///< true: the first line is the top row, or the rightmost column
+    bool pixelsFromEnd =
+        false; ///< true: the first pixel of a line is its rightmost, or its top one
     int lines = 0;
-    int length = 0; ///< of a line
+    int length = 0; ///< pixels of a line
 };
 
 struct RgbeHeader
@@ -24,8 +25,8 @@ struct RgbeHeader
     RgbeOrder order;
 };
 
-/// Leaves the stream at the first byte of the pixels. Returns an empty string, or one sentence that
-/// says what is wrong. The size is within the limits.
+/// Reads a header and leaves the stream at the first byte of the pixels. Returns an empty string,
+/// or one sentence that says what is wrong. The size is within the limits.
 std::string readRgbeHeader(std::istream& stream, RgbeHeader& header);
 
 } // namespace osgRayTrace::engine

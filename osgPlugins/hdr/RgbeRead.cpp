@@ -12,16 +12,16 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// How much smaller a file can be than its pixels: runs of the old format may be of any length.
-/// Below the free pixels a file may be as small as it likes.
+/// A file can be smaller than its pixels by this factor: runs of the old format may be of any
+/// length. Below the free pixels a file may be as small as it likes.
 constexpr long long kMostPixelsOfByte = 2048, kFreePixels = 1LL << 24;
 
-/// Lengths of lines that the format of 1991 is for.
+/// The format of 1991 is for lines of these lengths.
 constexpr int kShortestLine = 8, kLongestLine = 0x7fff;
 
 const char* const kTruncated = "the file ends too early";
 
-/// Decodes line after line of what is in memory.
+/// Decodes line after line of a file in memory.
 class LineReader
 {
 public:
@@ -32,8 +32,8 @@ public:
     {
     }
 
-    /// Writes a line. to may be null: then the line is only checked, in time in proportion to its
-    /// bytes. Returns what is wrong; null: nothing.
+    /// Writes a line and returns what is wrong; null: nothing. If to is null the line is only
+    /// checked, in time in proportion to its bytes.
     const char* read(Rgbe* to)
     {
         const bool mayBeNew = _length >= kShortestLine && _length <= kLongestLine && left() >= 4;
@@ -44,7 +44,7 @@ public:
 private:
     std::ptrdiff_t left() const { return _end - _at; }
 
-    /// One component after the other. A count above 128 is a run of the byte that follows.
+    /// Reads one component after the other. A count above 128 is a run of the byte that follows.
     const char* readNew(Rgbe* to)
     {
         if ((_at[2] << 8 | _at[3]) != _length) return "a line has another length than the picture";
@@ -67,8 +67,8 @@ private:
         return nullptr;
     }
 
-    /// Single pixels. (1, 1, 1, n) repeats the one before n times; a second such marker in a row
-    /// counts 256 times as much, and so on.
+    /// Reads single pixels. (1, 1, 1, n) repeats the pixel before n times; a second such marker in
+    /// a row counts 256 times as much, and so on.
     const char* readOld(Rgbe* to)
     {
         int shift = 0;
@@ -99,7 +99,7 @@ private:
     int _length;
 };
 
-/// All that the longest encoding of so many pixels can be, or as much of it as there is.
+/// Reads as many bytes as the longest encoding of so many pixels can have, or all that there are.
 std::string readPixelBytes(std::istream& stream, const RgbeOrder& order)
 {
     constexpr std::size_t kBlock = std::size_t(1) << 20;
@@ -116,7 +116,7 @@ std::string readPixelBytes(std::istream& stream, const RgbeOrder& order)
     return bytes;
 }
 
-/// Where the first pixel of a line goes, and how far apart those that follow are.
+/// Holds the place of the first pixel of a line, and the step to the next.
 struct LinePlace
 {
     std::ptrdiff_t first, step;

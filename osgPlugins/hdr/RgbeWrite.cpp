@@ -12,8 +12,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr int kShortestLine = 8, kLongestLine = 0x7fff; ///< that runs of the format of 1991 are for
-constexpr int kShortestRun = 4; ///< shorter ones take no less than single bytes
+constexpr int kShortestLine = 8,
+              kLongestLine = 0x7fff; ///< lengths of lines that the format of 1991 is for
+constexpr int kShortestRun = 4;      ///< shorter runs take no less than single bytes
 constexpr int kLongestRun = 127, kMostSingle = 128;
 
 int runAt(const Rgbe* line, int length, int i, std::size_t component)
@@ -46,7 +47,7 @@ void appendComponent(std::string& bytes, const Rgbe* line, int length, std::size
     }
 }
 
-/// The same value in other numbers where readers would take the pixel for a run.
+/// Returns the pixel's value in other numbers if readers would take the pixel for a run.
 Rgbe unmistakable(const Rgbe& pixel)
 {
     if (pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) return pixel;

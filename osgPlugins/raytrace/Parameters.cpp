@@ -1,4 +1,4 @@
-// Parameters.cpp - what the name of a file to ray trace says beside the file. Layer: plugins.
+// Parameters.cpp - splits names, and sets options by their parameters. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #include "Parameters.h"
 
@@ -9,7 +9,8 @@ using osgRayTrace::RayTraceSettings;
 namespace
 {
 
-/// Position of the last dot outside of brackets that is not part of a directory; npos: none.
+/// Returns the position of the last dot outside of brackets that is not part of a directory; npos:
+/// none.
 std::string::size_type lastDot(const std::string& name)
 {
     int depth = 0;
@@ -51,7 +52,8 @@ bool isWord(const std::string& text)
     return setWord(*settings, text);
 }
 
-/// " (1 .. 4096)"; empty for a name that is spelt in another way than in the table.
+/// Returns the range of an option, as " (1 .. 4096)"; empty for a name that is spelt in another way
+/// than in the table.
 std::string rangeOf(const std::string& name)
 {
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
@@ -61,7 +63,7 @@ std::string rangeOf(const std::string& name)
     return std::string();
 }
 
-/// As applyParameters, of one item.
+/// Sets one item of applyParameters.
 std::string applyItem(const std::string& item, RayTraceSettings& settings)
 {
     const auto equals = item.find('=');

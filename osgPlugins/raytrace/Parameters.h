@@ -1,4 +1,4 @@
-// Parameters.h - what the name of a file to ray trace says beside the file. Layer: plugins.
+// Parameters.h - parameters in the name of a file to ray trace. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,19 +6,19 @@
 
 #include <string>
 
-/// "cow.osgt.path" is file "cow.osgt" with parameters "path".
+/// Holds the parts of a name: "cow.osgt.path" is file "cow.osgt" with parameters "path".
 struct NameParts
 {
     std::string file;
     std::string parameters; ///< without brackets; empty: none
 };
 
-/// Splits the name (without ".raytrace") at its last dot that is in no bracket. What follows are
-/// parameters if it stands in () or [], has a '=', or is a single word that applyParameters takes;
-/// else it belongs to the file's name, as in "cow.osgt" and "cow.osgt.30,0,0.rot".
+/// Splits the name (without ".raytrace") at its last dot that is in no bracket. The text behind the
+/// dot is parameters if it stands in () or [], has a '=', or is a single word that applyParameters
+/// takes; else it belongs to the file's name, as in "cow.osgt" and "cow.osgt.30,0,0.rot".
 NameParts splitName(const std::string& name);
 
 /// Sets options from "path,passes=64": an integrator, a debug channel (which selects the debug
-/// integrator) or option=value, separated by commas. Empty if all went well; else a sentence on the
-/// first that does not fit, and settings are to be thrown away.
+/// integrator) or option=value, separated by commas. Returns an empty string if all went well; else
+/// a sentence on the first item that does not fit, and settings have to be thrown away.
 std::string applyParameters(const std::string& parameters, osgRayTrace::RayTraceSettings& settings);

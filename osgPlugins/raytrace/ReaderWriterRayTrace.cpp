@@ -12,8 +12,8 @@
 
 #include <exception>
 
-/// Reads FILE[.PARAMETERS].raytrace: what FILE holds below an osgRayTrace::RayTracedScene. FILE is
-/// read with the caller's options and may be a pseudo-loader's name itself. Parameters:
+/// Reads FILE[.PARAMETERS].raytrace: the scene of FILE below an osgRayTrace::RayTracedScene. FILE
+/// is read with the caller's options and may be a pseudo-loader's name itself. Parameters may be:
 ///   cow.osgt.raytrace                              settings from the environment
 ///   cow.osgt.path.raytrace                         an integrator, or a debug channel
 ///   "cow.osgt.(integrator=path,passes=64).raytrace"  options by name
@@ -23,7 +23,7 @@ public:
     ReaderWriterRayTrace()
     {
         supportsExtension("raytrace", "Ray tracing pseudo-loader");
-        osgRayTrace::engine::preferOwnFolder(); // for the images of what it loads
+        osgRayTrace::engine::preferOwnFolder(); // for the images of the file's scene
     }
 
     const char* className() const override { return "ray tracing pseudo-loader"; }
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    /// name: without ".raytrace".
+    /// Reads a scene. name: without ".raytrace".
     static ReadResult readRayTraced(const std::string& name,
                                     const osgDB::ReaderWriter::Options* options)
     {
@@ -62,14 +62,15 @@ private:
         if (!error.empty()) return ReadResult("raytrace: " + error);
 
         const osg::ref_ptr<Options> naming = options ? options->cloneOptions() : new Options;
-        naming->setPluginStringData("ForceReadingImage", "true"); // names of those that are missing
+        naming->setPluginStringData("ForceReadingImage",
+                                    "true"); // keeps the names of images that are missing
         ReadResult read = osgDB::Registry::instance()->readNode(parts.file, naming.get());
         if (!read.validNode()) return failure(read, parts.file);
         scene->addChild(read.getNode());
         return scene;
     }
 
-    /// The reader's own status, so that a missing file is a missing file. Never a success.
+    /// Returns the reader's own status, so that a missing file is a missing file; never a success.
     static ReadResult failure(ReadResult read, const std::string& file)
     {
         if (read.success()) return ReadResult("raytrace: " + file + " holds no scene");

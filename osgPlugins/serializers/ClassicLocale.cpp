@@ -11,8 +11,8 @@
 namespace
 {
 
-/// Where exchangeLocale takes a locale from and leaves the stream's: manipulators have no
-/// arguments.
+/// Holds the locale that exchangeLocale gives to the stream, and then the stream's own:
+/// manipulators have no arguments.
 thread_local std::locale* otherLocale = nullptr;
 
 std::ios_base& exchangeLocale(std::ios_base& stream)
@@ -21,7 +21,7 @@ std::ios_base& exchangeLocale(std::ios_base& stream)
     return stream;
 }
 
-/// Shows a stream's iterator, which osgDB shows to derived classes alone.
+/// Gives access to a stream's iterator, which osgDB shows to derived classes alone.
 struct OpenStream : osgDB::OutputStream
 {
     static std::ios_base& textOf(osgDB::OutputStream& stream)
@@ -30,9 +30,8 @@ struct OpenStream : osgDB::OutputStream
     }
 };
 
-/// Gives the stream that numbers go through another locale; returns the one it had. In XML that is
-/// a stream of osgDB's own, which manipulators reach; elsewhere a manipulator would write an
-/// indentation.
+/// Gives the stream that writes numbers another locale; returns the one it had. In XML that stream
+/// is osgDB's own, which manipulators reach; elsewhere a manipulator would write an indentation.
 std::locale setLocale(osgDB::OutputStream& stream, const std::locale& locale)
 {
     const osgDB::Options* options = stream.getOptions();
@@ -57,7 +56,7 @@ public:
     {
         return _serializer->get(object, value);
     }
-    /// Readers take a point in any locale.
+    /// Reads without a change of locale: readers take a point in any locale.
     bool read(osgDB::InputStream& stream, osg::Object& object) override
     {
         return _serializer->read(stream, object);
@@ -65,7 +64,8 @@ public:
     const std::string& getName() const override { return _serializer->getName(); }
     osgDB::IntLookup* getIntLookup() override { return _serializer->getIntLookup(); }
 
-    /// Serializers of objects within come through here again, while the locale is the classic one.
+    /// Writes in the classic locale. Serializers of inner objects come through here again, while
+    /// the locale is the classic one.
     bool write(osgDB::OutputStream& stream, const osg::Object& object) override
     {
         const std::locale before = setLocale(stream, std::locale::classic());

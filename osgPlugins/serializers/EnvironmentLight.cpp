@@ -14,7 +14,7 @@ REGISTER_OBJECT_WRAPPER(osgRayTrace_EnvironmentLight, new osgRayTrace::Environme
                         osgRayTrace::EnvironmentLight,
                         "osg::Object osg::Node osgRayTrace::EnvironmentLight")
 {
-    osgRayTrace::engine::preferOwnFolder(); // its image may be a .hdr file
+    osgRayTrace::engine::preferOwnFolder(); // the light's image may be a .hdr file
     ADD_IMAGE_SERIALIZER(Image, osg::Image, nullptr);
     ADD_OBJECT_SERIALIZER(CubeMap, osg::TextureCubeMap, nullptr);
     ADD_QUAT_SERIALIZER(Rotation, osg::Quat());

@@ -13,9 +13,9 @@
 #include <cstring>
 #include <string>
 
-// All options by name: files of other versions, with more options or fewer, stay readable, and the
-// environment of the reader changes nothing that the writer had set. Names and values are single
-// words: of values, characters that may not be in one are written as %20.
+// A file has all options by name: files of other versions, with more options or fewer, stay
+// readable, and the environment of the reader changes nothing that the writer had set. Names and
+// values are single words: characters of values that may not be in a word are written as %20.
 
 static bool isPlain(char c)
 {

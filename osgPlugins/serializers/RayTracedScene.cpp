@@ -8,7 +8,8 @@
 #include <osgDB/ObjectWrapper>
 #include <osgDB/OutputStream>
 
-// The scene is the group's children. The drawable that shows it is made anew by the constructor.
+// A file has the scene as the group's children. The constructor makes the drawable that shows them
+// anew.
 REGISTER_OBJECT_WRAPPER(osgRayTrace_RayTracedScene, new osgRayTrace::RayTracedScene,
                         osgRayTrace::RayTracedScene,
                         "osg::Object osg::Node osg::Group osgRayTrace::RayTracedScene")

@@ -3,7 +3,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/accel/Surface.h"
+#include "osgRayTrace/accel/RayBlock.h"
+#include "osgRayTrace/accel/SurfaceLanes.h"
+#include "osgRayTrace/accel/TriangleLanes.h"
 
 namespace osgRayTrace::engine
 {

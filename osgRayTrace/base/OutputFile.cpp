@@ -2,21 +2,21 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/base/OutputFile.h"
 
+#include "osgRayTrace/base/Destination.h"
+#include "osgRayTrace/base/TemporaryFile.h"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <sys/xattr.h>
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <cerrno>
-#include <climits>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <system_error>
 
 namespace osgRayTrace::engine
@@ -26,160 +26,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-
-constexpr int kMostLinks = 40; ///< of a chain, as Linux has it
-
-[[noreturn]] void fail(int error)
-{
-    throw std::runtime_error(std::strerror(error));
-}
-
-/// Names of temporary files, for signal handlers: memory that is always there and never moves.
-struct TemporaryName
-{
-    enum State
-    {
-        Free,
-        Changing, ///< path is being written
-        Used,
-    };
-    std::atomic<int> state{Free};
-    char path[PATH_MAX];
-};
-
-std::array<TemporaryName, 16> temporaryNames;
-
-/// Null if there are too many, or if the path is too long: such a file would stay after a signal.
-TemporaryName* registerTemporary(const std::string& path)
-{
-    if (path.size() >= PATH_MAX) return nullptr;
-    for (TemporaryName& name : temporaryNames)
-    {
-        int expected = TemporaryName::Free;
-        if (!name.state.compare_exchange_strong(expected, TemporaryName::Changing)) continue;
-        std::memcpy(name.path, path.c_str(), path.size() + 1);
-        name.state = TemporaryName::Used;
-        return &name;
-    }
-    return nullptr;
-}
-
-class Descriptor
-{
-public:
-    explicit Descriptor(int number) : _number(number) {}
-    ~Descriptor()
-    {
-        if (_number >= 0) close(_number);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-
-    int operator*() const { return _number; }
-
-    /// Says what only closing finds out, on file systems over a network.
-    void finish()
-    {
-        const int number = _number;
-        _number = -1;
-        if (close(number) != 0 && errno != EINTR) fail(errno);
-    }
-
-private:
-    int _number;
-};
-
-/// A file of this process alone; gone when this is.
-class TemporaryFile
-{
-public:
-    /// Its name is short: that of the destination may be as long as names can be.
-    TemporaryFile(const fs::path& folder, mode_t mode)
-    {
-        static std::atomic<unsigned> number{0};
-        do
-        {
-            _path = (folder /
-                     (".osgraytrace-" + std::to_string(getpid()) + "-" + std::to_string(++number)))
-                        .string();
-            _file = open(_path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-        } while (_file < 0 && errno == EEXIST);
-        if (_file < 0) fail(errno);
-        _name = registerTemporary(_path);
-    }
-    ~TemporaryFile()
-    {
-        if (!_renamed) unlink(_path.c_str());
-        if (_name) _name->state = TemporaryName::Free;
-        close(_file);
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-    const std::string& path() const { return _path; }
-    int file() const { return _file; }
-
-    bool renameTo(const std::string& path)
-    {
-        _renamed = std::rename(_path.c_str(), path.c_str()) == 0;
-        return _renamed;
-    }
-
-private:
-    std::string _path;
-    TemporaryName* _name = nullptr;
-    int _file = -1;
-    bool _renamed = false;
-};
-
-struct Destination
-{
-    std::optional<struct stat> found; ///< nothing: a file is to be created
-    fs::path file;                    ///< the path with links followed
-    int error = 0;                    ///< why it cannot be looked at
-
-    bool isRegular() const { return found && S_ISREG(found->st_mode); }
-};
-
-bool isSame(const struct stat& a, const struct stat& b)
-{
-    return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
-}
-
-/// The last of a chain of links, of which the file need not exist.
-fs::path endOfLinks(fs::path path)
-{
-    std::error_code error;
-    for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i)
-    {
-        const fs::path target = fs::read_symlink(path, error);
-        if (error) break;
-        path = path.parent_path() / target;
-    }
-    return path;
-}
-
-fs::path folderOf(const fs::path& file)
-{
-    return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
-Destination destinationOf(const std::string& path)
-{
-    Destination destination;
-    struct stat found;
-    if (stat(path.c_str(), &found) == 0)
-    {
-        destination.found = found;
-        std::error_code error;
-        destination.file = fs::canonical(path, error);
-        if (error) destination.file = path;
-        return destination;
-    }
-    destination.file = endOfLinks(path);
-    if (errno != ENOENT) destination.error = errno;
-    return destination;
-}
 
 /// Standard output or standard error, if the destination is what it goes to: written through
 /// another descriptor, the file would hold one over the other. -1: neither.
@@ -333,12 +179,6 @@ void writeFileWhole(const std::string& path,
     const bool alike = becomeAlike(temporary->file(), destination.file, *destination.found);
     if (alike && temporary->renameTo(destination.file.string())) return;
     copyIntoFile(temporary->file(), path);
-}
-
-void removeTemporaryFiles() noexcept
-{
-    for (TemporaryName& name : temporaryNames)
-        if (name.state == TemporaryName::Used) unlink(name.path);
 }
 
 } // namespace osgRayTrace::engine

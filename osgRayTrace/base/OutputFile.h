@@ -29,8 +29,4 @@ bool isSameFile(const std::string& a, const std::string& b);
 void writeFileWhole(const std::string& path,
                     const std::function<void(const std::string& temporary)>& write);
 
-/// Removes the temporary files of all calls at work. Async-signal-safe: for a process that is about
-/// to end.
-void removeTemporaryFiles() noexcept;
-
 } // namespace osgRayTrace::engine

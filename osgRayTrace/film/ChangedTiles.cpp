@@ -1,4 +1,4 @@
-// ChangedTiles.cpp - the parts of a picture that were written since it was copied. Layer: film.
+// ChangedTiles.cpp - from marks of tiles to few rectangles. Layer: film.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/ChangedTiles.h"
 
@@ -13,10 +13,10 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// A copy that is begun takes as long as that of so many pixels more.
+/// The begin of a copy takes as long as the copy of so many pixels.
 constexpr int64_t kPixelsOfCall = 1024;
 
-/// The runs of marked tiles in a row of them, in tiles.
+/// Returns the runs of marked tiles in a row of tiles, in tiles.
 std::vector<PixelRect> runsOf(const uint8_t* row, int tiles, int y)
 {
     std::vector<PixelRect> runs;
@@ -31,8 +31,8 @@ std::vector<PixelRect> runsOf(const uint8_t* row, int tiles, int y)
     return runs;
 }
 
-/// Runs that go on where those of the rows below end become one rectangle with them. Both in order;
-/// what does not go on is done.
+/// Joins each run with the rectangle below it that has the same two ends. Both lists are in order;
+/// a rectangle that does not go on is moved to done.
 void join(std::vector<PixelRect>& below, std::vector<PixelRect> runs, std::vector<PixelRect>& done)
 {
     auto old = below.begin();

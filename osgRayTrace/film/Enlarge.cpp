@@ -1,4 +1,4 @@
-// Enlarge.cpp - display values of a small image where those of a larger one are shown. Layer: film.
+// Enlarge.cpp - linear interpolation of display values, row by row. Layer: film.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/Enlarge.h"
 
@@ -16,14 +16,14 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr std::size_t kStripRows = 16; ///< of the large image, made at once
+constexpr std::size_t kStripRows = 16; ///< rows of the large image made at once
 
-/// Where the pixels of a line of the large image are in one of the small one.
+/// Holds the places of the pixels of a line of the large image in a line of the small one.
 struct Places
 {
-    std::vector<int> first;    ///< of the two pixels whose middles it is between
-    std::vector<int> step;     ///< to the second: 1, or 0 at the end
-    std::vector<float> weight; ///< of the second
+    std::vector<int> first;    ///< first of the two pixels whose middles it is between
+    std::vector<int> step;     ///< step to the second pixel: 1, or 0 at the end
+    std::vector<float> weight; ///< weight of the second pixel
     std::vector<int> nearest;
 };
 
@@ -73,7 +73,7 @@ void blendRows(const float* __restrict below, const float* __restrict above, flo
             static_cast<uint8_t>(static_cast<int>(below[i] + (above[i] - below[i]) * t + 0.5f));
 }
 
-/// A row of the small image at the large one's width.
+/// Holds a row of the small image at the large image's width.
 struct WideRow
 {
     int row = -1;
@@ -91,7 +91,8 @@ struct WideRow
     }
 };
 
-/// Depths of neighbours in the small image stay those of neighbours.
+/// Writes the depth of the nearest pixel, so that depths of neighbours in the small image stay
+/// those of neighbours.
 void spreadDepths(const float* in, const std::vector<int>& nearest, float* out)
 {
     for (std::size_t x = 0; x < nearest.size(); ++x)

@@ -1,4 +1,4 @@
-// Enlarge.h - display values of a small image where those of a larger one are shown. Layer: film.
+// Enlarge.h - display values of a small image brought to a larger one. Layer: film.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,7 +9,7 @@ namespace osgRayTrace::engine
 
 class Workers;
 
-/// Pixels in rows, row 0 at the bottom: 4 bytes, premultiplied, and a window depth each.
+/// Points to pixels in rows, row 0 at the bottom: 4 bytes, premultiplied, and a window depth each.
 struct DisplayPixels
 {
     int width = 0;
@@ -18,9 +18,9 @@ struct DisplayPixels
     float* depth = nullptr;
 };
 
-/// Writes the large image from the small one of the same view: colours between the four nearest
-/// pixels as OpenGL's linear filter has them, depths of the nearest, as any others would be of
-/// nothing there is.
+/// Writes the large image from the small one of the same view. Colours are interpolated between the
+/// four nearest pixels like those of OpenGL's linear filter. Depths are those of the nearest pixel,
+/// as any depth in between would belong to no surface.
 void enlarge(const DisplayPixels& small, const DisplayPixels& large, const Workers& workers);
 
 } // namespace osgRayTrace::engine

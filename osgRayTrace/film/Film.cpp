@@ -1,4 +1,4 @@
-// Film.cpp - the accumulated image. Layer: film.
+// Film.cpp - sums of passes, their means and their errors. Layer: film.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/Film.h"
 
@@ -47,15 +47,15 @@ float* floatsOf(TileRgba& values)
     return values[0].r.v;
 }
 
-/// Of one channel of a tile.
+/// Holds the sums of one channel of a tile.
 struct HalfSums
 {
-    double squares = 0.0; ///< of the halves' differences
+    double squares = 0.0; ///< sum of the squared differences of the halves
     double first = 0.0, second = 0.0;
 };
 
-/// Lane by lane, so that the loop needs no order of its additions; in double, where squares of
-/// bright values have room.
+/// Adds lane by lane, so that the loop needs no order of its additions, and in double, which has
+/// room for squares of bright values.
 OSGRAYTRACE_KERNEL
 void sumLanes(const float* __restrict first, const float* __restrict second,
               double* __restrict squares, double* __restrict firsts, double* __restrict seconds)
@@ -246,11 +246,11 @@ float Film::errorScale(int tile) const
     const int passes = tilePasses(tile);
     if (passes < 2) return 0.0f;
     if (passes % 2 == 0) return 0.5f;
-    // One half has n passes and a mean of variance V, the other one pass more, of variance s^2
-    // alone. V is s^2 / n of independent passes and up to s^2 / n^2 of points that fill the square
-    // evenly, whose mean a last one makes worse: s^2 / n^1.5 is taken, about 3 % of variance from
-    // either.
-    const double n = passes / 2, last = n * std::sqrt(n); // s^2 / V
+    // One half has n passes and a mean of variance V, the other half has one pass more, of variance
+    // s^2 alone. V is s^2 / n for independent passes and down to s^2 / n^2 for points that fill the
+    // square evenly, whose mean a last pass makes worse. The code takes s^2 / n^1.5, about 3 % of
+    // variance from either.
+    const double n = passes / 2, last = n * std::sqrt(n); // last: s^2 / V
     const double variance = (2.0 * n * n + last) / ((2.0 * n + 1.0) * (2.0 * n + 1.0));
     const double difference = (n * n + last) / ((n + 1.0) * (n + 1.0)) + 1.0;
     return static_cast<float>(std::sqrt(variance / difference));

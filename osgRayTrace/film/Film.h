@@ -12,18 +12,18 @@
 namespace osgRayTrace::engine
 {
 
-constexpr int kTileSize = 16; ///< pixels a side
+constexpr int kTileSize = 16; ///< [pixels] along a side
 constexpr int kTilePixels = kTileSize * kTileSize;
 constexpr int kBlockSize = 4; ///< a block of lanes is 4 x 4 pixels
 constexpr int kTileBlocks = kTilePixels / kLanes;
 
-/// Of an image's side.
+/// Returns the number of tiles along an image's side.
 inline int tilesAlong(int pixels)
 {
     return (pixels + kTileSize - 1) / kTileSize;
 }
 
-/// Position of a lane of a block within its tile, in pixels.
+/// Returns the position of a lane of a block within its tile, in pixels.
 OSGRAYTRACE_INLINE int laneX(int block, int lane)
 {
     return (block & 3) * kBlockSize + (lane & 3);
@@ -33,21 +33,21 @@ OSGRAYTRACE_INLINE int laneY(int block, int lane)
     return (block >> 2) * kBlockSize + (lane >> 2);
 }
 
-/// RGBA of the pixels of a block.
+/// Holds RGBA of the pixels of a block.
 struct RgbaLanes
 {
     FloatLanes r, g, b, a;
 };
 
-/// Radiance of one pass for a tile, block by block.
+/// Holds the radiance of one pass for a tile, block by block.
 using TileRgba = RgbaLanes[kTileBlocks];
 
-/// Passes 0, 2, 4, ... go to the first half, the others to the second. The halves are sampled
-/// independently, so for the mean m = (a + b)/2 of their means the variance estimate (a - b)^2/4 is
-/// unbiased [Rousselle12, sect. 3]; see errorScale for an odd number of passes. What photons blur,
-/// which are looked up in discs, both halves have: that bias is not in the estimate. Tiles are
-/// independent: different threads may write different tiles. Sums of a bounded number of passes are
-/// float, their totals double.
+/// Holds the sums of two halves: passes 0, 2, 4, ... go to the first half, the others to the
+/// second. The halves are sampled independently, so that for the mean m = (a + b)/2 of their means
+/// the variance estimate (a - b)^2/4 is unbiased [Rousselle12, sect. 3]; see errorScale for an odd
+/// number of passes. Photons, which are looked up in discs, blur both halves alike: that bias is
+/// not in the estimate. Tiles are independent: different threads may write different tiles. Sums of
+/// a bounded number of passes are float, their totals double.
 class Film
 {
 public:
@@ -62,47 +62,48 @@ public:
     int tileX(int tile) const { return tile % _tilesX * kTileSize; } ///< left pixel column
     int tileY(int tile) const { return tile / _tilesX * kTileSize; } ///< bottom pixel row
 
-    /// Complete passes of a tile; tiles differ after a cancelled pass.
+    /// Returns the complete passes of a tile; tiles differ after a cancelled pass.
     int tilePasses(int tile) const { return _passes[static_cast<std::size_t>(tile)]; }
-    /// Passes that every tile has.
+    /// Returns the number of passes that every tile has.
     int passes() const;
 
-    /// Before the tiles of a pass, alone.
+    /// Prepares a pass; called before the tiles of the pass, by one thread.
     void beginPass();
 
-    /// Where the next pass of a tile can be written without a copy, kTileBlocks blocks; null if its
-    /// half has passes already: then addPass. Completed by finishPass.
+    /// Returns kTileBlocks blocks into which the next pass of a tile can be written without a copy.
+    /// finishPass completes the pass. Null if the tile's half has passes already: the caller then
+    /// needs addPass.
     RgbaLanes* firstPassStorage(int tile);
     void finishPass(int tile);
 
     /// Adds the next pass of a tile.
     void addPass(int tile, const RgbaLanes* values);
 
-    /// Window depth of the tile's pixels, lanes of block b at b*kLanes. Written with its first
-    /// pass.
+    /// Returns the window depth of the tile's pixels, lanes of block b at b*kLanes, which is
+    /// written with the tile's first pass.
     float* depth(int tile) { return &_depth[static_cast<std::size_t>(tile) * kTilePixels]; }
     const float* depth(int tile) const
     {
         return &_depth[static_cast<std::size_t>(tile) * kTilePixels];
     }
 
-    /// Mean radiance of a tile's passes; transparent black before the first.
+    /// Returns the mean radiance of a tile's passes; transparent black before the first.
     void mean(int tile, TileRgba& values) const;
 
-    /// Means of the two halves; needs two passes.
+    /// Returns the means of the two halves; needs two passes.
     void halfMeans(int tile, TileRgba& first, TileRgba& second) const;
 
-    /// Factor of |a - b| that makes it the standard error of the mean of all passes, a and b the
-    /// halves' means: 1/2, and about that for an odd number of passes, as the halves then differ in
-    /// size. 0 below two.
+    /// Returns the factor of |a - b| that makes it the standard error of the mean of all passes,
+    /// with a and b the halves' means. The factor is 1/2, and about 1/2 for an odd number of
+    /// passes, because the halves then differ in size; it is 0 below two passes.
     float errorScale(int tile) const;
 
-    /// Estimate of the sum over the tile's pixels and RGB of (x - r)^2 / (R^2 + 0.01), and the
-    /// number of terms; x is this image, r the converged one, R the mean of r over the pixels of
-    /// the tile, channel by channel. Needs two passes. R is not known but taken from x; the tile
-    /// has so many samples that this matters only where errors are greater than what is seen: a
+    /// Holds an estimate of the sum over the tile's pixels and RGB of (x - r)^2 / (R^2 + 0.01), and
+    /// the number of terms; needs two passes. x is this image, r the converged one, and R the mean
+    /// of r over the pixels of the tile, channel by channel. R is not known but taken from x; the
+    /// tile has so many samples that this matters only if errors are greater than visible ones. A
     /// pixel's own r, or that of a block of 4 x 4, would be as noisy as the error at a light's
-    /// edge, and hide most of it.
+    /// edge, and hide most of the error.
     struct ErrorSum
     {
         double sum = 0.0;
@@ -123,9 +124,9 @@ private:
     int _tilesX = 0;
     int _tilesY = 0;
     UnclearedArray<RgbaLanes> _sums; ///< tile, half, block
-    std::vector<double> _totals;     ///< the same; empty until a half has kFoldPasses
+    std::vector<double> _totals;     ///< tile, half, block; empty until a half has kFoldPasses
     UnclearedArray<float> _depth;    ///< tile, block, lane
-    std::vector<int> _passes;        ///< a tile
+    std::vector<int> _passes;        ///< passes of a tile
 };
 
 } // namespace osgRayTrace::engine

@@ -14,7 +14,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// 2^x for x in [-126, 127], relative error below 3e-6: a polynomial through Chebyshev nodes.
+/// Returns 2^x for x in [-126, 127] with a relative error below 3e-6, by a polynomial through
+/// Chebyshev nodes.
 OSGRAYTRACE_INLINE float exp2Lanes(float x)
 {
     const float whole = static_cast<float>(static_cast<int>(x + (x < 0.0f ? -0.5f : 0.5f)));
@@ -27,7 +28,8 @@ OSGRAYTRACE_INLINE float exp2Lanes(float x)
     return series * scale;
 }
 
-/// log2(x) for x > 0 and normal, absolute error below 6e-6: the same, no division.
+/// Returns log2(x) for x > 0 and normal with an absolute error below 6e-6, by a polynomial through
+/// Chebyshev nodes, without a division.
 OSGRAYTRACE_INLINE float log2Lanes(float x)
 {
     int bits;
@@ -45,7 +47,7 @@ OSGRAYTRACE_INLINE float log2Lanes(float x)
     return static_cast<float>(exponent) + t * series;
 }
 
-/// sRGB encoding of a value in [0,1].
+/// Returns the sRGB encoding of a value in [0,1].
 OSGRAYTRACE_INLINE float encodeLanes(float x)
 {
     const float power =
@@ -80,7 +82,7 @@ void packDisplay(const RgbaLanes* __restrict blocks, UintLanes* __restrict packe
     }
 }
 
-/// alpha * encode(radiance) where the film holds alpha * radiance: as a display blends it.
+/// Packs alpha * encode(radiance), which a display blends, from the film's alpha * radiance.
 OSGRAYTRACE_KERNEL
 void packEncoded(const RgbaLanes* __restrict blocks, float exposure, UintLanes* __restrict packed)
 {
@@ -98,14 +100,15 @@ void packEncoded(const RgbaLanes* __restrict blocks, float exposure, UintLanes* 
     }
 }
 
-/// A value that was shown as white anyway may be too large for linear light.
+/// Returns a decoded value, limited to the range of float: a value that was shown as white anyway
+/// may be too large for linear light.
 float decoded(float encoded, float alpha)
 {
     constexpr float kLargest = std::numeric_limits<float>::max();
     return std::clamp(alpha * linearFromSrgb(encoded / alpha), -kLargest, kLargest);
 }
 
-/// Colours stay multiplied with alpha.
+/// Decodes to linear light; colours stay multiplied with alpha.
 void decode(TileRgba& values)
 {
     for (RgbaLanes& block : values)
@@ -143,7 +146,8 @@ bool isWhole(const Film& film, int tile)
            film.tileY(tile) + kTileSize <= film.height();
 }
 
-/// Four values of each row of each block are neighbours in the image: copied together.
+/// Copies the lanes of a tile to the image. The four values of each row of each block are
+/// neighbours in the image and are copied together.
 template <class T> void copyRows(const Film& film, int tile, const T* lanes, T* image)
 {
     if (!isWhole(film, tile))
@@ -161,7 +165,7 @@ template <class T> void copyRows(const Film& film, int tile, const T* lanes, T* 
                         lanes + ((y >> 2) * 4 + bx) * kLanes + (y & 3) * 4, 4 * sizeof(T));
 }
 
-/// Of a tile that has no pass yet: nothing is there.
+/// Stands for a tile that has no pass yet, in which nothing is seen.
 struct FarTile
 {
     FarTile() { std::fill(std::begin(depth), std::end(depth), 1.0f); }

@@ -8,22 +8,24 @@
 namespace osgRayTrace::engine
 {
 
-/// Writes the tile's part of an image of width*height*4 linear floats, row 0 at the bottom.
-/// A display-referred film is decoded to linear.
+/// Writes the tile's part of an image of width*height*4 linear floats, row 0 at the bottom. A
+/// display-referred film is decoded to linear.
 void resolveTileRadiance(const Film& film, int tile, bool displayReferred, float* image);
 
-/// The same in display values, 4 bytes a pixel, and window depths, 1 float a pixel (may be null).
+/// Writes the tile's part of an image in display values, 4 bytes a pixel, and of its window depths,
+/// 1 float a pixel (may be null); row 0 is at the bottom.
 void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint8_t* image,
                         float* depth);
 
-/// Display values of linear pixels, premultiplied RGBA, 4 floats each: as resolveTileDisplay makes
-/// them.
+/// Writes the display values of linear pixels, premultiplied RGBA, 4 floats each, as
+/// resolveTileDisplay computes them.
 void displayPixels(const float* rgba, std::size_t count, float exposureEv, uint8_t* image);
 
-/// Window depths of the first pass, 1 float a pixel; 1 where there is none.
+/// Writes the window depths of the first pass, 1 float a pixel; 1 for a tile without a pass.
 void resolveTileDepth(const Film& film, int tile, float* depth);
 
-/// Estimated standard error of each pixel's mean, linear RGB, 3 floats a pixel; needs two passes.
+/// Writes the estimated standard error of each pixel's mean, linear RGB, 3 floats a pixel; needs
+/// two passes.
 void resolveTileError(const Film& film, int tile, bool displayReferred, float* image);
 
 } // namespace osgRayTrace::engine

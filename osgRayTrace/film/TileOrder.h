@@ -9,8 +9,9 @@
 namespace osgRayTrace::engine
 {
 
-/// Its multiples modulo count are all numbers below count, once each, and successive ones lie far
-/// apart: the golden section of count, or the next below it that shares no factor with it.
+/// Returns a number whose multiples modulo count are all numbers below count, once each, with
+/// successive ones far apart: the golden section of count, or the next number below it that shares
+/// no factor with count.
 inline std::size_t evenStride(std::size_t count)
 {
     auto stride = static_cast<std::size_t>(0.6180339887 * static_cast<double>(count));
@@ -19,12 +20,14 @@ inline std::size_t evenStride(std::size_t count)
     return std::max<std::size_t>(stride, 1);
 }
 
-/// All tiles of an image, square groups of them one after the other and these spread over the
-/// image: the larger they are, the more of the few tiles that a call makes lie together.
+/// Orders all tiles of an image: square groups of tiles one after the other, and the groups spread
+/// over the image. The larger groups are, the more of the few tiles that a call traces lie
+/// together.
 class TileOrder
 {
 public:
-    /// across, up: tiles; group: of them, along a side of a group.
+    /// Makes an order. across, up: tiles along the image's sides; group: tiles along a side of a
+    /// group.
     TileOrder(std::size_t across, std::size_t up, std::size_t group)
         : _across(across), _up(up), _group(group), _groupsAcross((across + group - 1) / group)
     {
@@ -32,10 +35,11 @@ public:
         _stride = evenStride(_groups);
     }
 
-    /// Places in the order; some of those in groups at the image's border are of no tile.
+    /// Returns the number of places in the order; some places in groups at the image's border have
+    /// no tile.
     std::size_t places() const { return _groups * _group * _group; }
 
-    /// Of a place; across * up: none.
+    /// Returns the tile of a place; across * up: the place has no tile.
     std::size_t tile(std::size_t place) const
     {
         const std::size_t within = place % (_group * _group);

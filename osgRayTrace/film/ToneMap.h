@@ -5,17 +5,24 @@
 namespace osgRayTrace::engine
 {
 
-/// Display value = encode(2^exposureEv * linear), clamped to [0,1]; encode is sRGB's transfer
-/// function [IEC61966]. A display-referred image is decoded to linear first, so exposure 0 shows it
-/// unchanged. Colours that are multiplied with alpha are divided by it first and multiplied again
-/// last.
+/// Maps linear radiance to display values: encode(2^exposureEv * linear), clamped to [0,1], where
+/// encode is sRGB's transfer function [IEC61966]. A display-referred image is decoded to linear
+/// first, so that exposure 0 shows it unchanged. Colours that are multiplied with alpha are divided
+/// by alpha first and multiplied again last.
 struct ToneMap
 {
     float exposureEv = 0.0f;
     bool displayReferred = false; ///< the film holds display values, not linear radiance
+
+    bool operator==(const ToneMap& other) const
+    {
+        return exposureEv == other.exposureEv && displayReferred == other.displayReferred;
+    }
+    bool operator!=(const ToneMap& other) const { return !(*this == other); }
 };
 
-float srgbFromLinear(float linear); ///< without clamping; odd: negative in, negative out
+float srgbFromLinear(
+    float linear); ///< without clamping; odd: a negative value gives a negative one
 float linearFromSrgb(float encoded);
 
 } // namespace osgRayTrace::engine

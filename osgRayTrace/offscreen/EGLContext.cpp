@@ -33,8 +33,8 @@ EGLDisplay openDisplay()
     return display;
 }
 
-/// EGL has one such display in a process, whoever asks for it; eglTerminate would close it under
-/// the feet of others, so nobody does.
+/// Returns the one such display that EGL has in a process, whoever asks for it. Nobody calls
+/// eglTerminate, which would close the display for its other users.
 EGLDisplay sharedDisplay()
 {
     static const EGLDisplay display = openDisplay();
@@ -80,7 +80,7 @@ protected:
 
     bool bindNative() override
     {
-        // The API is a thread's choice.
+        // Each thread has its own current API.
         return eglBindAPI(EGL_OPENGL_API) && eglMakeCurrent(_display, _surface, _surface, _context);
     }
 

@@ -1,4 +1,4 @@
-// FrameCapture - copies what a camera has drawn into images. Layer: offscreen.
+// FrameCapture.cpp - reads the viewport back from OpenGL. Layer: offscreen.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/offscreen/FrameCapture>
 

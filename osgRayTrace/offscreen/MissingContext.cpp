@@ -1,4 +1,4 @@
-// MissingContext.cpp - for a kind of context that was missing at build time. Layer: offscreen.
+// MissingContext.cpp - stands for a kind of context that was not built. Layer: offscreen.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/offscreen/OffscreenContext>
 

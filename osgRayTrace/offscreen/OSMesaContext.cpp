@@ -5,7 +5,7 @@
 
 #include <osg/Notify>
 
-// Before any GL header of its own, so that OSG's definitions stand.
+// OSG's header stands before any GL header of OSMesa's, so that OSG's definitions hold.
 #include <GL/osmesa.h>
 
 #include <cstddef>
@@ -63,7 +63,8 @@ protected:
 
 private:
     OSMesaContext _context = nullptr;
-    std::unique_ptr<unsigned char[]> _pixels; ///< where OSMesa leaves the colours at glFinish
+    std::unique_ptr<unsigned char[]>
+        _pixels; ///< buffer to which OSMesa writes the colours at glFinish
 };
 
 } // namespace

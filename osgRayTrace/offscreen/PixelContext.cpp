@@ -1,4 +1,4 @@
-// PixelContext.cpp - what OSMesa and EGL contexts have in common. Layer: offscreen.
+// PixelContext.cpp - the common part of OSMesa and EGL contexts. Layer: offscreen.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/offscreen/PixelContext.h"
 
@@ -12,7 +12,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// The calling thread's current context. Only compared, never followed: it may be gone.
+/// Holds the calling thread's current context, which is only compared, never followed: it may be
+/// gone.
 struct CurrentContext
 {
     const PixelContext* context = nullptr;
@@ -62,7 +63,7 @@ std::string PixelContext::check()
 {
     if (!valid()) return "the driver does not give such a context";
 
-    // Not makeCurrent(): it would have OSG ask a context for its version that may not answer.
+    // makeCurrent() would have OSG ask a context for its version that may not answer.
     if (!makeCurrentImplementation()) return "the context cannot be made current";
 
     const bool answers = glGetString(GL_VERSION) != nullptr;
@@ -98,8 +99,8 @@ bool PixelContext::makeCurrentImplementation()
 {
     if (!valid()) return false;
 
-    // OSMesa and EGL do not know of each other, but their drivers share Mesa's record of what is
-    // current: the one must let go before the other takes over.
+    // OSMesa and EGL do not know of each other, but their drivers share Mesa's record of the
+    // current context: the one must let go before the other takes over.
     if (t_current.unbind && t_current.unbind != unbindFunction()) t_current.unbind();
     t_current = {};
 

@@ -1,4 +1,4 @@
-// PixelContext.h - what OSMesa and EGL contexts have in common. Layer: offscreen.
+// PixelContext.h - the common part of OSMesa and EGL contexts. Layer: offscreen.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,17 +9,18 @@
 namespace osgRayTrace::engine
 {
 
-/// A context of fixed size whose native part exists from construction on. A subclass creates that
-/// part in its constructor, destroys it in closeImplementation() and calls close() in its
-/// destructor.
+/// This is the base of contexts of fixed size whose native part exists from construction on. A
+/// subclass creates that part in its constructor, destroys it in closeImplementation() and calls
+/// close() in its destructor.
 class PixelContext : public osg::GraphicsContext
 {
 public:
-    /// Takes the share of the contextID that an OSG context has, so that close() may give it back.
+    /// Takes the share of the contextID that an OSG context has, so that close() may give the share
+    /// back.
     PixelContext(int width, int height, osg::GraphicsContext* sharedContext);
 
-    /// Empty if OpenGL answers in this context, else one sentence for the user. Leaves nothing
-    /// current.
+    /// Returns an empty string if OpenGL answers in this context, else one sentence for the user.
+    /// Afterwards no context is current.
     std::string check();
 
     bool realizeImplementation() override;
@@ -30,11 +31,11 @@ public:
     bool releaseContextImplementation() override;
     void bindPBufferToTextureImplementation(GLenum buffer) override;
 
-    /// The frame is complete when this returns.
+    /// Completes the frame before it returns.
     void swapBuffersImplementation() override;
 
 protected:
-    /// Makes no context of one native kind current on the calling thread.
+    /// A function of this type makes no context of one native kind current on the calling thread.
     using UnbindFunction = void (*)();
 
     virtual bool bindNative() = 0;
@@ -48,7 +49,7 @@ private:
 /// Logs why there is no context, and frees it.
 osg::ref_ptr<osg::GraphicsContext> checkedContext(const osg::ref_ptr<PixelContext>& context);
 
-/// False, with a message through osg::notify, unless both are 1 or more.
+/// Returns false, with a message through osg::notify, unless both sides are 1 or more.
 bool isContextSize(const char* function, int width, int height);
 
 } // namespace osgRayTrace::engine

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/photons/PhotonEmitter.h"
 #include "osgRayTrace/photons/PhotonPaths.h"
-#include "osgRayTrace/photons/PhotonTracer.h"
+#include "osgRayTrace/photons/TracedPhotons.h"
 #include "osgRayTrace/sampling/Sampler.h"
 #include "osgRayTrace/shading/SmoothLanes.h"
 

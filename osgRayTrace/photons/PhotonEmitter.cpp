@@ -20,8 +20,6 @@ std::size_t pick(const std::vector<float>& cumulative, float u)
                                     cumulative.begin());
 }
 
-constexpr float kWholeSphere = 4.0f * kPi;
-
 } // namespace
 
 /// The cones that hold the targets as seen from a point; a target around the point has none.

@@ -9,7 +9,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Mixes all bits of x; a bijection [Wellons18, lowbias32].
+/// Mixes all bits of x; the map is a bijection [Wellons18, lowbias32].
 OSGRAYTRACE_INLINE uint32_t hash(uint32_t x)
 {
     x ^= x >> 16;
@@ -20,13 +20,13 @@ OSGRAYTRACE_INLINE uint32_t hash(uint32_t x)
     return x;
 }
 
-/// A hash of two keys, not symmetric.
+/// Returns a hash of two keys, which is not symmetric.
 OSGRAYTRACE_INLINE uint32_t hash(uint32_t a, uint32_t b)
 {
     return hash(b + 0x9e3779b9u + hash(a));
 }
 
-/// Uniform in [0,1) from the upper 24 bits.
+/// Returns a number in [0,1), uniform, from the upper 24 bits.
 OSGRAYTRACE_INLINE float unitFloat(uint32_t bits)
 {
     return static_cast<float>(static_cast<int32_t>(bits >> 8)) * 0x1p-24f;

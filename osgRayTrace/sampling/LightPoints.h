@@ -7,7 +7,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Independent uniform numbers: the key of each is (seed, index).
+/// Sets x and y to independent uniform numbers; the key of each is (seed, index).
 OSGRAYTRACE_INLINE void random2(uint32_t index, uint32_t seed, float& x, float& y)
 {
     const uint32_t first = hash(seed, index);
@@ -15,8 +15,8 @@ OSGRAYTRACE_INLINE void random2(uint32_t index, uint32_t seed, float& x, float& 
     y = unitFloat(hash(first ^ 0x5bd1e995u));
 }
 
-/// Sample j of the n x n that a hit takes in one pass, all cells shifted alike [McCarthy17, alg.
-/// 1].
+/// Sets x and y to sample j of the n x n that a hit takes in one pass, all cells shifted alike
+/// [McCarthy17, alg. 1].
 OSGRAYTRACE_INLINE void uniformJitter2(uint32_t j, uint32_t n, uint32_t passIndex, uint32_t seed,
                                        float& x, float& y)
 {
@@ -26,8 +26,8 @@ OSGRAYTRACE_INLINE void uniformJitter2(uint32_t j, uint32_t n, uint32_t passInde
     y = (static_cast<float>(static_cast<int>(j / n)) + y) * cell;
 }
 
-/// Sample j of the n x n that a hit takes in one pass, each cell with its own shift [McCarthy17,
-/// alg. 2].
+/// Sets x and y to sample j of the n x n that a hit takes in one pass, each cell with its own shift
+/// [McCarthy17, alg. 2].
 OSGRAYTRACE_INLINE void stratified2(uint32_t j, uint32_t n, uint32_t passIndex, uint32_t seed,
                                     float& x, float& y)
 {

@@ -7,8 +7,8 @@
 namespace osgRayTrace::engine
 {
 
-/// What a dimension of a sample is used for. Each name is a two-dimensional point of its own; those
-/// from BounceFirst on repeat for each bounce, kDimensionsPerBounce apart.
+/// Names the use of each dimension of a sample. Each name is a two-dimensional point of its own;
+/// those from BounceFirst on repeat for each bounce, kDimensionsPerBounce apart.
 enum Dimension : uint32_t
 {
     DimensionPixel = 0,
@@ -21,12 +21,12 @@ enum Dimension : uint32_t
 };
 constexpr uint32_t kDimensionsPerBounce = 4;
 
-/// Passes alternate between two halves with independent sequences: their difference then estimates
-/// the error of their mean without bias. Sequences of halves, pixels, dimensions and seeds are
-/// independent.
+/// Holds what decides on the random numbers of a pass. Passes alternate between two halves with
+/// independent sequences: the difference of the halves then estimates the error of their mean
+/// without bias. Sequences of halves, pixels, dimensions and seeds are independent.
 struct PassKey
 {
-    uint32_t seed = 0;  ///< hashed: user's seed and half
+    uint32_t seed = 0;  ///< hash of the user's seed and the half
     uint32_t index = 0; ///< number of the pass within its half
 };
 
@@ -35,8 +35,8 @@ inline PassKey passKey(uint32_t userSeed, int pass)
     return {hash(userSeed, static_cast<uint32_t>(pass) & 1u), static_cast<uint32_t>(pass) >> 1};
 }
 
-/// The key of everything random about a pixel, for pixels up to 2^16 a side. Hashed again with each
-/// dimension.
+/// Returns the key of everything random about a pixel, for pixels up to 2^16 a side. The key is
+/// hashed again with each dimension.
 OSGRAYTRACE_INLINE uint32_t pixelSeed(const PassKey& key, uint32_t x, uint32_t y)
 {
     return key.seed ^ hash(x | (y << 16));

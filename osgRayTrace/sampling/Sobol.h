@@ -17,8 +17,9 @@ OSGRAYTRACE_INLINE uint32_t reverseBits(uint32_t x)
     return (x >> 16) | (x << 16);
 }
 
-/// Nested uniform (Owen) scrambling of a number whose bits are reversed: each bit is flipped or not
-/// by a hash of the seed and of the bits below it [Burley20, sect. 3; constants of Vegdahl21].
+/// Returns a number whose bits are reversed after nested uniform (Owen) scrambling: each bit is
+/// flipped or not by a hash of the seed and of the bits below it [Burley20, sect. 3; constants of
+/// Vegdahl21].
 OSGRAYTRACE_INLINE uint32_t scrambleReversed(uint32_t x, uint32_t seed)
 {
     x ^= x * 0x3d20adeau;
@@ -29,8 +30,8 @@ OSGRAYTRACE_INLINE uint32_t scrambleReversed(uint32_t x, uint32_t seed)
     return x;
 }
 
-/// Second Sobol dimension with its bits reversed: the Pascal triangle mod 2 applied to the bits of
-/// the index, as a butterfly [Ahmed24].
+/// Returns the second Sobol dimension with its bits reversed: the Pascal triangle mod 2 applied to
+/// the bits of the index, as a butterfly [Ahmed24].
 OSGRAYTRACE_INLINE uint32_t sobolSecondReversed(uint32_t index)
 {
     index ^= (index >> 1) & 0x55555555u;
@@ -41,8 +42,9 @@ OSGRAYTRACE_INLINE uint32_t sobolSecondReversed(uint32_t index)
     return index;
 }
 
-/// Seeds of the two coordinates from one that is a hash already. The shifts differ: with equal ones
-/// the low bits of the two, which become the high bits of the point, depend on each other.
+/// Returns the seed of x, and seedOfY that of y, from a seed that is a hash already. The shifts
+/// differ: with equal shifts the low bits of the two seeds, which become the high bits of the
+/// point, depend on each other.
 OSGRAYTRACE_INLINE uint32_t seedOfX(uint32_t seed)
 {
     seed *= 0x2c1b3c6du;
@@ -55,8 +57,9 @@ OSGRAYTRACE_INLINE uint32_t seedOfY(uint32_t seed)
     return seed ^ (seed >> 17);
 }
 
-/// Point number index of the two-dimensional sequence that belongs to seed, in [0,1)^2. Sequences
-/// of different seeds are independent: shuffled and scrambled apart [Burley20, sect. 4].
+/// Sets x and y to point number index of the two-dimensional sequence that belongs to seed, in
+/// [0,1)^2. Sequences of different seeds are independent, because they are shuffled and scrambled
+/// apart [Burley20, sect. 4].
 OSGRAYTRACE_INLINE void sobol2(uint32_t index, uint32_t seed, float& x, float& y)
 {
     const uint32_t shuffled = reverseBits(scrambleReversed(reverseBits(index), seed));
@@ -64,15 +67,15 @@ OSGRAYTRACE_INLINE void sobol2(uint32_t index, uint32_t seed, float& x, float& y
     y = unitFloat(reverseBits(scrambleReversed(sobolSecondReversed(shuffled), seedOfY(seed))));
 }
 
-/// The same without shuffling the index, which is only needed to keep two sequences apart: for the
-/// first dimensions of a sample.
+/// Sets x and y as sobol2 does, without shuffling the index. Only sequences that have to be kept
+/// apart need the shuffle; this function is for the first dimensions of a sample.
 OSGRAYTRACE_INLINE void sobol2Ordered(uint32_t index, uint32_t seed, float& x, float& y)
 {
     x = unitFloat(reverseBits(scrambleReversed(index, seedOfX(seed))));
     y = unitFloat(reverseBits(scrambleReversed(sobolSecondReversed(index), seedOfY(seed))));
 }
 
-/// Point number index of the one-dimensional sequence of seed, in [0,1).
+/// Returns point number index of the one-dimensional sequence of seed, in [0,1).
 OSGRAYTRACE_INLINE float sobol1(uint32_t index, uint32_t seed)
 {
     const uint32_t shuffled = reverseBits(scrambleReversed(reverseBits(index), seed));

@@ -10,11 +10,12 @@
 namespace osgRayTrace::engine
 {
 
-/// sin and cos of 2*pi*turn for turn in [0,1], absolute error below 2e-7. No calls and no tables,
-/// so that loops over lanes vectorize.
+/// Sets sine and cosine of 2*pi*turn for turn in [0,1], with an absolute error below 2e-7. The code
+/// has no calls and no tables, so that loops over lanes vectorize.
 OSGRAYTRACE_INLINE void sinCosTurn(float turn, float& sine, float& cosine)
 {
-    // Reduced to [-1/8, 1/8] of a turn around the nearest quarter, then Taylor series.
+    // The angle is reduced to [-1/8, 1/8] of a turn around the nearest quarter; Taylor series
+    // follow.
     const int quarter = static_cast<int>(turn * 4.0f + 0.5f);
     const float x = (turn - 0.25f * static_cast<float>(quarter)) * (2.0f * kPi);
     const float x2 = x * x;
@@ -29,7 +30,7 @@ OSGRAYTRACE_INLINE void sinCosTurn(float turn, float& sine, float& cosine)
     cosine = ((quarter + 1) & 2) ? -swappedCosine : swappedCosine;
 }
 
-/// Cosine-distributed direction around +z: pdfW = cosTheta / pi.
+/// Returns a cosine-distributed direction around +z: pdfW = cosTheta / pi.
 OSGRAYTRACE_INLINE PlainVec3 squareToCosineHemispherePlain(float u, float v)
 {
     float sine, cosine;
@@ -49,8 +50,8 @@ inline float squareToCosineHemispherePdf(float cosTheta)
     return std::max(cosTheta, 0.0f) * kInvPi;
 }
 
-/// Uniform in the cone of directions whose 1 - cosine is below oneMinusCosine around +z:
-/// pdfW = 1 / (2 pi oneMinusCosine).
+/// Returns a direction, uniform in the cone of directions whose 1 - cosine is below oneMinusCosine
+/// around +z: pdfW = 1 / (2 pi oneMinusCosine).
 inline Vec3 squareToCone(Vec2 u, float oneMinusCosine)
 {
     const float height = u.y * oneMinusCosine;
@@ -85,6 +86,7 @@ OSGRAYTRACE_INLINE PlainVec3 toWorld(const PlainFrame& frame, PlainVec3 local)
             t.z * local.x + b.z * local.y + n.z * local.z};
 }
 
+/// Sets two unit vectors that make a right-handed frame with the unit normal n [Duff17, listing 3].
 OSGRAYTRACE_INLINE void frameOf(float nx, float ny, float nz, Vec3& tangent, Vec3& bitangent)
 {
     const PlainFrame frame = frameOf(PlainVec3{nx, ny, nz});
@@ -92,7 +94,7 @@ OSGRAYTRACE_INLINE void frameOf(float nx, float ny, float nz, Vec3& tangent, Vec
     bitangent = Vec3(frame.bitangent.x, frame.bitangent.y, frame.bitangent.z);
 }
 
-/// A direction around +z turned to around the unit vector axis.
+/// Returns a direction around +z turned to the unit vector axis.
 inline Vec3 turnedTo(Vec3 axis, Vec3 direction)
 {
     Vec3 tangent, bitangent;

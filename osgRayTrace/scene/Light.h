@@ -18,45 +18,46 @@ enum class LightKind : uint8_t
     Point,         ///< osg::Light with w != 0, with attenuation and spot terms
     Parallelogram, ///< AreaLight: corner and two edges, constant radiance
     Mesh,          ///< an instance whose material emits
-    Environment,   ///< EnvironmentLight: from all around; the first of a scene counts
+    Environment,   ///< EnvironmentLight: light from all around; the first of a scene counts
 };
 
 struct Light
 {
     std::string name;
     LightKind kind = LightKind::Point;
-    uint32_t number = 0; ///< osg::Light number: see isLightEnabled
+    uint32_t number = 0; ///< number of the osg::Light: see isLightEnabled
 
-    /// position and direction are in view space (x right, y up, looking along -z), in world
-    /// lengths: a headlight. RenderSession places it for each view.
+    /// True for a headlight: position and direction are in view space (x right, y up, looking along
+    /// -z) and in world lengths. RenderSession places the headlight for each view.
     bool eyeSpace = false;
 
-    /// Directional, Point: false if nothing hides this light. It lights every surface that faces
-    /// it, in all integrators, and photons go on through surfaces on their first flight: see
-    /// PhotonTracer.
+    /// Directional, Point: false if nothing hides this light. The light then reaches every surface
+    /// that faces it, in all integrators, and its photons go on through surfaces on their first
+    /// flight: see PhotonTracer.
     bool castsShadows = true;
 
-    // Directional, Point: fixed-function light colours. Diffuse 1 without attenuation gives a
-    // Lambert surface its own colour at normal incidence, that is an irradiance of pi.
+    // Directional, Point: these are the fixed-function light colours. Diffuse 1 without attenuation
+    // gives a Lambert surface its own colour at normal incidence, that is an irradiance of pi.
     Vec3 ambient{0.0f};
     Vec3 diffuse{0.0f};
     Vec3 specular{0.0f};
     Vec3 position{0.0f}; ///< Point, engine space
     Vec3 direction{0.0f, 0.0f,
-                   -1.0f}; ///< unit, the way the light travels: Directional; spot axis of Point
+                   -1.0f}; ///< unit; Directional: the way the light travels; Point: the spot's axis
     float attenuationConstant = 1.0f;
-    float attenuationLinear = 0.0f;    ///< [1/length], engine units; in eye space, too
+    float attenuationLinear = 0.0f;    ///< [1/length], engine units, in eye space as well
     float attenuationQuadratic = 0.0f; ///< [1/length^2], engine units
     float spotExponent = 0.0f;
     float spotCosCutoff = -1.0f; ///< cosine of the cut-off angle; -1: no spot
 
-    // With a size they cast soft shadows, and stay invisible: see SoftLight.h.
-    float radius = 0.0f; ///< Point: of a sphere [length], engine units; in eye space, too
-    float sine = 0.0f;   ///< Directional: of the half-angle of a disc on the sky, [0,1]
+    // Lights with a radius or a sine cast soft shadows and stay invisible: see SoftLight.h.
+    float radius =
+        0.0f;          ///< Point: radius of the sphere [length], engine units, in eye space as well
+    float sine = 0.0f; ///< Directional: sine of the half-angle of the disc on the sky, [0,1]
 
-    // Parallelogram: the image of (u, v) in [0,1]^2 is corner + u*edgeU + v*edgeV; the front side
-    // is cross(edgeU, edgeV). Mesh: radiance is the material's emission, the front that of its
-    // triangles.
+    // Parallelogram: the image of (u, v) in [0,1]^2 is corner + u*edgeU + v*edgeV, and the front
+    // side faces cross(edgeU, edgeV). Mesh: radiance is the material's emission, and the front is
+    // that of the mesh's triangles.
     Vec3 corner{0.0f};
     Vec3 edgeU{1.0f, 0.0f, 0.0f};
     Vec3 edgeV{0.0f, 1.0f, 0.0f};

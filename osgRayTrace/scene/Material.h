@@ -1,5 +1,4 @@
-// Material.h - how a surface reflects and emits: the physical and the fixed-function model. Layer:
-// scene.
+// Material.h - how a surface reflects and emits: physical and fixed-function model. Layer: scene.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,12 +14,12 @@ namespace osgRayTrace::engine
 
 enum class MaterialModel : uint8_t
 {
-    FixedFunction, ///< OpenGL's: ambient, diffuse, specular, shininess
-    Physical,      ///< glTF 2.0's: base colour, metallic, roughness; and transmission, ior
+    FixedFunction, ///< OpenGL's model: ambient, diffuse, specular, shininess
+    Physical,      ///< glTF 2.0's model: base colour, metallic, roughness; and transmission, ior
 };
 
-/// What the vertex colour replaces (osg::Material::ColorMode; without osg::Material:
-/// AmbientAndDiffuse).
+/// Tells which colour the vertex colour replaces (osg::Material::ColorMode; AmbientAndDiffuse
+/// without an osg::Material).
 enum class VertexColorUse : uint8_t
 {
     None,
@@ -31,7 +30,7 @@ enum class VertexColorUse : uint8_t
     AmbientAndDiffuse,
 };
 
-/// What a texture unit does to the colour that comes from lighting or the unit before.
+/// Tells how a texture unit changes the colour that comes from lighting or from the unit before.
 enum class TextureEnvironment : uint8_t
 {
     Modulate,
@@ -41,32 +40,32 @@ enum class TextureEnvironment : uint8_t
     Add,
 };
 
-/// What a unit's texture coordinates are made of [OpenGL21, sect. 2.11.4].
+/// Tells from what a unit's texture coordinates are made [OpenGL21, sect. 2.11.4].
 enum class TextureCoordinates : uint8_t
 {
     Uv0,           ///< (u, v, r, 1) of Mesh::uvs and rs
     Uv1,           ///< (u, v, r, 1) of Mesh::uvs1 and rs1
-    Position,      ///< (p, 1) in engine space: object and eye linear, which the converter puts into
-                   ///< matrix
-    SphereMap,     ///< (s, t, 0, 1); depends on the eye, as do those below: see textureCoordinates
+    Position,      ///< (p, 1) in engine space; the converter puts object and eye linear into matrix
+    SphereMap,     ///< (s, t, 0, 1); depends on the eye, as the next two do: see textureCoordinates
     ReflectionMap, ///< (r, 1)
     NormalMap,     ///< (n, 1)
 };
 
-/// How a unit finds its place in the texture: (s, t, r, q) = matrix * what coordinates says.
+/// Tells how a unit finds its place in the texture: (s, t, r, q) = matrix * the vector that
+/// coordinates names.
 struct TextureMapping
 {
     TextureCoordinates coordinates = TextureCoordinates::Uv0;
-    bool transformed = false; ///< else matrix is the identity and not looked at
+    bool transformed = false; ///< false: matrix is the identity and is not read
     Mat4 matrix{1.0f};
-    /// Some coordinates are generated and others are the mesh's: ownMatrix * what own says is
-    /// added.
+    /// True if some coordinates are generated and others are the mesh's: ownMatrix * the vector
+    /// that own names is then added.
     bool partly = false;
     TextureCoordinates own = TextureCoordinates::Uv0;
     Mat4 ownMatrix{0.0f};
 };
 
-/// Texture unit 1, applied to what unit 0 leaves.
+/// Holds texture unit 1, which is applied to the result of unit 0.
 struct SecondTexture
 {
     uint32_t texture = kInvalid;
@@ -75,7 +74,7 @@ struct SecondTexture
     TextureMapping mapping;
 };
 
-/// When an alpha passes: compared with a reference.
+/// Tells by which comparison with a reference an alpha passes.
 enum class AlphaTest : uint8_t
 {
     Never,
@@ -88,9 +87,9 @@ enum class AlphaTest : uint8_t
     Always,
 };
 
-/// Faces that camera rays pass by. Shadow, mirror and light rays meet them all the same, unless
-/// Material::cullsAllRays says so: a room whose walls are culled so that one can look in stays a
-/// closed room.
+/// Tells which faces camera rays pass by. Shadow, mirror and light rays meet culled faces all the
+/// same, unless Material::cullsAllRays says otherwise: a room whose walls are culled so that one
+/// can look in stays a closed room.
 enum class FaceCulling : uint8_t
 {
     None,
@@ -99,7 +98,7 @@ enum class FaceCulling : uint8_t
     FrontAndBack,
 };
 
-/// What lights that face sees.
+/// Holds the colours of the face that the lights see.
 struct FaceColors
 {
     Vec3 ambient{0.2f};
@@ -110,13 +109,14 @@ struct FaceColors
     float alpha = 1.0f;
 };
 
-/// All colours linear when the scene is, display-referred otherwise (Scene::displayReferred).
+/// All colours are linear if the scene is, and display-referred otherwise (Scene::displayReferred).
 struct Material
 {
     std::string name;
     MaterialModel model = MaterialModel::FixedFunction;
 
-    // Fixed function [OpenGL21, eq. 2.1-2.4]; the physical image of these is made by the Bsdf.
+    // Fixed function [OpenGL21, eq. 2.1-2.4]: MaterialTable makes the physical equivalent of these
+    // members.
     Vec3 ambient{0.2f};
     Vec3 diffuse{0.8f};
     Vec3 specular{0.0f};
@@ -127,16 +127,17 @@ struct Material
     std::vector<uint32_t>
         moreLights; ///< bit n of word k: number 32 (k + 1) + n; the last word is not 0
     VertexColorUse vertexColorUse = VertexColorUse::None;
-    TextureEnvironment textureEnvironment = TextureEnvironment::Modulate; ///< of unit 0
-    Vec4 environmentColor{0.0f}; ///< of TextureEnvironment::Blend
-    TextureMapping mapping;      ///< of unit 0
+    TextureEnvironment textureEnvironment = TextureEnvironment::Modulate; ///< unit 0
+    Vec4 environmentColor{0.0f}; ///< for TextureEnvironment::Blend
+    TextureMapping mapping;      ///< unit 0
     SecondTexture second;
-    bool separateSpecular = false; ///< highlights are added after the textures
-    bool localViewer = false;      ///< highlights look to the viewer's place, not along its axis
-    bool hasBack = false;          ///< two-sided lighting with other colours on the back
+    bool separateSpecular = false; ///< true: highlights are added after the textures
+    bool localViewer = false; ///< true: highlights look to the viewer's place, not along its axis
+    bool hasBack = false;     ///< true: two-sided lighting with other colours on the back
     FaceColors back;
 
-    // Physical [glTF20, sect. 3.9 and KHR_materials_transmission, KHR_materials_ior].
+    // The members of the physical model are defined in [glTF20, sect. 3.9] and in
+    // KHR_materials_transmission and KHR_materials_ior.
     Vec3 baseColor{1.0f};
     float metallic = 0.0f;
     float roughness = 1.0f;    ///< perceptual; alpha = roughness^2
@@ -145,21 +146,21 @@ struct Material
 
     Vec3 emission{0.0f}; ///< Physical: radiance [W/(m^2 sr)]; FixedFunction: GL emission
 
-    // How much of the surface is there: see MaterialTable::opacity.
+    // MaterialTable::opacity tells how these members make the surface's opacity.
     float alpha = 1.0f;
-    bool blended = false; ///< alpha is the opacity; else it is just tested
+    bool blended = false; ///< true: alpha is the opacity; false: alpha is only tested
     AlphaTest alphaTest = AlphaTest::Always;
     float alphaReference = 0.0f;
     FaceCulling culling = FaceCulling::None;
     bool cullsAllRays =
         false; ///< all rays from the eye pass them by the culled side; light the other way
-    bool clockwise = false; ///< what OpenGL calls the front is the mesh's clockwise side
+    bool clockwise = false; ///< true: OpenGL's front is the mesh's clockwise side
 
-    // Textures: indices into Scene::textures or kInvalid.
-    uint32_t baseColorTexture = kInvalid; ///< FixedFunction: unit 0; Physical: times baseColor
+    // Textures are indices into Scene::textures or kInvalid.
+    uint32_t baseColorTexture = kInvalid; ///< FixedFunction: unit 0; Physical: multiplies baseColor
     uint32_t metallicRoughnessTexture = kInvalid; ///< glTF: roughness in G, metallic in B; linear
-    uint32_t transmissionTexture = kInvalid;      ///< in R; linear
-    uint32_t emissionTexture = kInvalid;          ///< times emission
+    uint32_t transmissionTexture = kInvalid;      ///< transmission in R; linear
+    uint32_t emissionTexture = kInvalid;          ///< multiplies emission
 
     Stamp changed = 0;
 };
@@ -171,7 +172,7 @@ inline bool isTextured(const Material& m)
            m.second.texture != kInvalid;
 }
 
-/// Whether the osg::Light of a number is enabled on the surface.
+/// Returns whether the osg::Light of a number is enabled on the surface.
 inline bool isLightEnabled(const Material& m, uint32_t number)
 {
     if (number < 32) return (m.lightMask >> number & 1u) != 0;
@@ -179,15 +180,16 @@ inline bool isLightEnabled(const Material& m, uint32_t number)
     return word < m.moreLights.size() && (m.moreLights[word] >> number % 32 & 1u) != 0;
 }
 
-/// An index this close to 1 cannot be seen, and its microfacet normals drown in rounding: taken
-/// for 1.
+/// Returns 1 for an index that is so close to 1 that its refraction cannot be seen and its
+/// microfacet normals drown in rounding, else the index.
 inline float usableIor(float ior)
 {
     return ior > 1.0f - 1e-4f && ior < 1.0f + 1e-4f ? 1.0f : ior;
 }
 
-/// True if light passes the surface as if nothing were there, for all that is known without its
-/// textures. Not traced: rays towards lights without area would have to be bent by nothing.
+/// Returns true if light passes the surface as if nothing were there, for all that is known without
+/// its textures. Such a surface is not traced: rays towards lights without area would have to be
+/// bent by nothing.
 inline bool isInvisible(const Material& m)
 {
     return m.model == MaterialModel::Physical && m.transmission >= 1.0f && m.metallic <= 0.0f &&
@@ -200,29 +202,30 @@ enum class TextureWrap : uint8_t
     Repeat,
     ClampToEdge,
     Mirror,
-    Clamp, ///< OpenGL's first one: half of the filter's last step is border
+    Clamp, ///< OpenGL's first clamping: half of the filter's last step is border
     ClampToBorder,
 };
 
-/// A decoded image, RGBA, row 0 at the bottom. Exactly one of the two arrays is filled.
+/// Holds a decoded image in RGBA, row 0 at the bottom. Exactly one of the arrays bytes and floats
+/// is filled.
 struct Texture
 {
     std::string name;
     int width = 0;
-    int depth = 0;        ///< slices of a 3-D image, one after the other; 0: it is a 2-D image
-    int height = 0;       ///< of a cube map 6*width: its faces in OpenGL's order, +x at the bottom
-    bool cube = false;    ///< looked up by a direction, wrap modes do not matter
+    int depth = 0;        ///< slices of a 3-D image, one after the other; 0: a 2-D image
+    int height = 0;       ///< for a cube map 6*width: its faces in OpenGL's order, +x at the bottom
+    bool cube = false;    ///< true: looked up by a direction; wrap modes do not matter
     bool hasColor = true; ///< false: alpha only, colours pass unchanged
     bool hasAlpha = true; ///< false: alpha passes unchanged
-    bool opaque = false;  ///< all alpha is 1
+    bool opaque = false;  ///< true: all alpha is 1
     Vec4 border{0.0f};    ///< in the texture's own encoding
-    std::vector<uint8_t> bytes; ///< width*height*4, of each slice
-    std::vector<float> floats;  ///< the same, always linear
-    bool decodeSrgb = false;    ///< bytes only: RGB is sRGB encoded, decode to linear
-    bool linearFilter = true;   ///< else nearest
+    std::vector<uint8_t> bytes; ///< width*height*4 for each slice
+    std::vector<float> floats;  ///< width*height*4 for each slice, always linear
+    bool decodeSrgb = false;    ///< bytes only: RGB is sRGB encoded and has to be decoded to linear
+    bool linearFilter = true;   ///< false: nearest
     TextureWrap wrapS = TextureWrap::Repeat;
     TextureWrap wrapT = TextureWrap::Repeat;
-    TextureWrap wrapR = TextureWrap::Repeat; ///< of 3-D images
+    TextureWrap wrapR = TextureWrap::Repeat; ///< 3-D images only
     Stamp changed = 0;
 };
 

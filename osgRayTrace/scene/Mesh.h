@@ -11,10 +11,10 @@
 namespace osgRayTrace::engine
 {
 
-/// A number that grows with each change of anything; compare, never count.
+/// Grows with each change of anything; stamps are compared and never counted.
 using Stamp = uint64_t;
 
-/// Indexed triangles. Immutable once it is part of a Scene.
+/// Holds indexed triangles. A mesh is immutable once it is part of a Scene.
 struct Mesh
 {
     std::string name; ///< node path, for messages
@@ -26,13 +26,14 @@ struct Mesh
     SharedArray<Vec2> uvs1;       ///< texture unit 1; may be empty
     SharedArray<float> rs, rs1;   ///< third coordinates of units 0 and 1; empty: 0
     SharedArray<Vec4> colors;     ///< RGBA vertex colours, one a position; may be empty
-    /// Its positions have changed before and its triangles have not: they are the same array then.
-    /// Its BVH is made so that it can be refitted.
+    /// True if the positions have changed before and the triangles have not: the triangles are then
+    /// the array that they were. The BVH of such a mesh is built so that it can be refitted.
     bool deforms = false;
     Stamp changed = 0;
 };
 
-/// A mesh placed in the scene with a material. There may be very many: no more here than is needed.
+/// Places a mesh in the scene with a material. A scene may hold very many instances, so that there
+/// is no member more than needed.
 struct Instance
 {
     uint32_t mesh = 0;         ///< index into Scene::meshes

@@ -12,14 +12,13 @@
 namespace osgRayTrace::engine
 {
 
-/// Plain data, no behaviour. A new version of the scene is a new Scene that shares the unchanged
-/// parts; a pass that runs is never changed under its feet.
+/// Holds plain data without behaviour. A new version of the scene is a new Scene that shares the
+/// unchanged parts; the scene of a running pass never changes.
 struct Scene
 {
-    // Between world and engine space: pEngine = (pWorld - origin) / unit.
+    // origin and unit lead from world to engine space: pEngine = (pWorld - origin) / unit.
     Vec3d origin{0.0}; ///< world position of the engine's origin
-    double unit =
-        1.0; ///< world length of one engine unit: a power of two; 1 unless floats would fail
+    double unit = 1.0; ///< [world length], a power of two; 1 unless floats would fail
 
     std::vector<std::shared_ptr<const Mesh>> meshes;
     std::vector<Instance> instances;
@@ -27,9 +26,10 @@ struct Scene
     std::vector<std::shared_ptr<const Texture>> textures;
     std::vector<Light> lights;
 
-    Vec3 ambient{0.2f};          ///< LightModel ambient, for FixedFunction materials
-    Vec4 background{0.0f};       ///< RGBA seen by rays that leave the scene; not a light
-    bool displayReferred = true; ///< values are as OpenGL shows them: neither decoded nor encoded
+    Vec3 ambient{0.2f};    ///< LightModel ambient, for FixedFunction materials
+    Vec4 background{0.0f}; ///< RGBA that rays see which leave the scene; not a light
+    bool displayReferred =
+        true; ///< true: values are as OpenGL shows them, neither decoded nor encoded
 
     Stamp changed = 0;
 };

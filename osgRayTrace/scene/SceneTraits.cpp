@@ -1,4 +1,4 @@
-// SceneTraits.cpp - looks through a scene once for what it needs. Layer: scene.
+// SceneTraits.cpp - finds what a scene needs in one look through it. Layer: scene.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/scene/SceneTraits.h"
 
@@ -8,7 +8,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Perceptual roughness below which a surface reflects like a mirror: alpha = 0.03^2 < 1e-3.
+/// Below this perceptual roughness a surface reflects like a mirror: alpha = 0.03^2 < 1e-3.
 constexpr float kMirrorRoughness = 0.0316f;
 
 void addMaterial(const Material& material, SceneTraits& traits)

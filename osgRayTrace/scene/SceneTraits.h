@@ -1,4 +1,4 @@
-// SceneTraits.h - what a scene needs, so that what it does not need costs nothing. Layer: scene.
+// SceneTraits.h - what a scene needs, so that nothing else costs time. Layer: scene.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -24,7 +24,8 @@ struct SceneTraits
     size_t triangles = 0;     ///< counted once for each instance
 };
 
-/// alike: of a scene with the same instances of the same meshes; null: none is known.
+/// Returns the traits of a scene. alike: traits of a scene with the same instances of the same
+/// meshes; null: no such traits are known.
 SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike = nullptr);
 
 } // namespace osgRayTrace::engine

@@ -27,8 +27,8 @@ bool isFinite(const CameraRays& rays)
            std::isfinite(rays.depthDy);
 }
 
-/// Clip z of the near plane of a perspective view: of -1 and 1 the one nearer to the eye. Reversed
-/// depth has it at 1; an infinite far plane has w = 0.
+/// Returns the clip z of the near plane of a perspective view: -1 or 1, whichever is nearer to the
+/// eye. Reversed depth has the near plane at 1; an infinite far plane has w = 0.
 template <class PlanePoint> double nearPlaneZ(const PlanePoint& planePoint, const Vec4d& pole)
 {
     const Vec3d eye = Vec3d(pole) / pole.w;
@@ -69,7 +69,7 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
     const Vec4d pole = viewFromClip * Vec4d(0.0, 0.0, 1.0, 0.0);
     const bool orthographic = std::abs(pole.w) <= 1e-14 * glm::length(Vec3d(pole));
 
-    // Parallel rays say nothing about which way they run: the eye looks along -z.
+    // Parallel rays do not say which way they run: the eye looks along -z.
     const double orthographicZ = pole.z / planePoint(0.0, 0.0, 0.0).w > 0.0 ? 1.0 : -1.0;
     const double nearZ = orthographic ? orthographicZ : nearPlaneZ(planePoint, pole);
     const Vec4d near00 = planePoint(0.0, 0.0, nearZ);
@@ -82,7 +82,7 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
     const glm::dmat3 rotation(engineFromView);
     if (orthographic)
     {
-        // Rays run from the near plane to the far plane, at half of it to clip z = 0.
+        // Rays run from the near plane to the far plane and meet clip z = 0 at half of the way.
         rays.origin = Vec3(engineFromView * Vec4d(Vec3d(near00) / near00.w, 1.0));
         rays.originDx = Vec3(rotation * (Vec3d(nearDx) / near00.w));
         rays.originDy = Vec3(rotation * (Vec3d(nearDy) / near00.w));
@@ -92,8 +92,8 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
     }
     else
     {
-        // dir = N.xyz * E.w - E.xyz * N.w, linear in the pixel position because E is one point.
-        // Dividing by E.w and by N.w at the first pixel makes s = 1 the near plane.
+        // dir = N.xyz * E.w - E.xyz * N.w is linear in the pixel position because E is one point.
+        // The division by E.w and by N.w at the first pixel makes s = 1 the near plane.
         const Vec3d eye = Vec3d(pole) / pole.w;
         const auto direction = [&](const Vec4d& n) { return (Vec3d(n) - eye * n.w) / near00.w; };
         rays.origin = Vec3(engineFromView * Vec4d(eye, 1.0));
@@ -101,8 +101,8 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
         rays.directionDx = Vec3(rotation * direction(nearDx));
         rays.directionDy = Vec3(rotation * direction(nearDy));
         rays.nearS = 1.0f;
-        // Clip coordinates of N are (x, y, nearZ, 1) / N.w, those of E (0, 0, 1, 0) / E.w: w grows
-        // by 1 / near00.w with s, z begins at 1 / E.w.
+        // The clip coordinates of N are (x, y, nearZ, 1) / N.w, and those of E are (0, 0, 1, 0) /
+        // E.w: w grows by 1 / near00.w with s, and z begins at 1 / E.w.
         rays.depthSlope = static_cast<float>(0.5 * near00.w / pole.w);
         rays.depthDx = static_cast<float>(nearDx.w / near00.w);
         rays.depthDy = static_cast<float>(nearDy.w / near00.w);

@@ -5,7 +5,6 @@
 #include "osgRayTrace/base/Status.h"
 #include "osgRayTrace/integrators/shared/RenderOptions.h"
 #include "osgRayTrace/integrators/shared/SampledLights.h"
-#include "osgRayTrace/session/denoise/DenoiseReport.h"
 
 #include <cstdint>
 #include <functional>
@@ -14,7 +13,7 @@
 namespace osgRayTrace::engine
 {
 
-/// When RenderSession::render returns: whichever is reached first.
+/// RenderSession::render returns when the first of these limits is reached.
 struct StopRule
 {
     int passes =
@@ -58,7 +57,7 @@ struct RayCounts
     uint64_t total() const { return camera + shadow + secondary + photon; }
 };
 
-/// Of the accumulated image.
+/// How far the accumulated image has come.
 struct RenderProgress
 {
     Status status;
@@ -71,22 +70,16 @@ struct RenderProgress
     double relativeError = std::numeric_limits<double>::infinity();
     RayCounts rays;
     uint64_t droppedSamples = 0; ///< not finite, or above 1e30: left out of the image and counted
-    double denoiseSeconds =
-        0.0; ///< of the last image that was denoised, recorded by who does it: see Denoiser
-    DenoiseReport denoised;     ///< what it went through
-    bool restarted = false;     ///< this call began a new image
-    int newTiles = 0;           ///< of this call, summed over its passes
-    double imageShare = 0.0;    ///< of the tiles: those that have a pass; 1 as soon as passes is
-    SampledLightCounts lights;  ///< of its passes
-    double photonSeconds = 0.0; ///< that photons took in this call, traced or waited for
+    bool restarted = false;      ///< this call began a new image
+    int newTiles = 0;            ///< of this call, summed over its passes
+    double imageShare = 0.0;     ///< of the tiles: those that have a pass; 1 as soon as passes is
+    SampledLightCounts lights;   ///< of its passes
+    double photonSeconds = 0.0;  ///< that photons took in this call, traced or waited for
     double firstPhotonSeconds = 0.0;          ///< of these, those of its first pass
     float photonRadius = 0.0f;                ///< of the last pass [length]; 0 without photons
     PhotonNote photonNote = PhotonNote::None; ///< of all passes together
     uint64_t storedPhotons = 0;               ///< in the map of the last pass
     uint64_t photonBytes = 0;                 ///< of the maps that are kept, for all views
-    double reprojectedShare =
-        0.0; ///< of the pixels: those that earlier views add to; by ViewTracer
-    double reprojectSeconds = 0.0; ///< to carry those into this view
     uint64_t hitPointBytes =
         0; ///< that this view keeps for photons: hit points, radii, statistics of pixels
 };

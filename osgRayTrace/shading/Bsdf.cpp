@@ -13,16 +13,17 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Microfacets turned by alpha bend refracted rays by (eta - 1) alpha / cos^2. Where directions in
-/// float do not resolve that to 1 %, refraction is a delta function at any roughness.
+/// Returns whether refraction has a density. Microfacets turned by alpha bend refracted rays by
+/// (eta - 1) alpha / cos^2. If directions in float do not resolve that to 1 %, refraction is a
+/// delta function at any roughness.
 bool refractsSmoothly(const Bsdf& bsdf, Vec3 wo)
 {
     constexpr float kSmoothBend = 3e-5f;
     return bsdf.isSmooth() || std::fabs(bsdf.eta - 1.0f) * bsdf.alpha < kSmoothBend * wo.z * wo.z;
 }
 
-/// Reflectance of the interface that the base and the transmission lie under. It is what costs most
-/// here: worked out once for each cosine, and handed on.
+/// Returns the reflectance of the interface that the base and the transmission lie under. This is
+/// the dearest term of the model: it is computed once for each cosine and handed on.
 float interfaceFresnel(const Bsdf& bsdf, float cosTheta)
 {
     return bsdf.coat > 0.0f ? fresnelDielectric(cosTheta, bsdf.eta) : 0.0f;
@@ -33,7 +34,7 @@ Vec3 reflectionFresnel(const Bsdf& bsdf, float cosTheta, float fresnel)
     return fresnelSchlick(cosTheta, bsdf.reflectance, bsdf.grazing) + Vec3(bsdf.coat * fresnel);
 }
 
-/// What the base does not get of light from or to a direction.
+/// Returns the share of the light from or to a direction that the base does not get.
 float coatAlbedo(const Bsdf& bsdf, float cosTheta, float fresnel)
 {
     if (!bsdf.coatRows) return fresnel;
@@ -41,7 +42,7 @@ float coatAlbedo(const Bsdf& bsdf, float cosTheta, float fresnel)
     return first + (second - first) * bsdf.coatFraction;
 }
 
-/// f cos of the base.
+/// Returns f cos of the base.
 Vec3 evalBase(const Bsdf& bsdf, Vec3 wo, float fresnelO, Vec3 wi)
 {
     const Vec3 lambert = bsdf.diffuse * (kInvPi * wi.z);
@@ -51,8 +52,8 @@ Vec3 evalBase(const Bsdf& bsdf, Vec3 wo, float fresnelO, Vec3 wi)
                       (1.0f - coatAlbedo(bsdf, wo.z, fresnelO)) / (1.0f - coatAverage(bsdf)));
 }
 
-/// Probabilities of the base and of the interface for wo; they sum to 1, or are all 0 for a black
-/// surface.
+/// Holds the probabilities of the base and of the interface for wo; they sum to 1, or are all 0 for
+/// a black surface.
 struct LobePmf
 {
     float base = 0.0f;
@@ -73,9 +74,9 @@ LobePmf lobePmf(const Bsdf& bsdf, Vec3 wo, float fresnelO)
     return pmf;
 }
 
-/// Share of the interface that is reflected, at a microfacet that wo meets under this cosine. It
-/// must be that of the facet and not of the surface: beyond the critical angle a rough surface
-/// still has facets that light passes, and what is never sampled is lost.
+/// Returns the share of the interface that is reflected, at a microfacet that wo meets under this
+/// cosine. The share has to be that of the facet and not of the surface: beyond the critical angle
+/// a rough surface still has facets that light passes, and light that is never sampled is lost.
 float reflectedShare(const Bsdf& bsdf, float cosH, float fresnelH)
 {
     if (!bsdf.transmits()) return 1.0f;
@@ -97,7 +98,7 @@ void addReflection(const Bsdf& bsdf, Vec3 wo, float fresnelO, Vec3 wi, float pmf
     if (length2 < 1e-14f) return;
     const float length = std::sqrt(length2);
     const Vec3 h = sum / length;
-    const float cosH = 0.5f * length; // the same for wo and wi, to the last bit
+    const float cosH = 0.5f * length; // equal for wo and wi, to the last bit
     const float d = evalGgx(h, bsdf.alpha);
     const float fresnelH = interfaceFresnel(bsdf, cosH);
     pmf *= refractsSmoothly(bsdf, wo) ? reflectedShare(bsdf, wo.z, fresnelO)
@@ -110,7 +111,7 @@ void addReflection(const Bsdf& bsdf, Vec3 wo, float fresnelO, Vec3 wi, float pmf
 void addRefraction(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, Transport transport,
                    BsdfValue& value)
 {
-    // wo + eta wi, with its digits where wi is nearly -wo.
+    // h is wo + eta wi, in a form that keeps its digits if wi is nearly -wo.
     Vec3 h = -((wo + wi) + wi * (bsdf.eta - 1.0f));
     const float length2 = glm::dot(h, h);
     if (length2 < 1e-14f) return;
@@ -121,7 +122,8 @@ void addRefraction(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, Transport tran
     if (cosO <= 0.0f || cosI >= 0.0f) return;
 
     const float d = evalGgx(h, bsdf.alpha);
-    // (cosO + eta cosI)^2 of the paper is the square of that sum's length, which loses no digits.
+    // (cosO + eta cosI)^2 of [Walter07, eq. 21] is the square of this vector's length, which loses
+    // no digits.
     const float jacobian = bsdf.eta * bsdf.eta * -cosI / length2;
     const float fresnelH = interfaceFresnel(bsdf, cosO);
     const float transmittance = 1.0f - fresnelH;
@@ -166,7 +168,7 @@ float coatAverage(const Bsdf& bsdf)
 
 std::optional<Vec3> refract(Vec3 wo, Vec3 h, float eta)
 {
-    if (eta == 1.0f) return -wo; // also where 1 - cosI^2 rounds to 1
+    if (eta == 1.0f) return -wo; // covers 1 - cosI^2 that rounds to 1 as well
     const float cosI = glm::dot(wo, h);
     const float sin2T = std::max(0.0f, 1.0f - cosI * cosI) / (eta * eta);
     if (sin2T >= 1.0f) return std::nullopt;

@@ -1,5 +1,4 @@
-// Bsdf.h - scattering at a surface point: Lambert base, GGX reflection, smooth and rough
-// refraction. Layer: shading.
+// Bsdf.h - scattering at a surface point: Lambert base, GGX reflection, refraction. Layer: shading.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,26 +11,28 @@
 namespace osgRayTrace::engine
 {
 
-/// Radiance: wo is towards the camera. Importance: wo is where a photon came from; refraction then
-/// lacks the change of solid angle [Veach97, ch. 5].
+/// Tells the direction of transport. Radiance: wo is towards the camera. Importance: wo is where a
+/// photon came from; refraction then lacks the change of solid angle [Veach97, ch. 5].
 enum class Transport
 {
     Radiance,
     Importance,
 };
 
-/// One model for all surfaces; what a surface does not have has weight 0. Directions are local, the
-/// shading normal at +z on the side of wo, and point away from the surface.
+/// Describes all surfaces by one model; a component that a surface does not have has weight 0.
+/// Directions are local and point away from the surface, with the shading normal at +z on the side
+/// of wo.
 ///
 ///   f = diffuse/pi (1-E(wi))(1-E(wo))/(1-E_avg)          base, under the coat   [Shirley97, eq. 6]
 ///     + D G2 / (4 |wi.z wo.z|) (S(h) + coat F(h))        reflection             [Walter07, eq. 20]
 ///     + transmission D G2 (1-F(h)) ...                   refraction             [Walter07, eq. 21]
 ///
-/// F = Fresnel of a dielectric of index eta (0 without a coat), E = what the coat reflects in all
-/// directions: F of a smooth one, S = Schlick with reflectance and grazing. With alpha below
-/// kSmoothAlpha D is a delta function; refraction is one, too, where microfacets turn it by too
-/// little, which takes an index close to 1. Neither side makes energy, as diffuse + transmission <=
-/// 1 - grazing, and coat is 0 or 1 - grazing.
+/// F is the Fresnel reflectance of a dielectric of index eta (0 without a coat). E is the share
+/// that the coat reflects in all directions, which is F for a smooth coat, and S is Schlick's
+/// formula with reflectance and grazing. With alpha below kSmoothAlpha D is a delta function.
+/// Refraction is a delta function, too, if microfacets turn it by too little, which takes an index
+/// close to 1. Neither side makes energy, as diffuse + transmission <= 1 - grazing, and coat is 0
+/// or 1 - grazing.
 struct Bsdf
 {
     Vec3 diffuse{0.0f};       ///< albedo of the base
@@ -42,8 +43,8 @@ struct Bsdf
     float eta = 1.0f;         ///< index on the far side over that on wo's side
     float coatAverage = 0.0f; ///< fresnelDielectricAverage(eta)
     float alpha = 1.0f;       ///< GGX width
-    /// E of a rough coat over a base: two rows of CoatAlbedo, which the MaterialTable owns, and the
-    /// share of the second. Null: F.
+    /// E of a rough coat over a base is given by two rows of CoatAlbedo, which the MaterialTable
+    /// owns, and the share of the second row. Null: E is F.
     const CoatAlbedoRow* coatRows = nullptr;
     float coatFraction = 0.0f;
 
@@ -57,12 +58,13 @@ struct BsdfSample
 {
     Vec3 wi;            ///< unit, local
     Vec3 weight;        ///< f |wi.z| / pdfW
-    float pdfW = 0.0f;  ///< [1/sr] of all lobes together; of delta lobes: their probability
-    bool delta = false; ///< a mirror-like lobe, that no light sample can find
+    float pdfW = 0.0f;  ///< [1/sr] of all lobes together; for delta lobes their probability
+    bool delta = false; ///< true: a mirror-like lobe, which no light sample can find
     bool transmitted = false;
 };
 
-/// A direction that leaves the surface. uLobe, u, v: uniform in [0,1). Nothing: discard the sample.
+/// Returns a direction that leaves the surface; nothing: the caller has to discard the sample.
+/// uLobe, u, v: uniform in [0,1).
 std::optional<BsdfSample> sampleBsdf(const Bsdf& bsdf, Vec3 wo, float uLobe, float u, float v,
                                      Transport transport = Transport::Radiance);
 
@@ -72,26 +74,27 @@ struct BsdfValue
     float pdfW = 0.0f; ///< [1/sr] of sampleBsdf for wi, delta lobes left out
 };
 
-/// Any wo, wi; zero where wo is below the surface.
+/// Returns the value for any wo and wi; it is zero if wo is below the surface.
 BsdfValue evalBsdf(const Bsdf& bsdf, Vec3 wo, Vec3 wi, Transport transport = Transport::Radiance);
 
-/// E_avg of its coat.
+/// Returns E_avg of the surface's coat.
 float coatAverage(const Bsdf& bsdf);
 
-/// The mirror-like lobes of a smooth surface, for integrators that follow all of them.
+/// Holds the mirror-like lobes of a smooth surface, for integrators that follow all of them.
 struct SpecularLobes
 {
     Vec3 reflection{0.0f}; ///< weight of the mirror direction
-    Vec3 refraction{0.0f}; ///< weight of the refracted one; zero on total reflection
-    Vec3 refracted{0.0f};  ///< its direction, local
+    Vec3 refraction{0.0f}; ///< weight of the refracted direction; zero on total reflection
+    Vec3 refracted{0.0f};  ///< refracted direction, local
 };
 SpecularLobes specularLobes(const Bsdf& bsdf, Vec3 wo);
 
-/// The direction behind an interface with normal h; nothing on total reflection. eta: far over
-/// near.
+/// Returns the direction behind an interface with normal h; nothing on total reflection. eta: index
+/// on the far side over that on the near side.
 std::optional<Vec3> refract(Vec3 wo, Vec3 h, float eta);
 
-/// Directional albedo of the diffuse base under its coat, an upper bound: for first-hit channels.
+/// Returns the directional albedo of the diffuse base under its coat, an upper bound: for first-hit
+/// channels.
 inline Vec3 bsdfAlbedo(const Bsdf& bsdf)
 {
     return bsdf.diffuse + bsdf.reflectance + bsdf.transmission;

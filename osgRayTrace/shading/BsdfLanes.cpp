@@ -12,7 +12,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Albedo of a coat whose roughness is between those of two rows.
+/// Returns the albedo of a coat whose roughness is between those of two rows.
 OSGRAYTRACE_INLINE float between(const float* first, const float* second, float fraction,
                                  float cosTheta)
 {
@@ -20,14 +20,14 @@ OSGRAYTRACE_INLINE float between(const float* first, const float* second, float 
     return a + (b - a) * fraction;
 }
 
-/// Smith's Lambda [Heitz14, eq. 72]; infinite next to grazing incidence.
+/// Returns Smith's Lambda [Heitz14, eq. 72]; it is infinite next to grazing incidence.
 OSGRAYTRACE_INLINE float lambdaOf(float alpha2, float cosTheta)
 {
     const float cos2 = cosTheta * cosTheta, tan2 = (1.0f - cos2) / cos2;
     return 0.5f * (std::sqrt(1.0f + alpha2 * select(tan2 > 0.0f, tan2, 0.0f)) - 1.0f);
 }
 
-/// Bsdf.h and Bsdf.cpp have the formulas.
+/// Evaluates the formulas that Bsdf.h and Bsdf.cpp explain.
 template <bool kRows>
 OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const CoatAlbedoRow* rows,
                                   const Vec3Lanes& normal, const Vec3Lanes& wo, const Vec3Lanes& wi,
@@ -53,7 +53,7 @@ OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const CoatAlbedoRow* rows,
         const float left = select(s.coated[i], belowI * belowO / s.belowAverage[i], 1.0f);
         const float lambert = kInvPi * cosI * left;
 
-        // D of the half vector's tangential part, which keeps its digits near the peak.
+        // D uses the half vector's tangential part, which keeps its digits near the peak.
         const float sumX = ox + ix, sumY = oy + iy, sumZ = oz + iz;
         const float length2 = sumX * sumX + sumY * sumY + sumZ * sumZ;
         const float length = std::sqrt(length2), inverse = 1.0f / length, cosH = 0.5f * length;
@@ -64,7 +64,7 @@ OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const CoatAlbedoRow* rows,
         const float spread = hx * hx + hy * hy + hz * hz + alpha2 * cosN * cosN;
         const float d = alpha2 / (kPi * spread * spread * 4.0f * cosO);
         const float lambdaO = lambdaOf(alpha2, cosO), lambdaI = lambdaOf(alpha2, cosI);
-        // Selected last: where there are no facets all of this may be no number.
+        // The selection comes last: without facets the terms above may be no numbers.
         const uint32_t shines = s.shines[i] & maskOf(length2 >= 1e-14f);
         const float facets = select(shines, d / (1.0f + lambdaO + lambdaI), 0.0f);
         const float facetsPdf = select(shines, d / (1.0f + lambdaO), 0.0f);
@@ -93,7 +93,7 @@ OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const CoatAlbedoRow* rows,
     }
 }
 
-/// Lanes whose coats have the same rows, or none.
+/// Evaluates lanes whose coats have the same rows, or none.
 OSGRAYTRACE_KERNEL
 void evalAlike(const BsdfLanes& bsdfs, const CoatAlbedoRow* rows, const Vec3Lanes& normal,
                const Vec3Lanes& wo, const Vec3Lanes& wi, LaneMask lanes, Vec3Lanes& fCos,
@@ -134,7 +134,7 @@ void evalBsdfLanes(const BsdfLanes& bsdfs, const Vec3Lanes& normal, const Vec3La
 {
     fCos = {};
     pdfW = {};
-    for (LaneMask left = lanes, same; left; left &= ~same) // once, where lanes are of one material
+    for (LaneMask left = lanes, same; left; left &= ~same) // one round for one material
     {
         const CoatAlbedoRow* rows = bsdfs.coatRows[firstLane(left)];
         same = 0;

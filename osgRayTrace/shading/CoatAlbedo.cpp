@@ -16,10 +16,11 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// The mean of F(wo h) G2 / G1(wo) over visible normals: all that single scattering reflects.
+/// Returns the mean of F(wo h) G2 / G1(wo) over visible normals: all that single scattering
+/// reflects.
 double albedoOf(double cosine, double alpha, float eta)
 {
-    // Total reflection has an edge, which takes more.
+    // Total reflection has an edge, which takes more points.
     const int turns = eta < 1.0f ? 32 : 12, heights = eta < 1.0f ? 96 : 48;
     const double sine = std::sqrt(1.0 - cosine * cosine);
     const auto lambda = [alpha](double z)
@@ -29,7 +30,8 @@ double albedoOf(double cosine, double alpha, float eta)
     double sum = 0.0;
     for (int j = 0; j < heights; ++j)
     {
-        // As sampleGgxVisible: a cap of the sphere, by height and angle; one half of it for both.
+        // The points are those of sampleGgxVisible: a cap of the sphere by height and angle. One
+        // half of the cap stands for both.
         const double z = (1.0 - (j + 0.5) / heights) * (1.0 + stretched.z) - stretched.z;
         const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
         for (int i = 0; i < turns; ++i)
@@ -65,7 +67,7 @@ std::shared_ptr<CoatAlbedo> CoatAlbedo::ofIndex(float eta)
 void CoatAlbedo::makeRow(int row)
 {
     if (_made[static_cast<std::size_t>(row)]) return;
-    constexpr int kSteps = kCoatSteps, kFine = 4; // places between two nodes
+    constexpr int kSteps = kCoatSteps, kFine = 4; // kFine: steps between two nodes
     const double roughness = double(row) / kRoughnessSteps;
     const double alpha = std::max(roughness * roughness, double(kSmoothAlpha));
     double fine[kSteps * kFine + 1];
@@ -77,8 +79,8 @@ void CoatAlbedo::makeRow(int row)
     CoatAlbedoRow& result = _rows[static_cast<std::size_t>(row)];
     for (int i = 0; i <= kSteps; ++i)
         result.albedo[static_cast<std::size_t>(i)] = static_cast<float>(fine[i * kFine]);
-    // Never less than the albedo, also at the bend that total reflection makes: the base may get
-    // too little there, but not more than there is.
+    // The interpolated value is never less than the albedo, also at the bend that total reflection
+    // makes: the base may get too little there, but not more than there is.
     for (int i = 0; i < kSteps; ++i)
     {
         float &low = result.albedo[static_cast<std::size_t>(i)],
@@ -93,7 +95,8 @@ void CoatAlbedo::makeRow(int row)
         }
     }
     result.albedo[kSteps + 1] = result.albedo[kSteps];
-    // int 2 E c dc with c = x^2, of what is interpolated: midpoints of fine steps.
+    // The average is int 2 E c dc with c = x^2, for the interpolated E: the midpoint rule in fine
+    // steps.
     double sum = 0.0;
     for (int i = 0; i < kSteps * 16; ++i)
     {

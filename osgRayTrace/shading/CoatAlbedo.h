@@ -1,5 +1,4 @@
-// CoatAlbedo.h - what a rough dielectric interface reflects in all directions together. Layer:
-// shading.
+// CoatAlbedo.h - how much a rough dielectric reflects in all directions together. Layer: shading.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,9 +13,11 @@
 namespace osgRayTrace::engine
 {
 
-constexpr int kCoatSteps = 64; ///< of a row; nodes are squares of steps: steep at grazing angles
+constexpr int kCoatSteps =
+    64; ///< steps of a row; nodes are squares of steps: dense at grazing angles, where E is steep
 
-/// Between the nodes of a row. Without branches, for loops over lanes.
+/// Returns the albedo interpolated between the nodes of a row. The code has no branches, for loops
+/// over lanes.
 OSGRAYTRACE_INLINE float coatRowAlbedo(const float* albedo, float cosTheta)
 {
     const float c = select(cosTheta > 0.0f, select(cosTheta < 1.0f, cosTheta, 1.0f), 0.0f);
@@ -25,38 +26,39 @@ OSGRAYTRACE_INLINE float coatRowAlbedo(const float* albedo, float cosTheta)
     return albedo[i] + (albedo[i + 1] - albedo[i]) * (x - static_cast<float>(i));
 }
 
-/// Directional albedo E(cos) of GGX reflection with the Fresnel factor of a dielectric, single
-/// scattering, and its average Eavg = 2 int E(c) c dc. A base under such a coat that is scaled by
-/// (1 - E(wo)) (1 - E(wi)) / (1 - Eavg) is reciprocal and takes what the coat leaves, no more
-/// [Kelemen01, sect. 3].
+/// Holds the directional albedo E(cos) of GGX reflection with the Fresnel factor of a dielectric,
+/// single scattering, and its average Eavg = 2 int E(c) c dc. A base under such a coat is scaled by
+/// (1 - E(wo)) (1 - E(wi)) / (1 - Eavg): it is then reciprocal and takes no more than the coat
+/// leaves [Kelemen01, sect. 3].
 struct CoatAlbedoRow
 {
-    std::array<float, kCoatSteps + 2> albedo{}; ///< the last one twice
+    std::array<float, kCoatSteps + 2> albedo{}; ///< the last value stands twice
     float average = 0.0f;
 
     float operator()(float cosTheta) const { return coatRowAlbedo(albedo.data(), cosTheta); }
 };
 
-/// Rows of one index by roughness, made where they are asked for.
+/// Holds the rows of one index by roughness; each row is made when it is first asked for.
 class CoatAlbedo
 {
 public:
-    /// The table of an index, shared by all that use it at the same time. Thread safe.
+    /// Returns the table of an index, shared by all that use it at the same time. It is thread
+    /// safe.
     static std::shared_ptr<CoatAlbedo> ofIndex(float eta);
 
     explicit CoatAlbedo(float eta) : _eta(eta) {}
 
-    /// Makes the rows around a roughness = sqrt(alpha) in [0, 1], or all. Thread safe: those that
-    /// are made do not change.
+    /// Makes the rows around a roughness = sqrt(alpha) in [0, 1], or all. It is thread safe: rows
+    /// that are made do not change.
     void prepare(float roughness);
     void prepareAll();
 
     struct Place
     {
         const CoatAlbedoRow* rows = nullptr; ///< two neighbours
-        float fraction = 0.0f;               ///< from the first to the second
+        float fraction = 0.0f;               ///< share of the second row
     };
-    /// Of a roughness whose rows are prepared.
+    /// Returns the rows of a roughness; they have to be prepared.
     Place at(float roughness) const;
 
 private:
@@ -65,7 +67,7 @@ private:
     void makeRow(int row);
 
     float _eta;
-    std::mutex _mutex; ///< of those who make rows
+    std::mutex _mutex; ///< held while rows are made
     std::array<CoatAlbedoRow, kRoughnessSteps + 1> _rows;
     std::array<bool, kRoughnessSteps + 1> _made{};
 };

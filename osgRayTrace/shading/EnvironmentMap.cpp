@@ -13,17 +13,19 @@ namespace
 
 constexpr double kTwoPi = 6.283185307179586476925;
 
-/// Sums are kept for each block, what is within is added up when a sample falls into it: half a
-/// byte a pixel instead of eight.
+/// A running sum is kept for each block of pixels, and the pixels within a block are added up when
+/// a sample falls into the block: half a byte a pixel instead of eight.
 constexpr int kBlock = 16;
 
-/// Index of the entry of a running sum that target, below the last one, falls into.
+/// Returns the index of the entry of a running sum that target, which is below the last entry,
+/// falls into.
 std::size_t entryOf(const double* sums, std::size_t count, double target)
 {
     return static_cast<std::size_t>(std::upper_bound(sums, sums + count - 1, target) - sums);
 }
 
-/// Where in the image a direction points to, in pixels; x in [0, width], y in [0, height].
+/// Returns the point of the image that a direction points to, in pixels; x in [0, width], y in [0,
+/// height].
 Vec2 imagePoint(const EnvironmentImage& image, Vec3 d)
 {
     constexpr float kPerTurn = static_cast<float>(1.0 / kTwoPi);
@@ -34,7 +36,7 @@ Vec2 imagePoint(const EnvironmentImage& image, Vec3 d)
 
 } // namespace
 
-/// Sums are double: in float, those of a bright pixel and of dim ones would lose the dim ones.
+/// Sums are double: float sums of a bright pixel and of dim ones would lose the dim ones.
 EnvironmentMap::EnvironmentMap(std::shared_ptr<const EnvironmentImage> image)
     : _image(std::move(image))
 {
@@ -81,14 +83,14 @@ EnvironmentSample EnvironmentMap::sample(float u, float v) const
     EnvironmentSample sample;
     if (isBlack()) return sample;
 
-    // The row, and the height within it: uniform in z, as solid angle is.
+    // The first step chooses the row and the height within it: uniform in z, as solid angle is.
     const double vTarget = v * _luminanceIntegral;
     const std::size_t y = entryOf(_rows.data(), _rows.size(), vTarget);
     const double below = y ? _rows[y - 1] : 0.0;
     const double inRow = std::clamp((vTarget - below) / (_rows[y] - below), 0.0, 1.0);
     const double z = _rowZ[y] + inRow * (_rowZ[y + 1] - _rowZ[y]);
 
-    // The block of pixels, then the pixel.
+    // The second step chooses the block of pixels, then the pixel.
     const double* blocks = &_blocks[y * static_cast<std::size_t>(_blocksPerRow)];
     const auto blockCount = static_cast<std::size_t>(_blocksPerRow);
     const double uTarget = u * blocks[blockCount - 1];
@@ -133,7 +135,7 @@ std::size_t EnvironmentMap::pixelOf(Vec3 direction) const
            static_cast<std::size_t>(x);
 }
 
-/// y from -1 to height: beyond a pole the image goes on half a turn further.
+/// Returns a pixel; y goes from -1 to height: beyond a pole the image goes on half a turn further.
 Vec3 EnvironmentMap::pixelAt(int x, int y) const
 {
     const int width = _image->width;

@@ -11,7 +11,7 @@
 namespace osgRayTrace::engine
 {
 
-/// A direction towards an environment.
+/// Holds a direction towards an environment.
 struct EnvironmentSample
 {
     Vec3 direction{0.0f, 0.0f, 1.0f}; ///< unit
@@ -19,10 +19,10 @@ struct EnvironmentSample
     float pdfW = 0.0f; ///< [1/sr]; 0: nothing to sample
 };
 
-/// In the space of the image. Directions are distributed as luminance: that of a pixel over the
-/// integral of it over the sphere, uniform within a pixel, as the radiance is. So radiance over
-/// density has one luminance everywhere, and each pixel that is not black is reached, however small
-/// its share [Pharr16, sect. 14.2.4]. Built once for an image; thread safe.
+/// Samples directions in the space of the image. Directions are distributed as luminance: that of a
+/// pixel over the integral over the sphere, uniform within a pixel, as the radiance is. So radiance
+/// over density has one luminance everywhere, and each pixel that is not black is reached, however
+/// small its share is [Pharr16, sect. 14.2.4]. The map is built once for an image; thread safe.
 class EnvironmentMap
 {
 public:
@@ -30,28 +30,30 @@ public:
 
     const std::shared_ptr<const EnvironmentImage>& image() const { return _image; }
 
-    /// Integral of radiance over the sphere, and of its luminance.
+    /// Returns the integral of radiance over the sphere; luminanceIntegral returns that of
+    /// luminance.
     const Vec3d& integral() const { return _integral; }
     double luminanceIntegral() const { return _luminanceIntegral; }
     bool isBlack() const { return !(_luminanceIntegral > 0.0); }
 
-    /// u, v in [0,1): neighbouring numbers give neighbouring directions.
+    /// Returns a sample. u, v in [0,1): neighbouring numbers give neighbouring directions.
     EnvironmentSample sample(float u, float v) const;
 
-    /// Of sample; direction is unit.
+    /// Returns the density [1/sr] with which sample chooses a direction, which is unit.
     float pdfW(Vec3 direction) const;
 
-    /// Of the pixel: what lights surfaces.
+    /// Returns the radiance of the pixel, which is the one that lights surfaces.
     Vec3 radiance(Vec3 direction) const { return _image->radiance[pixelOf(direction)]; }
 
-    /// Between the middles of pixels: what is looked at. Light is not computed with it, because its
-    /// density would be another one.
+    /// Returns the radiance interpolated between the middles of pixels, for directions that are
+    /// looked at. Light is not computed with the interpolated radiance, because sample has another
+    /// density.
     Vec3 interpolatedRadiance(Vec3 direction) const;
 
-    /// [sr] of a pixel in a row.
+    /// Returns the solid angle [sr] of a pixel in a row.
     double solidAngle(int row) const;
 
-    /// Towards a point of the image; x in [0, width], y in [0, height].
+    /// Returns the direction towards a point of the image; x in [0, width], y in [0, height].
     Vec3d direction(double x, double y) const;
 
 private:
@@ -63,8 +65,8 @@ private:
     double _luminanceIntegral = 0.0;
     int _blocksPerRow = 0;
     std::vector<double> _rowZ;   ///< z of the lower border of each row, and 1
-    std::vector<double> _rows;   ///< running sum of luminance times solid angle, a row
-    std::vector<double> _blocks; ///< running sum of luminance within a row, a block of pixels
+    std::vector<double> _rows;   ///< a row: running sum of luminance times solid angle
+    std::vector<double> _blocks; ///< a block of pixels: running sum of luminance within the row
 };
 
 } // namespace osgRayTrace::engine

@@ -18,13 +18,13 @@ constexpr double kLargestAngle = 0.01; // [sr] [Agarwal03, sect. 3.1]
 constexpr int kMostColumns = 512, kMostRows = 256;
 constexpr int kLeastColumns = 256, kLeastRows = 128;
 
-/// One or more pixels of the image, or a part of one.
+/// Holds one or more pixels of the image, or a part of one.
 struct Cell
 {
     Vec3d centre{0.0};      ///< unit
     Vec3d moment{0.0};      ///< integral of luminance times direction
-    Vec3d integral{0.0};    ///< of radiance
-    double luminance = 0.0; ///< integral
+    Vec3d integral{0.0};    ///< integral of radiance
+    double luminance = 0.0; ///< integral of luminance
     double solidAngle = 0.0;
     int layer = 0;
     int region = -1;
@@ -44,7 +44,7 @@ struct Region
     }
 };
 
-/// The centre of a stratum, with what is nearest to it so far.
+/// Holds the centre of a stratum, with the sums of the cells that are nearest to it so far.
 struct Centre
 {
     Vec3d direction{0.0};
@@ -57,7 +57,7 @@ double luminanceOf(const Vec3d& c)
     return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
 }
 
-/// Grows with the angle between unit vectors.
+/// Returns a number that grows with the angle between unit vectors.
 double distance(const Vec3d& a, const Vec3d& b)
 {
     return 1.0 - glm::dot(a, b);
@@ -94,7 +94,7 @@ Stratification::Stratification(const EnvironmentMap& map)
 void Stratification::fillCells(const EnvironmentMap& map)
 {
     const EnvironmentImage& image = *map.image();
-    const int partsX = (kLeastColumns + image.width - 1) / image.width; // of a pixel
+    const int partsX = (kLeastColumns + image.width - 1) / image.width; // parts of a pixel
     const int partsY = (kLeastRows + image.height - 1) / image.height;
     const int width = image.width * partsX, height = image.height * partsY;
     const int stepX = (width + kMostColumns - 1) / kMostColumns; // parts in a cell
@@ -107,7 +107,7 @@ void Stratification::fillCells(const EnvironmentMap& map)
         onEquator.push_back(map.direction((x + 0.5) / partsX, 0.5 * image.height));
     for (int y = 0; y < height; ++y)
     {
-        const auto on = [&](double row) // (0, across, z)
+        const auto on = [&](double row) // returns (0, across, z)
         { return map.direction(0.5 * image.width, row / partsY); };
         const Vec3d middle = on(y + 0.5);
         const double solidAngle = (on(y + 1.0).z - on(y).z) * 2.0 * kPi / width;
@@ -197,11 +197,11 @@ void Stratification::grow(int seed)
     _regions.push_back(std::move(region));
 }
 
-/// One stratum after the other to the region that has the most importance for each it would then
-/// have.
+/// Gives one stratum after the other to the region that would then have the most importance for
+/// each of its strata.
 void Stratification::share(int count)
 {
-    using Bid = std::pair<double, int>; // of equal ones, the first region
+    using Bid = std::pair<double, int>; // of equal importances the first region wins
     std::priority_queue<Bid> bids;
     for (std::size_t r = 0; r < _regions.size(); ++r)
         bids.push({_regions[r].importance(), -static_cast<int>(r)});
@@ -216,8 +216,8 @@ void Stratification::share(int count)
     }
 }
 
-/// Each centre is the cell farthest from all centres so far, also those of brighter regions
-/// [Hochbaum85].
+/// Chooses each centre as the cell farthest from all centres so far, also from those of brighter
+/// regions [Hochbaum85].
 void Stratification::stratify(Region& region)
 {
     const std::size_t size = region.cells.size();
@@ -249,7 +249,7 @@ void Stratification::stratify(Region& region)
             toOwn[k] = d;
             own[k] = _centres.size();
         }
-        toAny[farthest] = -1.0; // never again, whatever rounding says
+        toAny[farthest] = -1.0; // never chosen again, whatever rounding says
         _centres.push_back({direction, Vec3d(0.0), Vec3d(0.0)});
     }
     if (_centres.size() == first) return;
@@ -260,7 +260,7 @@ void Stratification::stratify(Region& region)
     }
 }
 
-/// What is not worth a stratum goes to one nearby.
+/// Gives each cell of a region that has no stratum to the nearest stratum of any region.
 void Stratification::giveToNearest(const Region& region)
 {
     for (const int index : region.cells)
@@ -288,7 +288,7 @@ std::vector<EnvironmentStratum> Stratification::strata(int count)
     {
         const double luminance = luminanceOf(centre.integral);
         if (!(luminance > 0.0)) continue;
-        // All around there is no mean direction.
+        // Light from all around has no mean direction.
         const double length = glm::length(centre.moment);
         const Vec3d direction =
             length > 1e-6 * luminance ? centre.moment / length : centre.direction;

@@ -8,8 +8,8 @@ namespace osgRayTrace::engine
 float fresnelDielectricAverage(float eta)
 {
     if (eta == 1.0f) return 0.0f;
-    // Midpoint rule in x = c^2, in which the integral is int F dx, refined towards grazing: x =
-    // s^2.
+    // The midpoint rule is applied in x = c^2, in which the integral is int F dx, refined towards
+    // grazing by x = s^2.
     constexpr int kSteps = 256;
     double sum = 0.0;
     for (int i = 0; i < kSteps; ++i)

@@ -10,13 +10,13 @@
 namespace osgRayTrace::engine
 {
 
-/// Unpolarized reflectance of a dielectric for an angle of incidence with cosine cosThetaI >= 0,
-/// eta the index on the far side over that on the near side. 1 on total internal reflection.
-/// [Walter07, eq. 22] Without branches, for loops over lanes.
+/// Returns the unpolarized reflectance of a dielectric for an angle of incidence with cosine
+/// cosThetaI >= 0 [Walter07, eq. 22]; it is 1 on total internal reflection. eta: index on the far
+/// side over that on the near side. The code has no branches, for loops over lanes.
 OSGRAYTRACE_INLINE float fresnelDielectric(float cosThetaI, float eta)
 {
     const float c = std::fabs(cosThetaI);
-    // Near the critical angle next to nothing is left of c^2: in double, or the root of it has 3
+    // Near the critical angle next to nothing is left of c^2: without double the root of g2 has 3
     // digits.
     const auto g2 =
         static_cast<float>((double(eta) - 1.0) * (double(eta) + 1.0) + double(c) * double(c));
@@ -25,25 +25,27 @@ OSGRAYTRACE_INLINE float fresnelDielectric(float cosThetaI, float eta)
     const float gMinusC = (eta - 1.0f) * (eta + 1.0f) / (g + c);
     const float a = gMinusC / (g + c);
     const float b = (c * (g + c) - 1.0f) / (c * gMinusC + 1.0f);
-    // Next to grazing incidence it rounds to more than 1, and what is left below would be negative.
+    // Next to grazing incidence the mean rounds to more than 1, and 1 - reflectance would be
+    // negative.
     const float mean = 0.5f * a * a * (1.0f + b * b);
     const float partial = select(g2 > 0.0f, select(mean < 1.0f, mean, 1.0f), 1.0f);
     return select(eta == 1.0f, 0.0f, partial);
 }
 
-/// Reflectance averaged over cosine-weighted incidence: int 2 F(c) c dc, by quadrature to about
-/// 1e-4. Used to couple a diffuse base to its coat. Not for inner loops.
+/// Returns the reflectance averaged over cosine-weighted incidence: int 2 F(c) c dc, by quadrature
+/// to about 1e-4. The average couples a diffuse base to its coat. The function is not for inner
+/// loops.
 float fresnelDielectricAverage(float eta);
 
-/// How far Schlick's approximation is from normal to grazing incidence, for a cosine >= 0.
+/// Returns how far Schlick's approximation is from normal to grazing incidence, for a cosine >= 0.
 OSGRAYTRACE_INLINE float schlickShare(float cosTheta)
 {
     const float m = 1.0f - select(cosTheta < 1.0f, cosTheta, 1.0f), m2 = m * m;
     return m2 * m2 * m;
 }
 
-/// Schlick's approximation between the reflectances at normal and at grazing incidence [Schlick94,
-/// eq. 24].
+/// Returns Schlick's approximation between the reflectances at normal and at grazing incidence
+/// [Schlick94, eq. 24].
 inline Vec3 fresnelSchlick(float cosTheta, Vec3 f0, float f90)
 {
     return f0 + (Vec3(f90) - f0) * schlickShare(std::fmax(cosTheta, 0.0f));

@@ -1,5 +1,5 @@
-// Ggx.h - the isotropic GGX microfacet distribution, in a local frame with the normal at +z.
-// Layer: shading.
+// Ggx.h - the isotropic GGX microfacet distribution in a frame with the normal at +z. Layer:
+// shading.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,8 +14,8 @@ namespace osgRayTrace::engine
 /// Below this width a surface is treated as perfectly smooth.
 constexpr float kSmoothAlpha = 1e-3f;
 
-/// Density of microfacet normals [1/sr] [Walter07, eq. 33], from the tangential part of h, which
-/// keeps its digits near the peak.
+/// Returns the density of microfacet normals [1/sr] [Walter07, eq. 33], computed from the
+/// tangential part of h, which keeps its digits near the peak.
 inline float evalGgx(Vec3 h, float alpha)
 {
     const float tangential2 = h.x * h.x + h.y * h.y;
@@ -24,7 +24,7 @@ inline float evalGgx(Vec3 h, float alpha)
     return a2 / (kPi * d * d);
 }
 
-/// Smith's Lambda [Heitz14, eq. 72].
+/// Returns Smith's Lambda [Heitz14, eq. 72].
 inline float ggxLambda(Vec3 w, float alpha)
 {
     const float cos2 = w.z * w.z;
@@ -33,19 +33,20 @@ inline float ggxLambda(Vec3 w, float alpha)
     return 0.5f * (std::sqrt(1.0f + alpha * alpha * sin2 / cos2) - 1.0f);
 }
 
-/// Masking of one direction [Heitz14, eq. 43].
+/// Returns the masking of one direction [Heitz14, eq. 43].
 inline float ggxG1(Vec3 w, float alpha)
 {
     return 1.0f / (1.0f + ggxLambda(w, alpha));
 }
 
-/// Height-correlated masking and shadowing of two directions on the same side [Heitz14, eq. 99].
+/// Returns the height-correlated masking and shadowing of two directions on the same side [Heitz14,
+/// eq. 99].
 inline float ggxG2(Vec3 wo, Vec3 wi, float alpha)
 {
     return 1.0f / (1.0f + ggxLambda(wo, alpha) + ggxLambda(wi, alpha));
 }
 
-/// A microfacet normal visible from wo (wo.z > 0), by spherical caps [Dupuy23, listing 3].
+/// Returns a microfacet normal visible from wo (wo.z > 0), by spherical caps [Dupuy23, listing 3].
 inline Vec3 sampleGgxVisible(Vec3 wo, float alpha, float u, float v)
 {
     const Vec3 stretched = glm::normalize(Vec3(alpha * wo.x, alpha * wo.y, wo.z));
@@ -59,7 +60,7 @@ inline Vec3 sampleGgxVisible(Vec3 wo, float alpha, float u, float v)
     return glm::normalize(normal);
 }
 
-/// Density of sampleGgxVisible [1/sr] [Heitz18, eq. 3].
+/// Returns the density of sampleGgxVisible [1/sr] [Heitz18, eq. 3].
 inline float pdfGgxVisible(Vec3 wo, Vec3 h, float alpha)
 {
     return ggxG1(wo, alpha) * std::fmax(glm::dot(wo, h), 0.0f) * evalGgx(h, alpha) / wo.z;

@@ -1,4 +1,4 @@
-// LightTable.cpp - the lights of a scene, ready to be sampled. Layer: shading.
+// LightTable.cpp - tables of a scene's lights, and samples of them. Layer: shading.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/LightTable.h"
 
@@ -16,13 +16,14 @@ bool isArea(const Light& light)
     return light.kind == LightKind::Parallelogram || light.kind == LightKind::Mesh;
 }
 
-/// As for surface points: see surfacesOf.
+/// The scale is that of surface points: see surfacesOf.
 constexpr float kOffsetScale = 32.0f * 0x1p-24f;
 
-/// So that its inverse is a float.
+/// The inverse of this falloff is still a float.
 constexpr float kLeastFalloff = 1e-37f;
 
-/// Of any vector of floats: a light far from a small scene may be 1e21 engine units away.
+/// Returns the length of any vector of floats: a light far from a small scene may be 1e21 engine
+/// units away.
 float lengthOf(Vec3 v)
 {
     const float length2 = glm::dot(v, v);
@@ -34,8 +35,8 @@ float sumAbs(Vec3 v)
     return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
 }
 
-/// Index of the entry of a cumulative distribution that u in [0,1) falls into, and u rescaled to
-/// it.
+/// Returns the index of the entry of a cumulative distribution that u in [0,1) falls into, and
+/// rescales u within the entry.
 std::size_t pick(const std::vector<float>& cumulative, float& u)
 {
     const auto at = std::upper_bound(cumulative.begin(), cumulative.end() - 1, u);
@@ -46,7 +47,8 @@ std::size_t pick(const std::vector<float>& cumulative, float& u)
     return index;
 }
 
-/// Running sums, in double, scaled to end at exactly 1. Empty if all weights are 0.
+/// Returns running sums, computed in double and scaled to end at exactly 1; empty if all weights
+/// are 0.
 std::vector<float> cumulativeOf(const std::vector<double>& weights)
 {
     double total = 0.0;
@@ -66,7 +68,7 @@ std::vector<float> cumulativeOf(const std::vector<double>& weights)
 
 LightTable::Record LightTable::parallelogram(const Light& light)
 {
-    // In double: the square of a small light's area is no normal float.
+    // The area is computed in double: the square of a small light's area is no normal float.
     const Vec3d perpendicular = glm::cross(Vec3d(light.edgeU), Vec3d(light.edgeV));
     Record record;
     record.area = static_cast<float>(glm::length(perpendicular));
@@ -76,7 +78,7 @@ LightTable::Record LightTable::parallelogram(const Light& light)
     return record;
 }
 
-/// Lights without power cost their slot and no more: a scene may hold millions.
+/// Builds the tables. Lights without power cost their slot and no more: a scene may hold millions.
 LightTable::LightTable(const Scene& scene, const LightTable* previous)
     : _scene(&scene), _slots(scene.lights.size(), 0), _records(1)
 {
@@ -93,7 +95,7 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous)
         }
         if (!isArea(light))
         {
-            // Black ones would each cost every surface point a look.
+            // Black lights would each cost every surface point a look.
             const Vec3 sum = light.ambient + light.diffuse + light.specular;
             if (sum == Vec3(0.0f)) continue;
             _deltaLights.push_back(i);
@@ -190,7 +192,8 @@ std::optional<LightPoint> LightTable::samplePoint(uint32_t index, float u, float
     const EmissiveMesh& mesh = _meshes[from.mesh];
     if (mesh.cumulative.empty()) return std::nullopt;
     const EmissiveMesh::Triangle& t = mesh.triangles[pick(mesh.cumulative, u)];
-    // Uniform on the triangle, folding the square along its diagonal: keeps strata together.
+    // The sample is uniform on the triangle; folding the square along its diagonal keeps strata
+    // together.
     if (u + v > 1.0f)
     {
         u = 1.0f - u;

@@ -12,29 +12,30 @@
 namespace osgRayTrace::engine
 {
 
-/// A point on an area light as seen from a point to be lit.
+/// Holds a point on an area light as seen from a point to be lit.
 struct AreaLightSample
 {
     Vec3 wi{0.0f}; ///< unit, from the lit point towards the light
     float distance = 0.0f;
     float cosThetaL = 0.0f; ///< cosine at the light, > 0 on an emitting side
-    Vec2 uv{0.0f};          ///< texture coordinates there
+    Vec2 uv{0.0f};          ///< texture coordinates of the point
     float pdfW = 0.0f;      ///< [1/sr] with respect to the lit point
-    Vec3 point{0.0f};       ///< on the light
-    Vec3 normal{0.0f};      ///< unit, of the light there; of either side
-    float offset = 0.0f;    ///< distance off the light's plane that is clear of its own surface
+    Vec3 point{0.0f};       ///< the point on the light
+    Vec3 normal{0.0f};      ///< unit, normal of the light at the point; of either side
+    float offset =
+        0.0f; ///< distance off the light's plane that is clear of its own surface [length]
 };
 
-/// A point on an area light.
+/// Holds a point on an area light.
 struct LightPoint
 {
     Vec3 position{0.0f};
-    Vec3 normal{0.0f};   ///< unit, of the front
-    Vec2 uv{0.0f};       ///< texture coordinates there
-    float offset = 0.0f; ///< along the normal: clears the light's own surface
+    Vec3 normal{0.0f};   ///< unit, of the light's front
+    Vec2 uv{0.0f};       ///< texture coordinates of the point
+    float offset = 0.0f; ///< along the normal: clears the light's own surface [length]
 };
 
-/// What a directional, point or spot light sends to a point.
+/// Holds the light that a directional, point or spot light sends to a point.
 struct DeltaLightSample
 {
     Vec3 wi{0.0f}; ///< unit, towards the light
@@ -42,7 +43,7 @@ struct DeltaLightSample
     float attenuation = 0.0f; ///< distance and spot terms [OpenGL21, eq. 2.2, 2.3]
 };
 
-/// An emitting mesh as a distribution over its triangles, by area.
+/// Holds an emitting mesh as a distribution over its triangles, by area.
 struct EmissiveMesh
 {
     struct Triangle
@@ -51,72 +52,77 @@ struct EmissiveMesh
         Vec2 ua, uab, uac;
     };
     std::vector<Triangle> triangles;
-    std::vector<float> cumulative; ///< of areas, the last is 1
+    std::vector<float> cumulative; ///< running share of the area; the last is 1
 };
 
-/// Built once for a scene; thread safe.
+/// Holds the lights of a scene, ready to be sampled. The table is built once for a scene; thread
+/// safe.
 class LightTable
 {
 public:
-    /// previous: of the last snapshot, whose tables of the environment are taken over if they can
-    /// be; or null.
+    /// Builds the table. previous: table of the last snapshot, whose tables of the environment are
+    /// taken over if possible; or null.
     explicit LightTable(const Scene& scene, const LightTable* previous = nullptr);
 
     const std::vector<uint32_t>& areaLights() const { return _areaLights; }
     const std::vector<uint32_t>& deltaLights() const { return _deltaLights; }
 
-    /// Null without one. It may be black.
+    /// Returns the environment, which may be black; null without one.
     const PlacedEnvironment* environment() const { return _environment.get(); }
 
-    /// The environment if surfaces get light from it, else null.
+    /// Returns the environment if surfaces get light from it, else null.
     const PlacedEnvironment* shiningEnvironment() const
     {
         return _environment && !_environment->isBlack() ? _environment.get() : nullptr;
     }
 
-    /// Area of an area light [length^2], by index into Scene::lights. 0: never sampled.
+    /// Returns the area of an area light [length^2], by index into Scene::lights; 0: the light is
+    /// never sampled.
     float area(uint32_t light) const { return record(light).area; }
 
-    /// Unit normal of the front of a parallelogram.
+    /// Returns the unit normal of the front of a parallelogram.
     Vec3 normal(uint32_t light) const { return record(light).normal; }
 
-    /// How far a point on the light may be off it by rounding [length].
+    /// Returns how far a point on the light may be off it by rounding [length].
     float pointOffset(uint32_t light) const { return record(light).offset; }
 
-    /// Chooses one of the area lights in proportion to power. u in [0,1). Nothing without lights.
-    struct Choice
+    struct Choice ///< kInvalid without lights
     {
         uint32_t light = kInvalid;
         float pmf = 0.0f;
     };
+    /// Chooses one of the area lights in proportion to power. u in [0,1).
     Choice chooseAreaLight(float u) const;
     float areaLightPmf(uint32_t light) const { return record(light).pmf; }
 
-    /// The same of the point, spot and directional lights, in proportion to their colours.
+    /// Chooses one of the point, spot and directional lights in proportion to their colours. u in
+    /// [0,1).
     Choice chooseDeltaLight(float u) const;
 
-    /// A point on an area light, uniform by area. u, v in [0,1). Nothing if it is seen from its
-    /// dark side.
+    /// Returns a point on an area light, uniform by area; nothing if the light is seen from its
+    /// dark side. u, v in [0,1).
     std::optional<AreaLightSample> sampleArea(uint32_t light, Vec3 p, float u, float v) const;
 
-    /// The point that sampleArea would look at, seen from nowhere in particular: density 1 / area.
+    /// Returns the point that sampleArea would look at, seen from nowhere in particular: density 1
+    /// / area.
     std::optional<LightPoint> samplePoint(uint32_t light, float u, float v) const;
 
-    /// [1/sr] of sampleArea for a ray that hit the light at a distance under a cosine.
+    /// Returns the density [1/sr] of sampleArea for a ray that hit the light at a distance under a
+    /// cosine.
     float pdfArea(uint32_t light, float distance, float cosThetaL) const
     {
         return distance * distance / (record(light).area * cosThetaL);
     }
 
 private:
-    /// An area light of some power.
+    /// Holds an area light of some power.
     struct Record
     {
         float area = 0.0f;
         float pmf = 0.0f;
         float offset = 0.0f;
-        Vec3 normal{0.0f};        ///< of parallelograms
-        uint32_t mesh = kInvalid; ///< in _meshes
+        Vec3 normal{0.0f};        ///< parallelograms only
+        uint32_t mesh = kInvalid; ///< index into _meshes
     };
     const Record& record(uint32_t light) const { return _records[_slots[light]]; }
     static Record parallelogram(const Light& light);
@@ -128,19 +134,21 @@ private:
     std::vector<uint32_t> _areaLights;
     std::vector<uint32_t> _deltaLights;
     std::unique_ptr<const PlacedEnvironment> _environment;
-    std::vector<uint32_t> _slots;        ///< a light: its record
-    std::vector<Record> _records;        ///< first that of all lights that are never sampled
-    std::vector<float> _cumulative;      ///< an area light; the last is 1
-    std::vector<float> _deltaCumulative; ///< the same of delta lights
-    std::vector<EmissiveMesh> _meshes;   ///< of records of LightKind::Mesh
+    std::vector<uint32_t> _slots; ///< a light: index into _records
+    std::vector<Record> _records; ///< the first record stands for all lights that are never sampled
+    std::vector<float> _cumulative;      ///< an area light: running probability; the last is 1
+    std::vector<float> _deltaCumulative; ///< a delta light: running probability; the last is 1
+    std::vector<EmissiveMesh> _meshes;   ///< for records of LightKind::Mesh
 };
 
-/// What a point light loses over a distance [OpenGL21, eq. 2.2], and what a spot sends the way of a
-/// unit direction over what it sends along its axis [OpenGL21, eq. 2.3].
+/// Returns the share of a point light's light that is left at a distance [OpenGL21, eq. 2.2].
+/// spotTerm returns what a spot sends along a unit direction over what it sends along its axis
+/// [OpenGL21, eq. 2.3].
 float distanceTerm(const Light& light, float distance);
 float spotTerm(const Light& light, Vec3 direction);
 
-/// Directional and Point lights as if they had no size; light.eyeSpace must have been resolved.
+/// Returns the light that a Directional or Point light without size sends to p; light.eyeSpace must
+/// have been resolved.
 DeltaLightSample sampleDelta(const Light& light, Vec3 p);
 
 } // namespace osgRayTrace::engine

@@ -48,15 +48,15 @@ Vec3 clampUnit(Vec3 v)
     return glm::clamp(v, 0.0f, 1.0f);
 }
 
-/// What an interface of index 1.5 reflects at normal incidence: so much highlight any surface
-/// keeps.
+/// Any surface keeps at least this highlight, which an interface of index 1.5 reflects at normal
+/// incidence.
 constexpr float kLeastHighlight = 0.04f;
 
-/// GGX reflectance that sends back as much light as a highlight of OpenGL's of colour 1 [OpenGL21,
-/// eq. 2.1], from a sphere that is lit and seen from the same far point: there the highlight is
-/// cos^s, with a mean of 2/(s+2) over the sphere's disc, and GGX is D G2 / (4 cos) [Walter07, eq.
-/// 20] of alpha^2 = 2/(s+2), with the mean that is integrated here. 8/(s+2) for large s, 4 for s =
-/// 0.
+/// Returns the GGX reflectance that sends back as much light as a highlight of OpenGL's of colour 1
+/// [OpenGL21, eq. 2.1], from a sphere that is lit and seen from the same far point. OpenGL's
+/// highlight is then cos^s, with a mean of 2/(s+2) over the sphere's disc. GGX is then D G2 / (4
+/// cos) [Walter07, eq. 20] of alpha^2 = 2/(s+2), with the mean that is integrated here. The result
+/// is about 8/(s+2) for large s and 4 for s = 0.
 double highlightReflectance(double shininess)
 {
     const double s = std::max(shininess, 0.01); // the limit, without cancellation
@@ -68,7 +68,8 @@ double highlightReflectance(double shininess)
     return alpha2 / mean;
 }
 
-/// What texture environments multiply light of a fixed-function surface by: they are linear in it.
+/// Returns the factor by which texture environments change the light of a fixed-function surface:
+/// they are linear in it.
 Vec3 textureTint(const TextureTerms& textures)
 {
     if (textures.count == 0) return Vec3(1.0f);
@@ -101,7 +102,7 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
                            material.transmissionTexture == kInvalid &&
                            material.vertexColorUse != VertexColorUse::Specular &&
                            !(record.fixedFunction && isTextured(material));
-        if (!isInvisible(material)) // else it is not traced: no photons are guided to it
+        if (!isInvisible(material)) // invisible: not traced, so that no photons are guided to it
         {
             MaterialPoint point;
             record.front = bsdf(i, point);
@@ -139,7 +140,8 @@ Bsdf MaterialTable::bsdf(uint32_t material, const MaterialPoint& point) const
 
 MaterialTable::Coat MaterialTable::coatOf(const Material& m, float eta) const
 {
-    if (m.model != MaterialModel::Physical) return {0.0f, {}}; // it has none
+    if (m.model != MaterialModel::Physical)
+        return {0.0f, {}}; // fixed-function materials have no coat
     Coat coat{fresnelDielectricAverage(eta), {}};
     const bool base = eta != 1.0f && m.metallic < 1.0f && m.baseColor != Vec3(0.0f) &&
                       (m.transmission < 1.0f || m.transmissionTexture != kInvalid);
@@ -153,7 +155,7 @@ MaterialTable::Coat MaterialTable::coatOf(const Material& m, float eta) const
     return coat;
 }
 
-/// [glTF20, appendix B.2]: a mix of a dielectric and a metal by metallic.
+/// Makes a mix of a dielectric and a metal by metallic [glTF20, appendix B.2].
 Bsdf MaterialTable::physical(const Material& m, const MaterialPoint& point) const
 {
     const Vec4 base = baseTexture(m, point);
@@ -172,7 +174,7 @@ Bsdf MaterialTable::physical(const Material& m, const MaterialPoint& point) cons
     const float ior = usableIor(m.ior);
     bsdf.coat = ior != 1.0f ? 1.0f - metallic : 0.0f;
     bsdf.transmission = color * ((1.0f - metallic) * transmission);
-    // From inside only glass is seen as such; an opaque body shows its outside on both sides.
+    // Only glass is seen as such from inside; an opaque body shows its outside on both sides.
     bsdf.eta = point.front || !bsdf.transmits() ? ior : 1.0f / ior;
     return bsdf;
 }
@@ -255,8 +257,8 @@ float MaterialTable::opacity(uint32_t material, const MaterialPoint& point) cons
     return m.blended ? alpha : 1.0f;
 }
 
-/// False if every ray that meets the surface hits it, for all that is known without looking at
-/// points.
+/// Returns false if every ray that meets the surface hits it, for all that is known without looking
+/// at points.
 bool MaterialTable::isPartial(const Material& m) const
 {
     if (m.culling != FaceCulling::None) return true;
@@ -281,8 +283,8 @@ FaceColors fixedFunctionColors(const Material& material, const Vec4& vertexColor
     const Vec3 rgb(vertexColor);
     if (!material.lit)
     {
-        // Without lighting OpenGL shows the primary colour; the converter puts a constant one in
-        // diffuse.
+        // Without lighting OpenGL shows the primary colour; the converter puts a constant primary
+        // colour into diffuse.
         if (material.vertexColorUse != VertexColorUse::None)
         {
             colors.diffuse = rgb;

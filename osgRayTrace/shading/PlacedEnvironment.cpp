@@ -1,4 +1,4 @@
-// PlacedEnvironment.cpp - between engine space and that of the image. Layer: shading.
+// PlacedEnvironment.cpp - from engine space to the space of the image and back. Layer: shading.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/PlacedEnvironment.h"
 

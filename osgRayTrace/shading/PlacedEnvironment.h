@@ -1,5 +1,4 @@
-// PlacedEnvironment.h - the environment of a scene, turned and scaled as its light says. Layer:
-// shading.
+// PlacedEnvironment.h - an environment, turned and scaled as its light says. Layer: shading.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,25 +13,28 @@
 namespace osgRayTrace::engine
 {
 
-/// Thread safe. Directions are unit vectors of engine space.
+/// Samples an environment in engine space, where directions are unit vectors. The class is thread
+/// safe.
 class PlacedEnvironment
 {
 public:
-    /// previous: of the last snapshot, or null; its tables are taken over if the image is the same.
+    /// Places a light's image. previous: environment of the last snapshot, or null; its tables are
+    /// taken over if the image is the same.
     PlacedEnvironment(const Light& light, uint32_t index, const PlacedEnvironment* previous);
 
-    uint32_t light() const { return _index; } ///< into Scene::lights
+    uint32_t light() const { return _index; } ///< index into Scene::lights
     bool isVisible() const { return _visible; }
     bool isBlack() const { return map().isBlack() || luminance(_scale) <= 0.0f; }
 
-    /// Integral over all directions.
+    /// Returns the integral of radiance over all directions.
     Vec3 integral() const { return Vec3(map().integral()) * _scale; }
 
-    /// Distributed as the image's luminance; u, v in [0,1).
+    /// Returns a sample, distributed as the image's luminance; u, v in [0,1).
     EnvironmentSample sample(float u, float v) const;
     float pdfW(Vec3 direction) const { return map().pdfW(_mapFromEngine * direction); }
 
-    /// What lights surfaces, and what is seen: see EnvironmentMap.
+    /// Returns the radiance that lights surfaces; seenRadiance returns the radiance for eyes, which
+    /// is interpolated: see EnvironmentMap.
     Vec3 radiance(Vec3 direction) const
     {
         return map().radiance(_mapFromEngine * direction) * _scale;
@@ -42,18 +44,19 @@ public:
         return map().interpolatedRadiance(_mapFromEngine * direction) * _scale;
     }
 
-    /// As count distant lights at most. The last ones made are kept.
+    /// Returns at most count distant lights that stand for the environment. The last strata made
+    /// are kept.
     std::vector<EnvironmentStratum> strata(int count) const;
 
 private:
-    /// Of an image; shared by snapshots.
+    /// Holds the tables of an image; shared by snapshots.
     struct Tables
     {
         explicit Tables(std::shared_ptr<const EnvironmentImage> image) : map(std::move(image)) {}
 
         const EnvironmentMap map;
-        std::mutex mutex; ///< sessions of several views, on their draw threads, ask for strata
-        int count = 0;    ///< asked for last
+        std::mutex mutex; ///< sessions of several views ask for strata on their draw threads
+        int count = 0;    ///< count that was last asked for
         std::vector<EnvironmentStratum> strata;
     };
     const EnvironmentMap& map() const { return _tables->map; }

@@ -1,4 +1,4 @@
-// SmoothLanes.cpp - sixteen rays at smooth interfaces: mirrors and clear glass. Layer: shading.
+// SmoothLanes.cpp - the vector code for mirrors and clear glass. Layer: shading.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/SmoothLanes.h"
 
@@ -9,21 +9,22 @@
 namespace osgRayTrace::engine
 {
 
-/// Reflection with the probability p of its share of what leaves the surface, refraction with 1 -
-/// p:
+/// Chooses reflection with the probability p of its share of the light that leaves the surface, and
+/// refraction with 1 - p:
 ///
 ///   d' = d + 2 c n          weight (S(c) + coat F(c)) / p               c = -d.n
 ///   d' = d/eta + (c/eta - sqrt(1 - (1 - c^2)/eta^2)) n     transmission (1 - F(c)) / (1 - p)
 ///
-/// [Walter07, eq. 20, 40], Schlick's S and the interface's F as in Bsdf; refracted radiance over
-/// eta^2.
+/// Both directions are those of [Walter07, eq. 20, 40]; Schlick's S and the interface's F are those
+/// of Bsdf, and refracted radiance is divided by eta^2.
 OSGRAYTRACE_KERNEL
 SmoothLanes sampleSmoothLanes(const InterfaceLanes& interfaces, const IncidentLanes& incident,
                               const FloatLanes& uLobe, LaneMask lanes, Transport transport,
                               Vec3Lanes& wi, Vec3Lanes& weight)
 {
     const uint32_t isRadiance = maskOf(transport == Transport::Radiance);
-    // Before the loop: references that are read within it keep it from being vectorized.
+    // These references stand before the loop: members that are read through a reference within it
+    // keep it from being vectorized.
     const FloatLanes &directionX = incident.directionX, &directionY = incident.directionY,
                      &directionZ = incident.directionZ;
     const Vec3Lanes& normal = incident.normal;
@@ -55,7 +56,7 @@ SmoothLanes sampleSmoothLanes(const InterfaceLanes& interfaces, const IncidentLa
         const float p = select(refractedShare > 0.0f, reflectedShare / sum, 1.0f);
         const uint32_t reflects = maskOf(uLobe[i] < p);
 
-        // Where 1 - c^2 rounds to more or less, an index of 1 must bend nothing.
+        // 1 - c^2 may round to more or less, but an index of 1 must bend nothing.
         const float sin2T = (1.0f - cosO * cosO) * inverseEta * inverseEta;
         const float cosT =
             select(eta == 1.0f, cosO, std::sqrt(select(sin2T < 1.0f, 1.0f - sin2T, 0.0f)));

@@ -8,13 +8,13 @@
 namespace osgRayTrace::engine
 {
 
-/// True if the surface has mirror-like lobes and no other.
+/// Returns true if the surface has mirror-like lobes and no other.
 inline bool isSmoothInterface(const Bsdf& bsdf)
 {
     return bsdf.isSmooth() && bsdf.diffuse == Vec3(0.0f);
 }
 
-/// What sampleBsdf reads of such surfaces.
+/// Holds the members of Bsdf that sampleBsdf reads of a smooth interface.
 struct InterfaceLanes
 {
     FloatLanes eta, coat, grazing;
@@ -34,8 +34,8 @@ struct InterfaceLanes
     }
 };
 
-/// Rays at such surfaces. Their frames are not needed: both lobes are in the plane of ray and
-/// normal.
+/// Holds rays at smooth interfaces. Their frames are not needed: both lobes are in the plane of ray
+/// and normal.
 struct IncidentLanes
 {
     const FloatLanes &directionX, &directionY, &directionZ; ///< unit, the way of the rays
@@ -44,12 +44,13 @@ struct IncidentLanes
 
 struct SmoothLanes
 {
-    LaneMask alive;       ///< the others must be discarded
-    LaneMask transmitted; ///< of these
+    LaneMask alive;       ///< other lanes have to be discarded
+    LaneMask transmitted; ///< lanes among alive that were refracted
 };
 
-/// What sampleBsdf does, as vector code: one Fresnel term chooses the lobe and weighs it. Sets wi
-/// (unit, in the space of the normals) and weight of lanes; those of the others stay as they are.
+/// Does for lanes what sampleBsdf does for one surface: one Fresnel term chooses the lobe and
+/// weighs it. Sets wi (unit, in the space of the normals) and weight of lanes; those of the other
+/// lanes stay as they are.
 SmoothLanes sampleSmoothLanes(const InterfaceLanes& interfaces, const IncidentLanes& incident,
                               const FloatLanes& uLobe, LaneMask lanes, Transport transport,
                               Vec3Lanes& wi, Vec3Lanes& weight);

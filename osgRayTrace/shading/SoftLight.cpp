@@ -56,7 +56,8 @@ SoftLightSample sampleSoft(const Light& light, Vec3 p, Vec2 u)
     if (light.kind == LightKind::Directional) return sampleSun(light, u);
 
     const Vec3 d = light.position - p;
-    // In double: far lights of small scenes are so many units away that the square is no float.
+    // The length is computed in double: far lights of small scenes are so many units away that the
+    // square is no float.
     const auto distance = static_cast<float>(glm::length(Vec3d(d)));
     if (!(distance > 0.0f)) return sample;
     const float sine = light.radius / std::max(distance, light.radius);

@@ -10,11 +10,13 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// [OpenGL21, sect. 2.11.4]: r is what the sphere in the picture reflects at (s, t).
+/// Returns the coordinates of a sphere map [OpenGL21, sect. 2.11.4]: r is the direction that the
+/// sphere in the picture reflects at (s, t).
 Vec4 sphereMap(Vec3 r)
 {
     const float m = 2.0f * std::sqrt(r.x * r.x + r.y * r.y + (r.z + 1.0f) * (r.z + 1.0f));
-    if (!(m > 0.0f)) return Vec4(0.5f, 0.5f, 0.0f, 1.0f); // straight away: all of the rim
+    if (!(m > 0.0f))
+        return Vec4(0.5f, 0.5f, 0.0f, 1.0f); // straight away from the eye: all of the rim
     return Vec4(r.x / m + 0.5f, r.y / m + 0.5f, 0.0f, 1.0f);
 }
 

@@ -1,4 +1,4 @@
-// TextureSample.cpp - looks a colour up in a texture. Layer: shading.
+// TextureSample.cpp - wrapping, filtering and decoding of texels. Layer: shading.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/TextureSample.h"
 
@@ -11,7 +11,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Linear value of each sRGB byte [IEC61966].
+/// Returns the linear value of each sRGB byte [IEC61966].
 const std::array<float, 256>& decodedBytes()
 {
     static const std::array<float, 256> table = []
@@ -28,7 +28,7 @@ const std::array<float, 256>& decodedBytes()
     return table;
 }
 
-/// Texel index in [0, size) of any integer position.
+/// Returns the texel index in [0, size) of any integer position.
 int wrapped(int i, int size, TextureWrap wrap)
 {
     if (wrap != TextureWrap::Repeat && wrap != TextureWrap::Mirror)
@@ -44,7 +44,7 @@ bool hasBorder(TextureWrap wrap)
     return wrap == TextureWrap::Clamp || wrap == TextureWrap::ClampToBorder;
 }
 
-/// OpenGL's borders are data, decoded like texels.
+/// Returns the border colour; OpenGL's borders are data and are decoded like texels.
 Vec4 borderOf(const Texture& texture)
 {
     Vec4 color = texture.border;
@@ -55,7 +55,7 @@ Vec4 borderOf(const Texture& texture)
     return color;
 }
 
-/// slice: within the image.
+/// Returns a texel. slice: index within a 3-D image.
 Vec4 texel(const Texture& texture, int x, int y, int slice = 0)
 {
     if ((hasBorder(texture.wrapS) && (x < 0 || x >= texture.width)) ||
@@ -78,8 +78,8 @@ Vec4 texel(const Texture& texture, int x, int y, int slice = 0)
     return Vec4(b[0], b[1], b[2], b[3]) * (1.0f / 255.0f);
 }
 
-/// A coordinate in texels, within what an int holds; NaN becomes 0. TextureWrap::Clamp keeps it
-/// within the image [OpenGL21, sect. 3.8.7].
+/// Returns a coordinate in texels, within the range of an int; NaN becomes 0. TextureWrap::Clamp
+/// keeps the coordinate within the image [OpenGL21, sect. 3.8.7].
 float texels(float coordinate, int size, TextureWrap wrap)
 {
     if (wrap == TextureWrap::Clamp) coordinate = std::fmin(std::fmax(coordinate, 0.0f), 1.0f);
@@ -87,14 +87,16 @@ float texels(float coordinate, int size, TextureWrap wrap)
     return std::fabs(value) < 1e9f ? value : 0.0f;
 }
 
-/// With the nearest texel the coordinate 1 is the last one, not the border.
+/// Returns the index of the nearest texel; with that filter the coordinate 1 is the last texel, not
+/// the border.
 int nearest(float texelsOf, int size, TextureWrap wrap)
 {
     const int i = static_cast<int>(std::floor(texelsOf));
     return wrap == TextureWrap::Clamp && i >= size ? size - 1 : i;
 }
 
-/// A face of a cube map and the place on it [OpenGL21, table 3.19].
+/// Returns the texture's value on the face of a cube map that a direction points to [OpenGL21,
+/// table 3.19].
 Vec4 sampleCube(const Texture& texture, Vec3 r)
 {
     const Vec3 a(std::fabs(r.x), std::fabs(r.y), std::fabs(r.z));
@@ -123,7 +125,7 @@ Vec4 sampleCube(const Texture& texture, Vec3 r)
     return glm::mix(low, high, fy);
 }
 
-/// Filtered within a slice.
+/// Returns the filtered value within a slice.
 Vec4 sampleSlice(const Texture& texture, Vec2 uv, int slice)
 {
     const float x = texels(uv.x, texture.width, texture.wrapS);

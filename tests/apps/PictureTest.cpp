@@ -320,7 +320,8 @@ TEST_CASE("osgraytrace: the furnace is 1 everywhere", "[apps][statistics]")
     CHECK(mean == Approx(1.0).margin(0.016));
 }
 
-TEST_CASE("osgraytrace: --list-options names every setting, and the README shows it", "[apps]")
+TEST_CASE("osgraytrace: --list-options names every setting, and the page of settings shows it",
+          "[apps]")
 {
     const TemporaryFolder folder;
     const Outcome outcome = osgraytrace(folder, "--list-options");
@@ -331,7 +332,8 @@ TEST_CASE("osgraytrace: --list-options names every setting, and the README shows
                                        Contains(option.environment) &&
                                        Contains(option.defaultValue) && Contains(option.help));
     }
-    CHECK_THAT(contents(OSGRAYTRACE_TEST_SOURCE "/README.md"), Contains(outcome.output));
+    CHECK_THAT(contents(OSGRAYTRACE_TEST_SOURCE "/osgRayTrace/docs/settings.md"),
+               Contains(outcome.output));
 }
 
 TEST_CASE("osgraytrace: --help names every option of the command line", "[apps]")

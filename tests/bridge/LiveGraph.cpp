@@ -172,7 +172,7 @@ void LiveView::update()
 
 const std::vector<float>& LiveView::image()
 {
-    _tracer.trace(_updater.version(), viewOf());
+    _tracer.trace(_updater.version().inputs, viewOf());
     _last = _tracer.radiance();
     return _last;
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/update/SceneUpdater.h"
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include <osg/LightSource>
 #include <osg/Material>
@@ -68,7 +68,7 @@ public:
 
     int passes() const { return _tracer.progress().passes; }
     Statistics statistics() const { return _updater.statistics(); }
-    const engine::Scene* scene() const { return &_updater.version().scene->scene(); }
+    const engine::Scene* scene() const { return &_updater.version().inputs.scene->scene(); }
 
 private:
     osg::Node* _root;

@@ -507,7 +507,8 @@ namespace
 /// As virtual programs are: its shaders are its own.
 struct VirtualProgram : osg::Program
 {
-    META_StateAttribute(test, VirtualProgram, PROGRAM) VirtualProgram() = default;
+    META_StateAttribute(test, VirtualProgram, PROGRAM)
+    VirtualProgram() = default;
     VirtualProgram(const VirtualProgram& other, const osg::CopyOp& copy) : osg::Program(other, copy)
     {
     }
@@ -515,7 +516,8 @@ struct VirtualProgram : osg::Program
 
 struct OtherProgram : osg::StateAttribute
 {
-    META_StateAttribute(test, OtherProgram, PROGRAM) OtherProgram() = default;
+    META_StateAttribute(test, OtherProgram, PROGRAM)
+    OtherProgram() = default;
     OtherProgram(const OtherProgram& other, const osg::CopyOp& copy)
         : osg::StateAttribute(other, copy)
     {

@@ -1,4 +1,5 @@
 # Installs the library, moves the install elsewhere, and builds and runs the consumer project with it.
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
 function(run)
@@ -67,7 +68,8 @@ if(NOT output MATCHES "RMSE 0\n")
 endif()
 
 # Beside the installed README lies all that the pages name: links, and files of data.
-foreach(page README.md data/README.md osgRayTrace/docs/architecture.md osgRayTrace/docs/coverage.md)
+file(GLOB docs RELATIVE "${LIBRARY_SOURCE}" "${LIBRARY_SOURCE}/osgRayTrace/docs/*.md")
+foreach(page README.md data/README.md tests/README.md osgRayTrace/README.md ${docs})
     if(NOT EXISTS "${share}/${page}")
         message(FATAL_ERROR "${page} is not installed")
     endif()

@@ -1,5 +1,6 @@
 # Starts exitProgram 20 times; each time another thread ends it, after another number of frames.
 # Usage: cmake -D PROGRAM=<exitProgram> -D MODE=<its mode> -P ExitRuns.cmake
+# SPDX-License-Identifier: MIT
 set(failed 0)
 foreach(run RANGE 1 20)
     math(EXPR frames "${run} % 7 + 1")

@@ -81,7 +81,7 @@ public:
     }
     META_Node(test, CustomDrawable)
 
-        osg::BoundingBox computeBoundingBox() const override
+    osg::BoundingBox computeBoundingBox() const override
     {
         return {-0.5f, -0.5f, 0.0f, 0.5f, 0.5f, 0.0f};
     }

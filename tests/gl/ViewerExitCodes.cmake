@@ -1,5 +1,6 @@
 # Runs osgraytraceviewer without a display: what it says and which exit code it gives.
 # Usage: cmake -D PROGRAM=<osgraytraceviewer> -D MODEL=<file it can load> -P ViewerExitCodes.cmake
+# SPDX-License-Identifier: MIT
 unset(ENV{DISPLAY})
 
 function(expect code text)

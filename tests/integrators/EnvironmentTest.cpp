@@ -17,8 +17,6 @@ struct Sky
     double irradiance; ///< of a surface that looks to +z
 };
 
-constexpr double kSun = 0.06; ///< half angle of the sun disc [radians]: three rows of 150
-
 /// Closed forms: of the rows and columns as they are, each of constant radiance.
 std::vector<Sky> skies()
 {

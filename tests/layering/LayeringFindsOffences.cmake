@@ -1,5 +1,6 @@
 # Gives cmake/CheckLayering.cmake one small source tree for each rule that breaks just that rule, and
 # one that breaks none.
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
 # check(<file> <text> <expected message or empty>): a tree of one good file and this one.
@@ -45,6 +46,10 @@ check(osgRayTrace/RayTraceDrawable.cpp "// as glBindTexture(...) does" "")
 check(osgRayTrace/bridge/graph/A.cpp "#include \"osgRayTrace/bridge/common/B.h\"" "")
 check(osgRayTrace/bridge/graph/A.cpp "#include \"osgRayTrace/bridge/convert/B.h\"" "convert, right of it")
 check(osgRayTrace/bridge/appearance/textures/A.h "#include \"osgRayTrace/bridge/appearance/lights/B.h\"" "lights, right of it")
+check(osgRayTrace/bridge/view/A.cpp "#include \"osgRayTrace/bridge/common/B.h\"" "no known folder")
+check(osgRayTrace/session/view/A.cpp "#include \"osgRayTrace/session/history/B.h\"" "")
+check(osgRayTrace/session/view/A.cpp "#include <osg/Image>" "the engine includes")
+check(osgRayTrace/session/view/A.cpp "#include <OpenThreads/Thread>" "the engine includes")
 check(osgRayTrace/bridge/A.cpp "#include \"osgRayTrace/bridge/common/B.h\"" "no known folder")
 check(osgRayTrace/bridge/pick/A.cpp "#include \"osgRayTrace/bridge/doors/B.h\"" "no known folder")
 check(osgRayTrace/session/A.cpp "#include \"osgRayTrace/session/image/B.h\"" "")

@@ -1,6 +1,7 @@
 // OidnViewTest.cpp - views that are shown through Open Image Denoise, for which StandIn.h stands.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/photons/PhotonPasses.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -20,28 +21,26 @@ struct Screen
 {
     Screen()
     {
-        settings->setIntegrator(RayTraceSettings::PATH);
-        settings->setMaxPasses(1);
-        version.scene = cornellBox().build();
-        version.workers = std::make_shared<Workers>(1);
-        version.photons = std::make_shared<PhotonPasses>();
+        inputs.options.integrator = IntegratorKind::Path;
+        inputs.maxPasses = 1;
+        inputs.scene = cornellBox().build();
+        inputs.workers = std::make_shared<Workers>(1);
+        inputs.photons = std::make_shared<PhotonPasses>();
     }
 
     /// What is shown, whether it is new or not.
-    std::vector<uint8_t> frame(RayTraceSettings::Denoise denoise, const View& view)
+    std::vector<uint8_t> frame(DenoiseKind denoise, const View& view)
     {
-        settings->setDenoise(denoise);
-        version.settings = new RayTraceSettings(*settings);
-        tracer.trace(version, view);
-        if (!tracer.needsResolve(version)) return shown;
+        inputs.denoise = denoise;
+        tracer.trace(inputs, view);
+        if (!tracer.needsResolve(inputs)) return shown;
         shown.resize(4 * kSize * kSize);
         std::vector<float> depth(kSize * kSize);
         tracer.resolve(shown.data(), depth.data());
         return shown;
     }
 
-    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
-    SceneVersion version;
+    ViewInputs inputs;
     ViewTracer tracer;
     std::vector<uint8_t> shown;
 };
@@ -53,29 +52,29 @@ TEST_CASE("oidn: a view goes from one denoiser to the other without tracing anew
     StandIn& library = beginStandIn();
     Screen screen;
     const View view = cornellView(kSize, kSize);
-    const auto plain = screen.frame(RayTraceSettings::OFF, view);
-    CHECK(screen.tracer.progress().denoised.by == DenoiseKind::Off);
-    const auto filtered = screen.frame(RayTraceSettings::FILTER, view);
-    CHECK(screen.tracer.progress().denoised.by == DenoiseKind::Filter);
+    const auto plain = screen.frame(DenoiseKind::Off, view);
+    CHECK(screen.tracer.progress().stages.denoised.by == DenoiseKind::Off);
+    const auto filtered = screen.frame(DenoiseKind::Filter, view);
+    CHECK(screen.tracer.progress().stages.denoised.by == DenoiseKind::Filter);
     CHECK(library.calls.empty());
-    const auto mean = screen.frame(RayTraceSettings::OIDN, view);
-    CHECK(screen.tracer.progress().denoised.by == DenoiseKind::Oidn);
-    CHECK(screen.tracer.progress().denoiseSeconds > 0.0);
+    const auto mean = screen.frame(DenoiseKind::Oidn, view);
+    CHECK(screen.tracer.progress().stages.denoised.by == DenoiseKind::Oidn);
+    CHECK(screen.tracer.progress().stages.denoiseSeconds > 0.0);
     CHECK(library.times("execute") == 1);
     CHECK(plain != filtered);
     CHECK(plain != mean);
     CHECK(filtered != mean);
-    CHECK(screen.frame(RayTraceSettings::OIDN, view) == mean); // nothing is new: nothing is done
+    CHECK(screen.frame(DenoiseKind::Oidn, view) == mean); // nothing is new: nothing is done
     CHECK(library.times("execute") == 1);
-    CHECK(screen.frame(RayTraceSettings::OFF, view) == plain);
-    CHECK(screen.frame(RayTraceSettings::FILTER, view) == filtered);
+    CHECK(screen.frame(DenoiseKind::Off, view) == plain);
+    CHECK(screen.frame(DenoiseKind::Filter, view) == filtered);
     CHECK(screen.tracer.progress().rays.camera == uint64_t(kSize * kSize));
 
     // Another view has other surfaces, and the same network.
     const std::vector<float> normals = library.normal;
     const View other =
         perspectiveView({278, 273, -600}, {200, 273, 0}, {0, 1, 0}, 40.0, kSize, kSize);
-    screen.frame(RayTraceSettings::OIDN, other);
+    screen.frame(DenoiseKind::Oidn, other);
     CHECK(library.times("execute") == 2);
     CHECK(library.times("filter 32x32 cleanAux hdr") == 1);
     CHECK(library.normal != normals);
@@ -86,10 +85,10 @@ TEST_CASE("oidn: a view is shown through the filter if the library fails", "[bri
 {
     Screen screen;
     const View view = cornellView(kSize, kSize);
-    const auto filtered = screen.frame(RayTraceSettings::FILTER, view);
+    const auto filtered = screen.frame(DenoiseKind::Filter, view);
     beginStandIn(Fault::Execute);
-    CHECK(screen.frame(RayTraceSettings::OIDN, view) == filtered);
-    CHECK(screen.tracer.progress().denoised.by == DenoiseKind::Filter);
-    CHECK(screen.tracer.progress().denoised.note.find("out of luck") != std::string::npos);
+    CHECK(screen.frame(DenoiseKind::Oidn, view) == filtered);
+    CHECK(screen.tracer.progress().stages.denoised.by == DenoiseKind::Filter);
+    CHECK(screen.tracer.progress().stages.denoised.note.find("out of luck") != std::string::npos);
     CHECK(screen.tracer.progress().status.ok());
 }

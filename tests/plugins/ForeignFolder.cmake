@@ -1,6 +1,7 @@
 # Installs a module below the prefix, deeper below it and outside of it, with a prefix that is given when it is installed; builds
 # and libraries elsewhere are gone then, and a program must load it.
 # Usage: cmake -D SOURCE= -D WORK= -D GENERATOR= -D ROOT= -P ForeignFolder.cmake
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
 function(run)

@@ -1,4 +1,4 @@
-// DenoiseMode.cpp - what the denoiser takes of the error, and of the time. Layer: apps.
+// DenoiseMode.cpp - error and time of denoisers on three boxes. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/modes/DenoiseMode.h"
 
@@ -26,7 +26,7 @@ constexpr int kWidth = 320, kHeight = 180;
 constexpr int kReferencePasses = 384;
 constexpr uint32_t kReferenceSeed = 99;
 
-/// A scene, and pictures of it.
+/// Holds a scene, and renders pictures of it.
 class Box
 {
 public:
@@ -67,7 +67,7 @@ double relMse(const std::vector<float>& image, const std::vector<float>& referen
     return sum.measures().relMse;
 }
 
-/// What a denoiser asks for.
+/// Returns the function through which a denoiser asks for surfaces.
 Denoiser::Surfaces surfacesOf(const RenderSession& session)
 {
     return [&session]() -> const std::vector<SurfaceSample>& { return session.surfaceSamples(); };
@@ -92,7 +92,7 @@ void measureError(Rows& rows, const std::string& name, const BenchScene& scene)
                 ResolvedImage copy = image;
                 Denoiser denoiser;
                 denoiser.denoise(copy, kind, surfacesOf(*session), box.workers());
-                // What takes its place is not it.
+                // A denoiser that took the place of kind does not count.
                 return denoiser.report().by == kind ? relMse(copy.radiance, reference) : NAN;
             };
             after += denoised(DenoiseKind::Filter) / kSeeds;
@@ -109,7 +109,7 @@ void measureError(Rows& rows, const std::string& name, const BenchScene& scene)
     }
 }
 
-/// On the wall: the library has threads of its own.
+/// Measures wall clock time: Open Image Denoise has threads of its own.
 void measureOidnTime(Rows& rows)
 {
     const Box box(cornellBox(1920, 1080));
@@ -123,14 +123,15 @@ void measureOidnTime(Rows& rows)
         const double time = secondsOf(
             [&]
             { denoiser.denoise(copy, DenoiseKind::Oidn, surfacesOf(*session), box.workers()); });
-        if (run > 0) times.push_back(time); // the first makes the network
+        if (run > 0) times.push_back(time); // the first run builds the network
     }
     const bool failed = denoiser.report().by != DenoiseKind::Oidn;
     rows.push_back(
         {"1920 x 1080, all threads: Open Image Denoise", failed ? NAN : 1e3 * median(times), "ms"});
 }
 
-/// By one thread's own time, which others on the machine hardly change; and on the wall with two.
+/// Measures one thread's own time, which other programs on the machine hardly change, and the wall
+/// clock time of two threads.
 void measureTime(Rows& rows)
 {
     constexpr int kRuns = 15;

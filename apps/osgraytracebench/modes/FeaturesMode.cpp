@@ -1,4 +1,4 @@
-// FeaturesMode.cpp - what a feature costs a scene that does not use it. Layer: apps.
+// FeaturesMode.cpp - paired renders of scenes with and without a feature. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/modes/FeaturesMode.h"
 
@@ -25,8 +25,8 @@ namespace
 constexpr int kSize = 128;
 constexpr int kPairs = 61;
 
-/// Of this thread, which renders alone: a busy machine takes its turns out of the wall clock's
-/// time.
+/// Returns the CPU time of this thread, which renders alone: on a busy machine the wall clock also
+/// counts turns of other programs.
 double cpuSeconds()
 {
     timespec time;
@@ -51,7 +51,7 @@ public:
 
     double seconds()
     {
-        // Two seeds in turn, as a new one begins a new image.
+        // Two seeds take turns, because a new seed begins a new image.
         _options.seed ^= 1u;
         _session.setOptions(_options);
         StopRule rule;
@@ -69,7 +69,7 @@ private:
     RenderOptions _options;
 };
 
-/// Of the ratios of pairs: the median, and its standard error by the quartiles.
+/// Holds the median of the ratios of pairs, and its standard error by the quartiles.
 struct Ratio
 {
     double median = 0.0, error = 0.0;
@@ -80,7 +80,7 @@ Ratio ratioOf(OnePass& with, OnePass& without)
     std::vector<double> ratios;
     for (int i = -2; i < kPairs; ++i)
     {
-        // Each is the first one in turn. Both seeds count alike: two passes each.
+        // Each scene is the first one in turn. Both seeds count alike: two passes each.
         double sums[2] = {0.0, 0.0};
         for (const int which : {i & 1, ~i & 1, ~i & 1, i & 1})
             sums[which] += (which ? with : without).seconds();

@@ -1,4 +1,4 @@
-// FeaturesMode.h - what a feature costs a scene that does not use it. Layer: apps.
+// FeaturesMode.h - the cost of a feature for a scene that does not use it. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,11 +7,12 @@
 namespace osgRayTrace::bench
 {
 
-/// For each feature that SceneTraits knows and that rays have to meet: the Cornell box with one
-/// triangle out of sight that has the feature, against the same triangle without. No ray meets it,
-/// so all that may differ is the price of a code path that is allowed. Then what the specialised
-/// paths gain: the same picture taken the general way; here are instances and lights, which take
-/// part in every ray's way wherever they are.
+/// Measures each feature that SceneTraits knows and that rays have to meet: the Cornell box with
+/// one triangle out of sight that has the feature, against the same triangle without. No ray meets
+/// the triangle, so that all that may differ is the price of a code path that is allowed. Further
+/// rows tell the gain of the specialised paths: the same picture is rendered in the general way.
+/// Instances and lights are among these rows, because they take part in every ray's way wherever
+/// they are.
 void measureFeatures(Rows& rows);
 
 } // namespace osgRayTrace::bench

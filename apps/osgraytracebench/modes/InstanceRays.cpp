@@ -1,5 +1,4 @@
-// InstanceRays.cpp - rays through ten thousand instances against Embree's own instances. Layer:
-// apps.
+// InstanceRays.cpp - ten thousand instances in the engine and in bare Embree. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/modes/InstanceRays.h"
 
@@ -25,9 +24,9 @@ namespace
 
 constexpr int kRuns = 15;
 constexpr uint32_t kCount = 10000, kSide = 100;
-constexpr int kPixels = 256; ///< along a side; in squares of 4 x 4
+constexpr int kPixels = 256; ///< pixels along a side; in squares of 4 x 4
 
-/// A ball with waves, of 1,000 triangles.
+/// Returns a ball with waves, of 1,000 triangles.
 std::shared_ptr<const Mesh> wavyBall()
 {
     constexpr uint32_t kColumns = 25, kRows = 20;
@@ -49,7 +48,7 @@ std::shared_ptr<const Mesh> wavyBall()
             triangles.emplace_back(a, c + 1, c);
         }
     auto mesh = std::make_shared<Mesh>();
-    positions.reserve(positions.size() + 1); // Embree reads on
+    positions.reserve(positions.size() + 1); // Embree reads past the last one
     mesh->positions = std::move(positions);
     mesh->triangles = std::move(triangles);
     return mesh;
@@ -80,7 +79,7 @@ std::shared_ptr<const Scene> instances(bool turned, std::mt19937& random)
     return scene;
 }
 
-/// The same in Embree.
+/// Holds the field in Embree's own instances.
 class BareInstances
 {
 public:
@@ -160,7 +159,7 @@ Packets cameraRays(bool turned)
     return packets;
 }
 
-/// From where camera rays end.
+/// Returns rays in random directions from the ends of camera rays.
 Packets scatteredRays(const TracedScene& traced, const Packets& camera, std::mt19937& random)
 {
     Packets packets = camera;

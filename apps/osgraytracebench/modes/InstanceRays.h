@@ -1,4 +1,4 @@
-// InstanceRays.h - rays through ten thousand instances against Embree's own instances. Layer: apps.
+// InstanceRays.h - rays through many instances against Embree's own instances. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,9 +7,9 @@
 namespace osgRayTrace::bench
 {
 
-/// Camera rays, rays in any direction from where these end, and shadow rays, through 10,000
-/// instances of a mesh of 1,000 triangles: apart and upright, and turned in each other's way. On
-/// one thread, by its own time.
+/// Measures camera rays, rays in any direction from the ends of these, and shadow rays, through
+/// 10,000 instances of a mesh of 1,000 triangles: apart and upright, and turned in each other's
+/// way. Times are one thread's own.
 void measureInstanceRays(Rows& rows);
 
 } // namespace osgRayTrace::bench

@@ -1,4 +1,4 @@
-// InteractiveMode.cpp - whether frames keep to their budgets. Layer: apps.
+// InteractiveMode.cpp - moves a camera under frame budgets. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/modes/InteractiveMode.h"
 
@@ -6,8 +6,9 @@
 #include "apps/osgraytracebench/scenes/BenchScenes.h"
 #include "apps/osgraytracebench/scenes/ObjectField.h"
 #include "osgRayTrace/base/LargeArray.h"
+#include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
 #include "osgRayTrace/bridge/update/SceneUpdater.h"
-#include "osgRayTrace/bridge/view/ViewTracer.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -31,7 +32,7 @@ namespace
 
 constexpr double kBudgets[] = {16.0, 33.0, 100.0}; // [ms]
 
-/// A picture, and the copy of it that a driver takes of what has changed.
+/// Holds a picture, and the copy of its changed parts that a driver takes.
 struct Picture
 {
     int width = 0, height = 0;
@@ -50,7 +51,7 @@ struct Picture
         copiedDepth = UnclearedArray<float>(pixels);
     }
 
-    /// As DisplayTexture::reserve() does it; the copies are a driver's.
+    /// Reserves memory as DisplayTexture::reserve() does; the copies stand for a driver's.
     void reserve(int w, int h)
     {
         if (width > 0) return;
@@ -87,20 +88,19 @@ struct Picture
     }
 };
 
-/// What a viewer's frame does with a view, but for OpenGL.
+/// Does all that a viewer's frame does with a view, without OpenGL.
 struct Display
 {
     Picture full, reduced;
     Picture* shown = &full;
 
-    void frame(ViewTracer& tracer, const SceneVersion& version, const View& view,
+    void frame(ViewTracer& tracer, const ViewInputs& inputs, const View& view,
                const FrameBudget& budget)
     {
         const bool fits = shown->width == view.width && shown->height == view.height;
-        const bool written =
-            tracer.trace(version, view, budget, fits ? shown->rgba.data() : nullptr,
-                         fits ? shown->depth.data() : nullptr);
-        if (tracer.needsResolve(version))
+        const bool written = tracer.trace(inputs, view, budget, fits ? shown->rgba.data() : nullptr,
+                                          fits ? shown->depth.data() : nullptr);
+        if (tracer.needsResolve(inputs))
         {
             const int width = tracer.displayWidth(), height = tracer.displayHeight();
             shown = width == view.width && height == view.height ? &full : &reduced;
@@ -119,7 +119,7 @@ struct Display
 
 using Clock = std::function<double()>;
 
-/// [s]
+/// Returns the clock [s] of the options.
 Clock clockOf(const InteractiveOptions& options, int threads)
 {
     if (!options.cpuClock)
@@ -144,7 +144,7 @@ double secondsBy(const Clock& clock, const std::function<void()>& body)
     return clock() - begin;
 }
 
-/// The camera, turned a little.
+/// Returns the view, turned a little.
 View turned(View view, double yaw, double pitch)
 {
     const Mat4d turn =
@@ -162,13 +162,13 @@ struct Frame
 
 struct Trip
 {
-    std::vector<Frame> frames; ///< but for the first image and those after jumps
-    double first = 0.0;        ///< image of all [s]
-    std::vector<double> jumps; ///< the image after each [s]
+    std::vector<Frame> frames; ///< without the first image and those after jumps
+    double first = 0.0;        ///< time of the first image [s]
+    std::vector<double> jumps; ///< time of the image after each jump [s]
 };
 
-/// Moves, stops, jumps, and so on.
-Trip travel(const SceneVersion& version, const View& view, double budgetSeconds, const Clock& clock)
+/// Moves, stops and jumps, several times.
+Trip travel(const ViewInputs& inputs, const View& view, double budgetSeconds, const Clock& clock)
 {
     constexpr int kLegs = 4, kMoving = 25, kStill = 12;
     ViewTracer tracer(clock);
@@ -177,7 +177,7 @@ Trip travel(const SceneVersion& version, const View& view, double budgetSeconds,
     double time = 0.0, jump = 0.0;
     const auto frame = [&](bool moving)
     {
-        display.frame(tracer, version,
+        display.frame(tracer, inputs,
                       turned(view, jump + 0.2 * std::sin(time), 0.08 * std::sin(1.7 * time)),
                       {budgetSeconds, true});
         return Frame{tracer.frame().seconds, tracer.frame().traceSeconds, tracer.frame().divider,
@@ -239,35 +239,33 @@ void addTrip(Rows& rows, const std::string& name, const Trip& trip, double budge
     rows.push_back({name + ": largest divider", double(largest), ""});
 }
 
-/// Of a view that has its passes.
-void addUnchanged(Rows& rows, const std::string& name, SceneVersion version, const View& view,
+/// Adds the cost of a view that has its passes.
+void addUnchanged(Rows& rows, const std::string& name, ViewInputs inputs, const View& view,
                   const Clock& clock)
 {
-    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings(*version.settings);
-    settings->setMaxPasses(2);
-    version.settings = settings;
+    inputs.maxPasses = 2;
     ViewTracer tracer(clock);
     Display display;
     FrameBudget budget;
     budget.seconds = 0.5;
     for (int i = 0;
          i < 100 && (i < 4 || tracer.progress().passes < 2 || tracer.frame().divider > 1); ++i)
-        display.frame(tracer, version, view, budget);
+        display.frame(tracer, inputs, view, budget);
     std::vector<double> seconds;
     for (int i = 0; i < 101; ++i)
     {
-        display.frame(tracer, version, view, budget);
+        display.frame(tracer, inputs, view, budget);
         seconds.push_back(tracer.frame().seconds);
     }
     rows.push_back({name + ": unchanged frame", 1e3 * median(seconds), "ms", Goal::AtMost, 1.0});
 }
 
-/// Resolving all of full resolution and its copy; while passes add up tiles are resolved in the
-/// pass.
-void addPresenting(Rows& rows, const SceneVersion& version, const View& view, const Clock& clock)
+/// Adds the time to resolve all of full resolution and to copy it; while passes add up, tiles are
+/// resolved in the pass.
+void addPresenting(Rows& rows, const ViewInputs& inputs, const View& view, const Clock& clock)
 {
-    RenderSession session(version.workers);
-    session.setScene(version.scene);
+    RenderSession session(inputs.workers);
+    session.setScene(inputs.scene);
     session.setView(view);
     RenderOptions traced;
     traced.integrator = IntegratorKind::Whitted;
@@ -290,28 +288,29 @@ void addPresenting(Rows& rows, const SceneVersion& version, const View& view, co
     rows.push_back({"a copy of it", 1e3 * median(copies), "ms"});
 }
 
-SceneVersion versionOf(const std::shared_ptr<const Scene>& scene,
-                       const std::shared_ptr<Workers>& workers)
+ViewInputs inputsOf(const std::shared_ptr<const Scene>& scene,
+                    const std::shared_ptr<Workers>& workers)
 {
-    SceneVersion version;
-    version.workers = workers;
-    version.scene = TracedScene::build(scene, workers);
-    version.photons = std::make_shared<PhotonPasses>();
-    version.settings = new RayTraceSettings;
-    return version;
+    ViewInputs inputs;
+    const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    setInputs(inputs, *settings);
+    inputs.workers = workers;
+    inputs.scene = TracedScene::build(scene, workers);
+    inputs.photons = std::make_shared<PhotonPasses>();
+    return inputs;
 }
 
-/// Ten thousand transforms that share one geometry, seen from above at a slant.
-SceneVersion fieldVersion(const std::shared_ptr<Workers>& workers)
+/// Returns ten thousand transforms that share one geometry, seen from above at a slant.
+ViewInputs fieldInputs(const std::shared_ptr<Workers>& workers)
 {
     const ObjectField field(true);
     SceneUpdater updater;
     updater.recordView(nullptr, nullptr, ViewingConditions());
     const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
     updater.update(field.root.get(), *settings, nullptr);
-    SceneVersion version = updater.version();
-    version.workers = workers;
-    return version;
+    ViewInputs inputs = updater.version().inputs;
+    inputs.workers = workers;
+    return inputs;
 }
 
 View fieldView(int width, int height)
@@ -330,27 +329,27 @@ void measureInteractive(const InteractiveOptions& options, Rows& rows)
 {
     const auto workers = std::make_shared<Workers>(options.threads);
     const Clock clock = clockOf(options, workers->threads());
-    const auto measure = [&](const std::string& name, const auto& makeVersion, const View& view)
+    const auto measure = [&](const std::string& name, const auto& makeInputs, const View& view)
     {
         if (name.find(options.only) == std::string::npos) return;
-        const SceneVersion version = makeVersion();
+        const ViewInputs inputs = makeInputs();
         for (const double budget : kBudgets)
         {
             char label[64];
             std::snprintf(label, sizeof(label), "%s, %g ms", name.c_str(), budget);
-            addTrip(rows, label, travel(version, view, 1e-3 * budget, clock), 1e-3 * budget);
+            addTrip(rows, label, travel(inputs, view, 1e-3 * budget, clock), 1e-3 * budget);
         }
-        addUnchanged(rows, name, version, view, clock);
-        if (name == "Cornell box") addPresenting(rows, version, view, clock);
+        addUnchanged(rows, name, inputs, view, clock);
+        if (name == "Cornell box") addPresenting(rows, inputs, view, clock);
     };
     const BenchScene box = cornellBox(options.width, options.height);
     measure(
-        "Cornell box", [&] { return versionOf(box.scene, workers); }, box.view);
+        "Cornell box", [&] { return inputsOf(box.scene, workers); }, box.view);
     const BenchScene sphere = displacedSphere(options.width, options.height);
     measure(
-        "a million triangles", [&] { return versionOf(sphere.scene, workers); }, sphere.view);
+        "a million triangles", [&] { return inputsOf(sphere.scene, workers); }, sphere.view);
     measure(
-        "10,000 instances", [&] { return fieldVersion(workers); },
+        "10,000 instances", [&] { return fieldInputs(workers); },
         fieldView(options.width, options.height));
 }
 

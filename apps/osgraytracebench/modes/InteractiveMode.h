@@ -14,14 +14,15 @@ struct InteractiveOptions
     int width = 1920;
     int height = 1080;
     int threads = 0;       ///< 0: all of the machine
-    bool cpuClock = false; ///< time is what the process took of its cores, over its threads
-    std::string only;      ///< scenes whose name holds this
+    bool cpuClock = false; ///< true: time is the process's CPU time over its threads
+    std::string only;      ///< part of the names of scenes that are measured; empty: all
 };
 
-/// A camera that moves, stops and jumps, under budgets of 16, 33 and 100 ms. By the clock on the
-/// wall: what other programs take of the machine is in it; or by cpuClock, as if there were none:
-/// exact for one thread, and as if none of several ever waited for another. Without OpenGL: the
-/// display's buffers are resolved as in a viewer, and a copy of them stands for their upload.
+/// Measures a camera that moves, stops and jumps, under budgets of 16, 33 and 100 ms. The wall
+/// clock counts the time that other programs take of the machine. cpuClock measures as if there
+/// were no others: exactly for one thread, and as if none of several threads ever waited for
+/// another. There is no OpenGL: the display's buffers are resolved as in a viewer, and a copy of
+/// them stands for their upload.
 void measureInteractive(const InteractiveOptions& options, Rows& rows);
 
 } // namespace osgRayTrace::bench

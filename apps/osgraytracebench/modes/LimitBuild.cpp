@@ -24,7 +24,7 @@ namespace
 
 constexpr int kRuns = 9;
 
-/// One copy of the vertices and indices into Embree's buffers, and its build.
+/// Copies the vertices and indices into Embree's buffers once, and builds.
 void buildBare(RTCDevice device, const osg::Vec3Array& vertices,
                const osg::DrawElementsUInt& indices)
 {

@@ -1,4 +1,4 @@
-// LimitMode.cpp - how near a whole frame comes to Embree alone. Layer: apps.
+// LimitMode.cpp - frames against recorded rays through bare Embree. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/modes/LimitMode.h"
 
@@ -18,7 +18,7 @@ namespace
 
 constexpr int kRuns = 15;
 
-/// A session that renders one pass of a new image at each call of frame().
+/// Renders one pass of a new image at each call of frame().
 class FrameSource
 {
 public:
@@ -33,7 +33,7 @@ public:
         _session.setView(bench.view);
     }
 
-    /// The same rays each time: the seed goes back and forth only to restart the image.
+    /// Renders the same rays each time: the seed goes back and forth only to restart the image.
     RenderProgress frame()
     {
         const uint32_t seed = _options.seed;

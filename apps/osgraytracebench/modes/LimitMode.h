@@ -7,13 +7,13 @@
 namespace osgRayTrace::bench
 {
 
-/// Frames at 1920 x 1080 (camera rays, one shadow ray a pixel to an area light, shading, film, tone
-/// mapping) against the same rays through bare Embree; path tracing against the same rays one at a
-/// time; two threads against one; graph to ready BVH against Embree's own build and one copy. Of
-/// these the parts whose name holds `only`.
+/// Measures frames at 1920 x 1080 (camera rays, one shadow ray a pixel to an area light, shading,
+/// film, tone mapping) against the same rays through bare Embree; path tracing against the same
+/// rays one at a time; two threads against one; graph to ready BVH against Embree's own build and
+/// one copy. Only parts whose name holds `only` are measured.
 void measureLimit(const std::string& only, Rows& rows);
 
-/// The rows on building of measureLimit.
+/// Adds the rows of measureLimit that concern building.
 void measureBuild(Rows& rows);
 
 } // namespace osgRayTrace::bench

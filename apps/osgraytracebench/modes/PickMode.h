@@ -1,4 +1,4 @@
-// PickMode.h - what a pick costs. Layer: apps.
+// PickMode.h - the cost of a pick. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,9 +7,9 @@
 namespace osgRayTrace::bench
 {
 
-/// Random segments through a sphere of a million triangles and through a field of 10,000 objects
-/// with transforms: RayIntersector against osgUtil::LineSegmentIntersector with and without
-/// osg::KdTree, and against the ray alone. On one thread, by its own time.
+/// Measures random segments through a sphere of a million triangles and through a field of 10,000
+/// objects with transforms: RayIntersector against osgUtil::LineSegmentIntersector with and without
+/// osg::KdTree, and against the ray alone. Times are one thread's own.
 void measurePicks(Rows& rows);
 
 } // namespace osgRayTrace::bench

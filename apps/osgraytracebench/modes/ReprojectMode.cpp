@@ -7,9 +7,8 @@
 #include "apps/osgraytracebench/Timing.h"
 #include "apps/osgraytracebench/scenes/BenchScenes.h"
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/bridge/view/ViewTracer.h"
-
-#include <osgRayTrace/RayTraceSettings>
+#include "osgRayTrace/photons/PhotonPasses.h"
+#include "osgRayTrace/session/view/ViewTracer.h"
 
 #include <osg/Image>
 
@@ -28,10 +27,10 @@ namespace
 using namespace engine;
 
 constexpr int kWarmUp = 20;  ///< frames before the first that is measured
-constexpr int kMeasured = 2; ///< frames, kStride apart
+constexpr int kMeasured = 2; ///< measured frames, kStride apart
 constexpr int kStride = 7;
 
-/// CPU time of all threads: what other programs take of a busy machine is not in it.
+/// Returns the CPU time of all threads, which holds no time of other programs on a busy machine.
 double processSeconds()
 {
     timespec time;
@@ -39,7 +38,8 @@ double processSeconds()
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// A head that sways and looks around in the box: one to two pixels a frame at a width of 320.
+/// Returns the view of a head that sways and looks around in the box: one to two pixels a frame at
+/// a width of 320.
 View viewAt(int frame, int width)
 {
     const double t = frame;
@@ -55,7 +55,7 @@ View viewAt(int frame, int width)
     return view;
 }
 
-/// Sixteen cells a side, of two grays, with finer ones in them.
+/// Returns a texture of sixteen cells a side, of two grays, with finer cells in them.
 std::shared_ptr<const Texture> cells()
 {
     auto result = std::make_shared<Texture>();
@@ -107,35 +107,33 @@ std::shared_ptr<const TracedScene> sceneOf(Look look, const std::shared_ptr<Work
     return TracedScene::build(scene, workers);
 }
 
-/// A view that is traced frame by frame.
+/// Holds a view that is traced frame by frame.
 struct Walker
 {
     Walker(const std::shared_ptr<const TracedScene>& scene, const std::shared_ptr<Workers>& workers,
            bool reproject)
     {
-        version.scene = scene;
-        version.workers = workers;
-        version.photons = std::make_shared<PhotonPasses>();
-        version.settings = settings;
-        settings->setIntegrator(RayTraceSettings::PATH);
-        settings->setReproject(reproject);
-        settings->setMaxPasses(1 << 20);
+        inputs.scene = scene;
+        inputs.workers = workers;
+        inputs.photons = std::make_shared<PhotonPasses>();
+        inputs.options.integrator = IntegratorKind::Path;
+        inputs.reprojects = reproject;
+        inputs.maxPasses = 1 << 20;
     }
 
-    /// CPU seconds of the frame, shown.
+    /// Traces and shows a frame; returns its CPU seconds.
     double show(const View& view)
     {
         rgba.resize(4 * static_cast<std::size_t>(view.width) *
                     static_cast<std::size_t>(view.height));
         depth.resize(rgba.size() / 4);
         const double begin = processSeconds();
-        tracer.trace(version, view, {}, rgba.data(), depth.data());
-        if (tracer.needsResolve(version)) tracer.resolve(rgba.data(), depth.data());
+        tracer.trace(inputs, view, {}, rgba.data(), depth.data());
+        if (tracer.needsResolve(inputs)) tracer.resolve(rgba.data(), depth.data());
         return processSeconds() - begin;
     }
 
-    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
-    SceneVersion version;
+    ViewInputs inputs;
     ViewTracer tracer;
     std::vector<uint8_t> rgba;
     std::vector<float> depth;
@@ -210,22 +208,23 @@ void measureErrors(Rows& rows, const ReprojectOptions& options, const std::strin
     const double passes = secondsWith / secondsWithout;
     rows.push_back({name + ": relMSE without", errorWithout, ""});
     rows.push_back({name + ": relMSE with reprojection", errorWith, ""});
-    rows.push_back(
-        {name + ": pixels reprojected", 100.0 * with.tracer.progress().reprojectedShare, "%"});
+    rows.push_back({name + ": pixels reprojected",
+                    100.0 * with.tracer.progress().stages.reprojectedShare, "%"});
     rows.push_back({name + ": CPU time with / without", passes, "times"});
     rows.push_back({name + ": relMSE without / with, at equal time",
                     errorWithout / passes / errorWith, "times", goal ? Goal::AtLeast : Goal::None,
                     2.0});
 }
 
-/// Frames of 1920 x 1080 of the cheapest kind: what carrying, and all of the frame, takes.
+/// Measures frames of 1920 x 1080 of the cheapest kind: the time of carrying, and of the whole
+/// frame.
 void measureCosts(Rows& rows, int threads)
 {
     const auto workers = std::make_shared<Workers>(threads);
     const auto scene = sceneOf(Look::Diffuse, workers);
     Walker with(scene, workers, true), without(scene, workers, false);
     for (Walker* walker : {&with, &without})
-        walker->settings->setIntegrator(RayTraceSettings::WHITTED);
+        walker->inputs.options.integrator = IntegratorKind::Whitted;
     std::vector<double> carried, shares, added, plain;
     for (int frame = 0; frame < 8; ++frame)
     {
@@ -233,8 +232,8 @@ void measureCosts(Rows& rows, int threads)
         const double all = with.show(viewAt(frame, 1920));
         if (frame < 2)
             continue; // the first that carries makes the map of the view that it leaves, too
-        carried.push_back(with.tracer.progress().reprojectSeconds);
-        shares.push_back(with.tracer.progress().reprojectedShare);
+        carried.push_back(with.tracer.progress().stages.reprojectSeconds);
+        shares.push_back(with.tracer.progress().stages.reprojectedShare);
         added.push_back(all - alone);
         plain.push_back(alone);
     }

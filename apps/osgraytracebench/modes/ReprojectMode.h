@@ -1,5 +1,4 @@
-// ReprojectMode.h - what a moving view gains from the samples of its earlier frames, and what they
-// cost. Layer: apps.
+// ReprojectMode.h - gain and cost of the samples of earlier frames. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,15 +11,15 @@ namespace osgRayTrace::bench
 
 struct ReprojectOptions
 {
-    int width = 320;      ///< of the pictures whose error is measured [pixels]; 16:9
-    int references = 256; ///< passes of the pictures that they are compared with
+    int width = 320;      ///< width of the pictures whose error is measured [pixels]; 16:9
+    int references = 256; ///< passes of the converged pictures
     std::string pictures; ///< folder for the last frame's pictures; empty: none are written
-    bool costs = true;    ///< measure 1920 x 1080, too
+    bool costs = true;    ///< true: measure 1920 x 1080, too
 };
 
-/// Along a path of a head at one pass a frame, by scene: relMSE with and without reprojection,
-/// against a converged picture at the same frame; the ratio at equal CPU time, as the error of
-/// independent passes falls with their number; and what a frame costs.
+/// Measures along a path of a head at one pass a frame, by scene: relMSE with and without
+/// reprojection, against a converged picture at the same frame; the ratio at equal CPU time, as the
+/// error of independent passes falls with their number; and the cost of a frame.
 void measureReprojection(const ReprojectOptions& options, Rows& rows);
 
 } // namespace osgRayTrace::bench

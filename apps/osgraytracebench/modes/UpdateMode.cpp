@@ -1,4 +1,4 @@
-// UpdateMode.cpp - what an edit of a large live scene costs. Layer: apps.
+// UpdateMode.cpp - edits of a live scene against Embree's own work. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/modes/UpdateMode.h"
 
@@ -19,9 +19,9 @@ namespace
 {
 
 constexpr int kRuns = 21;
-constexpr unsigned int kDeformedStep = 100; // 1 %
+constexpr unsigned int kDeformedStep = 100; // every 100th object: 1 %
 
-/// An updater on one thread; update() is what a frame does.
+/// Holds an updater on one thread; update() does the work of a frame.
 class LiveScene
 {
 public:
@@ -59,8 +59,8 @@ void addPair(Rows& rows, const std::string& what, const std::string& yardstick,
     rows.push_back({what + " / " + yardstick, times.ratio, "times", Goal::AtMost, goal});
 }
 
-/// An edit that is not to be in proportion to the scene. The last row: beyond the walk, which finds
-/// it.
+/// Adds rows of an edit whose cost must not be in proportion to the scene. The last row is the cost
+/// beyond the walk that finds the edit.
 void addEdit(Rows& rows, LiveScene& live, const std::string& what, double walk, double whole,
              const std::function<void()>& edit)
 {
@@ -81,7 +81,8 @@ void addEdit(Rows& rows, LiveScene& live, const std::string& what, double walk, 
                     "", Goal::AtMost, 0.0});
 }
 
-/// An object comes and goes; it is built anew each time. Embree's own: its mesh, and the top level.
+/// Adds rows of an object that comes and goes; it is built anew each time. Embree's own work is the
+/// object's mesh and the top level.
 void addComingAndGoing(Rows& rows, ObjectField& field, LiveScene& live, BareField& bare,
                        const Workers& one)
 {
@@ -158,7 +159,7 @@ void measureEdits(Rows& rows)
     rows.push_back(
         {"unchanged walk", walk * 1e3 * 1e4 / field.nodes(), "ms/10,000 nodes", Goal::AtMost, 1.0});
 
-    // Everything moves once: then all objects are instances, as they are in the yardstick.
+    // Everything moves once, which makes all objects instances, as they are in the yardstick.
     for (unsigned int i = 0; i < field.count(); ++i)
         field.transforms[i]->setMatrix(field.place(i, 0.01));
     rows.push_back(
@@ -194,7 +195,7 @@ void measureEdits(Rows& rows)
     };
     const auto updateField = [&] { live.update(); };
     const auto refitField = [&] { one.run([&] { bare.deform(field, 0, kDeformedStep); }); };
-    for (int i = 0; i < 3; ++i) // the meshes that deform leave the others, and get their copies
+    for (int i = 0; i < 3; ++i) // meshes that deform leave the others, and get their copies
         timeDeformed(updateField);
     std::vector<double> ours, embrees, ratios;
     const uint64_t refitsBefore = live.statistics().refitMeshes;
@@ -223,7 +224,7 @@ double instanceBytes(unsigned int count)
 
 void measureInstances(Rows& rows)
 {
-    instanceBytes(2); // what the process needs once
+    instanceBytes(2); // memory that the process needs once
     const double few = instanceBytes(2), many = instanceBytes(kFieldObjects);
     rows.push_back({"10,000 instances of one mesh: beyond the mesh's own",
                     (many - few) / kFieldObjects, "bytes/instance", Goal::AtMost, 400.0});

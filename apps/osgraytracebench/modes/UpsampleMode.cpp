@@ -1,4 +1,4 @@
-// UpsampleMode.cpp - what images of fewer pixels lose, and what it costs to show them. Layer: apps.
+// UpsampleMode.cpp - renders subjects at reduced sizes and compares them. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/modes/UpsampleMode.h"
 
@@ -30,7 +30,7 @@ namespace
 
 constexpr int kWidth = 1920, kHeight = 1080;
 constexpr int kRuns = 5;
-constexpr double kMostTraced = 0.25; // where it is limited
+constexpr double kMostTraced = 0.25; // limit of the rows that have one
 
 struct Subject
 {
@@ -39,7 +39,8 @@ struct Subject
     View view;
 };
 
-/// From above at a distance in radii of its bound, with osgViewer's light at the eye.
+/// Returns a subject seen from above at a distance in radii of its bound, with osgViewer's light at
+/// the eye.
 Subject subjectOf(const std::string& name, osg::Node* content, double distance)
 {
     osg::ref_ptr<osg::Light> light = new osg::Light;
@@ -58,7 +59,7 @@ Subject subjectOf(const std::string& name, osg::Node* content, double distance)
     osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
     updater.recordView(nullptr, nullptr, conditions);
     updater.update(content, *settings, nullptr);
-    return {name, updater.version().scene, view};
+    return {name, updater.version().inputs.scene, view};
 }
 
 View reducedView(View view, int divider)
@@ -68,7 +69,7 @@ View reducedView(View view, int divider)
     return view;
 }
 
-/// After so many passes, each without noise as far as the options can make it so.
+/// Renders so many passes, each with as little noise as the options allow.
 void renderTo(RenderSession& session, const Subject& subject, int divider, int passes)
 {
     RenderOptions options;
@@ -83,8 +84,8 @@ void renderTo(RenderSession& session, const Subject& subject, int divider, int p
     session.render(rule);
 }
 
-/// One pass to the display of its size: of the full one as it is without all this, else with what
-/// first hits tell.
+/// Renders one pass to the display of its size: a picture of full size as without upsampling, a
+/// smaller one with the surfaces of first hits.
 void renderOnce(const std::shared_ptr<Workers>& workers, const Subject& subject, int divider)
 {
     static std::vector<uint8_t> rgba(4 * std::size_t(kWidth) * kHeight);
@@ -102,7 +103,7 @@ void renderOnce(const std::shared_ptr<Workers>& workers, const Subject& subject,
     session.render(rule, {}, &display);
 }
 
-/// relMSE of linear RGB.
+/// Returns the relMSE of linear RGB.
 double errorOf(const ResolvedImage& image, const ResolvedImage& reference)
 {
     double sum = 0.0;
@@ -115,7 +116,7 @@ double errorOf(const ResolvedImage& image, const ResolvedImage& reference)
     return sum / (0.75 * static_cast<double>(reference.radiance.size()));
 }
 
-/// As blocks, or linear between pixels.
+/// Returns the image enlarged as blocks, or linearly between pixels.
 ResolvedImage enlarged(const ResolvedImage& image, bool linear)
 {
     ResolvedImage result;

@@ -1,4 +1,4 @@
-// PhotonErrors.cpp - error against time of methods with photons, beside path tracing. Layer: apps.
+// PhotonErrors.cpp - renders by photons and paths, and compares. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/common/Failure.h"
 #include "apps/common/PluginPath.h"
@@ -27,7 +27,7 @@ namespace
 {
 
 constexpr int kReferenceSeeds = 8;
-constexpr int kEdges = 100; ///< of a path at most, as other renderers have been measured with
+constexpr int kEdges = 100; ///< most edges of a path, as in measurements of other renderers
 
 std::vector<Method> methods()
 {
@@ -46,7 +46,7 @@ std::vector<Method> methods()
     return list;
 }
 
-/// Of a picture of linear RGB; as if it were exact.
+/// Returns a reference from a picture of linear RGB, which is taken for exact.
 Reference storedReference(const std::string& file, int width, int height)
 {
     app::addPluginPath();
@@ -71,8 +71,8 @@ Reference storedReference(const std::string& file, int width, int height)
     return reference;
 }
 
-/// In a folder of its own that is removed: nothing is taken over from an older version of the
-/// program.
+/// Renders a reference in a folder of its own that is removed: nothing is taken over from an older
+/// version of the program.
 Reference newReference(const ReportScene& scene, const PreparedScene& prepared, double seconds)
 {
     const std::filesystem::path folder =
@@ -86,7 +86,7 @@ Reference newReference(const ReportScene& scene, const PreparedScene& prepared, 
     return reference;
 }
 
-/// What a reference's own noise adds to relMSE.
+/// Returns the part of relMSE that a reference's own noise adds.
 double noiseOf(const Reference& reference)
 {
     double noise = 0.0;

@@ -1,5 +1,4 @@
-// PhotonLookups.cpp - look-ups of photons and the building of maps against a plain grid. Layer:
-// apps.
+// PhotonLookups.cpp - photon look-ups and map building against a plain grid. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/common/Failure.h"
 #include "apps/osgraytracebench/Timing.h"
@@ -26,17 +25,18 @@ using namespace engine;
 namespace
 {
 
-constexpr int kSide = 512; ///< look-ups are at what a picture of this size sees
+constexpr int kSide = 512; ///< side of the picture whose visible points are looked up at [pixels]
 constexpr int kTile = 16;
 
-/// On a lattice of 2^-9, so that distances are exact and no compiler's roundings can change a
-/// count.
+/// Rounds to a lattice of 2^-9, so that distances are exact and no compiler's roundings can change
+/// a count.
 Vec3 onLattice(Vec3 p)
 {
     return glm::floor(p * 512.0f + 0.5f) / 512.0f;
 }
 
-/// Uniform by area on the surfaces of the scene, on both sides; from where a cosine says.
+/// Returns photons that are uniform by area on the surfaces of the scene; their directions are
+/// distributed as the cosine to the surface's normal.
 std::vector<Photon> photonsOn(const Scene& scene, std::size_t count)
 {
     struct Triangle
@@ -82,7 +82,8 @@ std::vector<Photon> photonsOn(const Scene& scene, std::size_t count)
     return photons;
 }
 
-/// Where a picture of the scene sees surfaces, tile by tile; those of a tile in blocks of 4 x 4.
+/// Returns the points of surfaces that a picture of the scene sees, tile by tile; those of a tile
+/// in blocks of 4 x 4.
 std::vector<PhotonQuery> queriesOf(const BenchScene& bench, const TracedScene& traced)
 {
     const glm::dmat4 worldFromClip =
@@ -132,7 +133,7 @@ void gatherAll(const Map& map, const std::vector<PhotonQuery>& queries, const Wo
                     });
 }
 
-/// The blocks of 4 x 4 at once, as integrators do.
+/// Gathers the blocks of 4 x 4 at once, as integrators do.
 void gatherBlocks(const PhotonMap& map, const std::vector<PhotonQuery>& queries,
                   const Workers& workers, std::vector<PhotonSum>& sums)
 {
@@ -158,7 +159,7 @@ void gatherBlocks(const PhotonMap& map, const std::vector<PhotonQuery>& queries,
                     });
 }
 
-/// Photons found in all. Throws if the two do not agree.
+/// Returns the number of photons found in all. Throws if a and b do not agree.
 uint64_t compare(const std::vector<PhotonSum>& a, const std::vector<PhotonSum>& b)
 {
     uint64_t count = 0;
@@ -189,7 +190,7 @@ void measureRadius(const std::vector<Photon>& photons, std::vector<PhotonQuery> 
     const auto all = std::make_shared<Workers>();
     const PhotonMap map(photons, 2.0f * radius, *all);
 
-    // The yardstick has the cells that suit it.
+    // The yardstick has the cell size that suits it.
     const PlainPhotonGrid small(photons, radius), large(photons, 2.0f * radius);
     const PairedTimes cells = timePair(
         runs, [&] { gatherAll(small, queries, *one, plainSums); },

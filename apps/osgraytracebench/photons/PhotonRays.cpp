@@ -17,7 +17,7 @@ namespace
 {
 
 constexpr double kGoal = 0.60;
-constexpr float kGuidedShare = 0.9f; ///< as PhotonPasses has it for caustics
+constexpr float kGuidedShare = 0.9f; ///< share of PhotonPasses for caustics
 
 double millions(std::size_t rays, double seconds)
 {

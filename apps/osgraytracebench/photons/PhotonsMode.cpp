@@ -1,4 +1,4 @@
-// PhotonsMode.cpp - the parts of the mode. Layer: apps.
+// PhotonsMode.cpp - runs the parts of the mode. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/photons/PhotonsMode.h"
 

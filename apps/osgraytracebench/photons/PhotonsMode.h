@@ -11,21 +11,23 @@ namespace osgRayTrace::bench
 
 struct PhotonsOptions
 {
-    int width = 256;                ///< of the pictures, which are square [pixels]; 0: no pictures
-    double longest = 4.0;           ///< longest budget of a picture [s]
-    int seeds = 2;                  ///< pictures of each method
-    double referenceSeconds = 60.0; ///< spent on a reference that is rendered
+    int width = 256;      ///< width of the pictures, which are square [pixels]; 0: no pictures
+    double longest = 4.0; ///< longest budget of a picture [s]
+    int seeds = 2;        ///< pictures of each method
+    double referenceSeconds = 60.0;                 ///< seconds for a reference that is rendered
     std::string referenceA, referenceB, referenceC; ///< files; empty: rendered
-    std::string only;                               ///< rows of parts whose name holds this
-    int runs = 9;          ///< timings of each rate, of which the median counts
-    int photons = 1000000; ///< of look-ups and building; tracing emits about a quarter of it
+    std::string only; ///< part of the names of rows that are measured; empty: all
+    int runs = 9;     ///< timings of each rate; the median counts
+    int photons =
+        1000000; ///< photons for look-ups and building; tracing emits about a quarter of it
 };
 
-/// Look-ups and building against a plain grid, tracing against Embree alone on the same rays, and
-/// error against time of all that use photons, and of path tracing. Throws app::Failure.
+/// Measures look-ups and building against a plain grid, tracing against Embree alone on the same
+/// rays, and error against time of all methods with photons, and of path tracing. Throws
+/// app::Failure.
 void measurePhotons(const PhotonsOptions& options, Rows& rows);
 
-/// Parts of it.
+/// Measures one part of measurePhotons, as the next two functions do.
 void measurePhotonLookups(const PhotonsOptions& options, Rows& rows);
 void measurePhotonRays(const PhotonsOptions& options, Rows& rows);
 void measurePhotonErrors(const PhotonsOptions& options, Rows& rows);

@@ -12,10 +12,10 @@ namespace osgRayTrace::bench
 namespace
 {
 
-constexpr double kFovyDegrees = 29.148431; ///< osgviewer's
+constexpr double kFovyDegrees = 29.148431; ///< osgviewer's default
 constexpr double kAspect = 4.0 / 3.0;
 
-/// Takes the view that the graph stores.
+/// Sets the scene's view to the one that the graph stores.
 void useStoredView(ReportScene& scene)
 {
     const app::Placement place = *app::storedPlacement(*scene.graph);

@@ -10,11 +10,11 @@ namespace osgRayTrace::bench
 enum class CornellKind
 {
     Diffuse,
-    Mirror, ///< the tall block is one
-    Glass,  ///< a sphere of it in place of the blocks
+    Mirror, ///< the tall block is a mirror
+    Glass,  ///< a glass sphere in place of the blocks
 };
 
-/// The published box, by path tracing and photons.
+/// Returns the published box, by path tracing and photons.
 ReportScene cornellScene(CornellKind kind);
 
 enum class CausticKind
@@ -23,18 +23,18 @@ enum class CausticKind
     Rings,   ///< metal rings and their caustics in a looking-glass
 };
 
-/// The scenes of data/ that path tracing alone hardly renders: by path tracing and photons, against
-/// PHOTON_CAUSTICS with four times as many photons. Its bias is of the same kind, only smaller;
-/// PATH, which has none, says by its mean what is left of it. What the rings' rims mirror of the
-/// lamp is smaller than a pixel: it scatters with all methods alike, and may hide what the photons
-/// do.
+/// Returns a scene of data/ that path tracing alone hardly renders: by path tracing and photons,
+/// against PHOTON_CAUSTICS with four times as many photons. The reference's bias is of the same
+/// kind as the methods', only smaller; PATH, which has none, tells by its mean how much of the bias
+/// is left. The mirror images of the lamp in the rings' rims are smaller than a pixel: they scatter
+/// with all methods alike, and may hide the effect of the photons.
 ReportScene causticScene(CausticKind kind);
 
-/// Lattices below an area light: direct light by all strategies.
+/// Returns lattices below an area light: direct light by all strategies.
 ReportScene gridsScene();
 
-/// A scene with the view that it stores, or osgviewer's home view; the integrator that AUTOMATIC
-/// takes, with all strategies if that samples lights by them.
+/// Returns a scene with the view that it stores, or osgviewer's home view. Its method is the
+/// integrator that AUTOMATIC takes, with all strategies if that integrator samples lights by them.
 ReportScene modelScene(const std::string& name, osg::Node& graph, bool physical);
 
 } // namespace osgRayTrace::bench

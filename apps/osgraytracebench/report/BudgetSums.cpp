@@ -1,12 +1,13 @@
 // BudgetSums.cpp - error measures over seeds. Layer: apps.
 // SPDX-License-Identifier: MIT
 //
-// For pictures x_k, k = 1..K, of a reference r whose own variance v is known [Celarek19, sect. 4]:
+// The measures compare pictures x_k, k = 1..K, with a reference r whose own variance v is known
+// [Celarek19, sect. 4]:
 //
 //   MSE      = mean over k and pixels of (x_k - r)^2 - v
 //   V        = mean over pixels of the unbiased variance of x_k over k
-//   bias     = mean over k and pixels of x_k - r, with variance sum over pixels (var_k / K + v) /
-//   pixels^2
+//   bias     = mean over k and pixels of x_k - r,
+//              with variance sum over pixels (var_k / K + v) / pixels^2
 #include "apps/osgraytracebench/report/BudgetSums.h"
 
 #include "apps/common/ErrorMeasures.h"
@@ -22,10 +23,10 @@ namespace osgRayTrace::bench
 namespace
 {
 
-constexpr double kRelativeOffset = 0.01; ///< of the mean luminance
+constexpr double kRelativeOffset = 0.01; ///< share of the mean luminance
 
 /// Rounding of floats on the way from a light sample to a pixel's mean does not average out
-/// altogether.
+/// altogether: this is its relative size.
 constexpr double kRounding = 0x1p-22;
 
 double offsetOf(const Reference& reference)
@@ -110,7 +111,7 @@ ReportRow BudgetSums::row() const
     if (!_flip.empty()) row.flip = meanOf(_flip).value;
     row.nonFinite = _nonFinite;
 
-    double variance = row.mse; // of one picture nothing better is known
+    double variance = row.mse; // nothing better is known from one picture
     if (seeds() > 1)
     {
         variance = 0.0;
@@ -126,8 +127,8 @@ ReportRow BudgetSums::row() const
 
 void BudgetSums::addBias(ReportRow& row) const
 {
-    // The colours of a pixel come from the same samples: a pixel is one value, the sum of its
-    // colours.
+    // The colours of a pixel come from the same samples, so that a pixel counts as one value, the
+    // sum of its colours.
     const double count = static_cast<double>(seeds());
     double bias = 0.0, variance = 0.0;
     for (std::size_t p = 0; p < _pixelSquares.size(); ++p)

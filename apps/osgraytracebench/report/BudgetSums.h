@@ -9,14 +9,14 @@
 namespace osgRayTrace::bench
 {
 
-/// What is known of one picture beside its pixels.
+/// Holds the figures of one picture beside its pixels.
 struct PictureCost
 {
     double seconds = 0.0;
     double passes = 0.0;
     double rays = 0.0;
     int64_t dropped = 0;
-    bool wantsFlip = false; ///< costs time: the first seeds are enough
+    bool wantsFlip = false; ///< FLIP costs time: the first seeds are enough
 };
 
 class BudgetSums
@@ -26,13 +26,14 @@ public:
 
     void add(const Pixels& pixels, const PictureCost& cost);
 
-    /// relMSE of picture number seed, the reference's own variance taken off.
+    /// Returns the relMSE of picture number seed, less the reference's own variance.
     double relMse(std::size_t seed) const { return _relMse[seed]; }
     double seconds(std::size_t seed) const { return _seconds[seed]; }
     double passes(std::size_t seed) const { return _passes[seed]; }
     std::size_t seeds() const { return _relMse.size(); }
 
-    /// Without budget and samples. The pixels of a picture are taken as independent of each other.
+    /// Returns a row without budget and samples. The pixels of a picture count as independent of
+    /// each other.
     ReportRow row() const;
 
 private:
@@ -40,12 +41,12 @@ private:
 
     const Reference& _reference;
     std::vector<double> _difference, _squares; ///< sums over pictures, by pixel and colour
-    std::vector<double> _pixelSquares;         ///< of the sum over the colours, by pixel
+    std::vector<double> _pixelSquares; ///< sums of the squared sum over the colours, by pixel
     std::vector<double> _seconds, _passes, _rays, _relMse, _relMseFixed, _mse, _percentile, _flip;
     int64_t _nonFinite = 0;
-    double _relativeNoise = 0.0; ///< what the reference's variance adds to relMse
+    double _relativeNoise = 0.0; ///< part of relMse that the reference's variance adds
     double _relativeNoiseFixed = 0.0;
-    double _noise = 0.0; ///< to mse
+    double _noise = 0.0; ///< part of mse that the reference's variance adds
 };
 
 } // namespace osgRayTrace::bench

@@ -1,4 +1,4 @@
-// CausticScenes.cpp - builds the mirrors and what they throw on floors. Layer: apps.
+// CausticScenes.cpp - builds the mirrors, and computes their caustics. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/report/CausticScenes.h"
 
@@ -23,7 +23,8 @@ constexpr int kBounces = 8;
 constexpr float kAlbedo = 0.5f;
 const Vec3d kLamp(1.0, 0.3, 1.2); ///< over the floor z = 0, before the mirror x = 0
 
-/// Diffuse 1: an irradiance of pi at distance 1, or across the light if position is a direction.
+/// Returns a lamp of diffuse 1: an irradiance of pi at distance 1, or across the light if position
+/// is a direction.
 osg::ref_ptr<osg::LightSource> lamp(const osg::Vec4& position)
 {
     osg::ref_ptr<osg::Light> light = new osg::Light(1);
@@ -52,26 +53,27 @@ osg::ref_ptr<osg::Group> litFloor(const std::string& name, const data::Quad& flo
     return graph;
 }
 
-/// Irradiance / pi on the floor of a lamp of intensity pi.
+/// Returns irradiance / pi on the floor from a lamp of intensity pi.
 double pointIrradiance(const Vec3d& light, const Vec3d& point)
 {
     const Vec3d towards = light - point;
     return towards.z() / (towards.length2() * towards.length());
 }
 
-// The nephroid: an arc of radius 1 around the origin, |phi| at most kArc, as high as light falls
-// while it crosses the radius. A floor point reached from the wall's azimuth phi after a run of s
-// is (cos phi, sin phi) - s (cos 2 phi, sin 2 phi), 0 <= s <= 1; the light that falls on dphi ds is
-// cos phi times the floor's direct irradiance. No chord of the arc is shorter than 1: nothing meets
-// the wall twice.
+// The nephroid is made by an arc of radius 1 around the origin, |phi| at most kArc, as high as
+// light falls while it crosses the radius. A floor point reached from the wall's azimuth phi after
+// a run of s is (cos phi, sin phi) - s (cos 2 phi, sin 2 phi), 0 <= s <= 1; the light that falls on
+// dphi ds is cos phi times the floor's direct irradiance. No chord of the arc is shorter than 1: no
+// light meets the wall twice.
 constexpr double kArc = M_PI / 3.0;
 constexpr double kHeight = 0.5;
-const double kFall = std::atan(kHeight);       ///< of the light, below the horizon
-constexpr double kCentre = 0.48, kHalf = 0.38; ///< of the square that is seen, along x; along y: 0
+const double kFall = std::atan(kHeight); ///< angle of the light below the horizon
+constexpr double kCentre = 0.48,
+                 kHalf = 0.38; ///< the square that is seen, along x; its centre along y is 0
 
 osg::ref_ptr<osg::Geode> arcMirror()
 {
-    constexpr int kColumns = 2048; // its facets leave the arc by 1.3e-7
+    constexpr int kColumns = 2048; // facets leave the arc by 1.3e-7
     osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array, normals = new osg::Vec3Array;
     for (int c = 0; c <= kColumns; ++c)
     {
@@ -94,12 +96,14 @@ osg::ref_ptr<osg::Geode> arcMirror()
     return node;
 }
 
-/// The light of a lattice of (phi, s) counted where it lands: the mean over each pixel, also of
-/// those with the caustic in them, where the irradiance itself is infinite.
+/// Returns the light of a lattice of (phi, s) counted in the pixels where it lands: the mean over
+/// each pixel, also over those with the caustic in them, in which the irradiance itself is
+/// infinite.
 std::vector<double> nephroidPicture(int width, int height, const engine::Workers& workers)
 {
     constexpr std::size_t kRows = 512, kPointsARow = 1 << 16;
-    constexpr double kGolden[2] = {0.7548776662466927, 0.5698402909980532}; // an even lattice
+    constexpr double kGolden[2] = {0.7548776662466927,
+                                   0.5698402909980532}; // steps of an even lattice
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     std::vector<std::vector<double>> parts(16, std::vector<double>(pixels, 0.0));
     const auto part = [&](std::size_t p)

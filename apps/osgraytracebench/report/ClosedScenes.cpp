@@ -19,12 +19,12 @@ using osg::Vec3;
 using osg::Vec3d;
 
 constexpr int kBounces =
-    256; ///< what lies beyond is below 1e-11 of the whole for albedos up to 0.9
+    256; ///< longer paths carry less than 1e-11 of the light for albedos up to 0.9
 
 constexpr double kSphereAlbedo = 0.5;
-const Vec3d kSpot(0.35, 0.2, 0.15); ///< the point light in the unit sphere
+const Vec3d kSpot(0.35, 0.2, 0.15); ///< point light in the unit sphere
 
-/// The unit sphere with its normals, so fine that its facets leave the ideal one by 2e-5.
+/// Returns the unit sphere with its normals, so fine that its facets leave the ideal one by 2e-5.
 osg::ref_ptr<osg::Geometry> fineSphere()
 {
     constexpr unsigned kRows = 250, kColumns = 500;
@@ -46,7 +46,7 @@ osg::ref_ptr<osg::Geometry> fineSphere()
             normals->push_back(-outwards);
             if (row == kRows || column == kColumns) continue;
             const unsigned a = row * (kColumns + 1) + column, b = a + kColumns + 1;
-            if (row > 0) add(a, a + 1, b); // at the poles one of the two is a line
+            if (row > 0) add(a, a + 1, b); // at the poles one triangle of the two is a line
             if (row + 1 < kRows) add(a + 1, b + 1, b);
         }
     }
@@ -57,7 +57,8 @@ osg::ref_ptr<osg::Geometry> fineSphere()
     return geometry;
 }
 
-/// Intensity pi in all directions: diffuse 1 means an irradiance of pi at distance 1.
+/// Returns a light of intensity pi in all directions: diffuse 1 means an irradiance of pi at
+/// distance 1.
 osg::ref_ptr<osg::LightSource> pointLight()
 {
     osg::ref_ptr<osg::Light> light = new osg::Light(1);
@@ -72,8 +73,9 @@ osg::ref_ptr<osg::LightSource> pointLight()
     return source;
 }
 
-/// Direct light, and indirect light that is the same everywhere: for a flux F that lands on the
-/// wall of radius 1 the irradiance albedo F / (4 pi (1 - albedo)), however it is spread.
+/// Returns direct light, and indirect light that is equal everywhere: for a flux F that lands on
+/// the wall of radius 1 the irradiance is albedo F / (4 pi (1 - albedo)), however the flux is
+/// spread.
 Vec3d sphereRadiance(const Vec3d& origin, const Vec3d& direction)
 {
     const Vec3d ray = direction / direction.length();

@@ -7,10 +7,10 @@
 namespace osgRayTrace::bench
 {
 
-/// A room whose walls emit 1 and reflect the albedo: radiance 1 / (1 - albedo) everywhere.
+/// Returns a room whose walls emit 1 and reflect the albedo: radiance 1 / (1 - albedo) everywhere.
 ReportScene furnaceScene(double albedo);
 
-/// A white sphere with a point light away from its centre, seen from within.
+/// Returns a white sphere with a point light away from its centre, seen from within.
 ReportScene integratingSphereScene();
 
 } // namespace osgRayTrace::bench

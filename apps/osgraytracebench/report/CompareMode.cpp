@@ -17,15 +17,15 @@ namespace osgRayTrace::bench
 namespace
 {
 
-constexpr int kSamplerGroups = 16; ///< that the samplers' standard errors come from
+constexpr int kSamplerGroups = 16; ///< groups that give the samplers' standard errors
 constexpr int kCannotCompare = 2;
 
-/// A measured value that rows are compared by.
+/// Holds a measured value by which rows are compared.
 struct Quantity
 {
     std::string name;
     double value = 0.0, error = 0.0;
-    double degrees = 0.0; ///< of freedom of the error; 0: many
+    double degrees = 0.0; ///< degrees of freedom of the error; 0: many
     bool logarithmic = false;
 };
 
@@ -64,7 +64,8 @@ std::map<std::string, Measured> measuredRows(const Report& report)
     return rows;
 }
 
-/// Probability of a difference like that of a and b if they were the same; 2 if it cannot be said.
+/// Returns the probability of a difference like that of a and b if they were equal; 2 if the
+/// probability is unknown.
 double probabilityOf(const Quantity& a, const Quantity& b)
 {
     if (a.value == b.value) return 1.0;
@@ -80,7 +81,7 @@ double probabilityOf(const Quantity& a, const Quantity& b)
     if (variance == 0.0) return 0.0;
     const double t = std::abs(difference) / std::sqrt(variance);
     if (a.degrees <= 0.0 || b.degrees <= 0.0) return std::erfc(t / std::sqrt(2.0));
-    // Welch and Satterthwaite's degrees of freedom [Welch47].
+    // The degrees of freedom are those of Welch and Satterthwaite [Welch47].
     const double degrees =
         variance * variance / (squareA * squareA / a.degrees + squareB * squareB / b.degrees);
     return studentTail(t, degrees);

@@ -1,4 +1,4 @@
-// DisplayValues.cpp - pictures at the exposure of their reference. Layer: apps.
+// DisplayValues.cpp - the exposure of a reference, and tone mapping. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/report/DisplayValues.h"
 

@@ -9,7 +9,8 @@
 namespace osgRayTrace::bench
 {
 
-/// Display values of a picture at the exposure that brings the reference's mean luminance to 0.4.
+/// Returns display values of a picture at the exposure that brings the reference's mean luminance
+/// to 0.4.
 std::vector<float> displayValues(const Pixels& pixels, const Reference& reference);
 std::vector<float> displayValues(const Reference& reference);
 

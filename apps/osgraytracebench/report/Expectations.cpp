@@ -60,7 +60,7 @@ Verdict notMeasured(const std::string& what)
     return {what + ": not measured", false};
 }
 
-/// Formula scenes, at their largest budget.
+/// Checks scenes with a formula, at their largest budget.
 void checkBias(const Report& report, const json& wanted, std::vector<Verdict>& verdicts)
 {
     const double mostPercent = wanted.at("largest_percent"),
@@ -80,15 +80,15 @@ void checkBias(const Report& report, const json& wanted, std::vector<Verdict>& v
     if (!any) verdicts.push_back(notMeasured("bias of any scene with a formula"));
 }
 
-/// Square of the bias of the pixels: what scatters is taken off.
+/// Returns the square of the bias of the pixels: the variance is taken off.
 double biasSquare(const ReportRow& row)
 {
     return row.mse - row.variance;
 }
 
-/// Methods with a kernel are biased, less from pass to pass: the mean by no more than so much, the
-/// square of the pixels' bias by so much or to a share of that of the first row, the error along a
-/// slope.
+/// Checks methods with a kernel, which are biased, less from pass to pass. Their mean may be off by
+/// so much and no more; the square of the pixels' bias by so much or by a share of that of the
+/// first row; and the error must fall along a slope.
 void checkKernels(const Report& report, const json& wanted, std::vector<Verdict>& verdicts)
 {
     std::vector<const ReportLine*> checked;
@@ -152,7 +152,7 @@ void checkNonFinite(const Report& report, const json& wanted, std::vector<Verdic
                         sum <= wanted.get<int64_t>()});
 }
 
-/// Elsewhere in the world a scene has the same mean and the same error.
+/// Checks that a scene elsewhere in the world has the mean and the error of the origin.
 void checkPlacements(const Report& report, const json& wanted, std::vector<Verdict>& verdicts)
 {
     const double mostErrors = wanted.at("largest_errors");
@@ -196,8 +196,8 @@ void checkSlopes(const Report& report, const json& wanted, std::vector<Verdict>&
     }
 }
 
-/// The squared bias is what the formula says, the variance no more than that of independent
-/// photons.
+/// Checks that the squared bias is that of the formula, and that the variance is no more than that
+/// of independent photons.
 void checkSchedules(const Report& report, const json& wanted, std::vector<Verdict>& verdicts)
 {
     for (const json& entry : wanted)
@@ -237,7 +237,7 @@ double mseAt(const SamplerLine* line, int samples)
     return std::nan("");
 }
 
-/// Errors at the same number of samples; comparisons with what was not measured fail.
+/// Checks errors at one number of samples; comparisons with something that was not measured fail.
 void checkOrders(const Report& report, const json& wanted, std::vector<Verdict>& verdicts)
 {
     for (const json& entry : wanted)
@@ -256,7 +256,7 @@ void checkOrders(const Report& report, const json& wanted, std::vector<Verdict>&
     }
 }
 
-/// relMSE of one method over another's on the same scene at the largest budget.
+/// Checks relMSE of one method over another's on one scene at the largest budget.
 void checkRatios(const Report& report, const json& wanted, std::vector<Verdict>& verdicts)
 {
     for (const json& entry : wanted)

@@ -1,4 +1,4 @@
-// Expectations.h - what a quick report must show: ratios and slopes, never seconds. Layer: apps.
+// Expectations.h - ratios and slopes, never seconds, that a quick report must show. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,18 +10,18 @@
 namespace osgRayTrace::bench
 {
 
-/// One line for each check, those that failed marked.
+/// Holds one line for each check; failed checks are marked.
 struct Verdict
 {
     std::string text;
     bool met = true;
 };
 
-/// Checks against the text of data/report_expectations.json, which documents itself. Throws
+/// Returns checks against the text of data/report_expectations.json, which documents itself. Throws
 /// app::Failure(kCannotLoad) if it is not such a text.
 std::vector<Verdict> checkExpectations(const Report& report, const std::string& expectations);
 
-/// The file as it was when this program was built.
+/// Returns the file as it was when this program was built.
 std::string builtInExpectations();
 
 } // namespace osgRayTrace::bench

@@ -1,8 +1,9 @@
 // Flip.cpp - LDR-FLIP from its publication. Layer: apps.
 // SPDX-License-Identifier: MIT
 //
-// Two pipelines of [Andersson20, sect. 4]: colours, blurred as the eye blurs them, compared in a
-// space of equal differences; edges and points, which count for more than their colours do.
+// FLIP consists of two pipelines [Andersson20, sect. 4]. One compares colours, blurred as the eye
+// blurs them, in a space of equal differences. The other compares edges and points, which count for
+// more than their colours do.
 //
 //   FLIP = colourDifference^(1 - featureDifference)
 #include "apps/osgraytracebench/report/Flip.h"
@@ -29,7 +30,7 @@ struct Size
     std::size_t pixels() const { return static_cast<std::size_t>(width) * height; }
 };
 
-// sRGB's primaries with white point D65 [IEC61966].
+// The matrix has sRGB's primaries with white point D65 [IEC61966].
 constexpr double kXyzFromRgb[3][3] = {
     {10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
     {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
@@ -52,9 +53,9 @@ const Color& white()
 
 Color rgbFromXyz(const Color& xyz)
 {
-    // Inverse of the matrix above by cofactors.
+    // The inverse of kXyzFromRgb is computed by cofactors.
     const auto& m = kXyzFromRgb;
-    const auto cofactor = [&m](int r, int c)
+    const auto cofactor = [&](int r, int c)
     {
         const int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
         return m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1];
@@ -69,7 +70,7 @@ Color rgbFromXyz(const Color& xyz)
     return rgb;
 }
 
-/// YCxCz, linear and opponent [Andersson20, sect. 4.1.1].
+/// Returns YCxCz, linear and opponent [Andersson20, sect. 4.1.1].
 Color opponentFromXyz(const Color& xyz)
 {
     const double x = xyz[0] / white()[0], y = xyz[1] / white()[1], z = xyz[2] / white()[2];
@@ -82,7 +83,8 @@ Color xyzFromOpponent(const Color& c)
     return {(y + c[1] / 500.0) * white()[0], y * white()[1], (y - c[2] / 200.0) * white()[2]};
 }
 
-/// CIE L*a*b* with the chroma of dark colours reduced (Hunt's effect) [Andersson20, sect. 4.1.2].
+/// Returns CIE L*a*b* with the chroma of dark colours reduced (Hunt's effect) [Andersson20, sect.
+/// 4.1.2].
 Color perceived(const Color& rgb)
 {
     const Color xyz = xyzFromRgb(rgb);
@@ -98,13 +100,14 @@ Color perceived(const Color& rgb)
     return {lightness, 0.01 * lightness * 500.0 * (x - y), 0.01 * lightness * 200.0 * (y - z)};
 }
 
-/// City block in lightness, Euclidean in chroma [Andersson20, sect. 4.1.3].
+/// Returns the HyAB distance: city block in lightness, Euclidean in chroma [Andersson20, sect.
+/// 4.1.3].
 double hyab(const Color& a, const Color& b)
 {
     return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
 }
 
-/// Differences compressed to [0,1]: almost all of the range for small ones [Andersson20,
+/// Returns differences compressed to [0,1]: almost all of the range is for small ones [Andersson20,
 /// sect. 4.1.4].
 double colourDifference(double distance)
 {
@@ -116,7 +119,7 @@ double colourDifference(double distance)
     return kKneeValue + (value - knee) / (largest - knee) * (1.0 - kKneeValue);
 }
 
-/// Rows, then columns, with the kernel of 2*radius+1 values each; the border is continued.
+/// Filters rows, then columns, with the kernel of 2*radius+1 values each; the border is continued.
 Plane filtered(const Plane& in, Size size, const std::vector<double>& alongX,
                const std::vector<double>& alongY)
 {
@@ -154,7 +157,7 @@ double sumOf(const std::vector<double>& values)
     return sum;
 }
 
-/// a sqrt(pi / b) exp(-pi^2 r^2 / b), r in degrees: the eye's contrast sensitivity
+/// Describes the eye's contrast sensitivity, a sqrt(pi / b) exp(-pi^2 r^2 / b), r in degrees
 /// [Andersson20, eq. 4 and table 1].
 struct Gaussian
 {
@@ -194,7 +197,7 @@ Plane seen(const Plane& channel, Size size, const std::array<Gaussian, 2>& gauss
     return sum;
 }
 
-/// Positive weights sum to 1, negative ones to -1.
+/// Returns the kernel scaled so that positive weights sum to 1, and negative ones to -1.
 std::vector<double> balanced(std::vector<double> kernel)
 {
     double positive = 0.0, negative = 0.0;
@@ -205,7 +208,7 @@ std::vector<double> balanced(std::vector<double> kernel)
     return kernel;
 }
 
-/// Strength of edges and of points at each pixel [Andersson20, sect. 4.2].
+/// Holds the strength of edges and of points at each pixel [Andersson20, sect. 4.2].
 struct Features
 {
     Plane edges, points;

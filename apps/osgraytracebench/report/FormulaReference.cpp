@@ -17,7 +17,8 @@ struct Node
     double at, weight;
 };
 
-/// Gauss-Legendre on [0,1]: Newton's method on the Legendre polynomial.
+/// Returns the nodes of Gauss-Legendre quadrature on [0,1], by Newton's method on the Legendre
+/// polynomial.
 std::vector<Node> gaussNodes(int count)
 {
     std::vector<Node> nodes;

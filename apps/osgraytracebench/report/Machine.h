@@ -1,4 +1,4 @@
-// Machine.h - what a report was made on and with. Layer: apps.
+// Machine.h - the machine and the software of a report. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,8 +8,8 @@
 namespace osgRayTrace::bench
 {
 
-/// Processor, threads, instruction set, versions of this project, Embree, OpenSceneGraph and the
-/// compiler.
+/// Returns processor, threads, instruction set, and versions of this project, Embree,
+/// OpenSceneGraph and the compiler.
 std::map<std::string, std::string> describeMachine(int threads);
 
 } // namespace osgRayTrace::bench

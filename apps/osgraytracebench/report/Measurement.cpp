@@ -27,7 +27,7 @@ engine::StopRule ruleFor(const BudgetPlan& plan, double budget, double secondsSo
     return rule;
 }
 
-/// Takes one picture through all the budgets that this seed is to reach.
+/// Takes one picture through all the budgets that this seed has to reach.
 void renderSeed(const PreparedScene& prepared, const Method& method, int seed,
                 const BudgetPlan& plan, std::vector<BudgetSums>& sums, MeasuredLine& measured)
 {

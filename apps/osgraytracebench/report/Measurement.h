@@ -8,21 +8,22 @@
 namespace osgRayTrace::bench
 {
 
-/// Budgets, each the double of the one before, and how many seeds get that far.
+/// Holds budgets, each the double of the one before, and the number of seeds that get that far.
 struct BudgetPlan
 {
-    bool timed = true; ///< seconds, else passes
+    bool timed = true; ///< true: budgets are seconds; false: passes
     std::vector<double> budgets;
-    std::vector<int> seeds; ///< of each budget, falling
+    std::vector<int> seeds; ///< seeds of each budget, falling
 };
 
-/// 1/8 s to the longest, 8 s if not told otherwise: 8 seeds up to 1 s, 4 up to 4 s, 2 beyond.
+/// Returns budgets from 1/8 s to the longest, 8 s if not told otherwise: 8 seeds up to 1 s, 4 up to
+/// 4 s, 2 beyond.
 BudgetPlan timedPlan(double longest);
 
-/// 2 to 64 passes, 16 seeds; 8 of methods that look up photons.
+/// Returns budgets of 2 to 64 passes with 16 seeds, or 8 seeds for methods that look up photons.
 BudgetPlan quickPlan(const Method& method);
 
-/// One picture of each line for people, by the first seed, at a budget in the middle.
+/// Holds a line, with one picture for people: that of the first seed, at a budget in the middle.
 struct MeasuredLine
 {
     ReportLine line;
@@ -30,7 +31,7 @@ struct MeasuredLine
     double pictureBudget = 0.0;
 };
 
-/// Each seed's picture is made once and looked at when it reaches a budget.
+/// Measures a line: each seed's picture is made once and looked at when it reaches a budget.
 MeasuredLine measure(const ReportScene& scene, const Placement& placement, const Method& method,
                      const PreparedScene& prepared, const Reference& reference,
                      const BudgetPlan& plan);

@@ -35,7 +35,7 @@ Polygon regularPolygon(int sides, double radius, const Vec3d& centre)
     return polygon;
 }
 
-/// A large quad whose side through (x, 0) hides what lies beyond it along (cos angle, sin angle).
+/// Returns a large quad whose side through (x, 0) hides all beyond it along (cos angle, sin angle).
 Polygon edgeOccluder(double x, double angle)
 {
     const Vec3d across(std::cos(angle), std::sin(angle), 0.0), along(-across.y(), across.x(), 0.0);
@@ -45,7 +45,7 @@ Polygon edgeOccluder(double x, double angle)
             start + across * size + along * size, start + along * size};
 }
 
-/// A fan of triangles.
+/// Returns the polygon as a fan of triangles.
 osg::ref_ptr<osg::Geode> polygonNode(const std::string& name, const Polygon& polygon,
                                      PhysicalMaterial* material)
 {
@@ -67,7 +67,7 @@ osg::ref_ptr<osg::Node> lightNode(const Polygon& light)
 {
     if (light.size() == 4)
     {
-        // cross(edgeU, edgeV) looks down.
+        // The light's front, which faces cross(edgeU, edgeV), looks down.
         osg::ref_ptr<AreaLight> node = new AreaLight(Vec3(light[0]), Vec3(light[3] - light[0]),
                                                      Vec3(light[1] - light[0]), Vec3(kRadiance));
         node->setName("light");
@@ -94,7 +94,7 @@ ReportScene planeScene(const std::string& name, const std::string& title,
     scene.name = name;
     scene.title = title;
     scene.graph = planeGraph(lighting);
-    // From below the occluder: the plane fills the picture.
+    // The view is from below the occluder: the plane fills the picture.
     scene.view =
         osg::Matrixd::lookAt(Vec3d(-0.2, -0.5, 0.45), Vec3d(0.1, 0.15, 0.0), Vec3d(0, 0, 1));
     scene.projection = osg::Matrixd::perspective(55.0, 1.0, 0.01, 100.0);
@@ -151,7 +151,7 @@ osg::ref_ptr<osg::Group> planeGraph(const PlaneLighting& lighting)
 ReportScene squareLightScene()
 {
     ReportScene scene = planeScene("s1-square", "S1: square light over a plane", squareLighting());
-    // A tile of the earth: its plane is the ground's tangent at 48.1 N, 11.6 E.
+    // The tile of the earth has its plane on the ground's tangent at 48.1 N, 11.6 E.
     osg::Matrixd worldFromTile;
     osg::EllipsoidModel().computeLocalToWorldTransformFromLatLongHeight(
         osg::DegreesToRadians(48.1), osg::DegreesToRadians(11.6), 519.0, worldFromTile);

@@ -1,4 +1,4 @@
-// Plots.cpp - scripts for gnuplot, and what it answers. Layer: apps.
+// Plots.cpp - scripts for gnuplot, and their output. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/report/Plots.h"
 
@@ -19,7 +19,7 @@ namespace osgRayTrace::bench
 namespace
 {
 
-/// Distinct for most kinds of colour blindness (Okabe and Ito's).
+/// These colours are distinct for most kinds of colour blindness (Okabe and Ito's).
 constexpr const char* kColours[] = {"#999999", "#E69F00", "#56B4E9", "#D55E00",
                                     "#009E73", "#CC79A7", "#0072B2", "#000000"};
 
@@ -32,7 +32,7 @@ struct Curve
 {
     std::string name;
     std::vector<Point> points;
-    bool exact = false; ///< a formula: a thin line of the next curve's colour
+    bool exact = false; ///< true: a formula, as a thin line of the next curve's colour
 };
 
 struct Guide
@@ -41,7 +41,7 @@ struct Guide
     const char* name;
 };
 
-/// What gnuplot prints for the script; empty if it fails.
+/// Returns the output of gnuplot for the script; empty if it fails.
 std::string gnuplot(const std::string& script)
 {
     std::string pattern =
@@ -68,7 +68,7 @@ std::string svgPart(const std::string& document)
     return begin == std::string::npos ? std::string() : document.substr(begin);
 }
 
-/// Powers of ten that hold all values.
+/// Holds powers of ten that enclose all values.
 struct Range
 {
     double low = 1e300, high = 0.0;

@@ -10,19 +10,19 @@
 namespace osgRayTrace::bench
 {
 
-/// Whether the program can be run. Plots are empty without it.
+/// Returns whether gnuplot can be run. Plots are empty without it.
 bool haveGnuplot();
 
-/// relMSE against seconds of lines of one scene, log-log, one standard error up and down, with
-/// guides of slope -2/3, -1, -3/2 and -2: an <svg> element.
+/// Returns relMSE against seconds of lines of one scene, log-log, one standard error up and down,
+/// with guides of slope -2/3, -1, -3/2 and -2: an <svg> element.
 std::string errorPlot(const std::vector<const ReportLine*>& lines);
 
-/// Mean squared error against the number of samples of the strategies of one case, with guides of
-/// slope -1, -3/2, -2 and -3: an <svg> element.
+/// Returns the mean squared error against the number of samples of the strategies of one case, with
+/// guides of slope -1, -3/2, -2 and -3: an <svg> element.
 std::string samplerPlot(const std::vector<const SamplerLine*>& lines);
 
-/// Squared bias and variance against the number of passes, points over the lines of the formulas:
-/// an <svg> element.
+/// Returns squared bias and variance against the number of passes, points over the lines of the
+/// formulas: an <svg> element.
 std::string schedulePlot(const std::vector<ScheduleLine>& lines);
 
 } // namespace osgRayTrace::bench

@@ -21,7 +21,7 @@ using namespace engine;
 namespace
 {
 
-/// FNV-1a over the bytes of plain values.
+/// Computes FNV-1a over the bytes of plain values.
 class Hasher
 {
 public:
@@ -69,7 +69,7 @@ void hashMapping(Hasher& hasher, const TextureMapping& mapping)
     hasher.add(mapping.ownMatrix);
 }
 
-/// Of fixed-function materials, and what lets rays pass.
+/// Adds the state of fixed-function materials, and the members that let rays pass.
 void hashState(Hasher& hasher, const Material& material)
 {
     hasher.add(material.lit);

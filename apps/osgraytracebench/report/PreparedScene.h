@@ -11,7 +11,7 @@
 namespace osgRayTrace::bench
 {
 
-/// Linear RGB, row 0 at the bottom, width * height * 3 values.
+/// Holds linear RGB, row 0 at the bottom, width * height * 3 values.
 struct Pixels
 {
     int width = 0, height = 0;
@@ -23,20 +23,21 @@ struct PreparedScene
     std::shared_ptr<engine::Workers> workers;
     std::shared_ptr<const engine::TracedScene> traced;
     engine::View view;
-    double buildSeconds = 0.0; ///< conversion and BVH
+    double buildSeconds = 0.0; ///< time of conversion and BVH [s]
 };
 
-/// The way of every user: the graph below a transform, the converter, the BVHs, with the eye as the
-/// origin.
+/// Prepares a scene in the way of every user: the graph below a transform, the converter, the BVHs,
+/// with the eye as the origin.
 PreparedScene prepare(const ReportScene& scene, const Placement& placement, int width,
                       std::shared_ptr<engine::Workers> workers);
 
 int heightOf(const ReportScene& scene, int width);
 
-/// Of geometry, materials, lights and camera as they are traced: changes if the picture can.
+/// Returns a hash of geometry, materials, lights and camera as they are traced: it changes if the
+/// picture can.
 uint64_t hashOf(const PreparedScene& scene, const Method& method);
 
-/// A session that renders the method with a seed.
+/// Returns a session that renders the method with a seed.
 std::unique_ptr<engine::RenderSession> newSession(const PreparedScene& scene, const Method& method,
                                                   uint32_t seed);
 

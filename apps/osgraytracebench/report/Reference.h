@@ -1,4 +1,4 @@
-// Reference.h - what is right for a scene, pixel by pixel. Layer: apps.
+// Reference.h - the right radiance of a scene, pixel by pixel. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,30 +14,30 @@ struct Reference
 {
     int width = 0, height = 0;
     std::vector<double> mean;     ///< linear RGB, three a pixel
-    std::vector<double> variance; ///< of mean; zeros if it is a formula's
+    std::vector<double> variance; ///< variance of mean; zeros if it is a formula's
     std::string origin;           ///< for people: the formula, or how it was rendered
-    double meanLuminance = 0.0;   ///< of the picture; linear Rec. 709 weights
+    double meanLuminance = 0.0;   ///< over the picture; linear Rec. 709 weights
     double meanValue = 0.0;       ///< over pixels and colours
 };
 
-/// How a reference is rendered: independent pictures, whose scatter is the variance.
+/// Tells how a reference is rendered: as independent pictures, whose scatter is the variance.
 struct ReferencePlan
 {
     int seeds = 8;
-    int passes = 0;       ///< of each; 0: as many as the first one makes in the seconds
-    double seconds = 0.0; ///< of each
+    int passes = 0; ///< passes of each picture; 0: as many as the first one makes in the seconds
+    double seconds = 0.0; ///< seconds of each picture
 };
 
 /// Fills in the means over the picture.
 void finish(Reference& reference);
 
-/// The formula's mean over each pixel: by Gauss's quadrature unless the scene has one for whole
-/// pictures.
+/// Returns the formula's mean over each pixel: by Gauss's quadrature unless the scene has a formula
+/// for whole pictures.
 Reference formulaReference(const ReportScene& scene, int width, const engine::Workers& workers);
 
-/// From the folder's cache if it holds one of the same scene, method, size and plan; rendered and
-/// kept there otherwise. The cache is NAME.json (seeds, passes, mean variance, hash) beside
-/// NAME.f64 (mean, then variance, doubles of this machine).
+/// Returns the reference in the folder's cache if it is one of the same scene, method, size and
+/// plan; otherwise renders it and keeps it there. The cache is NAME.json (seeds, passes, mean
+/// variance, hash) beside NAME.f64 (mean, then variance, doubles of this machine).
 Reference renderedReference(const ReportScene& scene, const PreparedScene& prepared,
                             const ReferencePlan& plan, const std::string& folder);
 

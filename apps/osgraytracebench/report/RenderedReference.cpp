@@ -1,4 +1,4 @@
-// RenderedReference.cpp - references that have to be rendered, and their cache. Layer: apps.
+// RenderedReference.cpp - renders references, and keeps them in a cache. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/report/Reference.h"
 
@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 namespace
 {
 
-constexpr uint32_t kFirstSeed = 0x5eed0000u; ///< the report's pictures have small ones
+constexpr uint32_t kFirstSeed = 0x5eed0000u; ///< the report's pictures have small seeds
 
 std::string hexadecimal(uint64_t value)
 {
@@ -37,7 +37,8 @@ bool readValues(std::ifstream& stream, std::vector<double>& values, std::size_t 
     return static_cast<bool>(stream);
 }
 
-/// Nothing if the file is not there, is damaged, or is of another scene or plan.
+/// Reads a cached reference; returns false if the file is not there, is damaged, or is of another
+/// scene or plan.
 bool readCached(const std::string& stem, const ordered_json& wanted, Reference& reference)
 {
     for (const char* ending : {".json", ".f64"})
@@ -66,10 +67,11 @@ void writeCached(const std::string& stem, const ordered_json& description,
     for (const std::vector<double>* list : {&reference.mean, &reference.variance})
         values.append(reinterpret_cast<const char*>(list->data()), list->size() * sizeof(double));
     app::writeText(stem + ".f64", values);
-    app::writeText(stem + ".json", description.dump(2) + "\n"); // last: it vouches for the other
+    app::writeText(stem + ".json",
+                   description.dump(2) + "\n"); // last: it vouches for the .f64
 }
 
-/// Mean of the pictures, and the variance of that mean from their scatter.
+/// Sets the mean of the pictures, and the variance of that mean from their scatter.
 int renderSeeds(const ReportScene& scene, const PreparedScene& prepared, const ReferencePlan& plan,
                 Reference& reference)
 {

@@ -12,48 +12,49 @@
 namespace osgRayTrace::bench
 {
 
-/// The means of several pictures with independent seeds that had the same budget.
+/// Holds the means of several pictures with independent seeds that had one budget.
 struct ReportRow
 {
     double budget = 0.0;  ///< [s] or passes
     int seeds = 0;        ///< pictures
-    double seconds = 0.0; ///< of rendering; the BVH is not in it
+    double seconds = 0.0; ///< time of rendering; the BVH is not in it
     double passes = 0.0;
-    double samples = 0.0; ///< a pixel: passes times light samples (Whitted)
+    double samples = 0.0; ///< samples a pixel: passes times light samples (Whitted)
     double rays = 0.0;
     double relMse =
         0.0; ///< mean((x - r)^2 / (r^2 + e^2)), e = 1 % of the reference's mean luminance
     double relMseError = 0.0; ///< standard error, from the scatter of the seeds
-    double relMseFixed = 0.0; ///< the same with r^2 + 0.01: that of osgraytrace --reference
+    double relMseFixed = 0.0; ///< relMSE with r^2 + 0.01, as by osgraytrace --reference
     double mse = 0.0;
     double mseError = 0.0;
-    double biasPercent = 0.0;   ///< of the mean radiance, signed
-    double biasError = 0.0;     ///< its standard error [percent], rounding of floats included
-    double percentile999 = 0.0; ///< of |x - r|
-    double flip = 0.0;          ///< mean, of display values at an exposure fitted to the reference
-    int64_t nonFinite = 0;      ///< samples dropped and values in pictures, of all seeds
-    double variance = 0.0;      ///< of one picture's pixels and colours, unbiased, over the seeds;
-                                ///< mse less this is the square of the bias
-    double efficiency = 0.0;    ///< 1 / (variance * seconds)
+    double biasPercent = 0.0;   ///< bias of the mean radiance, signed
+    double biasError = 0.0;     ///< standard error of biasPercent, rounding of floats included
+    double percentile999 = 0.0; ///< 99.9th percentile of |x - r|
+    double flip = 0.0;       ///< mean FLIP of display values at an exposure fitted to the reference
+    int64_t nonFinite = 0;   ///< samples dropped and values in pictures, of all seeds
+    double variance = 0.0;   ///< variance of one picture's pixels and colours, unbiased, over the
+                             ///< seeds; mse less this is the square of the bias
+    double efficiency = 0.0; ///< 1 / (variance * seconds)
 };
 
-constexpr std::array<double, 4> kTargets{1e-1, 1e-2, 1e-3, 1e-4}; ///< of relMSE
+constexpr std::array<double, 4> kTargets{1e-1, 1e-2, 1e-3, 1e-4}; ///< goals of relMSE
 
-/// One method on one scene.
+/// Holds the rows of one method on one scene.
 struct ReportLine
 {
     std::string scene, placement, method;
-    std::string reference;     ///< what it was compared with
-    bool kernel = false;       ///< biased by the width of its kernel: see hasKernel
-    double buildSeconds = 0.0; ///< conversion and BVH
+    std::string reference;     ///< origin of the reference
+    bool kernel = false;       ///< true: biased by the width of its kernel: see hasKernel
+    double buildSeconds = 0.0; ///< time of conversion and BVH [s]
     std::vector<ReportRow> rows;
-    double slope = 0.0;      ///< of log relMSE over log seconds, or over log passes
+    double slope = 0.0;      ///< slope of log relMSE over log seconds, or over log passes
     double slopeError = 0.0; ///< standard error
     std::array<std::optional<double>, 4>
-        secondsTo; ///< kTargets; none: not reached, or met before the first row
+        secondsTo; ///< seconds to kTargets; nothing: not reached, or met before the first row
 };
 
-/// Mean squared error of E/L against the number of light samples N, one pass, single receivers.
+/// Holds the mean squared error of E/L against the number of light samples N, one pass, single
+/// receivers.
 struct SamplerPoint
 {
     int samples = 0;
@@ -66,21 +67,22 @@ struct SamplerLine
     std::string scene, strategy;
     std::vector<SamplerPoint> points;
     double slope = 0.0, slopeError = 0.0;
-    double secondsPerSample = 0.0; ///< wall clock of all points by all their samples
+    double secondsPerSample = 0.0; ///< wall clock time of all points over all their samples [s]
 };
 
-/// What is left of bias and scatter after so many passes, means over the pixels of a picture.
+/// Holds the bias and scatter that are left after so many passes, means over the pixels of a
+/// picture.
 struct SchedulePoint
 {
     int passes = 0;
     double biasSquare = 0.0;      ///< mse less variance; noise may make it negative
-    double variance = 0.0;        ///< of one picture
-    double error = 0.0;           ///< standard error of their sum
-    double exactBiasSquare = 0.0; ///< of the global schedule
-    double exactVariance = 0.0;   ///< of the global schedule and independent photons
+    double variance = 0.0;        ///< variance of one picture
+    double error = 0.0;           ///< standard error of biasSquare + variance
+    double exactBiasSquare = 0.0; ///< formula for the global schedule
+    double exactVariance = 0.0;   ///< formula for the global schedule and independent photons
 };
 
-/// One way of shrinking the radius of photon lookups.
+/// Holds one way of shrinking the radius of photon lookups.
 struct ScheduleLine
 {
     std::string schedule;
@@ -90,7 +92,7 @@ struct ScheduleLine
 struct Report
 {
     std::map<std::string, std::string> machine; ///< cpu, threads, isa, versions
-    bool timed = true;                          ///< budgets are seconds, else passes
+    bool timed = true;                          ///< true: budgets are seconds; false: passes
     int width = 0;
     std::vector<ReportLine> lines;
     std::vector<SamplerLine> samplers;

@@ -25,7 +25,7 @@ namespace
 
 constexpr const char* kFormat = "osgraytracebench report 2";
 
-/// The columns of a row: one table for both formats.
+/// Describes a column of a row: one table serves both formats.
 struct Column
 {
     const char* name;

@@ -9,13 +9,13 @@
 namespace osgRayTrace::bench
 {
 
-/// Throws app::Failure(kCannotWrite). What is infinite or unknown is null.
+/// Writes JSON; infinite and unknown values are null. Throws app::Failure(kCannotWrite).
 void writeJson(const Report& report, const std::string& file);
 
-/// One row a line: that of report.lines, then those of the samplers.
+/// Writes one row a line: those of report.lines, then those of the samplers.
 void writeCsv(const Report& report, const std::string& file);
 
-/// Throws app::Failure(kCannotLoad) if it is not there or is no report.
+/// Reads a report. Throws app::Failure(kCannotLoad) if the file is not there or is no report.
 Report readJson(const std::string& file);
 
 } // namespace osgRayTrace::bench

@@ -31,12 +31,12 @@ namespace
 constexpr int kQuickWidth = 32, kFullWidth = 128;
 constexpr int kQuickReferencePasses = 1024;
 constexpr double kReferenceTimes =
-    0.5; ///< seconds of each of the 8 reference seeds, by the longest budget
-constexpr double kLongestDisplaced = 1.0; ///< [s]: enough to compare with the origin
-constexpr int kPhotonsPerPixel = 4; ///< and pass: 65536 for the square pictures of a full report
+    0.5; ///< time of each of the 8 reference seeds, in longest budgets
+constexpr double kLongestDisplaced = 1.0; ///< [s]: enough for a comparison with the origin
+constexpr int kPhotonsPerPixel = 4; ///< per pass: 65536 for the square pictures of a full report
 constexpr int kCheckFailed = 5;
 
-/// What all parts of a run need.
+/// Holds what all parts of a run need.
 struct Run
 {
     const ReportOptions& options;
@@ -50,7 +50,7 @@ std::vector<ReportScene> scenesOf(const Run& run)
 {
     if (run.options.models.empty()) return reportScenes();
     const osg::ref_ptr<osg::Node> graph = app::readScene(run.options.models);
-    // Its materials are known once it is converted.
+    // The conversion tells the materials of the graph.
     const std::string name = std::filesystem::path(run.options.models.front()).stem().string();
     const ReportScene asPhysical = modelScene(name, *graph, true);
     const PreparedScene prepared = prepare(asPhysical, atOrigin(), run.width, run.workers);
@@ -62,7 +62,7 @@ std::vector<ReportScene> scenesOf(const Run& run)
         areaLights |=
             light.kind == engine::LightKind::Parallelogram || light.kind == engine::LightKind::Mesh;
     ReportScene scene = modelScene(name, *graph, physical);
-    // Without them the strategies are one and the same.
+    // Without area lights all strategies are one.
     if (!physical && !areaLights) scene.methods = {scene.reference};
     return {scene};
 }
@@ -77,7 +77,8 @@ std::vector<ReportScene> wantedScenes(const Run& run)
     return scenes;
 }
 
-/// As many for a pixel whatever the width, so that a quick report looks at the same estimate.
+/// Returns the photons of a pass: as many for a pixel whatever the width, so that a quick report
+/// looks at the estimate of a full one.
 int photonsFor(const Run& run, const ReportScene& scene)
 {
     return kPhotonsPerPixel * run.width * heightOf(scene, run.width);
@@ -126,7 +127,8 @@ void measureScene(Run& run, const ReportScene& scene)
         const PreparedScene prepared = prepare(scene, scene.placements[p], run.width, run.workers);
         for (Method method : scene.methods)
         {
-            // Elsewhere one of the methods with photons speaks for all: they have the same photons.
+            // At other placements one of the methods with photons speaks for all, since they share
+            // their photons.
             if (p > 0 && hasKernel(method) && method.name != scene.methods.back().name) continue;
             if (app::isInterrupted()) break;
             method.options.photons = photonsFor(run, scene);
@@ -134,7 +136,7 @@ void measureScene(Run& run, const ReportScene& scene)
                                                   reference, planFor(run, method, p));
             printLine(measured.line);
             run.report.lines.push_back(measured.line);
-            if (p > 0) continue; // it looks the same elsewhere
+            if (p > 0) continue; // other placements look alike
             char budget[40];
             std::snprintf(budget, sizeof budget, "%g %s", measured.pictureBudget,
                           run.options.quick ? "passes" : "s");
@@ -173,7 +175,8 @@ void measureSchedules(Run& run)
     }
 }
 
-/// A whole report measures all; --only the studies whose name begins with it.
+/// Returns whether a study runs: a whole report measures all, and --only the studies whose name
+/// begins with it.
 bool wanted(const ReportOptions& options, const char* study)
 {
     if (!options.models.empty()) return false;
@@ -192,7 +195,7 @@ std::string expectationsOf(const ReportOptions& options)
     return std::move(read.text);
 }
 
-/// Says all of them; returns how many are not met.
+/// Prints all verdicts; returns how many are not met.
 int printVerdicts(const std::vector<Verdict>& verdicts)
 {
     int failed = 0;
@@ -205,7 +208,7 @@ int printVerdicts(const std::vector<Verdict>& verdicts)
     return failed;
 }
 
-/// Of a report: as data, as a table, as a page.
+/// Returns the files of a report: data, table and page.
 std::vector<std::string> filesIn(const std::string& folder)
 {
     return {folder + "/report.json", folder + "/report.csv", folder + "/report.html"};

@@ -13,10 +13,10 @@ struct ReportOptions
     std::string folder = "report";
     bool quick = false;
     double longest = 8.0;            ///< longest budget [s]
-    int width = 0;                   ///< of pictures [pixels]; 0: 32 if quick, else 128
-    std::string only;                ///< scenes whose name holds this
-    std::vector<std::string> models; ///< measured in place of the report's own scenes
-    std::string expectations;        ///< file; empty: those of this program
+    int width = 0;                   ///< width of the pictures [pixels]; 0: 32 if quick, else 128
+    std::string only;                ///< part of the names of scenes that are measured; empty: all
+    std::vector<std::string> models; ///< models measured in place of the report's own scenes
+    std::string expectations;        ///< file; empty: expectations built into this program
 };
 
 /// Writes report.html, .csv and .json into the folder. Returns the program's exit code: 5 if a

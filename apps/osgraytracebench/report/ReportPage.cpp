@@ -73,7 +73,8 @@ template <typename... Cells> std::string row(const char* cell, const Cells&... c
     return text + "</tr>\n";
 }
 
-/// Of the naive method on the same scene and place: so that results carry over to other machines.
+/// Returns the efficiency of the naive method on the line's scene and placement: relative to it
+/// results carry over to other machines.
 double naiveEfficiency(const Report& report, const ReportLine& line)
 {
     for (const ReportLine& other : report.lines)

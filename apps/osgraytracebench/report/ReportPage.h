@@ -8,7 +8,8 @@
 namespace osgRayTrace::bench
 {
 
-/// HTML with plots, tables and pictures within. verdicts: of a quick report, else empty.
+/// Returns HTML with plots, tables and pictures within. verdicts: those of a quick report, else
+/// empty.
 std::string reportPage(const Report& report, const std::vector<SceneThumbnails>& thumbnails,
                        const std::vector<Verdict>& verdicts);
 

@@ -16,9 +16,9 @@ namespace
 {
 
 constexpr int kSide = 16;         ///< pixels of a receiver: independent runs
-constexpr double kPixel = 1e-6;   ///< of the light's side
-constexpr int kGroups = 16;       ///< of pixels: their scatter gives the standard errors
-constexpr int kFewestFitted = 16; ///< slopes are those of larger numbers
+constexpr double kPixel = 1e-6;   ///< relative to the light's side
+constexpr int kGroups = 16;       ///< groups of pixels: their scatter gives the standard errors
+constexpr int kFewestFitted = 16; ///< slopes are fitted to larger numbers
 constexpr uint32_t kSeed = 1;
 
 struct Case
@@ -27,7 +27,7 @@ struct Case
     PlaneLighting lighting;
 };
 
-/// In and around the penumbra of the edges and of the disc.
+/// Returns a point in or around the penumbra of the edges and of the disc.
 osg::Vec3d receiver(int index, int count)
 {
     const double golden = 0.6180339887498949;
@@ -35,7 +35,7 @@ osg::Vec3d receiver(int index, int count)
     return osg::Vec3d(x, 0.6 * (std::fmod(golden * index, 1.0) - 0.5), 0.0);
 }
 
-/// Straight down from below the occluder.
+/// Returns a scene whose view looks straight down from below the occluder.
 ReportScene telescope(const Case& studied, const osg::Vec3d& point)
 {
     ReportScene scene;
@@ -47,7 +47,7 @@ ReportScene telescope(const Case& studied, const osg::Vec3d& point)
     return scene;
 }
 
-/// The squared errors of one estimator: sums by group and number of samples.
+/// Holds the squared errors of one estimator: sums by group and number of samples.
 struct Sums
 {
     std::vector<std::vector<double>> squares; ///< group, then number of samples
@@ -92,7 +92,7 @@ SamplerLine Sums::line(const Case& studied, const std::string& strategy, int rec
     return line;
 }
 
-/// E/L of each pixel, from the red of a picture of one pass.
+/// Holds E/L of each pixel, from the red of a picture of one pass.
 struct Rendered
 {
     std::vector<double> values;
@@ -118,7 +118,7 @@ void addSquares(Sums& sums, std::size_t n, const std::vector<double>& values, do
         sums.squares[i % kGroups][n] += (values[i] - right) * (values[i] - right);
 }
 
-/// A strategy, and the ratio estimator with its samples.
+/// Studies a strategy, and the ratio estimator with its samples.
 void studyStrategy(const Case& studied, engine::LightSampling strategy,
                    const std::vector<int>& counts, int receivers,
                    const std::shared_ptr<engine::Workers>& workers, std::vector<SamplerLine>& lines)
@@ -141,8 +141,9 @@ void studyStrategy(const Case& studied, engine::LightSampling strategy,
             full.lightSamples += static_cast<double>(counts[n]) * kSide * kSide;
             if (studied.lighting.occluder.empty()) continue;
 
-            // The same samples without their shadows: a renderer would sum both at once, so that
-            // their time is not counted; that of the formula at each pixel is.
+            // The samples are repeated without their shadows. A renderer would sum both at once, so
+            // that the time of the repetition is not counted; the time of the formula at each pixel
+            // is.
             method.options.shadows = false;
             std::vector<double> values = render(prepared, method).values;
             double open = 0.0;

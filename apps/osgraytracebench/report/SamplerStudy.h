@@ -11,11 +11,11 @@
 namespace osgRayTrace::bench
 {
 
-/// The four strategies of WHITTED below an open light, an edge, a turned edge and a disc, at
-/// receivers whose pixels are a millionth wide: what the pixel's filter adds to the error cannot be
-/// seen. One pass of N light samples; each pixel of a receiver's 16 x 16 is an independent run.
-/// Behind occluders also the ratio estimator of [HeitzHill18]: the formula's open light times the
-/// share of the sampled light that arrives.
+/// Studies the four strategies of WHITTED below an open light, an edge, a turned edge and a disc,
+/// at receivers whose pixels are a millionth wide: the pixel's filter adds no visible error. There
+/// is one pass of N light samples; each pixel of a receiver's 16 x 16 is an independent run. Behind
+/// occluders the ratio estimator of [HeitzHill18] is studied as well: the formula's open light
+/// times the share of the sampled light that arrives.
 std::vector<SamplerLine> studySamplers(int receivers, int mostSamples,
                                        const std::shared_ptr<engine::Workers>& workers);
 

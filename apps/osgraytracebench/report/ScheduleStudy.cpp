@@ -1,10 +1,10 @@
-// ScheduleStudy.cpp - the flat mirror's floor with a first radius that is known. Layer: apps.
+// ScheduleStudy.cpp - the flat mirror's floor with a known first radius. Layer: apps.
 // SPDX-License-Identifier: MIT
 //
 // The irradiance E that comes by the mirror is known, and so is its Laplacian. A disc of radius r
-// sees E + r^2 lap(E) / 8 in the mean and, of independent photons of power w each, E w / (pi r^2)
-// as variance. The average of N passes has the mean of the biases, and 1/N of the mean of the
-// variances: with r_i^2 = r_1^2 prod (k + alpha) / (k + 1), k = 1 to i - 1 [Knaus11],
+// sees E + r^2 lap(E) / 8 in the mean; for independent photons of power w each, its variance is E w
+// / (pi r^2). The average of N passes has the mean of the biases, and 1/N of the mean of the
+// variances. With r_i^2 = r_1^2 prod (k + alpha) / (k + 1), k = 1 to i - 1 [Knaus11], these are:
 //
 //   mean of r_i^2 / r_1^2 = (1 / (N alpha)) (Gamma(N + 1 + alpha) / (Gamma(1 + alpha) N!) - 1)
 //   mean of r_1^2 / r_i^2 / N = Gamma(1 + alpha) / ((2 - alpha) N^2) ((N + 1)! / Gamma(N + alpha) -
@@ -23,17 +23,19 @@ namespace
 {
 
 constexpr int kWidth = 64;
-constexpr double kRadius = 0.25;  ///< of the first pass: the bias shows, its next term hardly
-constexpr int kPhotons = 1 << 17; ///< a pass: what scatters does not hide it
+constexpr double kRadius = 0.25; ///< radius of the first pass: the bias shows, its next term hardly
+constexpr int kPhotons = 1 << 17; ///< photons of a pass: the scatter does not hide the bias
 constexpr double kAlbedo = 0.5;
 
-/// Means over the picture of the squared bias and of the variance of one pass with the radius r_1.
+/// Holds means over the picture of the squared bias and of the variance of one pass with the radius
+/// r_1.
 struct FirstPass
 {
     double biasSquare = 0.0, variance = 0.0;
 };
 
-/// A lamp of diffuse 1 has the intensity pi: power 4 pi^2, and E = pi e.
+/// Returns the figures of the first pass. A lamp of diffuse 1 has the intensity pi: power 4 pi^2,
+/// and E = pi e.
 FirstPass firstPass(const ReportScene& scene)
 {
     constexpr double kStep = 1e-3;

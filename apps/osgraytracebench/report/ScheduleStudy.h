@@ -1,4 +1,4 @@
-// ScheduleStudy.h - bias and variance of photon lookups against the number of passes. Layer: apps.
+// ScheduleStudy.h - bias and variance of photon lookups over the passes. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,13 +11,17 @@
 namespace osgRayTrace::bench
 {
 
-/// How far the average of passes 1 to N is from what is right, for a flat disc as the kernel whose
-/// squared radius goes as [Knaus11]: the exact sums over its recurrence.
-double meanSquaredRadius(int passes, double alpha); ///< of the passes, over that of the first
-double meanInverseSquaredRadius(int passes, double alpha); ///< times that of the first, over N
+/// Returns the mean of r_i^2 over the passes, divided by r_1^2, for a flat disc as the kernel whose
+/// squared radius shrinks as in [Knaus11]: the exact sum over the recurrence of that paper. The
+/// bias of the average of passes 1 to N is in proportion to it.
+double meanSquaredRadius(int passes, double alpha);
 
-/// SPPM on the floor of the flat mirror, with both schedules and alpha = 2/3, or with 1/2 and 0.8
-/// as well, beside those sums: for N = 1, 2, 4 ... mostPasses.
+/// Returns the mean of 1 / r_i^2 over the passes, times r_1^2, divided by N. The variance of the
+/// average of passes 1 to N is in proportion to it.
+double meanInverseSquaredRadius(int passes, double alpha);
+
+/// Studies SPPM on the floor of the flat mirror, with both schedules and alpha = 2/3, or with 1/2
+/// and 0.8 as well, beside these sums: for N = 1, 2, 4 ... mostPasses.
 std::vector<ScheduleLine> studySchedules(int seeds, int mostPasses, bool allAlphas,
                                          const std::shared_ptr<engine::Workers>& workers);
 

@@ -36,20 +36,21 @@ double sunSolidAngle()
     return 2.0 * osg::PI / kWidth * (borderZ(kSunRow + 1) - borderZ(kSunRow));
 }
 
-/// As much light as the rest of the sphere sends.
+/// Returns the radiance with which the sun sends as much light as the rest of the sphere.
 Vec3d sunRadiance()
 {
     return kSky * ((4.0 * osg::PI - sunSolidAngle()) / sunSolidAngle());
 }
 
-/// Integral of the cosine over the pixel of the sun, above a plane that looks to +z.
+/// Returns the integral of the cosine over the pixel of the sun, above a plane that looks to +z.
 double sunProjectedAngle()
 {
     const double low = borderZ(kSunRow), high = borderZ(kSunRow + 1);
     return osg::PI / kWidth * (high * high - low * low);
 }
 
-/// The sky's, without what the ball hides [Snyder96], all of it above the horizon, and the sun's.
+/// Returns the radiance from the sky, without the part that the ball hides [Snyder96], which is all
+/// above the horizon, and from the sun.
 Vec3d planeRadiance(const Vec3d& origin, const Vec3d& direction)
 {
     const Vec3d point = origin - direction * (origin.z() / direction.z());
@@ -90,12 +91,12 @@ ReportScene sunnySkyScene()
     sky->setName("sky");
     graph->addChild(sky.get());
     scene.graph = graph;
-    // Straight down on what lies on the ball's sunny side.
+    // The view is straight down on the plane on the ball's sunny side.
     scene.view = osg::Matrixd::lookAt(Vec3d(1.0, 0.3, 0.6), Vec3d(1.0, 0.3, 0.0), Vec3d(0, 1, 0));
     scene.projection = osg::Matrixd::ortho(-0.45, 0.45, -0.45, 0.45, 0.01, 10.0);
     const Method path = pathMethod(1), whitted = whittedMethod(engine::LightSampling::Sobol, 16);
-    // Not uniformly: a sun of a pixel is found so seldom that no mean of the report would be near
-    // the formula.
+    // Uniform sampling is left out: it finds a sun of a pixel so seldom that no mean of the report
+    // would be near the formula.
     scene.methods = {path, whitted};
     scene.placements = {atOrigin(), displaced()};
     scene.formula = planeRadiance;

@@ -1,5 +1,4 @@
-// SkyScenes.h - a plane under an environment: light from all around that has a formula. Layer:
-// apps.
+// SkyScenes.h - a plane under an environment, with a formula. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,9 +7,9 @@
 namespace osgRayTrace::bench
 {
 
-/// S9: a plane and a black ball above it under an even sky with a sun, which is one pixel with half
-/// of the light. The ball hides a part of the sky from all that is seen, and the sun from none of
-/// it.
+/// Returns S9: a plane and a black ball above it under an even sky with a sun, which is one pixel
+/// with half of the light. The ball hides a part of the sky from all visible points, and the sun
+/// from none of them.
 ReportScene sunnySkyScene();
 
 } // namespace osgRayTrace::bench

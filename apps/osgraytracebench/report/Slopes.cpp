@@ -11,7 +11,7 @@ namespace osgRayTrace::bench
 namespace
 {
 
-/// Of all series but the one left out.
+/// Returns the slope of all series but the one left out.
 std::optional<double> slopeWithout(const std::vector<Series>& series, std::size_t leftOut)
 {
     std::size_t points = 0;
@@ -41,7 +41,7 @@ std::optional<double> slopeWithout(const std::vector<Series>& series, std::size_
     return (n * sxy - sx * sy) / determinant;
 }
 
-/// Continued fraction of the incomplete beta function, by Lentz's method.
+/// Returns the continued fraction of the incomplete beta function, by Lentz's method.
 double betaFraction(double a, double b, double x)
 {
     constexpr double kTiny = 1e-300;
@@ -65,7 +65,7 @@ double betaFraction(double a, double b, double x)
     return h;
 }
 
-/// Regularized incomplete beta function.
+/// Returns the regularized incomplete beta function.
 double incompleteBeta(double a, double b, double x)
 {
     if (x <= 0.0) return 0.0;
@@ -102,8 +102,8 @@ std::optional<Slope> logLogSlope(const std::vector<Series>& series)
         if (const std::optional<double> part = slopeWithout(series, s)) parts.push_back(*part);
     }
     if (parts.size() < 2) return Slope{*whole, std::numeric_limits<double>::infinity()};
-    // The jackknife: (n - 1)/n times the sum of squares is (n - 1)^2 times that of the mean's
-    // error.
+    // This is the jackknife: (n - 1)/n times the sum of squares is (n - 1)^2 times that of the
+    // mean's error.
     const double n = static_cast<double>(parts.size());
     return Slope{*whole, (n - 1.0) * meanOf(parts).error};
 }

@@ -22,8 +22,8 @@ constexpr double kAlbedo = 0.5;
 constexpr double kRadius = 0.5;
 const Vec3d kRadiance(4.0, 3.0, 2.0);
 
-/// Irradiance of a sphere of radiance 1, by its sine and the angle of its centre; what is below the
-/// horizon gives nothing [Snyder96].
+/// Returns the irradiance of a sphere of radiance 1, by its sine and the angle of its centre; the
+/// part below the horizon gives nothing [Snyder96].
 double sphereIrradiance(double sine, double theta)
 {
     const double edge = std::asin(sine);
@@ -37,7 +37,7 @@ double sphereIrradiance(double sine, double theta)
            std::atan(sinTheta * root / x);
 }
 
-/// Fades as a sphere of this radiance does.
+/// Returns a light that fades as a sphere of this radiance does.
 osg::ref_ptr<osg::LightSource> sphereLight(double height)
 {
     osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
@@ -66,7 +66,7 @@ ReportScene scene(const std::string& name, const std::string& title, double heig
     graph->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::ON);
     scene.graph = graph;
     scene.lightSizes.byName["lamp"] = static_cast<float>(kRadius);
-    // The plane fills the picture; no point of it is inside of the sphere.
+    // The plane fills the picture; no point of the plane is inside of the sphere.
     scene.view = osg::Matrixd::lookAt(Vec3d(1.6, -1.2, 0.9), Vec3d(1.3, 0.1, 0.0), Vec3d(0, 0, 1));
     scene.projection = osg::Matrixd::perspective(35.0, 1.0, 0.01, 100.0);
     scene.methods = directMethods();

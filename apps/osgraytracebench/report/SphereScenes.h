@@ -1,5 +1,4 @@
-// SphereScenes.h - a plane under a point light with a radius: soft light that has a formula. Layer:
-// apps.
+// SphereScenes.h - a plane under a point light with a radius, with a formula. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,9 +7,10 @@
 namespace osgRayTrace::bench
 {
 
-/// A sphere of radius 1/2 at height 1.
+/// Returns a scene with a sphere of radius 1/2 at height 1.
 ReportScene sphereLightScene();
-/// The same at height 1/10: more and less of it is below the horizon of the plane.
+/// Returns a scene with the sphere at height 1/10: more and less of it is below the horizon of the
+/// plane.
 ReportScene sunkenSphereScene();
 
 } // namespace osgRayTrace::bench

@@ -10,7 +10,8 @@
 namespace osgRayTrace::bench
 {
 
-/// The pictures of a scene: an <img> element each, empty if there is no plugin that writes PNG.
+/// Holds the pictures of a scene: an <img> element each, empty if there is no plugin that writes
+/// PNG.
 struct SceneThumbnails
 {
     std::string scene, title;
@@ -27,8 +28,8 @@ struct SceneThumbnails
 std::string thumbnail(const Reference& reference);
 std::string thumbnail(const Pixels& pixels, const Reference& reference);
 
-/// Relative error of each pixel's luminance, black 1e-4 and below, through red and yellow to white,
-/// 1 and above, logarithmic.
+/// Returns the relative error of each pixel's luminance: black for 1e-4 and below, through red and
+/// yellow to white for 1 and above, logarithmic.
 std::string errorThumbnail(const Pixels& pixels, const Reference& reference);
 
 } // namespace osgRayTrace::bench

@@ -1,4 +1,4 @@
-// BenchScenes.cpp - the scenes that are measured, made by formula. Layer: apps.
+// BenchScenes.cpp - builds meshes, lights and views by formula. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/scenes/BenchScenes.h"
 
@@ -101,8 +101,9 @@ BenchScene cornellBox(int width, int height)
             red);
     addBlock(*scene, {{130, 0, 65}, {82, 0, 225}, {240, 0, 272}, {290, 0, 114}}, 165.0f, white);
     addBlock(*scene, {{423, 0, 247}, {265, 0, 296}, {314, 0, 456}, {472, 0, 406}}, 330.0f, white);
-    addLight(*scene, {343, 548.7f, 227}, {0, 0, 105}, {-130, 0, 0}, {17, 12, 4}); // looks down
-    // The published view is square; from inside the box a wide frame is filled as well.
+    addLight(*scene, {343, 548.7f, 227}, {0, 0, 105}, {-130, 0, 0},
+             {17, 12, 4}); // the light looks down
+    // The published view is square; a view from inside the box fills a wide frame as well.
     return {scene, viewOf({278, 278, 20}, {278, 250, 559}, {0, 1, 0}, 50.0, width, height)};
 }
 
@@ -175,7 +176,8 @@ BenchScene displacedSphere(int width, int height)
     instance.material = grey;
     scene->meshes.push_back(mesh);
     scene->instances.push_back(instance);
-    // Behind and below the viewer, turned towards the sphere: edgeU x edgeV = (0, 4.5, 4.5).
+    // The light is behind and below the viewer, turned towards the sphere: edgeU x edgeV = (0, 4.5,
+    // 4.5).
     addLight(*scene, {-1.5f, -4.0f, -2.0f}, {3, 0, 0}, {0, 1.5f, -1.5f}, Vec3(12.0f));
     return {scene, viewOf({0.0, -2.2, 0.0}, {0, 0, 0}, {0, 0, 1}, 30.0, width, height)};
 }

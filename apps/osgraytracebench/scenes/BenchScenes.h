@@ -16,18 +16,18 @@ namespace osgRayTrace::bench
 struct BenchScene
 {
     std::shared_ptr<const engine::Scene> scene;
-    engine::View view; ///< the scene fills it
+    engine::View view; ///< the scene fills the view
 };
 
-/// The Cornell box from its published measurements, diffuse, seen from within so that it fills a
-/// frame of any aspect ratio.
+/// Returns the Cornell box from its published measurements, diffuse, seen from within so that it
+/// fills a frame of any aspect ratio.
 BenchScene cornellBox(int width, int height);
 
-/// A sphere of about a million triangles, displaced by waves, under an area light, seen so that it
-/// fills the frame.
+/// Returns a sphere of about a million triangles, displaced by waves, under an area light, seen so
+/// that it fills the frame.
 BenchScene displacedSphere(int width, int height);
 
-/// The geometry of displacedSphere: indexed triangles with vertex normals.
+/// Returns the geometry of displacedSphere: indexed triangles with vertex normals.
 osg::ref_ptr<osg::Geometry> displacedSphereGeometry();
 
 } // namespace osgRayTrace::bench

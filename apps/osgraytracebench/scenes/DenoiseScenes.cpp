@@ -1,4 +1,4 @@
-// DenoiseScenes.cpp - the boxes that the denoiser is measured in. Layer: apps.
+// DenoiseScenes.cpp - builds boxes from the Cornell box. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/scenes/DenoiseScenes.h"
 
@@ -35,7 +35,7 @@ uint32_t addTexture(Scene& scene, int size, const std::function<Vec3(int, int)>&
     return static_cast<uint32_t>(scene.textures.size() - 1);
 }
 
-/// The quad of an instance gets the texture, so many times along each side.
+/// Covers the quad of an instance with the texture, so many times along each side.
 void cover(Scene& scene, std::size_t instance, uint32_t texture, float times)
 {
     Instance& target = scene.instances[instance];

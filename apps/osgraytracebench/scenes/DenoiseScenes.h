@@ -1,4 +1,4 @@
-// DenoiseScenes.h - the boxes that the denoiser is measured in. Layer: apps.
+// DenoiseScenes.h - the boxes on which the denoiser is measured. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,11 +7,11 @@
 namespace osgRayTrace::bench
 {
 
-/// The Cornell box with a floor of rough metal, glossy blocks and lacquered walls.
+/// Returns the Cornell box with a floor of rough metal, glossy blocks and lacquered walls.
 BenchScene glossyBox(int width, int height);
 
-/// The Cornell box with pictures of tiles, of stripes and of fine noise on its walls, floor and
-/// blocks.
+/// Returns the Cornell box with pictures of tiles, of stripes and of fine noise on its walls, floor
+/// and blocks.
 BenchScene texturedBox(int width, int height);
 
 } // namespace osgRayTrace::bench

@@ -1,5 +1,4 @@
-// FeatureScenes.cpp - pairs of scenes that give one picture, one of them with a feature. Layer:
-// apps.
+// FeatureScenes.cpp - the Cornell box with features, out of sight or not. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/scenes/FeatureScenes.h"
 
@@ -14,7 +13,8 @@ using namespace engine;
 namespace
 {
 
-/// The parts of what is out of sight: a feature changes them before they become part of the scene.
+/// Holds the parts of the hidden triangle: a feature changes them before they become part of the
+/// scene.
 struct Hidden
 {
     Mesh mesh;
@@ -32,7 +32,7 @@ std::shared_ptr<const Texture> whiteTexel()
     return texture;
 }
 
-/// It lights nothing, and is not seen.
+/// Returns an environment that lights nothing, and is not seen.
 Light blackEnvironment()
 {
     auto image = std::make_shared<EnvironmentImage>();
@@ -50,7 +50,7 @@ Hidden plainTriangle()
     Hidden hidden;
     std::vector<Vec3> positions;
     positions.reserve(4); // Embree reads past the last one
-    // Below the floor of the box.
+    // The triangle is below the floor of the box.
     positions.insert(positions.end(),
                      {Vec3(270, -20, 270), Vec3(280, -20, 270), Vec3(270, -20, 280)});
     hidden.mesh.positions = std::move(positions);
@@ -88,7 +88,7 @@ void emitFaintly(Scene& scene, Hidden& hidden)
     scene.lights.push_back(light);
 }
 
-/// Every mesh and material of the box changed.
+/// Changes every mesh and material of the box.
 template <class ChangeMesh, class ChangeMaterial>
 void changeAll(Scene& scene, const ChangeMesh& changeMesh, const ChangeMaterial& changeMaterial)
 {
@@ -174,7 +174,7 @@ std::vector<ScenePair> unusedFeatures(int size)
         {"environment", [](Scene& s, Hidden&) { s.lights.push_back(blackEnvironment()); }},
     };
     const BenchScene plain = boxWith(size, [](Scene&, Hidden&) {});
-    // First what the method itself gives for two scenes that are one.
+    // The first pair tells what the method itself gives for two scenes that are one.
     std::vector<ScenePair> pairs{{"nothing", plain, boxWith(size, [](Scene&, Hidden&) {})}};
     for (const auto& [name, change] : features)
         pairs.push_back({name, plain, boxWith(size, change)});

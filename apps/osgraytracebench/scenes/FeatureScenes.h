@@ -1,4 +1,4 @@
-// FeatureScenes.h - pairs of scenes that give one picture, one of them with a feature. Layer: apps.
+// FeatureScenes.h - pairs of scenes that give one picture, one with a feature. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,10 +16,11 @@ struct ScenePair
     BenchScene without, with;
 };
 
-/// The feature is there, and out of sight.
+/// Returns pairs in which the feature is there, and out of sight.
 std::vector<ScenePair> unusedFeatures(int size);
 
-/// All of the scene goes the general way; without, the way that is specialised for what it is.
+/// Returns pairs in which all of the scene goes the general way; the scene without goes the way
+/// that is specialised for it.
 std::vector<ScenePair> generalWays(int size);
 
 } // namespace osgRayTrace::bench

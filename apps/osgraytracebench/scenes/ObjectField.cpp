@@ -1,4 +1,4 @@
-// ObjectField.cpp - ten thousand objects, as a scene graph and in bare Embree. Layer: apps.
+// ObjectField.cpp - builds, moves and deforms the objects. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/scenes/ObjectField.h"
 
@@ -15,7 +15,7 @@ namespace osgRayTrace::bench
 namespace
 {
 
-constexpr unsigned int kColumns = 25, kRows = 20; // of two triangles each
+constexpr unsigned int kColumns = 25, kRows = 20; // quads of two triangles each
 constexpr unsigned int kMaterials = 100;
 constexpr double kSpacing = 1.25;
 
@@ -123,7 +123,8 @@ BareField::BareField(const ObjectField& field) : _device(rtcNewDevice(nullptr))
         object.scene = rtcNewScene(_device);
         rtcSetSceneFlags(object.scene,
                          RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
-        rtcSetSceneBuildQuality(object.scene, RTC_BUILD_QUALITY_LOW); // else nothing is refit
+        rtcSetSceneBuildQuality(object.scene,
+                                RTC_BUILD_QUALITY_LOW); // Embree refits no scene of higher quality
         object.mesh = newBareTriangles(_device, vertices, indices);
         object.vertices = rtcGetGeometryBufferData(object.mesh, RTC_BUFFER_TYPE_VERTEX, 0);
         rtcSetGeometryBuildQuality(object.mesh, RTC_BUILD_QUALITY_REFIT);
@@ -191,7 +192,7 @@ void BareField::deform(const ObjectField& field, unsigned int first, unsigned in
         rtcUpdateGeometryBuffer(_objects[i].mesh, RTC_BUFFER_TYPE_VERTEX, 0);
         rtcCommitGeometry(_objects[i].mesh);
         rtcCommitScene(_objects[i].scene);
-        rtcCommitGeometry(_objects[i].instance); // its bounds
+        rtcCommitGeometry(_objects[i].instance); // commits the instance's bounds
     }
     rtcCommitScene(_top);
 }

@@ -17,8 +17,8 @@ namespace osgRayTrace::bench
 
 constexpr unsigned int kFieldObjects = 10000;
 
-/// A square of bumpy tiles of 1,000 triangles, each below a transform of its own, with a hundred
-/// materials in turn. shared: all of them are one geometry.
+/// Holds a square of bumpy tiles of 1,000 triangles, each below a transform of its own, with a
+/// hundred materials in turn. shared: all of them are one geometry.
 struct ObjectField
 {
     explicit ObjectField(bool shared, unsigned int count = kFieldObjects);
@@ -27,21 +27,22 @@ struct ObjectField
     unsigned int count() const { return static_cast<unsigned int>(transforms.size()); }
     osg::Matrixd place(unsigned int object, double height) const;
 
-    /// Moves every vertex up or down, as an application does: in place, with dirty().
+    /// Moves every vertex up or down in place, with dirty(), as an application does.
     void deform(unsigned int object, double phase);
 
-    /// One more, with the first state and a mesh of its own; nothing is added to the graph.
+    /// Returns one more object, with the first state and a mesh of its own; it is not added to the
+    /// graph.
     osg::ref_ptr<osg::MatrixTransform> newObject() const;
 
     osg::ref_ptr<osg::Group> root = new osg::Group;
     osg::ref_ptr<osg::LightSource> light = new osg::LightSource;
-    osg::ref_ptr<osg::Image> image = new osg::Image; ///< of one of the states
+    osg::ref_ptr<osg::Image> image = new osg::Image; ///< texture of one of the states
     std::vector<osg::ref_ptr<osg::MatrixTransform>> transforms;
-    std::vector<osg::ref_ptr<osg::Geometry>> geometries; ///< of each object
+    std::vector<osg::ref_ptr<osg::Geometry>> geometries; ///< geometry of each object
     std::vector<osg::ref_ptr<osg::Material>> materials;
 };
 
-/// The same objects as instances in Embree, with its flags and qualities for scenes that change.
+/// Holds the objects as instances in Embree, with its flags and qualities for scenes that change.
 class BareField
 {
 public:
@@ -50,7 +51,7 @@ public:
     BareField(const BareField&) = delete;
     BareField& operator=(const BareField&) = delete;
 
-    /// Builds the BVH of one object, as that of a new one is.
+    /// Builds the BVH of one object, as for a new one.
     void build(const ObjectField& field, unsigned int object);
 
     /// Sets one transform and commits the top level.

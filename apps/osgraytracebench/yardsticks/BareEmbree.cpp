@@ -1,4 +1,4 @@
-// BareEmbree.cpp - traces recorded rays with nothing around Embree. Layer: apps.
+// BareEmbree.cpp - packs recorded rays, and traces them on all threads. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/yardsticks/BareEmbree.h"
 
@@ -11,9 +11,9 @@ namespace osgRayTrace::bench
 namespace
 {
 
-constexpr std::size_t kChunkPackets = 16; ///< as many rays as a tile has pixels
+constexpr std::size_t kChunkPackets = 16; ///< a chunk has as many rays as a tile has pixels
 
-/// Full packets; the last one is filled up with copies of its first ray.
+/// Returns full packets; the last one is filled up with copies of its first ray.
 std::vector<RTCRay16> packetsOf(const std::vector<RTCRay>& rays)
 {
     std::vector<RTCRay16> packets((rays.size() + 15) / 16);

@@ -8,8 +8,8 @@
 namespace osgRayTrace::bench
 {
 
-/// The same rays as full packets of sixteen, loaded and traced in chunks, on all of the workers'
-/// threads. The coherent flag is set as the engine sets it: on camera rays only.
+/// Holds recorded rays as full packets of sixteen, loaded and traced in chunks, on all of the
+/// workers' threads. The coherent flag is set as the engine sets it: on camera rays only.
 class BarePackets
 {
 public:
@@ -21,7 +21,7 @@ private:
     RTCScene _scene;
 };
 
-/// The same rays one at a time.
+/// Traces recorded rays one at a time.
 void traceSingly(const RecordedRays& rays, const engine::Workers& workers);
 
 } // namespace osgRayTrace::bench

@@ -12,7 +12,7 @@
 namespace osgRayTrace::bench
 {
 
-/// One copy of vertices and indices; not committed. The caller owns it.
+/// Returns one copy of vertices and indices; not committed. The caller owns it.
 inline RTCGeometry newBareTriangles(RTCDevice device, const osg::Vec3Array& vertices,
                                     const osg::DrawElementsUInt& indices)
 {

@@ -1,4 +1,4 @@
-// PlainPhotonGrid.cpp - photons in hashed cells, the plain way. Layer: apps.
+// PlainPhotonGrid.cpp - sorts photons by hashes of cells, and looks them up. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/yardsticks/PlainPhotonGrid.h"
 
@@ -22,7 +22,7 @@ int cellOf(float distance, float cellsPerUnit)
 
 } // namespace
 
-/// [Teschner03, sect. 3.1]
+/// Returns the bucket of a cell [Teschner03, sect. 3.1].
 uint32_t PlainPhotonGrid::bucketOf(int x, int y, int z) const
 {
     return (static_cast<uint32_t>(x) * 73856093u ^ static_cast<uint32_t>(y) * 19349663u ^
@@ -83,7 +83,7 @@ PhotonSum PlainPhotonGrid::gather(const PhotonQuery& query) const
                 uint32_t k = _first[bucket];
                 const uint32_t end = _first[bucket + 1];
                 if (k == end) continue;
-                // Cells may share a bucket.
+                // Several cells may share a bucket, which is visited once.
                 bool again = false;
                 for (int i = 0; i < cells; ++i)
                     again |= visited[i] == bucket;

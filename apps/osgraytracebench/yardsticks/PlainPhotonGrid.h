@@ -1,5 +1,4 @@
-// PlainPhotonGrid.h - photons in hashed cells, the plain way: the yardstick of look-ups. Layer:
-// apps.
+// PlainPhotonGrid.h - photons in hashed cells: the yardstick of look-ups. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,15 +9,15 @@
 namespace osgRayTrace::bench
 {
 
-/// What one writes first, and well: photons as structures, sorted by the hash of their cell with a
-/// counting sort, one after the other; a look-up walks through the cells that its sphere's box
-/// touches and tests photon by photon, distance first. It tests what PhotonMap tests, so that both
-/// count the same photons; power is added up as it is, without PhotonMap's ratio of cosines, which
-/// is less work.
+/// Holds photons in the way that one writes first, and well: as structures, sorted by the hash of
+/// their cell with a counting sort, one after the other. A look-up walks through the cells that its
+/// sphere's box touches and tests photon by photon, distance first. It tests what PhotonMap tests,
+/// so that both count the same photons; power is added up as it is, without PhotonMap's ratio of
+/// cosines, which is less work.
 class PlainPhotonGrid
 {
 public:
-    /// Any cell size is right; one or two radii are fast.
+    /// Sorts the photons. Any cell size is right; one or two radii are fast.
     PlainPhotonGrid(const std::vector<engine::Photon>& photons, float cellSize);
 
     engine::PhotonSum gather(const engine::PhotonQuery& query) const;
@@ -29,7 +28,7 @@ private:
     engine::Vec3 _low{0.0f};
     float _cellsPerUnit = 0.0f;
     uint32_t _mask = 0;
-    std::vector<uint32_t> _first; ///< a bucket, and one more
+    std::vector<uint32_t> _first; ///< first photon of each bucket, and one more
     std::vector<engine::Photon> _photons;
 };
 

@@ -1,4 +1,4 @@
-// RayRecorder.cpp - takes down the rays that the engine hands to Embree. Layer: apps.
+// RayRecorder.cpp - wraps Embree's calls, and copies their rays. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/yardsticks/RayRecorder.h"
 
@@ -7,7 +7,8 @@ namespace
 
 osgRayTrace::bench::RecordedRays* recording = nullptr;
 
-/// While Embree traces: what the engine asks of it then, for parts of the scene, are the same rays.
+/// This flag is true while Embree traces: calls from within Embree, for parts of the scene, have
+/// rays that are recorded already.
 thread_local bool tracing = false;
 
 struct Tracing

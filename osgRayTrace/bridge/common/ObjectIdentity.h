@@ -47,6 +47,13 @@ public:
     bool operator==(const ObjectName& other) const { return _observers == other._observers; }
     bool operator!=(const ObjectName& other) const { return !(*this == other); }
 
+    /// The same name without OSG, for the engine: equal if the names are. Null for no object.
+    std::shared_ptr<const void> hostName() const
+    {
+        if (!_observers) return nullptr;
+        return {_observers.get(), [kept = _observers](const void*) {}};
+    }
+
 private:
     osg::ref_ptr<osg::ObserverSet> _observers; ///< every object has its own, which outlives it here
 };

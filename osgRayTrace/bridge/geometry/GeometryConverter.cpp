@@ -1,6 +1,7 @@
 // GeometryConverter.cpp - checks triangles and vertices and makes a mesh of them. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/GeometryConverter.h"
+#include "osgRayTrace/bridge/geometry/TriangleCollector.h"
 
 #include "osgRayTrace/bridge/geometry/HostArrays.h"
 #include "osgRayTrace/bridge/geometry/MeshClipper.h"

@@ -45,13 +45,6 @@ struct TriangleList
     std::size_t size() const;
 };
 
-/// Triangles, strips, fans, quads, quad strips and polygons of DrawArrays, MultiDrawArrays,
-/// DrawArrayLengths and DrawElements. Sets of other kinds are counted. Concave polygons are cut
-/// into triangles; OpenGL leaves open what it does with them, and draws fans. numbered: with the
-/// numbers of primitives, and then source is not set.
-TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount,
-                         const PrimitiveRestart& restart, bool numbered = false);
-
 /// Whether it has triangles: they are traced.
 bool hasTriangles(const osg::PrimitiveSet& set);
 

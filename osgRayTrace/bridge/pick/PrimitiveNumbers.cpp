@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
 #include "osgRayTrace/bridge/geometry/GeometryConverter.h"
+#include "osgRayTrace/bridge/geometry/TriangleCollector.h"
 
 #include <map>
 #include <tuple>

@@ -130,4 +130,14 @@ DenoiseKind denoiseKind(const RayTraceSettings& settings)
     return DenoiseKind::Off;
 }
 
+void setInputs(ViewInputs& inputs, const RayTraceSettings& settings)
+{
+    inputs.options = renderOptionsFromSettings(settings);
+    inputs.exposureEv = settings.getExposure();
+    inputs.denoise = denoiseKind(settings);
+    inputs.reprojects = settings.getReproject();
+    inputs.maxPasses = settings.getMaxPasses();
+    inputs.passesPerFrame = settings.getPassesPerFrame();
+}
+
 } // namespace osgRayTrace::engine

@@ -6,6 +6,7 @@
 #include "osgRayTrace/integrators/shared/RenderOptions.h"
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/session/denoise/DenoiseReport.h"
+#include "osgRayTrace/session/view/ViewInputs.h"
 
 #include <osgRayTrace/RayTraceSettings>
 
@@ -20,5 +21,8 @@ ToneMap toneMapFromSettings(const RayTraceSettings& settings, const Scene& scene
 
 /// How images are denoised before they are shown. Debug channels are not.
 DenoiseKind denoiseKind(const RayTraceSettings& settings);
+
+/// Takes over what the image of a view needs of the settings; scene, workers and photons stay.
+void setInputs(ViewInputs& inputs, const RayTraceSettings& settings);
 
 } // namespace osgRayTrace::engine

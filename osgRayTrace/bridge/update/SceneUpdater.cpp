@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/update/SceneUpdater.h"
 
 #include "osgRayTrace/bridge/common/WarnOnce.h"
+#include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
 
 #include <cmath>
@@ -58,8 +59,8 @@ bool SceneUpdater::isViewed() const
 void SceneUpdater::recordDrawn(const ObjectName& camera, const osg::Vec3d& eye, double nearDistance)
 {
     const SceneVersion drawn = version();
-    if (!drawn.scene) return;
-    const Vec3d origin = drawn.scene->scene().origin;
+    if (!drawn.inputs.scene) return;
+    const Vec3d origin = drawn.inputs.scene->scene().origin;
     const double distance = (eye - osg::Vec3d(origin.x, origin.y, origin.z)).length();
     if (!(nearDistance > 0.0 && distance > kOriginDistance * nearDistance)) return;
 
@@ -93,7 +94,7 @@ SceneVersion SceneUpdater::versionToPick(osg::Node* root, const RayTraceSettings
     {
         std::lock_guard<std::mutex> lock(_recordedMutex);
         if (!now.pickIndex) _recorded.asked.dirty = true;
-        if (!viewed && !now.scene) _recorded.asked.origin = start;
+        if (!viewed && !now.inputs.scene) _recorded.asked.origin = start;
     }
     update(root, settings, nullptr);
     return version();
@@ -109,7 +110,7 @@ Statistics SceneUpdater::statistics() const
 {
     std::lock_guard<std::mutex> lock(_versionMutex);
     Statistics statistics = _statistics;
-    if (_version.scene) statistics.embreeBytes = _version.scene->embreeBytes();
+    if (_version.inputs.scene) statistics.embreeBytes = _version.inputs.scene->embreeBytes();
     return statistics;
 }
 
@@ -161,8 +162,10 @@ void SceneUpdater::takeSettings(const RayTraceSettings& settings)
 
     std::lock_guard<std::mutex> lock(_versionMutex);
     _version.settings = _settings;
-    _version.workers = _workers;
-    if (!_version.photons) _version.photons = std::make_shared<PhotonPasses>();
+    ViewInputs& inputs = _version.inputs;
+    setInputs(inputs, *_settings);
+    inputs.workers = _workers;
+    if (!inputs.photons) inputs.photons = std::make_shared<PhotonPasses>();
 }
 
 void SceneUpdater::convertIfChanged(osg::Node* root, const ViewingConditions& conditions,
@@ -249,7 +252,7 @@ ConversionResult SceneUpdater::convert(osg::Node& root, const ViewingConditions&
 
 void SceneUpdater::build(const ConversionResult& conversion)
 {
-    std::shared_ptr<const TracedScene> traced = version().scene;
+    std::shared_ptr<const TracedScene> traced = version().inputs.scene;
     if (!traced || &traced->scene() != conversion.scene.get())
     {
         traced = TracedScene::build(conversion.scene, _workers, traced);
@@ -271,7 +274,7 @@ void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene,
     std::shared_ptr<const RasterizedParts> rasterized = conversion.rasterized;
     std::lock_guard<std::mutex> lock(_versionMutex);
     // The old ones are freed after the lock, unless a view still draws them.
-    _version.scene.swap(scene);
+    _version.inputs.scene.swap(scene);
     _version.rasterized.swap(rasterized);
     _version.pickIndex = conversion.pickIndex;
     _version.paged = conversion.paged;

@@ -9,6 +9,7 @@
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
 #include "osgRayTrace/bridge/convert/SceneConverter.h"
 #include "osgRayTrace/bridge/geometry/HostArrays.h"
+#include "osgRayTrace/bridge/update/SceneVersion.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
 
 #include <osgRayTrace/RayTraceSettings>
@@ -23,20 +24,6 @@
 
 namespace osgRayTrace::engine
 {
-
-/// What a draw thread needs to trace a view. Immutable: it stays what it is while update goes on.
-struct SceneVersion
-{
-    std::shared_ptr<const TracedScene>
-        scene; ///< null: there is none yet, or none that can be traced
-    std::shared_ptr<Workers> workers;
-    std::shared_ptr<PhotonPasses> photons; ///< of all views
-    osg::ref_ptr<const RayTraceSettings> settings;
-    std::shared_ptr<const RasterizedParts> rasterized; ///< for OSG to draw; null: as scene
-    std::shared_ptr<const PickIndex>
-        pickIndex;      ///< null: nobody has picked since something came or went
-    bool paged = false; ///< see ConversionResult
-};
 
 /// Update converts, draw takes the version there is. Cull records who looks at the scene: the first
 /// camera that did, as long as it does, is the reference for what all views share (levels of

@@ -127,13 +127,17 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     statistics.storedPhotons = progress.storedPhotons;
     statistics.photonBytes = progress.photonBytes;
     statistics.hitPointBytes = progress.hitPointBytes;
-    statistics.reprojectedShare = progress.reprojectedShare;
-    statistics.reprojectSeconds = progress.reprojectSeconds;
     statistics.photonNote = noteText(progress.photonNote);
     if (!statistics.photonNote.empty()) warnOnce(statistics.photonNote);
     statistics.photonRadius = static_cast<double>(progress.photonRadius);
-    setDenoiseStatistics(statistics, progress.denoised, progress.denoiseSeconds);
     statistics.droppedSamples = progress.droppedSamples;
+}
+
+void setStageStatistics(Statistics& statistics, const StageReport& report)
+{
+    statistics.reprojectedShare = report.reprojectedShare;
+    statistics.reprojectSeconds = report.reprojectSeconds;
+    setDenoiseStatistics(statistics, report.denoised, report.denoiseSeconds);
 }
 
 void setDenoiseStatistics(Statistics& statistics, const DenoiseReport& report, double seconds)

@@ -4,7 +4,8 @@
 
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/bridge/convert/SceneConverter.h"
-#include "osgRayTrace/session/RenderSession.h"
+#include "osgRayTrace/session/RenderProgress.h"
+#include "osgRayTrace/session/view/ViewProgress.h"
 
 #include <osgRayTrace/Statistics>
 
@@ -17,6 +18,9 @@ void setSceneStatistics(Statistics& statistics, const ConversionResult& conversi
 
 /// Sets the image's part, ok and message. A render that was cancelled after a complete pass is ok.
 void setImageStatistics(Statistics& statistics, const RenderProgress& progress);
+
+/// Sets what the view did to the image between accumulation and display.
+void setStageStatistics(Statistics& statistics, const StageReport& report);
 
 /// Sets what is in them of the image's denoising, and warns once if it was not as asked for.
 void setDenoiseStatistics(Statistics& statistics, const DenoiseReport& report, double seconds);

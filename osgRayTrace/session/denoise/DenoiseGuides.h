@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/session/denoise/DenoisePlanes.h"
+#include "osgRayTrace/session/denoise/DenoiseSurfaces.h"
 #include "osgRayTrace/session/image/ResolvedImage.h"
 
 namespace osgRayTrace::engine
@@ -16,8 +17,6 @@ struct CellGuides
     CellPlane slopeX, slopeY; ///< of distance, a cell
     CellPlane sharpness;      ///< 1 / how much distance may differ from a plane's
 };
-
-constexpr float kNoSurface = 1e30f; ///< a distance that differs from all others
 
 /// Made once for a view. What is filtered is light over albedo [Schied17, sect. 4.2]; lamps,
 /// mirrors, clear glass and the background are not: what is seen in them has nothing to do with
@@ -42,17 +41,10 @@ struct DenoiseGuides
 
     CellGuides cells;
 
+    PixelPlane<uint8_t> scatters; ///< 1: the pixel scatters light; with a margin of one pixel
+
 private:
     void allocate(int pixelsX, int pixelsY);
-
-    PixelPlane<uint8_t> scatters; ///< with a margin of one pixel
 };
-
-/// How alike surfaces are in their normals, as fallOff's argument [Schied17, eq. 4]: about cos^128.
-OSGRAYTRACE_INLINE float normalDistance(float ax, float ay, float az, float bx, float by, float bz)
-{
-    const float cosine = ax * bx + ay * by + az * bz;
-    return 128.0f * (1.0f - cosine);
-}
 
 } // namespace osgRayTrace::engine

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/session/history/ProjectedRow.h"
 #include "osgRayTrace/session/image/SurfaceMap.h"
 
 #include <vector>
@@ -17,18 +18,6 @@ struct SampledImage
     int height = 0;
     std::vector<float> radiance; ///< linear RGBA, premultiplied
     std::vector<float> count;    ///< samples a pixel; 0: nothing is known, radiance is 0
-};
-
-/// What limits the samples that a pixel may take along.
-struct ReprojectionLimits
-{
-    float count = 32.0f; ///< of any pixel
-    float edgeCount =
-        4.0f; ///< of pixels that border on other surfaces: what they mix changes as these move
-    /// Of glossy surfaces: the viewer has moved around the point by this share of the lobe's width
-    /// since the oldest sample that counts, if it moves steadily.
-    float lobeShare = 0.5f;
-    float turn = 0.0f; ///< angle that is added to the viewer's move around all points [radians]
 };
 
 /// old, an image of the view of from, as an image of the view of to. A pixel takes the mean of the

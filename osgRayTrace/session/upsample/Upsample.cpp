@@ -174,9 +174,10 @@ UpsampleCounts forEachStrip(const ResolvedImage& image, const std::vector<Surfac
 {
     const UpsampleSource source{image, samples.data(), full, UpsampleAxis(image.width, full.width),
                                 UpsampleAxis(image.height, full.height)};
-    const UpsampleCells cells =
-        upsampleCells(samples, full.camera, full.traced->scene().unit, source.x, source.y,
-                      image.width, image.height, mostTraced, workers);
+    const UpsampleCells cells = upsampleCells(
+        samples,
+        {full.camera, full.traced->scene().unit, source.x, source.y, image.width, image.height},
+        mostTraced, workers);
     const auto strips = static_cast<std::size_t>((full.height + kStripRows - 1) / kStripRows);
     std::vector<UpsampleCounts> counts(strips);
     workers.forEach(strips,

@@ -20,7 +20,25 @@ constexpr float kBend = 0.25f;
 constexpr float kLeastCosine = 0.95f; ///< of their normals
 constexpr float kAlbedoStep = 0.05f;  ///< more is a texture, which is looked up
 
-constexpr int kMargin = 2; ///< of the plane of inverse distances: zeros, as where nothing is hit
+/// Inverse distances, with a margin of zeros, as for pixels that see nothing.
+class DistancePlane
+{
+public:
+    DistancePlane(std::size_t width, std::size_t height)
+        : _stride(width + 2 * kMargin), _values(_stride * (height + 2 * kMargin))
+    {
+    }
+
+    float* row(std::size_t y) { return &_values[(y + kMargin) * _stride + kMargin]; }
+    const float* row(std::size_t y) const { return &_values[(y + kMargin) * _stride + kMargin]; }
+    int stride() const { return static_cast<int>(_stride); }
+
+private:
+    static constexpr int kMargin = 2;
+
+    std::size_t _stride;
+    std::vector<float> _values;
+};
 
 /// Points of a row of pixels: origin + s * direction, linear in the pixel's number.
 struct RowRays
@@ -68,11 +86,19 @@ void linearDistances(const CameraRays& camera, const RowRays& row, const Surface
     }
 }
 
+/// How far three neighbours may be off a straight line, on the plane of inverse distances: relative
+/// to the middle one of a perspective view, absolute of an orthographic one.
+struct Bend
+{
+    float relative, absolute;
+};
+
 /// Whether samples and those a step farther see one surface.
 OSGRAYTRACE_KERNEL
 void agreements(const SurfaceSample* samples, int step, const float* linear, int linearStep,
-                float relative, float absolute, int count, uint8_t* __restrict agree)
+                Bend largest, int count, uint8_t* __restrict agree)
 {
+    const float relative = largest.relative, absolute = largest.absolute;
     const float* a = &samples->normal.x;
     const uint32_t* objects = &samples->object;
     constexpr int kStride = sizeof(SurfaceSample) / sizeof(float);
@@ -133,6 +159,55 @@ double edges(const std::vector<uint8_t>& smooth, std::size_t columns, std::size_
     return static_cast<double>(count) / static_cast<double>(columns * rows);
 }
 
+Bend largestBend(const UpsampleView& view)
+{
+    // A pixel's width over its distance, in the middle of the image; of an orthographic view the
+    // width.
+    const CameraRays& camera = view.camera;
+    const auto middleX = 0.5f * view.x.scale * static_cast<float>(view.width);
+    const auto middleY = 0.5f * view.y.scale * static_cast<float>(view.height);
+    const float length =
+        glm::length(camera.direction + middleX * camera.directionDx + middleY * camera.directionDy);
+    const float pixel = std::max(view.x.scale * glm::length(camera.directionDx + camera.originDx),
+                                 view.y.scale * glm::length(camera.directionDy + camera.originDy)) /
+                        length;
+    return camera.orthographic ? Bend{0.0f, kBend * pixel} : Bend{kBend * pixel, 0.0f};
+}
+
+/// Returns 1 for the cells whose four pixels agree, as many in a row as the image has pixels.
+std::vector<uint8_t> flatCells(const std::vector<SurfaceSample>& samples, const UpsampleView& view,
+                               const DistancePlane& linear, const Workers& workers)
+{
+    // Rows of pairs are made once more for each range of cells, which costs less than a pass of
+    // their own.
+    constexpr std::size_t kRows = 16;
+    const auto w = static_cast<std::size_t>(view.width);
+    const std::size_t cellRows = static_cast<std::size_t>(view.height) - 1;
+    const Bend bend = largestBend(view);
+    std::vector<uint8_t> flat(w * cellRows);
+    const auto joinRange = [&](std::size_t range)
+    {
+        std::vector<uint8_t> right(w), rightAbove(w), up(w);
+        const auto pairs = [&](std::size_t row, bool above, std::vector<uint8_t>& agree)
+        {
+            agreements(&samples[row * w], above ? view.width : 1, linear.row(row),
+                       above ? linear.stride() : 1, bend, above ? view.width : view.width - 1,
+                       agree.data());
+        };
+        const std::size_t begin = range * kRows, end = std::min(cellRows, begin + kRows);
+        pairs(begin, false, right);
+        for (std::size_t row = begin; row < end; ++row)
+        {
+            pairs(row + 1, false, rightAbove);
+            pairs(row, true, up);
+            joinCells(right.data(), rightAbove.data(), up.data(), view.width - 1, &flat[row * w]);
+            right.swap(rightAbove);
+        }
+    };
+    workers.forEach((cellRows + kRows - 1) / kRows, joinRange);
+    return flat;
+}
+
 } // namespace
 
 UpsampleAxis::UpsampleAxis(int small, int large)
@@ -152,75 +227,35 @@ UpsampleAxis::UpsampleAxis(int small, int large)
     }
 }
 
-UpsampleCells upsampleCells(const std::vector<SurfaceSample>& samples, const CameraRays& camera,
-                            double unit, const UpsampleAxis& x, const UpsampleAxis& y, int width,
-                            int height, double mostEdges, const Workers& workers)
+UpsampleCells upsampleCells(const std::vector<SurfaceSample>& samples, const UpsampleView& view,
+                            double mostEdges, const Workers& workers)
 {
-    const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
+    const auto w = static_cast<std::size_t>(view.width), h = static_cast<std::size_t>(view.height);
     UpsampleCells cells;
-    cells.width = width;
-    cells.height = height;
+    cells.width = view.width;
+    cells.height = view.height;
     cells.depth.resize(w * h);
     cells.smooth.resize(w * h);
-    const std::size_t stride = w + 2 * kMargin;
-    std::vector<float> linear(stride * (h + 2 * kMargin));
-    const auto linearRow = [&](std::size_t row)
-    { return &linear[(row + kMargin) * stride + kMargin]; };
+    DistancePlane linear(w, h);
     workers.forEach(h,
                     [&](std::size_t row)
                     {
                         const RowRays rays =
-                            rowRays(camera, x.scale, (static_cast<float>(row) + 0.5f) * y.scale);
-                        linearDistances(camera, rays, &samples[row * w], width,
-                                        static_cast<float>(1.0 / unit), &cells.depth[row * w],
-                                        linearRow(row));
+                            rowRays(view.camera, view.x.scale,
+                                    (static_cast<float>(row) + 0.5f) * view.y.scale);
+                        linearDistances(view.camera, rays, &samples[row * w], view.width,
+                                        static_cast<float>(1.0 / view.unit), &cells.depth[row * w],
+                                        linear.row(row));
                     });
-
-    // A pixel's width over its distance, of the middle of the image; of an orthographic view the
-    // width.
-    const auto middleX = 0.5f * x.scale * static_cast<float>(width);
-    const auto middleY = 0.5f * y.scale * static_cast<float>(height);
-    const float length =
-        glm::length(camera.direction + middleX * camera.directionDx + middleY * camera.directionDy);
-    const float pixel = std::max(x.scale * glm::length(camera.directionDx + camera.originDx),
-                                 y.scale * glm::length(camera.directionDy + camera.originDy)) /
-                        length;
-    const float relative = camera.orthographic ? 0.0f : kBend * pixel;
-    const float absolute = camera.orthographic ? kBend * pixel : 0.0f;
-
-    // Rows of pairs are made once more for each range of cells, which is less than a pass of their
-    // own.
-    constexpr std::size_t kRows = 16;
     const std::size_t cellRows = h - 1;
     if (w < 2 || cellRows == 0) return cells; // all of them are at the image's edge
-    std::vector<uint8_t> flat(w * cellRows);
-    workers.forEach(
-        (cellRows + kRows - 1) / kRows,
-        [&](std::size_t range)
-        {
-            std::vector<uint8_t> right(w), rightAbove(w), up(w);
-            const auto pairs = [&](std::size_t row, bool above, std::vector<uint8_t>& agree)
-            {
-                agreements(&samples[row * w], above ? width : 1, linearRow(row),
-                           above ? static_cast<int>(stride) : 1, relative, absolute,
-                           above ? width : width - 1, agree.data());
-            };
-            const std::size_t begin = range * kRows, end = std::min(cellRows, begin + kRows);
-            pairs(begin, false, right);
-            for (std::size_t row = begin; row < end; ++row)
-            {
-                pairs(row + 1, false, rightAbove);
-                pairs(row, true, up);
-                joinCells(right.data(), rightAbove.data(), up.data(), width - 1, &flat[row * w]);
-                right.swap(rightAbove);
-            }
-        });
+    const std::vector<uint8_t> flat = flatCells(samples, view, linear, workers);
     workers.forEach(cellRows,
                     [&](std::size_t row)
                     {
                         const uint8_t* below = &flat[(row > 0 ? row - 1 : row) * w];
                         const uint8_t* above = &flat[(row + 1 < cellRows ? row + 1 : row) * w];
-                        erode(below, &flat[row * w], above, width - 1, &cells.smooth[row * w]);
+                        erode(below, &flat[row * w], above, view.width - 1, &cells.smooth[row * w]);
                     });
     cells.around = edges(cells.smooth, w - 1, cellRows, w);
     cells.edges = edges(flat, w - 1, cellRows, w);

@@ -39,10 +39,19 @@ struct UpsampleCells
            around = 0.0; ///< shares of the cells: not smooth; or beside one that is not
 };
 
-/// camera: of the large image. mostEdges: the largest share of the cells that is not to be smooth.
-/// If more are not, those beside an edge count as smooth; if there still are too many, all do.
-UpsampleCells upsampleCells(const std::vector<SurfaceSample>& samples, const CameraRays& camera,
-                            double unit, const UpsampleAxis& x, const UpsampleAxis& y, int width,
-                            int height, double mostEdges, const Workers& workers);
+/// The small image in the view of the large one.
+struct UpsampleView
+{
+    const CameraRays& camera; ///< of the large image
+    double unit;              ///< Scene::unit
+    const UpsampleAxis &x, &y;
+    int width, height; ///< of the small image
+};
+
+/// Returns the cells of an image. samples: one a pixel of the small image. mostEdges: the largest
+/// share of the cells that is not to be smooth. If more are not, those beside an edge count as
+/// smooth; if there still are too many, all do.
+UpsampleCells upsampleCells(const std::vector<SurfaceSample>& samples, const UpsampleView& view,
+                            double mostEdges, const Workers& workers);
 
 } // namespace osgRayTrace::engine

@@ -101,6 +101,22 @@ void inverseWidths(const CameraRays& camera, const RayBlock& ray, const FloatLan
     }
 }
 
+/// Returns how far the point that the ray of pixel (x, y) met is from the plane of lane i, in
+/// widths of a pixel.
+OSGRAYTRACE_INLINE float planeOffset(const CameraRays& c, float x, float y, float distance,
+                                     const LaneSurfaces& at, int i)
+{
+    const float rx = c.direction.x + x * c.directionDx.x + y * c.directionDy.x;
+    const float ry = c.direction.y + x * c.directionDx.y + y * c.directionDy.y;
+    const float rz = c.direction.z + x * c.directionDx.z + y * c.directionDy.z;
+    const float s = distance / std::sqrt(rx * rx + ry * ry + rz * rz);
+    const float px = c.origin.x + x * c.originDx.x + y * c.originDy.x + s * rx - at.position.x[i];
+    const float py = c.origin.y + x * c.originDx.y + y * c.originDy.y + s * ry - at.position.y[i];
+    const float pz = c.origin.z + x * c.originDx.z + y * c.originDy.z + s * rz - at.position.z[i];
+    return (px * at.geometric.x[i] + py * at.geometric.y[i] + pz * at.geometric.z[i]) *
+           at.inverseWidth[i];
+}
+
 /// Adds the pixels (dx, dy) from each lane's first one.
 OSGRAYTRACE_KERNEL
 void addNeighbours(const UpsampleSource& source, const LanePlaces& place, const LaneSurfaces& at,
@@ -121,24 +137,10 @@ void addNeighbours(const UpsampleSource& source, const LanePlaces& place, const 
         row = row < lastRow ? row : lastRow;
         const int pixel = row * width + column, k = kSampleFloats * pixel, rgba = 4 * pixel;
 
-        // Where the neighbour's ray met its surface, and how far that is from the lane's plane.
-        const float x = (static_cast<float>(column) + 0.5f) * scaleX;
-        const float y = (static_cast<float>(row) + 0.5f) * scaleY;
-        const float rx = c.direction.x + x * c.directionDx.x + y * c.directionDy.x;
-        const float ry = c.direction.y + x * c.directionDx.y + y * c.directionDy.y;
-        const float rz = c.direction.z + x * c.directionDx.z + y * c.directionDy.z;
         const float hitDistance = samples[k + 3] * inverseUnit;
-        const float distance = select(hitDistance < kInfinity, hitDistance, 0.0f);
-        const float s = distance / std::sqrt(rx * rx + ry * ry + rz * rz);
-        const float px =
-            c.origin.x + x * c.originDx.x + y * c.originDy.x + s * rx - at.position.x[i];
-        const float py =
-            c.origin.y + x * c.originDx.y + y * c.originDy.y + s * ry - at.position.y[i];
-        const float pz =
-            c.origin.z + x * c.originDx.z + y * c.originDy.z + s * rz - at.position.z[i];
-        const float offset =
-            (px * at.geometric.x[i] + py * at.geometric.y[i] + pz * at.geometric.z[i]) *
-            at.inverseWidth[i];
+        const float offset = planeOffset(c, (static_cast<float>(column) + 0.5f) * scaleX,
+                                         (static_cast<float>(row) + 0.5f) * scaleY,
+                                         select(hitDistance < kInfinity, hitDistance, 0.0f), at, i);
         const float cosine = samples[k] * at.normal.x[i] + samples[k + 1] * at.normal.y[i] +
                              samples[k + 2] * at.normal.z[i];
 
@@ -199,6 +201,29 @@ Vec3 behind(const PassContext& context, const RayBlock& ray, int i)
     return Vec3(linearFromSrgb(radiance.x), linearFromSrgb(radiance.y), linearFromSrgb(radiance.z));
 }
 
+/// Returns how much the surface that a pixel of the image sees is like that of lane i; never 0, so
+/// that no lane is black.
+float likeness(const UpsampleSource& source, const LaneSurfaces& at, int i,
+               const SurfaceSample& sample, int column, int row)
+{
+    if (at.object[i] == 0 && sample.object == 0) return 1.0f;
+    if (at.object[i] == 0 || sample.object == 0) return 1e-12f;
+    const CameraRays& c = source.full.camera;
+    const auto unit = static_cast<float>(source.full.traced->scene().unit);
+    const float x = (static_cast<float>(column) + 0.5f) * source.x.scale;
+    const float y = (static_cast<float>(row) + 0.5f) * source.y.scale;
+    const Vec3 direction = c.direction + x * c.directionDx + y * c.directionDy;
+    const Vec3 start = c.origin + x * c.originDx + y * c.originDy;
+    const Vec3 hit = start + sample.distance / unit * glm::normalize(direction);
+    const float offset =
+        glm::dot(hit - laneOf(at.position, i), laneOf(at.geometric, i)) * at.inverseWidth[i];
+    const float own = sample.object == at.object[i] ? 1.0f : kOtherObject;
+    const float cosine = glm::dot(sample.normal, laneOf(at.normal, i));
+    const float alike = 1e-9f + own * (1e-6f + planeWeight(offset) * normalWeight(cosine));
+    // White parts tell more about the light than black ones.
+    return alike * (kLeastAlbedo + std::max({sample.albedo.x, sample.albedo.y, sample.albedo.z}));
+}
+
 /// One lane from pixels farther away, however unlike: what is most alike decides, then what is
 /// nearest.
 void lookFarther(const UpsampleSource& source, const LanePlaces& place, const LaneSurfaces& at,
@@ -206,10 +231,7 @@ void lookFarther(const UpsampleSource& source, const LanePlaces& place, const La
 {
     constexpr int kReach = 2;
     const ResolvedImage& image = source.image;
-    const CameraRays& c = source.full.camera;
-    const auto unit = static_cast<float>(source.full.traced->scene().unit);
-    const Vec3 position = laneOf(at.position, i), geometric = laneOf(at.geometric, i);
-    const Vec3 normal = laneOf(at.normal, i), albedo = laneOf(at.albedo, i);
+    const Vec3 albedo = laneOf(at.albedo, i);
     Vec4 mean(0.0f);
     Vec3 meanAlbedo(0.0f);
     float sum = 1e-30f;
@@ -225,23 +247,7 @@ void lookFarther(const UpsampleSource& source, const LanePlaces& place, const La
             const SurfaceSample& sample = source.samples[pixel];
             const float dx = static_cast<float>(column - place.column[i]) - place.shareX[i];
             const float dy = static_cast<float>(row - place.row[i]) - place.shareY[i];
-            float alike = 1e-12f; // of what is not: never black
-            if (at.object[i] == 0 && sample.object == 0) alike = 1.0f;
-            if (at.object[i] != 0 && sample.object != 0)
-            {
-                const float x = (static_cast<float>(column) + 0.5f) * source.x.scale;
-                const float y = (static_cast<float>(row) + 0.5f) * source.y.scale;
-                const Vec3 direction = c.direction + x * c.directionDx + y * c.directionDy;
-                const Vec3 start = c.origin + x * c.originDx + y * c.originDy;
-                const Vec3 hit = start + sample.distance / unit * glm::normalize(direction);
-                const float offset = glm::dot(hit - position, geometric) * at.inverseWidth[i];
-                const float own = sample.object == at.object[i] ? 1.0f : kOtherObject;
-                alike = 1e-9f + own * (1e-6f + planeWeight(offset) *
-                                                   normalWeight(glm::dot(sample.normal, normal)));
-                // White parts tell more about the light than black ones.
-                alike *=
-                    kLeastAlbedo + std::max({sample.albedo.x, sample.albedo.y, sample.albedo.z});
-            }
+            const float alike = likeness(source, at, i, sample, column, row);
             const float d2 = dx * dx + dy * dy;
             const float weight = alike / ((1.0f + d2) * (1.0f + d2));
             sum += weight;

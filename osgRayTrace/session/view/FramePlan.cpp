@@ -31,6 +31,13 @@ int reducedSize(int size, int divider)
     return std::max(1, (size + divider / 2) / divider);
 }
 
+View reducedView(View view, int divider)
+{
+    view.width = reducedSize(view.width, divider);
+    view.height = reducedSize(view.height, divider);
+    return view;
+}
+
 int tilesOf(int width, int height)
 {
     return tilesAlong(width) * tilesAlong(height);

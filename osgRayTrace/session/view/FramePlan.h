@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/scene/View.h"
+
 #include <functional>
 
 namespace osgRayTrace::engine
@@ -128,7 +130,10 @@ private:
 /// Of an image's side: at least a pixel.
 int reducedSize(int size, int divider);
 
-/// Of an image.
+/// The same view in fewer pixels.
+View reducedView(View view, int divider);
+
+/// Tiles of an image.
 int tilesOf(int width, int height);
 
 } // namespace osgRayTrace::engine

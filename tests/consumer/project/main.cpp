@@ -7,13 +7,22 @@
 #include <osgRayTrace/RayTracedScene>
 #include <osgRayTrace/Renderer>
 #include <osgRayTrace/Statistics>
+#include <osgRayTrace/Version>
 
 #include <osg/ShapeDrawable>
 
 #include <iostream>
+#include <string>
 
 int main()
 {
+    if (std::string(osgRayTraceGetVersion()) != VERSION_OF_PACKAGE)
+    {
+        std::cerr << "library " << osgRayTraceGetVersion() << ", package " << VERSION_OF_PACKAGE
+                  << '\n';
+        return 1;
+    }
+
     osg::ref_ptr<osg::ShapeDrawable> sphere = new osg::ShapeDrawable(new osg::Sphere);
     osg::ref_ptr<osgRayTrace::RayTracedScene> scene = new osgRayTrace::RayTracedScene;
     scene->addChild(sphere);

@@ -1,0 +1,44 @@
+// SurfaceLanes.h - surface points of sixteen rays as columns. Layer: accel.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Lanes.h"
+
+namespace osgRayTrace::engine
+{
+
+/// Hit points rebuilt from barycentric coordinates, with the bound of their rounding error.
+struct SurfaceLanes
+{
+    Vec3Lanes position;        ///< on the triangle, but for terminatorLanes: where their rays start
+    Vec3Lanes geometricNormal; ///< unit, on the side that the ray comes from
+    Vec3Lanes shadingNormal;   ///< unit; as the mesh has it: not turned to either side
+    FloatLanes offset;         ///< distance along geometricNormal that clears the error of position
+    FloatLanes minCosine;      ///< cosine above which rays may begin at position itself: see leave
+    UintLanes instance;        ///< index into Scene::instances; undefined outside of hits
+    UintLanes material;        ///< index into Scene::materials
+    LaneMask hits = 0;
+    LaneMask front = 0;           ///< the ray comes from the mesh's counter-clockwise side
+    LaneMask terminatorLanes = 0; ///< hits whose position is above their triangle: see RayStart
+    Vec3Lanes onTriangle;         ///< position without terminator offset; unset if no lane is
+};
+
+/// The points on the triangles, with a terminator offset or not.
+inline const Vec3Lanes& trianglePoints(const SurfaceLanes& surface)
+{
+    return surface.terminatorLanes ? surface.onTriangle : surface.position;
+}
+
+/// Puts the positions of lanes back onto their triangles.
+inline void dropTerminatorOffset(SurfaceLanes& surface, LaneMask lanes)
+{
+    for (const int i : lanesIn(surface.terminatorLanes & lanes))
+    {
+        surface.position.x[i] = surface.onTriangle.x[i];
+        surface.position.y[i] = surface.onTriangle.y[i];
+        surface.position.z[i] = surface.onTriangle.z[i];
+    }
+    surface.terminatorLanes &= ~lanes;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,210 @@
+// TriangleCollector.cpp - takes primitive sets of all modes and index types apart. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/geometry/TriangleCollector.h"
+
+#include "osgRayTrace/bridge/common/ArrayReader.h"
+#include "osgRayTrace/bridge/geometry/BoundArrays.h"
+#include "osgRayTrace/bridge/geometry/PolygonTriangles.h"
+#include "osgRayTrace/bridge/geometry/PrimitiveModes.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+class TriangleCollector
+{
+public:
+    TriangleCollector(TriangleList& list, const osg::Geometry& geometry, std::size_t vertexCount,
+                      const PrimitiveRestart& restart, bool numbered)
+        : _list(list),
+          _geometry(geometry),
+          _vertexCount(vertexCount),
+          _restart(restart),
+          _numbered(numbered)
+    {
+    }
+
+    void append(const osg::PrimitiveSet& set)
+    {
+        if (const char* reason = untracedMode(set.getMode()))
+        {
+            ++_list.counts[reason];
+            if (_numbered) _primitives += PrimitiveCounter(set).count();
+            return;
+        }
+        if (set.getNumInstances() > 1) ++_list.counts["approximated.instanced-draw"];
+        if (appendArrays(set) || appendElements(set)) return;
+        ++_list.counts["not-traced.indirect-draw"];
+        if (_numbered) _primitives += PrimitiveCounter(set).count();
+    }
+
+private:
+    bool appendArrays(const osg::PrimitiveSet& set)
+    {
+        const GLenum mode = set.getMode();
+        if (const auto* arrays = dynamic_cast<const osg::DrawArrays*>(&set))
+        {
+            appendRange(mode, arrays->getFirst(), arrays->getCount());
+            return true;
+        }
+        if (const auto* lengths = dynamic_cast<const osg::DrawArrayLengths*>(&set))
+        {
+            int64_t first = lengths->getFirst();
+            for (const GLsizei length : *lengths)
+            {
+                appendRange(mode, first, length);
+                first += std::max(length, 0);
+            }
+            return true;
+        }
+        if (const auto* multi = dynamic_cast<const osg::MultiDrawArrays*>(&set))
+        {
+            const std::size_t draws =
+                std::min(multi->getFirsts().size(), multi->getCounts().size());
+            for (std::size_t i = 0; i < draws; ++i)
+                appendRange(mode, multi->getFirsts()[i], multi->getCounts()[i]);
+            return true;
+        }
+        return false;
+    }
+
+    bool appendElements(const osg::PrimitiveSet& set)
+    {
+        return appendIndices<osg::DrawElementsUInt>(set) ||
+               appendIndices<osg::DrawElementsUShort>(set) ||
+               appendIndices<osg::DrawElementsUByte>(set);
+    }
+
+    /// Cut to the vertices that exist: a wrong count must not make a list of billions.
+    void appendRange(GLenum mode, int64_t first, int64_t count)
+    {
+        const auto end = static_cast<int64_t>(_vertexCount);
+        const int64_t wanted = std::max<int64_t>(count, 0);
+        const int64_t usable = first < 0 ? 0 : std::clamp<int64_t>(end - first, 0, wanted);
+        if (usable < wanted)
+            _list.counts["skipped.index-out-of-range"] +=
+                triangleCount(mode, wanted) - triangleCount(mode, usable);
+        appendPrimitives(mode, usable,
+                         [first](std::size_t i) { return static_cast<uint32_t>(first + i); });
+    }
+
+    template <class Elements> bool appendIndices(const osg::PrimitiveSet& set)
+    {
+        const auto* elements = dynamic_cast<const Elements*>(&set);
+        if (!elements) return false;
+        if (elements->empty()) return true;
+        const auto* index = &elements->front();
+        using Index = typename Elements::value_type;
+        const uint32_t end =
+            _restart.atLargest ? std::numeric_limits<Index>::max() : _restart.index;
+        const std::size_t size = elements->size();
+        for (std::size_t first = 0; first <= size;)
+        {
+            const auto* last = index + size;
+            if (_restart.on)
+                last = std::find_if(index + first, last, [end](Index i) { return i == end; });
+            const auto* run = index + first;
+            appendPrimitives(set.getMode(), static_cast<std::size_t>(last - run),
+                             [run](std::size_t i) { return static_cast<uint32_t>(run[i]); });
+            first = static_cast<std::size_t>(last - index) + 1;
+        }
+        return true;
+    }
+
+    template <class Index> void appendPrimitives(GLenum mode, std::size_t count, const Index& index)
+    {
+        grow(triangleCount(mode, count));
+        if (mode != GL_POLYGON || !appendConcave(count, index))
+            appendTriangles(mode, count, index, _list.triangles);
+        if (_numbered) number(mode, count);
+    }
+
+    /// The triangles that were appended last: all of count vertices.
+    void number(GLenum mode, std::size_t count)
+    {
+        const uint32_t triangles = mode == GL_QUADS || mode == GL_QUAD_STRIP ? 2 : 1;
+        for (uint32_t i = 0; _list.primitives.size() < _list.triangles.size(); ++i)
+            _list.primitives.push_back(_primitives + i / triangles);
+        _primitives += static_cast<uint32_t>(PrimitiveCounter::countOf(mode, count));
+    }
+
+    /// False if the fan is right.
+    template <class Index> bool appendConcave(std::size_t count, const Index& index)
+    {
+        if (count < 4 || count > kMostCorners) return false;
+        readPositions();
+        std::vector<Vec3d> corners;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            if (index(i) >= _positions.size()) return false;
+            corners.push_back(_positions[index(i)]);
+        }
+        const std::vector<UVec3> cut = concavePolygonTriangles(corners);
+        for (const UVec3& t : cut)
+            _list.triangles.emplace_back(index(t.x), index(t.y), index(t.z));
+        return !cut.empty();
+    }
+
+    void readPositions()
+    {
+        if (!_positions.empty()) return;
+        _positions.resize(_vertexCount);
+        forEachRow(*positionArray(_geometry), {_vertexCount},
+                   [&](std::size_t i, const Vec4d& row) { _positions[i] = Vec3d(row) / row.w; });
+    }
+
+    /// Exact for a single set; doubles, as a vector does by itself, for many small ones.
+    void grow(std::size_t more)
+    {
+        std::vector<UVec3>& triangles = _list.triangles;
+        const std::size_t needed = triangles.size() + more;
+        if (needed <= triangles.capacity()) return;
+        triangles.reserve(triangles.empty() ? needed : std::max(needed, 2 * triangles.capacity()));
+    }
+
+    TriangleList& _list;
+    const osg::Geometry& _geometry;
+    std::size_t _vertexCount;
+    const PrimitiveRestart& _restart;
+    const bool _numbered;
+    uint32_t _primitives = 0;      // so far
+    std::vector<Vec3d> _positions; // if there are polygons
+};
+
+const osg::DrawElementsUInt* soleTriangleList(const osg::Geometry& geometry,
+                                              const PrimitiveRestart& restart)
+{
+    if (restart.on) return nullptr;
+    if (geometry.getNumPrimitiveSets() != 1) return nullptr;
+    const auto* elements = dynamic_cast<const osg::DrawElementsUInt*>(geometry.getPrimitiveSet(0));
+    if (!elements || elements->getMode() != GL_TRIANGLES || elements->size() < 3) return nullptr;
+    return elements->getNumInstances() > 1 ? nullptr : elements;
+}
+
+} // namespace
+
+TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount,
+                         const PrimitiveRestart& restart, bool numbered)
+{
+    TriangleList list;
+    if (!numbered) list.source = soleTriangleList(geometry, restart);
+    if (list.source)
+    {
+        list.setEnds = {list.size()};
+        return list;
+    }
+    TriangleCollector collector(list, geometry, vertexCount, restart, numbered);
+    for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i)
+    {
+        if (const osg::PrimitiveSet* set = geometry.getPrimitiveSet(i)) collector.append(*set);
+        list.setEnds.push_back(list.triangles.size());
+    }
+    return list;
+}
+
+} // namespace osgRayTrace::engine

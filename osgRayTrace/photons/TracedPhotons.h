@@ -1,0 +1,37 @@
+// TracedPhotons.h - what a pass of photons is asked for, and what it returns. Layer: photons.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/photons/Photon.h"
+#include "osgRayTrace/photons/PhotonUse.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+struct PhotonPassOptions
+{
+    PhotonUse use = PhotonUse::None;
+    uint32_t photons = 0; ///< number emitted in a pass
+    int maxBounces = 8;   ///< most edges of a path from light to eye, without the camera ray
+    uint32_t seed = 0;
+    bool photonGuiding = true; ///< learn from what views see: see PhotonPasses
+};
+
+inline bool operator==(const PhotonPassOptions& a, const PhotonPassOptions& b)
+{
+    return a.use == b.use && a.photons == b.photons && a.maxBounces == b.maxBounces &&
+           a.seed == b.seed && a.photonGuiding == b.photonGuiding;
+}
+
+struct TracedPhotons
+{
+    std::vector<Photon> photons;
+    uint64_t rays = 0;
+    uint64_t dropped = 0;          ///< photons left out because their power is not finite
+    std::vector<uint32_t> emitted; ///< by bin of PhotonGuide: number of photons guided there
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,223 @@
+// SessionPasses.cpp - how passes are added to the image of a session. Layer: session.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/session/SessionState.h"
+
+#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/film/TileOrder.h"
+#include "osgRayTrace/integrators/IntegratorFactory.h"
+#include "osgRayTrace/integrators/shared/SurfaceSample.h"
+#include "osgRayTrace/session/image/ChannelImage.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin)
+{
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+} // namespace
+
+/// Adds the next pass of a tile, in the film itself where that is possible.
+TileCounts SessionState::renderTile(const PassContext& context, const Integrator& integrator,
+                                    int tile)
+{
+    TileRgba local;
+    TileResult result;
+    RgbaLanes* inFilm = film.firstPassStorage(tile);
+    result.rgba = inFilm ? inFilm : local;
+    GatheredPhotons gathered;
+    if (photons.active())
+    {
+        photons.begin(tile, film.tilePasses(tile), gathered);
+        result.photons.gathered = &gathered;
+        result.photons.hitPoints = photons.hitPoints(tile, film.tilePasses(tile));
+    }
+    SurfaceBlock firstHits[kTileBlocks];
+    const bool keeps = context.wantsDepth && surfaces.view.width > 0;
+    if (keeps) result.firstHits.surfaces = firstHits;
+    const bool keepsSamples = context.wantsDepth && hasSamples;
+    const std::unique_ptr<SurfaceSample[]> seen(keepsSamples ? new SurfaceSample[kTilePixels]
+                                                             : nullptr);
+    result.firstHits.samples = seen.get();
+    integrator.renderTile(context, film.tileX(tile), film.tileY(tile), result);
+    for (int b = 0; keeps && b < kTileBlocks; ++b)
+        setBlock(film.tileX(tile) + laneX(b, 0), film.tileY(tile) + laneY(b, 0), firstHits[b],
+                 surfaces);
+    if (keepsSamples)
+        setSurfaceSamples(seen.get(), film.tileX(tile), film.tileY(tile), film.width(),
+                          film.height(), samples);
+    if (photons.active())
+        photons.end(tile, film.tilePasses(tile), gathered, context.options.photonAlpha,
+                    result.rgba);
+    if (context.wantsDepth)
+        std::copy(result.firstHits.depth, result.firstHits.depth + kTilePixels, film.depth(tile));
+    if (inFilm)
+        film.finishPass(tile);
+    else
+        film.addPass(tile, local);
+    return result.counts;
+}
+
+/// Gets the photons of a pass, which may be one that an earlier call did not finish.
+void SessionState::preparePhotons(PassContext& context, int pass)
+{
+    const Clock::time_point start = Clock::now();
+    photons.prepare(filmScene, context, pass, *workers);
+    progress.photonSeconds += secondsSince(start);
+    progress.photonNote = photons.note();
+    const PhotonPass* traced = photons.photons();
+    if (!traced) return;
+    progress.photonRadius = static_cast<float>(photons.radius() * filmScene->scene().unit);
+    progress.storedPhotons = traced->map.size();
+    progress.photonBytes = photons.keptBytes();
+    if (pass < photonsCounted) return;
+    progress.rays.photon += traced->rays;
+    progress.droppedSamples += traced->dropped;
+    photonsCounted = pass + 1;
+}
+
+/// Adds one pass to every tile that does not have it yet, and shows it. False if some still do not.
+bool SessionState::renderPass(const PassContext& context, const Integrator& integrator,
+                              const StopRule& rule, const DisplayTarget* display)
+{
+    const int pass = film.passes();
+    const auto tiles = static_cast<std::size_t>(film.tileCount());
+    const TileOrder order(static_cast<std::size_t>(tilesAlong(film.width())),
+                          static_cast<std::size_t>(tilesAlong(film.height())),
+                          static_cast<std::size_t>(rule.groupedTiles));
+    std::atomic<std::size_t> next{0};
+    std::atomic<int> begun{progress.newTiles};
+    std::atomic<bool> over{false};
+    tileCounts.assign(tiles, TileCounts());
+    dirtyTiles.resize(tiles);
+    film.beginPass();
+    const bool partial = rule.shouldStop || rule.newTiles < std::numeric_limits<int>::max();
+    const auto renderOne = [&](std::size_t index)
+    {
+        // Workers begin at several places at once; an order has to be kept by all of them together.
+        if (partial) index = order.tile(next.fetch_add(1, std::memory_order_relaxed));
+        if (index == tiles) return;
+        const int tile = static_cast<int>(index);
+        bool renders = film.tilePasses(tile) == pass &&
+                       !cancelled.load(std::memory_order_relaxed) &&
+                       !over.load(std::memory_order_relaxed);
+        if (renders && rule.shouldStop &&
+            rule.shouldStop(begun.load(std::memory_order_relaxed), 0.0))
+        {
+            renders = false;
+            over = true;
+        }
+        // Not one more, however many threads come here at once.
+        if (renders && begun.fetch_add(1, std::memory_order_relaxed) >= rule.newTiles)
+        {
+            begun.fetch_sub(1, std::memory_order_relaxed);
+            renders = false;
+            over = true;
+        }
+        if (renders) tileCounts[index] = renderTile(context, integrator, tile);
+        if (renders) dirtyTiles[index] = 1;
+        if (display && (dirtyTiles[index] || !display->holdsImage)) resolveTile(*display, tile);
+        if (display) dirtyTiles[index] = 0;
+    };
+    try
+    {
+        workers->forEach(partial ? order.places() : tiles, renderOne);
+    }
+    catch (...)
+    {
+        addTileCounts(); // those tiles keep the pass
+        throw;
+    }
+    addTileCounts();
+    progress.newTiles = begun;
+    return film.passes() > pass;
+}
+
+/// Adds the counts of the tiles of a pass to the progress.
+void SessionState::addTileCounts()
+{
+    for (TileCounts& counts : tileCounts)
+    {
+        progress.rays.camera += counts.cameraRays;
+        progress.rays.shadow += counts.shadowRays;
+        progress.rays.secondary += counts.secondaryRays;
+        progress.droppedSamples += counts.droppedSamples;
+        counts = TileCounts();
+    }
+}
+
+RenderProgress SessionState::run(const StopRule& rule,
+                                 const std::function<bool(const RenderProgress&)>& keepGoing,
+                                 const DisplayTarget* display)
+{
+    cancelled = false;
+    dirtyTiles.clear();
+    progress.newTiles = 0;
+    progress.photonSeconds = progress.firstPhotonSeconds = 0.0;
+    if (!begin()) return progress;
+    const std::unique_ptr<Integrator> integrator = newIntegrator(progress.integrator);
+    const Clock::time_point start = Clock::now();
+    const bool wantsError = rule.relativeError > 0.0 || static_cast<bool>(keepGoing);
+    bool shown = true;
+    for (int newPasses = 0; newPasses < rule.newPasses && film.passes() < rule.passes; ++newPasses)
+    {
+        const int pass = film.passes();
+        if (progress.newTiles >= rule.newTiles) break;
+        if (newPasses > 0 && secondsSince(start) >= rule.seconds) break;
+        if (newPasses > 0 && rule.shouldStop &&
+            rule.shouldStop(progress.newTiles, photons.secondsOf(pass)))
+            break;
+        const Clock::time_point passStart = Clock::now();
+        PassContext context = contextOfPass(pass);
+        progress.lights = sampledLightCounts(context);
+        preparePhotons(context, pass);
+        if (newPasses == 0) progress.firstPhotonSeconds = progress.photonSeconds;
+        // The display is written in the pass that is likely to be the last one, with the tiles that
+        // only earlier passes of this call reached.
+        shown = newPasses + 1 == rule.newPasses || pass + 1 == rule.passes;
+        const bool whole = renderPass(context, *integrator, rule, shown ? display : nullptr);
+        progress.hitPointBytes = photons.viewBytes();
+        progress.seconds += secondsSince(passStart);
+        progress.passes = film.passes();
+        progress.imageShare = imageShare();
+        if (whole) photons.finish(filmScene, context, pass);
+        if (cancelled) progress.status = {StatusCode::Cancelled, "the render was cancelled"};
+        if (cancelled || !whole) break;
+        if (wantsError) progress.relativeError = estimateError();
+        if (rule.relativeError > 0.0 && progress.relativeError <= rule.relativeError) break;
+        if (keepGoing && !keepGoing(progress)) break;
+    }
+    if (display && progress.newTiles > 0 && !shown) resolveRest(*display);
+    return progress;
+}
+
+double SessionState::imageShare() const
+{
+    if (film.passes() > 0) return 1.0;
+    int tiles = 0;
+    for (int tile = 0; tile < film.tileCount(); ++tile)
+        tiles += film.tilePasses(tile) > 0;
+    return film.tileCount() > 0 ? double(tiles) / film.tileCount() : 0.0;
+}
+
+/// Writes the tiles that no pass of this call has written to the display.
+void SessionState::resolveRest(const DisplayTarget& display)
+{
+    workers->forEach(dirtyTiles.size(),
+                     [&](std::size_t tile)
+                     {
+                         if (dirtyTiles[tile] || !display.holdsImage)
+                             resolveTile(display, static_cast<int>(tile));
+                     });
+}
+
+} // namespace osgRayTrace::engine

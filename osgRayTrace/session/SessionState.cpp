@@ -1,0 +1,132 @@
+// SessionState.cpp - whether an image restarts or continues, and what its passes are made from.
+// Layer: session.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/session/SessionState.h"
+
+#include "osgRayTrace/integrators/shared/IntegratorChoice.h"
+#include "osgRayTrace/integrators/shared/SurfaceSample.h"
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// The scene's lights with those of eye space placed for the view. Empty if there are none of
+/// these: there may be millions of the others, and they are good as they are.
+std::vector<Light> placedLights(const Scene& scene, const View& view)
+{
+    const auto isEyeSpace = [](const Light& light) { return light.eyeSpace; };
+    if (std::none_of(scene.lights.begin(), scene.lights.end(), isEyeSpace)) return {};
+    std::vector<Light> lights = scene.lights;
+    const Mat4d worldFromView = glm::inverse(view.viewFromWorld);
+    const auto placed = [&](const Vec3& position) {
+        return Vec3((Vec3d(worldFromView * Vec4d(Vec3d(position), 1.0)) - scene.origin) /
+                    scene.unit);
+    };
+    for (Light& light : lights)
+    {
+        if (!light.eyeSpace) continue;
+        light.position = placed(light.position);
+        light.direction = glm::normalize(Vec3(glm::dmat3(worldFromView) * Vec3d(light.direction)));
+        light.eyeSpace = false;
+    }
+    return lights;
+}
+
+/// The rotation alone: its axes are of length 1, whatever scale the view has.
+Mat3 eyeFromEngine(const View& view)
+{
+    glm::dmat3 axes = glm::transpose(glm::dmat3(view.viewFromWorld));
+    for (int i = 0; i < 3; ++i)
+        axes[i] = glm::normalize(axes[i]);
+    return Mat3(glm::transpose(axes));
+}
+
+} // namespace
+
+/// Decides whether the image restarts or continues; nothing else does. True if there is something
+/// to render.
+bool SessionState::begin()
+{
+    const bool sameScene = scene == filmScene;
+    const bool sameSize =
+        view.width == film.width() && view.height == film.height(); // not after a failure
+    const bool restart =
+        !sameScene || !sameSize || view != filmView || options.needsRestart(filmOptions);
+    progress.restarted = restart;
+    progress.status = {};
+    if (!scene)
+    {
+        progress.status = {StatusCode::EmptyScene, "there is no scene"};
+        return false;
+    }
+    if (!restart) return true;
+
+    const std::optional<CameraRays> rays =
+        cameraRays(view, scene->scene().origin, scene->scene().unit);
+    if (!rays)
+    {
+        progress.status = {StatusCode::InvalidView,
+                           "the view has no size, or matrices that cannot be inverted"};
+        return false;
+    }
+    std::vector<Light> placed =
+        engine::placedLights(scene->scene(), view); // before the film changes, as this may throw
+    std::vector<EnvironmentStratum> newStrata;
+    const PlacedEnvironment* environment = scene->lights().shiningEnvironment();
+    if (environment && options.environmentSampling == EnvironmentSampling::Structured)
+        newStrata = environment->strata(options.environmentSamples);
+    if (film.passes() > 0 && surfaces.finished) std::swap(surfaces, lastSurfaces);
+    film.reset(view.width, view.height);
+    photons.reset(film.tileCount());
+    camera = *rays;
+    filmScene = scene;
+    filmView = view;
+    filmOptions = options;
+    filmSeed = sequence == 0 ? options.seed : hash(options.seed, sequence + 1); // 0 and 1: halves
+    placedLights = std::move(placed);
+    strata = std::move(newStrata);
+    progress = RenderProgress();
+    progress.restarted = true;
+    photonsCounted = 0;
+    progress.integrator = chooseIntegrator(options.integrator, scene->traits());
+    hasSamples = false;
+    if (options.centredFirstPass && progress.integrator != IntegratorKind::Debug)
+    {
+        samples.resize(static_cast<std::size_t>(view.width) *
+                       static_cast<std::size_t>(view.height));
+        hasSamples = true;
+    }
+    if (!keepsSurfaces) surfaces = lastSurfaces = SurfaceMap();
+    surfaces.view = View();
+    if (keepsSurfaces && progress.integrator != IntegratorKind::Debug)
+        beginSurfaceMap(view, surfaces);
+    return true;
+}
+
+PassContext SessionState::contextOfPass(int pass) const
+{
+    PassContext context;
+    context.traced = filmScene.get();
+    context.lights = placedLights.empty() ? &filmScene->scene().lights : &placedLights;
+    context.strata = strata.empty() ? nullptr : &strata;
+    context.camera = camera;
+    context.width = filmView.width;
+    context.height = filmView.height;
+    context.eyeFromEngine = eyeFromEngine(filmView);
+    context.towardsViewer = glm::transpose(context.eyeFromEngine)[2];
+    context.options = filmOptions;
+    context.options.integrator = progress.integrator;
+    context.key = passKey(filmSeed, pass);
+    const bool sharesPaths = progress.integrator == IntegratorKind::Ppm;
+    const int paths = sharesPaths ? sharedPaths(pass) : pass;
+    context.pathKey = passKey(filmSeed, paths);
+    context.wantsDepth = pass == 0;
+    context.throughCentres = filmOptions.centredFirstPass && paths == 0;
+    return context;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,152 @@
+// ImageStages.cpp - what is done to a view's images between accumulation and display. Layer:
+// session.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/session/view/ImageStages.h"
+
+#include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/base/Parallel.h"
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Guesses of the time that one thread takes to upsample a pixel, and that a pixel in a cell at an
+/// edge takes on top, until they are known [s].
+constexpr double kUpsampleSeconds = 12e-9, kEdgeSeconds = 400e-9;
+/// A smaller share of edges does not tell what edges cost.
+constexpr double kToldBy = 0.05;
+/// While nothing is upsampled, its known time shrinks by this factor: it will be tried again.
+constexpr double kForgets = 0.995;
+/// Weight of a new measurement that is less than the known value.
+constexpr double kNewWeight = 0.25;
+
+/// Share of the cells that upsampling with this limit takes for edges.
+double edgesWithin(const UpsampleCounts& counts, double mostTraced)
+{
+    if (counts.around <= mostTraced) return counts.around;
+    return counts.edges <= mostTraced ? counts.edges : 0.0;
+}
+
+} // namespace
+
+void ImageStages::reset(std::shared_ptr<Workers> workers)
+{
+    _workers = std::move(workers);
+    _upsampleSeconds = kUpsampleSeconds / _workers->threads();
+    _edgeSeconds = kEdgeSeconds / _workers->threads();
+    _denoiser.forgetSurfaces();
+    _imageScene.reset();
+    _history.drop();
+}
+
+void ImageStages::leaveView(RenderSession& session, const ImageInputs& next)
+{
+    const bool sameScene = _imageScene.lock() == next.scene;
+    if (!sameScene) _viewDependence = viewDependence(next.scene->scene());
+    const bool keeps = _reprojects && sameScene && !next.options.needsRestart(_imageOptions) &&
+                       !_viewDependence.everywhere &&
+                       session.progress().integrator != IntegratorKind::Debug;
+    if (!keeps) _history.drop();
+    if (keeps && session.progress().passes > 0 && next.view != _imageView)
+        _history.leave(session, _imageView, *_workers);
+
+    session.setKeepsSurfaces(_reprojects && !_viewDependence.everywhere);
+    if (!keeps) _sequence = 0;
+    session.setSequence(_history.leaving() ? _sequence + 1 : 0);
+}
+
+void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
+                            const RenderProgress& result)
+{
+    if (result.restarted) _denoiser.forgetSurfaces();
+    if (result.restarted && result.status.code != StatusCode::InvalidView)
+    {
+        _imageScene = next.scene;
+        _imageView = next.view;
+        _imageOptions = next.options;
+        if (_history.leaving()) ++_sequence;
+    }
+    if (_history.leaving() && result.passes > 0 && _imageView == next.view)
+        _history.enter(session, next.view, _viewDependence, *_workers);
+}
+
+ResolvedImage ImageStages::staged(const RenderSession& session)
+{
+    ResolvedImage image = session.resolvedImage();
+    if (historyCounts(session)) _history.blend(image, session.progress().passes, *_workers);
+    if (!denoises()) return image;
+    const double begin = _now();
+    const auto surfaces = [&session]() -> const std::vector<SurfaceSample>&
+    { return session.surfaceSamples(); };
+    _denoiser.denoise(image, _denoise, surfaces, *_workers);
+    _denoiseSeconds = _now() - begin;
+    return image;
+}
+
+std::vector<float> ImageStages::radiance(const RenderSession& session)
+{
+    return changes(session) ? staged(session).radiance : session.resolveRadiance();
+}
+
+void ImageStages::show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba,
+                       float* depth)
+{
+    _upsampleSeconds *= kForgets;
+    forgetEdges();
+    if (denoises())
+        presentImage(staged(session), toneMap, *_workers, rgba, depth);
+    else if (historyCounts(session))
+        _history.show(session, toneMap, rgba, depth);
+    else
+        session.resolveDisplay(toneMap, rgba, depth);
+}
+
+/// Shrinks the known time of edges, down to the guess: images without edges do not tell it.
+void ImageStages::forgetEdges()
+{
+    const double guess = kEdgeSeconds / _workers->threads();
+    if (_edgeSeconds > guess) _edgeSeconds = std::max(guess, kForgets * _edgeSeconds);
+}
+
+void ImageStages::presentUpsampled(const RenderSession& session, int width, int height,
+                                   const DisplayTarget& display, double seconds)
+{
+    const double pixels = static_cast<double>(width) * height;
+    const double plain = kUpsampleSeconds / _workers->threads();
+    const double affordable = std::max(0.0, seconds / pixels - plain) / _edgeSeconds;
+    const ResolvedImage image = staged(session);
+    const double begin = _now();
+    const double mostTraced = std::min(kMostTraced, affordable);
+    const UpsampleCounts counts = session.presentUpsampled(image, session.surfaceSamples(), width,
+                                                           height, display, mostTraced);
+    // Something else may have held up this frame: the known time grows by no more than a factor.
+    const double seen = (_now() - begin) / pixels;
+    const double traced = edgesWithin(counts, mostTraced);
+    if (traced > kToldBy)
+    {
+        const double edge = std::max(0.0, seen - plain) / traced;
+        _edgeSeconds += edge > _edgeSeconds ? std::min(edge - _edgeSeconds, _edgeSeconds)
+                                            : kNewWeight * (edge - _edgeSeconds);
+    }
+    else
+        forgetEdges();
+    // There was no time for these edges; there may be time for those of fewer pixels.
+    const double missing = (edgesWithin(counts, kMostTraced) - traced) * _edgeSeconds;
+    _upsampleSeconds = std::min(seen + missing, 2.0 * _upsampleSeconds);
+}
+
+StageReport ImageStages::report(const RenderSession& session) const
+{
+    StageReport report;
+    report.denoiseSeconds = _denoiseSeconds;
+    report.denoised = _denoiser.report();
+    report.reprojectedShare = historyCounts(session) ? _history.share() : 0.0;
+    report.reprojectSeconds = _history.seconds();
+    return report;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,106 @@
+// ImageStages.h - what is done to a view's images between accumulation and display. Layer: session.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/session/RenderSession.h"
+#include "osgRayTrace/session/denoise/Denoiser.h"
+#include "osgRayTrace/session/history/ViewHistory.h"
+#include "osgRayTrace/session/view/ViewProgress.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// What an image shows, and how it is traced.
+struct ImageInputs
+{
+    std::shared_ptr<const TracedScene> scene;
+    View view;
+    RenderOptions options;
+};
+
+/// The history of earlier views, the denoiser and upsampling, in this order, for one session. One
+/// thread at a time.
+class ImageStages
+{
+public:
+    /// now: a clock [s].
+    explicit ImageStages(std::function<double()> now) : _now(std::move(now)) {}
+
+    /// Forgets all images: the session is another one, and so are the threads.
+    void reset(std::shared_ptr<Workers> workers);
+
+    void setReprojects(bool reprojects) { _reprojects = reprojects; }
+    void setDenoise(DenoiseKind kind) { _denoise = kind; }
+    DenoiseKind denoise() const { return _denoise; }
+    bool denoises() const { return _denoise != DenoiseKind::Off; }
+
+    /// Before and after session.render(): takes what its image is worth to the next one, if nothing
+    /// but the view changes.
+    void leaveView(RenderSession& session, const ImageInputs& next);
+    void enterView(RenderSession& session, const ImageInputs& next, const RenderProgress& result);
+
+    /// changes: true if what is shown is not the session's image as it is. willChange: true if that
+    /// will be so as soon as the image has a whole pass.
+    bool changes(const RenderSession& session) const
+    {
+        return denoises() || historyCounts(session);
+    }
+    bool willChange() const { return denoises() || _history.leaving(); }
+
+    /// The session's image as it is shown: radiance() returns linear RGBA; show() writes display
+    /// values and window depths, of the image's size.
+    std::vector<float> radiance(const RenderSession& session);
+    void show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba, float* depth);
+
+    /// Writes the image at a larger size, which is that of the target. It is made along the edges
+    /// of what is seen as far as the seconds go, by the times that earlier images took.
+    void presentUpsampled(const RenderSession& session, int width, int height,
+                          const DisplayTarget& display, double seconds);
+
+    /// Share of the pixels of a reduced image that may be traced to upsample it.
+    static constexpr double kMostTraced = 0.25;
+
+    /// Time that upsampling with all edges that are worth it takes, by earlier times [s].
+    double upsampleSeconds(int width, int height) const
+    {
+        return _upsampleSeconds * width * height;
+    }
+
+    /// Report of what the stages did to the session's image.
+    StageReport report(const RenderSession& session) const;
+
+private:
+    bool historyCounts(const RenderSession& session) const
+    {
+        const int passes = session.progress().passes;
+        return passes > 0 && _history.counts(passes);
+    }
+    ResolvedImage staged(const RenderSession& session);
+    void forgetEdges();
+
+    std::function<double()> _now;
+    std::shared_ptr<Workers> _workers;
+
+    // What the session's image shows, and what is left of its earlier views.
+    bool _reprojects = false;
+    std::weak_ptr<const TracedScene> _imageScene;
+    View _imageView;
+    RenderOptions _imageOptions;
+    uint32_t _sequence = 0; ///< of random numbers: each view that is left gets another one
+    ViewDependence _viewDependence;
+    ViewHistory _history;
+
+    DenoiseKind _denoise = DenoiseKind::Off;
+    Denoiser _denoiser;
+    double _denoiseSeconds = 0.0;
+
+    double _upsampleSeconds = 0.0; ///< for a pixel
+    double _edgeSeconds = 0.0;     ///< on top, for a pixel in a cell at an edge
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,214 @@
+// ViewTracerFrames.cpp - what a view traces in the time that a frame has. Layer: session.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/session/view/ViewTracer.h"
+
+#include "osgRayTrace/base/Parallel.h"
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Share of a frame that is traced in even if all that comes after it takes longer than the budget.
+constexpr double kLeastShare = 0.2;
+
+/// A view at rest gets its tiles in squares of kGroup tiles a side: what lies together is copied to
+/// the display in one go. This is done only if a frame has time for kFewGroups squares, as these
+/// shall tell the costs of all.
+constexpr int kGroup = 4;
+constexpr int kFewGroups = 16;
+
+/// Guesses of the time that the display takes to copy a pixel, and to enlarge it first into new
+/// memory [s].
+constexpr double kCopySeconds = 2e-9, kEnlargeSeconds = 6e-9;
+
+double pixelsOf(const View& view)
+{
+    return double(view.width) * view.height;
+}
+
+} // namespace
+
+/// Keeps the divider while it fits, so that a moving view does not change its sharpness in each
+/// frame.
+void ViewTracer::chooseUpsampling(double seconds)
+{
+    constexpr double kSpare = 0.7;
+    const auto takes = [&](int divider)
+    {
+        return _reducedStages.upsampleSeconds(reducedSize(_view.width, divider),
+                                              reducedSize(_view.height, divider));
+    };
+    int finest = 1;
+    while (finest < FramePlanner::kLargestDivider && takes(finest) > kSpare * seconds)
+        ++finest;
+    int& held = _ownUpsampleDivider;
+    if (finest < held || takes(held) > seconds) held = finest;
+}
+
+/// A view that moves is taken to have the resolution that it had when it moved last.
+ViewTracer::PresentCost ViewTracer::expectedPresentCost(bool moved) const
+{
+    if (moved && !_planner.knowsCosts()) return presentCostOf(FramePlanner::kFirstDivider);
+    const bool reduced =
+        moved ? _divider > 1 : _displayState == DisplayState::Reduced && _stillFrames < kSettling;
+    if (reduced) return presentCostOf(_divider);
+    if (_holdsFull) return PresentCost::Tiles;
+    return !moved && _displayState == DisplayState::Reduced ? PresentCost::FirstMixed
+                                                            : PresentCost::Whole;
+}
+
+/// Cost of presenting what was traced in this frame.
+ViewTracer::PresentCost ViewTracer::presentCostOfFrame() const
+{
+    if (_displayState == DisplayState::Reduced) return presentCostOf(_divider);
+    if (_written) return _display.holdsImage ? PresentCost::Tiles : PresentCost::Whole;
+    return _displayState == DisplayState::Mixed ? PresentCost::FirstMixed : PresentCost::Whole;
+}
+
+/// Expects that the work after tracing takes as long as it did last.
+void ViewTracer::setDeadline(double budget, bool moved, PresentCost presentCost)
+{
+    const bool upsampled = presentCost == PresentCost::Upsampled;
+    const View shown = upsampled ? reducedView(_view, _upsampleDivider) : _view;
+    const double pixels = pixelsOf(shown);
+    double& after = _afterSeconds[static_cast<int>(presentCost)];
+    if (after == 0.0) // a guess
+    {
+        if (presentCost != PresentCost::Reduced) after = pixels * kCopySeconds;
+        if (presentCost == PresentCost::FirstMixed) after = pixels * kEnlargeSeconds;
+        if (upsampled) after += _reducedStages.upsampleSeconds(shown.width, shown.height);
+    }
+    double seconds = budget - after;
+    // Each thread ends the tile that it is at.
+    seconds -= _planner.tileSeconds(upsampled || presentCost == PresentCost::Reduced ? 2 : 1) *
+               _workers->threads();
+    const int passes = _session->progress().passes;
+    if (!moved && passes + 1 >= _nextEstimate) seconds -= _estimateSeconds;
+    _deadline = std::max(seconds, kLeastShare * budget);
+}
+
+void ViewTracer::traceFixed(int passes)
+{
+    StopRule rule;
+    rule.newPasses = passes;
+    const bool continues = _displayState == DisplayState::Whole;
+    const RenderProgress result = render(*_session, 1, rule, &_display);
+    if (!result.status.ok() || result.passes < 1) return;
+    _displayState = DisplayState::Whole;
+    _imageChanged |= !continues && result.newTiles == 0;
+    if (result.newTiles > 0) estimateError();
+}
+
+void ViewTracer::traceBudgeted(const FrameBudget& budget, bool moved)
+{
+    FrameSituation frame;
+    frame.width = _view.width;
+    frame.height = _view.height;
+    frame.moved = moved;
+    frame.degrade = budget.degrade;
+    setDeadline(budget.seconds, moved, expectedPresentCost(moved));
+    frame.seconds = secondsLeft();
+    if (moved)
+        traceMoved(frame, budget.seconds);
+    else
+        traceStill(frame);
+}
+
+/// Traces one whole pass at least, at whatever resolution.
+void ViewTracer::traceMoved(FrameSituation frame, double budget)
+{
+    const bool guessed = frame.degrade && !_planner.knowsCosts();
+    FramePlan plan = _planner.plan(frame);
+    if (plan.divider > 1)
+    {
+        setDeadline(budget, true, presentCostOf(plan.divider));
+        frame.seconds = secondsLeft();
+    }
+    bool traced = traceImage(plan, frame, frame.degrade);
+    if (!traced && _status.ok())
+    {
+        frame.seconds = secondsLeft();
+        plan = _planner.replan(frame);
+        traced = traceImage(plan, frame, false);
+    }
+    if (!traced || !guessed) return;
+    frame.seconds = secondsLeft();
+    const FramePlan finer = _planner.replan(frame);
+    if (finer.divider <= plan.divider / 2) traceImage(finer, frame, false);
+}
+
+/// Traces a whole pass of a new image, and more if there is time. False if the pass was given up or
+/// failed.
+bool ViewTracer::traceImage(const FramePlan& plan, const FrameSituation& frame, bool mayGiveUp)
+{
+    const bool reduced = plan.divider > 1;
+    const int whole =
+        tilesOf(reducedSize(_view.width, plan.divider), reducedSize(_view.height, plan.divider));
+    const double start = _now();
+    StopRule rule;
+    if (!reduced) rule.newPasses = plan.passes; // in the last of which tiles go to the display
+    rule.shouldStop = [&, start](int tiles, double ahead)
+    {
+        const double spent = _now() - start;
+        if (tiles < whole) return mayGiveUp && _planner.givesUp(frame, plan.divider, tiles, spent);
+        return spent + ahead >= frame.seconds;
+    };
+    return renderImage(plan.divider, rule);
+}
+
+/// False if the image has no whole pass.
+bool ViewTracer::renderImage(int divider, StopRule& rule)
+{
+    const bool reduced = divider > 1;
+    const RenderProgress result =
+        render(reduced ? *_reduced : *_session, divider, rule, reduced ? nullptr : &_display);
+    _planner.recordPhotons(result.firstPhotonSeconds);
+    if (!result.status.ok() || result.passes < 1) return false;
+    _displayState = reduced ? DisplayState::Reduced : DisplayState::Whole;
+    _divider = divider;
+    _imageChanged |= result.newTiles == 0; // of an image that was there before
+    return true;
+}
+
+/// Adds samples to the image that is shown.
+void ViewTracer::traceStill(FrameSituation frame)
+{
+    const double start = _now();
+    StopRule rule;
+    // A tile at least, so that there is an end, however short the budget.
+    rule.shouldStop = [&, start](int tiles, double ahead)
+    { return tiles > 0 && _now() - start + ahead >= frame.seconds; };
+    if (_displayState == DisplayState::Reduced && _stillFrames < kSettling)
+    {
+        render(*_reduced, _divider, rule, nullptr);
+        return;
+    }
+    if (_displayState != DisplayState::Reduced) frame.tilesLeft = _session->tilesLeft();
+    const double groupSeconds = kGroup * kGroup * _planner.tileSeconds(1);
+    if (groupSeconds > 0.0 && kFewGroups * groupSeconds < frame.seconds) rule.groupedTiles = kGroup;
+    rule.newPasses = _planner.plan(frame).passes;
+    addToImage(rule);
+}
+
+/// Adds tiles and passes of full resolution, of a view at rest.
+void ViewTracer::addToImage(StopRule& rule)
+{
+    // The display may lack whatever it did not hold before: then it is resolved.
+    const bool addsToDisplay = _holdsFull && _resolved && _display.toneMap == *_resolved;
+    _display.holdsImage = true;
+    const RenderProgress result = render(*_session, 1, rule, addsToDisplay ? &_display : nullptr);
+    if (!result.status.ok()) return;
+    const DisplayState before = _displayState;
+    if (result.passes > 0)
+        _displayState = DisplayState::Whole;
+    else if (result.newTiles > 0)
+        _displayState = DisplayState::Mixed;
+    _imageChanged |= _displayState != before && !_written;
+    if (result.newTiles > 0) estimateError();
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,150 @@
+// ImageStagesTest.cpp - upsampling goes along edges as far as there is time for it.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+
+#include "osgRayTrace/session/view/ImageStages.h"
+
+#include <vector>
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr int kWidth = 340, kHeight = 250, kDivider = 2;
+constexpr double kPixels = double(kWidth) * kHeight;
+
+enum class Traced
+{
+    Nothing,
+    Edges,  ///< themselves
+    Around, ///< and what is beside them
+};
+
+/// The first pass of a reduced image.
+void renderReduced(RenderSession& session, const View& view)
+{
+    RenderOptions options = optionsOf(IntegratorKind::Whitted);
+    options.centredFirstPass = true;
+    session.setScene(cornellBox().build());
+    session.setView(view);
+    session.setOptions(options);
+    StopRule rule;
+    rule.passes = 1;
+    REQUIRE(session.render(rule).status.ok());
+}
+
+/// A reduced image, and stages whose clock says that making the large one took so long.
+struct Enlarged
+{
+    Enlarged()
+    {
+        View view =
+            perspectiveView({278, 278, 20}, {278, 250, 559}, {0, 1, 0}, 50.0, kWidth, kHeight);
+        view.width /= kDivider;
+        view.height /= kDivider;
+        renderReduced(session, view);
+        linear = expected(0.0);
+        around = expected(ImageStages::kMostTraced);
+        REQUIRE(counts.around > 0.06); // enough to learn from
+        REQUIRE(counts.around < ImageStages::kMostTraced);
+        REQUIRE(counts.edges < 0.9 * counts.around);
+        edges = expected(counts.edges);
+        stages.reset(workers);
+    }
+
+    /// What is traced if there are so many seconds.
+    Traced traced(double seconds)
+    {
+        std::vector<uint8_t> rgba(4 * std::size_t(kPixels));
+        looks = 0;
+        stages.presentUpsampled(session, kWidth, kHeight, {{}, rgba.data()}, seconds);
+        if (rgba == around) return Traced::Around;
+        if (rgba == edges) return Traced::Edges;
+        REQUIRE((rgba == linear));
+        return Traced::Nothing;
+    }
+
+    /// So many pictures in which nothing is seen.
+    void showBlank(int pictures)
+    {
+        View view = perspectiveView({278, 278, -900}, {278, 250, -2000}, {0, 1, 0}, 50.0, 8, 8);
+        RenderSession blank(workers);
+        renderReduced(blank, view);
+        std::vector<uint8_t> rgba(4 * 16 * 16);
+        for (int i = 0; i < pictures; ++i)
+        {
+            looks = 0;
+            stages.presentUpsampled(blank, 16, 16, {{}, rgba.data()}, 1.0);
+        }
+    }
+
+    std::vector<uint8_t> expected(double mostTraced)
+    {
+        std::vector<uint8_t> rgba(4 * std::size_t(kPixels));
+        counts = session.presentUpsampled(session.resolvedImage(), session.surfaceSamples(), kWidth,
+                                          kHeight, {{}, rgba.data()}, mostTraced);
+        return rgba;
+    }
+
+    double foreseen() const { return stages.upsampleSeconds(kWidth, kHeight); }
+
+    std::shared_ptr<Workers> workers = std::make_shared<Workers>(1);
+    RenderSession session{workers};
+    UpsampleCounts counts;
+    std::vector<uint8_t> linear, edges, around;
+    double taken = 0.0; ///< by each image [s]
+    int looks = 0;
+    ImageStages stages{[this] { return taken * looks++; }};
+};
+
+} // namespace
+
+TEST_CASE("image stages: edges are traced where there is time for them", "[session]")
+{
+    Enlarged enlarged;
+    enlarged.taken = 0.040;
+    for (int i = 0; i < 20; ++i)
+        REQUIRE(enlarged.traced(10.0) == Traced::Around);
+    CHECK(enlarged.foreseen() == Approx(0.040).epsilon(0.01));
+    CHECK(enlarged.traced(0.041) == Traced::Around);
+
+    // Without them it takes 1 ms. What edges would take is foreseen still, so that fewer pixels are
+    // chosen.
+    enlarged.taken = 0.001;
+    CHECK(enlarged.traced(0.005) == Traced::Nothing);
+    CHECK(enlarged.traced(0.005) == Traced::Nothing);
+    CHECK(enlarged.foreseen() > 0.035);
+
+    // It is forgotten after a while, and tried again.
+    int frames = 0;
+    while (frames < 1000 && enlarged.traced(0.020) != Traced::Around)
+        ++frames;
+    CHECK(frames > 50);
+    CHECK(frames < 300);
+}
+
+TEST_CASE("image stages: the first picture along edges takes no more than it may", "[session]")
+{
+    // Nothing is known of edges, as where the views before had none.
+    Enlarged enlarged;
+    enlarged.taken = 0.001;
+    CHECK(enlarged.traced(0.0015) == Traced::Nothing);
+    CHECK(enlarged.traced(0.002) == Traced::Edges);
+    CHECK(enlarged.traced(0.020) == Traced::Around);
+}
+
+TEST_CASE("image stages: images without edges do not make edges cheap", "[session]")
+{
+    Enlarged enlarged;
+    enlarged.taken = 0.040;
+    for (int i = 0; i < 20; ++i)
+        REQUIRE(enlarged.traced(10.0) == Traced::Around);
+    enlarged.taken = 3e-6;
+    enlarged.showBlank(2000);
+    enlarged.taken = 0.001;
+    CHECK(enlarged.foreseen() < 0.002);                // of a picture without
+    CHECK(enlarged.traced(0.0015) == Traced::Nothing); // as if nothing were known
+}
