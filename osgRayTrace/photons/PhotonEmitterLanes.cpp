@@ -143,9 +143,7 @@ void directions(const Source& source, const EmissionLanes& e, const PointLanes& 
         const uint32_t guided = maskOf(e.choice[i] < share);
         const float rest = (e.choice[i] - share) / (1.0f - share);
         const float side = select(s.twoSided & maskOf(rest >= 0.5f), -1.0f, 1.0f);
-        const float nx = select(guided, p.chosenAxis.x[i], s.normal.x * side);
-        const float ny = select(guided, p.chosenAxis.y[i], s.normal.y * side);
-        const float nz = select(guided, p.chosenAxis.z[i], s.normal.z * side);
+        const PlainVec3 axis = select(guided, plainOf(p.chosenAxis, i), plainOf(s.normal) * side);
 
         float sine, cosine;
         sinCosTurn(e.directionU[i], sine, cosine);
@@ -154,13 +152,8 @@ void directions(const Source& source, const EmissionLanes& e, const PointLanes& 
         const float height = v * p.chosenCone[i];
         const float lz = select(guided, 1.0f - height, std::sqrt(1.0f - v));
         const float radius = std::sqrt(select(guided, height * (2.0f - height), v));
-        const float lx = radius * cosine, ly = radius * sine;
-        const float sign = nz >= 0.0f ? 1.0f : -1.0f;
-        const float a = -1.0f / (sign + nz);
-        const float b = nx * ny * a;
-        starts.direction.x[i] = (1.0f + sign * nx * nx * a) * lx + b * ly + nx * lz;
-        starts.direction.y[i] = sign * b * lx + (sign + ny * ny * a) * ly + ny * lz;
-        starts.direction.z[i] = -sign * nx * lx - ny * ly + nz * lz;
+        const PlainVec3 local{radius * cosine, radius * sine, lz};
+        setLane(starts.direction, i, toWorld(frameOf(axis), local));
     }
 }
 

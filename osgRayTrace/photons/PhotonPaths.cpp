@@ -96,18 +96,8 @@ void diffuseDirections(const Vec3Lanes& normal, const FloatLanes& u, const Float
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        const float nx = normal.x[i], ny = normal.y[i], nz = normal.z[i];
-        float sine, cosine;
-        sinCosTurn(u[i], sine, cosine);
-        const float radius = std::sqrt(v[i]);
-        const float lx = radius * cosine, ly = radius * sine;
-        const float lz = std::sqrt(1.0f - v[i]);
-        const float sign = nz >= 0.0f ? 1.0f : -1.0f;
-        const float a = -1.0f / (sign + nz);
-        const float b = nx * ny * a;
-        wi.x[i] = (1.0f + sign * nx * nx * a) * lx + b * ly + nx * lz;
-        wi.y[i] = sign * b * lx + (sign + ny * ny * a) * ly + ny * lz;
-        wi.z[i] = -sign * nx * lx - ny * ly + nz * lz;
+        const PlainVec3 local = squareToCosineHemispherePlain(u[i], v[i]);
+        setLane(wi, i, toWorld(frameOf(plainOf(normal, i)), local));
     }
 }
 
