@@ -234,6 +234,7 @@ void surfacesOfOne(const RayHitBlock& block, const LastTriangle& triangle, RaySt
 void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active,
                 SurfaceLanes& surface, RayStart start, LastTriangle* last)
 {
+    OSGRAYTRACE_ASSERT(active <= kAllLanes);
     const LaneMask hits = hitLanes(block, active);
     surface.hits = hits;
     surface.terminatorLanes = 0;
