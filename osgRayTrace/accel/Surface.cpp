@@ -174,11 +174,7 @@ void turnMirrored(LaneMask lanes, SurfaceLanes& s)
 {
     s.front ^= lanes;
     for (const int i : lanesIn(lanes))
-    {
-        s.shadingNormal.x[i] = -s.shadingNormal.x[i];
-        s.shadingNormal.y[i] = -s.shadingNormal.y[i];
-        s.shadingNormal.z[i] = -s.shadingNormal.z[i];
-    }
+        setLane(s.shadingNormal, i, -plainOf(s.shadingNormal, i));
 }
 
 /// Sets last to the triangle that a lane of a block is on.
@@ -234,6 +230,7 @@ void surfacesOfOne(const RayHitBlock& block, const LastTriangle& triangle, RaySt
 void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask active,
                 SurfaceLanes& surface, RayStart start, LastTriangle* last)
 {
+    OSGRAYTRACE_ASSERT(active <= kAllLanes);
     const LaneMask hits = hitLanes(block, active);
     surface.hits = hits;
     surface.terminatorLanes = 0;
@@ -268,24 +265,22 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
     finishNormals(block, triangles, smooth, mirrored, start, surface);
 }
 
+static OSGRAYTRACE_INLINE PlainVec3 facingNormal(const RayBlock& ray, const SurfaceLanes& surface,
+                                                 int i)
+{
+    const PlainVec3 facet = plainOf(surface.geometricNormal, i);
+    const PlainVec3 shading = plainOf(surface.shadingNormal, i);
+    const float sign = dot(shading, facet) < 0.0f ? -1.0f : 1.0f;
+    const float towards = sign * dot(shading, plainDirection(ray, i));
+    return select(maskOf(towards < -1e-4f), shading * sign, facet);
+}
+
 OSGRAYTRACE_KERNEL
 void facingNormalLanes(const RayBlock& ray, const SurfaceLanes& surface, Vec3Lanes& normal)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
-    {
-        const float gx = surface.geometricNormal.x[i], gy = surface.geometricNormal.y[i],
-                    gz = surface.geometricNormal.z[i];
-        const float sx = surface.shadingNormal.x[i], sy = surface.shadingNormal.y[i],
-                    sz = surface.shadingNormal.z[i];
-        const float sign = sx * gx + sy * gy + sz * gz < 0.0f ? -1.0f : 1.0f;
-        const float towards =
-            sign * (sx * ray.directionX[i] + sy * ray.directionY[i] + sz * ray.directionZ[i]);
-        const bool use = towards < -1e-4f;
-        normal.x[i] = select(use, sx * sign, gx);
-        normal.y[i] = select(use, sy * sign, gy);
-        normal.z[i] = select(use, sz * sign, gz);
-    }
+        setLane(normal, i, facingNormal(ray, surface, i));
 }
 
 } // namespace osgRayTrace::engine

@@ -33,11 +33,7 @@ inline const Vec3Lanes& trianglePoints(const SurfaceLanes& surface)
 inline void dropTerminatorOffset(SurfaceLanes& surface, LaneMask lanes)
 {
     for (const int i : lanesIn(surface.terminatorLanes & lanes))
-    {
-        surface.position.x[i] = surface.onTriangle.x[i];
-        surface.position.y[i] = surface.onTriangle.y[i];
-        surface.position.z[i] = surface.onTriangle.z[i];
-    }
+        setLane(surface.position, i, plainOf(surface.onTriangle, i));
     surface.terminatorLanes &= ~lanes;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/Assert.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <vector>
@@ -41,11 +42,17 @@ public:
     SurfaceTable(const Scene& scene, const SurfaceTable* previous, const Scene* previousScene);
 
     std::size_t size() const { return _size; }
-    bool isEmpty(uint32_t mesh) const { return !_meshes[mesh].triangles; }
+    bool isEmpty(uint32_t mesh) const
+    {
+        OSGRAYTRACE_ASSERT(mesh < _meshes.size());
+        return !_meshes[mesh].triangles;
+    }
 
     SurfaceRecord operator[](std::size_t instance) const
     {
+        OSGRAYTRACE_ASSERT(instance < _size);
         const Instance& use = _instances[instance];
+        OSGRAYTRACE_ASSERT(use.mesh < _meshes.size());
         return {_meshes[use.mesh], use.placed ? &use : nullptr, use.material, use.light};
     }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/Assert.h"
 #include "osgRayTrace/base/Lanes.h"
 #include "osgRayTrace/base/LargeArray.h"
 #include "osgRayTrace/base/Math.h"
@@ -63,7 +64,11 @@ public:
     int tileY(int tile) const { return tile / _tilesX * kTileSize; } ///< bottom pixel row
 
     /// Returns the complete passes of a tile; tiles differ after a cancelled pass.
-    int tilePasses(int tile) const { return _passes[static_cast<std::size_t>(tile)]; }
+    int tilePasses(int tile) const
+    {
+        OSGRAYTRACE_ASSERT(tile >= 0 && tile < tileCount());
+        return _passes[static_cast<std::size_t>(tile)];
+    }
     /// Returns the number of passes that every tile has.
     int passes() const;
 

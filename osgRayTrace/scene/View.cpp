@@ -40,6 +40,53 @@ template <class PlanePoint> double nearPlaneZ(const PlanePoint& planePoint, cons
     return distance(1.0) < distance(-1.0) ? 1.0 : -1.0;
 }
 
+/// The near plane in homogeneous view coordinates, and the point that all rays come from.
+struct NearPlane
+{
+    double z;           ///< its clip coordinate
+    Vec4d at00, dx, dy; ///< at pixel (0, 0), and what a pixel adds to it
+    Vec4d pole;         ///< the eye, or the direction of parallel rays
+};
+
+CameraRays parallelRays(const NearPlane& plane, const Mat4d& engineFromView)
+{
+    // Rays run from the near plane to the far plane, at half of it to clip z = 0.
+    const glm::dmat3 rotation(engineFromView);
+    const double w = plane.at00.w;
+    CameraRays rays;
+    rays.orthographic = true;
+    rays.origin = Vec3(engineFromView * Vec4d(Vec3d(plane.at00) / w, 1.0));
+    rays.originDx = Vec3(rotation * (Vec3d(plane.dx) / w));
+    rays.originDy = Vec3(rotation * (Vec3d(plane.dy) / w));
+    rays.direction = Vec3(rotation * (-plane.z * Vec3d(plane.pole) / w));
+    rays.nearS = 0.0f;
+    rays.depthSlope = static_cast<float>(-0.5 * plane.z);
+    return rays;
+}
+
+CameraRays perspectiveRays(const NearPlane& plane, const Mat4d& engineFromView)
+{
+    // dir = N.xyz * E.w - E.xyz * N.w, linear in the pixel position because E is one point.
+    // Dividing by E.w and by N.w at the first pixel makes s = 1 the near plane.
+    const glm::dmat3 rotation(engineFromView);
+    const Vec4d& near00 = plane.at00;
+    const Vec3d eye = Vec3d(plane.pole) / plane.pole.w;
+    const auto direction = [&](const Vec4d& n) { return (Vec3d(n) - eye * n.w) / near00.w; };
+    CameraRays rays;
+    rays.orthographic = false;
+    rays.origin = Vec3(engineFromView * Vec4d(eye, 1.0));
+    rays.direction = Vec3(rotation * direction(near00));
+    rays.directionDx = Vec3(rotation * direction(plane.dx));
+    rays.directionDy = Vec3(rotation * direction(plane.dy));
+    rays.nearS = 1.0f;
+    // Clip coordinates of N are (x, y, nearZ, 1) / N.w, those of E (0, 0, 1, 0) / E.w: w grows by
+    // 1 / near00.w with s, z begins at 1 / E.w.
+    rays.depthSlope = static_cast<float>(0.5 * near00.w / plane.pole.w);
+    rays.depthDx = static_cast<float>(plane.dx.w / near00.w);
+    rays.depthDy = static_cast<float>(plane.dy.w / near00.w);
+    return rays;
+}
+
 } // namespace
 
 std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double sceneUnit)
@@ -77,36 +124,9 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
     const Vec4d nearDy = planePoint(0.0, 1.0, nearZ) - near00;
     if (near00.w == 0.0) return std::nullopt;
 
-    CameraRays rays;
-    rays.orthographic = orthographic;
-    const glm::dmat3 rotation(engineFromView);
-    if (orthographic)
-    {
-        // Rays run from the near plane to the far plane and meet clip z = 0 at half of the way.
-        rays.origin = Vec3(engineFromView * Vec4d(Vec3d(near00) / near00.w, 1.0));
-        rays.originDx = Vec3(rotation * (Vec3d(nearDx) / near00.w));
-        rays.originDy = Vec3(rotation * (Vec3d(nearDy) / near00.w));
-        rays.direction = Vec3(rotation * (-nearZ * Vec3d(pole) / near00.w));
-        rays.nearS = 0.0f;
-        rays.depthSlope = static_cast<float>(-0.5 * nearZ);
-    }
-    else
-    {
-        // dir = N.xyz * E.w - E.xyz * N.w is linear in the pixel position because E is one point.
-        // The division by E.w and by N.w at the first pixel makes s = 1 the near plane.
-        const Vec3d eye = Vec3d(pole) / pole.w;
-        const auto direction = [&](const Vec4d& n) { return (Vec3d(n) - eye * n.w) / near00.w; };
-        rays.origin = Vec3(engineFromView * Vec4d(eye, 1.0));
-        rays.direction = Vec3(rotation * direction(near00));
-        rays.directionDx = Vec3(rotation * direction(nearDx));
-        rays.directionDy = Vec3(rotation * direction(nearDy));
-        rays.nearS = 1.0f;
-        // The clip coordinates of N are (x, y, nearZ, 1) / N.w, and those of E are (0, 0, 1, 0) /
-        // E.w: w grows by 1 / near00.w with s, and z begins at 1 / E.w.
-        rays.depthSlope = static_cast<float>(0.5 * near00.w / pole.w);
-        rays.depthDx = static_cast<float>(nearDx.w / near00.w);
-        rays.depthDy = static_cast<float>(nearDy.w / near00.w);
-    }
+    const NearPlane plane{nearZ, near00, nearDx, nearDy, pole};
+    CameraRays rays =
+        orthographic ? parallelRays(plane, engineFromView) : perspectiveRays(plane, engineFromView);
     rays.nearDepth = nearZ > 0.0 ? 1.0f : 0.0f;
 
     const Mat4d clipFromEngine = glm::transpose(clipFromView * viewFromEngine);

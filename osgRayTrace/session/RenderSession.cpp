@@ -40,26 +40,31 @@ RenderSession::~RenderSession() = default;
 
 void RenderSession::setScene(std::shared_ptr<const TracedScene> scene)
 {
+    const ThreadSeam::Entry inside(_state->seam);
     _state->scene = std::move(scene);
 }
 
 void RenderSession::setView(const View& view)
 {
+    const ThreadSeam::Entry inside(_state->seam);
     _state->view = view;
 }
 
 void RenderSession::setOptions(const RenderOptions& options)
 {
+    const ThreadSeam::Entry inside(_state->seam);
     _state->options = options;
 }
 
 void RenderSession::setKeepsSurfaces(bool keeps)
 {
+    const ThreadSeam::Entry inside(_state->seam);
     _state->keepsSurfaces = keeps;
 }
 
 void RenderSession::setSequence(uint32_t sequence)
 {
+    const ThreadSeam::Entry inside(_state->seam);
     _state->sequence = sequence;
 }
 
@@ -67,6 +72,7 @@ RenderProgress RenderSession::render(const StopRule& rule,
                                      const std::function<bool(const RenderProgress&)>& keepGoing,
                                      const DisplayTarget* display)
 {
+    const ThreadSeam::Entry inside(_state->seam);
     try
     {
         return _state->run(rule, keepGoing, display);
@@ -92,6 +98,7 @@ void RenderSession::cancel()
 
 void RenderSession::clear()
 {
+    const ThreadSeam::Entry inside(_state->seam);
     SessionState& session = *_state;
     session.scene.reset();
     session.filmScene.reset();

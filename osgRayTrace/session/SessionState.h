@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/ThreadSeam.h"
 #include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/integrators/shared/Integrator.h"
 #include "osgRayTrace/session/DisplayTarget.h"
@@ -66,6 +67,8 @@ struct SessionState
     std::vector<TileCounts> tileCounts; // of the pass that is rendered
     std::vector<uint8_t> dirtyTiles;    // tiles with passes of this call that the display lacks
     int photonsCounted = 0;             // passes whose photon rays are in progress
+
+    ThreadSeam seam; ///< the functions of RenderSession that change it, but for cancel()
 
     std::atomic<bool> cancelled{
         false}; // cancel(): any thread; render(): the session's and the workers

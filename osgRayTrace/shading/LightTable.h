@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/Assert.h"
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/shading/PlacedEnvironment.h"
 
@@ -124,7 +125,11 @@ private:
         Vec3 normal{0.0f};        ///< parallelograms only
         uint32_t mesh = kInvalid; ///< index into _meshes
     };
-    const Record& record(uint32_t light) const { return _records[_slots[light]]; }
+    const Record& record(uint32_t light) const
+    {
+        OSGRAYTRACE_ASSERT(light < _slots.size() && _slots[light] < _records.size());
+        return _records[_slots[light]];
+    }
     static Record parallelogram(const Light& light);
     std::optional<AreaLightSample> sampleAt(uint32_t index, Vec3 p, Vec3 q, Vec3 normal, Vec2 uv,
                                             bool twoSided) const;

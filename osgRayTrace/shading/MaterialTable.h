@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/Assert.h"
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/shading/Bsdf.h"
 #include "osgRayTrace/shading/TextureCoordinates.h"
@@ -56,7 +57,11 @@ class MaterialTable
 public:
     explicit MaterialTable(const Scene& scene);
 
-    const MaterialRecord& operator[](uint32_t material) const { return _records[material]; }
+    const MaterialRecord& operator[](uint32_t material) const
+    {
+        OSGRAYTRACE_ASSERT(material < _records.size());
+        return _records[material];
+    }
 
     /// Returns the physical surface model at a point. For fixed-function materials diffuse is the
     /// Lambert base and the highlight a GGX reflection of alpha = sqrt(2/(shininess+2)) [Walter07,

@@ -68,8 +68,7 @@ void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightL
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        const float cosine =
-            normal.x[i] * light.wi.x[i] + normal.y[i] * light.wi.y[i] + normal.z[i] * light.wi.z[i];
+        const float cosine = dot(plainOf(normal, i), plainOf(light.wi, i));
         const float positive = cosine > 0.0f ? cosine : 0.0f;
         const float pdfBsdf = positive * kInvPi;
         const float ratio = pdfBsdf * light.weight[i];

@@ -19,9 +19,7 @@ void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
     to.rays.ray.directionX[k] = from.rays.ray.directionX[i];
     to.rays.ray.directionY[k] = from.rays.ray.directionY[i];
     to.rays.ray.directionZ[k] = from.rays.ray.directionZ[i];
-    to.throughput.x[k] = from.throughput.x[i];
-    to.throughput.y[k] = from.throughput.y[i];
-    to.throughput.z[k] = from.throughput.z[i];
+    setLane(to.throughput, k, plainOf(from.throughput, i));
     to.pdfW[k] = from.pdfW[i];
     to.etaScale[k] = from.etaScale[i];
     to.seed[k] = from.seed[i];

@@ -32,6 +32,29 @@ constexpr float kLargestDensity = 1e30f;
 // A path is reused with throughput 1 from its second surface on: nothing may have been divided out.
 static_assert(kRouletteBounce > 1, "paths reach their second surface without roulette");
 
+/// Lane i of densitiesOf. Returns all bits if the density is not 0.
+OSGRAYTRACE_INLINE uint32_t densityOf(const FirstSurfaces& x, const SecondSurface& y, int i,
+                                      FloatLanes& density, RayBlock& shadow)
+{
+    const PlainVec3 p = plainOf(x.position, i), facet = plainOf(x.geometricNormal, i);
+    const PlainVec3 yPosition = plainOf(y.position), yNormal = plainOf(y.normal);
+    const PlainVec3 d = yPosition - p;
+    const float inverse = 1.0f / std::sqrt(dot(d, d));
+    const PlainVec3 w = d * inverse;
+    const float cosX = dot(w, plainOf(x.normal, i));
+    const float cosY = -dot(w, yNormal);
+    const float above = dot(w, facet);
+    const float perArea = cosX * cosY * inverse * inverse;
+    density[i] = perArea;
+
+    const PlainVec3 origin = p + facet * x.offset[i];
+    const PlainVec3 s = yPosition + yNormal * y.offset - origin;
+    const float distance = std::sqrt(dot(s, s));
+    setRay(shadow, i, origin, s * (1.0f / distance), 0.0f, distance);
+    return maskOf(cosX > 0.0f) & maskOf(cosY > 0.0f) & maskOf(above > 0.0f) &
+           maskOf(perArea > 0.0f) & maskOf(perArea < kLargestDensity);
+}
+
 /// Densities, times pi, with which the lanes would have found y if they see it, and rays that find
 /// out. Returns the lanes where it is not 0.
 OSGRAYTRACE_KERNEL
@@ -42,42 +65,7 @@ LaneMask densitiesOf(const FirstSurfaces& x, const SecondSurface& second, FloatL
     LaneMask facing = 0;
     OSGRAYTRACE_SIMD_OR(facing)
     for (int i = 0; i < kLanes; ++i)
-    {
-        const float px = x.position.x[i], py = x.position.y[i], pz = x.position.z[i];
-        const float gx = x.geometricNormal.x[i], gy = x.geometricNormal.y[i],
-                    gz = x.geometricNormal.z[i];
-        const float dx = y.position.x - px, dy = y.position.y - py, dz = y.position.z - pz;
-        const float inverse = 1.0f / std::sqrt(dx * dx + dy * dy + dz * dz);
-        const float wx = dx * inverse, wy = dy * inverse, wz = dz * inverse;
-        const float cosX = wx * x.normal.x[i] + wy * x.normal.y[i] + wz * x.normal.z[i];
-        const float cosY = -(wx * y.normal.x + wy * y.normal.y + wz * y.normal.z);
-        const float above = wx * gx + wy * gy + wz * gz;
-        const float perArea = cosX * cosY * inverse * inverse;
-        density[i] = perArea;
-        facing |= bitOfLane(maskOf(cosX > 0.0f) & maskOf(cosY > 0.0f) & maskOf(above > 0.0f) &
-                                maskOf(perArea > 0.0f) & maskOf(perArea < kLargestDensity),
-                            i);
-
-        const float offset = x.offset[i];
-        const float ox = px + gx * offset, oy = py + gy * offset, oz = pz + gz * offset;
-        const float sx = y.position.x + y.normal.x * y.offset - ox;
-        const float sy = y.position.y + y.normal.y * y.offset - oy;
-        const float sz = y.position.z + y.normal.z * y.offset - oz;
-        const float distance = std::sqrt(sx * sx + sy * sy + sz * sz);
-        const float perDistance = 1.0f / distance;
-        shadow.originX[i] = ox;
-        shadow.originY[i] = oy;
-        shadow.originZ[i] = oz;
-        shadow.directionX[i] = sx * perDistance;
-        shadow.directionY[i] = sy * perDistance;
-        shadow.directionZ[i] = sz * perDistance;
-        shadow.tNear[i] = 0.0f;
-        shadow.tFar[i] = distance;
-        shadow.time[i] = 0.0f;
-        shadow.mask[i] = 0xffffffffu;
-        shadow.id[i] = 0;
-        shadow.flags[i] = 0;
-    }
+        facing |= bitOfLane(densityOf(x, y, i, density, shadow), i);
     return facing & x.lanes;
 }
 

@@ -20,8 +20,7 @@ void addPhoton(const Photon& photon, const Vec3Lanes& wi, const Vec3Lanes& fCos,
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        const float cosGeometric = wi.x[i] * geometricNormal.x[i] + wi.y[i] * geometricNormal.y[i] +
-                                   wi.z[i] * geometricNormal.z[i];
+        const float cosGeometric = dot(plainOf(wi, i), plainOf(geometricNormal, i));
         const uint32_t in = laneBit(lanes, i);
         power.x[i] += select(in, fCos.x[i] * red / cosGeometric, 0.0f);
         power.y[i] += select(in, fCos.y[i] * green / cosGeometric, 0.0f);

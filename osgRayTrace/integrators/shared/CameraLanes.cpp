@@ -40,31 +40,47 @@ void pixelCentres(int left, int bottom, FloatLanes& x, FloatLanes& y)
     }
 }
 
+/// Where the ray through a point of the image begins, and its direction, not unit.
+OSGRAYTRACE_INLINE PlainVec3 originAt(const CameraRays& c, float x, float y)
+{
+    return mad(plainOf(c.originDy), y, mad(plainOf(c.originDx), x, plainOf(c.origin)));
+}
+
+OSGRAYTRACE_INLINE PlainVec3 directionAt(const CameraRays& c, float x, float y)
+{
+    return mad(plainOf(c.directionDy), y, mad(plainOf(c.directionDx), x, plainOf(c.direction)));
+}
+
+OSGRAYTRACE_INLINE void setRayThrough(const CameraRays& c, float x, float y, int i, RayBlock& ray)
+{
+    const PlainVec3 d = directionAt(c, x, y);
+    const float length = std::sqrt(dot(d, d));
+    const float inverse = 1.0f / length;
+    setRay(ray, i, originAt(c, x, y), d * inverse, c.nearS * length, kInfinity);
+}
+
 OSGRAYTRACE_KERNEL
 void raysThrough(const CameraRays& camera, const FloatLanes& x, const FloatLanes& y, RayBlock& ray)
 {
     const CameraRays c = camera;
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
-    {
-        const float dx = c.direction.x + x[i] * c.directionDx.x + y[i] * c.directionDy.x;
-        const float dy = c.direction.y + x[i] * c.directionDx.y + y[i] * c.directionDy.y;
-        const float dz = c.direction.z + x[i] * c.directionDx.z + y[i] * c.directionDy.z;
-        const float length = std::sqrt(dx * dx + dy * dy + dz * dz);
-        const float inverse = 1.0f / length;
-        ray.directionX[i] = dx * inverse;
-        ray.directionY[i] = dy * inverse;
-        ray.directionZ[i] = dz * inverse;
-        ray.originX[i] = c.origin.x + x[i] * c.originDx.x + y[i] * c.originDy.x;
-        ray.originY[i] = c.origin.y + x[i] * c.originDx.y + y[i] * c.originDy.y;
-        ray.originZ[i] = c.origin.z + x[i] * c.originDx.z + y[i] * c.originDy.z;
-        ray.tNear[i] = c.nearS * length;
-        ray.tFar[i] = kInfinity;
-        ray.time[i] = 0.0f;
-        ray.mask[i] = 0xffffffffu;
-        ray.id[i] = 0;
-        ray.flags[i] = 0;
-    }
+        setRayThrough(c, x[i], y[i], i, ray);
+}
+
+/// Where the ray through a point of the image meets the plane of lane i's surface.
+OSGRAYTRACE_INLINE float planeDistance(const CameraRays& c, float x, float y,
+                                       const SurfaceLanes& surface, int i)
+{
+    const PlainVec3 d = directionAt(c, x, y), o = originAt(c, x, y);
+    const PlainVec3 n = plainOf(surface.geometricNormal, i);
+    const PlainVec3 way = plainOf(surface.position, i) - o;
+    const float s = dot(n, way) / dot(n, d);
+    // If the plane is seen edge-on the centre may miss it by far: then it is the sample's own
+    // depth.
+    const float sHit = dot(way, d) / dot(d, d);
+    const bool usable = (s > 0.5f * sHit) & (s < 2.0f * sHit);
+    return select(usable, s, sHit);
 }
 
 OSGRAYTRACE_KERNEL
@@ -78,24 +94,7 @@ void planeDistances(const CameraRays& camera, int left, int bottom, const Surfac
     {
         const float x = static_cast<float>(left + (i & 3)) + 0.5f;
         const float y = static_cast<float>(bottom + (i >> 2)) + 0.5f;
-        const float dx = c.direction.x + x * c.directionDx.x + y * c.directionDy.x;
-        const float dy = c.direction.y + x * c.directionDx.y + y * c.directionDy.y;
-        const float dz = c.direction.z + x * c.directionDx.z + y * c.directionDy.z;
-        const float ox = c.origin.x + x * c.originDx.x + y * c.originDy.x;
-        const float oy = c.origin.y + x * c.originDx.y + y * c.originDy.y;
-        const float oz = c.origin.z + x * c.originDx.z + y * c.originDy.z;
-        const float nx = surface.geometricNormal.x[i], ny = surface.geometricNormal.y[i],
-                    nz = surface.geometricNormal.z[i];
-        const float hx = surface.position.x[i], hy = surface.position.y[i],
-                    hz = surface.position.z[i];
-        const float s =
-            (nx * (hx - ox) + ny * (hy - oy) + nz * (hz - oz)) / (nx * dx + ny * dy + nz * dz);
-        // Where the plane is seen edge-on the centre may miss it by far: then the sample's own
-        // depth.
-        const float d2 = dx * dx + dy * dy + dz * dz;
-        const float sHit = ((hx - ox) * dx + (hy - oy) * dy + (hz - oz) * dz) / d2;
-        const bool usable = (s > 0.5f * sHit) & (s < 2.0f * sHit);
-        along[i] = select(laneBit(hits, i), select(usable, s, sHit), kInfinity);
+        along[i] = select(laneBit(hits, i), planeDistance(c, x, y, surface, i), kInfinity);
     }
 }
 

@@ -32,8 +32,7 @@ void addDiffuse(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLan
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        const float cosine =
-            normal.x[i] * light.wi.x[i] + normal.y[i] * light.wi.y[i] + normal.z[i] * light.wi.z[i];
+        const float cosine = dot(plainOf(normal, i), plainOf(light.wi, i));
         const uint32_t use = laneBit(visible, i) & maskOf(cosine > 0.0f);
         // Lanes that are not used may hold anything: selected last, so that nothing of it gets
         // through.
