@@ -79,7 +79,16 @@ std::string conversionReport(const Statistics& statistics)
     for (const auto& [what, count] : statistics.conversion)
         if (count > 0 && isOther(what)) others += line(statistics, what, what);
     if (!others.empty()) text += "Other:\n" + others;
-    return text.empty() ? "Nothing was converted.\n" : text;
+    if (text.empty()) return "Nothing was converted.\n";
+    if (!statistics.lastConversionReason.empty())
+    {
+        text += "Converted as a whole " + std::to_string(statistics.conversions) +
+                " times, for the last time because:\n            " +
+                statistics.lastConversionReason + '\n';
+        if (!statistics.lastConversionPath.empty())
+            text += "              " + statistics.lastConversionPath + '\n';
+    }
+    return text;
 }
 
 } // namespace osgRayTrace

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/changes/GraphWatch.h"
 
-#include "osgRayTrace/bridge/common/SceneRoot.h"
-
 #include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/bridge/changes/StateHash.h"
+#include "osgRayTrace/bridge/common/NodePathText.h"
+#include "osgRayTrace/bridge/common/SceneRoot.h"
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
 
 #include <osg/NodeVisitor>
@@ -100,6 +100,7 @@ void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
     _plain = conditions;
     _plain.inheritedState.clear();
     _inheritedHash = inheritedHash(conditions, &_inheritedKept);
+    _root = &root;
     osg::Node* const first = firstNode(root);
     _first = first;
     if (first)
@@ -138,14 +139,22 @@ void GraphWatch::takeVersions(WatchedGraph& before)
 GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditions)
 {
     GraphChanges changes;
-    const bool comparable = _recorded && conditions.traversalMask == _graph.traversalMask &&
-                            ObjectName(firstNode(root)) == _first;
+    _root = &root;
+    ConversionCause notComparable = ConversionCause::None;
+    if (!_recorded)
+        notComparable = ConversionCause::NotWatched;
+    else if (conditions.traversalMask != _graph.traversalMask)
+        notComparable = ConversionCause::OtherConditions;
+    else if (ObjectName(firstNode(root)) != _first)
+        notComparable = ConversionCause::FirstNode;
     _recorded = false; // until everything is seen
     _plain.eye = conditions.eye;
     _plain.view = conditions.view;
     _anyMoved = _anyStateChanged = false;
     _exchanged.clear();
     ++_looks;
+    const bool comparable = notComparable == ConversionCause::None;
+    changes.reason.cause = notComparable;
     if (!comparable || !lookAtNodes(changes) || !lookAtHidden(changes))
     {
         changes.convert = changes.record = true;
@@ -158,16 +167,59 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
     const uint64_t inherited = inheritedHash(conditions);
     if (inherited != _inheritedHash)
     {
-        changes.convert = true;
+        mustConvert(changes, ConversionCause::InheritedState, kNowhere);
         KeptObjects kept;
         _inheritedHash = inheritedHash(conditions, &kept);
         _inheritedKept = std::move(kept);
     }
     if (_anyMoved || _anyStateChanged) findChanged(changes);
     // Nodes that the watch has not seen may be among those that came up.
-    if (_graph.truncated && !changes.none()) changes.convert = changes.record = true;
+    if (_graph.truncated && !changes.none())
+        mustRecord(changes, ConversionCause::TooManyNodes, kNowhere);
     _recorded = true;
     return changes;
+}
+
+/// The graph is converted for what has changed at a node; kNowhere: at none of them. The first
+/// reason stays.
+void GraphWatch::mustConvert(GraphChanges& changes, ConversionCause cause, uint32_t node) const
+{
+    if (changes.reason.cause == ConversionCause::None)
+        changes.reason = {cause, node == kNowhere ? std::string() : pathTo(node), nullptr, 0};
+    changes.convert = true;
+}
+
+/// And what is watched is recorded again.
+void GraphWatch::mustRecord(GraphChanges& changes, ConversionCause cause, uint32_t node) const
+{
+    mustConvert(changes, cause, node);
+    changes.record = true;
+}
+
+/// False, for a look that cannot go on.
+bool GraphWatch::giveUp(GraphChanges& changes, ConversionCause cause, uint32_t node) const
+{
+    mustRecord(changes, cause, node);
+    return false;
+}
+
+/// From the root.
+std::string GraphWatch::pathTo(uint32_t node) const
+{
+    osg::NodePath path = _graph.pathTo(node);
+    if (path.front() != _root) path.insert(path.begin(), _root);
+    return pathText(path);
+}
+
+std::string GraphWatch::pathOf(const osg::Geometry& geometry, uint32_t use) const
+{
+    for (uint32_t i = 0; i < _graph.nodes.size(); ++i)
+    {
+        if (_graph.nodes[i].node != &geometry) continue;
+        if (use == 0) return pathTo(i);
+        --use;
+    }
+    return geometry.getName().empty() ? geometry.className() : geometry.getName();
 }
 
 /// Matrices apart.
@@ -220,7 +272,8 @@ bool GraphWatch::lookAtNodes(GraphChanges& changes)
         }
         if (node.kind == NodeKind::Geometry)
         {
-            if (!lookAtGeometry(node.item, changes)) return false;
+            if (!lookAtGeometry(node.item, changes))
+                return giveUp(changes, ConversionCause::DrawingMode, i);
         }
         else if (!isAsItWas(node) && !redo(i, changes))
             return false;
@@ -233,8 +286,9 @@ bool GraphWatch::lookAtNodes(GraphChanges& changes)
 bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
 {
     WatchedNode& node = _graph.nodes[index];
-    if (node.kind == NodeKind::Untracked || node.hint != hintHash(*node.node)) return false;
-    if (_graph.isRepeated(*node.node)) return false;
+    if (node.kind == NodeKind::Untracked) return giveUp(changes, ConversionCause::Untracked, index);
+    if (node.hint != hintHash(*node.node)) return giveUp(changes, ConversionCause::Hint, index);
+    if (_graph.isRepeated(*node.node)) return giveUp(changes, ConversionCause::SharedNode, index);
     const osg::StateSet* stateSet = node.node->getStateSet();
     const osg::StateSet* before =
         node.state == kNowhere ? nullptr : _graph.states[node.state].stateSet.get();
@@ -249,7 +303,7 @@ bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
     known |= changes.splices.size() > splices;
     WatchedNode& now = _graph.nodes[index];
     now.hash = nodeHash(now.kind, *now.node);
-    return known;
+    return known || giveUp(changes, ConversionCause::ReferenceFrame, index);
 }
 
 /// Compares its children with those that it had, and takes out and puts in what differs.
@@ -277,7 +331,8 @@ bool GraphWatch::redoChildren(uint32_t index, GraphChanges& changes)
         { return at < _graph.nodes[index].end && _graph.nodes[at].node == child; };
         while (at < _graph.nodes[index].end && !isThere() && !has.count(_graph.nodes[at].node))
             if (!remove(at, changes)) return false;
-        if (!isThere() && had.count(child)) return false; // they are in another order
+        if (!isThere() && had.count(child))
+            return giveUp(changes, ConversionCause::ChildOrder, index);
         if (!isThere() && !add(at, *child, index, changes)) return false;
         if (isThere()) at = _graph.nodes[at].end; // not if it is hidden
     }
@@ -297,12 +352,16 @@ uint32_t GraphWatch::usesBefore(uint32_t geometry, uint32_t node) const
 
 bool GraphWatch::remove(uint32_t index, GraphChanges& changes)
 {
-    if (changes.splices.size() >= kMostSplices || _graph.isRepeatedElsewhere(index)) return false;
+    if (changes.splices.size() >= kMostSplices)
+        return giveUp(changes, ConversionCause::ManyEdits, index);
+    if (_graph.isRepeatedElsewhere(index))
+        return giveUp(changes, ConversionCause::SharedNode, index);
     GraphSplice& splice = changes.splices.emplace_back();
+    splice.removedFrom = _graph.pathTo(_graph.nodes[index].parent);
     for (uint32_t i = index; i < _graph.nodes[index].end; ++i)
     {
         const WatchedNode& node = _graph.nodes[i];
-        if (isOfTheWhole(node)) changes.convert = changes.record = true;
+        if (isOfTheWhole(node)) mustRecord(changes, ConversionCause::SpecialNode, i);
         if (node.kind != NodeKind::Geometry) continue;
         const WatchedGeometry& watched = _graph.geometries[node.item];
         splice.removed.push_back({watched.geometry, usesBefore(node.item, i), watched.uses});
@@ -313,7 +372,8 @@ bool GraphWatch::remove(uint32_t index, GraphChanges& changes)
 
 bool GraphWatch::add(uint32_t at, osg::Node& node, uint32_t parent, GraphChanges& changes)
 {
-    if (changes.splices.size() >= kMostSplices) return false;
+    if (changes.splices.size() >= kMostSplices)
+        return giveUp(changes, ConversionCause::ManyEdits, parent);
     const std::size_t before = _graph.nodes.size();
     _graph.insert(at, node, parent, _plain);
     const auto count = static_cast<uint32_t>(_graph.nodes.size() - before);
@@ -323,7 +383,7 @@ bool GraphWatch::add(uint32_t at, osg::Node& node, uint32_t parent, GraphChanges
     for (uint32_t i = at; i < at + count; ++i)
     {
         const WatchedNode& added = _graph.nodes[i];
-        if (isOfTheWhole(added)) changes.convert = changes.record = true;
+        if (isOfTheWhole(added)) mustRecord(changes, ConversionCause::SpecialNode, i);
         if (added.kind != NodeKind::Geometry) continue;
         const WatchedGeometry& watched = _graph.geometries[added.item];
         splice.uses.push_back({watched.geometry, usesBefore(added.item, i), watched.uses});
@@ -335,7 +395,8 @@ bool GraphWatch::add(uint32_t at, osg::Node& node, uint32_t parent, GraphChanges
 bool GraphWatch::hide(uint32_t index, GraphChanges& changes)
 {
     HiddenNode gone{keep(_graph.nodes[index].node), _graph.nodes[index].parent};
-    if (gone.parent == kNowhere || !remove(index, changes)) return false;
+    if (gone.parent == kNowhere) return giveUp(changes, ConversionCause::FirstNode, index);
+    if (!remove(index, changes)) return false;
     _graph.hidden.push_back(std::move(gone));
     return true;
 }
@@ -385,8 +446,12 @@ void GraphWatch::lookAtBuffers(GraphChanges& changes)
         if (hash == buffer.hash) continue;
         buffer.hash = hash;
         if (!buffer.contents.change(*buffer.data)) continue;
-        changes.convert |= !buffer.shape; // it may be a part of the material
         const osg::Geometry* geometry = _graph.geometries[buffer.geometry].geometry;
+        if (!buffer.shape && !changes.convert) // it may be a part of the material
+        {
+            changes.convert = true;
+            changes.reason = {ConversionCause::VertexAttributes, pathOf(*geometry, 0), nullptr, 0};
+        }
         if (buffer.shape && (changes.deformed.empty() || changes.deformed.back() != geometry))
             changes.deformed.push_back(geometry);
     }
@@ -439,7 +504,8 @@ void GraphWatch::findChanged(GraphChanges& changes)
     {
         if (place.node == kNowhere) continue;
         place.moved |= place.outer != kOutermost && _graph.places[place.outer].moved;
-        if (place.moved && place.fixed) changes.convert = changes.record = true;
+        if (place.moved && place.fixed)
+            mustRecord(changes, ConversionCause::MovedSpecial, place.node);
     }
     std::unordered_map<uint32_t, osg::Matrixd> matrices; // few move
     const auto matrixOf = [&](uint32_t place) -> const osg::Matrixd&
@@ -457,7 +523,8 @@ void GraphWatch::findChanged(GraphChanges& changes)
         if (node.stateChanged) stateChangedEnd = std::max(stateChangedEnd, node.end);
         node.stateChanged = false;
         bool stateChanged = i < stateChangedEnd;
-        changes.convert |= stateChanged && node.kind == NodeKind::Untracked;
+        if (stateChanged && node.kind == NodeKind::Untracked)
+            mustConvert(changes, ConversionCause::UntrackedState, i);
         if (node.kind != NodeKind::Geometry) continue;
         WatchedGeometry& watched = _graph.geometries[node.item];
         stateChanged |= watched.stateChanged;

@@ -197,20 +197,24 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     return result;
 }
 
-std::optional<ConversionResult> SceneConverter::patch(const GraphChanges& changes)
+PatchResult SceneConverter::patch(const GraphChanges& changes)
 {
     const auto begin = std::chrono::steady_clock::now();
     Implementation& state = *_implementation;
-    if (!state.last || !state.ordinary ||
-        (state.caches.noStaticBvh && !state.caches.staticMeshes.empty()))
-        return std::nullopt;
+    const auto refused = [](ConversionCause cause) {
+        return PatchResult{std::nullopt, {cause, {}, nullptr, 0}};
+    };
+    const auto losesStaticBvh = [&state]
+    { return state.caches.noStaticBvh && !state.caches.staticMeshes.empty(); };
+    if (!state.last || !state.ordinary) return refused(ConversionCause::NotPatchable);
+    if (losesStaticBvh()) return refused(ConversionCause::NoStaticBvh);
     ScenePatcher patcher(*state.last, state.input, state.caches, state.convertedGraph,
                          ++state.stamp);
     const std::shared_ptr<const Scene> scene = patcher.patch(changes);
-    if (!scene) return std::nullopt;
+    if (!scene) return {std::nullopt, patcher.reason()};
     if (patcher.changed()) state.last = scene;
     if (patcher.leftStatic()) recordStaticMeshes(*scene, true, state.caches);
-    if (state.caches.noStaticBvh && !state.caches.staticMeshes.empty()) return std::nullopt;
+    if (losesStaticBvh()) return refused(ConversionCause::NoStaticBvh);
     ConversionResult& result = state.lastResult;
     result.scene = state.last;
     if (patcher.spliced()) result.pickIndex.reset();
@@ -223,7 +227,7 @@ std::optional<ConversionResult> SceneConverter::patch(const GraphChanges& change
         state.convertedGraph.meshGaps.size() + (state.convertedGraph.emptyMesh == kInvalid ? 0 : 1);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return result;
+    return {result, {}};
 }
 
 } // namespace osgRayTrace::engine

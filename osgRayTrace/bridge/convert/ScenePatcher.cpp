@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
 #include "osgRayTrace/bridge/appearance/materials/MaterialValues.h"
+#include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/convert/PlacePatcher.h"
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
@@ -45,6 +46,14 @@ osg::NodePath fromRoot(const osg::NodePath& path, osg::Node* root)
     return whole;
 }
 
+/// None: a geometry can be patched that is on so many paths now.
+ConversionCause causeToKeep(const TracedGeometry& traced, uint32_t uses)
+{
+    if (!traced.patchable) return ConversionCause::NotAlone;
+    if (!traced.plain) return ConversionCause::Reported;
+    return traced.uses.size() == uses ? ConversionCause::None : ConversionCause::OtherPaths;
+}
+
 } // namespace
 
 ScenePatcher::ScenePatcher(const Scene& last, const ConversionInput& input,
@@ -56,6 +65,27 @@ ScenePatcher::ScenePatcher(const Scene& last, const ConversionInput& input,
       _now(now),
       _scene(std::make_shared<Scene>(last))
 {
+}
+
+/// False. path: from the first node that was found; empty: of no single node.
+bool ScenePatcher::refuse(ConversionCause cause, const osg::NodePath& path)
+{
+    _reason.cause = cause;
+    if (!path.empty()) _reason.path = pathText(fromRoot(path, _input.root));
+    return false;
+}
+
+bool ScenePatcher::refuse(ConversionCause cause, const osg::Geometry& geometry, uint32_t use)
+{
+    _reason = {cause, {}, &geometry, use};
+    return false;
+}
+
+/// path: as the collector gives it.
+bool ScenePatcher::refuseLamp(const std::string& path)
+{
+    _reason = {ConversionCause::LampShape, path, nullptr, 0};
+    return false;
 }
 
 std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
@@ -81,9 +111,9 @@ bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
     for (const osg::Geometry* geometry : changes.deformed)
         _caches.geometries.recordMobility(*geometry, Mobility::Deforming);
     for (const MovedUse& use : changes.moved)
-        if (!places.move(use)) return false;
+        if (!places.move(use)) return refuse(places.cause(), *use.geometry, use.use);
     for (const osg::Geometry* geometry : changes.deformed)
-        if (!places.deform(*geometry)) return false;
+        if (!places.deform(*geometry)) return refuse(places.cause(), *geometry, 0);
     _changed |= places.changed();
     _leftStatic |= places.leftStatic();
     return true;
@@ -93,7 +123,8 @@ bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
 bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
 {
     if (uses.empty()) return true;
-    if (_input.materials) return false; // rules look at names
+    if (_input.materials) // rules look at names
+        return refuse(ConversionCause::MaterialFile, uses.front().path);
     StateStack states = statesAbove(_input);
     ConversionReport report;
     MaterialConverter converter(
@@ -101,8 +132,8 @@ bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
         report);
     for (const StateChange& use : uses)
         if (!changeState(use, states, converter, report)) return false;
-    if (_recolors && setsColor() != _convertedGraph.setsColor)
-        return false; // a rule of all materials
+    if (_recolors && setsColor() != _convertedGraph.setsColor) // a rule of all materials
+        return refuse(ConversionCause::CurrentColor, uses.front().path);
     for (const auto& [instance, material] : _newMaterials)
         _convertedGraph.materials.release(_scene->instances[instance].material);
     for (const auto& [index, material] : _newMaterials)
@@ -131,10 +162,13 @@ bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
                                MaterialConverter& converter, ConversionReport& report)
 {
     const auto found = _convertedGraph.index.geometries.find(use.geometry);
-    if (found == _convertedGraph.index.geometries.end() || !found->second.patchable) return false;
-    if (found->second.uses.size() != use.uses) return false;
+    const auto refuseUse = [&](ConversionCause cause) { return refuse(cause, use.path); };
+    if (found == _convertedGraph.index.geometries.end())
+        return refuseUse(ConversionCause::OtherPaths);
+    if (!found->second.patchable) return refuseUse(ConversionCause::NotAlone);
+    if (found->second.uses.size() != use.uses) return refuseUse(ConversionCause::OtherPaths);
     TracedUse& traced = found->second.uses[use.use];
-    if (traced.effects == kInvalid) return false;
+    if (traced.effects == kInvalid) return refuseUse(ConversionCause::StateEffects);
 
     int pushed = 0;
     for (const osg::Node* node : fromRoot(use.path, _input.root))
@@ -148,7 +182,8 @@ bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
         states.pop();
     StateEffects effects = stateEffectsOf(state, _caches.textures);
     const StateEffects before = _convertedGraph.index.stateEffects[traced.effects];
-    if (traced.instance == kInvalid) return effects == before;
+    if (traced.instance == kInvalid)
+        return effects == before || refuseUse(ConversionCause::StateEffects);
     const Vec3d& origin = _scene->origin;
     report = ConversionReport();
     const Material material = converter.material(
@@ -157,7 +192,7 @@ bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
          &_convertedGraph.texGens});
     effects.counts = report.counts();
     const bool setsColor = std::exchange(effects.setsColor, before.setsColor);
-    if (!(effects == before)) return false;
+    if (!(effects == before)) return refuseUse(ConversionCause::StateEffects);
     if (setsColor != before.setsColor)
     {
         _recolors = true;
@@ -178,11 +213,11 @@ bool ScenePatcher::relightLamps()
         const CollectedAreaLight& source = _convertedGraph.lights.areaLights[i];
         ConversionCaches::Quad& quad = _caches.areaLights[i];
         const auto converted = convertAreaLight(*source.light, source.engineFromLocal);
-        if (converted.has_value() != (quad.instance != kInvalid)) return false;
+        if (converted.has_value() != (quad.instance != kInvalid)) return refuseLamp(source.path);
         if (!converted) continue;
         if (!std::equal(quad.mesh->positions.begin(), quad.mesh->positions.end(),
                         converted->mesh->positions.begin()))
-            return false;
+            return refuseLamp(source.path);
         quad.light = converted->light;
         Instance& instance = _scene->instances[quad.instance];
         const Material lamp = lampMaterial(quad.light.radiance);
@@ -221,7 +256,8 @@ bool ScenePatcher::relight()
 {
     ConversionReport report;
     setLights(*_scene, _input, _convertedGraph.lights, _caches, report);
-    if (report.counts() != _convertedGraph.lightCounts) return false;
+    if (report.counts() != _convertedGraph.lightCounts)
+        return refuse(ConversionCause::LightReport, {});
     _changed |= stampLights(_scene->lights, _last.lights, _now);
     if (!anyShines(_last.lights) && !anyShines(_scene->lights)) return true;
     const std::size_t count = std::min(_last.instances.size(), _scene->instances.size());
@@ -243,15 +279,18 @@ bool ScenePatcher::remove(const GraphSplice& splice)
     for (const ChangedUse& gone : splice.removed)
     {
         const auto found = _convertedGraph.index.geometries.find(gone.geometry);
-        if (found == _convertedGraph.index.geometries.end()) return false;
+        if (found == _convertedGraph.index.geometries.end())
+            return refuse(ConversionCause::OtherPaths, splice.removedFrom);
         const TracedGeometry& traced = found->second;
-        if (!traced.patchable || !traced.plain || traced.uses.size() != gone.uses) return false;
+        const ConversionCause cause = causeToKeep(traced, gone.uses);
+        if (cause != ConversionCause::None) return refuse(cause, splice.removedFrom);
     }
     // The last of each first: those before it keep their numbers.
     for (auto gone = splice.removed.rbegin(); gone != splice.removed.rend(); ++gone)
     {
         const auto found = _convertedGraph.index.geometries.find(gone->geometry);
-        if (!removeUse(found->second, gone->use)) return false;
+        const ConversionCause cause = removeUse(found->second, gone->use);
+        if (cause != ConversionCause::None) return refuse(cause, splice.removedFrom);
         if (!found->second.uses.empty()) continue;
         _removed.push_back(found->second.geometry);
         _convertedGraph.index.geometries.erase(found);
@@ -260,17 +299,19 @@ bool ScenePatcher::remove(const GraphSplice& splice)
     return true;
 }
 
-bool ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
+/// None: it was removed.
+ConversionCause ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
 {
     const TracedUse gone = traced.uses[use];
-    if (gone.instance == kInvalid || gone.effects == kInvalid) return false;
+    if (gone.instance == kInvalid || gone.effects == kInvalid)
+        return ConversionCause::NotAnInstance;
     Instance& instance = _scene->instances[gone.instance];
-    if (traced.uses.size() > 1 && !instance.placed) return false;
+    if (traced.uses.size() > 1 && !instance.placed) return ConversionCause::NotAnInstance;
     const StateEffects& effects = _convertedGraph.index.stateEffects[gone.effects];
     traced.uses.erase(traced.uses.begin() + use);
-    if (!effects.counts.empty()) return false; // paths may be named
+    if (!effects.counts.empty()) return ConversionCause::Reported; // paths may be named
     if ((effects.hasAmbient || effects.physical || effects.setsColor) && isLastOf(gone.effects))
-        return false;
+        return ConversionCause::LastOfState;
 
     _leftStatic |= !instance.placed;
     _convertedGraph.materials.release(instance.material);
@@ -281,10 +322,10 @@ bool ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
     instance.changed = _now;
     _convertedGraph.instanceGaps.push_back(gone.instance);
     --_instances;
-    if (!traced.uses.empty()) return true;
+    if (!traced.uses.empty()) return ConversionCause::None;
     _scene->meshes[mesh] = emptyMesh();
     _convertedGraph.meshGaps.push_back(mesh);
-    return true;
+    return ConversionCause::None;
 }
 
 /// Whether no other use has these effects: what it alone decides for all of the scene would
@@ -309,16 +350,18 @@ uint32_t ScenePatcher::emptyMeshIndex()
 
 bool ScenePatcher::add(const GraphSplice& splice)
 {
-    if (_input.materials) return false; // rules look at names
+    if (_input.materials) // rules look at names
+        return refuse(ConversionCause::MaterialFile, splice.added);
     ConversionReport report;
     GraphCollector collector(_input, _caches.vertices, _caches.textures, report);
-    if (!collector.collectAt(fromRoot(splice.added, _input.root))) return false;
+    if (!collector.collectAt(fromRoot(splice.added, _input.root)))
+        return refuse(ConversionCause::BadTransform, splice.added);
     CollectedGraph graph = collector.take();
     const LightSources& lights = graph.lights;
     const bool plain = lights.lights.empty() && lights.areaLights.empty() &&
                        lights.environments.empty() && graph.rasterized.empty() && !graph.paged &&
                        report.counts().empty();
-    if (!plain) return false;
+    if (!plain) return refuse(ConversionCause::SpecialSubgraph, splice.added);
     graph.texGens = _convertedGraph.texGens;
     uint64_t vertices = 0;
     for (CollectedGeometry& geometry : graph.geometries)
@@ -327,28 +370,54 @@ bool ScenePatcher::add(const GraphSplice& splice)
         vertices += geometry.bounds->count;
     }
     // So much shall be flat.
-    if (vertices > kSmallStatic && vertices >= _caches.staticVertices) return false;
-    if (!graph.geometries.empty() && !lengthsOf(graph).areOrdinary()) return false;
+    if (vertices > kSmallStatic && vertices >= _caches.staticVertices)
+        return refuse(ConversionCause::LargeSubgraph, splice.added);
+    if (!graph.geometries.empty() && !lengthsOf(graph).areOrdinary())
+        return refuse(ConversionCause::Lengths, splice.added);
     for (const CollectedGeometry& geometry : graph.geometries)
-        if (!addGeometry(graph, geometry, splice)) return false;
+    {
+        const ConversionCause cause = addGeometry(graph, geometry, splice);
+        if (cause == ConversionCause::None) continue;
+        refuse(cause, splice.added);
+        _reason.path = geometry.path;
+        return false;
+    }
     return true;
 }
 
-bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
-                               const GraphSplice& splice)
+/// None: state of another kind than the scene has is not among it.
+ConversionCause ScenePatcher::stateCause(const CollectedGraph& graph,
+                                         const CollectedGeometry& geometry) const
 {
     const bool automatic = _input.colorRule == RayTraceSettings::AUTOMATIC_COLOR;
     for (const GeometryUse& use : geometry.uses)
     {
         const StateEffects effects = stateEffectsOf(graph.states[use.state], _caches.textures);
-        if (effects.physical && automatic && _scene->displayReferred) return false;
-        if (effects.setsColor && !_convertedGraph.setsColor) return false;
-        if (effects.hasAmbient && effects.ambient != _scene->ambient) return false;
-        if (effects.clipPlanes != 0) return false;
+        if (effects.physical && automatic && _scene->displayReferred)
+            return ConversionCause::ColorRule;
+        if (effects.setsColor && !_convertedGraph.setsColor) return ConversionCause::CurrentColor;
+        if (effects.hasAmbient && effects.ambient != _scene->ambient)
+            return ConversionCause::AmbientLight;
+        if (effects.clipPlanes != 0) return ConversionCause::ClipPlanes;
     }
+    return ConversionCause::None;
+}
+
+/// None: it was added.
+ConversionCause ScenePatcher::addGeometry(const CollectedGraph& graph,
+                                          const CollectedGeometry& geometry,
+                                          const GraphSplice& splice)
+{
+    const ConversionCause byState = stateCause(graph, geometry);
+    if (byState != ConversionCause::None) return byState;
     const auto known = _convertedGraph.index.geometries.find(geometry.geometry);
     const bool isNew = known == _convertedGraph.index.geometries.end();
-    if (!isNew && !(known->second.patchable && known->second.plain)) return false;
+    if (!isNew)
+    {
+        const ConversionCause cause =
+            causeToKeep(known->second, static_cast<uint32_t>(known->second.uses.size()));
+        if (cause != ConversionCause::None) return cause;
+    }
     ConversionReport report;
     BuildRules rules;
     rules.linear = !_scene->displayReferred;
@@ -359,22 +428,24 @@ bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeome
     std::vector<ChangedUse> uses;
     for (const ChangedUse& use : splice.uses)
         if (use.geometry == geometry.geometry) uses.push_back(use);
-    if (uses.size() != geometry.uses.size()) return false;
+    if (uses.size() != geometry.uses.size()) return ConversionCause::OtherPaths;
     if (isNew)
         builder.add(geometry);
     else
         for (std::size_t i = 0; i < uses.size(); ++i)
             if (uses[i].use > known->second.uses.size() ||
                 !builder.addUse(geometry, geometry.uses[i], uses[i].use))
-                return false;
+                return ConversionCause::NotAnInstance;
     const TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
-    if (!traced.patchable || !traced.plain || traced.uses.size() != uses.front().uses) return false;
+    const ConversionCause cause = causeToKeep(traced, uses.front().uses);
+    if (cause != ConversionCause::None) return cause;
     const auto isThere = [this](const TracedUse& use)
     { return use.instance != kInvalid && _scene->instances[use.instance].placed; };
-    if (!std::all_of(traced.uses.begin(), traced.uses.end(), isThere)) return false;
+    if (!std::all_of(traced.uses.begin(), traced.uses.end(), isThere))
+        return ConversionCause::NotAnInstance;
     _geometries += isNew;
     _instances += static_cast<int64_t>(uses.size());
-    return report.remarks() == 0;
+    return report.remarks() == 0 ? ConversionCause::None : ConversionCause::Reported;
 }
 
 /// What came back in another place is kept.

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
 #include "osgRayTrace/bridge/common/NodeKind.h"
+#include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
 
@@ -429,13 +430,7 @@ uint32_t GraphCollector::pickPath()
 
 std::string GraphCollector::path() const
 {
-    std::string text;
-    for (const osg::Node* node : getNodePath())
-    {
-        if (!text.empty()) text += '/';
-        text += node->getName().empty() ? node->className() : node->getName();
-    }
-    return text;
+    return pathText(getNodePath());
 }
 
 } // namespace osgRayTrace::engine
