@@ -138,21 +138,12 @@ void RayTraceDrawable::Implementation::recordProgress(const std::shared_ptr<View
     lastView = view;
 }
 
-/// Memory may be what is missing: then the message is one that fits into a string as it is.
 void RayTraceDrawable::Implementation::fail(engine::StatusCode code, const char* message) noexcept
 {
     std::lock_guard<std::mutex> lock(mutex);
     engine::Status& status = report.progress.status;
-    status.code = code;
-    try
-    {
-        status.message = message;
-        engine::warnOnce(status.message);
-    }
-    catch (const std::exception&)
-    {
-        status.message = "out of memory";
-    }
+    status = engine::failure(code, message);
+    engine::warnOnce(status.message);
 }
 
 /// Nothing was drawn: the children take its place.

@@ -49,20 +49,10 @@ std::vector<Light> placedLights(const Scene& scene, const View& view)
     return lights;
 }
 
-/// Memory may be what is missing: then the message is one that fits into a string as it is.
 RenderProgress failed(RenderProgress& progress, StatusCode code, const char* message)
 {
-    progress.status.code = code;
-    try
-    {
-        progress.status.message = message;
-        return progress;
-    }
-    catch (const std::bad_alloc&)
-    {
-        progress.status.message = "out of memory";
-        return progress;
-    }
+    progress.status = failure(code, message);
+    return progress;
 }
 
 /// Of unit axes, whatever scale the view has.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/update/SceneUpdater.h"
 
+#include "osgRayTrace/base/Status.h"
 #include "osgRayTrace/bridge/common/WarnOnce.h"
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
 
@@ -318,20 +319,12 @@ void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene,
     _statistics = statistics;
 }
 
-/// Memory may be what is missing: then the message is one that fits into a string as it is.
 void SceneUpdater::fail(const char* message) noexcept
 {
     std::lock_guard<std::mutex> lock(_versionMutex);
     _statistics.ok = false;
-    try
-    {
-        _statistics.message = message;
-        warnOnce(_statistics.message);
-    }
-    catch (const std::exception&)
-    {
-        _statistics.message = "out of memory";
-    }
+    _statistics.message = failureText(message);
+    warnOnce(_statistics.message);
 }
 
 } // namespace osgRayTrace::engine
