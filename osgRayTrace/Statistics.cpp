@@ -2,32 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/Statistics>
 
+#include "osgRayTrace/bridge/common/ReportReasons.h"
+
 #include <algorithm>
 
 namespace osgRayTrace
 {
 
+using engine::kReportClasses;
+using engine::ReportClass;
+
 namespace
 {
-
-struct ReportClass
-{
-    const char* prefix;
-    const char* title;
-};
-
-/// In the order of the report.
-constexpr ReportClass kClasses[] = {
-    {"converted.", "Ray traced"},
-    {"rasterized.", "Has triangles, but is left to OSG to draw"},
-    {"not-traced.", "Cannot be ray traced: drawn by OSG where there is a viewer"},
-    {"approximated.", "Ray traced, but not with all that OpenGL does"},
-    {"unused.", "Does nothing, as in OpenGL"},
-    {"repaired.", "Bad values that were replaced"},
-    {"warned.", "Ray traced as it is, but worth a look"},
-    {"missing.", "Files that cannot be read"},
-    {"skipped.", "Bad data, left out"},
-};
 
 /// "texture-size": "texture size".
 std::string words(std::string reason)
@@ -47,7 +33,7 @@ std::string rightAligned(uint64_t count)
 bool isOther(const std::string& what)
 {
     const auto claims = [&what](const ReportClass& c) { return what.rfind(c.prefix, 0) == 0; };
-    return std::none_of(std::begin(kClasses), std::end(kClasses), claims);
+    return std::none_of(std::begin(kReportClasses), std::end(kReportClasses), claims);
 }
 
 std::string line(const Statistics& statistics, const std::string& what, const std::string& reason)
@@ -66,7 +52,7 @@ std::string line(const Statistics& statistics, const std::string& what, const st
 std::string conversionReport(const Statistics& statistics)
 {
     std::string text;
-    for (const ReportClass& c : kClasses)
+    for (const ReportClass& c : kReportClasses)
     {
         std::string lines;
         const std::string prefix = c.prefix;
