@@ -64,6 +64,8 @@ enum class ConversionCause : uint8_t
     LinesOrPoints,
 };
 
+constexpr ConversionCause kLastCause = ConversionCause::LinesOrPoints;
+
 /// One clause: "children of a node are in another order". Of None: an empty one.
 const char* textOf(ConversionCause cause);
 

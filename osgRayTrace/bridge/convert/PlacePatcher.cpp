@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/convert/PlacePatcher.h"
 
 #include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
+#include "osgRayTrace/bridge/common/MatrixFault.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
 
 #include <cmath>
@@ -19,20 +20,6 @@ constexpr double kSmallestVolume = 1e-6;
 
 /// A mesh keeps its frame while its centre is not so many radii from its origin.
 constexpr double kFarFromOrigin = 128.0;
-
-/// One that surely is placed as it is: finite, affine and far from singular.
-bool isSound(const osg::Matrixd& m)
-{
-    for (int i = 0; i < 16; ++i)
-        if (!std::isfinite(m.ptr()[i])) return false;
-    if (m(0, 3) != 0.0 || m(1, 3) != 0.0 || m(2, 3) != 0.0 || m(3, 3) != 1.0) return false;
-    osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
-        z(m(2, 0), m(2, 1), m(2, 2));
-    x.normalize();
-    y.normalize();
-    z.normalize();
-    return std::fabs((x ^ y) * z) > kSmallestVolume;
-}
 
 /// Its coordinates are generated from places in the scene: the matrix has where the surface is.
 bool isPlaceBound(const Material& material)
@@ -82,7 +69,8 @@ bool PlacePatcher::move(const MovedUse& use)
         return refuse(ConversionCause::OtherPaths);
     if (!found->second.patchable) return refuse(ConversionCause::NotAlone);
     const uint32_t index = found->second.uses[use.use].instance;
-    if (!isSound(use.worldFromLocal)) return refuse(ConversionCause::BadTransform);
+    if (matrixFault(use.worldFromLocal, kSmallestVolume))
+        return refuse(ConversionCause::BadTransform);
     if (index == kInvalid) return true;
     if (isPlaceBound(_scene.materials[_scene.instances[index].material]))
         return refuse(ConversionCause::PlaceBound);

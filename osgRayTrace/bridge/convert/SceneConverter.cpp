@@ -4,17 +4,15 @@
 
 #include "osgRayTrace/bridge/common/SceneExtent.h"
 #include "osgRayTrace/bridge/convert/ConversionState.h"
+#include "osgRayTrace/bridge/convert/GraphLengths.h"
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
 #include "osgRayTrace/bridge/convert/SnapshotStamps.h"
 #include "osgRayTrace/bridge/pick/PickIndex.h"
 
-#include <osgRayTrace/AreaLight>
-
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 namespace osgRayTrace::engine
 {
@@ -26,30 +24,6 @@ void setBounds(CollectedGraph& graph, GeometryCache& geometries)
 {
     for (CollectedGeometry& geometry : graph.geometries)
         geometry.bounds = &geometries.bounds(*geometry.geometry);
-}
-
-/// Of all that is traced, where the lengths of the graph are those of the world.
-LengthCounts lengthsOf(const CollectedGraph& graph)
-{
-    LengthCounts lengths;
-    for (const CollectedGeometry& geometry : graph.geometries)
-    {
-        const VertexBounds& bounds = *geometry.bounds;
-        if (bounds.count == 0) continue;
-        for (const GeometryUse& use : geometry.uses)
-            lengths.add(largestCoordinate(bounds, use.engineFromLocal), bounds.count);
-    }
-    for (const CollectedAreaLight& source : graph.lights.areaLights)
-    {
-        const AreaLight& light = *source.light;
-        for (const osg::Vec3d& p :
-             {osg::Vec3d(), osg::Vec3d(light.getEdgeU()), osg::Vec3d(light.getEdgeV())})
-        {
-            const osg::Vec3d q = (osg::Vec3d(light.getCorner()) + p) * source.engineFromLocal;
-            lengths.add(std::max({std::fabs(q.x()), std::fabs(q.y()), std::fabs(q.z())}));
-        }
-    }
-    return lengths;
 }
 
 bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)

@@ -53,7 +53,6 @@ private:
                                 const GraphSplice& splice);
     bool moveAndDeform(const GraphChanges& changes);
     bool changeStates(const std::vector<StateChange>& uses);
-    bool setsColor() const;
     bool changeState(const StateChange& use, StateStack& states, MaterialConverter& converter,
                      ConversionReport& report);
     bool relightLamps();
@@ -63,6 +62,7 @@ private:
     uint32_t emptyMeshIndex();
     bool refuse(ConversionCause cause, const osg::NodePath& path);
     bool refuse(ConversionCause cause, const osg::Geometry& geometry, uint32_t use);
+    osg::NodePath fromRoot(const osg::NodePath& path) const;
     bool refuseLamp(const std::string& path);
 
     const Scene& _last;
