@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/changes/GraphWatch.h"
 
 #include "osgRayTrace/bridge/changes/GraphHash.h"
+#include "osgRayTrace/bridge/changes/Prefetch.h"
 #include "osgRayTrace/bridge/changes/StateHash.h"
 #include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/common/SceneRoot.h"
@@ -230,6 +231,7 @@ bool GraphWatch::lookAtNodes(GraphChanges& changes)
     uint32_t i = 0;
     while (i < nodes.size())
     {
+        if (i + kAhead < nodes.size()) fetch(nodes[i + kAhead]);
         WatchedNode& node = nodes[i];
         if (!_graph.isVisible(*node.node))
         {

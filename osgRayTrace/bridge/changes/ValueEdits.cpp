@@ -1,6 +1,7 @@
 // ValueEdits.cpp - which geometry, arrays, state and lights have other values. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/changes/GraphWatch.h"
+#include "osgRayTrace/bridge/changes/Prefetch.h"
 #include "osgRayTrace/bridge/changes/StateHash.h"
 
 #include <algorithm>
@@ -31,8 +32,12 @@ bool GraphWatch::lookAtGeometry(uint32_t index, GraphChanges& changes)
 
 void GraphWatch::lookAtBuffers(GraphChanges& changes)
 {
-    for (WatchedBuffer& buffer : _graph.buffers)
+    std::vector<WatchedBuffer>& buffers = _graph.buffers;
+    const std::size_t count = buffers.size();
+    for (std::size_t i = 0; i < count; ++i)
     {
+        if (i + kAhead < count) fetch(buffers[i + kAhead].data.get(), kBufferBytes);
+        WatchedBuffer& buffer = buffers[i];
         const uint64_t hash = bufferHash(buffer.kind, *buffer.data);
         if (hash == buffer.hash) continue;
         buffer.hash = hash;
