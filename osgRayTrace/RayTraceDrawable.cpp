@@ -138,22 +138,12 @@ void RayTraceDrawable::Implementation::recordProgress(const std::shared_ptr<View
     lastView = view;
 }
 
-/// Sets a status. Memory may be what is missing: the message then is one that fits into a string
-/// without allocation.
 void RayTraceDrawable::Implementation::fail(engine::StatusCode code, const char* message) noexcept
 {
     std::lock_guard<std::mutex> lock(mutex);
     engine::Status& status = report.progress.status;
-    status.code = code;
-    try
-    {
-        status.message = message;
-        engine::warnOnce(status.message);
-    }
-    catch (const std::exception&)
-    {
-        status.message = "out of memory";
-    }
+    status = engine::failure(code, message);
+    engine::warnOnce(status.message);
 }
 
 /// Sets a status of a pass that drew nothing: the children take its place.

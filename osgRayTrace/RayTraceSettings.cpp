@@ -86,39 +86,7 @@ RayTraceSettings::RayTraceSettings()
 RayTraceSettings::RayTraceSettings(WithoutEnvironment) {}
 
 RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop),
-      _integrator(other._integrator),
-      _lightSampling(other._lightSampling),
-      _debugChannel(other._debugChannel),
-      _colorRule(other._colorRule),
-      _lightSamples(other._lightSamples),
-      _environmentSampling(other._environmentSampling),
-      _environmentSamples(other._environmentSamples),
-      _lightRadius(other._lightRadius),
-      _lightAngle(other._lightAngle),
-      _lightSizes(other._lightSizes),
-      _cullAllRays(other._cullAllRays),
-      _maxBounces(other._maxBounces),
-      _shadows(other._shadows),
-      _headlightShadows(other._headlightShadows),
-      _terminatorCorrection(other._terminatorCorrection),
-      _maxPasses(other._maxPasses),
-      _frameBudget(other._frameBudget),
-      _degradeWhileMoving(other._degradeWhileMoving),
-      _equalViews(other._equalViews),
-      _passesPerFrame(other._passesPerFrame),
-      _presentation(other._presentation),
-      _reproject(other._reproject),
-      _threads(other._threads),
-      _seed(other._seed),
-      _exposure(other._exposure),
-      _photons(other._photons),
-      _photonRadius(other._photonRadius),
-      _photonAlpha(other._photonAlpha),
-      _radiusSchedule(other._radiusSchedule),
-      _photonGuiding(other._photonGuiding),
-      _denoise(other._denoise),
-      _materials(other._materials)
+    : osg::Object(other, copyop), _values(other._values)
 {
 }
 
@@ -126,49 +94,50 @@ RayTraceSettings::~RayTraceSettings() = default;
 
 void RayTraceSettings::setIntegrator(Integrator value)
 {
-    changeChoice("integrator", kIntegratorWords, _integrator, value, _modifiedCount);
+    changeChoice("integrator", kIntegratorWords, _values.integrator, value, _modifiedCount);
 }
 
 void RayTraceSettings::setLightSampling(LightSampling value)
 {
-    changeChoice("light-sampling", kLightSamplingWords, _lightSampling, value, _modifiedCount);
+    changeChoice("light-sampling", kLightSamplingWords, _values.lightSampling, value,
+                 _modifiedCount);
 }
 
 void RayTraceSettings::setEnvironmentSampling(EnvironmentSampling value)
 {
-    changeChoice("environment-sampling", kEnvironmentSamplingWords, _environmentSampling, value,
-                 _modifiedCount);
+    changeChoice("environment-sampling", kEnvironmentSamplingWords, _values.environmentSampling,
+                 value, _modifiedCount);
 }
 
 void RayTraceSettings::setEnvironmentSamples(int value)
 {
-    changeNumber("environment-samples", kEnvironmentSamplesRange, _environmentSamples, value,
+    changeNumber("environment-samples", kEnvironmentSamplesRange, _values.environmentSamples, value,
                  _modifiedCount);
 }
 
 void RayTraceSettings::setDebugChannel(DebugChannel value)
 {
-    changeChoice("debug-channel", kDebugChannelWords, _debugChannel, value, _modifiedCount);
+    changeChoice("debug-channel", kDebugChannelWords, _values.debugChannel, value, _modifiedCount);
 }
 
 void RayTraceSettings::setColorRule(ColorRule value)
 {
-    changeChoice("color-rule", kColorRuleWords, _colorRule, value, _modifiedCount);
+    changeChoice("color-rule", kColorRuleWords, _values.colorRule, value, _modifiedCount);
 }
 
 void RayTraceSettings::setLightSamples(int value)
 {
-    changeNumber("light-samples", kLightSamplesRange, _lightSamples, value, _modifiedCount);
+    changeNumber("light-samples", kLightSamplesRange, _values.lightSamples, value, _modifiedCount);
 }
 
 void RayTraceSettings::setLightRadius(float value)
 {
-    changeNumber("light-radius", kLightRadiusRange, _lightRadius, value, _modifiedCount);
+    changeNumber("light-radius", kLightRadiusRange, _values.lightRadius, value, _modifiedCount);
 }
 
 void RayTraceSettings::setLightAngle(float value)
 {
-    changeNumber("light-angle", kLightAngleRange, _lightAngle, value, _modifiedCount);
+    changeNumber("light-angle", kLightAngleRange, _values.lightAngle, value, _modifiedCount);
 }
 
 void RayTraceSettings::setLightSizes(const std::string& value)
@@ -176,122 +145,125 @@ void RayTraceSettings::setLightSizes(const std::string& value)
     if (!areLightSizes(value))
         warnOnce("light-sizes '" + value + "' are not NAME=SIZE,...; ignored");
     else
-        change(_lightSizes, value.empty() ? std::string("none") : value, _modifiedCount);
+        change(_values.lightSizes, value.empty() ? std::string("none") : value, _modifiedCount);
 }
 
 void RayTraceSettings::setCullAllRays(bool value)
 {
-    change(_cullAllRays, value, _modifiedCount);
+    change(_values.cullAllRays, value, _modifiedCount);
 }
 
 void RayTraceSettings::setMaxBounces(int value)
 {
-    changeNumber("max-bounces", kMaxBouncesRange, _maxBounces, value, _modifiedCount);
+    changeNumber("max-bounces", kMaxBouncesRange, _values.maxBounces, value, _modifiedCount);
 }
 
 void RayTraceSettings::setShadows(bool value)
 {
-    change(_shadows, value, _modifiedCount);
+    change(_values.shadows, value, _modifiedCount);
 }
 
 void RayTraceSettings::setHeadlightShadows(bool value)
 {
-    change(_headlightShadows, value, _modifiedCount);
+    change(_values.headlightShadows, value, _modifiedCount);
 }
 
 void RayTraceSettings::setTerminatorCorrection(bool value)
 {
-    change(_terminatorCorrection, value, _modifiedCount);
+    change(_values.terminatorCorrection, value, _modifiedCount);
 }
 
 void RayTraceSettings::setPresentation(Presentation value)
 {
-    changeChoice("presentation", kPresentationWords, _presentation, value, _modifiedCount);
+    changeChoice("presentation", kPresentationWords, _values.presentation, value, _modifiedCount);
 }
 
 void RayTraceSettings::setReproject(bool value)
 {
-    change(_reproject, value, _modifiedCount);
+    change(_values.reproject, value, _modifiedCount);
 }
 
 void RayTraceSettings::setPhotonGuiding(bool value)
 {
-    change(_photonGuiding, value, _modifiedCount);
+    change(_values.photonGuiding, value, _modifiedCount);
 }
 
 void RayTraceSettings::setDenoise(Denoise value)
 {
-    changeChoice("denoise", kDenoiseWords, _denoise, value, _modifiedCount);
+    changeChoice("denoise", kDenoiseWords, _values.denoise, value, _modifiedCount);
 }
 
 void RayTraceSettings::setMaxPasses(int value)
 {
-    changeNumber("max-passes", kMaxPassesRange, _maxPasses, value, _modifiedCount);
+    changeNumber("max-passes", kMaxPassesRange, _values.maxPasses, value, _modifiedCount);
 }
 
 void RayTraceSettings::setFrameBudget(float value)
 {
-    changeNumber("frame-budget", kFrameBudgetRange, _frameBudget, value, _modifiedCount);
+    changeNumber("frame-budget", kFrameBudgetRange, _values.frameBudget, value, _modifiedCount);
 }
 
 void RayTraceSettings::setDegradeWhileMoving(bool value)
 {
-    change(_degradeWhileMoving, value, _modifiedCount);
+    change(_values.degradeWhileMoving, value, _modifiedCount);
 }
 
 void RayTraceSettings::setEqualViews(bool value)
 {
-    change(_equalViews, value, _modifiedCount);
+    change(_values.equalViews, value, _modifiedCount);
 }
 
 void RayTraceSettings::setPassesPerFrame(int value)
 {
-    changeNumber("passes-per-frame", kPassesPerFrameRange, _passesPerFrame, value, _modifiedCount);
+    changeNumber("passes-per-frame", kPassesPerFrameRange, _values.passesPerFrame, value,
+                 _modifiedCount);
 }
 
 void RayTraceSettings::setThreads(int value)
 {
-    changeNumber("threads", kThreadsRange, _threads, value, _modifiedCount);
+    changeNumber("threads", kThreadsRange, _values.threads, value, _modifiedCount);
 }
 
 void RayTraceSettings::setSeed(unsigned int value)
 {
-    change(_seed, value, _modifiedCount);
+    change(_values.seed, value, _modifiedCount);
 }
 
 void RayTraceSettings::setExposure(float value)
 {
-    changeNumber("exposure", kExposureRange, _exposure, value, _modifiedCount);
+    changeNumber("exposure", kExposureRange, _values.exposure, value, _modifiedCount);
 }
 
 void RayTraceSettings::setPhotons(int value)
 {
-    changeNumber("photons", kPhotonsRange, _photons, value, _modifiedCount);
+    changeNumber("photons", kPhotonsRange, _values.photons, value, _modifiedCount);
 }
 
 void RayTraceSettings::setPhotonRadius(float value)
 {
-    changeNumber("photon-radius", kPhotonRadiusRange, _photonRadius, value, _modifiedCount);
+    changeNumber("photon-radius", kPhotonRadiusRange, _values.photonRadius, value, _modifiedCount);
 }
 
 void RayTraceSettings::setPhotonAlpha(float value)
 {
-    changeNumber("photon-alpha", kPhotonAlphaRange, _photonAlpha, value, _modifiedCount);
+    changeNumber("photon-alpha", kPhotonAlphaRange, _values.photonAlpha, value, _modifiedCount);
 }
 
 void RayTraceSettings::setRadiusSchedule(RadiusSchedule value)
 {
-    changeChoice("radius-schedule", kRadiusScheduleWords, _radiusSchedule, value, _modifiedCount);
+    changeChoice("radius-schedule", kRadiusScheduleWords, _values.radiusSchedule, value,
+                 _modifiedCount);
 }
 
 void RayTraceSettings::setMaterials(const std::string& value)
 {
-    change(_materials, value.empty() ? std::string("none") : value, _modifiedCount);
+    change(_values.materials, value.empty() ? std::string("none") : value, _modifiedCount);
 }
 
 std::string RayTraceSettings::getMaterialsError() const
 {
-    return _materials == "none" ? std::string() : engine::readMaterialLibrary(_materials).error;
+    return _values.materials == "none" ? std::string()
+                                       : engine::readMaterialLibrary(_values.materials).error;
 }
 
 std::vector<RayTraceSettings::Option> RayTraceSettings::options()

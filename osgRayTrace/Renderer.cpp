@@ -337,19 +337,10 @@ bool Renderer::render(double seconds, double relativeError, const Progress& prog
 {
     Implementation& self = *_implementation;
     self.cancelled = false;
-    // Memory may be what is missing: the message then is one that fits into a string without
-    // allocation.
     const auto failed = [&self](const char* message)
     {
         self.statistics.ok = false;
-        try
-        {
-            self.statistics.message = message;
-        }
-        catch (const std::bad_alloc&)
-        {
-            self.statistics.message = "out of memory";
-        }
+        self.statistics.message = engine::failureText(message);
         return false;
     };
 

@@ -2,32 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/Statistics>
 
+#include "osgRayTrace/bridge/common/ReportReasons.h"
+
 #include <algorithm>
 
 namespace osgRayTrace
 {
 
+using engine::kReportClasses;
+using engine::ReportClass;
+
 namespace
 {
-
-struct ReportClass
-{
-    const char* prefix;
-    const char* title;
-};
-
-/// The classes stand in the order of the report.
-constexpr ReportClass kClasses[] = {
-    {"converted.", "Ray traced"},
-    {"rasterized.", "Has triangles, but is left to OSG to draw"},
-    {"not-traced.", "Cannot be ray traced: drawn by OSG where there is a viewer"},
-    {"approximated.", "Ray traced, but not with all that OpenGL does"},
-    {"unused.", "Does nothing, as in OpenGL"},
-    {"repaired.", "Bad values that were replaced"},
-    {"warned.", "Ray traced as it is, but worth a look"},
-    {"missing.", "Files that cannot be read"},
-    {"skipped.", "Bad data, left out"},
-};
 
 /// Turns "texture-size" into "texture size".
 std::string words(std::string reason)
@@ -47,7 +33,7 @@ std::string rightAligned(uint64_t count)
 bool isOther(const std::string& what)
 {
     const auto claims = [&what](const ReportClass& c) { return what.rfind(c.prefix, 0) == 0; };
-    return std::none_of(std::begin(kClasses), std::end(kClasses), claims);
+    return std::none_of(std::begin(kReportClasses), std::end(kReportClasses), claims);
 }
 
 std::string line(const Statistics& statistics, const std::string& what, const std::string& reason)
@@ -66,7 +52,7 @@ std::string line(const Statistics& statistics, const std::string& what, const st
 std::string conversionReport(const Statistics& statistics)
 {
     std::string text;
-    for (const ReportClass& c : kClasses)
+    for (const ReportClass& c : kReportClasses)
     {
         std::string lines;
         const std::string prefix = c.prefix;
@@ -79,7 +65,16 @@ std::string conversionReport(const Statistics& statistics)
     for (const auto& [what, count] : statistics.conversion)
         if (count > 0 && isOther(what)) others += line(statistics, what, what);
     if (!others.empty()) text += "Other:\n" + others;
-    return text.empty() ? "Nothing was converted.\n" : text;
+    if (text.empty()) return "Nothing was converted.\n";
+    if (!statistics.lastConversionReason.empty())
+    {
+        text += "Converted as a whole " + std::to_string(statistics.conversions) +
+                " times, for the last time because:\n            " +
+                statistics.lastConversionReason + '\n';
+        if (!statistics.lastConversionPath.empty())
+            text += "              " + statistics.lastConversionPath + '\n';
+    }
+    return text;
 }
 
 } // namespace osgRayTrace

@@ -83,6 +83,11 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
     json["droppedSamples"] = statistics.droppedSamples;
     json["conversion"] = statistics.conversion;
     json["conversionPaths"] = statistics.conversionPaths;
+    if (!statistics.lastConversionReason.empty())
+    {
+        json["lastConversionReason"] = statistics.lastConversionReason;
+        json["lastConversionPath"] = statistics.lastConversionPath;
+    }
     if (measures)
     {
         json["reference"] = {{"file", options.reference},

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -26,6 +27,26 @@ struct Status
 
     bool ok() const { return code == StatusCode::Ok; }
 };
+
+/// The message as text. Memory may be what is missing: then the text is one that fits into a string
+/// as it is.
+inline std::string failureText(const char* message) noexcept
+{
+    try
+    {
+        return message;
+    }
+    catch (const std::exception&)
+    {
+        return "out of memory";
+    }
+}
+
+/// The outcome of what has failed; for places that must not throw.
+inline Status failure(StatusCode code, const char* message) noexcept
+{
+    return {code, failureText(message)};
+}
 
 /// Thrown inside the engine only; RenderSession and the public API turn it into a Status.
 class EngineError : public std::runtime_error

@@ -12,20 +12,10 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// If memory is what is missing, the message is one that fits into a string without an allocation.
 RenderProgress failed(RenderProgress& progress, StatusCode code, const char* message)
 {
-    progress.status.code = code;
-    try
-    {
-        progress.status.message = message;
-        return progress;
-    }
-    catch (const std::bad_alloc&)
-    {
-        progress.status.message = "out of memory";
-        return progress;
-    }
+    progress.status = failure(code, message);
+    return progress;
 }
 
 } // namespace

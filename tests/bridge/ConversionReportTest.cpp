@@ -148,4 +148,14 @@ TEST_CASE("conversion report: as text", "[bridge]")
                                           "   1234567  not finite\n"
                                           "Other:\n"
                                           "         1  instance.invalid transform\n");
+    statistics.conversion = {{"converted.geometry", 3}};
+    statistics.conversions = 2;
+    statistics.lastConversionReason = "a light came";
+    statistics.lastConversionPath = "town/lamp";
+    CHECK(conversionReport(statistics) ==
+          "Ray traced:\n"
+          "         3  geometry\n"
+          "Converted as a whole 2 times, for the last time because:\n"
+          "            a light came\n"
+          "              town/lamp\n");
 }

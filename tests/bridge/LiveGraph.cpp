@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bridge/LiveGraph.h"
 
+#include "tests/Catch.h"
+
 #include <osg/Geometry>
 
 #include <cmath>
@@ -167,7 +169,11 @@ void LiveView::recordEye(const osg::Vec3d& eye)
 
 void LiveView::update()
 {
+    const Statistics before = statistics();
     _updater.update(_root, *_settings, nullptr);
+    const Statistics after = statistics();
+    const bool again = before.conversions > 0 && after.conversions > before.conversions;
+    if (again && after.ok) CHECK(!after.lastConversionReason.empty());
 }
 
 const std::vector<float>& LiveView::image()

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/changes/ConversionReason.h"
 #include "osgRayTrace/bridge/common/ObjectIdentity.h"
 
 #include <osg/Geometry>
@@ -37,6 +38,7 @@ struct StateChange : MovedUse
 struct GraphSplice
 {
     std::vector<ChangedUse> removed;   ///< numbers and uses as they were before
+    osg::NodePath removedFrom;         ///< to the parent of the node that went
     std::vector<Kept<osg::Node>> gone; ///< what removed points to
     osg::NodePath added;               ///< to the node that came; empty: none
     std::vector<ChangedUse> uses;      ///< of what came, in traversal order, as they are then
@@ -48,6 +50,7 @@ struct GraphChanges
 {
     bool convert = false; ///< the graph is to be converted again: there is more than what follows
     bool record = false;  ///< and to be recorded again
+    ConversionReason reason;          ///< why convert is set: the first reason that was found
     std::vector<GraphSplice> splices; ///< in the order in which they are to be made
     std::vector<MovedUse> moved;
     std::vector<const osg::Geometry*> deformed; ///< other positions, normals or primitives

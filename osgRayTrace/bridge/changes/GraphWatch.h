@@ -31,9 +31,17 @@ public:
     /// same conditions but for the eye and the inherited state.
     GraphChanges look(osg::Node& root, const ViewingConditions& conditions);
 
+    /// The path to a geometry as of the last look, for messages. use: see ChangedUse. The name of
+    /// the geometry alone if there is no such path.
+    std::string pathOf(const osg::Geometry& geometry, uint32_t use) const;
+
 private:
     osg::Node* firstNode(osg::Node& root) const;
     void takeVersions(WatchedGraph& before);
+    void mustConvert(GraphChanges& changes, ConversionCause cause, uint32_t node) const;
+    void mustRecord(GraphChanges& changes, ConversionCause cause, uint32_t node) const;
+    bool giveUp(GraphChanges& changes, ConversionCause cause, uint32_t node) const;
+    std::string pathTo(uint32_t node) const;
     bool lookAtNodes(GraphChanges& changes);
     bool isAsItWas(WatchedNode& node);
     bool isUntrackedAsItWas(WatchedNode& node);
@@ -59,6 +67,7 @@ private:
     uint64_t _looks = 0;
 
     // Of a look while it runs:
+    osg::Node* _root = nullptr;
     bool _anyMoved = false, _anyStateChanged = false;
     std::vector<uint32_t> _exchanged; ///< geometries that have other arrays
 };

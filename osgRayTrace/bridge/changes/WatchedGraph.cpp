@@ -126,15 +126,7 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
     }
     if (entry.kind == NodeKind::Untracked)
     {
-        fix(entry.place);
-        entry.item = static_cast<uint32_t>(untrackedNodes.size());
-        UntrackedNode& untracked = untrackedNodes.emplace_back();
-        untracked.sceneFromLocal = sceneFromParent;
-        untracked.budget = _untrackedBudget.left();
-        entry.hash = graphHash(node, conditions, sceneFromParent, &untracked.kept, nullptr,
-                               &_untrackedBudget);
-        truncated |= _untrackedBudget.left() == 0;
-        push(entry);
+        appendUntracked(entry, sceneFromParent, conditions);
         return;
     }
 
@@ -167,6 +159,20 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
                 child && isOn(entry.kind, *group, i))
                 append(*child, index, inner, depth + 1, conditions);
     nodes[index].end = static_cast<uint32_t>(nodes.size());
+}
+
+void WatchedGraph::appendUntracked(WatchedNode entry, const osg::Matrixd& sceneFromParent,
+                                   const ViewingConditions& conditions)
+{
+    fix(entry.place);
+    entry.item = static_cast<uint32_t>(untrackedNodes.size());
+    UntrackedNode& untracked = untrackedNodes.emplace_back();
+    untracked.sceneFromLocal = sceneFromParent;
+    untracked.budget = _untrackedBudget.left();
+    entry.hash = graphHash(*entry.node, conditions, sceneFromParent, &untracked.kept, nullptr,
+                           &_untrackedBudget);
+    truncated |= _untrackedBudget.left() == 0;
+    push(entry);
 }
 
 void WatchedGraph::appendGeometry(osg::Geometry& geometry, WatchedNode entry)

@@ -172,6 +172,8 @@ struct WatchedGraph
 private:
     void push(const WatchedNode& node);
     void setBuffers(uint32_t geometry);
+    void appendUntracked(WatchedNode entry, const osg::Matrixd& sceneFromParent,
+                         const ViewingConditions& conditions);
     void appendGeometry(osg::Geometry& geometry, WatchedNode entry);
     uint32_t outerPlace(uint32_t place) const
     {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/ConversionReport.h"
 
+#include "osgRayTrace/bridge/common/ReportReasons.h"
 #include "osgRayTrace/bridge/common/WarnOnce.h"
 
 #include <algorithm>
@@ -13,33 +14,14 @@ namespace osgRayTrace::engine
 namespace
 {
 
-struct Wording
-{
-    const char* what;
-    const char* message;
-};
-
-constexpr Wording kGeometryWordings[] = {
-    {"skipped.index-out-of-range", "triangles with an index beyond the vertex array, skipped"},
-    {"skipped.not-finite",
-     "triangles with a vertex that is NaN, infinite or out of range, skipped"},
-    {"skipped.deprecated-data",
-     "per-primitive bindings or array indices: call fixDeprecatedData, skipped"},
-    {"skipped.vertex-type", "vertex array of an unknown type, skipped"},
-    {"repaired.normal", "normals that are zero, missing or not finite, replaced by face normals"},
-    {"warned.opposite-normals", "triangles whose normals look to their back, lit by the side seen"},
-    {"repaired.color", "colours that are missing or not finite, replaced by white"},
-    {"repaired.texture-coordinate",
-     "texture coordinates that are missing or not finite, replaced by 0"},
-};
-
 const char* const kMissing = "missing.";
 
 /// Said for each geometry by warnAboutGeometry.
 bool isNamedByGeometry(const std::string& what)
 {
-    return std::any_of(std::begin(kGeometryWordings), std::end(kGeometryWordings),
-                       [&what](const Wording& wording) { return what == wording.what; });
+    return std::any_of(std::begin(kReportReasons), std::end(kReportReasons),
+                       [&what](const ReportReason& reason)
+                       { return reason.warning && what == reason.key; });
 }
 
 bool begins(const std::string& text, const char* with)
@@ -111,12 +93,12 @@ void ConversionReport::addHere(const ConversionReport& other)
 
 void warnAboutGeometry(const std::string& path, const ConversionCounts& counts)
 {
-    for (const Wording& wording : kGeometryWordings)
+    for (const ReportReason& reason : kReportReasons)
     {
-        const auto found = counts.find(wording.what);
+        const auto found = reason.warning ? counts.find(reason.key) : counts.end();
         if (found == counts.end()) continue;
         warnOnce("geometry '" + path + "': " + std::to_string(found->second) + " " +
-                 wording.message);
+                 reason.warning);
     }
 }
 

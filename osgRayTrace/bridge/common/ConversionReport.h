@@ -12,26 +12,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Counts by "<class>.<reason>" as Statistics::conversion shows them:
-/// converted    what became part of the Scene: geometry (drawables), instance, material, texture,
-/// light; the
-///              viewer's own is a headlight or a sky-light
-/// repaired     values that were replaced: normal, texture-coordinate, color (each a vertex),
-///              environment-not-finite, -negative, -too-bright (each a pixel), environment-scale
-/// skipped      bad data left out: index-out-of-range, not-finite, degenerate (each a triangle);
-///              everything else an object
-/// warned       things that are traced as they are, and may not be what was meant: far-vertices (a
-/// drawable),
-///              opposite-normals (a triangle); trace-hint: hinted to be traced, but cannot be
-/// approximated things that are traced, but not with all that OpenGL would do (a drawable or an
-///              object)
-/// unused       what does nothing in OpenGL either: light-replaced, by the next one of its number
-/// not-traced   things that have no triangles, or that are not part of the scene as seen by a ray;
-/// OSG draws
-///              them where there is a viewer
-/// rasterized   things that have triangles and that OSG draws all the same, in a viewer
-/// missing      files that could not be read, by what they are for; paths are "FILE" or "FILE, for
-/// NODE PATH"
+/// Counts by "<class>.<reason>" as Statistics::conversion shows them: see ReportReasons.h.
 using ConversionCounts = std::map<std::string, uint64_t>;
 
 inline void addCounts(ConversionCounts& sum, const ConversionCounts& more)

@@ -23,7 +23,9 @@ enum class NodeKind : uint8_t
     Untracked, ///< any other class, with all that is below it: see graphHash
 };
 
-/// By the class itself: one derived from it may do anything.
+/// By the class itself: one derived from it may do anything. What a conversion makes of each class
+/// is in GraphCollector::apply(), which must read no more of a node than NodeHashes.cpp hashes for
+/// its kind; all other classes are Untracked.
 NodeKind kindOf(const osg::Node& node);
 
 inline bool isTransform(NodeKind kind)

@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/convert/PlacePatcher.h"
 
 #include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
+#include "osgRayTrace/bridge/common/MatrixFault.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
 
 #include <cmath>
@@ -19,20 +20,6 @@ constexpr double kSmallestVolume = 1e-6;
 
 /// A mesh keeps its frame while its centre is not so many radii from its origin.
 constexpr double kFarFromOrigin = 128.0;
-
-/// One that surely is placed as it is: finite, affine and far from singular.
-bool isSound(const osg::Matrixd& m)
-{
-    for (int i = 0; i < 16; ++i)
-        if (!std::isfinite(m.ptr()[i])) return false;
-    if (m(0, 3) != 0.0 || m(1, 3) != 0.0 || m(2, 3) != 0.0 || m(3, 3) != 1.0) return false;
-    osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
-        z(m(2, 0), m(2, 1), m(2, 2));
-    x.normalize();
-    y.normalize();
-    z.normalize();
-    return std::fabs((x ^ y) * z) > kSmallestVolume;
-}
 
 /// Its coordinates are generated from places in the scene: the matrix has where the surface is.
 bool isPlaceBound(const Material& material)
@@ -78,12 +65,15 @@ void PlacePatcher::touch(uint32_t index)
 bool PlacePatcher::move(const MovedUse& use)
 {
     const auto found = _index.geometries.find(use.geometry);
-    if (found == _index.geometries.end() || found->second.uses.size() != use.uses) return false;
-    if (!found->second.patchable) return false;
+    if (found == _index.geometries.end() || found->second.uses.size() != use.uses)
+        return refuse(ConversionCause::OtherPaths);
+    if (!found->second.patchable) return refuse(ConversionCause::NotAlone);
     const uint32_t index = found->second.uses[use.use].instance;
-    if (!isSound(use.worldFromLocal)) return false;
+    if (matrixFault(use.worldFromLocal, kSmallestVolume))
+        return refuse(ConversionCause::BadTransform);
     if (index == kInvalid) return true;
-    if (isPlaceBound(_scene.materials[_scene.instances[index].material])) return false;
+    if (isPlaceBound(_scene.materials[_scene.instances[index].material]))
+        return refuse(ConversionCause::PlaceBound);
     const Vec3d& origin = _scene.origin;
     return place(*use.geometry, index,
                  use.worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z));
@@ -93,24 +83,26 @@ bool PlacePatcher::place(const osg::Geometry& geometry, uint32_t index,
                          const osg::Matrixd& engineFromLocal)
 {
     const VertexBounds& bounds = _geometries.bounds(geometry);
-    if (!isOrdinaryLength(largestCoordinate(bounds, engineFromLocal))) return false;
+    if (!isOrdinaryLength(largestCoordinate(bounds, engineFromLocal)))
+        return refuse(ConversionCause::Lengths);
     Instance& instance = _scene.instances[index];
     const bool winding = dependsOnWinding(_scene.materials[instance.material]);
-    if (winding && !instance.placed) return false; // whether it was mirrored is not known
+    if (winding && !instance.placed)
+        return refuse(ConversionCause::Winding); // whether it was mirrored is not known
     osg::Matrixd localFromMesh;
     if (instance.placed)
     {
         const MeshRequest* request = _geometries.lastRequest(geometry);
-        if (!request) return false;
+        if (!request) return refuse(ConversionCause::NoMesh);
         if (request->transform) localFromMesh = osg::Matrixd::inverse(*request->transform);
     }
     else
     {
         const MeshFrame frame = meshFrame(bounds);
-        if (!fitsFrame(bounds, frame.meshFromLocal)) return false;
+        if (!fitsFrame(bounds, frame.meshFromLocal)) return refuse(ConversionCause::Lengths);
         _geometries.recordMobility(geometry, Mobility::Dynamic);
         const MeshRequest* last = _geometries.lastRequest(geometry);
-        if (!last) return false;
+        if (!last) return refuse(ConversionCause::NoMesh);
         MeshRequest request = *last;
         request.transform.reset();
         if (!frame.meshFromLocal.isIdentity()) request.transform = frame.meshFromLocal;
@@ -121,8 +113,9 @@ bool PlacePatcher::place(const osg::Geometry& geometry, uint32_t index,
     }
     const Affine before = instance.engineFromLocal;
     const bool wasPlaced = instance.placed, wasMirrored = instance.mirrored;
-    if (!placeInstance(instance, localFromMesh * engineFromLocal)) return false;
-    if (winding && instance.mirrored != wasMirrored) return false;
+    if (!placeInstance(instance, localFromMesh * engineFromLocal))
+        return refuse(ConversionCause::BadTransform);
+    if (winding && instance.mirrored != wasMirrored) return refuse(ConversionCause::Winding);
     if (!wasPlaced || before.linear != instance.engineFromLocal.linear ||
         before.translation != instance.engineFromLocal.translation)
         touch(index);
@@ -139,7 +132,7 @@ bool PlacePatcher::makeMesh(const osg::Geometry& geometry, const MeshRequest& re
     ConversionReport report;
     const auto result =
         _geometries.mesh(geometry, GeometryCache::kOwnVariant, request, mesh->name, report);
-    if (!result || report.counts() != before) return false;
+    if (!result || report.counts() != before) return refuse(ConversionCause::Reported);
     mesh = result;
     return true;
 }
@@ -147,28 +140,32 @@ bool PlacePatcher::makeMesh(const osg::Geometry& geometry, const MeshRequest& re
 bool PlacePatcher::deform(const osg::Geometry& geometry)
 {
     const auto found = _index.geometries.find(&geometry);
-    if (found == _index.geometries.end() || !found->second.patchable) return false;
+    if (found == _index.geometries.end()) return refuse(ConversionCause::OtherPaths);
+    if (!found->second.patchable) return refuse(ConversionCause::NotAlone);
     const std::vector<TracedUse>& uses = found->second.uses;
     const MeshRequest* last = _geometries.lastRequest(geometry);
-    if (!last || !hasTrianglesAlone(geometry)) return false;
+    if (!last) return refuse(ConversionCause::NoMesh);
+    if (!hasTrianglesAlone(geometry)) return refuse(ConversionCause::LinesOrPoints);
     for (const TracedUse& use : uses)
     {
         const uint32_t index = use.instance;
-        if (index == kInvalid) return false;
+        if (index == kInvalid) return refuse(ConversionCause::NotAnInstance);
         const Instance& instance = _scene.instances[index];
         if (!instance.placed)
         {
-            if (uses.size() > 1) return false;
+            if (uses.size() > 1) return refuse(ConversionCause::NotAnInstance);
             const osg::Matrixd engineFromLocal = last->transform.value_or(osg::Matrixd());
             return place(geometry, index, engineFromLocal);
         }
-        if (instance.mesh != _scene.instances[uses.front().instance].mesh) return false;
+        if (instance.mesh != _scene.instances[uses.front().instance].mesh)
+            return refuse(ConversionCause::NotAnInstance);
     }
 
     const VertexBounds& bounds = _geometries.bounds(geometry);
     MeshRequest request = *last;
     request.copies = true;
-    if (!fitsFrame(bounds, request.transform.value_or(osg::Matrixd()))) return false;
+    if (!fitsFrame(bounds, request.transform.value_or(osg::Matrixd())))
+        return refuse(ConversionCause::Lengths);
     const uint32_t meshIndex = _scene.instances[uses.front().instance].mesh;
     const std::shared_ptr<const Mesh> before = _scene.meshes[meshIndex];
     if (!makeMesh(geometry, request, meshIndex)) return false;
@@ -181,7 +178,7 @@ bool PlacePatcher::deform(const osg::Geometry& geometry)
                              largestCoordinate(bounds, request.transform.value_or(osg::Matrixd())) *
                                  double(glm::length(m.linear[0]) + glm::length(m.linear[1]) +
                                         glm::length(m.linear[2]));
-        if (!isOrdinaryLength(reach)) return false;
+        if (!isOrdinaryLength(reach)) return refuse(ConversionCause::Lengths);
         touch(use.instance);
     }
     return true;

@@ -21,10 +21,12 @@ public:
     {
     }
 
-    /// False if the graph must be converted again: something looks different from what it did
-    /// before in more than its place and its shape.
+    /// False if the graph must be converted again, by cause(): something looks different from what
+    /// it did before in more than its place and its shape.
     bool move(const MovedUse& use);
     bool deform(const osg::Geometry& geometry);
+
+    ConversionCause cause() const { return _cause; }
 
     /// Something has changed.
     bool changed() const { return _changed; }
@@ -36,6 +38,11 @@ private:
     bool place(const osg::Geometry& geometry, uint32_t index, const osg::Matrixd& engineFromLocal);
     bool makeMesh(const osg::Geometry& geometry, const MeshRequest& request, uint32_t meshIndex);
     void touch(uint32_t index);
+    bool refuse(ConversionCause cause) ///< false
+    {
+        _cause = cause;
+        return false;
+    }
 
     Scene& _scene;
     const SceneIndex& _index;
@@ -43,6 +50,7 @@ private:
     Stamp _now;
     bool _changed = false;
     bool _leftStatic = false;
+    ConversionCause _cause = ConversionCause::None;
 };
 
 } // namespace osgRayTrace::engine

@@ -3,6 +3,8 @@
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 
 #include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
+#include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
+#include "osgRayTrace/bridge/convert/InstanceOrder.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
@@ -36,15 +38,6 @@ Vec4 backgroundOf(const osg::Vec4& clearColor, bool linear)
 }
 
 } // namespace
-
-Material fallbackMaterial()
-{
-    Material material;
-    material.name = "fallback";
-    material.ambient = material.diffuse = Vec3(1.0f, 0.0f, 1.0f);
-    material.lit = false;
-    return material;
-}
 
 SceneBuilder::SceneBuilder(const ConversionInput& input, const CollectedGraph& graph,
                            const BuildRules& rules, ConversionCaches& caches,
@@ -175,23 +168,9 @@ bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
     return !once || cache.mobility(geometry) != Mobility::Static;
 }
 
-/// Their indices are then a matter of themselves alone, and so is their BVH.
 void SceneBuilder::putFlatFirst()
 {
-    std::vector<Instance>& instances = _scene.instances;
-    std::vector<uint32_t> order(instances.size()), now(instances.size());
-    for (uint32_t i = 0; i < order.size(); ++i)
-        order[i] = i;
-    std::stable_partition(order.begin(), order.end(),
-                          [&](uint32_t i) { return !instances[i].placed; });
-    std::vector<Instance> sorted;
-    sorted.reserve(instances.size());
-    for (uint32_t i = 0; i < order.size(); ++i)
-    {
-        sorted.push_back(instances[order[i]]);
-        now[order[i]] = i;
-    }
-    instances.swap(sorted);
+    const std::vector<uint32_t> now = engine::putFlatFirst(_scene.instances);
     const auto renumber = [&now](uint32_t& index)
     {
         if (index != kInvalid) index = now[index];
@@ -229,7 +208,7 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
     TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
     // One that is here twice has other primitive restart: only one of both is in the index.
     traced.patchable = traced.uses.empty() && geometry.watched;
-    traced.uses.clear();
+    _convertedGraph.index.removeUses(traced);
     traced.uses.reserve(geometry.uses.size());
     for (const GeometryUse& use : geometry.uses)
         traced.patchable &= depthBias(_graph.states[use.state]) == 0.0f;
@@ -252,9 +231,7 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 
 void SceneBuilder::addNothing(const CollectedGeometry& geometry, const GeometryUse& use)
 {
-    _convertedGraph.index.at(*geometry.geometry)
-        .uses.push_back({kInvalid, effects(use.state, ConversionCounts())});
-    _instances.push_back(kInvalid);
+    recordUse(geometry, {kInvalid, effects(use.state, ConversionCounts())});
 }
 
 void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
@@ -333,7 +310,7 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
     instance.mesh = _scene.instances[other].mesh;
     if (!placeInstance(instance, localFromMesh * use.engineFromLocal)) return false;
     const TracedUse result = newInstance(geometry, use, instance);
-    traced.uses.insert(traced.uses.begin() + before, result);
+    _convertedGraph.index.addUse(traced, result, before);
     _report.count("converted.instance");
     return true;
 }
@@ -341,9 +318,14 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
 void SceneBuilder::addInstance(const CollectedGeometry& geometry, const GeometryUse& use,
                                Instance instance)
 {
-    const TracedUse result = newInstance(geometry, use, instance);
-    _convertedGraph.index.at(*geometry.geometry).uses.push_back(result);
-    _instances.push_back(result.instance);
+    recordUse(geometry, newInstance(geometry, use, instance));
+}
+
+void SceneBuilder::recordUse(const CollectedGeometry& geometry, const TracedUse& use)
+{
+    TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
+    _convertedGraph.index.addUse(traced, use, traced.uses.size());
+    _instances.push_back(use.instance);
 }
 
 TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const GeometryUse& use,

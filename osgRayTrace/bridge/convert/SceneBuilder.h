@@ -57,6 +57,7 @@ private:
     void addInstance(const CollectedGeometry& geometry, const GeometryUse& use, Instance instance);
     TracedUse newInstance(const CollectedGeometry& geometry, const GeometryUse& use,
                           Instance instance);
+    void recordUse(const CollectedGeometry& geometry, const TracedUse& use);
     void addAreaLight(const CollectedAreaLight& source, ConversionCaches::Quad& quad);
     void addNothing(const CollectedGeometry& geometry, const GeometryUse& use);
     uint32_t effects(uint32_t state, const ConversionCounts& counts);
@@ -79,8 +80,5 @@ private:
     std::vector<uint32_t> _instances;
     const osg::LightModel* _lightModel = nullptr; // the first one met
 };
-
-/// A visible one, for a scene without any.
-Material fallbackMaterial();
 
 } // namespace osgRayTrace::engine

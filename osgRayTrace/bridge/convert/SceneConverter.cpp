@@ -4,17 +4,15 @@
 
 #include "osgRayTrace/bridge/common/SceneExtent.h"
 #include "osgRayTrace/bridge/convert/ConversionState.h"
+#include "osgRayTrace/bridge/convert/GraphLengths.h"
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
 #include "osgRayTrace/bridge/convert/SnapshotStamps.h"
 #include "osgRayTrace/bridge/pick/PickIndex.h"
 
-#include <osgRayTrace/AreaLight>
-
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 namespace osgRayTrace::engine
 {
@@ -26,30 +24,6 @@ void setBounds(CollectedGraph& graph, GeometryCache& geometries)
 {
     for (CollectedGeometry& geometry : graph.geometries)
         geometry.bounds = &geometries.bounds(*geometry.geometry);
-}
-
-/// Of all that is traced, where the lengths of the graph are those of the world.
-LengthCounts lengthsOf(const CollectedGraph& graph)
-{
-    LengthCounts lengths;
-    for (const CollectedGeometry& geometry : graph.geometries)
-    {
-        const VertexBounds& bounds = *geometry.bounds;
-        if (bounds.count == 0) continue;
-        for (const GeometryUse& use : geometry.uses)
-            lengths.add(largestCoordinate(bounds, use.engineFromLocal), bounds.count);
-    }
-    for (const CollectedAreaLight& source : graph.lights.areaLights)
-    {
-        const AreaLight& light = *source.light;
-        for (const osg::Vec3d& p :
-             {osg::Vec3d(), osg::Vec3d(light.getEdgeU()), osg::Vec3d(light.getEdgeV())})
-        {
-            const osg::Vec3d q = (osg::Vec3d(light.getCorner()) + p) * source.engineFromLocal;
-            lengths.add(std::max({std::fabs(q.x()), std::fabs(q.y()), std::fabs(q.z())}));
-        }
-    }
-    return lengths;
 }
 
 bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
@@ -197,20 +171,24 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     return result;
 }
 
-std::optional<ConversionResult> SceneConverter::patch(const GraphChanges& changes)
+PatchResult SceneConverter::patch(const GraphChanges& changes)
 {
     const auto begin = std::chrono::steady_clock::now();
     Implementation& state = *_implementation;
-    if (!state.last || !state.ordinary ||
-        (state.caches.noStaticBvh && !state.caches.staticMeshes.empty()))
-        return std::nullopt;
+    const auto refused = [](ConversionCause cause) {
+        return PatchResult{std::nullopt, {cause, {}, nullptr, 0}};
+    };
+    const auto losesStaticBvh = [&state]
+    { return state.caches.noStaticBvh && !state.caches.staticMeshes.empty(); };
+    if (!state.last || !state.ordinary) return refused(ConversionCause::NotPatchable);
+    if (losesStaticBvh()) return refused(ConversionCause::NoStaticBvh);
     ScenePatcher patcher(*state.last, state.input, state.caches, state.convertedGraph,
                          ++state.stamp);
     const std::shared_ptr<const Scene> scene = patcher.patch(changes);
-    if (!scene) return std::nullopt;
+    if (!scene) return {std::nullopt, patcher.reason()};
     if (patcher.changed()) state.last = scene;
     if (patcher.leftStatic()) recordStaticMeshes(*scene, true, state.caches);
-    if (state.caches.noStaticBvh && !state.caches.staticMeshes.empty()) return std::nullopt;
+    if (losesStaticBvh()) return refused(ConversionCause::NoStaticBvh);
     ConversionResult& result = state.lastResult;
     result.scene = state.last;
     if (patcher.spliced()) result.pickIndex.reset();
@@ -223,7 +201,7 @@ std::optional<ConversionResult> SceneConverter::patch(const GraphChanges& change
         state.convertedGraph.meshGaps.size() + (state.convertedGraph.emptyMesh == kInvalid ? 0 : 1);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return result;
+    return {result, {}};
 }
 
 } // namespace osgRayTrace::engine

@@ -12,6 +12,12 @@
 namespace osgRayTrace::engine
 {
 
+struct PatchResult
+{
+    std::optional<ConversionResult> conversion; ///< nothing: the whole graph must be converted
+    ConversionReason reason;                    ///< why there is nothing
+};
+
 /// Keeps what it needs to share unchanged parts between snapshots. Used by one thread at a time.
 class SceneConverter
 {
@@ -27,9 +33,9 @@ public:
     ConversionResult convert(const ConversionInput& input);
 
     /// The last scene with these changes alone redone; the scene itself if they change nothing.
-    /// Nothing: call convert(). The graph has no other changes since the last call of either, which
-    /// did not throw.
-    std::optional<ConversionResult> patch(const GraphChanges& changes);
+    /// No conversion: call convert(). The graph has no other changes since the last call of either,
+    /// which did not throw.
+    PatchResult patch(const GraphChanges& changes);
 
     /// Meshes that were made from arrays, ever.
     uint64_t convertedMeshes() const;

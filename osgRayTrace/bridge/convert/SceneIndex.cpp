@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/convert/SceneIndex.h"
 
 #include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
+#include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
 #include "osgRayTrace/bridge/geometry/TriangleList.h"
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
@@ -50,6 +51,32 @@ uint32_t SceneIndex::effects(const StateEffects& effects)
     const auto index = static_cast<uint32_t>(found - stateEffects.begin());
     if (found == stateEffects.end()) stateEffects.push_back(effects);
     return index;
+}
+
+void SceneIndex::addUse(TracedGeometry& traced, const TracedUse& use, std::size_t before)
+{
+    traced.uses.insert(traced.uses.begin() + static_cast<std::ptrdiff_t>(before), use);
+    _colorUses += setsColor(use);
+}
+
+void SceneIndex::removeUse(TracedGeometry& traced, std::size_t use)
+{
+    _colorUses -= setsColor(traced.uses[use]);
+    traced.uses.erase(traced.uses.begin() + static_cast<std::ptrdiff_t>(use));
+}
+
+void SceneIndex::removeUses(TracedGeometry& traced)
+{
+    for (const TracedUse& use : traced.uses)
+        _colorUses -= setsColor(use);
+    traced.uses.clear();
+}
+
+void SceneIndex::setEffects(TracedUse& use, uint32_t effects)
+{
+    _colorUses -= setsColor(use);
+    use.effects = effects;
+    _colorUses += setsColor(use);
 }
 
 } // namespace osgRayTrace::engine

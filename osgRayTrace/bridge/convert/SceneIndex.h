@@ -49,6 +49,7 @@ struct TracedGeometry
     bool plain = true;     ///< nothing of it is counted but that it was converted
 };
 
+/// Uses are added, changed and removed by the functions below alone, which count.
 struct SceneIndex
 {
     std::unordered_map<const osg::Geometry*, TracedGeometry> geometries;
@@ -63,6 +64,22 @@ struct SceneIndex
     }
 
     uint32_t effects(const StateEffects& effects);
+
+    void addUse(TracedGeometry& traced, const TracedUse& use, std::size_t before);
+    void removeUse(TracedGeometry& traced, std::size_t use);
+    void removeUses(TracedGeometry& traced);
+    void setEffects(TracedUse& use, uint32_t effects);
+
+    /// Uses whose state makes another colour current: see MaterialRules.
+    std::size_t colorUses() const { return _colorUses; }
+
+private:
+    bool setsColor(const TracedUse& use) const
+    {
+        return use.effects != kInvalid && stateEffects[use.effects].setsColor;
+    }
+
+    std::size_t _colorUses = 0;
 };
 
 } // namespace osgRayTrace::engine

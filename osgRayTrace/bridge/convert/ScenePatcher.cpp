@@ -1,15 +1,14 @@
-// ScenePatcher.cpp - edits of state, of lights and of which nodes there are. Layer: bridge.
+// ScenePatcher.cpp - edits of state and of lights. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
 
 #include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
 #include "osgRayTrace/bridge/appearance/materials/MaterialValues.h"
+#include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/convert/PlacePatcher.h"
-#include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/convert/SnapshotStamps.h"
-
-#include <osgRayTrace/AreaLight>
+#include "osgRayTrace/bridge/graph/StatesAbove.h"
 
 #include <algorithm>
 #include <utility>
@@ -20,29 +19,10 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Of what came, in units of the world.
-LengthCounts lengthsOf(const CollectedGraph& graph)
-{
-    LengthCounts lengths;
-    for (const CollectedGeometry& geometry : graph.geometries)
-        for (const GeometryUse& use : geometry.uses)
-            if (geometry.bounds->count > 0)
-                lengths.add(largestCoordinate(*geometry.bounds, use.engineFromLocal),
-                            geometry.bounds->count);
-    return lengths;
-}
-
 bool anyShines(const std::vector<Light>& lights)
 {
     return std::any_of(lights.begin(), lights.end(),
                        [](const Light& light) { return light.instance != kInvalid; });
-}
-
-osg::NodePath fromRoot(const osg::NodePath& path, osg::Node* root)
-{
-    osg::NodePath whole = path;
-    if (whole.front() != root) whole.insert(whole.begin(), root);
-    return whole;
 }
 
 } // namespace
@@ -56,6 +36,34 @@ ScenePatcher::ScenePatcher(const Scene& last, const ConversionInput& input,
       _now(now),
       _scene(std::make_shared<Scene>(last))
 {
+}
+
+osg::NodePath ScenePatcher::fromRoot(const osg::NodePath& path) const
+{
+    osg::NodePath whole = path;
+    if (whole.front() != _input.root) whole.insert(whole.begin(), _input.root);
+    return whole;
+}
+
+/// False. path: from the first node that was found; empty: of no single node.
+bool ScenePatcher::refuse(ConversionCause cause, const osg::NodePath& path)
+{
+    _reason.cause = cause;
+    if (!path.empty()) _reason.path = pathText(fromRoot(path));
+    return false;
+}
+
+bool ScenePatcher::refuse(ConversionCause cause, const osg::Geometry& geometry, uint32_t use)
+{
+    _reason = {cause, {}, &geometry, use};
+    return false;
+}
+
+/// path: as the collector gives it.
+bool ScenePatcher::refuseLamp(const std::string& path)
+{
+    _reason = {ConversionCause::LampShape, path, nullptr, 0};
+    return false;
 }
 
 std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
@@ -81,9 +89,9 @@ bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
     for (const osg::Geometry* geometry : changes.deformed)
         _caches.geometries.recordMobility(*geometry, Mobility::Deforming);
     for (const MovedUse& use : changes.moved)
-        if (!places.move(use)) return false;
+        if (!places.move(use)) return refuse(places.cause(), *use.geometry, use.use);
     for (const osg::Geometry* geometry : changes.deformed)
-        if (!places.deform(*geometry)) return false;
+        if (!places.deform(*geometry)) return refuse(places.cause(), *geometry, 0);
     _changed |= places.changed();
     _leftStatic |= places.leftStatic();
     return true;
@@ -93,7 +101,8 @@ bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
 bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
 {
     if (uses.empty()) return true;
-    if (_input.materials) return false; // rules look at names
+    if (_input.materials) // rules look at names
+        return refuse(ConversionCause::MaterialFile, uses.front().path);
     StateStack states = statesAbove(_input);
     ConversionReport report;
     MaterialConverter converter(
@@ -101,8 +110,9 @@ bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
         report);
     for (const StateChange& use : uses)
         if (!changeState(use, states, converter, report)) return false;
-    if (_recolors && setsColor() != _convertedGraph.setsColor)
-        return false; // a rule of all materials
+    const bool setsColor = _convertedGraph.index.colorUses() > 0; // see MaterialRules
+    if (_recolors && setsColor != _convertedGraph.setsColor)      // a rule of all materials
+        return refuse(ConversionCause::CurrentColor, uses.front().path);
     for (const auto& [instance, material] : _newMaterials)
         _convertedGraph.materials.release(_scene->instances[instance].material);
     for (const auto& [index, material] : _newMaterials)
@@ -117,27 +127,20 @@ bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
     return true;
 }
 
-/// Whether a state of the scene makes another colour current: see MaterialRules.
-bool ScenePatcher::setsColor() const
-{
-    const std::vector<StateEffects>& stateEffects = _convertedGraph.index.stateEffects;
-    for (const auto& [geometry, traced] : _convertedGraph.index.geometries)
-        for (const TracedUse& use : traced.uses)
-            if (use.effects != kInvalid && stateEffects[use.effects].setsColor) return true;
-    return false;
-}
-
 bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
                                MaterialConverter& converter, ConversionReport& report)
 {
     const auto found = _convertedGraph.index.geometries.find(use.geometry);
-    if (found == _convertedGraph.index.geometries.end() || !found->second.patchable) return false;
-    if (found->second.uses.size() != use.uses) return false;
+    const auto refuseUse = [&](ConversionCause cause) { return refuse(cause, use.path); };
+    if (found == _convertedGraph.index.geometries.end())
+        return refuseUse(ConversionCause::OtherPaths);
+    if (!found->second.patchable) return refuseUse(ConversionCause::NotAlone);
+    if (found->second.uses.size() != use.uses) return refuseUse(ConversionCause::OtherPaths);
     TracedUse& traced = found->second.uses[use.use];
-    if (traced.effects == kInvalid) return false;
+    if (traced.effects == kInvalid) return refuseUse(ConversionCause::StateEffects);
 
     int pushed = 0;
-    for (const osg::Node* node : fromRoot(use.path, _input.root))
+    for (const osg::Node* node : fromRoot(use.path))
         if (const osg::StateSet* stateSet = node->getStateSet())
         {
             states.push(*stateSet);
@@ -148,7 +151,8 @@ bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
         states.pop();
     StateEffects effects = stateEffectsOf(state, _caches.textures);
     const StateEffects before = _convertedGraph.index.stateEffects[traced.effects];
-    if (traced.instance == kInvalid) return effects == before;
+    if (traced.instance == kInvalid)
+        return effects == before || refuseUse(ConversionCause::StateEffects);
     const Vec3d& origin = _scene->origin;
     report = ConversionReport();
     const Material material = converter.material(
@@ -157,12 +161,12 @@ bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
          &_convertedGraph.texGens});
     effects.counts = report.counts();
     const bool setsColor = std::exchange(effects.setsColor, before.setsColor);
-    if (!(effects == before)) return false;
+    if (!(effects == before)) return refuseUse(ConversionCause::StateEffects);
     if (setsColor != before.setsColor)
     {
         _recolors = true;
         effects.setsColor = setsColor;
-        traced.effects = _convertedGraph.index.effects(effects);
+        _convertedGraph.index.setEffects(traced, _convertedGraph.index.effects(effects));
     }
     if (!sameMaterial(material,
                       _convertedGraph.materials[_scene->instances[traced.instance].material]))
@@ -178,11 +182,11 @@ bool ScenePatcher::relightLamps()
         const CollectedAreaLight& source = _convertedGraph.lights.areaLights[i];
         ConversionCaches::Quad& quad = _caches.areaLights[i];
         const auto converted = convertAreaLight(*source.light, source.engineFromLocal);
-        if (converted.has_value() != (quad.instance != kInvalid)) return false;
+        if (converted.has_value() != (quad.instance != kInvalid)) return refuseLamp(source.path);
         if (!converted) continue;
         if (!std::equal(quad.mesh->positions.begin(), quad.mesh->positions.end(),
                         converted->mesh->positions.begin()))
-            return false;
+            return refuseLamp(source.path);
         quad.light = converted->light;
         Instance& instance = _scene->instances[quad.instance];
         const Material lamp = lampMaterial(quad.light.radiance);
@@ -221,7 +225,8 @@ bool ScenePatcher::relight()
 {
     ConversionReport report;
     setLights(*_scene, _input, _convertedGraph.lights, _caches, report);
-    if (report.counts() != _convertedGraph.lightCounts) return false;
+    if (report.counts() != _convertedGraph.lightCounts)
+        return refuse(ConversionCause::LightReport, {});
     _changed |= stampLights(_scene->lights, _last.lights, _now);
     if (!anyShines(_last.lights) && !anyShines(_scene->lights)) return true;
     const std::size_t count = std::min(_last.instances.size(), _scene->instances.size());
@@ -229,160 +234,6 @@ bool ScenePatcher::relight()
         if (_scene->instances[i].light != _last.instances[i].light)
             _scene->instances[i].changed = _now;
     return true;
-}
-
-bool ScenePatcher::splice(const GraphSplice& splice)
-{
-    _spliced = _changed = true;
-    return remove(splice) && (splice.added.empty() || add(splice));
-}
-
-bool ScenePatcher::remove(const GraphSplice& splice)
-{
-    // Before any goes: those that follow shorten the lists.
-    for (const ChangedUse& gone : splice.removed)
-    {
-        const auto found = _convertedGraph.index.geometries.find(gone.geometry);
-        if (found == _convertedGraph.index.geometries.end()) return false;
-        const TracedGeometry& traced = found->second;
-        if (!traced.patchable || !traced.plain || traced.uses.size() != gone.uses) return false;
-    }
-    // The last of each first: those before it keep their numbers.
-    for (auto gone = splice.removed.rbegin(); gone != splice.removed.rend(); ++gone)
-    {
-        const auto found = _convertedGraph.index.geometries.find(gone->geometry);
-        if (!removeUse(found->second, gone->use)) return false;
-        if (!found->second.uses.empty()) continue;
-        _removed.push_back(found->second.geometry);
-        _convertedGraph.index.geometries.erase(found);
-        --_geometries;
-    }
-    return true;
-}
-
-bool ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
-{
-    const TracedUse gone = traced.uses[use];
-    if (gone.instance == kInvalid || gone.effects == kInvalid) return false;
-    Instance& instance = _scene->instances[gone.instance];
-    if (traced.uses.size() > 1 && !instance.placed) return false;
-    const StateEffects& effects = _convertedGraph.index.stateEffects[gone.effects];
-    traced.uses.erase(traced.uses.begin() + use);
-    if (!effects.counts.empty()) return false; // paths may be named
-    if ((effects.hasAmbient || effects.physical || effects.setsColor) && isLastOf(gone.effects))
-        return false;
-
-    _leftStatic |= !instance.placed;
-    _convertedGraph.materials.release(instance.material);
-    const uint32_t mesh = instance.mesh;
-    instance = Instance();
-    instance.mesh = emptyMeshIndex();
-    instance.placed = true;
-    instance.changed = _now;
-    _convertedGraph.instanceGaps.push_back(gone.instance);
-    --_instances;
-    if (!traced.uses.empty()) return true;
-    _scene->meshes[mesh] = emptyMesh();
-    _convertedGraph.meshGaps.push_back(mesh);
-    return true;
-}
-
-/// Whether no other use has these effects: what it alone decides for all of the scene would
-/// change.
-bool ScenePatcher::isLastOf(uint32_t effects) const
-{
-    for (const auto& [geometry, traced] : _convertedGraph.index.geometries)
-        for (const TracedUse& use : traced.uses)
-            if (use.effects == effects && use.instance != kInvalid) return false;
-    return true;
-}
-
-uint32_t ScenePatcher::emptyMeshIndex()
-{
-    if (_convertedGraph.emptyMesh == kInvalid)
-    {
-        _convertedGraph.emptyMesh = static_cast<uint32_t>(_scene->meshes.size());
-        _scene->meshes.push_back(emptyMesh());
-    }
-    return _convertedGraph.emptyMesh;
-}
-
-bool ScenePatcher::add(const GraphSplice& splice)
-{
-    if (_input.materials) return false; // rules look at names
-    ConversionReport report;
-    GraphCollector collector(_input, _caches.vertices, _caches.textures, report);
-    if (!collector.collectAt(fromRoot(splice.added, _input.root))) return false;
-    CollectedGraph graph = collector.take();
-    const LightSources& lights = graph.lights;
-    const bool plain = lights.lights.empty() && lights.areaLights.empty() &&
-                       lights.environments.empty() && graph.rasterized.empty() && !graph.paged &&
-                       report.counts().empty();
-    if (!plain) return false;
-    graph.texGens = _convertedGraph.texGens;
-    uint64_t vertices = 0;
-    for (CollectedGeometry& geometry : graph.geometries)
-    {
-        geometry.bounds = &_caches.geometries.bounds(*geometry.geometry);
-        vertices += geometry.bounds->count;
-    }
-    // So much shall be flat.
-    if (vertices > kSmallStatic && vertices >= _caches.staticVertices) return false;
-    if (!graph.geometries.empty() && !lengthsOf(graph).areOrdinary()) return false;
-    for (const CollectedGeometry& geometry : graph.geometries)
-        if (!addGeometry(graph, geometry, splice)) return false;
-    return true;
-}
-
-bool ScenePatcher::addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
-                               const GraphSplice& splice)
-{
-    const bool automatic = _input.colorRule == RayTraceSettings::AUTOMATIC_COLOR;
-    for (const GeometryUse& use : geometry.uses)
-    {
-        const StateEffects effects = stateEffectsOf(graph.states[use.state], _caches.textures);
-        if (effects.physical && automatic && _scene->displayReferred) return false;
-        if (effects.setsColor && !_convertedGraph.setsColor) return false;
-        if (effects.hasAmbient && effects.ambient != _scene->ambient) return false;
-        if (effects.clipPlanes != 0) return false;
-    }
-    const auto known = _convertedGraph.index.geometries.find(geometry.geometry);
-    const bool isNew = known == _convertedGraph.index.geometries.end();
-    if (!isNew && !(known->second.patchable && known->second.plain)) return false;
-    ConversionReport report;
-    BuildRules rules;
-    rules.linear = !_scene->displayReferred;
-    rules.setsColor = _convertedGraph.setsColor;
-    rules.comparable = true;
-    rules.now = _now;
-    SceneBuilder builder(_input, graph, rules, _caches, _convertedGraph, *_scene, report);
-    std::vector<ChangedUse> uses;
-    for (const ChangedUse& use : splice.uses)
-        if (use.geometry == geometry.geometry) uses.push_back(use);
-    if (uses.size() != geometry.uses.size()) return false;
-    if (isNew)
-        builder.add(geometry);
-    else
-        for (std::size_t i = 0; i < uses.size(); ++i)
-            if (uses[i].use > known->second.uses.size() ||
-                !builder.addUse(geometry, geometry.uses[i], uses[i].use))
-                return false;
-    const TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
-    if (!traced.patchable || !traced.plain || traced.uses.size() != uses.front().uses) return false;
-    const auto isThere = [this](const TracedUse& use)
-    { return use.instance != kInvalid && _scene->instances[use.instance].placed; };
-    if (!std::all_of(traced.uses.begin(), traced.uses.end(), isThere)) return false;
-    _geometries += isNew;
-    _instances += static_cast<int64_t>(uses.size());
-    return report.remarks() == 0;
-}
-
-/// What came back in another place is kept.
-void ScenePatcher::dropRemoved()
-{
-    for (const osg::ref_ptr<const osg::Geometry>& geometry : _removed)
-        if (_convertedGraph.index.geometries.count(geometry) == 0)
-            _caches.geometries.drop(geometry);
 }
 
 } // namespace osgRayTrace::engine

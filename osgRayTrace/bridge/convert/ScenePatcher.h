@@ -23,8 +23,10 @@ public:
     ScenePatcher(const Scene& last, const ConversionInput& input, ConversionCaches& caches,
                  ConvertedGraph& convertedGraph, Stamp now);
 
-    /// Null if there is more to do than this knows.
+    /// Null if there is more to do than this knows: see reason().
     std::shared_ptr<Scene> patch(const GraphChanges& changes);
+
+    const ConversionReason& reason() const { return _reason; }
 
     /// patch() has changed something.
     bool changed() const { return _changed; }
@@ -42,14 +44,15 @@ public:
 private:
     bool splice(const GraphSplice& splice);
     bool remove(const GraphSplice& splice);
-    bool removeUse(TracedGeometry& traced, uint32_t use);
+    ConversionCause removeUse(TracedGeometry& traced, uint32_t use);
     bool isLastOf(uint32_t effects) const;
     bool add(const GraphSplice& splice);
-    bool addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
-                     const GraphSplice& splice);
+    ConversionCause stateCause(const CollectedGraph& graph,
+                               const CollectedGeometry& geometry) const;
+    ConversionCause addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
+                                const GraphSplice& splice);
     bool moveAndDeform(const GraphChanges& changes);
     bool changeStates(const std::vector<StateChange>& uses);
-    bool setsColor() const;
     bool changeState(const StateChange& use, StateStack& states, MaterialConverter& converter,
                      ConversionReport& report);
     bool relightLamps();
@@ -57,6 +60,10 @@ private:
     void takeMaterials();
     void dropRemoved();
     uint32_t emptyMeshIndex();
+    bool refuse(ConversionCause cause, const osg::NodePath& path);
+    bool refuse(ConversionCause cause, const osg::Geometry& geometry, uint32_t use);
+    osg::NodePath fromRoot(const osg::NodePath& path) const;
+    bool refuseLamp(const std::string& path);
 
     const Scene& _last;
     const ConversionInput& _input;
@@ -72,6 +79,7 @@ private:
     bool _leftStatic = false;
     bool _recolors = false; ///< a use has begun or ceased to set the current colour
     bool _spliced = false;
+    ConversionReason _reason;
 };
 
 } // namespace osgRayTrace::engine

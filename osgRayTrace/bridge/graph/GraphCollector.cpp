@@ -3,8 +3,11 @@
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
+#include "osgRayTrace/bridge/common/MatrixFault.h"
 #include "osgRayTrace/bridge/common/NodeKind.h"
+#include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
+#include "osgRayTrace/bridge/graph/StatesAbove.h"
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
 
 #include <osg/Billboard>
@@ -27,50 +30,10 @@ namespace osgRayTrace::engine
 namespace
 {
 
-GraphState rootState(const ConversionInput& input)
-{
-    GraphState state;
-    if (input.lighting) state.modesOn |= uint64_t(1) << kLightingBit;
-    if (input.viewLight)
-    {
-        const int number = input.viewLight->getLightNum();
-        if (number >= 0 && number < kMaskedLights)
-            state.modesOn |= uint64_t(1) << number;
-        else if (number >= 0 && number < kLightNumbers)
-            state.moreLights = std::make_shared<LightModes>(
-                LightModes{{static_cast<unsigned int>(number), osg::StateAttribute::ON}});
-    }
-    return state;
-}
-
-/// What is wrong with a matrix; null: nothing. Singular is meant relative to the length of its
-/// axes, so a tiny or a flat scale is fine.
-const char* matrixFault(const osg::Matrixd& m)
-{
-    constexpr double kSmallestVolume = 1e-12; // of the axes made unit
-    for (int i = 0; i < 16; ++i)
-        if (!std::isfinite(m.ptr()[i])) return "skipped.not-finite-transform";
-    if (m(0, 3) != 0.0 || m(1, 3) != 0.0 || m(2, 3) != 0.0 || m(3, 3) != 1.0)
-        return "skipped.projective-transform";
-    osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)),
-        z(m(2, 0), m(2, 1), m(2, 2));
-    x.normalize();
-    y.normalize();
-    z.normalize();
-    const double volume = std::fabs((x ^ y) * z);
-    return volume > kSmallestVolume ? nullptr : "skipped.singular-transform";
-}
+/// Of the axes made unit: less is singular.
+constexpr double kSmallestVolume = 1e-12;
 
 } // namespace
-
-StateStack statesAbove(const ConversionInput& input)
-{
-    StateStack states(rootState(input));
-    for (const osg::ref_ptr<const osg::StateSet>& stateSet : input.inheritedState)
-        states.push(*stateSet);
-    states.forgetMasks();
-    return states;
-}
 
 GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
                                const TextureConverter& textures, ConversionReport& report)
@@ -86,22 +49,6 @@ GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& v
 {
     setTraversalMask(input.traversalMask);
     _report.setPlace([this] { return path(); });
-}
-
-void applyUnit(double unit, CollectedGraph& graph)
-{
-    if (unit == 1.0) return;
-    const osg::Matrixd scale = osg::Matrixd::scale(1.0 / unit, 1.0 / unit, 1.0 / unit);
-    for (CollectedGeometry& geometry : graph.geometries)
-        for (GeometryUse& use : geometry.uses)
-            use.engineFromLocal.postMult(scale);
-    for (CollectedLight& light : graph.lights.lights)
-        if (!light.eyeSpace) light.engineFromLocal.postMult(scale);
-    for (CollectedAreaLight& light : graph.lights.areaLights)
-        light.engineFromLocal.postMult(scale);
-    for (PlacedTexGen& texGen : graph.texGens)
-        texGen.engineFromLocal.postMult(scale);
-    graph.clipPlanes.applyUnit(unit);
 }
 
 bool GraphCollector::collectAt(const osg::NodePath& path)
@@ -370,7 +317,7 @@ bool GraphCollector::pushState(osg::Node& node)
 /// False, counted and named if nothing can be placed by this matrix.
 bool GraphCollector::pushMatrix(const osg::Matrixd& worldFromLocal)
 {
-    if (const char* fault = matrixFault(worldFromLocal))
+    if (const char* fault = matrixFault(worldFromLocal, kSmallestVolume))
     {
         _report.warn(fault, "transform '" + path() + "'",
                      "matrix is singular, projective or not finite, skipped with all below it");
@@ -429,13 +376,7 @@ uint32_t GraphCollector::pickPath()
 
 std::string GraphCollector::path() const
 {
-    std::string text;
-    for (const osg::Node* node : getNodePath())
-    {
-        if (!text.empty()) text += '/';
-        text += node->getName().empty() ? node->className() : node->getName();
-    }
-    return text;
+    return pathText(getNodePath());
 }
 
 } // namespace osgRayTrace::engine

@@ -102,13 +102,6 @@ struct CollectedGraph
     std::vector<uint32_t> rasterizedPaths; ///< of rasterized, likewise
 };
 
-/// The collector knows the origin of engine space, but not its unit yet: it leaves lengths as they
-/// are in the world. This puts all matrices into units of Scene::unit.
-void applyUnit(double unit, CollectedGraph& graph);
-
-/// State above the scene graph, as osgViewer and osgUtil::SceneView set it, and what is inherited.
-StateStack statesAbove(const ConversionInput& input);
-
 /// Visits active children only (masks, switches, levels of detail for the eye point), multiplies
 /// transforms in double and accumulates state. Counts what is not a part of the traced scene.
 class GraphCollector : public osg::NodeVisitor
@@ -125,6 +118,9 @@ public:
     /// What was found; call once, after the traversal.
     CollectedGraph take();
 
+    // What is watched node by node is known to kindOf() in NodeKind.h, too: a class that gets an
+    // apply() of its own here is of the kind Untracked there, or its values are hashed in
+    // NodeHashes.cpp.
     using osg::NodeVisitor::apply;
     void apply(osg::Node& node) override;
     void apply(osg::Transform& node) override;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
 
-#include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
+#include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
 
 #include <osg/ClipPlane>

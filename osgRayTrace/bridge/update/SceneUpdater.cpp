@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/update/SceneUpdater.h"
 
+#include "osgRayTrace/base/Status.h"
 #include "osgRayTrace/bridge/common/WarnOnce.h"
 #include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
@@ -83,6 +84,7 @@ void SceneUpdater::setDirty()
 {
     std::lock_guard<std::mutex> lock(_recordedMutex);
     _recorded.asked.dirty = _recorded.asked.forget = true;
+    _recorded.asked.cause = ConversionCause::Dirty;
 }
 
 SceneVersion SceneUpdater::versionToPick(osg::Node* root, const RayTraceSettings& settings,
@@ -94,7 +96,12 @@ SceneVersion SceneUpdater::versionToPick(osg::Node* root, const RayTraceSettings
     _picks = true;
     {
         std::lock_guard<std::mutex> lock(_recordedMutex);
-        if (!now.pickIndex) _recorded.asked.dirty = true;
+        if (!now.pickIndex)
+        {
+            _recorded.asked.dirty = true;
+            if (_recorded.asked.cause == ConversionCause::None)
+                _recorded.asked.cause = ConversionCause::Picking;
+        }
         if (!viewed && !now.inputs.scene) _recorded.asked.origin = start;
     }
     update(root, settings, nullptr);
@@ -145,6 +152,7 @@ std::optional<ViewingConditions> SceneUpdater::takeRecorded()
     const Requests more = std::exchange(_recorded.asked, Requests());
     _asked.dirty |= more.dirty;
     _asked.forget |= more.forget;
+    if (more.cause != ConversionCause::None) _asked.cause = more.cause;
     if (more.origin) _asked.origin = more.origin;
     return _recorded.conditions;
 }
@@ -176,8 +184,8 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const ViewingConditions& co
     const ConversionSettings settings = conversionSettings(
         *_settings, _materialFile.materials(_settings->getMaterials(), _asked.dirty));
     const bool sameRoot = _root == root;
-    const bool same = !_asked.dirty && !_asked.origin && sameRoot && _conditions &&
-                      convertAlike(*_conditions, conditions) && settings == _conversionSettings;
+    const ConversionCause cause = causeToConvert(sameRoot, conditions, settings);
+    const bool same = cause == ConversionCause::None && !_asked.dirty;
     if (seen && same) return;
     if (frameStamp) _frameNumber = frameStamp->getFrameNumber();
     if (!root && same) return;
@@ -195,18 +203,51 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const ViewingConditions& co
         return;
     }
     _released = false;
-    const GraphChanges changes = look(*root, same, sameRoot, conditions);
+    GraphChanges changes = look(*root, same, sameRoot, conditions);
+    if (!same) changes.reason.cause = cause;
     const Requests asked = std::exchange(_asked, Requests());
     if (changes.none()) return;
 
     const bool wasStale = std::exchange(_stale, true);
     if (asked.forget) _converter.forget();
-    std::optional<ConversionResult> conversion;
-    if (!changes.convert && !wasStale) conversion = _converter.patch(changes);
-    ++(conversion ? _done.patches : _done.conversions);
-    if (!conversion) conversion = convert(*root, conditions);
+    PatchResult patch;
+    if (changes.convert)
+        patch.reason = changes.reason;
+    else if (wasStale)
+        patch.reason.cause = ConversionCause::FailedBefore;
+    else
+        patch = _converter.patch(changes);
+    if (!patch.conversion)
+    {
+        recordReason(patch.reason);
+        patch.conversion = convert(*root, conditions);
+    }
+    else
+        ++_done.patches;
     _stale = false;
-    build(*conversion);
+    build(*patch.conversion);
+}
+
+/// Why the whole graph is converted, whatever has changed in it. None: for no reason but changes in
+/// the graph, or for the first time.
+ConversionCause SceneUpdater::causeToConvert(bool sameRoot, const ViewingConditions& conditions,
+                                             const ConversionSettings& settings) const
+{
+    if (_asked.dirty) return _asked.cause;
+    if (!sameRoot || !_conditions) return ConversionCause::OtherRoot;
+    if (!convertAlike(*_conditions, conditions)) return ConversionCause::OtherConditions;
+    if (!(settings == _conversionSettings)) return ConversionCause::OtherSettings;
+    return _asked.origin ? ConversionCause::OtherOrigin : ConversionCause::None;
+}
+
+/// The first conversion of all has none.
+void SceneUpdater::recordReason(const ConversionReason& reason)
+{
+    const bool first = _done.conversions++ == 0;
+    if (first) return;
+    _done.lastConversionReason = textOf(reason.cause);
+    _done.lastConversionPath =
+        reason.geometry ? _watch.pathOf(*reason.geometry, reason.use) : reason.path;
 }
 
 /// Returns what has changed; the graph is remembered as it is now, whatever becomes of its
@@ -283,20 +324,12 @@ void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene,
     _statistics = statistics;
 }
 
-/// Memory may be what is missing: then the message is one that fits into a string as it is.
 void SceneUpdater::fail(const char* message) noexcept
 {
     std::lock_guard<std::mutex> lock(_versionMutex);
     _statistics.ok = false;
-    try
-    {
-        _statistics.message = message;
-        warnOnce(_statistics.message);
-    }
-    catch (const std::exception&)
-    {
-        _statistics.message = "out of memory";
-    }
+    _statistics.message = failureText(message);
+    warnOnce(_statistics.message);
 }
 
 } // namespace osgRayTrace::engine

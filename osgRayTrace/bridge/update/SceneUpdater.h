@@ -79,6 +79,7 @@ private:
         bool dirty = false;  ///< it shall convert, whatever it sees
         bool forget = false; ///< it shall take nothing for unchanged
         std::optional<osg::Vec3d> origin;
+        ConversionCause cause = ConversionCause::None; ///< why dirty is set; None: at the beginning
     };
 
     struct Recorded
@@ -87,13 +88,16 @@ private:
         unsigned int frameNumber = 0; ///< the frame in which it was last seen
         unsigned int othersSince = 0; ///< passes of other cameras since then
         std::optional<ViewingConditions> conditions;
-        Requests asked{true, false, {}};
+        Requests asked{true, false, {}, ConversionCause::None};
     };
 
     std::optional<ViewingConditions> takeRecorded();
     void takeSettings(const RayTraceSettings& settings);
     void convertIfChanged(osg::Node* root, const ViewingConditions& conditions,
                           const osg::FrameStamp* frameStamp);
+    ConversionCause causeToConvert(bool sameRoot, const ViewingConditions& conditions,
+                                   const ConversionSettings& settings) const;
+    void recordReason(const ConversionReason& reason);
     GraphChanges look(osg::Node& root, bool same, bool sameRoot,
                       const ViewingConditions& conditions);
     ConversionResult convert(osg::Node& root, const ViewingConditions& conditions);

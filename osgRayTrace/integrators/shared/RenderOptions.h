@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 
 namespace osgRayTrace::engine
 {
@@ -75,19 +76,19 @@ struct RenderOptions
     bool photonGuiding =
         true; ///< photons are guided to what views see, not only at what makes caustics
 
+    /// The options that decide on an accumulated image: all of them.
+    auto restarting() const
+    {
+        return std::tie(integrator, lightSampling, debugChannel, lightSamples, environmentSampling,
+                        environmentSamples, maxBounces, shadows, terminatorCorrection,
+                        centredFirstPass, seed, photons, photonRadius, photonAlpha, radiusSchedule,
+                        photonGuiding);
+    }
+
     /// True if an accumulated image made with previous cannot be continued with *this.
     bool needsRestart(const RenderOptions& previous) const
     {
-        return integrator != previous.integrator || lightSampling != previous.lightSampling ||
-               debugChannel != previous.debugChannel || lightSamples != previous.lightSamples ||
-               environmentSampling != previous.environmentSampling ||
-               environmentSamples != previous.environmentSamples ||
-               maxBounces != previous.maxBounces || shadows != previous.shadows ||
-               terminatorCorrection != previous.terminatorCorrection || seed != previous.seed ||
-               photons != previous.photons || photonRadius != previous.photonRadius ||
-               photonAlpha != previous.photonAlpha || radiusSchedule != previous.radiusSchedule ||
-               photonGuiding != previous.photonGuiding ||
-               centredFirstPass != previous.centredFirstPass;
+        return restarting() != previous.restarting();
     }
 };
 

@@ -40,19 +40,10 @@ struct Outcome
     bool done = true; ///< nothing is left to do for its request, or nothing can be done
 };
 
-/// If memory is what is missing, the message is one that fits into a string without an allocation.
 Outcome failedOutcome(StatusCode code, const char* message) noexcept
 {
     Outcome outcome;
-    outcome.progress.status.code = code;
-    try
-    {
-        outcome.progress.status.message = message;
-    }
-    catch (const std::bad_alloc&)
-    {
-        outcome.progress.status.message = "out of memory";
-    }
+    outcome.progress.status = failure(code, message);
     return outcome;
 }
 

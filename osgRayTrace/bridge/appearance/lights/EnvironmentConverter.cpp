@@ -83,6 +83,25 @@ bool limitScale(const Vec3& brightest, Vec3& scale)
     return limited;
 }
 
+/// Says why there is no image.
+void reportLost(const std::vector<const osg::Image*>& images, const std::string& name,
+                ConversionReport& report)
+{
+    const auto lost = std::find_if(images.begin(), images.end(), isMissing);
+    if (lost != images.end())
+    {
+        report.missing("missing.environment-image", (*lost)->getFileName(), name + " of",
+                       "magenta stands for it unless the scene has another environment");
+        return;
+    }
+    report.warn(
+        "skipped.environment-light", name,
+        images[0] ? "image is empty, too large, of a format that cannot be read, or its cube is "
+                    "not of six equal squares; magenta stands for it unless the scene has another"
+                  : "has no image: was its file found? magenta stands for it unless the scene has "
+                    "another");
+}
+
 } // namespace
 
 std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& source,
@@ -92,46 +111,10 @@ std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& sourc
 {
     const std::vector<const osg::Image*> images = imagesOf(source);
     const std::string name = "environment light '" + path + "'";
-    if (!isCurrent(images, linear))
-    {
-        _image = nullptr;
-        _counts.clear();
-        ReplacedPixels replaced;
-        if (source.getCubeMap())
-            _image = environmentFromCube(images, linear, replaced);
-        else if (images[0])
-            _image = environmentFromImage(*images[0], linear, replaced);
-        const auto note = [&](const char* what, uint64_t number, const char* message)
-        {
-            if (number == 0) return;
-            warnOnce(name + ": " + std::to_string(number) + message);
-            _counts[what] = number;
-        };
-        note("repaired.environment-not-finite", replaced.notFinite,
-             " pixels are not finite, taken as black");
-        note("repaired.environment-negative", replaced.negative,
-             " pixels are negative, taken as 0");
-        note("repaired.environment-too-bright", replaced.tooBright,
-             " pixels are above 1e30, taken as that");
-        _brightest = _image ? brightestOf(*_image) : Vec3(0.0f);
-        remember(images, linear);
-    }
+    if (!isCurrent(images, linear)) read(source, images, linear, name);
     if (!_image)
     {
-        const auto lost = std::find_if(images.begin(), images.end(), isMissing);
-        if (lost != images.end())
-        {
-            report.missing("missing.environment-image", (*lost)->getFileName(), name + " of",
-                           "magenta stands for it unless the scene has another environment");
-            return std::nullopt;
-        }
-        report.warn(
-            "skipped.environment-light", name,
-            images[0]
-                ? "image is empty, too large, of a format that cannot be read, or its cube is "
-                  "not of six equal squares; magenta stands for it unless the scene has another"
-                : "has no image: was its file found? magenta stands for it unless the scene has "
-                  "another");
+        reportLost(images, name, report);
         return std::nullopt;
     }
     report.add(_counts);
@@ -153,6 +136,33 @@ std::optional<Light> EnvironmentConverter::convert(const EnvironmentLight& sourc
                     "is below a scale that differs by axis: only the rotation counts");
     report.count("converted.environment-light");
     return light;
+}
+
+/// Makes the image anew and counts what of it was replaced.
+void EnvironmentConverter::read(const EnvironmentLight& source,
+                                const std::vector<const osg::Image*>& images, bool linear,
+                                const std::string& name)
+{
+    _image = nullptr;
+    _counts.clear();
+    ReplacedPixels replaced;
+    if (source.getCubeMap())
+        _image = environmentFromCube(images, linear, replaced);
+    else if (images[0])
+        _image = environmentFromImage(*images[0], linear, replaced);
+    const auto note = [&](const char* what, uint64_t number, const char* message)
+    {
+        if (number == 0) return;
+        warnOnce(name + ": " + std::to_string(number) + message);
+        _counts[what] = number;
+    };
+    note("repaired.environment-not-finite", replaced.notFinite,
+         " pixels are not finite, taken as black");
+    note("repaired.environment-negative", replaced.negative, " pixels are negative, taken as 0");
+    note("repaired.environment-too-bright", replaced.tooBright,
+         " pixels are above 1e30, taken as that");
+    _brightest = _image ? brightestOf(*_image) : Vec3(0.0f);
+    remember(images, linear);
 }
 
 bool EnvironmentConverter::isCurrent(const std::vector<const osg::Image*>& images,

@@ -41,6 +41,8 @@ private:
         const void* data = nullptr;
     };
 
+    void read(const EnvironmentLight& source, const std::vector<const osg::Image*>& images,
+              bool linear, const std::string& name);
     bool isCurrent(const std::vector<const osg::Image*>& images, bool linear) const;
     void remember(const std::vector<const osg::Image*>& images, bool linear);
 

@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
 
 #include "osgRayTrace/bridge/appearance/materials/MaterialValues.h"
+#include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
 #include "osgRayTrace/bridge/common/ArrayReader.h"
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
@@ -11,20 +12,12 @@
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/AlphaFunc>
-#include <osg/BlendFunc>
-#include <osg/ClipPlane>
-#include <osg/ColorMask>
-#include <osg/CullFace>
 #include <osg/FrontFace>
 #include <osg/LightModel>
 #include <osg/Material>
-#include <osg/PolygonMode>
-#include <osg/PolygonOffset>
-#include <osg/Program>
 
 #include <algorithm>
 #include <cmath>
-#include <typeinfo>
 
 namespace osgRayTrace::engine
 {
@@ -182,21 +175,6 @@ AlphaTest comparisonOf(osg::AlphaFunc::ComparisonFunction function)
     return AlphaTest::Always;
 }
 
-FaceCulling cullingOf(const GraphState& state)
-{
-    if (!state.isOn(kCullFaceBit)) return FaceCulling::None;
-    const auto* faces = state.attribute<osg::CullFace>(kCullFaceSlot);
-    switch (faces ? faces->getMode() : osg::CullFace::BACK)
-    {
-    case osg::CullFace::FRONT:
-        return FaceCulling::Front;
-    case osg::CullFace::FRONT_AND_BACK:
-        return FaceCulling::FrontAndBack;
-    default:
-        return FaceCulling::Back;
-    }
-}
-
 } // namespace
 
 bool setsCurrentColor(const GraphState& state)
@@ -223,53 +201,10 @@ SurfaceInputs surfaceInputs(const osg::Geometry& geometry)
     return inputs;
 }
 
-Blending blendingOf(const GraphState& state)
-{
-    if (!state.isOn(kBlendBit)) return Blending::Opaque;
-    const auto* blend = state.attribute<osg::BlendFunc>(kBlendFuncSlot);
-    if (!blend) return Blending::Straight; // osgViewer's default function
-    const GLenum source = blend->getSourceRGB(), destination = blend->getDestinationRGB();
-    if (destination == GL_ZERO && source == GL_ONE) return Blending::Opaque;
-    if (destination == GL_ONE) return Blending::Additive;
-    return source == GL_SRC_ALPHA && destination == GL_ONE_MINUS_SRC_ALPHA ? Blending::Straight
-                                                                           : Blending::Other;
-}
-
-const osg::StateAttribute* programOf(const GraphState& state)
-{
-    const osg::StateAttribute* attribute = state.attributes[kProgramSlot];
-    const auto* program = dynamic_cast<const osg::Program*>(attribute);
-    const bool empty =
-        program && typeid(*program) == typeid(osg::Program) && program->getNumShaders() == 0;
-    if (attribute && !empty) return attribute;
-    return state.isOn(kAssemblyProgramBit) ? state.attributes[kAssemblyProgramSlot] : nullptr;
-}
-
-bool masksColor(const GraphState& state)
-{
-    const auto* mask = state.attribute<osg::ColorMask>(kColorMaskSlot);
-    return mask && !(mask->getRedMask() && mask->getGreenMask() && mask->getBlueMask());
-}
-
-bool usesStencil(const GraphState& state)
-{
-    return state.isOn(kStencilBit) && state.attributes[kStencilSlot];
-}
-
-float depthBias(const GraphState& state)
-{
-    constexpr float kMostLayers = 64.0f;
-    if (!state.isOn(kPolygonOffsetBit)) return 0.0f;
-    const auto* offset = state.attribute<osg::PolygonOffset>(kPolygonOffsetSlot);
-    if (!offset) return 0.0f;
-    const float units = offset->getUnits() != 0.0f ? offset->getUnits() : offset->getFactor();
-    return std::isfinite(units) ? std::clamp(-units, -kMostLayers, kMostLayers) : 0.0f;
-}
-
 Material MaterialConverter::material(const GraphState& state, const SurfaceInputs& inputs,
                                      const SurfacePlacement& placement)
 {
-    countApproximations(state);
+    countApproximations(state, _report);
     const bool isPhysical = state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot) != nullptr;
     Material material = isPhysical ? physical(state, inputs) : fixedFunction(state, inputs);
     applyOpacity(material, state);
@@ -291,6 +226,15 @@ Material lampMaterial(const Vec3& radiance)
     material.ior = 1.0f;
     material.emission = radiance;
     material.lightMask = 0; // black: no light of OpenGL changes it
+    return material;
+}
+
+Material fallbackMaterial()
+{
+    Material material;
+    material.name = "fallback";
+    material.ambient = material.diffuse = Vec3(1.0f, 0.0f, 1.0f);
+    material.lit = false;
     return material;
 }
 
@@ -436,30 +380,6 @@ void MaterialConverter::decode(Material& material) const
         *color = decoded(*color);
     for (Vec4* color : {&material.environmentColor, &material.second.environmentColor})
         *color = Vec4(decoded(Vec3(*color)), color->w);
-}
-
-void MaterialConverter::countApproximations(const GraphState& state)
-{
-    if (programOf(state)) _report.count("approximated.shader");
-    if (usesStencil(state)) _report.count("approximated.stencil");
-    if (masksColor(state)) _report.count("approximated.color-mask");
-    const Blending blending = blendingOf(state);
-    if (blending == Blending::Additive || blending == Blending::Other)
-        _report.count("approximated.blending");
-    if (state.isOn(kFogBit)) _report.count("approximated.fog");
-    const auto* plane = state.attribute<osg::ClipPlane>(kClipPlaneSlot);
-    if (plane && plane->getClipPlaneNum() < kClipPlanes &&
-        state.isOn(kClipPlaneBit + plane->getClipPlaneNum()))
-        _report.count("approximated.clip-plane-attribute");
-    if (state.usesHigherTextures()) _report.count("approximated.texture-unit");
-    if (const auto* mode = state.attribute<osg::PolygonMode>(kPolygonModeSlot))
-        if (mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL ||
-            mode->getMode(osg::PolygonMode::BACK) != osg::PolygonMode::FILL)
-            _report.count("approximated.polygon-mode");
-    const FaceCulling culling = cullingOf(state);
-    const bool backIsSeen = culling == FaceCulling::None || culling == FaceCulling::Front;
-    if (depthBias(state) != 0.0f && backIsSeen)
-        _report.count("approximated.polygon-offset"); // right from the front only
 }
 
 } // namespace osgRayTrace::engine

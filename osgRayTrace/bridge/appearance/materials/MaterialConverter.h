@@ -22,30 +22,6 @@ struct SurfaceInputs
 
 SurfaceInputs surfaceInputs(const osg::Geometry& geometry);
 
-/// What GL_BLEND and the blend function do to what is behind.
-enum class Blending
-{
-    Opaque,
-    Straight, ///< source alpha and one minus it, also if no function is set
-    Additive, ///< adds to what is behind
-    Other,
-};
-Blending blendingOf(const GraphState& state);
-
-/// The program that draws instead of OpenGL's fixed function; null: none does. Also one of a class
-/// of its own, as virtual programs are, and a vertex or fragment program of ARB's.
-const osg::StateAttribute* programOf(const GraphState& state);
-
-/// A colour mask that leaves out a channel.
-bool masksColor(const GraphState& state);
-
-/// A stencil test: it compares, or it writes what others are compared with.
-bool usesStencil(const GraphState& state);
-
-/// Layers that glPolygonOffset lifts the faces by, towards the viewer. 0: none. The offset's units
-/// count, or its factor if it has none.
-float depthBias(const GraphState& state);
-
 /// What all materials of a scene have in common.
 struct MaterialRules
 {
@@ -82,7 +58,6 @@ private:
     void applyFaces(Material& material, const GraphState& state,
                     const SurfacePlacement& placement) const;
     void decode(Material& material) const;
-    void countApproximations(const GraphState& state);
 
     MaterialRules _rules;
     TextureConverter& _textures;
@@ -91,5 +66,8 @@ private:
 
 /// A lamp that reflects nothing, for an area light.
 Material lampMaterial(const Vec3& radiance);
+
+/// A visible one, for a scene without any.
+Material fallbackMaterial();
 
 } // namespace osgRayTrace::engine

@@ -5,6 +5,9 @@
 #include <osg/Image>
 #include <osg/Texture>
 
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <optional>
 
 namespace osgRayTrace::engine
@@ -13,85 +16,84 @@ namespace osgRayTrace::engine
 namespace
 {
 
+constexpr GLenum kAlphaFormats[] = {GL_ALPHA,   GL_ALPHA4,       GL_ALPHA8,      GL_ALPHA12,
+                                    GL_ALPHA16, GL_ALPHA16F_ARB, GL_ALPHA32F_ARB};
+
+constexpr GLenum kColorFormats[] = {1,
+                                    3,
+                                    GL_LUMINANCE,
+                                    GL_LUMINANCE4,
+                                    GL_LUMINANCE8,
+                                    GL_LUMINANCE12,
+                                    GL_LUMINANCE16,
+                                    GL_LUMINANCE16F_ARB,
+                                    GL_LUMINANCE32F_ARB,
+                                    GL_SLUMINANCE,
+                                    GL_SLUMINANCE8,
+                                    GL_DEPTH_COMPONENT,
+                                    GL_RED,
+                                    GL_R8,
+                                    GL_R16,
+                                    GL_R16F,
+                                    GL_R32F,
+                                    GL_RG,
+                                    GL_RG8,
+                                    GL_RG16,
+                                    GL_RG16F,
+                                    GL_RG32F,
+                                    GL_RGB,
+                                    GL_BGR,
+                                    GL_R3_G3_B2,
+                                    GL_RGB4,
+                                    GL_RGB5,
+                                    GL_RGB8,
+                                    GL_RGB10,
+                                    GL_RGB12,
+                                    GL_RGB16,
+                                    GL_RGB16F_ARB,
+                                    GL_RGB32F_ARB,
+                                    GL_SRGB,
+                                    GL_SRGB8,
+                                    GL_COMPRESSED_RGB,
+                                    GL_COMPRESSED_RGB_S3TC_DXT1_EXT,
+                                    GL_COMPRESSED_RED_RGTC1_EXT,
+                                    GL_COMPRESSED_SIGNED_RED_RGTC1_EXT,
+                                    GL_COMPRESSED_RED_GREEN_RGTC2_EXT,
+                                    GL_COMPRESSED_SIGNED_RED_GREEN_RGTC2_EXT};
+
+constexpr GLenum kColorAndAlphaFormats[] = {2,
+                                            4,
+                                            GL_LUMINANCE_ALPHA,
+                                            GL_LUMINANCE8_ALPHA8,
+                                            GL_INTENSITY,
+                                            GL_INTENSITY8,
+                                            GL_RGBA,
+                                            GL_BGRA,
+                                            GL_RGBA4,
+                                            GL_RGB5_A1,
+                                            GL_RGBA8,
+                                            GL_RGB10_A2,
+                                            GL_RGBA16,
+                                            GL_RGBA16F_ARB,
+                                            GL_RGBA32F_ARB,
+                                            GL_SRGB_ALPHA,
+                                            GL_SRGB8_ALPHA8,
+                                            GL_COMPRESSED_RGBA,
+                                            GL_COMPRESSED_RGBA_S3TC_DXT1_EXT,
+                                            GL_COMPRESSED_RGBA_S3TC_DXT3_EXT,
+                                            GL_COMPRESSED_RGBA_S3TC_DXT5_EXT};
+
+template <std::size_t N> bool isIn(const GLenum (&formats)[N], GLenum format)
+{
+    return std::find(std::begin(formats), std::end(formats), format) != std::end(formats);
+}
+
 std::optional<TextureChannels> channelsOf(GLenum format)
 {
-    switch (format)
-    {
-    case GL_ALPHA:
-    case GL_ALPHA4:
-    case GL_ALPHA8:
-    case GL_ALPHA12:
-    case GL_ALPHA16:
-    case GL_ALPHA16F_ARB:
-    case GL_ALPHA32F_ARB:
-        return TextureChannels{false, true};
-    case 1:
-    case 3:
-    case GL_LUMINANCE:
-    case GL_LUMINANCE4:
-    case GL_LUMINANCE8:
-    case GL_LUMINANCE12:
-    case GL_LUMINANCE16:
-    case GL_LUMINANCE16F_ARB:
-    case GL_LUMINANCE32F_ARB:
-    case GL_SLUMINANCE:
-    case GL_SLUMINANCE8:
-    case GL_DEPTH_COMPONENT:
-    case GL_RED:
-    case GL_R8:
-    case GL_R16:
-    case GL_R16F:
-    case GL_R32F:
-    case GL_RG:
-    case GL_RG8:
-    case GL_RG16:
-    case GL_RG16F:
-    case GL_RG32F:
-    case GL_RGB:
-    case GL_BGR:
-    case GL_R3_G3_B2:
-    case GL_RGB4:
-    case GL_RGB5:
-    case GL_RGB8:
-    case GL_RGB10:
-    case GL_RGB12:
-    case GL_RGB16:
-    case GL_RGB16F_ARB:
-    case GL_RGB32F_ARB:
-    case GL_SRGB:
-    case GL_SRGB8:
-    case GL_COMPRESSED_RGB:
-    case GL_COMPRESSED_RGB_S3TC_DXT1_EXT:
-    case GL_COMPRESSED_RED_RGTC1_EXT:
-    case GL_COMPRESSED_SIGNED_RED_RGTC1_EXT:
-    case GL_COMPRESSED_RED_GREEN_RGTC2_EXT:
-    case GL_COMPRESSED_SIGNED_RED_GREEN_RGTC2_EXT:
-        return TextureChannels{true, false};
-    case 2:
-    case 4:
-    case GL_LUMINANCE_ALPHA:
-    case GL_LUMINANCE8_ALPHA8:
-    case GL_INTENSITY:
-    case GL_INTENSITY8:
-    case GL_RGBA:
-    case GL_BGRA:
-    case GL_RGBA4:
-    case GL_RGB5_A1:
-    case GL_RGBA8:
-    case GL_RGB10_A2:
-    case GL_RGBA16:
-    case GL_RGBA16F_ARB:
-    case GL_RGBA32F_ARB:
-    case GL_SRGB_ALPHA:
-    case GL_SRGB8_ALPHA8:
-    case GL_COMPRESSED_RGBA:
-    case GL_COMPRESSED_RGBA_S3TC_DXT1_EXT:
-    case GL_COMPRESSED_RGBA_S3TC_DXT3_EXT:
-    case GL_COMPRESSED_RGBA_S3TC_DXT5_EXT:
-        return TextureChannels{true, true};
-    default:
-        return std::nullopt;
-    }
+    if (isIn(kAlphaFormats, format)) return TextureChannels{false, true};
+    if (isIn(kColorFormats, format)) return TextureChannels{true, false};
+    if (isIn(kColorAndAlphaFormats, format)) return TextureChannels{true, true};
+    return std::nullopt;
 }
 
 } // namespace

@@ -1,0 +1,143 @@
+// ValueEdits.cpp - which geometry, arrays, state and lights have other values. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/changes/GraphWatch.h"
+#include "osgRayTrace/bridge/changes/Prefetch.h"
+#include "osgRayTrace/bridge/changes/StateHash.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace osgRayTrace::engine
+{
+
+/// False if it is to be treated in another way.
+bool GraphWatch::lookAtGeometry(uint32_t index, GraphChanges& changes)
+{
+    WatchedGeometry& watched = _graph.geometries[index];
+    if (watched.looked == _looks) return true;
+    watched.looked = _looks;
+    const osg::Geometry& geometry = *watched.geometry;
+    if (conversionHash(geometry) != watched.conversion) return false;
+    const uint64_t arrays = arraysHash(geometry);
+    if (geometry.getStateSet() == watched.stateSet && arrays == watched.arrays) return true;
+    _graph.setState(watched.state, geometry.getStateSet());
+    watched.stateSet = geometry.getStateSet();
+    watched.stateChanged = _anyStateChanged = true;
+    if (arrays == watched.arrays) return true;
+    watched.arrays = arrays;
+    _exchanged.push_back(index);
+    changes.deformed.push_back(&geometry);
+    return true;
+}
+
+void GraphWatch::lookAtBuffers(GraphChanges& changes)
+{
+    std::vector<WatchedBuffer>& buffers = _graph.buffers;
+    const std::size_t count = buffers.size();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        if (i + kAhead < count) fetch(buffers[i + kAhead].data.get(), kBufferBytes);
+        WatchedBuffer& buffer = buffers[i];
+        const uint64_t hash = bufferHash(buffer.kind, *buffer.data);
+        if (hash == buffer.hash) continue;
+        buffer.hash = hash;
+        if (!buffer.contents.change(*buffer.data)) continue;
+        const osg::Geometry* geometry = _graph.geometries[buffer.geometry].geometry;
+        if (!buffer.shape && !changes.convert) // it may be a part of the material
+        {
+            changes.convert = true;
+            changes.reason = {ConversionCause::VertexAttributes, pathOf(*geometry, 0), nullptr, 0};
+        }
+        if (buffer.shape && (changes.deformed.empty() || changes.deformed.back() != geometry))
+            changes.deformed.push_back(geometry);
+    }
+}
+
+void GraphWatch::lookAtStates()
+{
+    bool any = false;
+    for (WatchedState& state : _graph.states)
+    {
+        state.changed = false;
+        if (!state.stateSet) continue;
+        Hasher hasher;
+        addStateSet(hasher, *state.stateSet);
+        state.changed = hasher.value() != state.hash;
+        if (!state.changed) continue;
+        any = true;
+        KeptObjects kept;
+        Hasher now(&kept);
+        addStateSet(now, *state.stateSet);
+        state.hash = now.value();
+        state.kept = std::move(kept);
+    }
+    if (!any) return;
+    _anyStateChanged = true;
+    for (WatchedNode& node : _graph.nodes)
+        if (node.state != kNowhere) node.stateChanged |= _graph.states[node.state].changed;
+    for (WatchedGeometry& geometry : _graph.geometries)
+        if (geometry.state != kNowhere)
+            geometry.stateChanged |= _graph.states[geometry.state].changed;
+}
+
+void GraphWatch::lookAtLights(GraphChanges& changes)
+{
+    for (WatchedLight& light : _graph.lights)
+    {
+        const WatchedNode& node = _graph.nodes[light.node];
+        if (lightHash(node.kind, *node.node) == light.hash) continue;
+        changes.lights = true;
+        KeptObjects kept;
+        light.hash = lightHash(node.kind, *node.node, &kept);
+        light.kept = std::move(kept);
+    }
+}
+
+/// Follows what has changed down to the geometry below it.
+void GraphWatch::findChanged(GraphChanges& changes)
+{
+    for (WatchedPlace& place : _graph.places) // the outer ones come first
+    {
+        if (place.node == kNowhere) continue;
+        place.moved |= place.outer != kOutermost && _graph.places[place.outer].moved;
+        if (place.moved && place.fixed)
+            mustRecord(changes, ConversionCause::MovedSpecial, place.node);
+    }
+    std::unordered_map<uint32_t, osg::Matrixd> matrices; // few move
+    const auto matrixOf = [&](uint32_t place) -> const osg::Matrixd&
+    {
+        const auto [known, isNew] = matrices.try_emplace(place);
+        if (isNew) known->second = _graph.sceneFromLocal(place);
+        return known->second;
+    };
+    for (WatchedGeometry& geometry : _graph.geometries)
+        geometry.counted = 0;
+    uint32_t stateChangedEnd = 0;
+    for (uint32_t i = 0; i < _graph.nodes.size(); ++i)
+    {
+        WatchedNode& node = _graph.nodes[i];
+        if (node.stateChanged) stateChangedEnd = std::max(stateChangedEnd, node.end);
+        node.stateChanged = false;
+        bool stateChanged = i < stateChangedEnd;
+        if (stateChanged && node.kind == NodeKind::Untracked)
+            mustConvert(changes, ConversionCause::UntrackedState, i);
+        if (node.kind != NodeKind::Geometry) continue;
+        WatchedGeometry& watched = _graph.geometries[node.item];
+        stateChanged |= watched.stateChanged;
+        const ChangedUse use{watched.geometry, watched.counted++, watched.uses};
+        const bool moved = node.place != kNowhere && _graph.places[node.place].moved;
+        if (changes.convert) continue;
+        if (moved) changes.moved.push_back({use, matrixOf(node.place)});
+        if (!stateChanged) continue;
+        StateChange& other = changes.stateChanges.emplace_back();
+        static_cast<ChangedUse&>(other) = use;
+        other.worldFromLocal = matrixOf(node.place);
+        other.path = _graph.pathTo(i);
+    }
+    for (WatchedPlace& place : _graph.places)
+        place.moved = false;
+    for (WatchedGeometry& geometry : _graph.geometries)
+        geometry.stateChanged = false;
+}
+
+} // namespace osgRayTrace::engine

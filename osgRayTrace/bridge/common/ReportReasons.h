@@ -1,0 +1,156 @@
+// ReportReasons.h - every key of the conversion's report, with its class and its words. Layer:
+// bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace osgRayTrace::engine
+{
+
+/// The part of a key before the point, and its heading in the report.
+struct ReportClass
+{
+    const char* prefix;
+    const char* title;
+};
+
+/// In the order of the report.
+constexpr ReportClass kReportClasses[] = {
+    {"converted.", "Ray traced"},
+    {"rasterized.", "Has triangles, but is left to OSG to draw"},
+    {"not-traced.", "Cannot be ray traced: drawn by OSG where there is a viewer"},
+    {"approximated.", "Ray traced, but not with all that OpenGL does"},
+    {"unused.", "Does nothing, as in OpenGL"},
+    {"repaired.", "Bad values that were replaced"},
+    {"warned.", "Ray traced as it is, but worth a look"},
+    {"missing.", "Files that cannot be read"},
+    {"skipped.", "Bad data, left out"},
+};
+
+struct ReportReason
+{
+    const char* key;     ///< "<class>.<reason>"
+    const char* meaning; ///< what is counted under it, as docs/coverage.md says
+    /// What warnAboutGeometry says for each geometry after the number; null: nothing.
+    const char* warning = nullptr;
+};
+
+/// The one list of the keys of Statistics::conversion. A new key is a row here and in the table of
+/// docs/coverage.md; a test compares both with the sources. Warnings are given in this order.
+constexpr ReportReason kReportReasons[] = {
+    {"converted.geometry", "drawables"},
+    {"converted.instance", "uses of meshes, each with its place and its material"},
+    {"converted.light", "lights of the scene"},
+    {"converted.area-light", "area lights among them"},
+    {"converted.environment-light", "the environment light"},
+    {"converted.headlight", "the viewer's own light, from behind the eye"},
+    {"converted.sky-light", "the viewer's own light, from above"},
+
+    {"rasterized.additive-blending", "drawables whose colour is added to what is behind"},
+    {"rasterized.billboard", "billboards with something below them that OSG draws"},
+    {"rasterized.blending", "drawables with other blend functions than straight alpha"},
+    {"rasterized.clip-plane-attribute", "drawables that a ClipPlane of their state cuts"},
+    {"rasterized.color-mask", "drawables with a colour mask"},
+    {"rasterized.effect", "osgFX effects"},
+    {"rasterized.hint", "drawables that are hinted to be drawn by OSG"},
+    {"rasterized.polygon-mode", "drawables of lines or points by their polygon mode"},
+    {"rasterized.shader-program", "drawables with a program"},
+    {"rasterized.stencil", "drawables with a stencil test"},
+    {"rasterized.texture-combine", "drawables with a TexEnvCombine"},
+    {"rasterized.texture-without-image", "drawables with a texture that only OpenGL has"},
+    {"rasterized.too-many-paths", "nodes after 4,194,304 paths, with all below them"},
+    {"rasterized.volume", "osgVolume's volumes"},
+
+    {"not-traced.adjacency", "primitive sets with adjacency"},
+    {"not-traced.billboard-child",
+     "children of a billboard that are no drawables, or have no place"},
+    {"not-traced.clipped-away", "drawables that are wholly beyond a clip plane"},
+    {"not-traced.custom-drawable", "drawables of classes that are not known"},
+    {"not-traced.custom-node", "leaves of other kits"},
+    {"not-traced.hud-camera", "cameras that draw over or under the scene"},
+    {"not-traced.indirect-draw", "indirect draws"},
+    {"not-traced.light-points", "osgSim's light points"},
+    {"not-traced.lines", "primitive sets of lines"},
+    {"not-traced.no-vertices", "drawables without vertices"},
+    {"not-traced.particles", "osgParticle's drawables, rain and snow"},
+    {"not-traced.patches", "primitive sets of patches"},
+    {"not-traced.points", "primitive sets of points"},
+    {"not-traced.projection", "Projection nodes"},
+    {"not-traced.render-to-texture-camera", "cameras that draw into a texture or an image"},
+    {"not-traced.text", "osgText's texts"},
+    {"not-traced.volume", "osgVolume's volumes, without OpenGL"},
+
+    {"approximated.absolute-texgen", "TexGenNodes of eye space, without a view"},
+    {"approximated.absolute-transform", "transforms of eye space, without a view"},
+    {"approximated.billboard", "billboards that turn to the eye, without a view"},
+    {"approximated.blending", "drawables with other blend functions, traced with straight alpha"},
+    {"approximated.clip-plane-attribute", "drawables that a ClipPlane of their state would cut"},
+    {"approximated.color-mask", "drawables with a colour mask"},
+    {"approximated.draw-callback", "drawables with a draw callback, which is not called"},
+    {"approximated.effect", "osgFX effects, of which the children are traced as they are"},
+    {"approximated.environment-transform", "environment lights below a scale that differs by axis"},
+    {"approximated.fog", "drawables with fog"},
+    {"approximated.hardware-pose", "drawables that a program would pose"},
+    {"approximated.instanced-draw", "primitive sets that are drawn several times, traced once"},
+    {"approximated.light-model", "light models with another ambient light than the first"},
+    {"approximated.no-texture-coordinates", "textured materials without texture coordinates"},
+    {"approximated.pixel-format", "textures whose pixels cannot be read: magenta"},
+    {"approximated.polygon-mode", "drawables of lines or points by their polygon mode, filled"},
+    {"approximated.polygon-offset",
+     "drawables with a polygon offset that are seen from behind, too"},
+    {"approximated.rasterize-hint", "drawables that are hinted to be drawn by OSG, without OpenGL"},
+    {"approximated.shader", "drawables with a program, which is not run"},
+    {"approximated.stencil", "drawables with a stencil test"},
+    {"approximated.texture-environment", "textures with a TexEnvCombine, taken as MODULATE"},
+    {"approximated.texture-size", "textures of more than 2^28 texels or 4 GiB: magenta"},
+    {"approximated.texture-unit", "drawables with textures on units above 1, which are left out"},
+    {"approximated.texture-without-image", "textures without an image, left out"},
+
+    {"unused.light-replaced", "lights whose number another one takes later"},
+
+    // The first three classes of geometry, in the order of their warnings.
+    {"skipped.index-out-of-range", "triangles with an index beyond the vertex array",
+     "triangles with an index beyond the vertex array, skipped"},
+    {"skipped.not-finite", "triangles with a vertex that is NaN, infinite or out of range",
+     "triangles with a vertex that is NaN, infinite or out of range, skipped"},
+    {"skipped.deprecated-data", "drawables with per-primitive bindings or array indices",
+     "per-primitive bindings or array indices: call fixDeprecatedData, skipped"},
+    {"skipped.vertex-type", "drawables with a vertex array of an unknown type",
+     "vertex array of an unknown type, skipped"},
+    {"repaired.normal", "normals that are zero, missing or not finite: face normals",
+     "normals that are zero, missing or not finite, replaced by face normals"},
+    {"warned.opposite-normals", "triangles whose normals look to their back",
+     "triangles whose normals look to their back, lit by the side seen"},
+    {"repaired.color", "colours that are missing or not finite: white",
+     "colours that are missing or not finite, replaced by white"},
+    {"repaired.texture-coordinate", "texture coordinates that are missing or not finite: 0",
+     "texture coordinates that are missing or not finite, replaced by 0"},
+
+    {"repaired.environment-negative", "pixels of an environment below 0"},
+    {"repaired.environment-not-finite", "pixels of an environment that are NaN or infinite"},
+    {"repaired.environment-scale",
+     "environment lights whose scale makes pixels brighter than 1e30"},
+    {"repaired.environment-too-bright", "pixels of an environment that are too bright"},
+
+    {"warned.far-vertices", "drawables whose vertices are far from their own origin"},
+    {"warned.light-size", "names of light-sizes that no light has"},
+    {"warned.material-name", "rules of the material file whose name nothing has"},
+    {"warned.trace-hint", "nodes that are hinted to be traced, but cannot be"},
+
+    {"missing.environment-image", "images of environment lights"},
+    {"missing.texture-image", "images of textures"},
+
+    {"skipped.area-light", "area lights without an area, or not finite"},
+    {"skipped.clip-plane", "clip planes that are not finite, or of a number above 7"},
+    {"skipped.degenerate", "triangles without an area"},
+    {"skipped.environment-light", "environment lights without an image, or beside another one"},
+    {"skipped.light", "lights that are not finite, or of a number above 16383"},
+    {"skipped.not-finite-transform", "transforms that are not finite, with all below them"},
+    {"skipped.projective-transform", "projective transforms, with all below them"},
+    {"skipped.singular-transform", "singular transforms, with all below them"},
+    {"skipped.too-deep", "nodes below 5000 others, without their children"},
+    {"skipped.too-many-paths", "nodes after 4,194,304 paths, with all below them"},
+
+    {"instance.invalid-transform", "instances whose matrix Embree does not take"},
+};
+
+} // namespace osgRayTrace::engine

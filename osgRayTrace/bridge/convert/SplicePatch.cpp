@@ -1,0 +1,214 @@
+// SplicePatch.cpp - edits of which nodes there are. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/convert/GraphLengths.h"
+#include "osgRayTrace/bridge/convert/SceneBuilder.h"
+#include "osgRayTrace/bridge/convert/ScenePatcher.h"
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// None: a geometry can be patched that is on so many paths now.
+ConversionCause causeToKeep(const TracedGeometry& traced, uint32_t uses)
+{
+    if (!traced.patchable) return ConversionCause::NotAlone;
+    if (!traced.plain) return ConversionCause::Reported;
+    return traced.uses.size() == uses ? ConversionCause::None : ConversionCause::OtherPaths;
+}
+
+} // namespace
+
+bool ScenePatcher::splice(const GraphSplice& splice)
+{
+    _spliced = _changed = true;
+    return remove(splice) && (splice.added.empty() || add(splice));
+}
+
+bool ScenePatcher::remove(const GraphSplice& splice)
+{
+    // Before any goes: those that follow shorten the lists.
+    for (const ChangedUse& gone : splice.removed)
+    {
+        const auto found = _convertedGraph.index.geometries.find(gone.geometry);
+        if (found == _convertedGraph.index.geometries.end())
+            return refuse(ConversionCause::OtherPaths, splice.removedFrom);
+        const TracedGeometry& traced = found->second;
+        const ConversionCause cause = causeToKeep(traced, gone.uses);
+        if (cause != ConversionCause::None) return refuse(cause, splice.removedFrom);
+    }
+    // The last of each first: those before it keep their numbers.
+    for (auto gone = splice.removed.rbegin(); gone != splice.removed.rend(); ++gone)
+    {
+        const auto found = _convertedGraph.index.geometries.find(gone->geometry);
+        const ConversionCause cause = removeUse(found->second, gone->use);
+        if (cause != ConversionCause::None) return refuse(cause, splice.removedFrom);
+        if (!found->second.uses.empty()) continue;
+        _removed.push_back(found->second.geometry);
+        _convertedGraph.index.geometries.erase(found);
+        --_geometries;
+    }
+    return true;
+}
+
+/// None: it was removed.
+ConversionCause ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
+{
+    const TracedUse gone = traced.uses[use];
+    if (gone.instance == kInvalid || gone.effects == kInvalid)
+        return ConversionCause::NotAnInstance;
+    Instance& instance = _scene->instances[gone.instance];
+    if (traced.uses.size() > 1 && !instance.placed) return ConversionCause::NotAnInstance;
+    const StateEffects& effects = _convertedGraph.index.stateEffects[gone.effects];
+    _convertedGraph.index.removeUse(traced, use);
+    if (!effects.counts.empty()) return ConversionCause::Reported; // paths may be named
+    if ((effects.hasAmbient || effects.physical || effects.setsColor) && isLastOf(gone.effects))
+        return ConversionCause::LastOfState;
+
+    _leftStatic |= !instance.placed;
+    _convertedGraph.materials.release(instance.material);
+    const uint32_t mesh = instance.mesh;
+    instance = Instance();
+    instance.mesh = emptyMeshIndex();
+    instance.placed = true;
+    instance.changed = _now;
+    _convertedGraph.instanceGaps.push_back(gone.instance);
+    --_instances;
+    if (!traced.uses.empty()) return ConversionCause::None;
+    _scene->meshes[mesh] = emptyMesh();
+    _convertedGraph.meshGaps.push_back(mesh);
+    return ConversionCause::None;
+}
+
+/// Whether no other use has these effects: what it alone decides for all of the scene would
+/// change.
+bool ScenePatcher::isLastOf(uint32_t effects) const
+{
+    for (const auto& [geometry, traced] : _convertedGraph.index.geometries)
+        for (const TracedUse& use : traced.uses)
+            if (use.effects == effects && use.instance != kInvalid) return false;
+    return true;
+}
+
+uint32_t ScenePatcher::emptyMeshIndex()
+{
+    if (_convertedGraph.emptyMesh == kInvalid)
+    {
+        _convertedGraph.emptyMesh = static_cast<uint32_t>(_scene->meshes.size());
+        _scene->meshes.push_back(emptyMesh());
+    }
+    return _convertedGraph.emptyMesh;
+}
+
+bool ScenePatcher::add(const GraphSplice& splice)
+{
+    if (_input.materials) // rules look at names
+        return refuse(ConversionCause::MaterialFile, splice.added);
+    ConversionReport report;
+    GraphCollector collector(_input, _caches.vertices, _caches.textures, report);
+    if (!collector.collectAt(fromRoot(splice.added)))
+        return refuse(ConversionCause::BadTransform, splice.added);
+    CollectedGraph graph = collector.take();
+    const LightSources& lights = graph.lights;
+    const bool plain = lights.lights.empty() && lights.areaLights.empty() &&
+                       lights.environments.empty() && graph.rasterized.empty() && !graph.paged &&
+                       report.counts().empty();
+    if (!plain) return refuse(ConversionCause::SpecialSubgraph, splice.added);
+    graph.texGens = _convertedGraph.texGens;
+    uint64_t vertices = 0;
+    for (CollectedGeometry& geometry : graph.geometries)
+    {
+        geometry.bounds = &_caches.geometries.bounds(*geometry.geometry);
+        vertices += geometry.bounds->count;
+    }
+    // So much shall be flat.
+    if (vertices > kSmallStatic && vertices >= _caches.staticVertices)
+        return refuse(ConversionCause::LargeSubgraph, splice.added);
+    if (!graph.geometries.empty() && !lengthsOf(graph).areOrdinary())
+        return refuse(ConversionCause::Lengths, splice.added);
+    for (const CollectedGeometry& geometry : graph.geometries)
+    {
+        const ConversionCause cause = addGeometry(graph, geometry, splice);
+        if (cause == ConversionCause::None) continue;
+        refuse(cause, splice.added);
+        _reason.path = geometry.path;
+        return false;
+    }
+    return true;
+}
+
+/// None: state of another kind than the scene has is not among it.
+ConversionCause ScenePatcher::stateCause(const CollectedGraph& graph,
+                                         const CollectedGeometry& geometry) const
+{
+    const bool automatic = _input.colorRule == RayTraceSettings::AUTOMATIC_COLOR;
+    for (const GeometryUse& use : geometry.uses)
+    {
+        const StateEffects effects = stateEffectsOf(graph.states[use.state], _caches.textures);
+        if (effects.physical && automatic && _scene->displayReferred)
+            return ConversionCause::ColorRule;
+        if (effects.setsColor && !_convertedGraph.setsColor) return ConversionCause::CurrentColor;
+        if (effects.hasAmbient && effects.ambient != _scene->ambient)
+            return ConversionCause::AmbientLight;
+        if (effects.clipPlanes != 0) return ConversionCause::ClipPlanes;
+    }
+    return ConversionCause::None;
+}
+
+/// None: it was added.
+ConversionCause ScenePatcher::addGeometry(const CollectedGraph& graph,
+                                          const CollectedGeometry& geometry,
+                                          const GraphSplice& splice)
+{
+    const ConversionCause byState = stateCause(graph, geometry);
+    if (byState != ConversionCause::None) return byState;
+    const auto known = _convertedGraph.index.geometries.find(geometry.geometry);
+    const bool isNew = known == _convertedGraph.index.geometries.end();
+    if (!isNew)
+    {
+        const ConversionCause cause =
+            causeToKeep(known->second, static_cast<uint32_t>(known->second.uses.size()));
+        if (cause != ConversionCause::None) return cause;
+    }
+    ConversionReport report;
+    BuildRules rules;
+    rules.linear = !_scene->displayReferred;
+    rules.setsColor = _convertedGraph.setsColor;
+    rules.comparable = true;
+    rules.now = _now;
+    SceneBuilder builder(_input, graph, rules, _caches, _convertedGraph, *_scene, report);
+    std::vector<ChangedUse> uses;
+    for (const ChangedUse& use : splice.uses)
+        if (use.geometry == geometry.geometry) uses.push_back(use);
+    if (uses.size() != geometry.uses.size()) return ConversionCause::OtherPaths;
+    if (isNew)
+        builder.add(geometry);
+    else
+        for (std::size_t i = 0; i < uses.size(); ++i)
+            if (uses[i].use > known->second.uses.size() ||
+                !builder.addUse(geometry, geometry.uses[i], uses[i].use))
+                return ConversionCause::NotAnInstance;
+    const TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
+    const ConversionCause cause = causeToKeep(traced, uses.front().uses);
+    if (cause != ConversionCause::None) return cause;
+    const auto isThere = [this](const TracedUse& use)
+    { return use.instance != kInvalid && _scene->instances[use.instance].placed; };
+    if (!std::all_of(traced.uses.begin(), traced.uses.end(), isThere))
+        return ConversionCause::NotAnInstance;
+    _geometries += isNew;
+    _instances += static_cast<int64_t>(uses.size());
+    return report.remarks() == 0 ? ConversionCause::None : ConversionCause::Reported;
+}
+
+/// What came back in another place is kept.
+void ScenePatcher::dropRemoved()
+{
+    for (const osg::ref_ptr<const osg::Geometry>& geometry : _removed)
+        if (_convertedGraph.index.geometries.count(geometry) == 0)
+            _caches.geometries.drop(geometry);
+}
+
+} // namespace osgRayTrace::engine
