@@ -1,4 +1,4 @@
-// Channel.h - what can be asked of an image beside its colours. Layer: session.
+// Channel.h - the channels of an image beside its colours. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Channels of the first hit, or of the image's statistics, for resolveChannel.
+/// Names the channels of the first hit and of the image's statistics, for resolveChannel.
 enum class Channel : uint8_t
 {
     Depth,    ///< 1 float: window depth in [0,1], 1 where nothing is hit
@@ -20,7 +20,7 @@ enum class Channel : uint8_t
     Error,    ///< 3 floats: estimated standard error of the pixel's linear RGB
 };
 
-/// Floats a pixel.
+/// Returns the number of floats for each pixel.
 int channelSize(Channel channel);
 
 } // namespace osgRayTrace::engine
