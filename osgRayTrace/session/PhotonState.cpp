@@ -1,4 +1,5 @@
-// PhotonState.cpp - what a view keeps for photon mapping from pass to pass. Layer: session.
+// PhotonState.cpp - the state of photon mapping that a view keeps from pass to pass. Layer:
+// session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/PhotonState.h"
 #include "osgRayTrace/integrators/IntegratorFactory.h"
@@ -15,8 +16,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Width of a pixel on the surfaces that the view shows, in the median over a grid of its pixels
-/// [length]; 0 if it shows none.
+/// Returns the width of a pixel on the surfaces that the view shows, in the median over a grid of
+/// its pixels [length]; 0 if the view shows no surface.
 float pixelWidth(const PassContext& context, int width, int height)
 {
     constexpr int kSide = 9;
@@ -42,12 +43,13 @@ float pixelWidth(const PassContext& context, int width, int height)
     return widths[widths.size() / 2];
 }
 
-constexpr std::size_t kRecordedPixels = 16384;  ///< about as many of a pass are learnt from,
-constexpr std::size_t kMostRecordedStride = 16; ///< and no fewer than one of these
+/// Approximate number of pixels of a pass from which the guide learns.
+constexpr std::size_t kRecordedPixels = 16384;
+constexpr std::size_t kMostRecordedStride = 16; ///< at least one of so many pixels is recorded
 
-/// Sums by bin of the squares of what single photons added, relative to the radiance of the tile as
-/// in RenderProgress::relativeError: dim places matter, too. There may be thousands of photons for
-/// each bin.
+/// Returns the sums by bin of the squares of what single photons added, relative to the radiance of
+/// the tile as in RenderProgress::relativeError: dim places matter, too. A bin may have thousands
+/// of photons.
 std::vector<SeenSquares> squaresOf(const std::vector<SeenPhoton>& seen, const RgbaLanes* rgba)
 {
     float sum = 0.0f;
@@ -80,7 +82,7 @@ PhotonPassOptions passOptions(const RenderOptions& options)
     return result;
 }
 
-/// traced: the scene of the context.
+/// traced is the scene of the context.
 PhotonScene photonScene(const std::shared_ptr<const TracedScene>& traced,
                         const PassContext& context)
 {
@@ -125,8 +127,9 @@ void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& conte
     }
     for (float* radius : {&_least, &_largest})
         *radius = std::clamp(*radius, _floor, ceiling);
-    // Sums over cells are rounded otherwise if the cells are: those of all views should be the
-    // same, though their pixels differ. Cells a few times too small cost little.
+    // Sums over cells are rounded differently if the cells differ. The sums of all views should be
+    // the same, though the views' pixels differ, so the first cells are those of the photons'
+    // density. Cells a few times too small cost little.
     _cellRadius =
         wanted > 0.0f || !(density.radius > 0.0f) ? _largest : std::max(density.radius, _floor);
     while (2.0f * _cellRadius < _largest)
@@ -169,7 +172,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
     context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
     const float cell = 2.0f * std::max(_floor, _cellRadius * _shrink);
-    if (pass != _preparedPass || !_pass) // else the pass keeps the photons that it began with
+    if (pass != _preparedPass || !_pass) // otherwise the pass keeps the photons that it began with
         _pass = _passes->pass(scene, pass, cell, workers);
     context.photons = &_pass->map;
     _stored |= _pass->map.size() > 0;
@@ -194,8 +197,8 @@ double PhotonState::secondsOf(int pass) const
     return _pass->seconds;
 }
 
-/// Of a pass that is whole, in the order of the tiles, so that no thread's luck is in the sums, nor
-/// how often the pass was interrupted.
+/// Sums up what a whole pass saw, in the order of the tiles, so that the sums depend neither on the
+/// order of threads nor on how often the pass was interrupted.
 void PhotonState::sumUpSeen()
 {
     for (std::vector<SeenSquares>& tile : _seen)
@@ -254,7 +257,7 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
     if (gathered.seenStride) _seen[static_cast<std::size_t>(tile)] = squaresOf(gathered.seen, rgba);
-    // By tile, so that no thread's luck decides which are kept.
+    // The limit is by tile, so that the order of threads does not decide which hit points are kept.
     if (HitPoints* hits = hitPoints(tile, pass);
         hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())
         *hits = HitPoints();
@@ -273,7 +276,7 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
     {
         LocalStatistics& s = _statistics[((pass & 1) ? _pixels : 0) + first + p];
         if (s.radius2 == 0.0f) s.radius2 = gathered.radius[p] * gathered.radius[p];
-        // The film averages passes: what must be added for the average to become the new estimate.
+        // The film averages passes: the code adds what makes the average the new estimate.
         const Vec3d before = Vec3d(localRadiance(s)) * static_cast<double>(s.passes);
         const bool finite = isFinite(gathered.flux[p]);
         addPhotons(s, finite ? gathered.count[p] : 0, gathered.flux[p], alpha);
