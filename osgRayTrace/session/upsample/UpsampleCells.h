@@ -35,9 +35,8 @@ struct UpsampleCells
     /// colour. Something thin is missed between the pixels that see it, so cells beside an edge do
     /// not count as smooth either.
     std::vector<uint8_t> smooth;
-    double edges = 0.0,
-           /// Shares of the cells that are not smooth, and that are beside one that is not.
-        around = 0.0;
+    /// Shares of the cells that are not smooth, and that are beside one that is not.
+    double edges = 0.0, around = 0.0;
 };
 
 /// Places the small image in the view of the large one.
