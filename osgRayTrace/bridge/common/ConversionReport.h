@@ -13,14 +13,12 @@ namespace osgRayTrace::engine
 {
 
 /// Counts objects by "<class>.<reason>", as Statistics::conversion tells them:
-/// - converted: parts of the Scene, namely geometry (drawables), instance, material, texture,
-/// light;
-///   the viewer's own light is a headlight or a sky-light
+/// - converted: parts of the Scene, namely geometry (drawables), instance, material, texture and
+///   light; the viewer's own light is a headlight or a sky-light
 /// - repaired: values that were replaced, namely normal, texture-coordinate, color (each a vertex),
 ///   environment-not-finite, -negative, -too-bright (each a pixel), environment-scale
 /// - skipped: bad data left out, namely index-out-of-range, not-finite, degenerate (each a
-/// triangle);
-///   all other reasons count objects
+///   triangle); all other reasons count objects
 /// - warned: things that are traced as they are, and may not be what was meant, namely far-vertices
 ///   (a drawable), opposite-normals (a triangle), and trace-hint for a node that is hinted to be
 ///   traced but cannot be
@@ -29,8 +27,7 @@ namespace osgRayTrace::engine
 /// - unused: things that have no effect in OpenGL either, such as light-replaced: a light that the
 ///   next one of its number replaces
 /// - not-traced: things that have no triangles, or that do not belong to the scene as a ray sees
-/// it;
-///   OSG draws them if there is a viewer
+///   it; OSG draws them if there is a viewer
 /// - rasterized: things that have triangles but that OSG draws nevertheless, in a viewer
 /// - missing: files that could not be read, by their purpose; paths are "FILE" or "FILE, for NODE
 ///   PATH"
