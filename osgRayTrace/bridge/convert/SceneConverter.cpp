@@ -1,4 +1,5 @@
-// SceneConverter.cpp - from a graph to a Scene, and from its changes to the next. Layer: bridge.
+// SceneConverter.cpp - converts a graph to a Scene, and its changes to the next Scene. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/SceneConverter.h"
 
@@ -28,7 +29,8 @@ void setBounds(CollectedGraph& graph, GeometryCache& geometries)
         geometry.bounds = &geometries.bounds(*geometry.geometry);
 }
 
-/// Of all that is traced, where the lengths of the graph are those of the world.
+/// Returns the lengths of all traced parts, at places in which the lengths of the graph are those
+/// of the world.
 LengthCounts lengthsOf(const CollectedGraph& graph)
 {
     LengthCounts lengths;
@@ -70,7 +72,8 @@ bool setsColor(const CollectedGraph& graph)
     return false;
 }
 
-/// Geometry that OpenGL draws is where its path puts it: it may move without a conversion.
+/// Adds geometry that OpenGL draws. Its place is that of its path, so it may move without a
+/// conversion.
 void addUntraced(const RasterizedParts& parts, SceneIndex& index)
 {
     std::vector<const osg::Geometry*> untraced;
@@ -85,7 +88,7 @@ void addUntraced(const RasterizedParts& parts, SceneIndex& index)
         index.at(*geometry).uses.emplace_back();
 }
 
-/// Where planes clip depends on where a geometry is.
+/// Returns whether a state clips, because the effect of clip planes depends on where a geometry is.
 bool hasClipping(const std::vector<GraphState>& states)
 {
     return std::any_of(states.begin(), states.end(),
@@ -103,11 +106,11 @@ struct SceneConverter::Implementation
 {
     ConversionCaches caches;
     ConvertedGraph convertedGraph;
-    ConversionInput input; ///< of last
+    ConversionInput input; ///< input of the last conversion
     std::shared_ptr<const Scene> last;
     ConversionResult lastResult;
     uint64_t forgotten = 0; ///< meshes that were made before the caches were emptied
-    bool ordinary = false;  ///< unit is 1, and stays so as long as lengths are ordinary
+    bool ordinary = false;  ///< true: unit is 1, and stays so as long as lengths are ordinary
     Stamp stamp = 0;
 };
 
@@ -122,7 +125,7 @@ void SceneConverter::releaseGraph()
     state.caches.vertices = SoftwareVertices();
     state.lastResult = ConversionResult();
     state.input = ConversionInput();
-    state.ordinary = false; // so nothing can be patched
+    state.ordinary = false; // prevents patches
 }
 
 void SceneConverter::forget()
