@@ -1,4 +1,5 @@
-// DenoiseBounds.cpp - bright cells brought down to what their neighbours bear. Layer: session.
+// DenoiseBounds.cpp - reduces bright cells to a brightness that their neighbours allow. Layer:
+// session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/denoise/DenoiseTaps.h"
 

@@ -27,9 +27,9 @@ struct CellStatistics
 void gatherCells(const ResolvedImage& image, const DenoiseGuides& guides, int y, CellLight& light,
                  CellStatistics& statistics);
 
-/// Sets row y of bounded: the light with its variance, single bright cells brought down to what
-/// their neighbours bear. hasErrors: the variance is that of the statistics, smoothed; otherwise it
-/// is that of the neighbours.
+/// Sets row y of bounded: the light with its variance, with single bright cells reduced to a
+/// brightness that their neighbours allow. hasErrors: the variance is that of the statistics,
+/// smoothed; otherwise it is that of the neighbours.
 void boundCells(const DenoiseGuides& guides, const CellStatistics& statistics,
                 const CellLight& light, bool hasErrors, int y, CellLight& bounded);
 
@@ -38,7 +38,7 @@ void filterCells(const DenoiseGuides& guides, const CellLight& light, int step, 
                  CellLight& filtered);
 
 /// Adds to row y of spread how far the filtered light is from the mean; cells without light get 0.
-/// The spread is then the mean square of what the filter takes away.
+/// The spread is then the mean square of the light that the filter takes away.
 void compareCells(const DenoiseGuides& guides, const CellLight& filtered, int y,
                   CellStatistics& statistics);
 

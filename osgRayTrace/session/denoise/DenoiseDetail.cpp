@@ -1,4 +1,4 @@
-// DenoiseDetail.cpp - how much of the image's own light the denoiser keeps. Layer: session.
+// DenoiseDetail.cpp - the share of the image's own light that the denoiser keeps. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/denoise/DenoiseTaps.h"
 
@@ -10,7 +10,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Errors and the differences that they have to explain are summed over 7 x 7 cells: an error of
+/// Errors and the differences that they have to explain are summed over 7 x 7 cells. An error of
 /// two halves is one random number, so the errors of fewer pixels are no measure. Errors count for
 /// a little more, as detail that is kept by mistake is seen more easily than detail that is lost.
 constexpr int kReach = 3;

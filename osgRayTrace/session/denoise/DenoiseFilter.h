@@ -14,8 +14,8 @@ namespace osgRayTrace::engine
 /// [Schied17]. The filter works on cells of 2 x 2 pixels, from which each pixel takes its light by
 /// how alike their surfaces are.
 ///
-/// F is the filtered light, D the light of the image, V the mean square of the image's standard
-/// error and S the mean square of D - F, both over a small neighbourhood:
+/// F is the filtered light and D the light of the image. V is the mean square of the image's
+/// standard error and S the mean square of D - F, both over a small neighbourhood.
 ///
 ///     result = albedo alpha (F + k (D - F)),   k = max(0, 1 - c V/S),   c = 1.25
 ///

@@ -89,8 +89,8 @@ struct CellRange
 };
 
 /// Weighs the cells around each pixel of a row. cells and across are the row of cells that the
-/// pixels are in, and the next one; offsetY is the distance of the pixels from the middle of their
-/// cells; even and odd are the columns of the pixels.
+/// pixels are in, and the next one. offsetY is the distance of the pixels from the middle of their
+/// cells. even and odd are the columns of the pixels.
 OSGRAYTRACE_KERNEL
 void weighCells(SurfaceRow row, CellRange range, float offsetY, GuideRow cells, GuideRow across,
                 WeightRow even, WeightRow odd)

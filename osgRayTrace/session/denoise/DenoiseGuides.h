@@ -35,8 +35,8 @@ struct DenoiseGuides
     PixelPlane<float> albedoR, albedoG, albedoB;
     PixelPlane<uint8_t> inCell; ///< 1: the pixel shows its cell's surface
     /// Weights by which a pixel takes light from its cell, from the next cell on its own side in x,
-    /// from that in y and from that in both: bilinear weights times how alike the surfaces are. A
-    /// row has first the pixels of even columns, then those of odd columns.
+    /// from that in y and from that in both. The weights are bilinear, times how alike the surfaces
+    /// are. A row has first the pixels of even columns, then those of odd columns.
     PixelPlane<uint8_t> near, acrossX, acrossY, acrossBoth;
 
     CellGuides cells;

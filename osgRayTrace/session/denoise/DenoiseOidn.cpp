@@ -60,7 +60,7 @@ void set(OIDNFilter filter, const char* name, bool value)
 }
 #endif
 
-/// Returns the message of what failed on this thread since the last call; empty: nothing failed. A
+/// Returns the message of a failure on this thread since the last call; empty: nothing failed. A
 /// null device stands for the making of a device.
 std::string errorOf(OIDNDevice device)
 {

@@ -26,7 +26,7 @@ public:
     void forgetSurfaces() { _filterKnows = _oidnKnows = false; }
 
     /// Changes the image's radiance. surfaces is called for the surfaces of the pixels if the
-    /// denoiser does not know them. Throws std::bad_alloc, and what surfaces throws.
+    /// denoiser does not know them. Throws std::bad_alloc, and any exception of surfaces.
     void denoise(ResolvedImage& image, DenoiseKind kind, const Surfaces& surfaces,
                  const Workers& workers);
 
