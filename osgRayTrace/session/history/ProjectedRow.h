@@ -1,4 +1,4 @@
-// ProjectedRow.h - where the surfaces of a view are seen in an earlier one. Layer: session.
+// ProjectedRow.h - finds the surfaces of a view in an earlier view. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -34,7 +34,7 @@ struct Projection
     Vec3 start, startDx, startDy;             ///< starts of rays, from the old pole
     Vec3 direction, directionDx, directionDy; ///< directions of rays
     Vec3 oldDirection{0.0f};                  ///< direction of all old rays, if they are parallel
-    double wSign = 1.0;                       ///< sign of w of what the old view sees
+    double wSign = 1.0;                       ///< sign of w in front of the old view
     double halfWidth = 0.0, halfHeight = 0.0; ///< half the size of the old image
 };
 

@@ -144,9 +144,9 @@ OSGRAYTRACE_INLINE Gathered Reprojector::pixel(std::size_t i, std::size_t x,
     // The floor of a number that is at least -1/2 is computed without a call.
     const int left = static_cast<int>(oldX + 1.0f) - 1, bottom = static_cast<int>(oldY + 1.0f) - 1;
     const float u = oldX - static_cast<float>(left), v = oldY - static_cast<float>(bottom);
-    const int nearestX =
-        std::min(left + (u >= 0.5f), old.map.view.width - 1); // of a place that was
-    const int nearestY = std::min(bottom + (v >= 0.5f), old.map.view.height - 1); // rounded up
+    // The place in the old image may have been rounded up to its border.
+    const int nearestX = std::min(left + (u >= 0.5f), old.map.view.width - 1);
+    const int nearestY = std::min(bottom + (v >= 0.5f), old.map.view.height - 1);
     const Surface surface{Vec3(projected.pointX[x], projected.pointY[x], projected.pointZ[x]),
                           Vec3(to.normalX[i], to.normalY[i], to.normalZ[i]), to.along[i],
                           to.object[i]};

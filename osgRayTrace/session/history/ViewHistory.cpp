@@ -84,10 +84,10 @@ void scaleErrors(const float* count, float passes, std::size_t pixels, float* er
     }
 }
 
-/// Estimates errors from two independent means a of h and b of n samples. They differ by (a - b)^2
-/// = v (1/h + 1/n), v being the variance of one sample, and the variance of the mean of all samples
-/// is v / (h + n): |a - b| sqrt(h n) / (h + n) is its root. For h = n this is the estimate of
-/// [Rousselle12, sect. 3].
+/// Estimates errors from two independent means a of h and b of n samples. The means differ by (a -
+/// b)^2 = v (1/h + 1/n), v being the variance of one sample. The variance of the mean of all
+/// samples is v / (h + n), and its root is |a - b| sqrt(h n) / (h + n). For h = n this is the
+/// estimate of [Rousselle12, sect. 3].
 void estimateErrors(const float* history, const float* count, float passes, const float* radiance,
                     std::size_t pixels, float* error)
 {

@@ -26,13 +26,13 @@ ViewDependence viewDependence(const Scene& scene);
 ///
 ///   (h history + n film) / (h + n),   h = max(0, count - (n - 1) / 2),
 ///
-/// with n the film's passes and count the history's samples of the pixel. While the view moves, the
-/// image is therefore the mean of all samples. At rest each further pass takes the weight of half a
-/// sample from the history: from pass 2 kMostCount + 1 on, and earlier if the history holds less,
-/// the image is the film's own.
+/// Here n is the number of the film's passes and count the number of the history's samples of the
+/// pixel. While the view moves, the image is therefore the mean of all samples. At rest each
+/// further pass takes the weight of half a sample from the history. From pass 2 kMostCount + 1 on,
+/// and earlier if the history holds less, the image is the film's own.
 ///
-/// A history belongs to one scene, one set of options, and sessions that keep what their samples
-/// meet. Whoever renders calls leave and enter only if nothing but the view or its size changes,
+/// A history belongs to one scene, one set of options, and sessions that keep the surfaces of their
+/// samples. Whoever renders calls leave and enter only if nothing but the view or its size changes,
 /// and drop if anything else does. A history is not thread safe; each session has its own.
 class ViewHistory
 {
