@@ -16,9 +16,9 @@ namespace osgRayTrace::engine
 
 class Workers;
 
-/// Holds a view's camera rays relative to a point near its eye, so that floats suffice: p = pole +
-/// E(x,y) + s D(x,y) with E = start + x startDx + y startDy and D alike. Starts are near 0; the
-/// pole is in world space, in double.
+/// Holds a view's camera rays relative to a point near its eye, so that floats suffice. A point is
+/// p = pole + E(x,y) + s D(x,y) with E = start + x startDx + y startDy and D alike. Starts are near
+/// 0; the pole is in world space, in double.
 struct PixelRays
 {
     Vec3d pole{0.0};
