@@ -8,7 +8,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Returns how an array is bound, by what OSG 3.6 does with it: off if it cannot be read.
+/// Returns how OSG 3.6 binds an array: off if the array cannot be read.
 osg::Array::Binding bindingOf(const osg::Array* array);
 
 /// Returns the array that holds the positions: the vertex array or, without one, vertex attribute

@@ -1,5 +1,5 @@
-// BufferContents.h - whether the values of arrays have changed, regardless of modified counts.
-// Layer: bridge.
+// BufferContents.h - tells whether the values of arrays have changed, regardless of modified
+// counts. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 

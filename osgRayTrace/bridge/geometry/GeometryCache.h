@@ -28,7 +28,8 @@ enum class Mobility : uint8_t
 
 /// Keeps the meshes of geometries. A geometry is taken as unchanged while its arrays and primitive
 /// sets are the same objects with the same modified counts, sizes and addresses, or with the same
-/// values if counts or addresses differ: call dirty() on an array whose values were changed.
+/// values if counts or addresses differ. Whoever changes an array's values must call dirty() on the
+/// array.
 class GeometryCache
 {
 public:
@@ -47,7 +48,7 @@ public:
                                      ConversionReport& report);
 
     /// Returns the request of the geometry's shared mesh; null if the last snapshot did not ask for
-    /// it. lastCounts returns what was counted for that mesh.
+    /// it. lastCounts returns the counts of that mesh.
     const MeshRequest* lastRequest(const osg::Geometry& geometry) const;
     const ConversionCounts& lastCounts(const osg::Geometry& geometry) const;
 

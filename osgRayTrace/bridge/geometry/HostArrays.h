@@ -11,7 +11,7 @@ namespace osgRayTrace::engine
 
 /// Keeps the array for as long as the result or a copy of it lives, and then until
 /// releaseHostArrays(). The last thread to let go of a scene may be one that draws or traces in the
-/// background, but an array that is deleted removes itself from the list of its osg::BufferObject,
+/// background. But an array that is deleted removes itself from the list of its osg::BufferObject,
 /// which OSG changes without a lock. Throws std::bad_alloc.
 std::shared_ptr<const void> keepHostArray(const osg::BufferData& array);
 

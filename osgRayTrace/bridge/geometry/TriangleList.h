@@ -34,7 +34,7 @@ struct TriangleList
 {
     /// Set if the geometry is one triangle list of 32-bit indices, which are used in place.
     const osg::DrawElementsUInt* source = nullptr;
-    std::vector<UVec3> triangles;     ///< filled if source is null
+    std::vector<UVec3> triangles;     ///< set if source is null
     std::vector<std::size_t> setEnds; ///< end of the triangles of each primitive set
     /// Counts of primitive sets without triangles and of dropped triangles.
     ConversionCounts counts;
