@@ -18,7 +18,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Tells what an 8-bit texture holds.
+/// Names the kinds of content of an 8-bit texture.
 enum class TextureContent
 {
     Color, ///< colours, sRGB encoded in a linear scene

@@ -25,9 +25,9 @@ TextureChannels textureChannels(GLint internalFormat, GLenum pixelFormat);
 
 /// Returns the format in which OpenGL keeps the texture, as far as texture and image tell: the
 /// user's format, or the image's; 0 if neither tells. image may be null.
-/// osg::Texture::getInternalFormat must not be called outside of a draw traversal: it asks context
-/// 0 for the compressed formats, and a context that is asked before it exists has none of OpenGL's
-/// functions from then on.
+/// osg::Texture::getInternalFormat must not be called outside of a draw traversal. The function
+/// asks context 0 for the compressed formats; a context that is asked before it exists has none of
+/// OpenGL's functions from then on.
 GLint internalFormatOf(const osg::Texture& texture, const osg::Image* image);
 
 } // namespace osgRayTrace::engine
