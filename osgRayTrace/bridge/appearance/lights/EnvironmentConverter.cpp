@@ -53,7 +53,7 @@ Mat3 engineFromMap(const osg::Quat& rotation, const osg::Matrixd& engineFromLoca
             std::fabs(x * y) + std::fabs(y * z) + std::fabs(z * x) < 1e-4 * scale * scale;
     z = unitOf(z);
     y = unitOf(y);
-    // Of nearly parallel axes the first round leaves rounding.
+    // If axes are nearly parallel, the first round leaves rounding.
     for (int round = 0; round < 2; ++round)
         y = unitOf(y - z * (y * z));
     if (y.length2() < 0.5) // parallel in double: any perpendicular axis will do

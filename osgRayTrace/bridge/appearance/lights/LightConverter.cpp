@@ -137,7 +137,7 @@ Light meshLight(const std::string& name, const Vec3& radiance, uint32_t instance
     light.name = name;
     light.kind = LightKind::Mesh;
     light.radiance = radiance;
-    light.twoSided = true; // as both sides of a face emit: see PhysicalMaterial
+    light.twoSided = true; // both sides of a face emit: see PhysicalMaterial
     light.instance = instance;
     return light;
 }
