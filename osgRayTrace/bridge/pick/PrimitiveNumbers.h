@@ -22,8 +22,8 @@ struct GeometryTriangle
 };
 
 /// Numbers the primitives of one geometry. The object takes no memory if the primitives are one
-/// triangle after the other and all of them are in the mesh; otherwise 4 bytes a triangle, and as
-/// much a vertex if vertices were split.
+/// triangle after the other and all of them are in the mesh. Otherwise it takes 4 bytes a triangle,
+/// and as much a vertex if vertices were split.
 class PrimitiveNumbers
 {
 public:
