@@ -50,9 +50,9 @@ class ConversionReport
 public:
     using Place = std::function<std::string()>;
 
-    /// Sets the place of what is counted from now on. The place is asked for with the first few
-    /// objects of each reason only, so it may be slow. Empty: no place. Objects that it refers to
-    /// must live until the next call.
+    /// Sets the place of the objects that are counted from now on. The place is asked for with the
+    /// first few objects of each reason only, so it may be slow. Empty: no place. Objects that the
+    /// function refers to must live until the next call.
     void setPlace(Place place) { _place = std::move(place); }
 
     void count(const std::string& what, uint64_t number = 1);
@@ -73,7 +73,7 @@ public:
 
     const ConversionCounts& counts() const { return _counts; }
 
-    /// Returns how often something was counted, apart from what was converted.
+    /// Returns how often something was counted, apart from the counts of converted parts.
     uint64_t remarks() const { return _remarks; }
     const ConversionPaths& paths() const { return _paths; }
 

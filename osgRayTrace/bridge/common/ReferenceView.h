@@ -41,7 +41,7 @@ public:
 
 private:
     osg::Matrixd _viewFromWorld;
-    std::unique_ptr<osg::CullStack> _stack; // never counted as an osg::Referenced
+    std::unique_ptr<osg::CullStack> _stack; // osg::CullStack is no osg::Referenced
     mutable bool _placed = false;
 };
 
