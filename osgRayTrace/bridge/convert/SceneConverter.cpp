@@ -88,7 +88,8 @@ void addUntraced(const RasterizedParts& parts, SceneIndex& index)
         index.at(*geometry).uses.emplace_back();
 }
 
-/// Returns whether a state clips, because the effect of clip planes depends on where a geometry is.
+/// Returns whether a state clips, because the effect of clip planes depends on the place of a
+/// geometry.
 bool hasClipping(const std::vector<GraphState>& states)
 {
     return std::any_of(states.begin(), states.end(),
