@@ -70,7 +70,7 @@ struct ConversionInput : ConversionSettings
     bool rasterizesRest = false;
     /// True: the conversion makes a ConversionResult::pickIndex to look up hits.
     bool picks = false;
-    osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as displayed
+    osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< display value of the background
 };
 
 } // namespace osgRayTrace::engine

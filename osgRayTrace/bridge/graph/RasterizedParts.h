@@ -16,9 +16,9 @@ class CullVisitor;
 namespace osgRayTrace::engine
 {
 
-/// Names a drawable, camera or other node of the graph that is drawn as without ray tracing, or
-/// positional state (a light, clip planes, generated texture coordinates) that such a node may
-/// need.
+/// Names a drawable, camera or other node of the graph that is drawn as without ray tracing. A part
+/// may also be positional state (a light, clip planes, generated texture coordinates) that such a
+/// node may need.
 struct RasterizedPart
 {
     enum Kind
