@@ -47,9 +47,9 @@ float pixelWidth(const PassContext& context, int width, int height)
 constexpr std::size_t kRecordedPixels = 16384;
 constexpr std::size_t kMostRecordedStride = 16; ///< at least one of so many pixels is recorded
 
-/// Returns the sums by bin of the squares of what single photons added, relative to the radiance of
-/// the tile as in RenderProgress::relativeError: dim places matter, too. A bin may have thousands
-/// of photons.
+/// Returns the sums by bin of the squares of the contributions of single photons, relative to the
+/// radiance of the tile as in RenderProgress::relativeError: dim places matter, too. A bin may have
+/// thousands of photons.
 std::vector<SeenSquares> squaresOf(const std::vector<SeenPhoton>& seen, const RgbaLanes* rgba)
 {
     float sum = 0.0f;
@@ -197,8 +197,8 @@ double PhotonState::secondsOf(int pass) const
     return _pass->seconds;
 }
 
-/// Sums up what a whole pass saw, in the order of the tiles, so that the sums depend neither on the
-/// order of threads nor on how often the pass was interrupted.
+/// Sums up the contributions that a whole pass saw, in the order of the tiles. The sums therefore
+/// depend neither on the order of threads nor on how often the pass was interrupted.
 void PhotonState::sumUpSeen()
 {
     for (std::vector<SeenSquares>& tile : _seen)
@@ -276,7 +276,8 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
     {
         LocalStatistics& s = _statistics[((pass & 1) ? _pixels : 0) + first + p];
         if (s.radius2 == 0.0f) s.radius2 = gathered.radius[p] * gathered.radius[p];
-        // The film averages passes: the code adds what makes the average the new estimate.
+        // The film averages passes: the code adds the difference that makes the average the new
+        // estimate.
         const Vec3d before = Vec3d(localRadiance(s)) * static_cast<double>(s.passes);
         const bool finite = isFinite(gathered.flux[p]);
         addPhotons(s, finite ? gathered.count[p] : 0, gathered.flux[p], alpha);

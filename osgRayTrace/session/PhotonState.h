@@ -26,10 +26,10 @@ struct SeenSquares
 
 /// Chooses radii, holds the photons of the pass at work and, for the local schedule, the statistics
 /// of each pixel. Each pixel's first radius is the given one, or the smallest with kRadiusPhotons
-/// photons (radiusOf) from the width of a pixel up to the radius that holds kDensityPhotons photons
-/// around a photon in the median. Later radii follow the schedule; if the first pass that is guided
-/// to views has more photons, the radii become smaller by the same rule. All radii are kept between
-/// the spacing of floats and the radius of the scene.
+/// photons (radiusOf). That radius is at least the width of a pixel and at most the radius that
+/// holds kDensityPhotons photons around a photon in the median. Later radii follow the schedule; if
+/// the first pass that is guided to views has more photons, the radii become smaller by the same
+/// rule. All radii are kept between the spacing of floats and the radius of the scene.
 class PhotonState
 {
 public:
@@ -100,7 +100,8 @@ private:
     bool _dark = false;    ///< true: photons are emitted, but no light has power
     bool _limited = false; ///< true: the radius that was set is not the one in use
     bool _stored = false;  ///< true: some pass has stored photons
-    /// True: from pass PhotonPasses::kFirst on photons are guided to what this view has seen.
+    /// True: from pass PhotonPasses::kFirst on photons are guided to places that this view has
+    /// seen.
     bool _guides = false;
     int _preparedPass = -1;
     std::size_t _pixels = 0;                  ///< number of pixels of all tiles
