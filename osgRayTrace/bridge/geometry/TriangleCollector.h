@@ -11,7 +11,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Returns the triangles of all triangles, strips, fans, quads, quad strips and polygons of
+/// Returns the triangles of triangle lists, strips, fans, quads, quad strips and polygons of
 /// DrawArrays, MultiDrawArrays, DrawArrayLengths and DrawElements. Sets of other kinds are counted.
 /// Concave polygons are cut into triangles; OpenGL leaves their result open and draws fans. If
 /// numbered is true, the list has the numbers of primitives, and source is not set.
