@@ -9,7 +9,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Holds one surface for each cell: that of the first of its pixels that shows a surface.
+/// Holds one surface for each cell: the mean over those of its pixels that show the same surface as
+/// the first of them that shows any.
 struct CellGuides
 {
     CellPlane normalX, normalY, normalZ;
