@@ -27,8 +27,8 @@ bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
 }
 
 /// Returns whether the group is of a kit that draws its children in a way of its own, by a cull
-/// traversal only. OSG draws such a group if there is OpenGL; otherwise, or if an effect is hinted
-/// to be traced, the children stand for it.
+/// traversal only. OSG draws such a group if there is OpenGL. The children of an effect stand for
+/// it without OpenGL, or if the effect is hinted to be traced; a volume is then left out.
 bool GraphCollector::leavesGroup(osg::Node& node)
 {
     const bool effect = isFrom(&node, "osgFX"), volume = isFrom(&node, "osgVolume");
