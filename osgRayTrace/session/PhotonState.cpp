@@ -1,4 +1,4 @@
-// PhotonState.cpp - the state that a view keeps for photon mapping from pass to pass. Layer:
+// PhotonState.cpp - the state of photon mapping that a view keeps from pass to pass. Layer:
 // session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/PhotonState.h"
@@ -43,12 +43,13 @@ float pixelWidth(const PassContext& context, int width, int height)
     return widths[widths.size() / 2];
 }
 
-constexpr std::size_t kRecordedPixels = 16384;  ///< about as many pixels of a pass are recorded,
-constexpr std::size_t kMostRecordedStride = 16; ///< and at least one pixel of each so many
+/// Approximate number of pixels of a pass from which the guide learns.
+constexpr std::size_t kRecordedPixels = 16384;
+constexpr std::size_t kMostRecordedStride = 16; ///< at least one of so many pixels is recorded
 
-/// Sums by bin the squares of what single photons added, relative to the radiance of the tile as in
-/// RenderProgress::relativeError: dim places matter, too. There may be thousands of photons for
-/// each bin.
+/// Returns the sums by bin of the squares of the contributions of single photons, relative to the
+/// radiance of the tile as in RenderProgress::relativeError: dim places matter, too. A bin may have
+/// thousands of photons.
 std::vector<SeenSquares> squaresOf(const std::vector<SeenPhoton>& seen, const RgbaLanes* rgba)
 {
     float sum = 0.0f;
@@ -81,7 +82,7 @@ PhotonPassOptions passOptions(const RenderOptions& options)
     return result;
 }
 
-/// traced: the scene of the context.
+/// traced is the scene of the context.
 PhotonScene photonScene(const std::shared_ptr<const TracedScene>& traced,
                         const PassContext& context)
 {
@@ -126,8 +127,9 @@ void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& conte
     }
     for (float* radius : {&_least, &_largest})
         *radius = std::clamp(*radius, _floor, ceiling);
-    // Cells of another size round sums otherwise. Cells are therefore the same for all views,
-    // though the views' pixels differ. Cells a few times too small cost little.
+    // Sums over cells are rounded differently if the cells differ. The sums of all views should be
+    // the same, though the views' pixels differ, so the first cells are those of the photons'
+    // density. Cells a few times too small cost little.
     _cellRadius =
         wanted > 0.0f || !(density.radius > 0.0f) ? _largest : std::max(density.radius, _floor);
     while (2.0f * _cellRadius < _largest)
@@ -170,7 +172,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
     context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
     const float cell = 2.0f * std::max(_floor, _cellRadius * _shrink);
-    if (pass != _preparedPass || !_pass) // else the pass keeps the photons that it began with
+    if (pass != _preparedPass || !_pass) // otherwise the pass keeps the photons that it began with
         _pass = _passes->pass(scene, pass, cell, workers);
     context.photons = &_pass->map;
     _stored |= _pass->map.size() > 0;
@@ -195,8 +197,8 @@ double PhotonState::secondsOf(int pass) const
     return _pass->seconds;
 }
 
-/// Sums what a whole pass saw, in the order of the tiles: so the sums depend neither on threads nor
-/// on how often the pass was interrupted.
+/// Sums up the contributions that a whole pass saw, in the order of the tiles. The sums therefore
+/// depend neither on the order of threads nor on how often the pass was interrupted.
 void PhotonState::sumUpSeen()
 {
     for (std::vector<SeenSquares>& tile : _seen)
@@ -255,7 +257,7 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
     if (gathered.seenStride) _seen[static_cast<std::size_t>(tile)] = squaresOf(gathered.seen, rgba);
-    // Each tile has its share, so which tiles keep theirs does not depend on threads.
+    // The limit is by tile, so that the order of threads does not decide which hit points are kept.
     if (HitPoints* hits = hitPoints(tile, pass);
         hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())
         *hits = HitPoints();
@@ -274,7 +276,8 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
     {
         LocalStatistics& s = _statistics[((pass & 1) ? _pixels : 0) + first + p];
         if (s.radius2 == 0.0f) s.radius2 = gathered.radius[p] * gathered.radius[p];
-        // The film averages passes. The difference makes the average the new estimate.
+        // The film averages passes: the code adds the difference that makes the average the new
+        // estimate.
         const Vec3d before = Vec3d(localRadiance(s)) * static_cast<double>(s.passes);
         const bool finite = isFinite(gathered.flux[p]);
         addPhotons(s, finite ? gathered.count[p] : 0, gathered.flux[p], alpha);

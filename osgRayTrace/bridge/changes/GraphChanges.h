@@ -1,4 +1,4 @@
-// GraphChanges.h - what has changed in a scene graph since it was converted. Layer: bridge.
+// GraphChanges.h - the changes of a scene graph since it was converted. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,48 +14,51 @@
 namespace osgRayTrace::engine
 {
 
-/// One path to a geometry.
+/// Names one path to a geometry.
 struct ChangedUse
 {
     const osg::Geometry* geometry = nullptr;
-    uint32_t use = 0;  ///< number of this path among those to the geometry, in traversal order
-    uint32_t uses = 0; ///< that there are
+    uint32_t use = 0;  ///< number of the path among those to the geometry, in traversal order
+    uint32_t uses = 0; ///< number of all paths to the geometry
 };
 
-/// One whose transforms changed.
+/// Names a use whose transforms changed.
 struct MovedUse : ChangedUse
 {
     osg::Matrixd worldFromLocal;
 };
 
-/// One that has other state, or other arrays.
+/// Names a use that has other state, or other arrays.
 struct StateChange : MovedUse
 {
-    osg::NodePath path; ///< from the first node that was found to the geometry
+    osg::NodePath path; ///< path from the first node that was found to the geometry
 };
 
-/// Nodes that came or went.
+/// Names nodes that came or went.
 struct GraphSplice
 {
     std::vector<ChangedUse> removed;   ///< numbers and uses as they were before
-    osg::NodePath removedFrom;         ///< to the parent of the node that went
-    std::vector<Kept<osg::Node>> gone; ///< what removed points to
-    osg::NodePath added;               ///< to the node that came; empty: none
-    std::vector<ChangedUse> uses;      ///< of what came, in traversal order, as they are then
+    osg::NodePath removedFrom;         ///< path to the parent of the node that went
+    std::vector<Kept<osg::Node>> gone; ///< keeps alive the geometries of removed
+    osg::NodePath added;               ///< path to the node that came; empty: none came
+    /// Uses below the node that came, in traversal order, numbered as they are then.
+    std::vector<ChangedUse> uses;
 };
 
-/// Pointers into the graph: valid as long as nobody changes it. The numbers of uses in moved,
-/// deformed and stateChanges are those after all splices.
+/// Lists the changes of a graph by pointers into it, which are valid as long as nobody changes the
+/// graph. The numbers of uses in moved, deformed and stateChanges are those after all splices.
 struct GraphChanges
 {
-    bool convert = false; ///< the graph is to be converted again: there is more than what follows
-    bool record = false;  ///< and to be recorded again
+    /// True: the graph must be converted again, as the lists below do not tell all changes.
+    bool convert = false;
+    bool record = false;              ///< true: the graph must be recorded again as well
     ConversionReason reason;          ///< why convert is set: the first reason that was found
     std::vector<GraphSplice> splices; ///< in the order in which they are to be made
     std::vector<MovedUse> moved;
-    std::vector<const osg::Geometry*> deformed; ///< other positions, normals or primitives
+    /// Geometries with other positions, normals or primitives.
+    std::vector<const osg::Geometry*> deformed;
     std::vector<StateChange> stateChanges;
-    bool lights = false; ///< values of lights of any kind
+    bool lights = false; ///< true: values of lights of any kind changed
 
     bool none() const
     {

@@ -1,4 +1,4 @@
-// GraphHash.cpp - a cheap check whether a scene graph has changed. Layer: bridge.
+// GraphHash.cpp - checks cheaply whether a scene graph has changed. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/changes/GraphHash.h"
 
@@ -131,8 +131,8 @@ public:
     float getDistanceToEyePoint(const osg::Vec3& point, bool useLodScale) const override
     {
         const float scale = useLodScale && _view ? _view->lodScale : 1.0f;
-        const osg::Vec3d eye =
-            _eye * osg::Matrixd::inverse(_sceneFromLocal); // as in a cull traversal
+        // The inverse is taken as in a cull traversal.
+        const osg::Vec3d eye = _eye * osg::Matrixd::inverse(_sceneFromLocal);
         return static_cast<float>((osg::Vec3d(point) - eye).length()) * scale;
     }
 
@@ -142,7 +142,7 @@ public:
     }
 
 private:
-    /// Of what turns to the view or moves with it.
+    /// Adds the view for nodes that turn to the view or move with it.
     void hashView()
     {
         _hasher.add(_eye);
@@ -189,7 +189,8 @@ private:
         if (node.getStateSet()) addStateSet(_hasher, *node.getStateSet());
     }
 
-    static constexpr int kEnd = -1; // of the children: a node that moves one level up must show
+    // Marks the end of the children, so that a node that moves one level up changes the hash.
+    static constexpr int kEnd = -1;
 
     Hasher _hasher;
     KeptObjects* _kept;

@@ -1,4 +1,4 @@
-// GraphHash.h - a cheap check whether a scene graph has changed. Layer: bridge.
+// GraphHash.h - checks cheaply whether a scene graph has changed. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,14 +16,14 @@ namespace osgRayTrace::engine
 
 class BufferVersions;
 
-/// A number that changes with the children that are active for the eye, their order and masks, with
-/// transforms, with the modified counts and bounds of geometry, with state sets, and with the
-/// values of the attributes and lights that are traced; those of the inherited state included.
-/// Vertex data that is written without Array::dirty(), and images without Image::dirty(), go
-/// unseen: that is what dirtyScene() is for. Reads the graph only.
-/// sceneFromLocal: of the place that root is at. kept: as in Hasher. versions: stand for the
-/// modified counts of arrays and primitive sets, so that equal values are no change; slower.
-/// budget: what lies beyond it goes unseen; null: one of its own.
+/// Returns a number that changes with the children that are active for the eye, their order and
+/// masks, with transforms, and with the modified counts and bounds of geometry. The number also
+/// changes with state sets and with the values of the attributes and lights that are traced,
+/// including those of the inherited state. Vertex data that is written without Array::dirty(), and
+/// images without Image::dirty(), go unseen: dirtyScene() is for such changes. The graph is only
+/// read. sceneFromLocal belongs to the place of root. kept is as in Hasher. versions stand for the
+/// modified counts of arrays and primitive sets, so that equal values are no change; this is
+/// slower. Nodes beyond budget go unseen; null: the call has a budget of its own.
 uint64_t graphHash(osg::Node& root, const ViewingConditions& conditions,
                    const osg::Matrixd& sceneFromLocal = osg::Matrixd(), KeptObjects* kept = nullptr,
                    BufferVersions* versions = nullptr, PathBudget* budget = nullptr);

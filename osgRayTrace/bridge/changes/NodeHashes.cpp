@@ -1,5 +1,5 @@
-// NodeHashes.cpp - what is read of each class, without a virtual call where many nodes are of it.
-// Layer: bridge.
+// NodeHashes.cpp - reads nodes of each class, without a virtual call for frequent classes. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/changes/NodeHashes.h"
 
@@ -27,8 +27,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Of an even number of doubles, two at a time and each pair apart from the others, which makes it
-/// fast.
+/// Returns the hash of an even number of doubles. Two doubles at a time are hashed independently of
+/// the other pairs, which makes the function fast.
 inline uint64_t hashOfDoubles(const double* values, int count)
 {
     uint64_t hash = 0;

@@ -1,5 +1,5 @@
-// NodeHashes.h - numbers made of the values of a node, a light or an array, to tell whether they
-// have changed. Layer: bridge.
+// NodeHashes.h - hashes of the values of a node, a light or an array, to tell changes. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,25 +16,25 @@
 namespace osgRayTrace::engine
 {
 
-/// What decides on the matrix of a transform.
+/// Returns a hash of the values that decide on the matrix of a transform.
 uint64_t matrixHash(NodeKind kind, const osg::Node& node);
 
-/// The addresses in hashes are those of objects that WatchedGraph keeps alive.
+/// The addresses in these hashes are those of objects that WatchedGraph keeps alive.
 
-/// Its state set, its children and which of them are on, its frame; of any kind but Geometry and
-/// Untracked.
+/// Returns a hash of a node's state set, its children, which of them are on, and its frame, for any
+/// kind but Geometry and Untracked.
 uint64_t nodeHash(NodeKind kind, const osg::Node& node);
 
-/// The values of a light, its frame apart. kept: as in Hasher.
+/// Returns a hash of the values of a light except for its frame. kept is as in Hasher.
 uint64_t lightHash(NodeKind kind, const osg::Node& node, KeptObjects* kept = nullptr);
 
-/// Which arrays and primitive sets it has.
+/// Returns a hash of the arrays and primitive sets that a geometry has.
 uint64_t arraysHash(const osg::Geometry& geometry);
 
-/// What else decides on its conversion, its state set apart.
+/// Returns a hash of all else that decides on a geometry's conversion, except for its state set.
 uint64_t conversionHash(const osg::Geometry& geometry);
 
-/// The hint of a node as a number: most have none.
+/// Returns the hint of a node as a number; most nodes have none.
 uint8_t hintHash(const osg::Node& node);
 
 } // namespace osgRayTrace::engine

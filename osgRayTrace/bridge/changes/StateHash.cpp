@@ -1,4 +1,4 @@
-// StateHash.cpp - which values of OSG's attributes matter. Layer: bridge.
+// StateHash.cpp - selects the values of OSG's attributes that matter. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/changes/StateHash.h"
 
@@ -50,7 +50,8 @@ void addPhysicalMaterial(Hasher& hasher, const PhysicalMaterial& material)
     }
 }
 
-/// Of the frame, not of the scene; osgViewer has its own in each frame, in a state set of no node.
+/// Returns whether an attribute belongs to the frame and not to the scene; osgViewer has such
+/// attributes in each frame, in a state set of no node.
 bool isOfTheFrame(const osg::StateAttribute& attribute, bool ofNode)
 {
     return attribute.getType() == osg::StateAttribute::VIEWPORT ||

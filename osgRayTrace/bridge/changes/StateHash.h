@@ -1,4 +1,4 @@
-// StateHash.h - the values of state sets and lights, as far as they are traced. Layer:
+// StateHash.h - hashes the values of state sets and lights, as far as they are traced. Layer:
 // bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -13,16 +13,16 @@
 namespace osgRayTrace::engine
 {
 
-/// Modes, and attributes with their values and the modified counts of their images; but not what
-/// belongs to the frame, as the viewport does.
+/// Adds modes, and attributes with their values and the modified counts of their images. Attributes
+/// that belong to the frame, such as the viewport, are left out.
 void addStateSet(Hasher& hasher, const osg::StateSet& stateSet);
 
 void addLight(Hasher& hasher, const osg::Light& light);
 
-/// Its modified count and its data; null: none.
+/// Adds an image's modified count and its data; null stands for no image.
 void addImage(Hasher& hasher, const osg::Image* image);
 
-/// Its settings, and its images with their modified counts and data.
+/// Adds a texture's settings, and its images with their modified counts and data.
 void addTexture(Hasher& hasher, const osg::Texture& texture);
 
 void addTexGen(Hasher& hasher, const osg::TexGen& texGen);

@@ -17,7 +17,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// A place in a list with gaps.
+/// Returns the index of a free place in a list with gaps.
 template <class Item> uint32_t newIndex(std::vector<Item>& items, std::vector<uint32_t>& free)
 {
     if (free.empty())
@@ -33,7 +33,8 @@ template <class Item> uint32_t newIndex(std::vector<Item>& items, std::vector<ui
 
 } // namespace
 
-/// Of all transforms around it: what is here is not only a matter of matrices.
+/// Marks a place and all places around it as fixed, because their content depends on more than
+/// matrices.
 void WatchedGraph::fix(uint32_t place)
 {
     for (; place != kNowhere && !places[place].fixed; place = outerPlace(place))
@@ -77,7 +78,7 @@ void WatchedGraph::setBuffers(uint32_t index)
         });
 }
 
-/// Some may be gone by now.
+/// Sets the buffers of these geometries again; some of the geometries may be gone by now.
 void WatchedGraph::resetBuffers(const std::vector<uint32_t>& exchanged)
 {
     if (exchanged.empty()) return;
@@ -194,7 +195,7 @@ void WatchedGraph::appendGeometry(osg::Geometry& geometry, WatchedNode entry)
 
 void WatchedGraph::finish()
 {
-    std::unordered_map<const osg::Node*, bool>().swap(_known); // its buckets, too
+    std::unordered_map<const osg::Node*, bool>().swap(_known); // frees the buckets as well
 }
 
 void WatchedGraph::insert(uint32_t at, osg::Node& node, uint32_t parent,
@@ -212,7 +213,7 @@ void WatchedGraph::insert(uint32_t at, osg::Node& node, uint32_t parent,
         nodes[outer].end += count;
     if (at == before) return;
 
-    // What was appended goes back by this, what it is put before goes on by count.
+    // The appended nodes move back by this number; the nodes behind them move on by count.
     const uint32_t back = before - at;
     for (uint32_t i = at; i < before; ++i)
     {

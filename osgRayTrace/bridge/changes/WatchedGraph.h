@@ -1,4 +1,5 @@
-// WatchedGraph.h - the visible nodes of a graph in one array, with what they were. Layer: bridge.
+// WatchedGraph.h - the visible nodes of a graph in one array, with hashes of their values. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -23,50 +24,52 @@ namespace osgRayTrace::engine
 {
 
 constexpr uint32_t kNowhere = 0xffffffffu;
-constexpr uint32_t kOutermost = kNowhere >> 2; ///< of WatchedPlace::outer
+/// Value of WatchedPlace::outer without a place around.
+constexpr uint32_t kOutermost = kNowhere >> 2;
 
-/// More than a conversion takes, as the watch also looks at what that leaves to OSG.
+/// Largest number of watched nodes, which is more than a conversion takes, as the watch also looks
+/// at nodes that the conversion leaves to OSG.
 constexpr std::size_t kMostWatched = 2 * kMostPaths;
 
-/// A node on one path, see WatchedGraph::nodes.
+/// Holds a node on one path, see WatchedGraph::nodes.
 struct WatchedNode
 {
-    osg::Node* node = nullptr; ///< see WatchedGraph::kept
+    osg::Node* node = nullptr; ///< kept alive by WatchedGraph::kept
     uint64_t hash = 0;
-    uint32_t parent = kNowhere; ///< in nodes
-    uint32_t end = 0;           ///< in nodes: behind all that is below it
-    uint32_t state = kNowhere;  ///< in states; a geometry's is with it
-    uint32_t place = kNowhere;  ///< that it is in; a transform: its own
-    uint32_t item = kNowhere;   ///< Geometry: in geometries; Untracked: in untrackedNodes
+    uint32_t parent = kNowhere; ///< index in nodes
+    uint32_t end = 0;           ///< index in nodes, behind all nodes below
+    uint32_t state = kNowhere;  ///< index in states; a geometry's is with the WatchedGeometry
+    uint32_t place = kNowhere;  ///< place that contains the node; for a transform its own place
+    uint32_t item = kNowhere;   ///< index: Geometry in geometries, Untracked in untrackedNodes
     NodeKind kind = NodeKind::Group;
     uint8_t hint = 0;
-    bool repeated = false;     ///< the same node came before: looked at there
-    bool stateChanged = false; ///< while a look runs: state at it has changed
+    bool repeated = false;     ///< true: the same node came before, and the look is taken there
+    bool stateChanged = false; ///< while a look runs: the node's state has changed
 };
 
-/// A transform on a path.
+/// Holds a transform on a path.
 struct WatchedPlace
 {
-    uint64_t hash = 0;        ///< of its matrix
+    uint64_t hash = 0;        ///< hash of the transform's matrix
     uint32_t node = kNowhere; ///< kNowhere: gone
     uint32_t outer : 30;      ///< place around it; kOutermost: none
-    uint32_t fixed : 1;       ///< there is more in it than plain nodes and geometry
+    uint32_t fixed : 1;       ///< true: the place contains more than plain nodes and geometry
     uint32_t moved : 1;       ///< while a look runs
 };
 
-/// Once, on however many paths it is.
+/// Holds a geometry once, on however many paths it is.
 struct WatchedGeometry
 {
     osg::Geometry* geometry = nullptr; ///< one of the nodes; null: gone
-    uint64_t arrays = 0;               ///< hash of them
-    uint64_t conversion = 0;           ///< likewise
-    uint32_t uses = 0;                 ///< in nodes
+    uint64_t arrays = 0;               ///< hash of the arrays
+    uint64_t conversion = 0;           ///< hash of the other values, see conversionHash
+    uint32_t uses = 0;                 ///< number of uses in nodes
     uint32_t state = kNowhere;
     const osg::StateSet* stateSet = nullptr; ///< one of the states
-    // While a look runs:
+    // The members below are used while a look runs.
     uint64_t looked = 0;
     uint32_t counted = 0;
-    bool stateChanged = false; ///< it has other state or arrays
+    bool stateChanged = false; ///< true: the geometry has other state or arrays
 };
 
 struct WatchedBuffer
@@ -75,16 +78,16 @@ struct WatchedBuffer
     uint64_t hash = 0;
     uint32_t geometry = 0;
     BufferKind kind = BufferKind::Other;
-    bool shape = false;      ///< positions, normals or primitives
-    BufferContents contents; ///< as of the last change of the hash
+    bool shape = false;      ///< true: positions, normals or primitives
+    BufferContents contents; ///< values as of the last change of the hash
 };
 
 struct WatchedState
 {
     Kept<const osg::StateSet> stateSet; ///< null: gone
     uint64_t hash = 0;
-    KeptObjects kept;     ///< of hash
-    uint32_t uses = 0;    ///< by nodes and geometries
+    KeptObjects kept;     ///< objects in the hash
+    uint32_t uses = 0;    ///< number of nodes and geometries that use it
     bool changed = false; ///< while a look runs
 };
 
@@ -92,17 +95,17 @@ struct WatchedLight
 {
     uint32_t node = 0;
     uint64_t hash = 0;
-    KeptObjects kept; ///< of hash
+    KeptObjects kept; ///< objects in the hash
 };
 
-/// A child that a mask hides.
+/// Holds a child that a mask hides.
 struct HiddenNode
 {
     Kept<osg::Node> node;
     uint32_t parent = 0;
 };
 
-/// A node whose class is not known, with all below it.
+/// Holds a node whose class is not known, with all nodes below.
 struct UntrackedNode
 {
     UntrackedNode() = default;
@@ -110,63 +113,64 @@ struct UntrackedNode
     UntrackedNode& operator=(UntrackedNode&&) = default;
 
     osg::Matrixd sceneFromLocal;
-    KeptObjects kept;                         ///< of its hash
-    std::size_t budget = 0;                   ///< for its hash
-    std::optional<uint64_t> contents;         ///< its hash by versions, as of the last change
-    std::unique_ptr<BufferVersions> versions; ///< null: it has not changed
+    KeptObjects kept;                         ///< objects in the hash
+    std::size_t budget = 0;                   ///< budget for the hash
+    std::optional<uint64_t> contents;         ///< hash by versions, as of the last change
+    std::unique_ptr<BufferVersions> versions; ///< null: the node has not changed
 };
 
-/// All nodes that a traversal would visit, in its order, each on every path. Whatever is compared
-/// by its address is kept alive until its replacement was compared with it: nodes, state sets with
-/// their attributes and images, arrays. So what the application lets go of is freed with the next
-/// look. Subtrees can be taken out and put in.
+/// Holds all nodes that a traversal would visit, in its order, each on every path. Objects that are
+/// compared by their address are kept alive until their replacement was compared with them: nodes,
+/// state sets with their attributes and images, arrays. Objects that the application lets go of are
+/// therefore freed with the next look. Subtrees can be taken out and put in.
 struct WatchedGraph
 {
     std::vector<WatchedNode> nodes;
-    std::vector<Kept<osg::Node>> kept; ///< the nodes themselves; null: the owner
-    std::vector<WatchedPlace> places;  ///< outer ones before those in them
+    std::vector<Kept<osg::Node>> kept; ///< references to the nodes; null for the owner
+    std::vector<WatchedPlace> places;  ///< outer places come before the places in them
     std::vector<WatchedGeometry> geometries;
     std::vector<WatchedBuffer> buffers;
     std::vector<WatchedState> states;
     std::vector<WatchedLight> lights;
     std::vector<HiddenNode> hidden;
     std::vector<UntrackedNode> untrackedNodes;
-    const osg::Node* owner = nullptr; ///< the decorator, if any: it owns what watches it
-    std::size_t repeats = 0;          ///< nodes with repeated set
+    const osg::Node* owner = nullptr; ///< decorator, if any, which owns the object that watches it
+    std::size_t repeats = 0;          ///< number of nodes with repeated set
     unsigned int traversalMask = 0xffffffffu;
-    bool truncated = false;     ///< there are more than kMostWatched
-    std::size_t firstDepth = 1; ///< nodes on the path to the first one, with it
+    bool truncated = false;     ///< true: there are more nodes than kMostWatched
+    std::size_t firstDepth = 1; ///< number of nodes on the path to the first one, including it
 
     bool isVisible(const osg::Node& node) const
     {
         return (traversalMask & node.getNodeMask()) != 0;
     }
 
-    /// Appends what is visible at a node that lies below so many others.
+    /// Appends the visible nodes from a node on, which lies below depth others.
     void append(osg::Node& node, uint32_t parent, const osg::Matrixd& sceneFromParent,
                 std::size_t depth, const ViewingConditions& conditions);
 
-    /// The same, before the node at this index, which is a child of parent or behind its last.
+    /// Inserts the visible nodes from a node on before the node at this index, which is a child of
+    /// parent or behind its last.
     void insert(uint32_t at, osg::Node& node, uint32_t parent, const ViewingConditions& conditions);
 
-    /// Takes out a node with all below it, which the result keeps alive.
+    /// Takes out a node with all nodes below it, which the result keeps alive.
     std::vector<Kept<osg::Node>> erase(uint32_t at);
 
-    /// Whether it is on several paths, and looked at on one of them alone.
+    /// Returns whether a node is on several paths, and looked at on one of them alone.
     bool isRepeated(const osg::Node& node) const;
 
-    /// Whether that is so for something in there that is elsewhere, too.
+    /// Returns whether a node in the subtree is also elsewhere, and looked at in one place alone.
     bool isRepeatedElsewhere(uint32_t at) const;
 
     void setState(uint32_t& state, const osg::StateSet* stateSet);
 
-    /// Of geometries that have other arrays now.
+    /// Sets the buffers of geometries that have other arrays now.
     void resetBuffers(const std::vector<uint32_t>& exchanged);
 
     osg::Matrixd sceneFromLocal(uint32_t place) const;
     osg::NodePath pathTo(uint32_t node) const;
 
-    /// Forgets what only append() needs: which nodes came before.
+    /// Forgets the list of nodes that came before, which only append() needs.
     void finish();
 
 private:
@@ -185,9 +189,10 @@ private:
     void dropGonePlaces();
 
     std::unordered_map<const void*, uint32_t> _stateOf, _geometryOf;
-    std::unordered_map<const osg::Node*, bool> _known; ///< while a whole graph is appended
+    /// Nodes that came before; filled while a whole graph is appended.
+    std::unordered_map<const osg::Node*, bool> _known;
     std::vector<uint32_t> _freeStates, _freeGeometries;
-    PathBudget _untrackedBudget{kMostWatched}; ///< of all untracked nodes together
+    PathBudget _untrackedBudget{kMostWatched}; ///< budget of all untracked nodes together
     std::size_t _gonePlaces = 0;
 };
 

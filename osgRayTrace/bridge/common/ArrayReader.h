@@ -13,15 +13,15 @@
 namespace osgRayTrace::engine
 {
 
-/// Whether integers are taken as they are (positions) or as OpenGL takes colours and normals: the
-/// largest value is 1.
+/// Tells whether integers are taken as they are (positions) or as OpenGL takes colours and normals,
+/// whose largest value is 1.
 enum class IntegerMeaning
 {
     Plain,
     Normalized,
 };
 
-/// An array that forEachRow can read: 1 to 4 numbers an element.
+/// Returns whether forEachRow can read the array: it has 1 to 4 numbers an element.
 inline bool isReadable(const osg::Array* array)
 {
     if (!array || array->getNumElements() == 0 || !array->getDataPointer()) return false;
@@ -42,7 +42,7 @@ inline bool isReadable(const osg::Array* array)
     }
 }
 
-/// The elements as tightly packed rows of T, or null if the array is laid out in another way.
+/// Returns the elements as tightly packed rows of T, or null if the array has another layout.
 template <class T> const T* rowsOf(const osg::Array& array)
 {
     const bool same = array.getDataType() == GL_FLOAT && array.getElementSize() == sizeof(T) &&
@@ -50,11 +50,11 @@ template <class T> const T* rowsOf(const osg::Array& array)
     return same ? static_cast<const T*>(array.getDataPointer()) : nullptr;
 }
 
-/// Which rows to read, and how.
+/// Selects the rows to read, and how integers are read.
 struct RowSelection
 {
     std::size_t count = 0;
-    const uint32_t* rows = nullptr; ///< count row numbers; null: row i for i
+    const uint32_t* rows = nullptr; ///< count row numbers; null: all rows from 0 on
     IntegerMeaning integers = IntegerMeaning::Plain;
 };
 
@@ -83,7 +83,7 @@ void forEachRowOf(const osg::Array& array, const RowSelection& selection, const 
 }
 
 /// Calls body(i, value) for each selected row that exists; missing components are (0, 0, 0, 1) as
-/// in OpenGL. The array is readable.
+/// in OpenGL. The array must be readable.
 template <class Body>
 void forEachRow(const osg::Array& array, const RowSelection& selection, const Body& body)
 {

@@ -1,4 +1,4 @@
-// ClipPlanes.cpp - planes to engine space, boxes against planes. Layer: bridge.
+// ClipPlanes.cpp - takes planes to engine space, and tests boxes against planes. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
 
@@ -11,7 +11,7 @@ namespace osgRayTrace::engine
 bool ClipPlanes::set(const osg::ClipPlane& plane, const osg::Matrixd& engineFromLocal)
 {
     if (plane.getClipPlaneNum() >= kClipPlanes) return false;
-    // p_local . plane = p_engine . (M^-1 plane), points being rows.
+    // p_local . plane = p_engine . (M^-1 plane), as points are rows.
     const osg::Vec4d inEngine =
         osg::Matrixd::inverse(engineFromLocal).postMult(osg::Vec4d(plane.getClipPlane()));
     const Vec4d values(inEngine.x(), inEngine.y(), inEngine.z(), inEngine.w());

@@ -1,4 +1,4 @@
-// ClipPlanes.h - the clip planes of a graph, and what they cross. Layer: bridge.
+// ClipPlanes.h - the clip planes of a graph, and their effect on boxes. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,24 +14,25 @@
 namespace osgRayTrace::engine
 {
 
-/// Those whose modes are on, as bits.
+/// Returns the clip planes whose modes are on, as bits.
 inline uint64_t clipPlanesOn(const GraphState& state)
 {
     return state.modesOn >> kClipPlaneBit & ((uint64_t(1) << kClipPlanes) - 1);
 }
 
-/// As OpenGL keeps them: by number, the last one set stays, wherever in the graph it stands; a
-/// drawable is cut by those that its state has switched on. Planes that nobody has set cut nothing.
+/// Keeps clip planes as OpenGL does: by number, the last one set stays, wherever in the graph it
+/// stands; a drawable is cut by the planes that its state has switched on. Planes that nobody has
+/// set cut nothing.
 class ClipPlanes
 {
 public:
-    /// False if its number or its values are none.
+    /// Returns false if the plane's number or its values are invalid.
     bool set(const osg::ClipPlane& plane, const osg::Matrixd& engineFromLocal);
 
-    /// Lengths are divided by unit from now on.
+    /// Divides lengths by unit from now on.
     void applyUnit(double unit);
 
-    /// What (x, y, z, 1) . plane >= 0 leaves in engine space.
+    /// Returns the planes that are on; in engine space each keeps (x, y, z, 1) . plane >= 0.
     std::vector<Vec4d> planesOn(const GraphState& state) const;
 
 private:
@@ -45,7 +46,7 @@ enum class Clipping
     Wholly,
 };
 
-/// Of a box; Partly if in doubt. Empty bounds: Partly.
+/// Returns how a box is clipped: Partly if in doubt or if the bounds are empty.
 Clipping clippingOf(const VertexBounds& bounds, const osg::Matrixd& engineFromLocal,
                     const std::vector<Vec4d>& planes);
 

@@ -1,4 +1,4 @@
-// ConversionReport.cpp - wording of the conversion's warnings. Layer: bridge.
+// ConversionReport.cpp - words the conversion's warnings. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/ConversionReport.h"
 
@@ -16,7 +16,7 @@ namespace
 
 const char* const kMissing = "missing.";
 
-/// Said for each geometry by warnAboutGeometry.
+/// Returns whether warnAboutGeometry names the reason for each geometry.
 bool isNamedByGeometry(const std::string& what)
 {
     return std::any_of(std::begin(kReportReasons), std::end(kReportReasons),
@@ -42,7 +42,7 @@ void ConversionReport::count(const std::string& what, uint64_t number)
 {
     _counts[what] += number;
     _remarks += !begins(what, "converted.");
-    if (!_place || number == 0 || begins(what, kMissing)) return; // files are named instead
+    if (!_place || number == 0 || begins(what, kMissing)) return; // missing files are named instead
     const auto recorded = _paths.find(what);
     if (recorded == _paths.end() || recorded->second.size() < kPathsKept)
         recordPath(what, _place());

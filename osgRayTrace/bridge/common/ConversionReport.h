@@ -1,4 +1,4 @@
-// ConversionReport.h - counts of what a conversion met, where, and its warnings. Layer: bridge.
+// ConversionReport.h - counts, places and warnings of a conversion. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,25 @@
 namespace osgRayTrace::engine
 {
 
-/// Counts by "<class>.<reason>" as Statistics::conversion shows them: see ReportReasons.h.
+/// Counts objects by "<class>.<reason>", as Statistics::conversion tells them:
+/// - converted: parts of the Scene, namely geometry (drawables), instance, material, texture and
+///   light; the viewer's own light is a headlight or a sky-light
+/// - repaired: values that were replaced, namely normal, texture-coordinate, color (each a vertex),
+///   environment-not-finite, -negative, -too-bright (each a pixel), environment-scale
+/// - skipped: bad data left out, namely index-out-of-range, not-finite, degenerate (each a
+///   triangle); all other reasons count objects
+/// - warned: things that are traced as they are, and may not be what was meant, namely far-vertices
+///   (a drawable), opposite-normals (a triangle), and trace-hint for a node that is hinted to be
+///   traced but cannot be
+/// - approximated: things that are traced, but not with all that OpenGL would do (a drawable or an
+///   object)
+/// - unused: things that have no effect in OpenGL either, such as light-replaced: a light that the
+///   next one of its number replaces
+/// - not-traced: things that have no triangles, or that do not belong to the scene as a ray sees
+///   it; OSG draws them if there is a viewer
+/// - rasterized: things that have triangles but that OSG draws nevertheless, in a viewer
+/// - missing: files that could not be read, by their purpose; paths are "FILE" or "FILE, for NODE
+///   PATH"
 using ConversionCounts = std::map<std::string, uint64_t>;
 
 inline void addCounts(ConversionCounts& sum, const ConversionCounts& more)
@@ -21,7 +39,7 @@ inline void addCounts(ConversionCounts& sum, const ConversionCounts& more)
         sum[what] += count;
 }
 
-/// By the same keys: node paths of the first few objects.
+/// Holds the node paths of the first few objects by the keys of ConversionCounts.
 using ConversionPaths = std::map<std::string, std::vector<std::string>>;
 
 constexpr std::size_t kPathsKept = 4;
@@ -32,34 +50,34 @@ class ConversionReport
 public:
     using Place = std::function<std::string()>;
 
-    /// Where what is counted from now on is found: asked for the first few of each reason only, so
-    /// it may be slow. Empty: nowhere. What it refers to must live until the next call.
+    /// Sets the place of the objects that are counted from now on. The place is asked for with the
+    /// first few objects of each reason only, so it may be slow. Empty: no place. Objects that the
+    /// function refers to must live until the next call.
     void setPlace(Place place) { _place = std::move(place); }
 
     void count(const std::string& what, uint64_t number = 1);
     void add(const ConversionCounts& counts);
-    void add(const ConversionReport& other); ///< with its paths
+    void add(const ConversionReport& other); ///< adds the paths as well
 
     /// Counts one skipped or changed object and names it: "transform 'root/arm': singular,
     /// skipped".
     void warn(const std::string& what, const std::string& object, const std::string& message);
 
     /// Counts a file that could not be read, and names it: "texture wall.png: the file cannot be
-    /// read, " and what stands for it.
+    /// read, " and the substitute.
     void missing(const std::string& what, const std::string& file, const std::string& object,
                  const std::string& instead);
 
-    /// Adds the counts of what belongs to the present place, with the files that are missing for
-    /// it.
+    /// Adds counts that belong to the present place, with the files that are missing for it.
     void addHere(const ConversionReport& other);
 
     const ConversionCounts& counts() const { return _counts; }
 
-    /// Times that something was counted but what was converted.
+    /// Returns how often something was counted, apart from the counts of converted parts.
     uint64_t remarks() const { return _remarks; }
     const ConversionPaths& paths() const { return _paths; }
 
-    /// True if warn has said it, with a line of each object.
+    /// Returns whether warn has named this reason, with a line for each object.
     bool isNamed(const std::string& what) const { return _named.count(what) > 0; }
 
 private:
@@ -72,12 +90,12 @@ private:
     Place _place;
 };
 
-/// Says what was left out of a geometry, in one line for each reason.
+/// Warns about the omissions of a geometry, in one line for each reason.
 void warnAboutGeometry(const std::string& path, const ConversionCounts& counts);
 
 /// Names each reason why something does not look as OpenGL shows it, once in the life of the
-/// process, with the first object; those that are named object by object are left out.
-/// rasterizesRest: what is not traced is drawn by OSG, and not worth a warning.
+/// process, with the first object. Reasons that are named object by object are left out.
+/// rasterizesRest: parts that are not traced are drawn by OSG, and not worth a warning.
 void warnOnceAReason(const ConversionReport& report, bool rasterizesRest);
 
 } // namespace osgRayTrace::engine

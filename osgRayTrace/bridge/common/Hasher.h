@@ -1,4 +1,4 @@
-// Hasher.h - many values in one number, to tell whether one of them has changed. Layer: bridge.
+// Hasher.h - combines many values into one number, to tell whether one has changed. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -17,7 +17,7 @@ namespace osgRayTrace::engine
 class Hasher
 {
 public:
-    /// kept: gets references to the objects that are added. Whoever compares the value with a later
+    /// kept: gets references to the objects that are added. whoever compares the value with a later
     /// one holds them until then. Null: the value is compared with an earlier one, whose objects
     /// are held.
     explicit Hasher(KeptObjects* kept = nullptr) : _kept(kept) {}
@@ -47,14 +47,14 @@ public:
         (add(rest), ...);
     }
 
-    /// Which object it is, not its values. May be null.
+    /// Adds the identity of an object, which may be null, but not its values.
     void addObject(const osg::Referenced* object)
     {
         addData(object);
         if (_kept && object) _kept->push_back(keep(object));
     }
 
-    /// Where the data of an object is: one sign of a change among others.
+    /// Adds the address of an object's data, which is one sign of a change among others.
     void addData(const void* data) { add(reinterpret_cast<uintptr_t>(data)); }
 
     void addMatrix(const osg::Matrixd& matrix)
@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    void addBits(uint64_t bits) // [Steele14, mix64 of SplitMix, chained]
+    void addBits(uint64_t bits) // mix64 of SplitMix [Steele14], chained
     {
         uint64_t z = (_value ^ bits) + 0x9e3779b97f4a7c15u;
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -14,12 +14,12 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr double kViewerAspect = 1.25;   ///< of osgViewer's camera until there is a window
-constexpr double kNearestShare = 1.0e-3; ///< of the distance: the nearest near plane
-constexpr double kBoundMargin = 1.01;    ///< bounds are rounded
+constexpr double kViewerAspect = 1.25;   ///< aspect of osgViewer's camera until there is a window
+constexpr double kNearestShare = 1.0e-3; ///< nearest near plane, as a share of the distance
+constexpr double kBoundMargin = 1.01;    ///< margin for the rounding of bounds
 
-/// How far drawables reach from a point: bounds may be stored, and be smaller than what they are
-/// of.
+/// Returns how far drawables reach from a point. The bounds of nodes may be stored, and be smaller
+/// than their content.
 double reachOf(osg::Node& scene, const osg::Vec3d& center)
 {
     osg::ComputeBoundsVisitor drawables;
@@ -41,7 +41,8 @@ HomeView homeView(osg::Node& scene, double fovyDegrees, double aspect)
     const osg::ref_ptr<osgGA::TrackballManipulator> manipulator = new osgGA::TrackballManipulator;
     manipulator->setNode(&scene);
     manipulator->computeHomePosition(camera);
-    manipulator->setAutoComputeHomePosition(false); // home() would compute it without the camera
+    // Otherwise home() would compute it without the camera.
+    manipulator->setAutoComputeHomePosition(false);
     manipulator->home(0.0);
 
     osg::Vec3d eye, center, up;

@@ -17,7 +17,8 @@ struct Lanes
 {
     uint64_t values[kLanes] = {1, 2, 3, 4, 5, 6, 7, 8};
 
-    /// Each step can be undone if the words are known, so one word that differs shows in the end.
+    /// Adds a block. Each step can be undone if the words are known, so one word that differs shows
+    /// in the end.
     void add(const unsigned char* block)
     {
         uint64_t words[kLanes];

@@ -22,7 +22,7 @@ inline uint64_t bitsOf(const void* pointer)
     return reinterpret_cast<uintptr_t>(pointer);
 }
 
-/// Returns a hash of memory: blocks of 64 bytes that differ in one word never have the same.
+/// Returns a hash of memory: blocks of 64 bytes that differ in one word never have equal hashes.
 uint64_t memoryHash(const void* data, std::size_t bytes);
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// NodeKind.cpp - the class of a node, without a virtual call where many nodes are of it. Layer:
+// NodeKind.cpp - tells the class of a node, without a virtual call for frequent classes. Layer:
 // bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/NodeKind.h"
@@ -22,7 +22,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// The library's own decorator: a plain group for this traversal.
+/// Returns whether the node is the library's own decorator, a plain group for this traversal.
 bool isDecorator(const osg::Node& node)
 {
     return typeid(node) == typeid(RayTracedScene);
@@ -45,7 +45,7 @@ NodeKind kindOf(const osg::Node& node)
         return NodeKind::Geometry;
     const osg::Transform* transform = node.asTransform();
     if (transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF)
-        return NodeKind::Untracked; // where it is depends on the view
+        return NodeKind::Untracked; // the node's place depends on the view
     if (type == typeid(osg::MatrixTransform)) return NodeKind::MatrixTransform;
     if (type == typeid(osg::PositionAttitudeTransform)) return NodeKind::PositionAttitudeTransform;
     if (type == typeid(osg::Group) || type == typeid(osg::Geode)) return NodeKind::Group;

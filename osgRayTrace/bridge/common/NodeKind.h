@@ -9,23 +9,21 @@
 namespace osgRayTrace::engine
 {
 
-/// Classes whose values are known one by one.
+/// Names the classes whose values are known one by one.
 enum class NodeKind : uint8_t
 {
     Group,
     Switch,
     MatrixTransform,
     PositionAttitudeTransform,
-    Light, ///< the last that is a group
+    Light, ///< the last kind that is a group
     AreaLight,
     Environment,
     Geometry,
-    Untracked, ///< any other class, with all that is below it: see graphHash
+    Untracked, ///< any other class, with all nodes below: see graphHash
 };
 
-/// By the class itself: one derived from it may do anything. What a conversion makes of each class
-/// is in GraphCollector::apply(), which must read no more of a node than NodeHashes.cpp hashes for
-/// its kind; all other classes are Untracked.
+/// Returns the kind by the exact class, because a derived class may do anything.
 NodeKind kindOf(const osg::Node& node);
 
 inline bool isTransform(NodeKind kind)
@@ -38,10 +36,10 @@ inline bool isLight(NodeKind kind)
     return kind == NodeKind::Light || kind == NodeKind::AreaLight || kind == NodeKind::Environment;
 }
 
-/// osg::Group shows them one by one only, by virtual calls.
+/// Returns the children as a list; osg::Group has only virtual calls for one child at a time.
 const osg::NodeList& childrenOf(const osg::Group& group);
 
-/// Whether a group has this child active; masks apart.
+/// Returns whether a group has this child active; masks do not count.
 bool isOn(NodeKind kind, const osg::Group& group, unsigned int child);
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// ObjectIdentity.h - OSG's objects told apart by more than an address. Layer: bridge.
+// ObjectIdentity.h - tells OSG's objects apart by more than an address. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,19 +12,19 @@
 namespace osgRayTrace::engine
 {
 
-/// An address is an identity only while its object lives: malloc gives the address of a deleted
-/// object to the next one of its size. So whatever is compared by address is either kept alive, as
-/// Kept does, or known by its ObjectName.
+/// Releases a reference. An address is an identity only while its object lives: malloc gives the
+/// address of a deleted object to the next one of its size. Whatever is compared by address is
+/// therefore either kept alive, as Kept does, or known by its ObjectName.
 
 struct Unref
 {
     void operator()(const osg::Referenced* object) const { object->unref(); }
 };
 
-/// An osg::ref_ptr that can be moved without a change of the reference count.
+/// Owns a reference like an osg::ref_ptr, but can be moved without a change of the reference count.
 template <class T> using Kept = std::unique_ptr<T, Unref>;
 
-/// One more reference to the object; null stays null.
+/// Returns one more reference to the object; null stays null.
 template <class T> Kept<T> keep(T* object)
 {
     if (object) object->ref();
@@ -33,8 +33,8 @@ template <class T> Kept<T> keep(T* object)
 
 using KeptObjects = std::vector<Kept<const osg::Referenced>>;
 
-/// Names an object and does not keep it alive: two names are equal if they are of one object, also
-/// once it is deleted.
+/// Names an object without keeping it alive: two names are equal if they name one object, even
+/// after it is deleted.
 class ObjectName
 {
 public:
@@ -55,7 +55,8 @@ public:
     }
 
 private:
-    osg::ref_ptr<osg::ObserverSet> _observers; ///< every object has its own, which outlives it here
+    /// Every object has an observer set of its own, which outlives it here.
+    osg::ref_ptr<osg::ObserverSet> _observers;
 };
 
 } // namespace osgRayTrace::engine

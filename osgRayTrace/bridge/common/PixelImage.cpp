@@ -18,7 +18,7 @@ constexpr uint64_t kMostBytes = 0xffffffffu;
 
 unsigned int byteOf(float value)
 {
-    const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f; // NaN: 0
+    const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f; // NaN becomes 0
     return static_cast<unsigned int>(std::lround(255.0f * clamped));
 }
 

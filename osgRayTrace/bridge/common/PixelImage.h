@@ -10,17 +10,18 @@
 namespace osgRayTrace::engine
 {
 
-/// Rows without padding, pixels not initialised. Null, with a warning, if the image has more than
-/// the 4 GiB that osg::Image can count. Throws std::bad_alloc.
+/// Returns an image whose rows have no padding and whose pixels are not initialised. Returns null,
+/// with a warning, if the image has more than the 4 GiB that osg::Image can count. Throws
+/// std::bad_alloc.
 osg::ref_ptr<osg::Image> newPixelImage(int width, int height, GLenum format, GLenum type);
 
-/// A GL_FLOAT image of the values, which are width * height times the format's components. Null and
-/// throws as newPixelImage.
+/// Returns a GL_FLOAT image of the values, which are width * height times the format's components.
+/// Null and exceptions are as for newPixelImage.
 osg::ref_ptr<osg::Image> pixelImage(const std::vector<float>& values, int width, int height,
                                     GLenum format);
 
 /// Blends premultiplied GL_RGBA, GL_UNSIGNED_BYTE pixels over one colour in [0,1], to the value
-/// nearest to what OpenGL's (GL_ONE, GL_ONE_MINUS_SRC_ALPHA) has in a frame buffer of 8 bits.
+/// nearest to the result of OpenGL's (GL_ONE, GL_ONE_MINUS_SRC_ALPHA) in a frame buffer of 8 bits.
 void blendOver(osg::Image& image, const osg::Vec4& color);
 
 } // namespace osgRayTrace::engine

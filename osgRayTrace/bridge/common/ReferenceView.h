@@ -1,4 +1,4 @@
-// ReferenceView.h - the view that levels of detail, billboards and the like are converted for.
+// ReferenceView.h - the view for which levels of detail, billboards and the like are converted.
 // Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -13,12 +13,12 @@
 namespace osgRayTrace::engine
 {
 
-/// One of the views of a scene: that of all which has to be the same in all of them.
+/// Holds the one view of a scene that decides on everything that has to be equal in all its views.
 struct ReferenceView
 {
     osg::Matrixd viewFromWorld;
     osg::Matrixd projection;
-    double width = 0.0, height = 0.0; ///< pixels
+    double width = 0.0, height = 0.0; ///< size in pixels
     float lodScale = 1.0f;
 
     bool operator==(const ReferenceView& other) const
@@ -28,24 +28,25 @@ struct ReferenceView
     }
 };
 
-/// Answers what OSG's nodes ask a cull traversal (sizes in pixels, the eye, up), at one place at a
-/// time: a stack that followed the traversal would cost each transform a frustum.
+/// Answers the questions of OSG's nodes to a cull traversal (sizes in pixels, the eye, up), at one
+/// place at a time. A stack that followed the traversal would cost each transform a frustum.
 class ReferenceCullStack
 {
 public:
     explicit ReferenceCullStack(const std::optional<ReferenceView>& view);
 
-    /// Null without a view. Valid until the next call.
+    /// Returns the cull stack at a place; null without a view. The pointer is valid until the next
+    /// call.
     osg::CullStack* at(const osg::Matrixd& worldFromLocal) const;
 
 private:
     osg::Matrixd _viewFromWorld;
-    std::unique_ptr<osg::CullStack> _stack; // an osg::Referenced nowhere
+    std::unique_ptr<osg::CullStack> _stack; // osg::CullStack is no osg::Referenced
     mutable bool _placed = false;
 };
 
-/// World matrix below a transform at worldFromOuter. A transform with a frame of its own is in eye
-/// space, as OSG has it; without a view, in world space.
+/// Returns the world matrix below a transform at worldFromOuter. A transform with a frame of its
+/// own is in eye space, as in OSG; without a view it is in world space.
 osg::Matrixd worldFromLocal(const osg::Transform& node, const osg::Matrixd& worldFromOuter,
                             osg::NodeVisitor& visitor, const std::optional<ReferenceView>& view);
 

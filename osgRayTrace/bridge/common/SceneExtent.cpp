@@ -1,4 +1,4 @@
-// SceneExtent.cpp - how large a scene is, and its unit of length for float arithmetic. Layer:
+// SceneExtent.cpp - the size of a scene, and its unit of length for float arithmetic. Layer:
 // bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/SceneExtent.h"
@@ -14,14 +14,17 @@ namespace osgRayTrace::engine
 namespace
 {
 
-// Binary exponents. Embree is right where triangles and distances are 3e-13 to 4e12 long, 2^-41 to
-// 2^42: so extents have to leave room below for small triangles and above for long rays.
+// These are binary exponents. Embree is right if triangles and distances are 3e-13 to 4e12 long,
+// 2^-41 to 2^42: extents have to leave room below for small triangles and above for long rays.
 constexpr int kSmallestExtent = -16;
 constexpr int kLargestExtent = 31;
-constexpr uint64_t kOrdinaryShare = 8; ///< one in so many: then the scene is no tiny one
-constexpr int kOutlier = 50; ///< above the median; scaled with it, the median would be 2^-18
+/// A scene is not tiny if one in so many lengths is ordinary.
+constexpr uint64_t kOrdinaryShare = 8;
+/// Exponent above the median; scaled with an outlier, the median would be 2^-18.
+constexpr int kOutlier = 50;
 
-/// Of floats: with less than 2^10 of them from end to end a body shows its rounding.
+/// Largest ratio of coordinates to size: with less than 2^10 floats from end to end a body shows
+/// its rounding.
 constexpr double kCoarse = 16384.0;
 
 Vec3d positionOf(const Vec4d& row)
@@ -34,8 +37,8 @@ double largestOf(const Vec3d& v)
     return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
 }
 
-/// The common case, without a branch for each vertex: 2 ms a million. None if a coordinate is above
-/// the limit.
+/// Returns the bounds of the rows: the common case, without a branch for each vertex, which takes 2
+/// ms a million. There are no bounds if a coordinate is above the limit.
 VertexBounds boundsOfRows(const Vec3* rows, std::size_t count, float limit)
 {
     Vec3 low(kInfinity), high(-kInfinity);
@@ -52,7 +55,7 @@ VertexBounds boundsOfRows(const Vec3* rows, std::size_t count, float limit)
     return {Vec3d(low), Vec3d(high), count};
 }
 
-/// The box of all positions whose coordinates are within the limit. NaN fails.
+/// Returns the box of all positions whose coordinates are within the limit; NaN is not.
 VertexBounds boundsWithin(const osg::Array& positions, double limit)
 {
     VertexBounds bounds;
@@ -94,8 +97,8 @@ double LengthCounts::limit() const
     return std::ldexp(1.0, std::prev(beyond)->first + 1);
 }
 
-/// The tiny parts of a scene of ordinary size do not make it a tiny scene: they are too small to be
-/// seen.
+/// Returns the counts without the tiny parts of a scene of ordinary size: these parts do not make
+/// the scene tiny, as they are too small to be seen.
 LengthCounts LengthCounts::ordinary() const
 {
     uint64_t all = 0, ordinary = 0;
@@ -135,7 +138,7 @@ bool isOrdinaryLength(double length)
 
 VertexBounds vertexBounds(const osg::Array& positions)
 {
-    // Among coordinates of ordinary size there are no outliers.
+    // Coordinates of ordinary size have no outliers among them.
     constexpr float kOrdinary = 0x1p20f;
     if (const Vec3* rows = rowsOf<Vec3>(positions))
     {

@@ -27,14 +27,14 @@ public:
         return _owner ? _owner->osg::Group::computeBound() : osg::BoundingSphere();
     }
 
-    /// The owner calls this when it is destroyed; the drawable may be kept by others.
+    /// Forgets the owner, which calls this when it is destroyed; others may keep the drawable.
     void detach() { _owner = nullptr; }
 
 private:
     SceneRoot() = default;
     SceneRoot(const SceneRoot& other, const osg::CopyOp& copyop) : osg::Group(other, copyop) {}
 
-    osg::Group* _owner = nullptr; // owns this node, indirectly
+    osg::Group* _owner = nullptr; // owner, which owns this node indirectly
 };
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// StateStack.cpp - OVERRIDE, PROTECTED and the state that is followed. Layer: bridge.
+// StateStack.cpp - applies OVERRIDE and PROTECTED to the state that is followed. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/StateStack.h"
 
@@ -168,8 +168,8 @@ void applyAttribute(GraphState& state, unsigned int slot,
         overrides ? state.attributesOverride | mask : state.attributesOverride & ~mask;
 }
 
-/// Modes that share a bit (texture targets, texture generation) are set once, on if one of them is
-/// on.
+/// Applies modes. Modes that share a bit (texture targets, texture generation) are set once, on if
+/// one of them is on.
 template <class BitOf>
 void applyModes(GraphState& state, const osg::StateSet::ModeList& modes, const BitOf& bitOf)
 {
@@ -198,7 +198,7 @@ void applyMoreLights(GraphState& state, const osg::StateSet::ModeList& modes)
     state.moreLights = std::move(lights);
 }
 
-/// GL_TEXTURE_GEN_S and the three that follow it.
+/// Applies GL_TEXTURE_GEN_S and the three modes that follow it.
 void applyGeneration(GraphState& state, unsigned int unit, const osg::StateSet::ModeList& modes)
 {
     for (unsigned int coordinate = 0; coordinate < kTextureCoordinates; ++coordinate)

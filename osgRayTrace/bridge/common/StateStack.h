@@ -1,4 +1,4 @@
-// StateStack.h - the OpenGL state that a drawable inherits. Layer: bridge.
+// StateStack.h - accumulates the OpenGL state that a drawable inherits. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,8 +16,8 @@ namespace osgRayTrace::engine
 
 constexpr unsigned int kClipPlanes = 8;
 
-/// The modes that matter here, as bits of a set. Bits 0 to 31 are GL_LIGHT0 + n; higher numbers are
-/// in GraphState::moreLights.
+/// Names the modes that matter here, as bits of a set. Bits 0 to 31 are GL_LIGHT0 + n; lights of
+/// higher numbers are in GraphState::moreLights.
 enum ModeBit : unsigned int
 {
     kLightingBit = 32,
@@ -27,18 +27,18 @@ enum ModeBit : unsigned int
     kFogBit,
     kPrimitiveRestartBit,
     kFixedRestartBit, ///< primitive restart at the largest index of the type
-    kClipPlaneBit,    ///< and the bits that follow: kClipPlanes of them
+    kClipPlaneBit,    ///< first of kClipPlanes bits
     kClipPlaneBitEnd = kClipPlaneBit + kClipPlanes,
     kPolygonOffsetBit = kClipPlaneBitEnd,
     kStencilBit,
     kAssemblyProgramBit, ///< GL_VERTEX_PROGRAM_ARB or GL_FRAGMENT_PROGRAM_ARB
-    kTextureUnitBit,     ///< of unit 0: see UnitBit; then those of unit 1
-    kHigherTextureBit =
-        kTextureUnitBit + 10, ///< any texture target of units 2, 3, ...: up to bit 63
+    kTextureUnitBit,     ///< first bit of unit 0, see UnitBit; those of unit 1 follow
+    /// Any texture target of units 2, 3, ...: up to bit 63.
+    kHigherTextureBit = kTextureUnitBit + 10,
     kModeBitEnd = 64,
 };
 
-/// Of one texture unit.
+/// Names the modes of one texture unit.
 enum UnitBit : unsigned int
 {
     kTexture1DBit,
@@ -49,11 +49,11 @@ enum UnitBit : unsigned int
     kUnitBits,
 };
 
-constexpr unsigned int kUnits = 2;              ///< that are followed
+constexpr unsigned int kUnits = 2;              ///< number of texture units that are followed
 constexpr unsigned int kTextureCoordinates = 4; ///< S, T, R, Q
 static_assert(kTextureUnitBit + kUnits * kUnitBits == kHigherTextureBit, "bits of the units");
 
-/// The attributes that matter here.
+/// Names the attributes that matter here.
 enum AttributeSlot : unsigned int
 {
     kMaterialSlot,
@@ -62,7 +62,7 @@ enum AttributeSlot : unsigned int
     kProgramSlot,
     kPolygonModeSlot,
     kPrimitiveRestartSlot,
-    kClipPlaneSlot, ///< of any number: the last one met; those of clip nodes are no attributes
+    kClipPlaneSlot, ///< last one met, of any number; planes of clip nodes are no attributes
     kBlendFuncSlot,
     kAlphaFuncSlot,
     kCullFaceSlot,
@@ -70,12 +70,12 @@ enum AttributeSlot : unsigned int
     kPolygonOffsetSlot,
     kStencilSlot,
     kColorMaskSlot,
-    kAssemblyProgramSlot, ///< osg::VertexProgram or osg::FragmentProgram: the last one met
-    kUnitSlot,            ///< of unit 0: see UnitSlot; then those of unit 1
+    kAssemblyProgramSlot, ///< last osg::VertexProgram or osg::FragmentProgram met
+    kUnitSlot,            ///< first slot of unit 0, see UnitSlot; those of unit 1 follow
     kAttributeSlots = kUnitSlot + 8,
 };
 
-/// Of one texture unit.
+/// Names the attributes of one texture unit.
 enum UnitSlot : unsigned int
 {
     kTextureSlot,
@@ -88,21 +88,22 @@ static_assert(kUnitSlot + kUnits * kUnitSlots == kAttributeSlots, "slots of the 
 
 constexpr int kMaskedLights = 32; ///< osg::Light numbers with a bit of their own
 
-/// osg::Light numbers end here: GL_LIGHT0 + n is from there on the name of another mode of OpenGL.
+/// End of the osg::Light numbers: GL_LIGHT0 + n is from this number on the name of another mode of
+/// OpenGL.
 constexpr int kLightNumbers = 0x4000;
 
-/// osg::Light numbers from kMaskedLights on, with the value that GL_LIGHT0 + n was set to.
+/// Maps osg::Light numbers from kMaskedLights on to the value that GL_LIGHT0 + n was set to.
 using LightModes = std::map<unsigned int, unsigned int>;
 
-/// Accumulated state. Attributes live as long as the StateStack does, unless somebody changes a
-/// state set.
+/// Holds accumulated state. Attributes live as long as the StateStack does, unless somebody changes
+/// a state set.
 struct GraphState
 {
     uint64_t modesOn = 0;
     uint64_t modesOverride = 0;
     std::array<const osg::StateAttribute*, kAttributeSlots> attributes{};
     uint32_t attributesOverride = 0;              ///< bit: AttributeSlot
-    std::shared_ptr<const LightModes> moreLights; ///< null: none were set
+    std::shared_ptr<const LightModes> moreLights; ///< null: none was set
     std::array<uint8_t, kUnits> generated{};      ///< bit n: coordinate n of the unit is generated
     std::array<uint8_t, kUnits> generatedOverride{};
 
@@ -117,7 +118,7 @@ struct GraphState
     }
     bool usesHigherTextures() const { return modesOn >> kHigherTextureBit != 0; }
 
-    /// Null if there is none of this class.
+    /// Returns the attribute of a slot; null if there is none of this class.
     template <class T> const T* attribute(AttributeSlot slot) const
     {
         return dynamic_cast<const T*>(attributes[slot]);
@@ -128,8 +129,9 @@ struct GraphState
     }
 };
 
-/// Pushes StateSets as osg::State does: a value replaces the inherited one unless that has OVERRIDE
-/// and the new one lacks PROTECTED. Equal sequences of pushes give the same state number.
+/// Pushes StateSets as osg::State does: a value replaces the inherited one unless the inherited
+/// value has OVERRIDE and the new one lacks PROTECTED. Equal sequences of pushes give the same
+/// state number.
 class StateStack
 {
 public:
@@ -138,11 +140,11 @@ public:
     void push(const osg::StateSet& stateSet);
     void pop() { _stack.pop_back(); }
 
-    /// Stencil and colour mask that were pushed up to now hold for all of the picture alike, traced
-    /// or not: from here on they are none.
+    /// Forgets stencil and colour masks that were pushed up to now, because they hold for all of
+    /// the picture alike, traced or not.
     void forgetMasks();
 
-    /// Number of the current state in states().
+    /// Returns the number of the current state in states().
     uint32_t top() const { return _stack.back(); }
     const std::vector<GraphState>& states() const { return _states; }
 

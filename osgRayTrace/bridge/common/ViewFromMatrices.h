@@ -11,14 +11,15 @@
 namespace osgRayTrace::engine
 {
 
-/// OSG multiplies row vectors from the left and stores rows; glm multiplies column vectors from the
-/// right and stores columns. So the sixteen numbers of a matrix stand in the same order in both.
+/// Converts a matrix. OSG multiplies row vectors from the left and stores rows; glm multiplies
+/// column vectors from the right and stores columns. The sixteen numbers of a matrix therefore
+/// stand in the same order in both.
 inline Mat4d matrixFromOsg(const osg::Matrixd& matrix)
 {
     return glm::make_mat4(matrix.ptr());
 }
 
-/// The view of a pass. Width and height in pixels.
+/// Returns the view of a pass. Width and height are in pixels.
 inline View viewFromMatrices(const osg::Matrixd& viewMatrix, const osg::Matrixd& projectionMatrix,
                              int width, int height)
 {

@@ -1,4 +1,4 @@
-// ViewingConditions.cpp - what a conversion takes from the pass. Layer: bridge.
+// ViewingConditions.cpp - reads a pass for a conversion. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
 
@@ -15,14 +15,16 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// A light of the pass as OSG keeps it: matrix takes it to the eye space of the pass.
+/// Holds a light of the pass as OSG keeps it, with the matrix that takes it to the eye space of the
+/// pass.
 struct PositionedLight
 {
     const osg::Light* light = nullptr;
     osg::Matrixd eyeFromLight;
 };
 
-/// The first one, or what came after it with its number: OpenGL keeps the last of a number.
+/// Returns the first light, or the last one after it with its number, as OpenGL keeps the last of a
+/// number.
 PositionedLight firstLight(osgUtil::PositionalStateContainer& container, const osg::Matrixd& toEye)
 {
     PositionedLight found;
@@ -35,9 +37,10 @@ PositionedLight firstLight(osgUtil::PositionalStateContainer& container, const o
     return found;
 }
 
-/// SceneView adds its light to the stage before it traverses the graph, with no matrix for a
-/// headlight and with the view matrix for a sky light. A camera in the graph inherits the container
-/// of its parent stage together with the matrix between the two eye spaces.
+/// Returns the first light of a stage. SceneView adds its light to the stage before it traverses
+/// the graph, with no matrix for a headlight and with the view matrix for a sky light. A camera in
+/// the graph inherits the container of its parent stage together with the matrix between the two
+/// eye spaces.
 PositionedLight firstLight(osgUtil::RenderStage& stage)
 {
     PositionedLight found = firstLight(*stage.getPositionalStateContainer(), osg::Matrixd());
@@ -47,9 +50,10 @@ PositionedLight firstLight(osgUtil::RenderStage& stage)
     return found;
 }
 
-/// A state set of no node is SceneView's own, to which its draw adds a colour mask while the next
-/// update reads: copied in cull, before that draw. Those of nodes stay themselves, so that the next
-/// update sees what the application changes in them.
+/// Returns a state set that no thread of OSG's changes. A state set of no node is SceneView's own:
+/// its draw adds a colour mask while the next update reads, so it is copied in cull, before that
+/// draw. State sets of nodes are not copied, so that the next update sees the application's
+/// changes.
 osg::ref_ptr<const osg::StateSet> unchanging(const osg::StateSet& stateSet)
 {
     if (stateSet.getNumParents() > 0) return &stateSet;
@@ -65,7 +69,7 @@ std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState(const osgUtil::Sta
     return stateSets;
 }
 
-/// Equal but for the rounding of numbers of this size.
+/// Returns whether two points are equal but for the rounding of numbers of this size.
 bool close(const osg::Vec3d& a, const osg::Vec3d& b, double size)
 {
     return (a - b).length() <= 1e-5 * size;
@@ -76,8 +80,8 @@ osg::Vec3d xyz(const osg::Vec4& v)
     return {v.x(), v.y(), v.z()};
 }
 
-/// Positions went through the eye space of their pass, and so were rounded as the eye's distance
-/// is.
+/// Returns whether two lights are equal. Positions went through the eye space of their pass, and so
+/// were rounded to the precision of the eye's distance.
 bool sameLight(const osg::Light* a, const osg::Light* b, const osg::Vec3d& eye)
 {
     if (!a || !b) return a == b;

@@ -1,4 +1,4 @@
-// ViewingConditions.h - what a conversion takes from the pass. Layer: bridge.
+// ViewingConditions.h - the inputs that a conversion takes from the pass. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -19,29 +19,29 @@ class CullVisitor;
 namespace osgRayTrace::engine
 {
 
-/// All in the scene's own coordinates: those of the node that cull has reached.
+/// Holds the conditions in the scene's own coordinates: those of the node that cull has reached.
 struct ViewingConditions
 {
     osg::Vec3d eye;
-    std::optional<ReferenceView> view; ///< none if there is no viewport
+    std::optional<ReferenceView> view; ///< nothing if there is no viewport
     unsigned int traversalMask = 0xffffffffu;
 
-    /// The first light that the pass had when it came to the scene; that is osgViewer's own, which
-    /// is in no graph, unless it has none. Null: none. A copy.
+    /// Copy of the first light that the pass had when it came to the scene; null: none. The light
+    /// is osgViewer's own, which is in no graph, unless the viewer has none.
     osg::ref_ptr<const osg::Light> light;
     bool lightInEyeSpace = true;
 
-    /// The state sets above the place, the outermost first; no thread of OSG's changes them.
+    /// State sets above the place, the outermost first; no thread of OSG's changes them.
     std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState;
 
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f};
 };
 
-/// Those of the visitor's pass, where it stands. Cull thread.
+/// Returns the conditions of the visitor's pass at the visitor's place. Cull thread.
 ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor);
 
-/// True if a scene converted for a need not be converted again for b. The eye, the view and
-/// the inherited state are not compared; a light that only moved by rounding is the same.
+/// Returns whether a scene converted for a need not be converted again for b. The eye, the view and
+/// the inherited state are not compared; a light that only moved by rounding is equal.
 bool convertAlike(const ViewingConditions& a, const ViewingConditions& b);
 
 } // namespace osgRayTrace::engine

@@ -16,9 +16,10 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr size_t kMostMessages = 4096; ///< then silence: a scene may hold any number of bad objects
+/// Number of messages before silence, because a scene may hold any number of bad objects.
+constexpr size_t kMostMessages = 4096;
 
-/// True the first time that a subject is seen.
+/// Returns whether a subject is seen for the first time.
 bool isNew(const std::string& subject)
 {
     static std::mutex mutex;

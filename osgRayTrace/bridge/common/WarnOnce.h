@@ -7,11 +7,11 @@
 namespace osgRayTrace::engine
 {
 
-/// Says a message through osg::notify(WARN), once in the life of the process; not at all if
-/// there is no memory left for that. Any thread.
+/// Writes a message through osg::notify(WARN), once in the life of the process; without memory for
+/// the message nothing is written. Any thread may call this.
 void warnOnce(const std::string& message) noexcept;
 
-/// The same, once for each subject, whatever the message is.
+/// Writes a message once for each subject, whatever the message is; otherwise as warnOnce.
 void warnOnceFor(const std::string& subject, const std::string& message) noexcept;
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// ConversionResult.h - what a conversion makes of a scene graph. Layer: bridge.
+// ConversionResult.h - the result of converting a scene graph. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -18,12 +18,12 @@ struct ConversionResult
 {
     std::shared_ptr<const Scene> scene; ///< never null
     ConversionCounts counts;
-    ConversionPaths paths; ///< of what is counted, the first few
-    /// For OSG to draw; null if nothing is, or ConversionInput::rasterizesRest is not set.
+    ConversionPaths paths; ///< node paths of the first few counted objects
+    /// Parts that OSG draws; null if there are none, or ConversionInput::rasterizesRest is not set.
     std::shared_ptr<const RasterizedParts> rasterized;
     std::shared_ptr<const PickIndex> pickIndex; ///< null unless ConversionInput::picks
-    bool paged = false; ///< parts of the graph are files that are read when they are seen
-    /// Of those in the scene: what was removed left them, and they hold nothing.
+    bool paged = false; ///< true: parts of the graph are files that are read when they are seen
+    /// Numbers of instances and meshes in the scene that removed parts left, and that hold nothing.
     std::size_t emptyInstances = 0, emptyMeshes = 0;
     double seconds = 0.0;
 };

@@ -1,4 +1,4 @@
-// ConversionState.cpp - when a scene shall have no static BVH any more. Layer: bridge.
+// ConversionState.cpp - decides when a scene gets no static BVH any more. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/ConversionState.h"
 
@@ -12,7 +12,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Builds of a larger one for the sake of what leaves it; then all meshes get BVHs of their own.
+/// Largest number of builds of a large static BVH because something left it; after them all meshes
+/// get BVHs of their own.
 constexpr int kMostStaticBuilds = 3;
 
 } // namespace

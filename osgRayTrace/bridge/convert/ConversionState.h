@@ -1,4 +1,4 @@
-// ConversionState.h - what is kept between two Scenes of one graph. Layer: bridge.
+// ConversionState.h - the state that is kept between two Scenes of one graph. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,10 +16,10 @@
 namespace osgRayTrace::engine
 {
 
-/// Vertices of the static BVH: fewer are built again in no time.
+/// Vertices of a static BVH below which it is rebuilt in negligible time.
 constexpr uint64_t kSmallStatic = 32768;
 
-/// What is converted again only if it has changed.
+/// Holds parts that are converted again only if they have changed.
 struct ConversionCaches
 {
     SoftwareVertices vertices;
@@ -29,35 +29,35 @@ struct ConversionCaches
     struct Quad
     {
         std::shared_ptr<const Mesh> mesh;
-        bool dynamic = false; ///< has moved: it is in no static BVH
+        bool dynamic = false; ///< true: the quad has moved and is in no static BVH
         uint32_t instance = kInvalid;
         Light light;
     };
     std::vector<Quad> areaLights;                          ///< in the order of the traversal
     std::vector<std::shared_ptr<const Mesh>> staticMeshes; ///< all meshes that are not placed
     uint64_t staticVertices = 0;
-    int staticBuilds = 0;     ///< of a large static BVH that something has left
-    bool noStaticBvh = false; ///< there is no static BVH any more
+    int staticBuilds = 0;     ///< builds of a large static BVH after something left it
+    bool noStaticBvh = false; ///< true: there is no static BVH any more
 };
 
-/// If a large static BVH must be built time and again, there shall be none.
+/// Records the static meshes. A large static BVH that must be built time and again is given up.
 void recordStaticMeshes(const Scene& scene, bool comparable, ConversionCaches& caches);
 
-/// What the last Scene was made of. Keeps those nodes of the graph that it names alive until the
-/// next conversion or patch.
+/// Holds the sources of the last Scene. The nodes of the graph that it names are kept alive until
+/// the next conversion or patch.
 struct ConvertedGraph
 {
     SceneIndex index;
     bool setsColor = false; ///< see MaterialRules
     MaterialList materials;
     LightSources lights;
-    ConversionCounts lightCounts; ///< of setLights
+    ConversionCounts lightCounts; ///< counts of setLights
     PlacedTexGens texGens;
-    std::vector<uint32_t> instanceGaps, meshGaps; ///< what was removed left them
-    uint32_t emptyMesh = kInvalid;                ///< index of the mesh that gaps are instances of
+    std::vector<uint32_t> instanceGaps, meshGaps; ///< indices that removed parts left
+    uint32_t emptyMesh = kInvalid; ///< index of the mesh that instances in gaps refer to
 };
 
-/// A mesh without triangles: an instance of it is none.
+/// Returns a mesh without triangles, whose instances are never hit.
 const std::shared_ptr<const Mesh>& emptyMesh();
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,5 @@
-// SceneConverter.cpp - from a graph to a Scene, and from its changes to the next. Layer: bridge.
+// SceneConverter.cpp - converts a graph to a Scene, and its changes to the next Scene. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/SceneConverter.h"
 
@@ -44,7 +45,8 @@ bool setsColor(const CollectedGraph& graph)
     return false;
 }
 
-/// Geometry that OpenGL draws is where its path puts it: it may move without a conversion.
+/// Adds geometry that OpenGL draws. Its place is that of its path, so it may move without a
+/// conversion.
 void addUntraced(const RasterizedParts& parts, SceneIndex& index)
 {
     std::vector<const osg::Geometry*> untraced;
@@ -59,7 +61,8 @@ void addUntraced(const RasterizedParts& parts, SceneIndex& index)
         index.at(*geometry).uses.emplace_back();
 }
 
-/// Where planes clip depends on where a geometry is.
+/// Returns whether a state clips, because the effect of clip planes depends on the place of a
+/// geometry.
 bool hasClipping(const std::vector<GraphState>& states)
 {
     return std::any_of(states.begin(), states.end(),
@@ -77,11 +80,11 @@ struct SceneConverter::Implementation
 {
     ConversionCaches caches;
     ConvertedGraph convertedGraph;
-    ConversionInput input; ///< of last
+    ConversionInput input; ///< input of the last conversion
     std::shared_ptr<const Scene> last;
     ConversionResult lastResult;
     uint64_t forgotten = 0; ///< meshes that were made before the caches were emptied
-    bool ordinary = false;  ///< unit is 1, and stays so as long as lengths are ordinary
+    bool ordinary = false;  ///< true: unit is 1, and stays so as long as lengths are ordinary
     Stamp stamp = 0;
 };
 
@@ -96,7 +99,7 @@ void SceneConverter::releaseGraph()
     state.caches.vertices = SoftwareVertices();
     state.lastResult = ConversionResult();
     state.input = ConversionInput();
-    state.ordinary = false; // so nothing can be patched
+    state.ordinary = false; // prevents patches
 }
 
 void SceneConverter::forget()

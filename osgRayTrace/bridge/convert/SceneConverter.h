@@ -1,4 +1,5 @@
-// SceneConverter.h - from an OpenSceneGraph scene graph to a Scene of the engine. Layer: bridge.
+// SceneConverter.h - converts an OpenSceneGraph scene graph to a Scene of the engine. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -18,7 +19,8 @@ struct PatchResult
     ConversionReason reason;                    ///< why there is nothing
 };
 
-/// Keeps what it needs to share unchanged parts between snapshots. Used by one thread at a time.
+/// Converts graphs and keeps the state that it needs to share unchanged parts between snapshots.
+/// Only one thread may use a converter at a time.
 class SceneConverter
 {
 public:
@@ -26,25 +28,27 @@ public:
     ~SceneConverter();
 
     /// Converts the graph as it is now. The graph is read, not changed (bounds may be computed).
-    /// Warns once an object through osg::notify. Bad data is skipped and counted; throws
-    /// std::bad_alloc only. Geometry and images are taken as unchanged while their modified counts
-    /// are (see GeometryCache and TextureConverter); an unchanged graph gives the last Scene
-    /// itself.
+    /// The converter warns once an object through osg::notify. Bad data is skipped and counted;
+    /// only std::bad_alloc is thrown. Geometry and images are taken as unchanged while their
+    /// modified counts stay (see GeometryCache and TextureConverter); an unchanged graph gives the
+    /// last Scene itself.
     ConversionResult convert(const ConversionInput& input);
 
-    /// The last scene with these changes alone redone; the scene itself if they change nothing.
-    /// No conversion: call convert(). The graph has no other changes since the last call of either,
-    /// which did not throw.
+    /// Returns the last scene with these changes alone applied, or the last scene itself if they
+    /// change nothing. The result has no conversion, but a reason, if convert() has to be called.
+    /// The graph must have no other changes since the last call of convert() or patch() that did
+    /// not throw.
     PatchResult patch(const GraphChanges& changes);
 
-    /// Meshes that were made from arrays, ever.
+    /// Returns the number of meshes that were ever made from arrays.
     uint64_t convertedMeshes() const;
 
-    /// Keeps nothing of the graph alive until the next call of convert(), which comes before one of
-    /// patch(); but for arrays and images that have not changed by then.
+    /// Lets go of the graph until the next call of convert(), which must come before a call of
+    /// patch(). Arrays and images are kept if they have not changed by then.
     void releaseGraph();
 
-    /// The next conversion reads all arrays and images again, whatever their modified counts say.
+    /// Makes the next conversion read all arrays and images again, whatever their modified counts
+    /// say.
     void forget();
 
 private:

@@ -1,4 +1,4 @@
-// SceneIndex.cpp - how state decides on more than the material of a surface. Layer: bridge.
+// SceneIndex.cpp - finds the effects of state beyond the material of a surface. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/SceneIndex.h"
 

@@ -1,4 +1,4 @@
-// SceneIndex.h - which part of a Scene each path to a geometry has become. Layer: bridge.
+// SceneIndex.h - the part of a Scene that each path to a geometry has become. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,7 +16,7 @@
 namespace osgRayTrace::engine
 {
 
-/// What of a use's state decides on more than its material.
+/// Holds the effects of a use's state beyond its material.
 struct StateEffects
 {
     const char* rasterized = nullptr; ///< see rasterizedState
@@ -24,38 +24,39 @@ struct StateEffects
     float depthBias = 0.0f;
     bool physical = false;
     bool setsColor = false;  ///< see setsCurrentColor
-    uint64_t clipPlanes = 0; ///< that are on, see clipPlanesOn
-    bool hasAmbient = false; ///< a light model of its own, lit
+    uint64_t clipPlanes = 0; ///< planes that are on, see clipPlanesOn
+    bool hasAmbient = false; ///< true: the state has a light model of its own, lit
     Vec3 ambient{0.0f};
-    ConversionCounts counts; ///< of its material
+    ConversionCounts counts; ///< counts of the use's material
 
     bool operator==(const StateEffects& other) const;
 };
 
-/// textures: as in rasterizedState.
+/// Returns the effects of a state. textures is as in rasterizedState.
 StateEffects stateEffectsOf(const GraphState& state, const TextureConverter& textures);
 
 struct TracedUse
 {
-    uint32_t instance = kInvalid; ///< kInvalid: nothing of it is traced
-    uint32_t effects = kInvalid;  ///< kInvalid: OSG draws it
+    uint32_t instance = kInvalid; ///< kInvalid: the use is not traced
+    uint32_t effects = kInvalid;  ///< kInvalid: OSG draws the use
 };
 
 struct TracedGeometry
 {
-    osg::ref_ptr<const osg::Geometry> geometry; ///< its key in SceneIndex::geometries
+    osg::ref_ptr<const osg::Geometry> geometry; ///< key in SceneIndex::geometries
     std::vector<TracedUse> uses;                ///< in the order of the traversal
-    bool patchable = true; ///< false: made where it is, as raised faces are, or not watched
-    bool plain = true;     ///< nothing of it is counted but that it was converted
+    /// False: the mesh is made at its place, as raised faces are, or is not watched.
+    bool patchable = true;
+    bool plain = true; ///< true: only its conversion is counted
 };
 
 /// Uses are added, changed and removed by the functions below alone, which count.
 struct SceneIndex
 {
     std::unordered_map<const osg::Geometry*, TracedGeometry> geometries;
-    std::vector<StateEffects> stateEffects; ///< all different
+    std::vector<StateEffects> stateEffects; ///< no two are equal
 
-    /// A new entry if there is none.
+    /// Returns the entry of a geometry, which is a new one if there is none.
     TracedGeometry& at(const osg::Geometry& geometry)
     {
         TracedGeometry& traced = geometries[&geometry];

@@ -1,4 +1,4 @@
-// SceneLights.cpp - which lights of OpenGL's numbers shine, and what else does. Layer: bridge.
+// SceneLights.cpp - finds the lights of OpenGL's numbers that shine, and all others. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 
@@ -21,7 +21,7 @@ namespace
 const char* const kHeadlight = "converted.headlight";
 const char* const kSkyLight = "converted.sky-light";
 
-/// Surfaces that emit, then area lights.
+/// Adds surfaces that emit, then area lights.
 void addShining(Scene& scene, const std::vector<ConversionCaches::Quad>& quads)
 {
     std::vector<bool> isQuad(quads.empty() ? 0 : scene.instances.size());
@@ -47,7 +47,7 @@ void addShining(Scene& scene, const std::vector<ConversionCaches::Quad>& quads)
     }
 }
 
-/// A material with the lights that any of them has enabled.
+/// Returns a material with the lights that any of the materials has enabled.
 Material lightsOfAll(const std::vector<Material>& materials)
 {
     Material all;
@@ -68,20 +68,20 @@ struct NumberedLight
 {
     Light light;
     std::string path;
-    bool ofGraph; ///< not the viewer's
+    bool ofGraph; ///< false: the viewer's own
 };
 
-/// A light whose number a later one has.
+/// Counts a light whose number a later light has.
 void countReplaced(const NumberedLight& light, ConversionReport& report)
 {
-    if (!light.ofGraph) return; // nobody has put it there
+    if (!light.ofGraph) return; // the application did not place the viewer's light
     report.setPlace([&light] { return light.path; });
     report.count("unused.light-replaced");
     report.setPlace({});
 }
 
-/// As OpenGL keeps lights: by number, the last one set stays, and a light that no surface has
-/// enabled does nothing. The viewer's light is set before those of the graph.
+/// Adds lights as OpenGL keeps them: by number, the last one set stays, and a light that no surface
+/// has enabled does nothing. The viewer's light is set before those of the graph.
 void addNumbered(Scene& scene, const ConversionInput& input,
                  const std::vector<CollectedLight>& sources, ConversionReport& report)
 {
@@ -134,7 +134,8 @@ void addNumbered(Scene& scene, const ConversionInput& input,
     }
 }
 
-/// Stands for environments that cannot be converted, so that nobody takes darkness for their light.
+/// Returns a light that stands for environments that cannot be converted, so that nobody takes
+/// darkness for their light.
 Light magentaLight(const std::string& name)
 {
     Light light;
@@ -145,7 +146,7 @@ Light magentaLight(const std::string& name)
     return light;
 }
 
-/// There is one sky: the first that can be converted.
+/// Adds the one sky of a scene: the first environment that can be converted.
 void addEnvironment(Scene& scene, const std::vector<CollectedEnvironment>& sources,
                     EnvironmentConverter& converter, ConversionReport& report)
 {

@@ -1,5 +1,5 @@
-// SceneLights.h - the lights of a Scene, from those of the graph and from what shines. Layer:
-// bridge.
+// SceneLights.h - sets the lights of a Scene from those of the graph and from emitting surfaces.
+// Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,13 +8,13 @@
 namespace osgRayTrace::engine
 {
 
-/// Sets all lights of a scene whose instances and materials are complete, and which light an
-/// instance is. Counts what is wrong with the sources, and the viewer's own light.
+/// Sets all lights of a scene whose instances and materials are complete, and the light that an
+/// instance is. Counts the faults of the sources, and the viewer's own light.
 void setLights(Scene& scene, const ConversionInput& input, const LightSources& sources,
                ConversionCaches& caches, ConversionReport& report);
 
-/// How many of the lights are the viewer's own and not the graph's, by the counts of setLights: 0
-/// or 1.
+/// Returns how many of the lights are the viewer's own and not the graph's, by the counts of
+/// setLights: 0 or 1.
 uint64_t viewerLights(const ConversionCounts& counts);
 
 } // namespace osgRayTrace::engine

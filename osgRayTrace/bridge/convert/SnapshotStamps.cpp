@@ -34,7 +34,8 @@ bool same(const Light& a, const Light& b)
            environment(a.environment) == environment(b.environment);
 }
 
-/// Of two snapshots: the indices mean the same only if what they point to is the same.
+/// Returns whether instances of two snapshots are equal. Indices mean the same only if the parts
+/// that they point to are equal.
 bool same(const Instance& a, const Instance& b)
 {
     const auto values = [](const Instance& i)
@@ -45,7 +46,7 @@ bool same(const Instance& a, const Instance& b)
     return values(a) == values(b);
 }
 
-/// True if all are the same; takes over the old stamps of those that are.
+/// Returns whether all parts are equal; the equal ones take over their old stamps.
 template <class Part, class Same>
 bool stampParts(std::vector<Part>& parts, const std::vector<Part>& previous, Stamp now,
                 const Same& isSame)

@@ -9,13 +9,14 @@
 namespace osgRayTrace::engine
 {
 
-/// Stamps instances, materials, lights and the scene itself: now if they differ from the part of
-/// the same index in previous (may be null), else that one's stamp. Meshes and textures carry
-/// theirs already. Returns previous if nothing at all differs, else scene.
+/// Stamps instances, materials, lights and the scene itself. A part that differs from the part of
+/// the same index in previous, which may be null, is stamped now; an equal part keeps the old
+/// stamp. Meshes and textures carry their stamps already. Returns previous if nothing at all
+/// differs, otherwise scene.
 std::shared_ptr<const Scene> stampChanges(std::shared_ptr<Scene> scene,
                                           const std::shared_ptr<const Scene>& previous, Stamp now);
 
-/// Stamps lights alone, likewise. True if one of them or their number differs.
+/// Stamps lights alone by the same rule. Returns whether one of them or their number differs.
 bool stampLights(std::vector<Light>& lights, const std::vector<Light>& previous, Stamp now);
 
 } // namespace osgRayTrace::engine

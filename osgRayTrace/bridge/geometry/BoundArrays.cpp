@@ -1,4 +1,4 @@
-// BoundArrays.cpp - bindings of arrays. Layer: bridge.
+// BoundArrays.cpp - finds the bindings of arrays. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
 

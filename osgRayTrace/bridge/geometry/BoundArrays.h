@@ -1,4 +1,4 @@
-// BoundArrays.h - how arrays of a geometry are bound, and which one holds its positions. Layer:
+// BoundArrays.h - the binding of a geometry's arrays, and the array of its positions. Layer:
 // bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -8,11 +8,11 @@
 namespace osgRayTrace::engine
 {
 
-/// How an array is bound, by what OSG 3.6 does with it: off if it cannot be read.
+/// Returns how OSG 3.6 binds an array: off if the array cannot be read.
 osg::Array::Binding bindingOf(const osg::Array* array);
 
-/// The array that holds the positions: the vertex array or, without one, vertex attribute 0. May be
-/// null.
+/// Returns the array that holds the positions: the vertex array or, without one, vertex attribute
+/// 0. The result may be null.
 const osg::Array* positionArray(const osg::Geometry& geometry);
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// BufferContents.cpp - hashes of arrays. Layer: bridge.
+// BufferContents.cpp - compares hashes of arrays' contents. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/BufferContents.h"
 

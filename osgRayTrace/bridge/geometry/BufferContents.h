@@ -1,5 +1,5 @@
-// BufferContents.h - whether the values of arrays have changed, whatever their modified counts say.
-// Layer: bridge.
+// BufferContents.h - tells whether the values of arrays have changed, regardless of modified
+// counts. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,31 +15,31 @@
 namespace osgRayTrace::engine
 {
 
-/// Animations of osgAnimation's write their arrays and mark them as modified in each frame, also
-/// where nothing moves. So where a modified count has changed the values decide.
+/// The animations of osgAnimation write their arrays and mark them as modified in each frame, even
+/// if nothing moves. Once a modified count has changed, the values therefore decide.
 
-/// The values of one array or primitive set, as of the last call of change().
+/// Holds a hash of the values of one array or primitive set, as of the last call of change().
 class BufferContents
 {
 public:
-    /// False if the values are those of the last call; true for the first one, which has nothing to
-    /// compare with: arrays that are never modified are never read for this.
+    /// Returns whether the values differ from those of the last call. The first call has nothing to
+    /// compare with and returns true: arrays that are never modified are never read for this.
     bool change(const osg::BufferData& data);
 
 private:
     std::optional<uint64_t> _hash;
 };
 
-/// Numbers for the contents of many buffers. Keeps the buffers of the last round alive.
+/// Numbers the contents of many buffers. The buffers of the last round are kept alive.
 class BufferVersions
 {
 public:
     void begin() { ++_round; }
 
-    /// Another number if the values are others than in an earlier round.
+    /// Returns a number that changes if the values differ from those of an earlier round.
     uint64_t of(const osg::BufferData& data);
 
-    /// Forgets buffers that this round did not ask for.
+    /// Forgets the buffers that this round did not ask for.
     void end();
 
 private:

@@ -1,4 +1,4 @@
-// BufferHashes.cpp - what is read of arrays and primitive sets of each class. Layer: bridge.
+// BufferHashes.cpp - reads arrays and primitive sets of each class. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/BufferHashes.h"
 
@@ -31,7 +31,7 @@ template <class Elements> uint64_t elementsHash(const osg::BufferData& data)
     return valueHash(set.getModifiedCount(), set.size(), set.asVector().data(), set.getMode());
 }
 
-/// What buffers of all classes have.
+/// Holds the values that buffers of all classes have.
 struct BufferLayout
 {
     std::size_t count = 0;
@@ -49,8 +49,8 @@ BufferLayout layoutOf(const osg::BufferData& data)
     }
     else if (const osg::PrimitiveSet* set = data.asPrimitiveSet())
     {
-        if (hasTriangles(*set))
-            layout.count = set->getNumIndices(); // others may lack what they count
+        // Sets without triangles may lack the indices that they count.
+        if (hasTriangles(*set)) layout.count = set->getNumIndices();
         layout.kind = set->getMode();
         layout.ranges = rangesHash(*set);
     }
@@ -122,8 +122,8 @@ uint64_t bufferHash(BufferKind kind, const osg::BufferData& data)
         return elementsHash<osg::DrawElementsUShort>(data);
     case BufferKind::Arrays:
     {
-        const auto& set =
-            static_cast<const osg::DrawArrays&>(data); // whose setFirst has no dirty()
+        // SetFirst of the class does not call dirty().
+        const auto& set = static_cast<const osg::DrawArrays&>(data);
         return valueHash(set.getModifiedCount() ^ static_cast<unsigned int>(set.getCount()) << 16,
                          static_cast<std::size_t>(uint32_t(set.getFirst())),
                          reinterpret_cast<const void*>(uintptr_t(uint32_t(set.getCount()))),

@@ -1,5 +1,5 @@
-// BufferHashes.h - numbers made of the values of arrays and primitive sets, to tell whether they
-// have changed. Layer: bridge.
+// BufferHashes.h - hashes of arrays and primitive sets, to tell whether they have changed. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Classes of arrays and primitive sets that are looked at without virtual calls.
+/// Names the classes of arrays and primitive sets that are read without virtual calls.
 enum class BufferKind : uint8_t
 {
     Vec2Array,
@@ -25,16 +25,20 @@ enum class BufferKind : uint8_t
 
 BufferKind bufferKindOf(const osg::BufferData& data);
 
-/// Its modified count, its size and where its data is; of some kinds more.
+/// Returns a hash of the buffer's modified count, its size and the address of its data; buffers of
+/// some kinds add more.
 uint64_t bufferHash(BufferKind kind, const osg::BufferData& data);
 
-/// Its values, and what else bufferHash knows but for the modified count and where the data is.
+/// Returns a hash of the buffer's values and of all that bufferHash covers except for the modified
+/// count and the address of the data.
 uint64_t contentsHash(const osg::BufferData& data);
 
-/// Which vertices a set without indices takes, whose setters mark nothing as changed; else 0.
+/// Returns a hash of the vertices that a set without indices takes, whose setters mark nothing as
+/// changed; 0 for other sets.
 uint64_t rangesHash(const osg::PrimitiveSet& set);
 
-/// Calls f(buffer or null, whether it is of the shape) for what a mesh is made of.
+/// Calls f(buffer or null, whether the buffer belongs to the shape) for each buffer that a mesh is
+/// made of.
 template <class F> void forEachBuffer(const osg::Geometry& geometry, const F& f)
 {
     f(geometry.getVertexArray(), true);

@@ -1,4 +1,4 @@
-// GeometryCache.cpp - signatures of geometry. Layer: bridge.
+// GeometryCache.cpp - compares signatures of geometry. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/GeometryCache.h"
 
@@ -17,7 +17,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Order of a signature.
+/// Names the order of the buffers in a signature.
 enum : std::size_t
 {
     kPositions,
@@ -25,10 +25,10 @@ enum : std::size_t
     kColors,
     kUvs,
     kUvs1,
-    kPrimitives, ///< and all that follow
+    kPrimitives, ///< the primitive sets begin here
 };
 
-/// Equal triangles become one array, by which a BVH that can be refitted is known.
+/// Shares the triangle array of equal meshes, because a BVH that can be refitted is known by it.
 void shareTriangles(Mesh& mesh, const Mesh& before)
 {
     if (mesh.positions.size() == before.positions.size() &&
@@ -48,8 +48,8 @@ bool GeometryCache::BufferSignature::operator==(const BufferSignature& other) co
     return values(*this) == values(other);
 }
 
-/// The values decide if the modified count or the place of the data alone differs; what was
-/// compared is remembered in both.
+/// Returns whether two signatures are equal. If only the modified count or the address of the data
+/// differs, the values decide; a hash of the compared values is remembered in both signatures.
 bool GeometryCache::isSame(BufferSignature& then, BufferSignature& now)
 {
     if (then == now)
@@ -67,8 +67,8 @@ bool GeometryCache::isSame(BufferSignature& then, BufferSignature& now)
     return true;
 }
 
-/// Compares all, also behind what differs, so that the contents of all that is modified are known
-/// the next time.
+/// Compares all buffers, including those behind the first difference, so that the contents of all
+/// modified buffers are known the next time.
 bool GeometryCache::isSame(GeometrySignature& then, GeometrySignature& now)
 {
     if (then.size() != now.size()) return false;
@@ -98,7 +98,7 @@ GeometryCache::GeometrySignature GeometryCache::signatureOf(const osg::Geometry&
     const auto add = [&signature](const osg::BufferData* buffer,
                                   unsigned int kind) -> BufferSignature&
     { return signature.emplace_back(signatureOf(buffer, kind)); };
-    // In the order of the indices above.
+    // The order is that of the indices above.
     for (const osg::Array* array :
          {positionArray(geometry), geometry.getNormalArray(), geometry.getColorArray(),
           geometry.getTexCoordArray(0), geometry.getTexCoordArray(1)})
@@ -108,8 +108,8 @@ GeometryCache::GeometrySignature GeometryCache::signatureOf(const osg::Geometry&
         const osg::PrimitiveSet* set = geometry.getPrimitiveSet(i);
         if (!set) continue;
         BufferSignature& bufferSignature = add(set, set->getMode());
-        if (hasTriangles(*set))
-            bufferSignature.count = set->getNumIndices(); // others may lack what they count
+        // Sets without triangles may lack the indices that they count.
+        if (hasTriangles(*set)) bufferSignature.count = set->getNumIndices();
         bufferSignature.ranges = rangesHash(*set);
     }
     return signature;
@@ -165,8 +165,9 @@ void GeometryCache::recordMobility(const osg::Geometry& geometry, Mobility mobil
     known.mobility = std::max(known.mobility, mobility);
 }
 
-/// Positions changed alone, as a rule. Not if values were repaired, which may have been by
-/// positions, or if vertices were split, which is by primitive sets: then counts or sizes say so.
+/// Returns the arrays of the last mesh that can be kept, because as a rule positions alone have
+/// changed. Nothing is kept if values were repaired, which may have been by positions, or if
+/// vertices were split, which is by primitive sets: counts or sizes show both.
 KeptArrays GeometryCache::keptArrays(Entry& before, GeometrySignature& now)
 {
     KeptArrays kept;
@@ -250,8 +251,8 @@ const VertexBounds& GeometryCache::bounds(const osg::Geometry& geometry)
     return entry.bounds;
 }
 
-/// Of an array that was exchanged; others that have it get them again. Not if somebody looks at
-/// them.
+/// Drops the bounds of an array that was exchanged. Other geometries that have the array get its
+/// bounds again. Bounds that this snapshot has used stay, as references to them may be in use.
 void GeometryCache::dropBounds(const BufferSignature& positions)
 {
     if (!positions.buffer) return;
@@ -259,8 +260,8 @@ void GeometryCache::dropBounds(const BufferSignature& positions)
     if (known != _bounds.end() && known->second.used != _stamp) _bounds.erase(known);
 }
 
-/// Uses have no variants of their own where it is called, or they are forgotten with the next
-/// conversion.
+/// Drops the geometry's shared mesh. No use of the geometry has a variant of its own when this is
+/// called, or such variants are forgotten with the next conversion.
 void GeometryCache::drop(const osg::Geometry* geometry)
 {
     const auto entry = _entries.find({geometry, kOwnVariant});

@@ -18,60 +18,65 @@
 namespace osgRayTrace::engine
 {
 
-/// What a geometry has done since it first came.
+/// Tells how a geometry has changed since it first came.
 enum class Mobility : uint8_t
 {
     Static,
     Dynamic,
-    Deforming, ///< its arrays change, and maybe its place
+    Deforming, ///< the arrays change, and maybe the place
 };
 
-/// A geometry is taken as unchanged while its arrays and primitive sets are the same objects with
-/// the same modified counts, sizes and addresses, or the same values where these differ: call
-/// dirty() on an array whose values were changed.
+/// Keeps the meshes of geometries. A geometry is taken as unchanged while its arrays and primitive
+/// sets are the same objects with the same modified counts, sizes and addresses, or with the same
+/// values if counts or addresses differ. Whoever changes an array's values must call dirty() on the
+/// array.
 class GeometryCache
 {
 public:
-    /// Of mesh(): the mesh that all uses share. The use number n that cannot is n + 1.
+    /// Variant of the mesh that all uses share, for mesh(). A use that cannot share it has its
+    /// number + 1 as variant.
     static constexpr uint32_t kOwnVariant = 0;
 
-    /// Begins a snapshot. stamp is that of meshes converted now.
+    /// Begins a snapshot. stamp becomes the stamp of meshes that are converted from now on.
     void begin(Stamp stamp) { _stamp = stamp; }
 
-    /// The mesh, null if there is nothing to trace, from the last snapshot if it is the same. path
-    /// is the name of a new mesh. variant tells several meshes of one geometry apart.
+    /// Returns the mesh, which is that of the last snapshot if nothing has changed; null if there
+    /// is nothing to trace. path is the name of a new mesh. variant tells several meshes of one
+    /// geometry apart.
     std::shared_ptr<const Mesh> mesh(const osg::Geometry& geometry, uint32_t variant,
                                      const MeshRequest& request, const std::string& path,
                                      ConversionReport& report);
 
-    /// Null: it was not asked for in the last snapshot. The request of its shared mesh, and what it
-    /// gave.
+    /// Returns the request of the geometry's shared mesh; null if the last snapshot did not ask for
+    /// it. lastCounts returns the counts of that mesh.
     const MeshRequest* lastRequest(const osg::Geometry& geometry) const;
     const ConversionCounts& lastCounts(const osg::Geometry& geometry) const;
 
-    /// Whether its arrays are those of its last mesh. It was asked for in the last snapshot.
+    /// Returns whether the geometry's arrays are those of its last mesh. The last snapshot must
+    /// have asked for the geometry.
     bool hasSameArrays(const osg::Geometry& geometry);
 
     Mobility mobility(const osg::Geometry& geometry) const;
 
-    /// Never takes anything back: what has moved once will move again.
+    /// Records a mobility, which never decreases: a geometry that has moved once will move again.
     void recordMobility(const osg::Geometry& geometry, Mobility mobility);
 
-    /// Meshes that were made from arrays, ever.
+    /// Returns the number of meshes that were ever made from arrays.
     uint64_t converted() const { return _converted; }
 
-    /// Of the geometry's positions, from the last snapshot if they are the same. Valid until end().
+    /// Returns the bounds of the geometry's positions, from the last snapshot if the positions have
+    /// not changed. The reference is valid until end().
     const VertexBounds& bounds(const osg::Geometry& geometry);
 
     /// Forgets a geometry.
     void drop(const osg::Geometry* geometry);
 
-    /// Ends the snapshot: forgets geometry that was not asked for in it.
+    /// Ends the snapshot: forgets geometry for which it did not ask.
     void end();
 
 private:
-    /// References keep the objects alive, so that a new one cannot pass for an old one at its
-    /// address.
+    /// Identifies a buffer. Its reference keeps the object alive, so that a new object at the same
+    /// address cannot pass for the old one.
     struct BufferSignature
     {
         osg::ref_ptr<const osg::BufferData> buffer;
@@ -79,11 +84,11 @@ private:
         const void* data = nullptr;
         std::size_t bytes = 0;
         unsigned int kind = 0;            // binding of an array, mode of a primitive set
-        unsigned int count = 0;           // vertices of a primitive set
+        unsigned int count = 0;           // number of vertices of a primitive set
         uint64_t ranges = 0;              // see rangesHash
-        std::optional<uint64_t> contents; // of one that was found modified: see contentsHash
+        std::optional<uint64_t> contents; // set if the buffer was found modified: see contentsHash
 
-        bool operator==(const BufferSignature& other) const; ///< but for contents
+        bool operator==(const BufferSignature& other) const; ///< ignores contents
     };
     using GeometrySignature = std::vector<BufferSignature>;
 
@@ -96,7 +101,7 @@ private:
         std::shared_ptr<const Mesh> mesh;
         ConversionCounts counts;
         Stamp used = 0;
-        Stamp same = 0; ///< arrays were found to be the same in this snapshot
+        Stamp same = 0; ///< snapshot in which the arrays were last found unchanged
     };
     using Key = std::pair<const osg::Geometry*, uint32_t>;
     struct KeyHash
@@ -116,7 +121,7 @@ private:
 
     struct BoundsEntry
     {
-        BufferSignature positions; ///< its reference keeps the array's address its own
+        BufferSignature positions; ///< its reference keeps the address of the array unique
         VertexBounds bounds;
         Stamp used = 0;
     };
@@ -133,7 +138,7 @@ private:
 
     std::unordered_map<Key, Entry, KeyHash> _entries;
     std::unordered_map<const osg::Geometry*, MobilityEntry>
-        _mobility; ///< those that are not static
+        _mobility; ///< mobility of geometries that are not static
     uint64_t _converted = 0;
     std::unordered_map<const osg::Array*, BoundsEntry> _bounds;
     Stamp _stamp = 0;

@@ -18,8 +18,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Twice the area is exactly zero. Differences of floats and their products are exact in double for
-/// all but extreme exponents, so this finds collinear corners and nothing else.
+/// Returns whether the triangle's area is exactly zero. Differences of floats and their products
+/// are exact in double for all but extreme exponents, so this finds collinear corners and nothing
+/// else.
 bool hasNoArea(const Vec3& a, const Vec3& b, const Vec3& c)
 {
     const Vec3d u = Vec3d(b) - Vec3d(a);
@@ -27,7 +28,7 @@ bool hasNoArea(const Vec3& a, const Vec3& b, const Vec3& c)
     return (u.y * v.z == u.z * v.y) & (u.z * v.x == u.x * v.z) & (u.x * v.y == u.y * v.x);
 }
 
-/// What happens to a triangle; in the order of the tests.
+/// Names the results of a triangle's tests, in their order.
 enum class Verdict
 {
     Sound,
@@ -55,7 +56,8 @@ public:
         return Verdict::Sound;
     }
 
-    /// The common case, without a branch for each triangle.
+    /// Returns whether all triangles are sound: the common case, without a branch for each
+    /// triangle.
     bool allSound(const UVec3* triangles, std::size_t count) const
     {
         if (_unsound) return false;
@@ -124,7 +126,7 @@ SharedArray<UVec3> checkedTriangles(TriangleList& list, const osg::Geometry& geo
     if (list.size() == 0) return {};
     const TriangleJudge judge(positions);
     const bool sound = judge.allSound(list.data(), list.size());
-    // Turned back, the front of a triangle stays its front.
+    // A mirrored triangle has to be turned back, so that its front stays its front.
     const bool mirrored = request.transform && isMirrored(*request.transform);
     if (sound && list.source && !mirrored && !request.copies &&
         geometry.getDataVariance() != osg::Object::DYNAMIC &&
@@ -149,7 +151,8 @@ Vec3 faceNormal(const Vec3& a, const Vec3& b, const Vec3& c)
     return Vec3(glm::normalize(glm::cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a))));
 }
 
-/// Gives each missing normal that of a triangle that uses it, and counts them.
+/// Returns the normals with each missing one replaced by that of a triangle that uses it, and
+/// counts them.
 SharedArray<Vec3> completed(Normals& normals, const Mesh& mesh, ConversionCounts& counts)
 {
     if (normals.missing.empty()) return std::move(normals.values);
@@ -166,13 +169,14 @@ SharedArray<Vec3> completed(Normals& normals, const Mesh& mesh, ConversionCounts
             ++repaired;
         }
     for (std::size_t i = 0; i < values.size(); ++i)
-        if (normals.missing[i]) values[i] = Vec3(0.0f, 0.0f, 1.0f); // used by no triangle
+        if (normals.missing[i]) values[i] = Vec3(0.0f, 0.0f, 1.0f); // no triangle uses it
     if (repaired > 0) counts["repaired.normal"] += repaired;
     return values;
 }
 
-/// True if the corners are so nearly in one line that rounding decides which way the face looks, as
-/// at the poles of OSG's own spheres. face: the cross product of two edges from a.
+/// Returns whether the corners are so nearly in one line that rounding decides on which side the
+/// face's front is, as at the poles of OSG's own spheres. face is the cross product of two edges
+/// from a.
 bool hasNoSide(Vec3d face, Vec3d a, Vec3d b, Vec3d c)
 {
     const double edge = std::max(glm::length(b - a), glm::length(c - a));
@@ -180,7 +184,8 @@ bool hasNoSide(Vec3d face, Vec3d a, Vec3d b, Vec3d c)
     return glm::length(face) <= 8.0 * 0x1p-24 * coordinate * edge;
 }
 
-/// Triangles all of whose normals look to their back: they are shaded on the side that is seen.
+/// Counts the triangles whose normals all look to the triangle's back: they are shaded on the side
+/// that is seen.
 uint64_t oppositeNormals(const Mesh& mesh)
 {
     if (mesh.normals.empty()) return 0;
@@ -199,13 +204,13 @@ uint64_t oppositeNormals(const Mesh& mesh)
     return count;
 }
 
-/// Thickness of a layer, of the largest coordinate: some hundred times the rounding of hit points,
-/// and a hundredth of a pixel where the whole mesh is in view.
+/// Thickness of a layer, as a share of the largest coordinate: some hundred times the rounding of
+/// hit points, and a hundredth of a pixel if the whole mesh is in view.
 constexpr float kLayer = 0x1p-16f;
 
-/// Raises all faces on their front side, so that a decal is hit before what it lies on. OpenGL
-/// moves the depth towards the viewer instead, on either side; seen from behind the order is the
-/// other one here.
+/// Returns the positions with all faces raised on their front side, so that a ray hits a decal
+/// before the surface under it. OpenGL instead moves the depth towards the viewer, on either side;
+/// seen from behind, the order here is therefore reversed.
 SharedArray<Vec3> biased(const Mesh& mesh, float layers)
 {
     std::vector<Vec3d> directions(mesh.positions.size(), Vec3d(0.0));

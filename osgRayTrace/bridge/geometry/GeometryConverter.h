@@ -1,4 +1,4 @@
-// GeometryConverter.h - from an osg::Geometry to a Mesh. Layer: bridge.
+// GeometryConverter.h - converts an osg::Geometry to a Mesh. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -21,11 +21,12 @@ namespace osgRayTrace::engine
 
 struct ConvertedMesh
 {
-    std::shared_ptr<Mesh> mesh; ///< null if nothing is left to trace; then counts tell why
+    std::shared_ptr<Mesh> mesh; ///< null if nothing is left to trace; counts then tell why
     ConversionCounts counts;
 };
 
-/// Arrays of an earlier mesh of the geometry that were made from the very same data; empty: none.
+/// Holds the arrays of an earlier mesh of the geometry that were made from the very same data; an
+/// array is empty if there is none.
 struct KeptArrays
 {
     SharedArray<Vec3> normals;
@@ -35,19 +36,21 @@ struct KeptArrays
     SharedArray<Vec4> colors;
 };
 
-/// Every triangle of the mesh is sound: indices in range, vertices finite and, transformed, at most
-/// 1e18 in magnitude, area not zero; the others are dropped and counted. Without usable normals the
-/// mesh has none, that is flat facets (OpenGL would light all of it with the last normal that some
-/// other object used). Where layout, transform and DataVariance allow it the mesh shares the OSG
-/// arrays and keeps them alive; nobody may then write to them while a Scene holds the mesh.
+/// Converts a geometry to a mesh. Every triangle of the mesh is sound: its indices are in range,
+/// its vertices are finite and, transformed, at most 1e18 in magnitude, and its area is not zero.
+/// Other triangles are dropped and counted. Without usable normals the mesh has none, which means
+/// flat facets (OpenGL would light all of the mesh with the last normal that some other object
+/// used). If layout, transform and DataVariance allow it, the mesh shares the OSG arrays and keeps
+/// them alive; nobody may then write to these arrays while a Scene holds the mesh.
 ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request,
                               const KeptArrays& kept = {});
 
-/// Values differ from primitive set to primitive set: then vertices are split.
+/// Returns whether values differ from primitive set to primitive set, so that vertices have to be
+/// split.
 bool hasValuesBySet(const osg::Geometry& geometry);
 
 /// Gives a vertex that is used by several primitive sets one copy for each, and renumbers the
-/// triangles. Those with indices out of range are left as they are: they are dropped later.
+/// triangles. Triangles with indices out of range stay as they are: they are dropped later.
 VertexMap splitByPrimitiveSet(TriangleList& list, std::size_t vertexCount);
 
 } // namespace osgRayTrace::engine

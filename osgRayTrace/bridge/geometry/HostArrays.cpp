@@ -1,5 +1,4 @@
-// HostArrays.cpp - arrays of the host that a scene reads in place, and who frees them. Layer:
-// bridge.
+// HostArrays.cpp - keeps and frees arrays of the host that a scene reads in place. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/HostArrays.h"
 
@@ -18,7 +17,7 @@ using Arrays = std::list<osg::ref_ptr<const osg::BufferData>>;
 
 struct Released
 {
-    std::mutex mutex; // any thread adds, those of updates take
+    std::mutex mutex; // any thread adds arrays, threads of updates remove them
     Arrays arrays;
 };
 
@@ -28,7 +27,7 @@ Released& released()
     return *all;
 }
 
-/// The list of one array moves over as it is: to let go of it must not need memory.
+/// Moves the list of one array as it is, because letting go of the array must not need memory.
 void release(Arrays* one)
 {
     {

@@ -1,4 +1,4 @@
-// MatrixMaps.h - a matrix of OSG as a map of points and as one of normals. Layer: bridge.
+// MatrixMaps.h - a matrix of OSG as a map of points and as a map of normals. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace osgRayTrace::engine
 {
 
-/// An osg::Matrixd as a map of points; row vectors times matrix.
+/// Maps points by an osg::Matrixd: row vectors times matrix.
 struct PointMap
 {
     Vec3d x{1.0, 0.0, 0.0}, y{0.0, 1.0, 0.0}, z{0.0, 0.0, 1.0}, translation{0.0};
@@ -31,8 +31,9 @@ struct PointMap
     Vec3d operator()(const Vec3d& p) const { return x * p.x + y * p.y + z * p.z + translation; }
 };
 
-/// Inverse transpose times the sign of the determinant that keeps outward normals outward: the
-/// cofactors, scaled to about 1 so that tiny and huge transforms stay in range.
+/// Maps normals by the inverse transpose times the sign of the determinant that keeps outward
+/// normals outward. The map consists of the cofactors, scaled to about 1 so that tiny and huge
+/// transforms stay in range.
 struct NormalMap
 {
     Vec3d x{1.0, 0.0, 0.0}, y{0.0, 1.0, 0.0}, z{0.0, 0.0, 1.0};

@@ -12,7 +12,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Vertex data that can grow.
+/// Holds vertex data that can grow.
 struct Vertices
 {
     std::vector<Vec3> positions, normals;
@@ -33,7 +33,8 @@ template <class T> void appendBetween(std::vector<T>& values, uint32_t a, uint32
     values.push_back(values[a] * (1.0f - s) + values[b] * s);
 }
 
-/// Opposite normals meet in nothing: then that of the first corner stands.
+/// Appends an interpolated normal. The sum of opposite normals is zero: the normal of the first
+/// corner is then used.
 void appendNormal(std::vector<Vec3>& normals, uint32_t a, uint32_t b, double t)
 {
     if (normals.empty()) return;
@@ -82,7 +83,7 @@ private:
         if (count == 3) kept.push_back(t);
         if (count == 0 || count == 3) return;
 
-        // Turned so that the first corner is the one that differs from the others.
+        // The triangle is turned so that its first corner is the one that differs from the others.
         const bool differing = count == 1;
         UVec3 u = t;
         while (isKept(u.x) != differing)
@@ -102,8 +103,8 @@ private:
         if (hasArea(_vertices.positions, t)) kept.push_back(t);
     }
 
-    /// The vertex where the edge meets the plane: one for both triangles at the edge, and the same
-    /// place for a neighbour that has the edge's ends twice.
+    /// Returns the vertex at which the edge meets the plane. Both triangles at the edge share one
+    /// vertex, and a neighbour that has copies of the edge's ends gets the same place.
     uint32_t between(uint32_t a, uint32_t b)
     {
         if (comesBefore(_vertices.positions[b], _vertices.positions[a])) std::swap(a, b);
@@ -123,7 +124,7 @@ private:
     }
 
     Vertices& _vertices;
-    std::vector<double> _heights; // of the vertices that were there before
+    std::vector<double> _heights; // heights of the vertices that were there before the cut
     std::unordered_map<uint64_t, uint32_t> _cuts;
 };
 
@@ -138,7 +139,7 @@ void clip(Mesh& mesh, const std::vector<Vec4d>& planes)
     for (const Vec4d& plane : planes)
         triangles = PlaneCut(plane, vertices).keptOf(triangles);
 
-    // Embree reads past the last one: see Mesh.
+    // Embree reads past the last position: see Mesh.
     vertices.positions.reserve(vertices.positions.size() + 1);
     mesh.positions = std::move(vertices.positions);
     mesh.normals = std::move(vertices.normals);

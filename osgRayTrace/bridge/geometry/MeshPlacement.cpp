@@ -1,4 +1,4 @@
-// MeshPlacement.cpp - coordinates of a mesh that is placed, and where it is placed. Layer: bridge.
+// MeshPlacement.cpp - chooses the coordinates of a placed mesh, and places it. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
 
@@ -10,8 +10,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Local coordinates are moved to their centre if that is so many radii away: else an instance
-/// would lose in float what its large coordinates lose.
+/// Local coordinates are moved to their centre if the centre is so many radii away from the origin:
+/// otherwise an instance would lose the digits in float that its large coordinates lose.
 constexpr double kFarFromOrigin = 64.0;
 
 Affine toAffine(const osg::Matrixd& m)

@@ -1,5 +1,4 @@
-// MeshPlacement.h - a mesh in coordinates of its own and the transform that places it. Layer:
-// bridge.
+// MeshPlacement.h - a mesh in its own coordinates, and the transform that places it. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,8 +10,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Of a geometry that is placed: its mesh has its own origin and unit where those of the geometry
-/// would lose in float.
+/// Holds the coordinates of the mesh of a placed geometry: the mesh has its own origin and unit if
+/// the geometry's coordinates would lose precision in float.
 struct MeshFrame
 {
     osg::Matrixd meshFromLocal, localFromMesh;
@@ -20,11 +19,11 @@ struct MeshFrame
 
 MeshFrame meshFrame(const VertexBounds& bounds);
 
-/// True if the transform turns windings.
+/// Returns whether the transform reverses windings.
 bool isMirrored(const osg::Matrixd& m);
 
-/// Sets the instance's transform. False if Embree cannot invert it in float (see TracedScene): then
-/// the mesh must be made in engine coordinates.
+/// Sets the instance's transform. Returns false if Embree cannot invert the transform in float (see
+/// TracedScene): the mesh must then be made in engine coordinates.
 bool placeInstance(Instance& instance, const osg::Matrixd& engineFromMesh);
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// MeshRequest.h - what a mesh depends on beside the arrays of its geometry. Layer: bridge.
+// MeshRequest.h - the inputs of a mesh beside the arrays of its geometry. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,17 +15,17 @@
 namespace osgRayTrace::engine
 {
 
-/// What a mesh depends on beside the geometry's own arrays.
+/// Holds all inputs of a mesh beside the geometry's own arrays.
 struct MeshRequest
 {
-    /// Applied to positions in double, and to normals; nothing: identity, then arrays may be
+    /// Transform of positions, in double, and of normals; nothing: identity, so that arrays may be
     /// shared.
     std::optional<osg::Matrixd> transform;
-    bool decodeColors = false; ///< vertex colours from sRGB to linear
-    float depthBias = 0.0f;    ///< layers that the faces are raised by: see depthBias
-    bool copies = false;       ///< shares no arrays: they will change
+    bool decodeColors = false; ///< true: vertex colours are converted from sRGB to linear
+    float depthBias = 0.0f;    ///< number of layers by which the faces are raised: see depthBias
+    bool copies = false;       ///< true: no arrays are shared, as they will change
     PrimitiveRestart restart;
-    std::vector<Vec4d> clipPlanes; ///< after the transform; see clip
+    std::vector<Vec4d> clipPlanes; ///< planes that cut after the transform; see clip
 
     bool operator==(const MeshRequest& other) const
     {

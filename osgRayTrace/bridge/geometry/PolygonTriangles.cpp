@@ -1,4 +1,4 @@
-// PolygonTriangles.cpp - ears are cut off until a triangle is left. Layer: bridge.
+// PolygonTriangles.cpp - cuts off ears of a polygon until a triangle is left. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/PolygonTriangles.h"
 
@@ -12,7 +12,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Twice the area of the polygon times the unit normal of its plane, or of the one nearest to it.
+/// Returns twice the area of the polygon times the unit normal of its plane, or of the plane
+/// nearest to it.
 Vec3d areaNormal(const std::vector<Vec3d>& corners)
 {
     Vec3d sum(0.0);
@@ -21,7 +22,7 @@ Vec3d areaNormal(const std::vector<Vec3d>& corners)
     return sum;
 }
 
-/// The outline that is left, seen along the normal.
+/// Holds the remaining outline, seen along the normal.
 class Outline
 {
 public:
@@ -39,7 +40,8 @@ public:
         return {_left[(i + n - 1) % n], _left[i], _left[(i + 1) % n]};
     }
 
-    /// A corner that sticks out and covers no other: without it the rest is still a polygon.
+    /// Returns whether a corner sticks out and its triangle covers no other corner: without the ear
+    /// the rest is still a polygon.
     bool isEar(std::size_t i) const
     {
         const UVec3 ear = triangleAt(i);
@@ -54,7 +56,7 @@ public:
         return true;
     }
 
-    /// Without area: its triangle covers nothing.
+    /// Returns whether a corner's triangle has no area and so covers nothing.
     bool isFlat(std::size_t i) const
     {
         const UVec3 t = triangleAt(i);
@@ -69,7 +71,8 @@ private:
         return glm::dot(_normal, glm::cross(_corners[b] - _corners[a], _corners[c] - _corners[a]));
     }
 
-    /// Outlines that lead to a hole and back meet their own corners.
+    /// Returns whether a corner is at the place of one of the triangle's: outlines that lead to a
+    /// hole and back meet their own corners.
     bool isAnyOf(const UVec3& t, uint32_t p) const
     {
         return _corners[p] == _corners[t.x] || _corners[p] == _corners[t.y] ||
@@ -81,7 +84,7 @@ private:
     std::vector<uint32_t> _left;
 };
 
-/// No triangle of the fan is turned over: no two of them lie upon each other then.
+/// Returns whether no triangle of the fan is turned over; then no two of them overlap.
 bool isFanRight(const std::vector<Vec3d>& corners, const Vec3d& normal)
 {
     for (std::size_t i = 2; i < corners.size(); ++i)
@@ -116,7 +119,7 @@ std::vector<UVec3> concavePolygonTriangles(const std::vector<Vec3d>& corners)
             sinceCut = 0;
             continue;
         }
-        if (++sinceCut > outline.size()) return {}; // it cuts itself
+        if (++sinceCut > outline.size()) return {}; // the outline cuts itself
         i = (i + 1) % outline.size();
     }
     triangles.push_back(outline.triangleAt(1));

@@ -1,4 +1,4 @@
-// PolygonTriangles.h - a concave polygon cut into triangles. Layer: bridge.
+// PolygonTriangles.h - cuts a concave polygon into triangles. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,12 +9,13 @@
 namespace osgRayTrace::engine
 {
 
-/// The corners of corners.size() - 2 triangles, in the polygon's own sense of rotation. Empty: the
-/// triangle fan that OpenGL draws is right, or there is nothing better: the outline cuts itself, is
-/// not finite, or has more than kMostCorners.
+/// Returns the corners of corners.size() - 2 triangles, in the polygon's own sense of rotation. The
+/// result is empty if the triangle fan that OpenGL draws is right, or if nothing better exists: the
+/// outline cuts itself, is not finite, or has more than kMostCorners.
 std::vector<UVec3> concavePolygonTriangles(const std::vector<Vec3d>& corners);
 
-/// The time to cut a polygon may grow with the third power of its corners.
+/// Largest number of corners of a polygon that is cut, as the time may grow with the third power of
+/// the corners.
 constexpr std::size_t kMostCorners = 512;
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// PrimitiveModes.h - triangles and counts of each mode of OpenGL. Layer: bridge.
+// PrimitiveModes.h - triangles and counts of OpenGL's primitive modes. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,7 +14,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Number of triangles that OpenGL makes of count vertices.
+/// Returns the number of triangles that OpenGL makes of count vertices.
 inline std::size_t triangleCount(GLenum mode, std::size_t count)
 {
     switch (mode)
@@ -34,7 +34,8 @@ inline std::size_t triangleCount(GLenum mode, std::size_t count)
     }
 }
 
-/// index(i) is the vertex of the i-th corner. Corner order as in osg::TriangleIndexFunctor.
+/// Appends the triangles of a primitive set. index(i) is the vertex of the i-th corner. The corners
+/// have the order of osg::TriangleIndexFunctor.
 template <class Index>
 void appendTriangles(GLenum mode, std::size_t count, const Index& index, std::vector<UVec3>& out)
 {
@@ -72,7 +73,7 @@ void appendTriangles(GLenum mode, std::size_t count, const Index& index, std::ve
     }
 }
 
-/// Why a mode has no triangles; null if it has.
+/// Returns why a mode has no triangles; null if it has triangles.
 inline const char* untracedMode(GLenum mode)
 {
     switch (mode)
@@ -97,8 +98,8 @@ inline const char* untracedMode(GLenum mode)
     }
 }
 
-/// Counts what osg::TemplatePrimitiveFunctor calls: a quad is one primitive, as is each triangle of
-/// a fan.
+/// Counts the calls of osg::TemplatePrimitiveFunctor: a quad is one primitive, as is each triangle
+/// of a fan.
 class PrimitiveCounter : public osg::PrimitiveIndexFunctor
 {
 public:

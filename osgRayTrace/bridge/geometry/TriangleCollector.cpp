@@ -1,4 +1,4 @@
-// TriangleCollector.cpp - takes primitive sets of all modes and index types apart. Layer: bridge.
+// TriangleCollector.cpp - reads primitive sets of all modes and index types. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/TriangleCollector.h"
 
@@ -80,7 +80,8 @@ private:
                appendIndices<osg::DrawElementsUByte>(set);
     }
 
-    /// Cut to the vertices that exist: a wrong count must not make a list of billions.
+    /// Appends the triangles of a range, cut to the vertices that exist: a wrong count must not
+    /// make a list of billions.
     void appendRange(GLenum mode, int64_t first, int64_t count)
     {
         const auto end = static_cast<int64_t>(_vertexCount);
@@ -124,7 +125,7 @@ private:
         if (_numbered) number(mode, count);
     }
 
-    /// The triangles that were appended last: all of count vertices.
+    /// Numbers the triangles that were appended last, which are all of count vertices.
     void number(GLenum mode, std::size_t count)
     {
         const uint32_t triangles = mode == GL_QUADS || mode == GL_QUAD_STRIP ? 2 : 1;
@@ -133,7 +134,7 @@ private:
         _primitives += static_cast<uint32_t>(PrimitiveCounter::countOf(mode, count));
     }
 
-    /// False if the fan is right.
+    /// Appends a concave polygon. Returns false if the fan is right.
     template <class Index> bool appendConcave(std::size_t count, const Index& index)
     {
         if (count < 4 || count > kMostCorners) return false;
@@ -158,7 +159,8 @@ private:
                    [&](std::size_t i, const Vec4d& row) { _positions[i] = Vec3d(row) / row.w; });
     }
 
-    /// Exact for a single set; doubles, as a vector does by itself, for many small ones.
+    /// Reserves exactly as much as a single set needs; for many small sets the memory doubles, as a
+    /// vector's does by itself.
     void grow(std::size_t more)
     {
         std::vector<UVec3>& triangles = _list.triangles;
@@ -172,8 +174,8 @@ private:
     std::size_t _vertexCount;
     const PrimitiveRestart& _restart;
     const bool _numbered;
-    uint32_t _primitives = 0;      // so far
-    std::vector<Vec3d> _positions; // if there are polygons
+    uint32_t _primitives = 0;      // number of primitives so far
+    std::vector<Vec3d> _positions; // read only if there are polygons
 };
 
 const osg::DrawElementsUInt* soleTriangleList(const osg::Geometry& geometry,

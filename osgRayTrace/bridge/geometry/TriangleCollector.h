@@ -11,10 +11,10 @@
 namespace osgRayTrace::engine
 {
 
-/// Triangles, strips, fans, quads, quad strips and polygons of DrawArrays, MultiDrawArrays,
-/// DrawArrayLengths and DrawElements. Sets of other kinds are counted. Concave polygons are cut
-/// into triangles; OpenGL leaves open what it does with them, and draws fans. numbered: with the
-/// numbers of primitives, and then source is not set.
+/// Returns the triangles of triangle lists, strips, fans, quads, quad strips and polygons of
+/// DrawArrays, MultiDrawArrays, DrawArrayLengths and DrawElements. Sets of other kinds are counted.
+/// Concave polygons are cut into triangles; OpenGL leaves their result open and draws fans. If
+/// numbered is true, the list has the numbers of primitives, and source is not set.
 TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount,
                          const PrimitiveRestart& restart, bool numbered = false);
 

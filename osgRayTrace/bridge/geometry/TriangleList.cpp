@@ -1,5 +1,5 @@
-// TriangleList.cpp - which primitive sets have triangles, and where strips begin anew. Layer:
-// bridge.
+// TriangleList.cpp - finds primitive sets with triangles, and the index that restarts strips.
+// Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/TriangleList.h"
 
@@ -34,7 +34,7 @@ bool hasTriangles(const osg::PrimitiveSet& set)
     case osg::PrimitiveSet::DrawElementsUIntPrimitiveType:
         return untracedMode(set.getMode()) == nullptr;
     default:
-        return false; // commands that are on the GPU
+        return false; // commands that are on the GPU have no triangles here
     }
 }
 

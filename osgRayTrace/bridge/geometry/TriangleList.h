@@ -14,38 +14,38 @@
 namespace osgRayTrace::engine
 {
 
-/// An index that ends a strip, fan or polygon and begins the next one.
+/// Describes the index that ends a strip, fan or polygon and begins the next one.
 struct PrimitiveRestart
 {
     bool on = false;
-    bool atLargest = false; ///< the largest index of the type; else index
+    bool atLargest = false; ///< true: the largest index of the type; false: index
     uint32_t index = 0;
 
-    /// One number for all of it.
+    /// Returns one number for all values.
     uint64_t key() const { return uint64_t(on) << 33 | uint64_t(atLargest) << 32 | index; }
     bool operator==(const PrimitiveRestart& other) const { return key() == other.key(); }
 };
 
 PrimitiveRestart restartOf(const GraphState& state);
 
-/// All triangles in the order that OpenGL draws them. Indices into the vertex arrays, not checked.
+/// Holds all triangles in the order in which OpenGL draws them. The indices into the vertex arrays
+/// are not checked.
 struct TriangleList
 {
-    /// Set if the geometry is one triangle list of 32-bit indices: they stand there as they are
-    /// needed.
+    /// Set if the geometry is one triangle list of 32-bit indices, which are used in place.
     const osg::DrawElementsUInt* source = nullptr;
-    std::vector<UVec3> triangles;     ///< filled if source is null
-    std::vector<std::size_t> setEnds; ///< one a primitive set: end of its triangles
-    ConversionCounts counts;          ///< primitive sets without triangles, and dropped triangles
-    /// Of each triangle the primitive it is of, numbered as osgUtil's intersectors do; if asked
-    /// for.
+    std::vector<UVec3> triangles;     ///< set if source is null
+    std::vector<std::size_t> setEnds; ///< end of the triangles of each primitive set
+    /// Counts of primitive sets without triangles and of dropped triangles.
+    ConversionCounts counts;
+    /// Primitive of each triangle, numbered as osgUtil's intersectors do; empty unless asked for.
     std::vector<uint32_t> primitives;
 
     const UVec3* data() const;
     std::size_t size() const;
 };
 
-/// Whether it has triangles: they are traced.
+/// Returns whether a set has triangles, which are then traced.
 bool hasTriangles(const osg::PrimitiveSet& set);
 
 } // namespace osgRayTrace::engine

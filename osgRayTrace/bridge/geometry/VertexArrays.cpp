@@ -16,11 +16,13 @@ namespace
 {
 
 constexpr float kLargestCoordinate = 1e18f; ///< Embree's limit is 1.844e18
-constexpr float kUnitTolerance = 1e-3f;     ///< of a normal's squared length, else it is normalised
+/// Tolerance of a normal's squared length, beyond which it is normalised.
+constexpr float kUnitTolerance = 1e-3f;
 
 static_assert(sizeof(Vec2) == 8 && sizeof(Vec3) == 12 && sizeof(Vec4) == 16, "rows are packed");
 
-/// False for NaN as well. A plain loop over floats: the compiler vectorizes it.
+/// Returns whether all values are within the limit; NaN is not. The loop over floats is plain, so
+/// the compiler vectorizes it.
 bool allWithin(const float* values, std::size_t count, float largest)
 {
     unsigned int outside = 0;
@@ -41,15 +43,16 @@ bool allUnit(const Vec3* normals, std::size_t count)
     return off == 0;
 }
 
-/// Embree loads vertices 16 bytes at a time, so it reads 4 bytes past the last one. They lie within
-/// the same page, and so cannot fault, unless the array ends where a page ends.
+/// Returns whether 4 bytes past the end may be read. Embree loads vertices 16 bytes at a time, so
+/// it reads 4 bytes past the last one. These bytes lie within the same page, and so cannot fault,
+/// unless the array ends at the end of a page.
 bool mayBeReadPast(const void* end)
 {
     constexpr std::uintptr_t kSmallestPage = 4096;
     return reinterpret_cast<std::uintptr_t>(end) % kSmallestPage != 0;
 }
 
-/// Engine memory for count values, with room for that read.
+/// Returns engine memory for count values, with room for Embree's read past the end.
 template <class T> std::vector<T> paddedVector(std::size_t count, const T& value)
 {
     std::vector<T> values;
@@ -81,8 +84,8 @@ uint64_t countOf(const std::vector<uint8_t>& flags)
 
 } // namespace
 
-/// The array's own rows if they may be used in place of a copy: one a vertex, as T, and nobody has
-/// said that they will change.
+/// Returns the array's own rows if they may be used in place of a copy; otherwise null. The rows
+/// must be one a vertex, of type T, and not declared to change.
 template <class T> const T* VertexReader::shareable(const osg::Array& array) const
 {
     if (!_map.rows.empty() || array.getNumElements() < _map.vertexCount) return nullptr;
@@ -252,7 +255,7 @@ SharedArray<Vec4> VertexReader::colors(const osg::Array* array, ConversionCounts
                    Vec4 color(row);
                    for (int c = 0; c < 3 && _request.decodeColors; ++c)
                        color[c] = linearFromSrgb(color[c]);
-                   if (!isFinite(Vec3(color))) return; // 1e16 is 1e38 in linear light
+                   if (!isFinite(Vec3(color))) return; // 1e16 in sRGB is 1e38 in linear light
                    values[i] = color;
                    missing[i] = 0;
                });

@@ -1,4 +1,4 @@
-// VertexArrays.h - the vertex data of a geometry. Layer: bridge.
+// VertexArrays.h - reads the vertex data of a geometry. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -19,18 +19,19 @@ namespace osgRayTrace::engine
 
 struct Positions
 {
-    SharedArray<Vec3> values;     ///< finite: what was not is 0 here
-    std::vector<uint8_t> unsound; ///< one a position: not finite or too large; empty: none is
+    SharedArray<Vec3> values; ///< finite positions; 0 in place of values that were not finite
+    /// 1 for each position that was not finite or is too large; empty: none.
+    std::vector<uint8_t> unsound;
 };
 
 struct Normals
 {
-    SharedArray<Vec3> values;     ///< unit; empty: the geometry has none
-    std::vector<uint8_t> missing; ///< one a normal: to be replaced; empty: none is
+    SharedArray<Vec3> values;     ///< unit normals; empty: the geometry has none
+    std::vector<uint8_t> missing; ///< 1 for each normal that has to be replaced; empty: none
 };
 
-/// Reads a geometry's arrays by OpenGL's rules for MeshRequest's transform; shares them where
-/// allowed.
+/// Reads a geometry's arrays by OpenGL's rules for MeshRequest's transform, and shares them if that
+/// is allowed.
 class VertexReader
 {
 public:
@@ -39,20 +40,21 @@ public:
     {
     }
 
-    /// The array is readable.
+    /// Returns the positions of an array, which must be readable.
     Positions positions(const osg::Array& array) const;
 
-    // Any array, null too: then the result is empty.
+    // Returns the normals of any array; null gives an empty result.
 
     Normals normals(const osg::Array* array) const;
 
-    /// s/q and t/q. Counts repaired coordinates.
+    /// Returns s/q and t/q. Counts repaired coordinates.
     SharedArray<Vec2> textureCoordinates(const osg::Array* array, ConversionCounts& counts) const;
 
-    /// r/q; empty if all of them are 0, as they are where arrays have two components.
+    /// Returns r/q; the result is empty if all values are 0, as for arrays of two components.
     SharedArray<float> thirdCoordinates(const osg::Array* array) const;
 
-    /// Only colours that vary: a single one is part of the material. Counts repaired colours.
+    /// Returns the colours if they vary, because a single colour is part of the material. Counts
+    /// repaired colours.
     SharedArray<Vec4> colors(const osg::Array* array, ConversionCounts& counts) const;
 
 private:

@@ -1,4 +1,5 @@
-// VertexMap.h - which rows of the arrays of a geometry the vertices of its mesh are. Layer: bridge.
+// VertexMap.h - the rows of a geometry's arrays that the vertices of its mesh come from. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,12 +10,12 @@
 namespace osgRayTrace::engine
 {
 
-/// Which rows of the OSG arrays the mesh's vertices are. Needed when an array has one value for
-/// each primitive set, so that a vertex of two sets becomes two.
+/// Tells which rows of the OSG arrays the mesh's vertices come from. A map is needed if an array
+/// has one value for each primitive set, so that a vertex of two sets becomes two.
 struct VertexMap
 {
     std::size_t vertexCount = 0;
-    std::vector<uint32_t> rows; ///< of per-vertex arrays; empty: vertex i is row i
+    std::vector<uint32_t> rows; ///< rows of per-vertex arrays; empty: vertex i is row i
     std::vector<uint32_t>
         primitiveSets; ///< row of arrays that are bound per primitive set; may be empty
 };

@@ -1,4 +1,4 @@
-// ConversionInput.h - what a scene graph is converted for. Layer: bridge.
+// ConversionInput.h - the inputs for converting a scene graph. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -21,14 +21,14 @@
 namespace osgRayTrace::engine
 {
 
-/// Settings that a conversion depends on.
+/// Holds the settings that a conversion depends on.
 struct ConversionSettings
 {
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
     bool cullAllRays = false;
     bool headlightShadows = false;
     LightSizes lightSizes;
-    std::shared_ptr<const MaterialLibrary> materials; ///< null: those of the graph only
+    std::shared_ptr<const MaterialLibrary> materials; ///< null: materials of the graph only
 
     bool operator==(const ConversionSettings& other) const
     {
@@ -45,28 +45,32 @@ inline ConversionSettings conversionSettings(const RayTraceSettings& settings,
             lightSizesOf(settings), std::move(materials)};
 }
 
-/// What to convert a graph for.
+/// Holds the graph to convert and the conditions of the conversion.
 struct ConversionInput : ConversionSettings
 {
     osg::Node* root = nullptr;
-    osg::Vec3d eye; ///< world space: levels of detail
-    /// With the same eye: sizes in pixels, and what turns to the view or moves with it. Without one
-    /// that is as if looked at from the eye, upright in the world.
+    osg::Vec3d eye; ///< place in world space that decides on levels of detail
+    /// View with the same eye, for sizes in pixels and for nodes that turn to the view or move with
+    /// it. Without a view, the graph is converted as if looked at from the eye, upright in the
+    /// world.
     std::optional<ReferenceView> view;
-    osg::Vec3d origin; ///< of the engine's coordinates, world space
+    osg::Vec3d origin; ///< origin of the engine's coordinates in world space
     unsigned int traversalMask = 0xffffffffu;
-    /// The light that osgViewer adds outside of the graph; null: none. In view space (headlight) or
-    /// world space (sky light). Replaced by a light of the same number in the graph.
+    /// Light that osgViewer adds outside of the graph, in view space (headlight) or world space
+    /// (sky light); null: none. A light of the same number in the graph replaces it.
     osg::ref_ptr<const osg::Light> viewLight;
     bool viewLightInEyeSpace = true;
-    bool lighting = true; ///< GL_LIGHTING above the root: off in osg::View's NO_LIGHT mode
-    /// State above the root, the outermost first: of a cull traversal. Empty: osgViewer's defaults.
+    bool lighting = true; ///< GL_LIGHTING above the root, off in osg::View's NO_LIGHT mode
+    /// State above the root, the outermost first, from a cull traversal; empty: osgViewer's
+    /// defaults.
     std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState;
-    /// What OpenGL draws better goes on being drawn by it, see ConversionResult::rasterized. Else
-    /// there is no OpenGL, and everything with triangles is traced.
+    /// True: OpenGL goes on drawing the parts that it draws better, see
+    /// ConversionResult::rasterized. False: there is no OpenGL, and everything with triangles is
+    /// traced.
     bool rasterizesRest = false;
-    bool picks = false; ///< what rays hit is looked up: see ConversionResult::pickIndex
-    osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< as shown
+    /// True: the conversion makes a ConversionResult::pickIndex to look up hits.
+    bool picks = false;
+    osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f}; ///< display value of the background
 };
 
 } // namespace osgRayTrace::engine

@@ -35,7 +35,7 @@ bool isHint(const std::string& description)
 
 DrawHint ownHint(const osg::Node& node)
 {
-    if (!node.getUserDataContainer()) return DrawHint::None; // of almost all nodes
+    if (!node.getUserDataContainer()) return DrawHint::None; // almost all nodes have none
     for (unsigned int i = 0; i < node.getNumDescriptions(); ++i)
     {
         const std::string& description = node.getDescription(i);

@@ -1,4 +1,4 @@
-// DrawHint.h - what a node's author says about who draws it. Layer: bridge.
+// DrawHint.h - the hint of a node's author that tells who draws the node. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,23 +7,24 @@
 namespace osgRayTrace::engine
 {
 
-/// Kept in a node's descriptions, which OSG copies and saves with it: "osgRayTrace:trace",
-/// "osgRayTrace:rasterize", "osgRayTrace:automatic".
+/// Names the hints. A hint is kept in a node's descriptions, which OSG copies and saves with the
+/// node: "osgRayTrace:trace", "osgRayTrace:rasterize", "osgRayTrace:automatic".
 enum class DrawHint
 {
-    None,      ///< as the node above
-    Automatic, ///< by what it is
+    None,      ///< hint of the node above
+    Automatic, ///< chosen by the kind of node
     Trace,
     Rasterize
 };
 
-/// That the node itself carries; one that is no word of these is said once and None.
+/// Returns the hint that the node itself carries. An unknown word is reported once and counts as
+/// None.
 DrawHint ownHint(const osg::Node& node);
 
-/// Of the last node of the path that carries one; None if there is none.
+/// Returns the hint of the last node of the path that carries one; None if there is none.
 DrawHint hintOf(const osg::NodePath& path);
 
-/// Replaces that of the node.
+/// Replaces the node's hint.
 void setOwnHint(osg::Node& node, DrawHint hint);
 
 } // namespace osgRayTrace::engine

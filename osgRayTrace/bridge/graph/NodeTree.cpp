@@ -1,4 +1,4 @@
-// NodeTree.cpp - paths that share their beginnings. Layer: bridge.
+// NodeTree.cpp - stores paths that share their beginnings. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/NodeTree.h"
 

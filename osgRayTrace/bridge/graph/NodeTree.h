@@ -1,4 +1,4 @@
-// NodeTree.h - many node paths in little memory. Layer: bridge.
+// NodeTree.h - stores many node paths in little memory. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,26 +10,28 @@
 namespace osgRayTrace::engine
 {
 
-/// Paths from below the decorator, each as one number: what paths have in common at their
-/// beginnings is there once. A node of the tree takes 24 bytes and holds a reference to its
-/// osg::Node, so that a path outlives what it leads to.
+/// Holds paths from below the decorator, each as one number; common beginnings of paths are stored
+/// once. A node of the tree takes 24 bytes and holds a reference to its osg::Node, so that a path
+/// outlives the nodes that it leads to.
 class NodeTree
 {
 public:
     static constexpr uint32_t kNone = 0xffffffffu;
 
-    /// A path that begins with what stands for the decorator, and the decorator. In the order of a
-    /// traversal. kNone: nothing is below.
+    /// Adds a path, which begins with the node that stands for the decorator and with the
+    /// decorator. Paths come in the order of a traversal. Returns kNone if nothing is below the
+    /// decorator.
     uint32_t add(const osg::NodePath& path);
 
     osg::Node& node(uint32_t entry) const { return *_entries[entry].node; }
     uint32_t parent(uint32_t entry) const { return _entries[entry].parent; }
 
-    /// The first node on the way whose place or whose children's depends on who looks at them:
-    /// billboards and the like, cameras, absolute transforms. kNone: all keep their places.
+    /// Returns the first node on the way whose place, or whose children's place, depends on the
+    /// view: billboards and the like, cameras, absolute transforms. kNone: all nodes keep their
+    /// places.
     uint32_t placedByView(uint32_t entry) const { return _entries[entry].placedByView; }
 
-    /// The entries on the way to this one, the outermost first.
+    /// Sets entries to the way to this entry, the outermost one first.
     void way(uint32_t entry, std::vector<uint32_t>& entries) const;
 
 private:
@@ -41,7 +43,7 @@ private:
     };
 
     std::vector<Entry> _entries;
-    std::vector<uint32_t> _last; ///< the way of the path that was added last
+    std::vector<uint32_t> _last; ///< way of the path that was added last
 };
 
 } // namespace osgRayTrace::engine

@@ -1,5 +1,4 @@
-// PathBudget.h - an end for traversals of graphs whose shared parts are on too many paths. Layer:
-// bridge.
+// PathBudget.h - ends traversals of graphs whose shared parts are on too many paths. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,18 +12,18 @@
 namespace osgRayTrace::engine
 {
 
-/// Groups and geometries that a conversion visits, each once for every path to it. Forty groups
-/// with the next one twice below each have 2^40 paths: no traversal of them ends. Real scenes have
-/// some hundred thousand. A million instances take a gigabyte.
+/// Largest number of groups and geometries that a conversion visits, each once for every path to
+/// it. Forty groups with the next one twice below each have 2^40 paths: no traversal of them ends.
+/// Real scenes have some hundred thousand paths. A million instances take a gigabyte.
 constexpr std::size_t kMostPaths = std::size_t(1) << 22;
 
-/// What is left for one traversal.
+/// Counts the visits that are left for one traversal.
 class PathBudget
 {
 public:
     explicit PathBudget(std::size_t most = kMostPaths) : _left(most) {}
 
-    /// For one more visit. False: there is nothing left.
+    /// Takes one more visit. Returns false if no visit is left.
     bool take() { return _left > 0 && _left-- > 0; }
 
     std::size_t left() const { return _left; }
@@ -33,13 +32,13 @@ private:
     std::size_t _left;
 };
 
-/// Numbers of visits that a traversal of all children would make below nodes, each node counted
-/// once: in a time that is linear in nodes, however many paths there are.
+/// Counts the visits that a traversal of all children would make below nodes. Each node is counted
+/// once, in a time that is linear in nodes, however many paths there are.
 class PathCounts
 {
 public:
-    /// The node's own visit included; enough is enough: not above most + 1. Levels below the depth
-    /// count as one.
+    /// Returns the number of visits, including the node's own, but never more than most + 1. Levels
+    /// below depth count as one.
     uint64_t of(osg::Node& node, uint64_t most, std::size_t depth)
     {
         const osg::Group* const group = node.asGroup();

@@ -1,4 +1,4 @@
-// RasterizedCollection.cpp - what GraphCollector leaves to OSG. Layer: bridge.
+// RasterizedCollection.cpp - collects the parts that GraphCollector leaves to OSG. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
@@ -9,8 +9,8 @@
 namespace osgRayTrace::engine
 {
 
-/// True if OSG has to draw something in it: then all of it, as it is the billboard that places its
-/// drawables.
+/// Returns whether OSG has to draw something in the billboard. OSG then draws all of the billboard,
+/// because it places its drawables.
 bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
 {
     bool leaves = false;
@@ -26,9 +26,9 @@ bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
     return leaves;
 }
 
-/// True if the group is of a kit that draws its children in a way of its own, by a cull traversal
-/// only: OSG draws it where there is OpenGL, and its children stand for it elsewhere, or if an
-/// effect is hinted to be traced.
+/// Returns whether the group is of a kit that draws its children in a way of its own, by a cull
+/// traversal only. OSG draws such a group if there is OpenGL. The children of an effect stand for
+/// it without OpenGL, or if the effect is hinted to be traced; a volume is then left out.
 bool GraphCollector::leavesGroup(osg::Node& node)
 {
     const bool effect = isFrom(&node, "osgFX"), volume = isFrom(&node, "osgVolume");
@@ -46,7 +46,7 @@ bool GraphCollector::leavesGroup(osg::Node& node)
     return true;
 }
 
-/// Its children, whatever its own traverse does.
+/// Traverses the children, whatever the group's own traverse does.
 void GraphCollector::traverseGroup(osg::Group& group)
 {
     if (isTooDeep(group) || isTooMuch(group)) return;
@@ -67,8 +67,7 @@ void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
     _graph.rasterizedPaths.push_back(pickPath());
 }
 
-/// Why the geometry at the end of the path is drawn by OpenGL where there is one; null: it is
-/// traced.
+/// Returns why OpenGL, if available, draws the geometry at the end of the path; null: it is traced.
 const char* GraphCollector::rasterizedReason(const osg::Geometry& geometry, bool isPosed)
 {
     const osg::StateSet* stateSet = geometry.getStateSet();
@@ -82,7 +81,7 @@ const char* GraphCollector::rasterizedReason(const osg::Geometry& geometry, bool
     return hint == DrawHint::Trace ? nullptr : reason;
 }
 
-/// Leaves to OSG what it draws better. True if nothing is left to trace.
+/// Leaves to OSG the parts that it draws better. Returns true if nothing is left to trace.
 bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
 {
     if (const char* reason = rasterizedReason(geometry, isPosed))
@@ -96,10 +95,10 @@ bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
     warnIfForced("lines, points or instanced primitives");
     const bool all = rest->getNumPrimitiveSets() == geometry.getNumPrimitiveSets();
     rasterize(RasterizedPart::Draw, all ? nullptr : rest.get());
-    return false; // those without triangles are counted where triangles are made
+    return false; // primitive sets without triangles are counted where triangles are made
 }
 
-/// Names what is hinted to be traced and cannot be.
+/// Names a node that is hinted to be traced but cannot be.
 void GraphCollector::warnIfForced(const char* what)
 {
     if (hintOf(getNodePath()) != DrawHint::Trace) return;

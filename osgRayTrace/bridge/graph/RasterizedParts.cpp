@@ -1,4 +1,5 @@
-// RasterizedParts.cpp - replays the way from the decorator to what OSG draws. Layer: bridge.
+// RasterizedParts.cpp - replays the way from the decorator to the parts that OSG draws. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/RasterizedParts.h"
 
@@ -22,15 +23,15 @@ namespace
 
 using Path = std::vector<osg::ref_ptr<osg::Node>>;
 
-/// The visitor on its way down: parts come in the order of the traversal, so what the next one has
-/// in common with the last stays pushed.
+/// Moves the visitor down the paths. Parts come in the order of the traversal, so nodes that the
+/// next part's path shares with the last one stay pushed.
 class Descent
 {
 public:
     explicit Descent(osgUtil::CullVisitor& visitor) : _visitor(visitor) {}
     ~Descent() { ascend(0); }
 
-    /// Below the nodes [begin, end) of a path. False if one of them is masked out.
+    /// Moves below the nodes [begin, end) of a path. Returns false if one of them is masked out.
     bool moveTo(Path::const_iterator begin, Path::const_iterator end)
     {
         const auto length = static_cast<std::size_t>(end - begin);
@@ -76,7 +77,8 @@ private:
     std::vector<osg::Node*> _nodes;
 };
 
-/// As CullVisitor does on its way to their children, which are not wanted.
+/// Places the state of a node, as CullVisitor does on its way to the node's children, which are not
+/// wanted here.
 void placeState(const osg::Node& node, osgUtil::CullVisitor& visitor)
 {
     osg::RefMatrix* matrix = visitor.getModelViewMatrix();
@@ -107,8 +109,9 @@ void placeState(const osg::Node& node, osgUtil::CullVisitor& visitor)
     }
 }
 
-/// A colour mask leaves channels of what is there before, which is our picture then: DisplayTexture
-/// draws it in bin 1. Whoever has chosen a bin has chosen an order.
+/// Returns whether a part mixes with the traced picture. A colour mask leaves channels of the
+/// picture beneath, which is the traced one: DisplayTexture draws it in bin 1. Whoever has chosen a
+/// bin has chosen an order.
 bool mixesWithPicture(const RasterizedPart& part)
 {
     bool masks = false;
@@ -122,7 +125,8 @@ bool mixesWithPicture(const RasterizedPart& part)
     return masks;
 }
 
-/// Never freed: threads may cull while the process ends.
+/// Returns the state set of bins after the picture. It is never freed, as threads may cull while
+/// the process ends.
 const osg::StateSet* stateAfterPicture()
 {
     static const osg::StateSet* const stateSet = []
@@ -145,7 +149,7 @@ osg::ref_ptr<osg::Geometry> withoutTriangles(const osg::Geometry& geometry)
     if (rest.empty()) return nullptr;
     osg::ref_ptr<osg::Geometry> copy = new osg::Geometry(geometry);
     copy->setPrimitiveSetList(rest);
-    copy->getBound(); // now: several cull threads may ask for it at once
+    copy->getBound(); // computed now, as several cull threads may ask for it at once
     return copy;
 }
 
@@ -163,7 +167,7 @@ void cullParts(const RasterizedParts& parts, osgUtil::CullVisitor& visitor)
     Descent descent(visitor);
     for (const RasterizedPart& part : parts)
     {
-        if (part.path.empty()) continue; // there is no decorator
+        if (part.path.empty()) continue; // without a decorator the path is empty
         osg::Node& node = *part.path.back();
         if (!descent.moveTo(part.path.begin(), part.path.end() - 1)) continue;
         if (part.kind != RasterizedPart::Draw)

@@ -1,4 +1,4 @@
-// SoftwareVertices.cpp - osgAnimation's software transforms, run on copies. Layer: bridge.
+// SoftwareVertices.cpp - runs osgAnimation's software transforms on copies. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
 
@@ -27,7 +27,8 @@ namespace
 using osgAnimation::MorphGeometry;
 using osgAnimation::RigGeometry;
 
-/// The common case of any other geometry costs no cast.
+/// Returns whether a geometry is one of osgAnimation's; any other geometry, the common case, costs
+/// no cast.
 bool isAnimated(const osg::Geometry& geometry)
 {
     return isFrom(&geometry, "osgAnimation");
@@ -50,8 +51,8 @@ bool isEmpty(const osg::Geometry& geometry)
     return !geometry.getVertexArray() || geometry.getVertexArray()->getNumElements() == 0;
 }
 
-/// Positions that osgAnimation can read; null if there are none. Normals must go with them: it does
-/// not check.
+/// Returns positions that osgAnimation can read; null if there are none. Normals must match them in
+/// number, as osgAnimation does not check.
 const osg::Vec3Array* readablePositions(const osg::Geometry& geometry)
 {
     const auto* positions = dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray());
@@ -63,7 +64,8 @@ const osg::Vec3Array* readablePositions(const osg::Geometry& geometry)
     return fit ? positions : nullptr;
 }
 
-/// Its indices are within the source; osgAnimation writes where they point.
+/// Returns whether all indices are within the source, because osgAnimation writes to the vertices
+/// that they name.
 bool isSound(const osgAnimation::VertexInfluenceMap& influences, std::size_t vertices)
 {
     for (const auto& [bone, weights] : influences)
@@ -72,7 +74,7 @@ bool isSound(const osgAnimation::VertexInfluenceMap& influences, std::size_t ver
     return true;
 }
 
-/// What the bones do to the vertices.
+/// Returns the matrices of the bones, which move the vertices.
 std::vector<osg::Matrixf> poseOf(osgAnimation::Skeleton& skeleton)
 {
     osgAnimation::BoneMapVisitor bones;
@@ -88,7 +90,7 @@ unsigned int modifiedCount(const osg::Array* array)
     return array ? array->getModifiedCount() : 0;
 }
 
-/// Is placed by the path instead of by parents, of which it has none.
+/// Copies a rig. The path places the copy, as it has no parents.
 class PosedRig : public RigGeometry
 {
 public:
@@ -102,7 +104,7 @@ public:
         buildVertexInfluenceSet();
     }
 
-    /// As long as the source has the arrays that it was made for.
+    /// Returns whether the source still has the arrays for which the copy was made.
     bool fits(RigGeometry& original) const
     {
         const osg::Geometry& source = *original.getSourceGeometry();
@@ -127,8 +129,8 @@ public:
     }
 
 private:
-    std::vector<osg::Matrixf> _pose; // that it is in
-    unsigned int _modified = 0;      // the source then
+    std::vector<osg::Matrixf> _pose; // present pose
+    unsigned int _modified = 0;      // modified counts of the source for that pose
 };
 
 bool canPose(RigGeometry& rig)
@@ -154,8 +156,8 @@ bool poseRig(PosedRig& rig, const osg::NodePath& path)
     return false;
 }
 
-/// The arrays are its own, all else is shared. OSG's constructor would share the array that it
-/// writes to.
+/// Returns a copy with arrays of its own that shares all else. OSG's constructor would share the
+/// array that it writes to.
 osg::ref_ptr<MorphGeometry> copyOf(MorphGeometry& original)
 {
     osg::ref_ptr<MorphGeometry> copy = new MorphGeometry(original, osg::CopyOp::SHALLOW_COPY);

@@ -1,4 +1,4 @@
-// UntracedParts.cpp - which parts of a graph are no surfaces that rays can meet. Layer: bridge.
+// UntracedParts.cpp - finds the parts of a graph that are no surfaces for rays. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
 
@@ -68,7 +68,7 @@ const char* rasterizedState(const GraphState& state, const TextureConverter& tex
     default:
         break;
     }
-    // In the coordinates of the drawable that happens to be drawn first with it.
+    // The plane is in the coordinates of the drawable that happens to be drawn first with it.
     const auto* plane = state.attribute<osg::ClipPlane>(kClipPlaneSlot);
     if (plane && plane->getClipPlaneNum() < kClipPlanes &&
         state.isOn(kClipPlaneBit + plane->getClipPlaneNum()))

@@ -1,4 +1,4 @@
-// UntracedParts.h - what in a graph is not traced, and why. Layer: bridge.
+// UntracedParts.h - tells the parts of a graph that are not traced, and the reasons. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,23 +11,26 @@
 namespace osgRayTrace::engine
 {
 
-/// Whether its class is one of this library.
+/// Returns whether the object's class is one of this library.
 bool isFrom(const osg::Object* object, const char* library);
 
-/// Reasons are keys of ConversionCounts.
+/// The reasons that these functions return are keys of ConversionCounts.
 
-/// Why a drawable that is no osg::Geometry is not traced; null: it is our own.
+/// Returns why a drawable that is no osg::Geometry is not traced; null: the drawable is our own.
 const char* untracedDrawable(const osg::Drawable& drawable);
 
-/// Why a node without children that is of no library of OSG's core is not traced; null: there is
-/// nothing of it to see. Emitters, programs and updaters of particles move what other nodes draw.
+/// Returns why a node without children whose class is not of OSG's core is not traced; null: the
+/// node shows nothing. Emitters, programs and updaters of particles move content that other nodes
+/// draw.
 const char* untracedLeaf(const osg::Node& node);
 
-/// Why the content of a camera in the graph is not a part of the scene around it; null: it is.
+/// Returns why the content of a camera in the graph does not belong to the scene around it; null:
+/// it does.
 const char* untracedCamera(const osg::Camera& camera);
 
-/// Why triangles of this state are drawn by OpenGL where there is one; null: they are traced.
-/// textures: what was converted before. poses: a program that only does what was done in software.
+/// Returns why OpenGL, if available, draws triangles of this state; null: they are traced. textures
+/// holds the textures that were converted before. poses is a program that only repeats what was
+/// computed in software.
 const char* rasterizedState(const GraphState& state, const TextureConverter& textures,
                             const osg::StateAttribute* poses);
 

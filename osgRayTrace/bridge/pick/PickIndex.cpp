@@ -1,4 +1,4 @@
-// PickIndex.cpp - records what its instances are. Layer: bridge.
+// PickIndex.cpp - records the use of the graph behind each instance. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/pick/PickIndex.h"
 
@@ -12,7 +12,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// osgUtil's intersectors of lines meet triangles and quads; lines, points and patches never.
+/// Returns whether osgUtil's intersectors of lines can meet the node: they meet triangles and
+/// quads, but never lines, points and patches.
 bool hasFaces(osg::Node& node)
 {
     const osg::Geometry* geometry = node.asGeometry();
@@ -30,7 +31,7 @@ bool hasFaces(osg::Node& node)
 PickIndex::PickIndex(CollectedGraph& graph, const std::vector<uint32_t>& instances)
     : _paths(std::move(graph.paths))
 {
-    // Parts in the order of the traversal, which is that of the numbers of paths.
+    // Parts come in the order of the traversal, which is also the order of the numbers of paths.
     std::size_t use = 0;
     for (const CollectedGeometry& geometry : graph.geometries)
     {

@@ -15,7 +15,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Every triangle is a primitive, and none was dropped.
+/// Returns whether every triangle is a primitive, and none was dropped.
 bool isPlainList(const osg::Geometry& geometry, const PrimitiveRestart& restart, const Mesh& mesh)
 {
     if (restart.on || hasValuesBySet(geometry)) return false;
@@ -32,15 +32,15 @@ bool isPlainList(const osg::Geometry& geometry, const PrimitiveRestart& restart,
     return triangles == mesh.triangles.size();
 }
 
-/// Mirrored meshes have them turned.
+/// Returns whether two triangles are equal; those of mirrored meshes are turned.
 bool isSame(const UVec3& mesh, const UVec3& geometry)
 {
     return mesh == geometry ||
            (mesh.x == geometry.x && mesh.y == geometry.z && mesh.z == geometry.y);
 }
 
-/// The triangles of a mesh are those of its geometry in their order, without those that were
-/// dropped; some may have been cut. Gives the place of each among the geometry's.
+/// Finds the place of each triangle of a mesh among its geometry's. The triangles of a mesh are
+/// those of its geometry in their order, without those that were dropped; some may have been cut.
 class Finder
 {
 public:
@@ -55,7 +55,8 @@ public:
             _next = i + 1;
             return static_cast<uint32_t>(i);
         }
-        _inOrder = false; // not there, or not in order: no second walk through all of them
+        // Absent, or not in order: there is no second walk through all triangles.
+        _inOrder = false;
         return search(t);
     }
 
@@ -76,7 +77,7 @@ private:
     const std::vector<UVec3>& _triangles;
     std::size_t _next = 0;
     bool _inOrder = true;
-    std::map<Key, uint32_t> _places; // if they are not in order
+    std::map<Key, uint32_t> _places; // filled if triangles are not in order
 };
 
 } // namespace
@@ -87,8 +88,8 @@ PrimitiveNumbers::PrimitiveNumbers(const osg::Geometry& geometry, const Primitiv
 {
     const osg::Array* vertices = positionArray(geometry);
     _vertexCount = vertices ? vertices->getNumElements() : 0;
-    const bool cut =
-        mesh.positions.size() != _vertexCount; // as many triangles may have come as went
+    // A cut mesh may have gained as many triangles as it lost.
+    const bool cut = mesh.positions.size() != _vertexCount;
     if (!cut && isPlainList(geometry, restart, mesh)) return;
 
     TriangleList list = trianglesOf(geometry, _vertexCount, restart, true);

@@ -1,4 +1,4 @@
-// PrimitiveNumbers.h - from a triangle of a mesh to the primitive it was made of. Layer: bridge.
+// PrimitiveNumbers.h - leads from a triangle of a mesh to its primitive. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,24 +13,26 @@
 namespace osgRayTrace::engine
 {
 
-/// Where a triangle of a mesh is in its geometry.
+/// Tells where a triangle of a mesh is in its geometry.
 struct GeometryTriangle
 {
-    uint32_t primitive =
-        kInvalid;         ///< as osgUtil's intersectors count; kInvalid: cut by a clip plane
-    UVec3 rows{kInvalid}; ///< of the vertex arrays
+    /// Number of the primitive as osgUtil's intersectors count; kInvalid: cut by a clip plane.
+    uint32_t primitive = kInvalid;
+    UVec3 rows{kInvalid}; ///< rows of the vertex arrays
 };
 
-/// Of one geometry. Takes no memory if its primitives are one triangle after the other and all of
-/// them are in the mesh; else 4 bytes a triangle, and as much a vertex where vertices were split.
+/// Numbers the primitives of one geometry. The object takes no memory if the primitives are one
+/// triangle after the other and all of them are in the mesh. Otherwise it takes 4 bytes a triangle,
+/// and as much a vertex if vertices were split.
 class PrimitiveNumbers
 {
 public:
-    /// The mesh was made of the geometry, whose primitive sets have not changed since.
+    /// The mesh must have been made of the geometry, and the geometry's primitive sets must not
+    /// have changed since.
     PrimitiveNumbers(const osg::Geometry& geometry, const PrimitiveRestart& restart,
                      const Mesh& mesh);
 
-    /// Whether it was made for a mesh with these triangles.
+    /// Returns whether the numbers were made for a mesh with these triangles.
     bool isOf(const Mesh& mesh) const
     {
         return _triangles.data() == mesh.triangles.data() &&
@@ -40,10 +42,12 @@ public:
     GeometryTriangle at(uint32_t triangle) const;
 
 private:
-    SharedArray<UVec3> _triangles;     ///< of the mesh; kept so that their address stays theirs
-    uint32_t _vertexCount = 0;         ///< of the geometry, after the split
-    std::vector<uint32_t> _primitives; ///< of each triangle; empty: its own number
-    std::vector<uint32_t> _rows;       ///< of each vertex; empty: its own number
+    /// Triangles of the mesh, kept so that their address stays unique.
+    SharedArray<UVec3> _triangles;
+    uint32_t _vertexCount = 0; ///< vertices of the geometry, after the split
+    /// Primitive of each triangle; empty: the triangle's own number.
+    std::vector<uint32_t> _primitives;
+    std::vector<uint32_t> _rows; ///< row of each vertex; empty: the vertex's own number
 };
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,5 @@
-// RasterizedPicker.cpp - leads osgUtil's visitor to what is not ray traced. Layer: bridge.
+// RasterizedPicker.cpp - leads osgUtil's visitor to the parts that are not ray traced. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/pick/RasterizedPicker.h"
 
@@ -20,8 +21,8 @@ template <class Matrix> Matrix* copyOf(Matrix* matrix)
     return matrix ? new Matrix(*matrix) : nullptr;
 }
 
-/// On its way from the decorator to the parts; what the next one has in common with the last stays
-/// pushed, and is not visited again if the segment misses it.
+/// Leads osgUtil's visitor from the decorator to the parts. Nodes that the next part's way shares
+/// with the last one stay pushed, and are not visited again if the segment misses them.
 class PartVisitor : public osgUtil::IntersectionVisitor
 {
 public:
@@ -52,7 +53,7 @@ public:
         osg::Drawable* drawable = node.asDrawable();
         const bool inGeode = !_levels.empty() && _paths.node(_levels.back().entry).asGeode();
         if (drawable && inGeode)
-            intersect(drawable); // geodes do not ask for the masks of theirs
+            intersect(drawable); // geodes do not check their drawables' masks
         else
             node.accept(*this);
     }
@@ -61,10 +62,11 @@ private:
     struct Level
     {
         uint32_t entry = NodeTree::kNone;
-        bool open = false; ///< else what is below it is masked out, or the segment misses it
+        bool open = false; ///< false: the nodes below are masked out, or the segment misses them
     };
 
-    /// To below the first so many nodes of the way. False: the segment misses one of them.
+    /// Moves below the first depth nodes of the way. Returns false if the segment misses one of
+    /// them.
     bool descendTo(std::size_t depth)
     {
         std::size_t common = 0;
@@ -130,7 +132,8 @@ std::vector<Segment::Intersection> pickRasterized(const PickIndex& index,
                     segment.getIntersectionLimit());
     own->setPrecisionHint(segment.getPrecisionHint());
     PartVisitor parts(visitor, *own, index.paths());
-    std::map<const osg::Node*, osg::Node*> originals; // of copies that lack what is traced
+    // Originals of copies that lack the traced triangles.
+    std::map<const osg::Node*, osg::Node*> originals;
     for (const PickIndex::Part& part : index.parts())
     {
         if (part.inPlace) originals[part.inPlace.get()] = &index.paths().node(part.path);

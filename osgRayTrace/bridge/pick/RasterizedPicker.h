@@ -1,4 +1,5 @@
-// RasterizedPicker.h - osgUtil's own intersections with what is not ray traced. Layer: bridge.
+// RasterizedPicker.h - osgUtil's own intersections with the parts that are not ray traced. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,8 +10,8 @@
 namespace osgRayTrace::engine
 {
 
-/// The segment against the parts of the index that the visitor, which is at the decorator, may
-/// visit: with its masks, matrices and choices. Throws std::bad_alloc.
+/// Intersects the segment with those parts of the index that the visitor, which is at the
+/// decorator, may visit, with its masks, matrices and choices. Throws std::bad_alloc.
 std::vector<osgUtil::LineSegmentIntersector::Intersection>
 pickRasterized(const PickIndex& index, osgUtil::IntersectionVisitor& visitor,
                const osgUtil::LineSegmentIntersector& segment);

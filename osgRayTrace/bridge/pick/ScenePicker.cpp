@@ -1,4 +1,4 @@
-// ScenePicker.cpp - one ray, and what it hit told in terms of the graph. Layer: bridge.
+// ScenePicker.cpp - traces one ray, and translates its hits to the graph. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/pick/ScenePicker.h"
 
@@ -17,13 +17,15 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Of a coordinate or a distance in floats, and of a few operations with it.
+/// Relative rounding of a coordinate or a distance in floats after a few operations.
 constexpr double kRounding = 8.0 * 0x1p-24;
 
-/// Weights of corners that are so far from the triangle mean that the graph is not what was traced.
+/// Weights of corners that are so far outside of the triangle mean that the graph has changed since
+/// it was traced.
 constexpr double kOutside = 1e-3;
 
-/// Rows of the arrays that osg::Geometry may be asked for by number.
+/// Returns a row of an array, by number, if the array has a type that osg::Geometry may have for
+/// vertices.
 std::optional<osg::Vec3d> vertex(const osg::Array& array, uint32_t row)
 {
     if (row >= array.getNumElements()) return std::nullopt;
@@ -70,16 +72,17 @@ std::vector<ScenePicker::Hit> ScenePicker::pick(const osg::Vec3d& start, const o
                                        });
         if (hit && !again) hits.push_back(std::move(*hit));
         if (one && !hits.empty()) break;
-        // The same ray finds the same distances: the next float is past what it has hit.
-        // The application's thread may take denormals for 0.
+        // The same ray finds the same distances: the next float is past the hits so far. The
+        // application's thread may take denormals for 0.
         tNear = std::max(std::nextafter(found->t, std::numeric_limits<float>::infinity()),
                          std::numeric_limits<float>::min());
     }
     return hits;
 }
 
-/// Cut to the bound of the scene: a segment may begin at a near plane far outside, where floats are
-/// coarse. A little longer than the segment at both ends; what is too far is refused in double.
+/// Returns the segment's ray, cut to the bound of the scene: a segment may begin at a near plane
+/// far outside, at which floats are coarse. The ray is a little longer than the segment at both
+/// ends; hits beyond the segment are refused in double.
 std::optional<ScenePicker::EngineRay> ScenePicker::engineRay(const osg::BoundingSphere& bound) const
 {
     if (!isFinite(_start) || !isFinite(_end)) return std::nullopt;
@@ -114,7 +117,8 @@ std::optional<ScenePicker::EngineRay> ScenePicker::engineRay(const osg::Bounding
     return ray;
 }
 
-/// Nothing: the ray goes on, as what it met is no drawable, or masked out, or beyond the ends.
+/// Returns nothing if the ray has to go on, because it met no drawable, or a masked one, or one
+/// beyond the segment's ends.
 std::optional<ScenePicker::Hit> ScenePicker::hitOf(const engine::Hit& found, double ratio)
 {
     const PickIndex::Use use = _index.use(found.instance);
@@ -123,7 +127,7 @@ std::optional<ScenePicker::Hit> ScenePicker::hitOf(const engine::Hit& found, dou
     const Scene& scene = _scene.scene();
     const Mesh& mesh = *scene.meshes[scene.instances[found.instance].mesh];
     GeometryTriangle triangle = _index.triangle(use, mesh, found.primitive);
-    // Mirrored where they are, triangles were turned: see GeometryConverter.
+    // Mirrored triangles were turned: see GeometryConverter.
     const osg::Matrixd& m = _sceneFromLocal;
     const bool mirrored =
         osg::Vec3d(m(0, 0), m(0, 1), m(0, 2)) *
@@ -139,8 +143,8 @@ std::optional<ScenePicker::Hit> ScenePicker::hitOf(const engine::Hit& found, dou
     return hit;
 }
 
-/// Sets what is known from the path alone, and the drawable's coordinates as they are now. False if
-/// the visitor's mask hides it.
+/// Sets the values that follow from the path alone, and the drawable's present coordinates. Returns
+/// false if the visitor's mask hides it.
 bool ScenePicker::leadTo(uint32_t path, Hit& hit)
 {
     const NodeTree& paths = _index.paths();
@@ -151,7 +155,8 @@ bool ScenePicker::leadTo(uint32_t path, Hit& hit)
     for (const uint32_t entry : _way)
     {
         osg::Node& node = paths.node(entry);
-        // osgUtil does not visit the drawables of geodes: they are on no path, and have no mask.
+        // osgUtil does not visit the drawables of geodes: such drawables are on no path, and their
+        // masks do not count.
         const bool inGeode = entry == _way.back() && !hit.nodePath.empty() && _way.size() > 1 &&
                              hit.nodePath.back()->asGeode();
         if (inGeode) break;
@@ -173,8 +178,8 @@ bool ScenePicker::leadTo(uint32_t path, Hit& hit)
     return hit.drawable.valid();
 }
 
-/// [MollerTrumbore97, eq. 6] in double. ratio: as the ray found it. False if this is not where the
-/// triangle is now, or where it was in the traced scene.
+/// Places the hit on the triangle in double [MollerTrumbore97, eq. 6]. ratio is that which the ray
+/// found. Returns false if the triangle is not there now, or was elsewhere in the traced scene.
 bool ScenePicker::placeOnTriangle(const osg::Geometry& geometry, const UVec3& rows, double ratio,
                                   Hit& hit) const
 {
@@ -191,7 +196,7 @@ bool ScenePicker::placeOnTriangle(const osg::Geometry& geometry, const UVec3& ro
     const double u = (p * toStart) / determinant, v = (q * d) / determinant;
     const double exact = (q * ac) / determinant;
     const bool inside = u > -kOutside && v > -kOutside && u + v < 1.0 + kOutside;
-    // A surface that was raised, or has moved since, is somewhere else.
+    // A surface that was raised, or has moved since, is at another place.
     const double size = (ab.length() + ac.length()) / d.length();
     if (!inside || !(std::fabs(exact - ratio) <= 1e-4 * (std::fabs(ratio) + size))) return false;
     hit.ratio = exact;
@@ -203,7 +208,8 @@ bool ScenePicker::placeOnTriangle(const osg::Geometry& geometry, const UVec3& ro
     return true;
 }
 
-/// As it was traced: what was cut by clip planes has no such triangle, nor has what changed since.
+/// Places the hit on the surface as it was traced: parts cut by clip planes have no triangle in the
+/// graph, nor have parts that changed since.
 void ScenePicker::placeOnSurface(const engine::Hit& found, double ratio, Hit& hit) const
 {
     const Scene& scene = _scene.scene();
@@ -221,7 +227,8 @@ void ScenePicker::placeOnSurface(const engine::Hit& found, double ratio, Hit& hi
     hit.localIntersectionNormal.normalize();
 }
 
-/// The primitive of the drawable that osgUtil meets nearest to the hit; 0 if it meets none.
+/// Returns the primitive of the drawable that osgUtil meets nearest to the hit; 0 if osgUtil meets
+/// none.
 uint32_t ScenePicker::primitiveByOsg(osg::Drawable& drawable, const Hit& hit) const
 {
     const osg::Geometry* geometry = drawable.asGeometry();

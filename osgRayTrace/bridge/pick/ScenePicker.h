@@ -1,4 +1,5 @@
-// ScenePicker.h - what of a scene graph a segment hits, by the traced scene. Layer: bridge.
+// ScenePicker.h - finds the hits of a segment with a scene graph, by the traced scene. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,30 +15,32 @@
 namespace osgRayTrace::engine
 {
 
-/// Looks for hits with the surfaces of one traced scene. Rays find the triangles in float; where on
-/// them, and how far, is then computed in double from the geometry's own vertices and the
-/// transforms as they are now, as osgUtil does. Used by one thread; throws std::bad_alloc.
+/// Looks for hits with the surfaces of one traced scene. Rays find the triangles in float. The
+/// place on the triangle, and its distance, are then computed in double from the geometry's own
+/// vertices and the present transforms, as osgUtil does. Only one thread may use a picker;
+/// std::bad_alloc may be thrown.
 class ScenePicker
 {
 public:
     using Hit = osgUtil::LineSegmentIntersector::Intersection;
 
-    /// visitor: at the decorator. All are kept. The index is of the scene.
+    /// The visitor is at the decorator, and the index belongs to the scene. All references are
+    /// kept.
     ScenePicker(const TracedScene& scene, const PickIndex& index,
                 osgUtil::IntersectionVisitor& visitor, HitRule rule)
         : _scene(scene), _index(index), _visitor(visitor), _rule(rule)
     {
     }
 
-    /// From start to end, in the scene's coordinates: the first, or all of them, of a drawable the
-    /// first or all. bound: of the scene; what is outside of it is not looked at, which keeps
-    /// floats exact.
+    /// Returns the hits from start to end, in the scene's coordinates; limit selects the first or
+    /// all, overall or by drawable. bound is that of the scene; nothing outside of it is looked at,
+    /// which keeps floats exact.
     std::vector<Hit> pick(const osg::Vec3d& start, const osg::Vec3d& end,
                           const osg::BoundingSphere& bound,
                           osgUtil::Intersector::IntersectionLimit limit);
 
 private:
-    /// The segment in engine coordinates; ratio = first + t * perLength.
+    /// Holds the segment in engine coordinates; ratio = first + t * perLength.
     struct EngineRay
     {
         Vec3 origin{0.0f}, direction{0.0f};
@@ -57,8 +60,9 @@ private:
     const PickIndex& _index;
     osgUtil::IntersectionVisitor& _visitor;
     HitRule _rule;
-    osg::Vec3d _start, _end;                       ///< in the scene
-    osg::Matrixd _sceneFromLocal, _localFromScene; ///< of the drawable last led to
+    osg::Vec3d _start, _end; ///< ends in the scene's coordinates
+    /// Transforms of the drawable that leadTo found last.
+    osg::Matrixd _sceneFromLocal, _localFromScene;
     osg::Vec3d _localStart, _localEnd;
     std::vector<uint32_t> _way;
 };

@@ -1,4 +1,4 @@
-// PageRequests.cpp - a cull traversal that draws nothing. Layer: bridge.
+// PageRequests.cpp - runs a cull traversal that draws nothing. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/update/PageRequests.h"
 
@@ -19,7 +19,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Pages alone see a cull visitor: other nodes may take any such visitor for an
+/// Visits pages. Pages alone see a cull visitor: other nodes may take any such visitor for an
 /// osgUtil::CullVisitor, or do their work of the frame twice.
 class PageVisitor : public osg::NodeVisitor, public osg::CullStack
 {
@@ -45,7 +45,7 @@ public:
     void apply(osg::PagedLOD& node) override { enter(node, CULL_VISITOR); }
     void apply(osg::ProxyNode& node) override { enter(node, CULL_VISITOR); }
     void apply(osg::Drawable&) override {}
-    void apply(osg::Camera&) override {} // drawn by OSG, see RasterizedParts
+    void apply(osg::Camera&) override {} // OSG draws cameras, see RasterizedParts
     void apply(osg::Projection&) override {}
 
     void apply(osg::Transform& node) override
@@ -83,7 +83,8 @@ private:
         popCurrentMask();
     }
 
-    /// No leaf has pages; and a tile of a terrain makes its geometry when it is traversed.
+    /// Traverses groups. Leaves have no pages, and a tile of a terrain makes its geometry when it
+    /// is traversed.
     void traverseAs(VisitorType type, osg::Node& node)
     {
         if (!node.asGroup() || std::strcmp(node.className(), "TerrainTile") == 0) return;

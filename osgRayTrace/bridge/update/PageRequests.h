@@ -13,8 +13,8 @@ namespace osgRayTrace::engine
 {
 
 /// Requests the pages (PagedLOD, ProxyNode) below the node that the visitor is at, and marks those
-/// in use, as its own traversal of what is in the frustum would. Where the scene is traced nothing
-/// else does. Cull threads.
+/// in use, as the visitor's own traversal of the frustum would. If the scene is traced, nothing
+/// else requests pages. Cull threads call this.
 void requestPages(osg::Group& scene, osgUtil::CullVisitor& visitor);
 
 } // namespace osgRayTrace::engine

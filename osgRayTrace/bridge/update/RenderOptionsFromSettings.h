@@ -13,13 +13,13 @@
 namespace osgRayTrace::engine
 {
 
-/// What the integrators need of the settings.
+/// Returns the settings that the integrators need.
 RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings);
 
-/// How an image of the scene is shown: the settings' exposure, the scene's colour rule.
+/// Returns the tone map of an image of the scene: the settings' exposure, the scene's colour rule.
 ToneMap toneMapFromSettings(const RayTraceSettings& settings, const Scene& scene);
 
-/// How images are denoised before they are shown. Debug channels are not.
+/// Returns how images are denoised before they are displayed. Debug channels are not denoised.
 DenoiseKind denoiseKind(const RayTraceSettings& settings);
 
 /// Takes over what the image of a view needs of the settings; scene, workers and photons stay.

@@ -1,4 +1,4 @@
-// StatisticsFromEngine.cpp - the engine's counts, as public statistics show them. Layer: bridge.
+// StatisticsFromEngine.cpp - sets the public statistics from the engine's counts. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
 

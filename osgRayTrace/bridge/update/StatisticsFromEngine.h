@@ -1,4 +1,4 @@
-// StatisticsFromEngine.h - the engine's counts as the public statistics show them. Layer: bridge.
+// StatisticsFromEngine.h - sets the public statistics from the engine's counts. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Sets the scene's part of the statistics; the conversion's counts and seconds too.
+/// Sets the scene's part of the statistics, including the conversion's counts and seconds.
 void setSceneStatistics(Statistics& statistics, const ConversionResult& conversion,
                         const TracedScene& traced);
 
@@ -22,7 +22,7 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress);
 /// Sets what the view did to the image between accumulation and display.
 void setStageStatistics(Statistics& statistics, const StageReport& report);
 
-/// Sets what is in them of the image's denoising, and warns once if it was not as asked for.
+/// Sets the denoising part, and warns once if the denoiser was not the one that was asked for.
 void setDenoiseStatistics(Statistics& statistics, const DenoiseReport& report, double seconds);
 
 } // namespace osgRayTrace::engine

@@ -7,12 +7,12 @@
 namespace osgRayTrace::engine
 {
 
-constexpr int kPixelSegment =
-    256; ///< pixels of a row that are worked on while they are in the cache
+/// Pixels of a row that are worked on while they are in the cache.
+constexpr int kPixelSegment = 256;
 
-/// Pixels that are almost not there have no light of their own.
+/// Pixels of less alpha are almost empty and have no light of their own.
 constexpr float kLeastAlpha = 1e-3f;
-constexpr float kLargestLight = 1e20f; ///< squares of it are finite
+constexpr float kLargestLight = 1e20f; ///< largest light whose square is finite
 
 struct AlbedoRow
 {
@@ -24,7 +24,7 @@ inline AlbedoRow albedoRow(const DenoiseGuides& guides, int x, int y)
     return {guides.albedoR.row(y) + x, guides.albedoG.row(y) + x, guides.albedoB.row(y) + x};
 }
 
-/// Returns the index of a pixel.
+/// Returns the index of a pixel in the arrays of the image.
 inline std::size_t pixelOf(const ResolvedImage& image, int x, int y)
 {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +

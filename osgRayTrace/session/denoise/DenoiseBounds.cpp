@@ -1,4 +1,5 @@
-// DenoiseBounds.cpp - bright cells brought down to what their neighbours bear. Layer: session.
+// DenoiseBounds.cpp - reduces bright cells to a brightness that their neighbours allow. Layer:
+// session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/denoise/DenoiseTaps.h"
 
@@ -10,9 +11,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// A cell may be brighter than its neighbours' mean by so many of their standard deviations.
+/// Number of standard deviations of its neighbours by which a cell may be brighter than their mean.
 constexpr float kOutlier = 4.0f;
-/// or, as its own errors have it, so many of these.
+/// Number of its own standard errors by which a cell may be brighter than its neighbours' mean.
 constexpr float kCertain = 3.0f;
 
 struct Moments
@@ -20,14 +21,14 @@ struct Moments
     float weight, sum, squares, variance;
 };
 
-/// A row of cells of the neighbourhood.
+/// Points to a row of cells of the neighbourhood.
 struct MomentTap
 {
     GuideTap surface;
     const float *means, *variances;
 };
 
-/// Adds a cell of the neighbourhood to its moments. Luminance counts from that of a cell nearby
+/// Adds a cell of the neighbourhood to its moments. Luminance is counted from that of a cell nearby
 /// (reference), as the squares of larger numbers would lose small differences.
 OSGRAYTRACE_INLINE void addMoments(const Centre& centre, float reference, const MomentTap& row,
                                    int i, float dx, float dy, Moments& m)
@@ -42,7 +43,7 @@ OSGRAYTRACE_INLINE void addMoments(const Centre& centre, float reference, const 
     m.variance += weight * row.variances[i];
 }
 
-/// Adds the cells of a row but for the one in its middle.
+/// Adds the cells of a row except the one in its middle.
 OSGRAYTRACE_INLINE void addMomentsOfRow(const Centre& centre, float reference, const MomentTap& row,
                                         int i, float dy, Moments& m)
 {
@@ -67,7 +68,8 @@ void boundRow(const MomentTap (&rows)[5], PlaneRow planes, LightTap light, bool 
         const Centre c{g2.normalX[i],    g2.normalY[i],    g2.normalZ[i],      g2.distance[i],
                        planes.slopeX[i], planes.slopeY[i], planes.sharpness[i]};
         const float mean = m2[i], own = v2[i];
-        // The darkest around, as the middle may be brighter by orders of magnitude.
+        // The reference is the darkest cell around, as the middle may be brighter by orders of
+        // magnitude.
         const float besides = m2[i - 1] < m2[i + 1] ? m2[i - 1] : m2[i + 1];
         const float above = m1[i] < m3[i] ? m1[i] : m3[i];
         const float around = besides < above ? besides : above;
@@ -84,7 +86,7 @@ void boundRow(const MomentTap (&rows)[5], PlaneRow planes, LightTap light, bool 
         addMoments(c, reference, t4, i, 0.0f, 2.0f, m);
 
         const float scale = m.weight > 1e-6f ? 1.0f / m.weight : 0.0f;
-        const float towards = scale * m.sum; // the neighbours' mean, from the reference
+        const float towards = scale * m.sum; // neighbours' mean, counted from the reference
         const float excess = scale * m.squares - towards * towards;
         const float spread = excess > 0.0f ? excess : 0.0f;
         const float certain = mean - select(errors, kCertain * std::sqrt(own), mean);

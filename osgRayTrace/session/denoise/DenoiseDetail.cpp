@@ -1,4 +1,4 @@
-// DenoiseDetail.cpp - how much of the light of the image itself the denoiser keeps. Layer: session.
+// DenoiseDetail.cpp - the share of the image's own light that the denoiser keeps. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/denoise/DenoiseTaps.h"
 
@@ -10,13 +10,14 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Errors and what they have to explain are summed over 7 x 7 cells: an error of two halves is one
-/// random number, so those of fewer pixels are no measure. They count for a little more, as detail
-/// that is kept where there is none is seen more easily than detail that is lost.
+/// Errors and the differences that they have to explain are summed over 7 x 7 cells. An error of
+/// two halves is one random number, so the errors of fewer pixels are no measure. Errors count for
+/// a little more, as detail that is kept by mistake is seen more easily than detail that is lost.
 constexpr int kReach = 3;
 constexpr float kDoubt = 1.25f;
 
-/// What is left of the light where it is not known does not count.
+/// Adds the squared difference of the filtered light from the mean to spread. Cells without known
+/// light count nothing.
 OSGRAYTRACE_KERNEL
 void residualRow(const float* means, LightTap light, int count, float* __restrict spread)
 {
@@ -36,7 +37,7 @@ struct Column
     float residual[kSegment + 2 * kReach], error[kSegment + 2 * kReach];
 };
 
-/// Sums over the columns of the neighbourhood, from kReach cells before the first one on.
+/// Sums the columns of the neighbourhood, from kReach cells before the first cell on.
 OSGRAYTRACE_KERNEL
 void sumColumns(const float* const (&residuals)[2 * kReach + 1],
                 const float* const (&errors)[2 * kReach + 1], int count, Column& column)

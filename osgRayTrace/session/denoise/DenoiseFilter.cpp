@@ -24,7 +24,7 @@ struct DenoiseFilter::Implementation
     void allocate();
 
     DenoiseGuides guides;
-    int width = 0, height = 0; ///< that the arrays below are made for
+    int width = 0, height = 0; ///< size of the arrays below
     CellStatistics statistics;
     CellLight light, other;
 };
@@ -35,7 +35,7 @@ DenoiseFilter::~DenoiseFilter() = default;
 void DenoiseFilter::Implementation::allocate()
 {
     if (width == guides.width && height == guides.height) return;
-    width = height = 0; // if memory runs out below
+    width = height = 0; // no size is valid if memory runs out below
     for (CellPlane* plane :
          {&light.r, &light.g, &light.b, &other.r, &other.g, &other.b, &statistics.mean})
         plane->allocate(guides.cellsX, guides.cellsY, kNoLight);

@@ -11,14 +11,14 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// What a pixel has to give to its cell.
+/// Holds the light that pixels give to their cells.
 struct PixelLight
 {
     float r[kPixelSegment], g[kPixelSegment],
-        b[kPixelSegment];           ///< times alpha; 0 if it has nothing to give
-    float alpha[kPixelSegment];     ///< its weight; 0 if so
-    float luminance[kPixelSegment]; ///< of its light
-    float error[kPixelSegment];     ///< mean square
+        b[kPixelSegment];           ///< light times alpha; 0 if the pixel has nothing to give
+    float alpha[kPixelSegment];     ///< weight of the pixel; 0 if it has nothing to give
+    float luminance[kPixelSegment]; ///< luminance of the light
+    float error[kPixelSegment];     ///< mean square error of the luminance
 };
 
 OSGRAYTRACE_KERNEL
@@ -43,7 +43,8 @@ void divideByAlbedo(const float* rgba, AlbedoRow albedo, const uint8_t* inCell, 
     }
 }
 
-/// Red, green and blue come from the same paths: their errors are taken to go together.
+/// Divides the errors by the albedo. Red, green and blue come from the same paths, so their errors
+/// are taken to go together.
 OSGRAYTRACE_KERNEL
 void divideErrors(const float* errors, const float* rgba, AlbedoRow albedo, int count,
                   PixelLight& out)

@@ -1,4 +1,5 @@
-// DenoiseGuides.cpp - what is seen in the pixels, as the denoiser's loops read it. Layer: session.
+// DenoiseGuides.cpp - the surfaces of the pixels, as the denoiser's loops read them. Layer:
+// session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/denoise/DenoiseGuides.h"
 
@@ -13,10 +14,10 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// What a slope may change, as a share of the slope.
+/// Allowed change of a slope, as a share of the slope.
 constexpr float kSlopeTolerance = 0.5f;
 
-/// The smaller of the differences to both sides: that over an edge is larger.
+/// Returns the smaller of the differences to both sides, as the difference over an edge is larger.
 OSGRAYTRACE_INLINE float slopeOf(float before, float here, float after)
 {
     const float a = here - before, b = after - here;
@@ -40,7 +41,7 @@ void makeSlopes(const float* above, const float* here, const float* below, int c
     }
 }
 
-/// A row of cells as the pixels beside it see them.
+/// Points to a row of cells, as the pixels beside it read it.
 struct GuideRow
 {
     const float *normalX, *normalY, *normalZ, *distance, *slopeX, *slopeY, *sharpness;
@@ -53,14 +54,15 @@ GuideRow guideRow(const CellGuides& cells, int y)
             cells.sharpness.row(y)};
 }
 
-/// What is at a pixel.
+/// Holds the surface of a pixel.
 struct PixelSurface
 {
     float normalX, normalY, normalZ, distance;
 };
 
-/// c: a cell at most one off the picture, where none has a surface. offsetX, offsetY: of the pixel
-/// from its middle, in cells. As a number of 28 * most at most.
+/// Returns the weight of a cell for a pixel, as a number of 28 * most at most. c: index of a cell
+/// at most one off the picture; cells off the picture have no surface. offsetX, offsetY: place of
+/// the pixel from the middle of the cell, in cells.
 OSGRAYTRACE_INLINE uint8_t likeness(const PixelSurface& p, const GuideRow& cells, int c,
                                     float offsetX, float offsetY, float most)
 {
@@ -80,15 +82,15 @@ struct WeightRow
     uint8_t* __restrict acrossBoth;
 };
 
-/// The cells whose pixels are weighed: count of them, from first on.
+/// Names the cells whose pixels are weighed: count cells, from first on.
 struct CellRange
 {
     int first, count;
 };
 
 /// Weighs the cells around each pixel of a row. cells and across are the row of cells that the
-/// pixels are in, and the next one; offsetY is the distance of the pixels from the middle of their
-/// cells; even and odd are the columns of the pixels.
+/// pixels are in, and the next one. offsetY is the distance of the pixels from the middle of their
+/// cells. even and odd are the columns of the pixels.
 OSGRAYTRACE_KERNEL
 void weighCells(SurfaceRow row, CellRange range, float offsetY, GuideRow cells, GuideRow across,
                 WeightRow even, WeightRow odd)
@@ -113,7 +115,7 @@ void weighCells(SurfaceRow row, CellRange range, float offsetY, GuideRow cells, 
     }
 }
 
-/// Makes the guides of one row after the other, of pixels or of cells.
+/// Makes the guides of one row after the other, for pixels or for cells.
 struct GuideMaker
 {
     DenoiseGuides& guides;
@@ -125,7 +127,8 @@ struct GuideMaker
                          static_cast<std::size_t>(x)];
     }
 
-    /// Unpacks a segment of row y, from column x on. Returns the number of pixels that it has.
+    /// Unpacks a segment of row y, from column x on. Returns the number of pixels that the segment
+    /// has.
     int unpackAt(Surfaces& s, int row, int x, int y) const
     {
         const int count = y < guides.height ? std::min(kSurfaceSegment, guides.width - x) : 0;
@@ -195,15 +198,15 @@ struct GuideMaker
 void DenoiseGuides::allocate(int pixelsX, int pixelsY)
 {
     if (width == pixelsX && height == pixelsY) return;
-    width = height = 0; // if memory runs out below
+    width = height = 0; // no size is valid if memory runs out below
     cellsX = (pixelsX + 1) / 2;
     cellsY = (pixelsY + 1) / 2;
     for (PixelPlane<float>* plane : {&albedoR, &albedoG, &albedoB})
         plane->allocate(pixelsX, pixelsY);
-    // Rows of whole cells.
+    // These planes hold rows of whole cells.
     for (PixelPlane<uint8_t>* plane : {&inCell, &near, &acrossX, &acrossY, &acrossBoth})
         plane->allocate(2 * cellsX, 2 * cellsY);
-    // A margin of pixels of which nothing is known and that hide nothing.
+    // The margin has pixels of which nothing is known and that hide nothing.
     scatters.allocate(pixelsX + 2, pixelsY + 2);
     for (int y = 0; y < pixelsY + 2; ++y)
         std::fill_n(scatters.row(y), pixelsX + 2, uint8_t(1));

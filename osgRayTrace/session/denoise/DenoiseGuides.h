@@ -1,4 +1,4 @@
-// DenoiseGuides.h - what is seen in the pixels, as the denoiser's loops read it. Layer: session.
+// DenoiseGuides.h - the surfaces of the pixels, as the denoiser's loops read them. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,34 +9,35 @@
 namespace osgRayTrace::engine
 {
 
-/// Of the cells: one surface each, that of the first of its pixels that shows one.
+/// Holds one surface for each cell: the mean over those of its pixels that show the same surface as
+/// the first of them that shows any.
 struct CellGuides
 {
     CellPlane normalX, normalY, normalZ;
-    CellPlane distance;       ///< kNoSurface: there is none
-    CellPlane slopeX, slopeY; ///< of distance, a cell
-    CellPlane sharpness;      ///< 1 / how much distance may differ from a plane's
+    CellPlane distance;       ///< distance along the ray; kNoSurface: no surface
+    CellPlane slopeX, slopeY; ///< change of distance from cell to cell
+    CellPlane sharpness;      ///< 1 / allowed difference of a distance from that of a plane
 };
 
-/// Made once for a view. What is filtered is light over albedo [Schied17, sect. 4.2]; lamps,
-/// mirrors, clear glass and the background are not: what is seen in them has nothing to do with
-/// their surface.
+/// Holds the guides of a view, which are made once for all of its images. The denoiser filters
+/// light over albedo [Schied17, sect. 4.2]. Lamps, mirrors, clear glass and the background are not
+/// filtered, as the light that they show has nothing to do with their surface.
 struct DenoiseGuides
 {
-    /// Throws std::bad_alloc.
+    /// Sets the guides from the surfaces of a view's pixels. Throws std::bad_alloc.
     void set(const std::vector<SurfaceSample>& surfaces, int pixelsX, int pixelsY,
              const Workers& workers);
 
-    int width = 0, height = 0; ///< pixels
+    int width = 0, height = 0; ///< size in pixels
     int cellsX = 0, cellsY = 0;
 
-    /// What light is divided by and multiplied with again: the albedo, but not near 0. 0: not
-    /// filtered.
+    /// Divisor of the light, by which the filtered light is multiplied again: the albedo, but not
+    /// near 0. 0: the pixel is not filtered.
     PixelPlane<float> albedoR, albedoG, albedoB;
     PixelPlane<uint8_t> inCell; ///< 1: the pixel shows its cell's surface
-    /// How much of its light a pixel takes from its cell, from the next one to its own side in x,
-    /// in y, in both: bilinear weights, times how alike the surfaces are. Of a row, first the
-    /// pixels of even columns, then those of odd ones.
+    /// Weights by which a pixel takes light from its cell, from the next cell on its own side in x,
+    /// from that in y and from that in both. The weights are bilinear, times how alike the surfaces
+    /// are. A row has first the pixels of even columns, then those of odd columns.
     PixelPlane<uint8_t> near, acrossX, acrossY, acrossBoth;
 
     CellGuides cells;

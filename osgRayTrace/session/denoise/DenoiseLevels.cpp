@@ -10,9 +10,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Differences of luminance count in terms of so many standard deviations [Schied17, eq. 5].
+/// Differences of luminance are measured in so many standard deviations [Schied17, eq. 5].
 constexpr float kDeviations = 4.0f;
-/// and are nothing below this part of the luminance.
+/// This part of the luminance is added to the standard deviations.
 constexpr float kLeastContrast = 1e-4f;
 
 struct LevelSums
@@ -20,14 +20,14 @@ struct LevelSums
     float r, g, b, variance, weight;
 };
 
-/// The light in the middle of the taps.
+/// Holds the light in the middle of the taps.
 struct CentreLight
 {
     float r, g, b, luminance;
-    float perDeviation; ///< what a difference of luminance is multiplied by, as fallOff's argument
+    float perDeviation; ///< factor that makes a difference of luminance fallOff's argument
 };
 
-/// Where a tap is, in cells from the middle, and its weight in the kernel.
+/// Holds the place of a tap, in cells from the middle, and its weight in the kernel.
 struct TapPlace
 {
     int i; ///< index of the cell in its row
@@ -53,7 +53,8 @@ OSGRAYTRACE_INLINE void addTap(const Centre& centre, const CentreLight& middle,
     sums.weight += weight;
 }
 
-/// out = sum(w c) / sum(w), variance = sum(w^2 v) / sum(w)^2 [Schied17, eq. 1, 2], over 3 x 3 taps.
+/// Computes sum(w c) / sum(w) and the variance sum(w^2 v) / sum(w)^2 [Schied17, eq. 1, 2] over 3 x
+/// 3 taps.
 OSGRAYTRACE_KERNEL
 void filterRow(const GuideTap (&guides)[3], const float* slopeX, const float* slopeY,
                const float* sharpness, const LightTap (&light)[3], int step, int count, OutRow out)

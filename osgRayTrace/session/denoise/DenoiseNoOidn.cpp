@@ -1,4 +1,4 @@
-// DenoiseNoOidn.cpp - stands for DenoiseOidn.cpp where the build did not find Open Image Denoise.
+// DenoiseNoOidn.cpp - stands for DenoiseOidn.cpp if the build did not find Open Image Denoise.
 // Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/denoise/DenoiseOidn.h"

@@ -1,5 +1,5 @@
-// DenoiseOidn.cpp - Open Image Denoise in place of the filter; the one file that includes it, built
-// where it was found. Layer: session.
+// DenoiseOidn.cpp - Open Image Denoise in place of the filter: the one file that includes it.
+// Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/denoise/DenoiseOidn.h"
 
@@ -19,7 +19,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Pixels that are almost not there have no light of their own.
+/// Pixels of less alpha are almost empty and have no light of their own.
 constexpr float kLeastAlpha = 1e-3f;
 constexpr float kLargestLight = 1e20f;
 
@@ -31,7 +31,7 @@ struct Release
 using Device = std::unique_ptr<std::remove_pointer_t<OIDNDevice>, Release>;
 using Filter = std::unique_ptr<std::remove_pointer_t<OIDNFilter>, Release>;
 
-// Version 2 has other names for these.
+// Version 2 of the library has other names for these functions.
 #if OIDN_VERSION_MAJOR >= 2
 void set(OIDNDevice device, const char* name, int value)
 {
@@ -60,8 +60,8 @@ void set(OIDNFilter filter, const char* name, bool value)
 }
 #endif
 
-/// What went wrong on this thread since this was asked last; empty: nothing. Null: as a device was
-/// made.
+/// Returns the message of a failure on this thread since the last call; empty: nothing failed. A
+/// null device stands for the making of a device.
 std::string errorOf(OIDNDevice device)
 {
     const char* message = nullptr;
@@ -69,7 +69,7 @@ std::string errorOf(OIDNDevice device)
     return message && *message ? message : "an error that it does not name";
 }
 
-/// False for NaN as well.
+/// Returns false for NaN as well.
 bool isLight(const float* rgba)
 {
     const float sum = std::fabs(rgba[0]) + std::fabs(rgba[1]) + std::fabs(rgba[2]);
@@ -115,12 +115,12 @@ struct DenoiseOidn::Implementation
                         [&](std::size_t y) { body(y * pixels, pixels); });
     }
 
-    int width = 0, height = 0;                ///< that the arrays are made for
+    int width = 0, height = 0;                ///< size of the arrays
     std::vector<float> light, albedo, normal; ///< RGB or XYZ, rows of pixels
 
-    // The filter, which knows the arrays, goes before its device.
+    // The filter, which refers to the arrays, is destroyed before its device.
     Device device;
-    int threads = 0; ///< of the device
+    int threads = 0; ///< number of the device's threads
     Filter filter;   ///< null: none for arrays of this size
 
     std::string failure;
@@ -130,7 +130,7 @@ void DenoiseOidn::Implementation::allocate(int newWidth, int newHeight)
 {
     if (width == newWidth && height == newHeight) return;
     filter.reset();
-    width = height = 0; // if memory runs out below
+    width = height = 0; // no size is valid if memory runs out below
     const std::size_t pixels =
         static_cast<std::size_t>(newWidth) * static_cast<std::size_t>(newHeight);
     for (std::vector<float>* values : {&light, &albedo, &normal})
@@ -139,7 +139,8 @@ void DenoiseOidn::Implementation::allocate(int newWidth, int newHeight)
     height = newHeight;
 }
 
-/// A device and a filter for the arrays. What went wrong; empty: nothing.
+/// Makes a device and a filter for the arrays. Returns the message of a failure; empty: nothing
+/// failed.
 std::string DenoiseOidn::Implementation::prepare(int wantedThreads)
 {
     if (device && threads == wantedThreads) return filter ? std::string() : makeFilter();
@@ -196,7 +197,7 @@ std::string DenoiseOidn::Implementation::run(ResolvedImage& image, const Workers
                         light[3 * i + c] = scale > 0.0f ? std::max(0.0f, scale * rgba[c]) : 0.0f;
                 }
             });
-    // On this thread: the library keeps errors for each.
+    // The error is read on this thread, as the library keeps errors for each thread.
     oidnExecuteFilter(filter.get());
     const std::string error = errorOf(device.get());
     if (!error.empty()) return error;

@@ -1,5 +1,5 @@
-// DenoisePlanes.h - the arrays that the denoiser works on: pixels, and cells of two by two of them.
-// Layer: session.
+// DenoisePlanes.h - the denoiser's arrays of pixels and of cells of two by two pixels. Layer:
+// session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,14 +13,14 @@
 namespace osgRayTrace::engine
 {
 
-/// Rows of cells with a margin that holds one value, so that who looks at neighbours need not ask
-/// whether there are any.
+/// Holds rows of cells with a margin that holds one value, so that whoever reads neighbours need
+/// not ask whether they exist.
 class CellPlane
 {
 public:
     static constexpr int kMargin = 16;
 
-    /// All of outside. Throws std::bad_alloc.
+    /// Sets the size, and all cells to outside. Throws std::bad_alloc.
     void allocate(int width, int height, float outside)
     {
         _stride = static_cast<std::size_t>((width + kLanes - 1) / kLanes * kLanes + 2 * kMargin);
@@ -29,7 +29,7 @@ public:
             value = outside;
     }
 
-    /// y in [-kMargin, height + kMargin); its cells [-kMargin, width + kMargin).
+    /// Returns row y in [-kMargin, height + kMargin), whose cells are [-kMargin, width + kMargin).
     float* row(int y) { return _values.data() + offset(y); }
     const float* row(int y) const { return _values.data() + offset(y); }
 
@@ -43,7 +43,7 @@ private:
     std::vector<float> _values;
 };
 
-/// Rows of pixels.
+/// Holds rows of pixels.
 template <class T> class PixelPlane
 {
 public:
@@ -60,11 +60,11 @@ private:
     std::vector<T> _values;
 };
 
-/// Where no light is known: so far from all that is that nothing is mixed with it, and small enough
-/// to be calculated with.
+/// Marks cells in which no light is known. The value is so far from all light that nothing is mixed
+/// with it, and small enough to be calculated with.
 constexpr float kNoLight = 1e30f;
 
-/// About exp(-x), and 0 from 8 on: (1 - x/8)^8.
+/// Returns about exp(-x), and 0 from 8 on: (1 - x/8)^8.
 OSGRAYTRACE_INLINE float fallOff(float x)
 {
     const float base = 1.0f - 0.125f * x;

@@ -1,4 +1,4 @@
-// DenoiseReport.h - which denoiser there is, and which one an image went through. Layer: session.
+// DenoiseReport.h - the kinds of denoiser, and which one an image went through. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,15 +11,15 @@ namespace osgRayTrace::engine
 enum class DenoiseKind : uint8_t
 {
     Off,
-    Filter, ///< ours: DenoiseFilter.h
-    Oidn,   ///< Open Image Denoise, where it was found: DenoiseOidn.h
+    Filter, ///< own filter: DenoiseFilter.h
+    Oidn,   ///< Open Image Denoise, if the build found it: DenoiseOidn.h
 };
 
-/// Of the last image.
+/// Tells which denoiser the last image went through.
 struct DenoiseReport
 {
     DenoiseKind by = DenoiseKind::Off;
-    std::string note; ///< one sentence if that is not the one that was asked for
+    std::string note; ///< reason in one sentence if the denoiser is not the one that was asked for
 };
 
 } // namespace osgRayTrace::engine

@@ -16,7 +16,7 @@ struct FilteredRow
     const float *r, *g, *b, *kept;
 };
 
-/// The light of a row's pixels, of those that take any.
+/// Holds the filtered light of those pixels of a row that take any.
 struct Mixed
 {
     float r[kPixelSegment], g[kPixelSegment], b[kPixelSegment], kept[kPixelSegment];
@@ -45,7 +45,7 @@ OSGRAYTRACE_INLINE void addCell(const FilteredRow& cells, int c, uint8_t likenes
     sums.weight += weight;
 }
 
-/// The light of a pixel; side: of its cell that it is on.
+/// Returns the sums for the light of a pixel. side: the side of its cell that the pixel is on.
 OSGRAYTRACE_INLINE MixSums mixOf(const FilteredRow& cells, const FilteredRow& across,
                                  const WeightRow& weights, int c, int side)
 {

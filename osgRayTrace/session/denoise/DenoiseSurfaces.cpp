@@ -1,5 +1,5 @@
-// DenoiseSurfaces.cpp - surfaces from samples, and cells of 2 x 2 pixels from these. Layer:
-// session.
+// DenoiseSurfaces.cpp - surfaces made from samples, and cells of 2 x 2 pixels made from surfaces.
+// Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/denoise/DenoiseSurfaces.h"
 
@@ -11,7 +11,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Below this, light over albedo would be more noise than light.
+/// Below this albedo, light over albedo would be more noise than light.
 constexpr float kLeastAlbedo = 0.02f;
 
 } // namespace
@@ -75,7 +75,7 @@ OSGRAYTRACE_KERNEL
 void makeCells(const Surfaces& s, int count, SurfaceRow cells, uint8_t* __restrict inCell0,
                uint8_t* __restrict inCell1)
 {
-    constexpr float kAlike = 2.0f; // of fallOff's argument: normals within 10 degrees
+    constexpr float kAlike = 2.0f; // fallOff's argument for normals within 10 degrees
     OSGRAYTRACE_SIMD
     for (int c = 0; c < count; ++c)
     {

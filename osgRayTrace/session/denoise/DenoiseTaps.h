@@ -32,14 +32,15 @@ inline LightTap lightTap(const CellLight& light, int y)
     return {light.r.row(y), light.g.row(y), light.b.row(y), light.variance.row(y)};
 }
 
-/// The surface in the middle of the taps.
+/// Holds the surface in the middle of the taps.
 struct Centre
 {
     float normalX, normalY, normalZ, distance, slopeX, slopeY, sharpness;
 };
 
-/// What parts the surface at a tap from that in the middle, as fallOff's argument [Schied17, eq. 3,
-/// 4]; depth is compared with the plane through the middle's. dx, dy: in cells.
+/// Returns how much the surface at a tap differs from that in the middle, as fallOff's argument
+/// [Schied17, eq. 3, 4]. Depth is compared with the plane through the middle's surface. dx, dy:
+/// offset of the tap in cells.
 OSGRAYTRACE_INLINE float surfaceDistance(const Centre& centre, const GuideTap& tap, int i, float dx,
                                          float dy)
 {
@@ -49,7 +50,7 @@ OSGRAYTRACE_INLINE float surfaceDistance(const Centre& centre, const GuideTap& t
                           tap.normalY[i], tap.normalZ[i]);
 }
 
-/// How the plane through each cell of a row lies.
+/// Points to the slopes of the planes through the cells of a row.
 struct PlaneRow
 {
     const float *slopeX, *slopeY, *sharpness;

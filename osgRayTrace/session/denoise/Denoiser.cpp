@@ -14,7 +14,7 @@ void Denoiser::denoise(ResolvedImage& image, DenoiseKind kind, const Surfaces& s
     denoiseByFilter(image, surfaces, workers);
 }
 
-/// False if it cannot be; the image is as it was then.
+/// Returns false if Open Image Denoise cannot be used; the image is then unchanged.
 bool Denoiser::denoiseByOidn(ResolvedImage& image, const Surfaces& surfaces, const Workers& workers)
 {
     if (!_oidn) _oidn = std::make_unique<DenoiseOidn>();

@@ -13,20 +13,20 @@
 namespace osgRayTrace::engine
 {
 
-/// For the images of one view. Where Open Image Denoise is not built in, or has failed, images go
-/// through the filter, and the report says why. Keeps its arrays from image to image. One thread at
-/// a time.
+/// Denoises the images of one view. If Open Image Denoise is not built in or has failed, images go
+/// through the filter, and the report says why. The denoiser keeps its arrays from image to image.
+/// Only one thread may use a denoiser at a time.
 class Denoiser
 {
 public:
-    using Surfaces =
-        std::function<const std::vector<SurfaceSample>&()>; ///< of something that stays
+    /// Returns a reference to surfaces that outlive the call.
+    using Surfaces = std::function<const std::vector<SurfaceSample>&()>;
 
-    /// What is seen in the pixels of the images to come is not what it was.
+    /// Forgets the surfaces, because those of the images to come are different.
     void forgetSurfaces() { _filterKnows = _oidnKnows = false; }
 
-    /// Changes the image's radiance; surfaces is asked for what is seen in its pixels if that is
-    /// not known. Throws std::bad_alloc, and what surfaces throws.
+    /// Changes the image's radiance. surfaces is called for the surfaces of the pixels if the
+    /// denoiser does not know them. Throws std::bad_alloc, and any exception of surfaces.
     void denoise(ResolvedImage& image, DenoiseKind kind, const Surfaces& surfaces,
                  const Workers& workers);
 
@@ -36,10 +36,10 @@ private:
     bool denoiseByOidn(ResolvedImage& image, const Surfaces& surfaces, const Workers& workers);
     void denoiseByFilter(ResolvedImage& image, const Surfaces& surfaces, const Workers& workers);
 
-    // Null until they are needed.
+    // Both are null until they are needed.
     std::unique_ptr<DenoiseFilter> _filter;
     std::unique_ptr<DenoiseOidn> _oidn;
-    bool _filterKnows = false, _oidnKnows = false; ///< what is seen in the pixels
+    bool _filterKnows = false, _oidnKnows = false; ///< whether the denoiser has the surfaces
     DenoiseReport _report;
 };
 

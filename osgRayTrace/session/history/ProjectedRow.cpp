@@ -1,4 +1,4 @@
-// ProjectedRow.cpp - rays of one view in another, as vector code. Layer: session.
+// ProjectedRow.cpp - rays of one view projected into another, as vector code. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/history/ProjectedRow.h"
 
@@ -18,14 +18,14 @@ Vec3d clipOf(const Mat4d& clipFromWorld, const Vec4d& v)
     return {clip.x, clip.y, clip.w};
 }
 
-/// A row of surfaces of the new view.
+/// Points to a row of surfaces of the new view.
 struct SurfaceRow
 {
     const float* __restrict along;
     const float* __restrict lobe;
 };
 
-/// A ProjectedRow as its loop writes it.
+/// Points to the arrays of a ProjectedRow, as its loop writes them.
 struct ProjectedOut
 {
     float* __restrict x;
@@ -88,7 +88,8 @@ void projectInto(const Projection& projection, const ReprojectionLimits& limits,
                     ay = select(isParallel, parallel.y, py),
                     az = select(isParallel, parallel.z, pz);
         const float angle = sineBetween(ax, ay, az, dx, dy, dz) + turn;
-        const float byLobe = share * in.lobe[i] / angle; // 0/0: neither of the two below
+        // 0/0 satisfies neither of the two conditions below.
+        const float byLobe = share * in.lobe[i] / angle;
         const float limit = select(byLobe < most, byLobe, most);
 
         const uint32_t inside = maskOf(clipW * p.wSign > 0.0) & maskOf(oldX >= 0.0) &
@@ -113,7 +114,8 @@ ProjectedOut outOf(ProjectedRow& row)
 
 Projection projectionOf(const SurfaceMap& from, const SurfaceMap& to)
 {
-    // The translation to the new pole is folded into the view matrix, where large numbers cancel.
+    // The translation to the new pole is folded into the view matrix, in which large numbers
+    // cancel.
     Mat4d oldFromPole = from.view.viewFromWorld;
     oldFromPole[3] = from.view.viewFromWorld * Vec4d(to.rays.pole, 1.0);
     const Mat4d clip = from.view.clipFromView * oldFromPole;

@@ -15,12 +15,12 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// What a pixel of the new view is compared by.
+/// Holds the quantities by which a pixel of the new view is compared.
 struct Surface
 {
-    Vec3 point; ///< from the old pole, divided by s
+    Vec3 point; ///< place from the old pole, divided by s
     Vec3 normal;
-    float along; ///< s
+    float along; ///< distance s along the new ray
     uint32_t object;
 };
 
@@ -30,7 +30,7 @@ struct Gathered
     float count = 0.0f;
 };
 
-/// Reads the old image.
+/// Reads the pixels of the old image.
 struct OldImage
 {
     const SampledImage& image;
@@ -46,7 +46,7 @@ struct OldImage
         return x >= 0 && y >= 0 && x < map.view.width && y < map.view.height;
     }
 
-    /// True if pixel (x,y) shows the surface.
+    /// Returns whether pixel (x,y) shows the surface.
     OSGRAYTRACE_INLINE bool shows(const Surface& surface, int x, int y, std::size_t i) const
     {
         if (map.object[i] != surface.object) return false;
@@ -72,7 +72,8 @@ struct OldImage
     Gathered cubic(int x, int y, float u, float v) const;
 };
 
-/// Of the old pixels (x,y) to (x+1,y+1) those that agree, in proportion to their samples.
+/// Returns the mean of those of the old pixels (x,y) to (x+1,y+1) that agree, in proportion to
+/// their samples.
 Gathered OldImage::bilinear(const Surface& surface, bool smooth, int x, int y, float u,
                             float v) const
 {
@@ -94,8 +95,8 @@ Gathered OldImage::bilinear(const Surface& surface, bool smooth, int x, int y, f
     return sum;
 }
 
-/// Weights of the pixels at -1, 0, 1 and 2 for a place at t in [0,1) [Keys81, eq. 4 and 15, a =
-/// -1/2].
+/// Returns the weights of the pixels at -1, 0, 1 and 2 for a place at t in [0,1) [Keys81, eq. 4 and
+/// 15, a = -1/2].
 OSGRAYTRACE_INLINE Vec4 cubicWeights(float t)
 {
     const float t2 = t * t, t3 = t2 * t;
@@ -103,8 +104,8 @@ OSGRAYTRACE_INLINE Vec4 cubicWeights(float t)
                 0.5f * t + 2.0f * t2 - 1.5f * t3, -0.5f * t2 + 0.5f * t3);
 }
 
-/// Of the old pixels (x-1,y-1) to (x+2,y+2), which are all in the image. Four channels are one
-/// vector.
+/// Returns the cubic mean of the old pixels (x-1,y-1) to (x+2,y+2), which are all in the image.
+/// Four channels are one vector.
 OSGRAYTRACE_INLINE Gathered OldImage::cubic(int x, int y, float u, float v) const
 {
     const Vec4 wx = cubicWeights(u), wy = cubicWeights(v);
@@ -140,12 +141,12 @@ OSGRAYTRACE_INLINE Gathered Reprojector::pixel(std::size_t i, std::size_t x,
                                                const ProjectedRow& projected) const
 {
     const float oldX = projected.x[x], oldY = projected.y[x];
-    // The floor of what is -1/2 at least, without a call.
+    // The floor of a number that is at least -1/2 is computed without a call.
     const int left = static_cast<int>(oldX + 1.0f) - 1, bottom = static_cast<int>(oldY + 1.0f) - 1;
     const float u = oldX - static_cast<float>(left), v = oldY - static_cast<float>(bottom);
-    const int nearestX =
-        std::min(left + (u >= 0.5f), old.map.view.width - 1); // of a place that was
-    const int nearestY = std::min(bottom + (v >= 0.5f), old.map.view.height - 1); // rounded up
+    // The place in the old image may have been rounded up to its border.
+    const int nearestX = std::min(left + (u >= 0.5f), old.map.view.width - 1);
+    const int nearestY = std::min(bottom + (v >= 0.5f), old.map.view.height - 1);
     const Surface surface{Vec3(projected.pointX[x], projected.pointY[x], projected.pointZ[x]),
                           Vec3(to.normalX[i], to.normalY[i], to.normalZ[i]), to.along[i],
                           to.object[i]};
@@ -154,7 +155,7 @@ OSGRAYTRACE_INLINE Gathered Reprojector::pixel(std::size_t i, std::size_t x,
     const bool window =
         left >= 1 && bottom >= 1 && left + 2 < map.view.width && bottom + 2 < map.view.height;
     Gathered found;
-    // With these four, all sixteen are smooth: none of them is mixed.
+    // If these four are interior, all sixteen are smooth: none of them is mixed.
     const bool interior = window && map.interior[old.index(left, bottom)] &&
                           map.interior[old.index(left + 1, bottom)] &&
                           map.interior[old.index(left, bottom + 1)] &&
@@ -168,7 +169,7 @@ OSGRAYTRACE_INLINE Gathered Reprojector::pixel(std::size_t i, std::size_t x,
     return found;
 }
 
-/// Returns the number of pixels that took something.
+/// Returns the number of pixels that took samples.
 OSGRAYTRACE_KERNEL
 std::size_t gatherRow(const Reprojector& reprojector, std::size_t first, std::size_t width,
                       const ProjectedRow& projected)

@@ -1,4 +1,4 @@
-// ViewHistory.cpp - what earlier views of a session's image leave to the present one. Layer:
+// ViewHistory.cpp - the samples of earlier views that go on counting in a session's image. Layer:
 // session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/history/ViewHistory.h"
@@ -33,7 +33,7 @@ bool followsEye(const TextureMapping& mapping)
            mapping.coordinates == TextureCoordinates::NormalMap;
 }
 
-/// Angle between the axes that two views look along [radians].
+/// Returns the angle between the axes that two views look along [radians].
 float turnOf(const View& a, const View& b)
 {
     const auto axis = [](const View& view)
@@ -42,14 +42,14 @@ float turnOf(const View& a, const View& b)
     return static_cast<float>(std::acos(std::min(1.0, std::max(-1.0, cosine))));
 }
 
-/// Samples that the history still stands for.
+/// Returns the number of samples that the history still counts as.
 OSGRAYTRACE_INLINE float fadedCount(float count, float passes)
 {
     const float faded = count - 0.5f * (passes - 1.0f);
     return faded > 0.0f ? faded : 0.0f;
 }
 
-/// radiance = (h history + n radiance) / (h + n)
+/// Sets radiance = (h history + n radiance) / (h + n).
 OSGRAYTRACE_KERNEL
 void blendPixels(const float* __restrict history, const float* __restrict count, float passes,
                  std::size_t pixels, float* __restrict radiance)
@@ -72,7 +72,8 @@ void addFaded(const float* __restrict history, float passes, std::size_t pixels,
         count[i] += fadedCount(history[i], passes);
 }
 
-/// Of the mean of all samples, as those of the film vary: e sqrt(n / (h + n)).
+/// Scales the errors to those of the mean of all samples, which vary like the film's samples: e
+/// sqrt(n / (h + n)).
 void scaleErrors(const float* count, float passes, std::size_t pixels, float* error)
 {
     for (std::size_t i = 0; i < pixels; ++i)
@@ -83,9 +84,10 @@ void scaleErrors(const float* count, float passes, std::size_t pixels, float* er
     }
 }
 
-/// Two independent means a of h and b of n samples differ by (a - b)^2 = v (1/h + 1/n), v the
-/// variance of one, and that of the mean of all is v / (h + n): |a - b| sqrt(h n) / (h + n) is its
-/// root. For h = n it is the estimate of [Rousselle12, sect. 3].
+/// Estimates errors from two independent means a of h and b of n samples. The means differ by (a -
+/// b)^2 = v (1/h + 1/n), v being the variance of one sample. The variance of the mean of all
+/// samples is v / (h + n), and its root is |a - b| sqrt(h n) / (h + n). For h = n this is the
+/// estimate of [Rousselle12, sect. 3].
 void estimateErrors(const float* history, const float* count, float passes, const float* radiance,
                     std::size_t pixels, float* error)
 {
@@ -120,7 +122,7 @@ ViewDependence viewDependence(const Scene& scene)
     return result;
 }
 
-/// Film and history to _blended, and to the display if there is one.
+/// Blends film and history to _blended, and to the display if there is one.
 void ViewHistory::blendRows(const RenderSession& session, const ToneMap* toneMap, uint8_t* rgba,
                             float* depth)
 {
@@ -147,7 +149,7 @@ void ViewHistory::leave(RenderSession& session, const View& view, const Workers&
 {
     const Clock::time_point begin = Clock::now();
     const int passes = session.progress().passes;
-    if (_taken && passes == 0) return; // what the view before left is still on its way
+    if (_taken && passes == 0) return; // the samples of the view before are still on their way
     _taken = false;
     if (!session.surfaces().isOf(view)) return drop();
     const auto width = static_cast<std::size_t>(view.width);
@@ -182,7 +184,7 @@ void ViewHistory::enter(RenderSession& session, const View& view, const ViewDepe
     const SurfaceMap &from = session.lastSurfaces(), &to = session.surfaces();
     if (dependence.everywhere || !from.isOf(_leftView) || !to.isOf(view)) return drop();
     ReprojectionLimits limits;
-    // One sample of a larger pixel tells less of each of the smaller ones within it.
+    // One sample of a larger pixel tells less about each of the smaller pixels within it.
     const double sizes =
         static_cast<double>(_left.count.size()) / static_cast<double>(to.along.size());
     limits.count = kMostCount * static_cast<float>(std::min(1.0, sizes));

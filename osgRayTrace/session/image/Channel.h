@@ -1,4 +1,4 @@
-// Channel.h - what can be asked of an image beside its colours. Layer: session.
+// Channel.h - the channels of an image beside its colours. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,20 +7,20 @@
 namespace osgRayTrace::engine
 {
 
-/// Channels of the first hit, or of the image's statistics, for resolveChannel.
+/// Names the channels of the first hit and of the image's statistics, for resolveChannel.
 enum class Channel : uint8_t
 {
-    Depth,    ///< 1 float: window depth in [0,1], 1 where nothing is hit
+    Depth,    ///< 1 float: window depth in [0,1], 1 if nothing is hit
     Distance, ///< 1 float: along the ray from the eye's near plane or pole [length]; infinity: no
               ///< hit
     Normal,   ///< 3 floats: world space, unit, facing the viewer
     Albedo,   ///< 3 floats: linear
     Position, ///< 3 floats: world space (float)
-    Id,       ///< 1 float: instance index + 1, 0 where nothing is hit
+    Id,       ///< 1 float: instance index + 1, 0 if nothing is hit
     Error,    ///< 3 floats: estimated standard error of the pixel's linear RGB
 };
 
-/// Floats a pixel.
+/// Returns the number of floats for each pixel.
 int channelSize(Channel channel);
 
 } // namespace osgRayTrace::engine

@@ -56,7 +56,7 @@ void writeChannel(Channel channel, const FirstHit& hit, const Scene& scene, floa
     }
     case Channel::Depth:
     case Channel::Error:
-        return; // of the film
+        return; // the film holds the errors
     }
 }
 

@@ -9,15 +9,16 @@
 namespace osgRayTrace::engine
 {
 
-/// See RenderSession::resolveChannel. context: of the first pass of the film's image.
+/// Returns the image of a channel, as RenderSession::resolveChannel does. context is that of the
+/// first pass of the film's image.
 std::vector<float> channelImage(Channel channel, const Film& film, const PassContext& context,
                                 const Workers& workers);
 
-/// A tile's part of an image's samples. tile: kTilePixels.
+/// Sets a tile's part of an image's samples. tile holds kTilePixels samples.
 void setSurfaceSamples(const SurfaceSample* tile, int left, int bottom, int width, int height,
                        std::vector<SurfaceSample>& samples);
 
-/// See RenderSession::surfaceSamples.
+/// Sets the samples as RenderSession::surfaceSamples does.
 void surfaceSamples(const PassContext& context, const Workers& workers,
                     std::vector<SurfaceSample>& samples);
 

@@ -1,5 +1,4 @@
-// ResolvedImage.h - a view's image on its way to the display, where more is done to it than a tone
-// map. Layer: session.
+// ResolvedImage.h - a view's image on its way to the display, if stages work on it. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,7 +13,7 @@ namespace osgRayTrace::engine
 
 class Workers;
 
-/// Pixels in rows, row 0 at the bottom.
+/// Holds the pixels in rows; row 0 is at the bottom.
 struct ResolvedImage
 {
     int width = 0;
@@ -24,17 +23,17 @@ struct ResolvedImage
     std::vector<float> depth;    ///< window depth
 };
 
-/// What it took to make a full-size image of one of fewer pixels, see Upsample.h.
+/// Counts the work of making a full-size image of a smaller one, see Upsample.h.
 struct UpsampleCounts
 {
     uint64_t traced = 0; ///< pixels of the full size whose first hit was traced
-    uint64_t unlike = 0; ///< of these: whose surface none of the four pixels around it sees
-    double edges = 0.0;  ///< share of the small image's cells that are at edges,
-    double around =
-        0.0; ///< and that are at edges or beside them: what would be traced without a limit
+    uint64_t unlike = 0; ///< traced pixels whose surface none of the four pixels around them sees
+    double edges = 0.0;  ///< share of the small image's cells that are at edges
+    /// Share of the cells at edges or beside them, which would be traced without a limit.
+    double around = 0.0;
 };
 
-/// Display values of the image, 4 bytes a pixel, and its depths, which may be null.
+/// Writes the display values of the image, 4 bytes a pixel, and its depths, which may be null.
 void presentImage(const ResolvedImage& image, const ToneMap& toneMap, const Workers& workers,
                   uint8_t* rgba, float* depth);
 

@@ -1,4 +1,4 @@
-// SurfaceMap.cpp - where the surfaces of a view's pixels are. Layer: session.
+// SurfaceMap.cpp - the places of the surfaces of a view's pixels. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/image/SurfaceMap.h"
 
@@ -14,7 +14,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// The eye of a perspective view, a point of the near plane of an orthographic one.
+/// Returns the eye of a perspective view, or a point of the near plane of an orthographic one.
 std::optional<Vec3d> poleOf(const View& view)
 {
     const Mat4d worldFromClip = glm::inverse(view.clipFromView * view.viewFromWorld);
@@ -29,7 +29,7 @@ std::optional<Vec3d> poleOf(const View& view)
     return place;
 }
 
-/// One row of the map.
+/// Points to one row of the map.
 struct Row
 {
     const float* normalX;
@@ -46,8 +46,8 @@ Row rowOf(const SurfaceMap& map, std::size_t y, std::size_t x = 0)
             &map.object[first]};
 }
 
-/// same[i] &= pixel i of row a and the one (right, up) pixels from it, which is b's, show one
-/// surface.
+/// Clears same[i] unless pixel i of row a and the pixel of row b that is (right, up) pixels away
+/// show one surface.
 OSGRAYTRACE_KERNEL
 void compareRows(const PixelRays& pixelRays, const Row& a, float y, const Row& b, float right,
                  float up, std::size_t count, uint32_t* __restrict same)
@@ -64,7 +64,7 @@ void compareRows(const PixelRays& pixelRays, const Row& a, float y, const Row& b
     OSGRAYTRACE_SIMD
     for (std::size_t i = 0; i < count; ++i)
     {
-        // pB - pA = E(B) - E(A) + (sB - sA) D(A) + sB (D(B) - D(A)): no difference of large
+        // pB - pA = E(B) - E(A) + (sB - sA) D(A) + sB (D(B) - D(A))has no difference of large
         // numbers.
         const float x = static_cast<float>(static_cast<int>(i)) + 0.5f;
         const float sA = alongA[i], sB = alongB[i], deeper = sB - sA;
@@ -74,14 +74,14 @@ void compareRows(const PixelRays& pixelRays, const Row& a, float y, const Row& b
         const float offPlane = std::fabs(nx[i] * dx + ny[i] * dy + nz[i] * dz);
         const float cosine = nx[i] * mx[i] + ny[i] * my[i] + nz[i] * mz[i];
         const float tolerance = kPlaneTolerance * footprint * select(orthographic, 1.0f, sA);
-        const uint32_t surface =
-            maskOf(offPlane <= tolerance) & maskOf(cosine >= kNormalCosine); // of NaN neither holds
+        // Neither holds for NaN.
+        const uint32_t surface = maskOf(offPlane <= tolerance) & maskOf(cosine >= kNormalCosine);
         const uint32_t nothing = maskOf(objectA[i] == 0u);
         same[i] = same[i] & maskOf(objectA[i] == objectB[i]) & (surface | nothing);
     }
 }
 
-/// Smooth pixels of a row. Beyond the image goes on what is at its border.
+/// Finds the smooth pixels of a row. Pixels beyond the image count as those at its border.
 void findEdges(SurfaceMap& map, std::size_t y, std::vector<uint32_t>& same,
                std::vector<uint32_t>& pairs)
 {
@@ -97,7 +97,7 @@ void findEdges(SurfaceMap& map, std::size_t y, std::vector<uint32_t>& same,
     if (y + 1 < height)
         compareRows(map.rays, row, at, rowOf(map, y + 1), 0.0f, 1.0f, width, same.data());
     uint8_t* smooth = &map.smooth[y * width];
-    for (std::size_t x = 0; x < width; ++x) // pairs[x]: of x - 1 and x
+    for (std::size_t x = 0; x < width; ++x) // pairs[x] compares x - 1 and x
         smooth[x] = static_cast<uint8_t>(same[x] & pairs[x] & pairs[x + 1] & 1u);
 }
 

@@ -1,4 +1,5 @@
-// Upsample.cpp - an image of fewer pixels at a view's full size, sharp at edges. Layer: session.
+// Upsample.cpp - brings an image of fewer pixels to a view's full size, sharp at edges. Layer:
+// session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/upsample/Upsample.h"
 
@@ -17,7 +18,7 @@ namespace
 
 constexpr int kStripRows = 16; ///< rows of the full size that are made at once: whole blocks
 
-/// A row of the image at the full width.
+/// Holds a row of the image at the full width.
 struct WideRow
 {
     explicit WideRow(std::size_t wide) : rgba(4 * wide), depth(wide) {}
@@ -90,7 +91,7 @@ void WideRow::make(const UpsampleSource& source, const UpsampleCells& cells, int
                depth.data());
 }
 
-/// Linear between the image's pixels, whatever they see.
+/// Interpolates linearly between the image's pixels, whatever they see.
 void interpolateRows(const UpsampleSource& source, const UpsampleCells& cells, int begin, int end,
                      float* rgba, float* depth)
 {
@@ -109,8 +110,8 @@ void interpolateRows(const UpsampleSource& source, const UpsampleCells& cells, i
     }
 }
 
-/// Whether the pixels from one to the other, both included, are between pixels of one smooth
-/// surface.
+/// Returns whether the pixels from (left, bottom) to (right, top), both included, lie between
+/// pixels of one smooth surface.
 bool isSmooth(const UpsampleSource& source, const UpsampleCells& cells, std::size_t left,
               std::size_t right, std::size_t bottom, std::size_t top)
 {
@@ -165,8 +166,8 @@ UpsampleCounts traceEdges(const UpsampleSource& source, const UpsampleCells& cel
     return counts;
 }
 
-/// Calls finish(first row, rows, their radiance) for each strip; place(first row) is where the
-/// radiance goes.
+/// Calls finish(first row, rows, their radiance) for each strip; place(first row) returns where the
+/// radiance is written.
 template <class Place, class Finish>
 UpsampleCounts forEachStrip(const ResolvedImage& image, const std::vector<SurfaceSample>& samples,
                             const PassContext& full, double mostTraced, const Workers& workers,

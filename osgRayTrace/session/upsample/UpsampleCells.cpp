@@ -1,4 +1,4 @@
-// UpsampleCells.cpp - between which pixels of an image one may interpolate. Layer: session.
+// UpsampleCells.cpp - the cells of an image in which one may interpolate. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/upsample/UpsampleCells.h"
 
@@ -14,13 +14,14 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// How far neighbours may be from a straight line through two others, in pixels of the image.
-/// Between them the surface is an eighth of it off at most, if it is as curved there.
+/// Largest distance of neighbours from a straight line through two others, in pixels of the image.
+/// Between them the surface is an eighth of that off at most, if its curvature stays the same.
 constexpr float kBend = 0.25f;
-constexpr float kLeastCosine = 0.95f; ///< of their normals
-constexpr float kAlbedoStep = 0.05f;  ///< more is a texture, which is looked up
+constexpr float kLeastCosine = 0.95f; ///< least cosine between the neighbours' normals
+/// Albedos that differ more belong to a texture, which is looked up.
+constexpr float kAlbedoStep = 0.05f;
 
-/// Inverse distances, with a margin of zeros, as for pixels that see nothing.
+/// Holds inverse distances with a margin of zeros, the value of pixels that see nothing.
 class DistancePlane
 {
 public:
@@ -40,7 +41,7 @@ private:
     std::vector<float> _values;
 };
 
-/// Points of a row of pixels: origin + s * direction, linear in the pixel's number.
+/// Gives the points of a row of pixels: origin + s * direction, linear in the pixel's number.
 struct RowRays
 {
     Vec3 origin, originStep, direction, directionStep;
@@ -53,8 +54,8 @@ RowRays rowRays(const CameraRays& c, float scaleX, float y)
             c.direction + x0 * c.directionDx + y * c.directionDy, scaleX * c.directionDx};
 }
 
-/// Window depths, and what is linear on the image of a plane: 1/s, or s if the view is
-/// orthographic.
+/// Computes window depths, and the quantity that is linear on the image of a plane: 1/s, or s if
+/// the view is orthographic.
 OSGRAYTRACE_KERNEL
 void linearDistances(const CameraRays& camera, const RowRays& row, const SurfaceSample* samples,
                      int count, float inverseUnit, float* __restrict depth,
@@ -86,14 +87,14 @@ void linearDistances(const CameraRays& camera, const RowRays& row, const Surface
     }
 }
 
-/// How far three neighbours may be off a straight line, on the plane of inverse distances: relative
-/// to the middle one of a perspective view, absolute of an orthographic one.
+/// Limits how far three neighbours may be off a straight line, on the plane of inverse distances:
+/// relative to the middle one in a perspective view, absolute in an orthographic one.
 struct Bend
 {
     float relative, absolute;
 };
 
-/// Whether samples and those a step farther see one surface.
+/// Sets agree to whether the samples and those a step farther see one surface.
 OSGRAYTRACE_KERNEL
 void agreements(const SurfaceSample* samples, int step, const float* linear, int linearStep,
                 Bend largest, int count, uint8_t* __restrict agree)
@@ -133,7 +134,8 @@ void joinCells(const uint8_t* right, const uint8_t* rightAbove, const uint8_t* u
         smooth[i] = right[i] & rightAbove[i] & up[i] & up[i + 1];
 }
 
-/// Smooth cells with none beside them that are not; rows below and above may be the same one.
+/// Keeps the smooth cells that have only smooth cells beside them; the rows below and above may be
+/// the same one.
 OSGRAYTRACE_KERNEL
 void erode(const uint8_t* below, const uint8_t* row, const uint8_t* above, int count,
            uint8_t* __restrict eroded)
@@ -148,7 +150,7 @@ void erode(const uint8_t* below, const uint8_t* row, const uint8_t* above, int c
                    above[last] & above[last - second];
 }
 
-/// Share of the cells that are not smooth.
+/// Returns the share of the cells that are not smooth.
 double edges(const std::vector<uint8_t>& smooth, std::size_t columns, std::size_t rows,
              std::size_t stride)
 {
@@ -161,8 +163,8 @@ double edges(const std::vector<uint8_t>& smooth, std::size_t columns, std::size_
 
 Bend largestBend(const UpsampleView& view)
 {
-    // A pixel's width over its distance, in the middle of the image; of an orthographic view the
-    // width.
+    // The length is a pixel's width over its distance in the middle of the image; in an
+    // orthographic view it is the width.
     const CameraRays& camera = view.camera;
     const auto middleX = 0.5f * view.x.scale * static_cast<float>(view.width);
     const auto middleY = 0.5f * view.y.scale * static_cast<float>(view.height);
@@ -178,7 +180,7 @@ Bend largestBend(const UpsampleView& view)
 std::vector<uint8_t> flatCells(const std::vector<SurfaceSample>& samples, const UpsampleView& view,
                                const DistancePlane& linear, const Workers& workers)
 {
-    // Rows of pairs are made once more for each range of cells, which costs less than a pass of
+    // Rows of pairs are computed once more for each range of cells, which costs less than a pass of
     // their own.
     constexpr std::size_t kRows = 16;
     const auto w = static_cast<std::size_t>(view.width);
@@ -248,7 +250,7 @@ UpsampleCells upsampleCells(const std::vector<SurfaceSample>& samples, const Ups
                                         linear.row(row));
                     });
     const std::size_t cellRows = h - 1;
-    if (w < 2 || cellRows == 0) return cells; // all of them are at the image's edge
+    if (w < 2 || cellRows == 0) return cells; // all cells are at the image's edge
     const std::vector<uint8_t> flat = flatCells(samples, view, linear, workers);
     workers.forEach(cellRows,
                     [&](std::size_t row)

@@ -1,5 +1,5 @@
-// UpsampleEdges.cpp - blocks of pixels at edges: first hits traced, radiance from pixels alike.
-// Layer: session.
+// UpsampleEdges.cpp - blocks of pixels at edges: traces first hits, takes radiance from pixels
+// alike. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/upsample/UpsampleEdges.h"
 
@@ -17,40 +17,42 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Added to albedos before they are divided: see Upsample.h.
+/// Albedos are increased by this before they are divided: see Upsample.h.
 constexpr float kLeastAlbedo = 0.001f;
-/// Light that reflects this much more than what was seen of its neighbours is not known from them.
+/// Light on a surface that reflects this many times more than its neighbours is not known from
+/// them.
 constexpr float kLargestRatio = 4.0f;
-/// Of the four weights together, which are 1 on a smooth surface: below it they are not alike.
+/// Least sum of the four weights, which is 1 on a smooth surface: pixels below it are not alike.
 constexpr float kLeastWeight = 0.05f;
-/// So that of four pixels, of which three are not alike, the fourth is enough wherever the lane is.
+/// Added to each bilinear weight, so that one alike pixel of the four is enough wherever the lane
+/// is.
 constexpr float kLeastShare = 0.05f;
 /// Weight of a neighbour of another object in the same plane.
 constexpr float kOtherObject = 0.02f;
-/// Distance from the plane, in widths of a pixel of the image, from which a neighbour is of another
-/// surface.
+/// Distance from the plane, in widths of a pixel of the image, from which a neighbour belongs to
+/// another surface.
 constexpr float kPlane = 1.0f;
 
 constexpr int kSampleFloats = sizeof(SurfaceSample) / sizeof(float);
 static_assert(sizeof(SurfaceSample) % sizeof(float) == 0 && offsetof(SurfaceSample, albedo) == 16,
               "samples are read as arrays of floats");
 
-/// Which pixels of the image the lanes are between.
+/// Tells which pixels of the image the lanes are between.
 struct LanePlaces
 {
-    Lanes<int> column, row;    ///< the one below on the left
-    FloatLanes shareX, shareY; ///< of the others
+    Lanes<int> column, row;    ///< pixel below on the left
+    FloatLanes shareX, shareY; ///< shares of the other pixels
 };
 
-/// What the lanes themselves see.
+/// Holds the surfaces that the lanes themselves see.
 struct LaneSurfaces
 {
     const Vec3Lanes& geometric;
     const Vec3Lanes& normal;
     const Vec3Lanes& albedo;
-    Vec3Lanes position;      ///< engine space
-    FloatLanes inverseWidth; ///< of a pixel of the image at the hit [1/length]
-    UintLanes object;        ///< as in SurfaceSample
+    Vec3Lanes position;      ///< place in engine space
+    FloatLanes inverseWidth; ///< inverse width of a pixel of the image at the hit [1/length]
+    UintLanes object;        ///< object, as in SurfaceSample
 };
 
 OSGRAYTRACE_INLINE float planeWeight(float offsetInPixels)
@@ -68,7 +70,7 @@ OSGRAYTRACE_INLINE float normalWeight(float cosine)
     return c4 * c4;
 }
 
-/// Means with weights that come one after the other: exact where all values are the same.
+/// Sums means whose weights come one after the other, which are exact if all values are the same.
 struct LaneMeans
 {
     RgbaLanes rgba;
@@ -93,7 +95,7 @@ void inverseWidths(const CameraRays& camera, const RayBlock& ray, const FloatLan
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        // s = distance / |direction|, and rays start at s = nearS.
+        // s = distance / |direction|, and the rays start at s = nearS.
         const float inverseLength = c.nearS / ray.tNear[i];
         const float width =
             select(isOrthographic, orthographic, distance[i] * inverseLength * across);
@@ -117,7 +119,7 @@ OSGRAYTRACE_INLINE float planeOffset(const CameraRays& c, float x, float y, floa
            at.inverseWidth[i];
 }
 
-/// Adds the pixels (dx, dy) from each lane's first one.
+/// Adds the pixels (dx, dy) away from each lane's first one.
 OSGRAYTRACE_KERNEL
 void addNeighbours(const UpsampleSource& source, const LanePlaces& place, const LaneSurfaces& at,
                    int dx, int dy, float inverseUnit, LaneMeans& means)
@@ -166,7 +168,8 @@ void addNeighbours(const UpsampleSource& source, const LanePlaces& place, const 
     }
 }
 
-/// The neighbours' light on the lanes' own surface. Returns the lanes that it is not known of.
+/// Sets rgba to the neighbours' light on the lanes' own surface. Returns the lanes for which that
+/// light is not known.
 OSGRAYTRACE_KERNEL
 LaneMask modulate(const LaneMeans& means, const Vec3Lanes& albedo, RgbaLanes& rgba,
                   LaneMask& unlike)
@@ -193,7 +196,7 @@ LaneMask modulate(const LaneMeans& means, const Vec3Lanes& albedo, RgbaLanes& rg
     return poor;
 }
 
-/// The background as the image has it: linear.
+/// Returns the background as the image has it: linear.
 Vec3 behind(const PassContext& context, const RayBlock& ray, int i)
 {
     const Vec3 radiance = radianceBehind(context, ray, i);
@@ -220,12 +223,12 @@ float likeness(const UpsampleSource& source, const LaneSurfaces& at, int i,
     const float own = sample.object == at.object[i] ? 1.0f : kOtherObject;
     const float cosine = glm::dot(sample.normal, laneOf(at.normal, i));
     const float alike = 1e-9f + own * (1e-6f + planeWeight(offset) * normalWeight(cosine));
-    // White parts tell more about the light than black ones.
+    // White parts tell more about the light than black parts.
     return alike * (kLeastAlbedo + std::max({sample.albedo.x, sample.albedo.y, sample.albedo.z}));
 }
 
-/// One lane from pixels farther away, however unlike: what is most alike decides, then what is
-/// nearest.
+/// Computes one lane from pixels farther away, however unlike: the most alike pixels count most,
+/// then the nearest.
 void lookFarther(const UpsampleSource& source, const LanePlaces& place, const LaneSurfaces& at,
                  const RayBlock& ray, int i, RgbaLanes& rgba)
 {
@@ -257,7 +260,7 @@ void lookFarther(const UpsampleSource& source, const LanePlaces& place, const La
             meanAlbedo += f * (sample.albedo - meanAlbedo);
         }
     }
-    if (at.object[i] == 0 && sum < 1e-6f) // a gap that no pixel of the image looks through
+    if (at.object[i] == 0 && sum < 1e-6f) // this is a gap that no pixel of the image looks through
     {
         const bool seen = visibleEnvironment(source.full) != nullptr;
         mean = seen ? Vec4(behind(source.full, ray, i), 1.0f) : Vec4(0.0f);

@@ -1,4 +1,4 @@
-// UpsampleEdges.h - blocks of pixels at edges: first hits traced, radiance from pixels alike.
+// UpsampleEdges.h - blocks of pixels at edges: traces first hits, takes radiance from pixels alike.
 // Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -10,7 +10,7 @@
 namespace osgRayTrace::engine
 {
 
-/// What all blocks of an image work with.
+/// Holds the inputs of all blocks of an image.
 struct UpsampleSource
 {
     const ResolvedImage& image;
@@ -19,15 +19,16 @@ struct UpsampleSource
     UpsampleAxis x, y;
 };
 
-/// A block of the full size, lanes as laneX and laneY have them.
+/// Holds a block of the full size, with lanes as in laneX and laneY.
 struct UpsampledBlock
 {
     RgbaLanes rgba;
     alignas(64) float depth[kLanes];
-    LaneMask unlike; ///< none of the four pixels around sees their surface
+    LaneMask unlike; ///< none of the four pixels around sees the lanes' surface
 };
 
-/// left, bottom: its first pixel, inside of the image. Lanes outside of it are of its last pixels.
+/// Traces a block whose first pixel, (left, bottom), is inside of the image. Lanes outside of the
+/// image repeat its last pixels.
 void traceUpsampled(const UpsampleSource& source, int left, int bottom, UpsampledBlock& block);
 
 } // namespace osgRayTrace::engine

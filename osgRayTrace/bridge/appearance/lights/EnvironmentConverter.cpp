@@ -28,7 +28,8 @@ std::vector<const osg::Image*> imagesOf(const EnvironmentLight& source)
     return images;
 }
 
-/// Also of what is too long or too short to be squared. Zero stays zero.
+/// Returns the unit vector, even if the vector is too long or too short to be squared. Zero stays
+/// zero.
 osg::Vec3d unitOf(const osg::Vec3d& v)
 {
     const double largest = std::max({std::fabs(v.x()), std::fabs(v.y()), std::fabs(v.z())});
@@ -38,8 +39,8 @@ osg::Vec3d unitOf(const osg::Vec3d& v)
     return unit;
 }
 
-/// The axes of the image in engine space, made unit and perpendicular: the zenith first, then the
-/// middle.
+/// Returns the axes of the image in engine space, made unit and perpendicular: the zenith first,
+/// then the middle.
 Mat3 engineFromMap(const osg::Quat& rotation, const osg::Matrixd& engineFromLocal, bool& plain)
 {
     osg::Quat unit = rotation / rotation.length();
@@ -52,9 +53,10 @@ Mat3 engineFromMap(const osg::Quat& rotation, const osg::Matrixd& engineFromLoca
             std::fabs(x * y) + std::fabs(y * z) + std::fabs(z * x) < 1e-4 * scale * scale;
     z = unitOf(z);
     y = unitOf(y);
-    for (int round = 0; round < 2; ++round) // of nearly parallel axes the first leaves rounding
+    // If axes are nearly parallel, the first round leaves rounding.
+    for (int round = 0; round < 2; ++round)
         y = unitOf(y - z * (y * z));
-    if (y.length2() < 0.5) // parallel in double: any that is perpendicular
+    if (y.length2() < 0.5) // parallel in double: any perpendicular axis will do
         y = unitOf(z ^ (std::fabs(z.x()) < 0.5 ? osg::X_AXIS : osg::Y_AXIS));
     const osg::Vec3d right = y ^ z;
     const osg::Vec3d across = right * (x * right >= 0.0 ? 1.0 : -1.0);
@@ -70,7 +72,8 @@ Vec3 brightestOf(const EnvironmentImage& image)
     return brightest;
 }
 
-/// True if it had to be made smaller.
+/// Limits the scale so that no pixel gets brighter than kBrightestSky. Returns whether the scale
+/// was reduced.
 bool limitScale(const Vec3& brightest, Vec3& scale)
 {
     bool limited = false;

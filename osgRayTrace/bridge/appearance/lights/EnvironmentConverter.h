@@ -1,4 +1,5 @@
-// EnvironmentConverter.h - from EnvironmentLight to Light, its image converted once. Layer: bridge.
+// EnvironmentConverter.h - converts an EnvironmentLight to a Light, and its image once. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -22,18 +23,19 @@ class EnvironmentLight;
 namespace osgRayTrace::engine
 {
 
-/// Keeps the image between snapshots as long as what it was made of is unchanged.
+/// Keeps the image between snapshots as long as its sources are unchanged.
 class EnvironmentConverter
 {
 public:
-    /// Nothing, counted and named, if there is no image or it cannot be read. linear: 8-bit
-    /// images are decoded from sRGB. The matrix must be invertible; only its rotation counts.
+    /// Converts an environment. Returns nothing, counted and named, if there is no image or it
+    /// cannot be read. linear: 8-bit images are decoded from sRGB. The matrix must be invertible;
+    /// only its rotation counts.
     std::optional<Light> convert(const EnvironmentLight& source,
                                  const osg::Matrixd& engineFromLocal, bool linear,
                                  const std::string& path, ConversionReport& report);
 
 private:
-    /// What an image was made of.
+    /// Identifies an image from which the environment was made.
     struct Source
     {
         osg::observer_ptr<const osg::Image> image;
@@ -49,8 +51,8 @@ private:
     std::vector<Source> _sources;
     bool _linear = false;
     std::shared_ptr<const EnvironmentImage> _image;
-    Vec3 _brightest{0.0f};    ///< of its pixels, in each channel
-    ConversionCounts _counts; ///< of the image: they are told again with each snapshot
+    Vec3 _brightest{0.0f};    ///< brightest value of the pixels, in each channel
+    ConversionCounts _counts; ///< counts of the image, which are reported again with each snapshot
 };
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// EnvironmentImages.cpp - pixels of environments. Layer: bridge.
+// EnvironmentImages.cpp - reads the pixels of environments. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/lights/EnvironmentImages.h"
 
@@ -20,7 +20,7 @@ constexpr int64_t kMostPixels = int64_t(1) << 28;
 struct Pixels
 {
     int width = 0, height = 0;
-    std::vector<Vec3> radiance; ///< row 0 the lowest
+    std::vector<Vec3> radiance; ///< row 0 is the lowest
 };
 
 void repair(Vec3& pixel, ReplacedPixels& replaced)
@@ -36,7 +36,8 @@ void repair(Vec3& pixel, ReplacedPixels& replaced)
     pixel = clamped;
 }
 
-/// Of floats and halfs as they are: the decoder of textures makes them black without a word.
+/// Counts pixels of floats and halfs that are not finite, because the decoder of textures makes
+/// them black without a message.
 uint64_t countNotFinite(const osg::Image& image)
 {
     const auto channels = osg::Image::computeNumComponents(image.getPixelFormat());
@@ -61,7 +62,7 @@ bool isPlainFloat(const osg::Image& image)
            (image.getPixelFormat() == GL_RGB || image.getPixelFormat() == GL_RGBA);
 }
 
-/// What .hdr and .exr files hold, without a copy of four channels in between.
+/// Reads the floats of .hdr and .exr files without a copy of four channels in between.
 void readFloats(const osg::Image& image, Pixels& pixels)
 {
     const int channels = image.getPixelFormat() == GL_RGBA ? 4 : 3;
@@ -80,7 +81,7 @@ bool readOthers(const osg::Image& image, bool decodeSrgb, ReplacedPixels& replac
     if (!decodePixels(image, texture)) return false;
     const bool mayNotBeFinite =
         image.getDataType() == GL_FLOAT || image.getDataType() == GL_HALF_FLOAT;
-    if (mayNotBeFinite && !image.isCompressed()) // whose data type says nothing
+    if (mayNotBeFinite && !image.isCompressed()) // the data type of compressed images tells nothing
         replaced.notFinite += countNotFinite(image);
     for (std::size_t i = 0; i < pixels.radiance.size(); ++i)
     {
@@ -119,7 +120,8 @@ bool read(const osg::Image& image, bool decodeSrgb, int64_t mostPixels, Replaced
     return true;
 }
 
-/// [OpenGL21, table 3.19]; faces are stored from their first row in memory.
+/// Returns the radiance of a cube by direction [OpenGL21, table 3.19]; faces are stored from their
+/// first row in memory.
 Vec3 cubeRadiance(const std::array<Pixels, 6>& faces, Vec3d d)
 {
     const Vec3d size = glm::abs(d);
@@ -183,7 +185,7 @@ environmentFromCube(const std::vector<const osg::Image*>& images, bool decodeSrg
                     ReplacedPixels& replaced)
 {
     if (images.size() != 6) return nullptr;
-    constexpr int64_t kMostOfFace = kMostPixels / 8; // of which two by four are resampled
+    constexpr int64_t kMostOfFace = kMostPixels / 8; // two by four faces are resampled
     std::array<Pixels, 6> faces;
     for (std::size_t f = 0; f < 6; ++f)
     {
@@ -191,7 +193,7 @@ environmentFromCube(const std::vector<const osg::Image*>& images, bool decodeSrg
             return nullptr;
         if (faces[f].width != faces[f].height || faces[f].width != faces[0].width) return nullptr;
     }
-    constexpr int kPoints = 4; // a side of a pixel
+    constexpr int kPoints = 4; // points along a side of a pixel
     auto environment = std::make_shared<EnvironmentImage>();
     environment->width = 4 * faces[0].width;
     environment->height = 2 * faces[0].width;

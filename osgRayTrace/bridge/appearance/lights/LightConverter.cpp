@@ -24,9 +24,9 @@ Vec3 rgb(const osg::Vec4& color)
     return {color.r(), color.g(), color.b()};
 }
 
-constexpr float kLargestCoordinate = 1e18f; ///< as for vertices: Embree's limit is 1.844e18
+constexpr float kLargestCoordinate = 1e18f; ///< limit as for vertices: Embree's is 1.844e18
 
-/// False for NaN as well.
+/// Returns whether a point is within reach; returns false for NaN as well.
 bool isWithinReach(const Vec3& p)
 {
     return std::fabs(p.x) <= kLargestCoordinate && std::fabs(p.y) <= kLargestCoordinate &&
@@ -42,8 +42,8 @@ bool isFiniteLight(const Light& light)
            std::isfinite(light.attenuationQuadratic) && std::isfinite(light.spotExponent);
 }
 
-/// OpenGL knows cut-off angles of 0 to 90 degrees and 180, and ignores others [OpenGL 2.1,
-/// sect. 2.14.1].
+/// Returns the cosine of a cut-off angle. OpenGL knows cut-off angles of 0 to 90 degrees and 180,
+/// and ignores others [OpenGL 2.1, sect. 2.14.1].
 float cosCutoff(float degrees)
 {
     const bool isSpot = degrees >= 0.0f && degrees <= 90.0f;
@@ -81,7 +81,7 @@ std::optional<Light> convertLight(const osg::Light& source, const osg::Matrixd& 
         osg::Matrixd::transform3x3(osg::Vec3d(source.getDirection()), engineFromLocal);
     if (axis.normalize() > 0.0) light.direction = toVec3(axis);
     light.attenuationConstant = source.getConstantAttenuation();
-    // Given for world lengths, evaluated with engine lengths.
+    // OpenGL's values are given for world lengths; the engine evaluates them with engine lengths.
     light.attenuationLinear = static_cast<float>(source.getLinearAttenuation() * unit);
     light.attenuationQuadratic = static_cast<float>(source.getQuadraticAttenuation() * unit * unit);
     light.spotExponent = source.getSpotExponent();
@@ -111,7 +111,7 @@ std::optional<ConvertedAreaLight> convertAreaLight(const AreaLight& source,
     light.radiance = {source.getRadiance().x(), source.getRadiance().y(), source.getRadiance().z()};
     light.twoSided = source.getTwoSided();
 
-    // In double: the square of a small light's area is no normal float.
+    // The area is computed in double, as the square of a small light's area is no normal float.
     const auto area =
         static_cast<float>(glm::length(glm::cross(Vec3d(light.edgeU), Vec3d(light.edgeV))));
     if (!(area > 0.0f) || !std::isfinite(area) || !isFinite(light.corner) ||

@@ -1,4 +1,4 @@
-// LightConverter.h - from osg::Light, AreaLight and emitting geometry to Light. Layer: bridge.
+// LightConverter.h - converts osg::Light, AreaLight and emitting geometry to Light. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -19,14 +19,15 @@ class AreaLight;
 namespace osgRayTrace::engine
 {
 
-/// A directional or point light with OpenGL's meaning of each value. The matrix places it in engine
-/// space, or is the identity for one in eye space; unit is Scene::unit. Nothing if a value is not
-/// finite.
+/// Converts a directional or point light with OpenGL's meaning of each value. The matrix places the
+/// light in engine space, or is the identity for a light in eye space; unit is Scene::unit. Returns
+/// nothing if a value is not finite.
 std::optional<Light> convertLight(const osg::Light& light, const osg::Matrixd& engineFromLocal,
                                   bool eyeSpace, double unit);
 
-/// The light and the two triangles that rays hit, in engine space. A mirrored transform leaves the
-/// front side where it is on the node. Nothing if it has no area or is not finite.
+/// Holds the light and the two triangles that rays hit, in engine space. A mirrored transform
+/// leaves the front side where it is on the node. The conversion returns nothing if the light has
+/// no area or is not finite.
 struct ConvertedAreaLight
 {
     Light light;
@@ -35,7 +36,7 @@ struct ConvertedAreaLight
 std::optional<ConvertedAreaLight> convertAreaLight(const AreaLight& source,
                                                    const osg::Matrixd& engineFromLocal);
 
-/// The light of an instance whose material emits.
+/// Returns the light of an instance whose material emits.
 Light meshLight(const std::string& name, const Vec3& radiance, uint32_t instance);
 
 } // namespace osgRayTrace::engine

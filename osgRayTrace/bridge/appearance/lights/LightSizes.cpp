@@ -18,7 +18,7 @@ namespace
 constexpr float kLargestRadius = 1e30f;
 constexpr float kLargestDegrees = 180.0f;
 
-/// All of the text, finite and not negative.
+/// Returns the number if it is all of the text, finite and not negative.
 std::optional<float> parseSize(const std::string& text)
 {
     const std::optional<float> value = parseNumber<float>(text);
@@ -28,7 +28,7 @@ std::optional<float> parseSize(const std::string& text)
 
 std::string lastName(const std::string& path)
 {
-    return path.substr(path.rfind('/') + 1); // all of it if there is no slash
+    return path.substr(path.rfind('/') + 1); // all of the path if there is no slash
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// LightSizes.h - how large the lights of a scene are that OpenGL takes for points. Layer: bridge.
+// LightSizes.h - sizes of lights that OpenGL takes for points. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,13 +13,13 @@
 namespace osgRayTrace::engine
 {
 
-/// A size is a radius for point and spot lights [length, world], and an angular diameter for
-/// directional ones [degrees].
+/// Holds sizes of lights: a size is a radius for point and spot lights [length, world], and an
+/// angular diameter for directional ones [degrees].
 struct LightSizes
 {
     float radius = 0.0f;
     float angleDegrees = 0.0f;
-    std::map<std::string, float> byName; ///< instead of both
+    std::map<std::string, float> byName; ///< sizes of single lights, instead of both
 
     bool operator==(const LightSizes& other) const
     {
@@ -28,15 +28,15 @@ struct LightSizes
     }
 };
 
-/// "key=0.2,fill=1": names and sizes; "none" and "" are none. Nothing if it is not of this form, or
-/// a size is negative or no finite number. A semicolon is as good as a comma.
+/// Parses names and sizes such as "key=0.2,fill=1"; "none" and "" are none. A semicolon is as good
+/// as a comma. Returns nothing if the text has another form, or a size is negative or not finite.
 std::optional<std::map<std::string, float>> parseLightSizes(const std::string& text);
 
 LightSizes lightSizesOf(const RayTraceSettings& settings);
 
-/// Makes a directional or point light as large as it is meant to be: by its own name, else that of
-/// the last node of path, else by its kind. unit is Scene::unit. Returns the name that was used, or
-/// "".
+/// Gives a directional or point light its size: by the light's own name, otherwise by that of the
+/// last node of path, otherwise by its kind. unit is Scene::unit. Returns the name that was used,
+/// or "".
 std::string applyLightSize(const LightSizes& sizes, const std::string& path, double unit,
                            Light& light);
 

@@ -28,7 +28,7 @@ float linear(float value)
     return std::isfinite(value) ? linearFromSrgb(value) : 0.0f;
 }
 
-/// What is diffuse of the state.
+/// Takes the diffuse colour and texture of the state.
 void takeColor(const GraphState& state, PhysicalMaterial& material)
 {
     if (const auto* source = state.attribute<osg::Material>(kMaterialSlot))
@@ -36,7 +36,7 @@ void takeColor(const GraphState& state, PhysicalMaterial& material)
         const osg::Vec4& color = source->getDiffuse(osg::Material::FRONT);
         material.setBaseColor(osg::Vec3(linear(color.r()), linear(color.g()), linear(color.b())));
     }
-    // Held, not changed.
+    // The texture is held, but not changed.
     material.setBaseColorTexture(const_cast<osg::Texture2D*>(textureOf(state)));
 }
 

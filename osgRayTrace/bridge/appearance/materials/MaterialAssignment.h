@@ -16,7 +16,7 @@
 namespace osgRayTrace::engine
 {
 
-/// For one conversion. A library that is null has no rules.
+/// Assigns materials in one conversion. A library that is null has no rules.
 class MaterialAssignment
 {
 public:
@@ -25,8 +25,8 @@ public:
     {
     }
 
-    /// Number in states of the state that a geometry at the end of the path is drawn with: the top
-    /// one, with a PhysicalMaterial if a rule fits.
+    /// Returns the number in states of the state with which a geometry at the end of the path is
+    /// drawn: the top one, with a PhysicalMaterial if a rule fits.
     uint32_t stateOf(const osg::NodePath& path, StateStack& states);
 
     /// Names the rules that fitted nothing.

@@ -1,4 +1,5 @@
-// MaterialLibrary.cpp - reads material files, and says where they are wrong. Layer: bridge.
+// MaterialLibrary.cpp - reads material files, and reports their errors with their places. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/materials/MaterialLibrary.h"
 
@@ -46,7 +47,7 @@ struct LineIterator
     int* line;
 };
 
-/// One parameter: a number, or three for a colour.
+/// Describes one parameter: a number, or three for a colour.
 struct Parameter
 {
     const char* name;
@@ -101,7 +102,8 @@ std::string shortNumber(double value)
     return Json(value).dump();
 }
 
-/// Takes the parser's events; false ends it. Depth 1 is the file, 2 a group, 3 a material.
+/// Handles the parser's events; returning false ends the parse. Depth 1 is the file, 2 a group, 3 a
+/// material.
 class LibraryReader : public Json::json_sax_t
 {
 public:
@@ -157,11 +159,13 @@ public:
 
     bool parse_error(std::size_t, const std::string&, const Json::exception& exception) override
     {
-        // "[json.exception.parse_error.101] parse error at line 3, column 7: ..."
+        // The text looks like "[json.exception.parse_error.101] parse error at line 3, column 7:
+        // ...".
         const std::string text = exception.what();
         const std::size_t bracket = text.find("] ");
         const std::string what = bracket == std::string::npos ? text : text.substr(bracket + 2);
-        const bool hasPlace = what.find("line ") != std::string::npos; // not of numbers too large
+        // Errors of numbers that are too large tell no line.
+        const bool hasPlace = what.find("line ") != std::string::npos;
         _error = _fileName + (hasPlace ? ": " : ":" + std::to_string(_keyLine) + ": ") + what;
         return false;
     }
@@ -263,7 +267,7 @@ private:
 
 bool matchesPattern(const std::string& pattern, const std::string& name)
 {
-    // Greedy with one point to return to: the last star can always take more.
+    // The search is greedy with one point to return to: the last star can always take more.
     std::size_t p = 0, n = 0, star = std::string::npos, taken = 0;
     while (n < name.size())
     {

@@ -1,16 +1,16 @@
-// MaterialLibrary.h - physical materials for models that know none, by names in them. Layer:
-// bridge.
+// MaterialLibrary.h - gives physical materials to models that have none, by names. Layer: bridge.
 // SPDX-License-Identifier: MIT
 //
-// A JSON file:
+// A library is a JSON file:
 //   { "nodes":     { "windscreen": { "transmission": 1, "roughness": 0, "baseColor": [1, 1, 1] } },
 //     "materials": { "chrome*":    { "metallic": 1, "roughness": 0.05 } },
 //     "textures":  { "wood.png":   { "roughness": 0.3 } } }
-// Names are those of nodes (the nearest above or at the geometry), of the osg::Material that it is
-// drawn with, and of the image file of its texture, with or without folders. "*" stands for any
-// characters. A node's entry wins over a material's, and that over a texture's; in each group a
-// name over a pattern, and the first of several patterns. Parameters are those of PhysicalMaterial;
-// without baseColor the diffuse colour and the texture of the model stay.
+// The names are those of nodes (the nearest one above or at the geometry), of the osg::Material
+// that the geometry is drawn with, and of the image file of its texture, with or without folders.
+// "*" stands for any characters. A node's entry wins over a material's, and a material's over a
+// texture's. In each group a name wins over a pattern, and the first of several patterns wins.
+// The parameters are those of PhysicalMaterial; without baseColor the diffuse colour and the
+// texture of the model stay.
 #pragma once
 
 #include <osgRayTrace/PhysicalMaterial>
@@ -30,25 +30,26 @@ struct MaterialRule
 {
     std::string group; ///< "nodes", "materials", "textures"
     std::string pattern;
-    osg::ref_ptr<const PhysicalMaterial> material; ///< its name is the pattern
-    bool keepsColor = true;                        ///< there is no baseColor
+    osg::ref_ptr<const PhysicalMaterial> material; ///< material, named after the pattern
+    bool keepsColor = true;                        ///< true: the file gives no baseColor
 };
 
-/// Names with "*" in a group: each name of the scene that is no name of the group is compared with
-/// all of these. Other names cost the same however many they are.
+/// Largest number of names with "*" in a group, because each name of the scene that is no name of
+/// the group is compared with all of them. Other names cost the same however many they are.
 constexpr std::size_t kMostPatterns = 1024;
 
-/// The rules of a group, in the order of the file.
+/// Holds the rules of a group, in the order of the file.
 class MaterialRuleList
 {
 public:
-    /// Null if there is a rule of this pattern.
+    /// Adds a rule. Returns null if there already is a rule of this pattern.
     MaterialRule* add(MaterialRule rule);
 
-    /// The best rule for a name; null: none. It lives as long as the list.
+    /// Returns the best rule for a name; null: none. The rule lives as long as the list.
     const MaterialRule* find(const std::string& name) const;
 
-    std::size_t patterns() const { return _patterns.size(); } ///< with "*"
+    /// Returns the number of rules with "*".
+    std::size_t patterns() const { return _patterns.size(); }
     bool empty() const { return _rules.empty(); }
     std::size_t size() const { return _rules.size(); }
     const MaterialRule& operator[](std::size_t i) const { return _rules[i]; }
@@ -58,16 +59,16 @@ public:
 private:
     std::deque<MaterialRule> _rules;
     std::unordered_map<std::string, std::size_t> _byName;
-    std::vector<std::size_t> _patterns; ///< those with "*"
+    std::vector<std::size_t> _patterns; ///< indices of rules with "*"
 };
 
-/// Immutable once it is made.
+/// Holds the rules of a file. A library is immutable once it is made.
 struct MaterialLibrary
 {
     MaterialRuleList nodes, materials, textures;
 };
 
-/// True if '*' in pattern can stand for characters so that it is the name.
+/// Returns whether replacing each '*' in pattern by some characters can give the name.
 bool matchesPattern(const std::string& pattern, const std::string& name);
 
 struct MaterialLibraryResult
@@ -76,14 +77,14 @@ struct MaterialLibraryResult
     std::string error; ///< "glass.json:7: materials, 'chrome': 'shiny' is no parameter; ..."
 };
 
-/// fileName stands in messages only.
+/// Parses the text of a library. fileName appears in messages only.
 MaterialLibraryResult parseMaterialLibrary(const std::string& text, const std::string& fileName);
 
-/// Found as OSG finds data files.
+/// Reads a library from a file, which is found as OSG finds data files.
 MaterialLibraryResult readMaterialLibrary(const std::string& fileName);
 
-/// The library that settings name, read again only if the name is another one or again is true. A
-/// wrong file is reported once and gives none.
+/// Holds the library that settings name. The file is read again only if its name differs from the
+/// last one or again is true. A wrong file is reported once and gives no library.
 class MaterialLibraryFile
 {
 public:

@@ -12,7 +12,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Clear glass of the index of air is not there for any ray.
+/// Returns clear glass of the index of air, which no ray notices.
 Material gap()
 {
     Material material;

@@ -1,4 +1,4 @@
-// MaterialValues.cpp - the values of a material as bits. Layer: bridge.
+// MaterialValues.cpp - writes the values of a material as bits. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/materials/MaterialValues.h"
 

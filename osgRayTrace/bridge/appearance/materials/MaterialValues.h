@@ -1,4 +1,4 @@
-// MaterialValues.h - materials compared by what can be seen of them. Layer: bridge.
+// MaterialValues.h - compares materials by all that can be seen of them. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,17 +10,18 @@
 namespace osgRayTrace::engine
 {
 
-/// The values that decide on the picture, bit by bit: equal for materials that can be merged. Name
-/// and stamp are none of them.
+/// Returns the values that decide on the picture, bit by bit, which are equal for materials that
+/// can be merged. Name and stamp are left out.
 std::vector<uint32_t> materialValues(const Material& material);
 
-/// Equal in all that affects the picture.
+/// Returns whether two materials are equal in all that affects the picture.
 inline bool sameMaterial(const Material& a, const Material& b)
 {
     return materialValues(a) == materialValues(b);
 }
 
-/// The colours of its front face, or of both if it has no others on the back.
+/// Returns the colours of the material's front face, which are those of both faces if the back has
+/// no others.
 inline FaceColors frontOf(const Material& m)
 {
     return {m.ambient, m.diffuse, m.specular, m.emission, m.shininess, m.alpha};

@@ -1,4 +1,4 @@
-// BlockDecoder.cpp - block-compressed images: DXT1, DXT3, DXT5 and RGTC. Layer: bridge.
+// BlockDecoder.cpp - decodes block-compressed images: DXT1, DXT3, DXT5 and RGTC. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/textures/BlockDecoder.h"
 
@@ -13,9 +13,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr int kBlock = 4; ///< texels along a side
+constexpr int kBlock = 4; ///< texels along a side of a block
 
-/// The sixteen texels of a block, row by row.
+/// Holds the sixteen texels of a block, row by row.
 struct BlockColors
 {
     float rgba[kBlock * kBlock][4] = {};
@@ -36,8 +36,8 @@ void unpack565(uint32_t packed, float* rgb)
     rgb[2] = static_cast<float>(packed & 31u) / 31.0f;
 }
 
-/// [EXTs3tc, sect. 3.8.3]. Only DXT1 has the three-colour code, whose last value is black, and
-/// transparent where there is alpha.
+/// Decodes the colours of a block [EXTs3tc, sect. 3.8.3]. Only DXT1 has the three-colour code,
+/// whose last value is black, and transparent if the format has alpha.
 void decodeColors(const uint8_t* bytes, bool dxt1, bool transparentBlack, BlockColors& block)
 {
     const uint32_t packed0 = littleEndian(bytes, 2), packed1 = littleEndian(bytes + 2, 2);
@@ -58,8 +58,8 @@ void decodeColors(const uint8_t* bytes, bool dxt1, bool transparentBlack, BlockC
         std::copy_n(palette[codes >> 2 * i & 3u], 4, block.rgba[i]);
 }
 
-/// Sixteen values by two end points and codes of three bits: the alpha of DXT5 and the channels of
-/// RGTC [ARBrgtc].
+/// Decodes sixteen values from two end points and codes of three bits: the alpha of DXT5 and the
+/// channels of RGTC [ARBrgtc].
 void decodeChannel(const uint8_t* bytes, bool isSigned, int channel, BlockColors& block)
 {
     const auto endPoint = [isSigned](uint8_t byte)
@@ -94,7 +94,7 @@ void decodeFourBitAlpha(const uint8_t* bytes, BlockColors& block)
         block.rgba[i][3] = static_cast<float>(bytes[i / 2] >> 4 * (i % 2) & 15u) / 15.0f;
 }
 
-/// Bytes of a block; 0: none of these formats.
+/// Returns the bytes of a block; 0 for all other formats.
 int blockSize(GLenum format)
 {
     switch (format)

@@ -1,4 +1,4 @@
-// PixelDecoder.cpp - pixel formats times pixel types. Layer: bridge.
+// PixelDecoder.cpp - decodes pixel formats times pixel types. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/textures/PixelDecoder.h"
 
@@ -18,14 +18,14 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr int kZero = -1; ///< a channel that is 0
-constexpr int kOne = -2;  ///< a channel that is 1
+constexpr int kZero = -1; ///< channel that is 0
+constexpr int kOne = -2;  ///< channel that is 1
 
-// OpenGL 3.0's, which OSG's headers do not name.
+// OpenGL 3.0 defines these types, which OSG's headers do not name.
 constexpr GLenum kSmallFloatType = 0x8C3B;     ///< GL_UNSIGNED_INT_10F_11F_11F_REV
 constexpr GLenum kSharedExponentType = 0x8C3E; ///< GL_UNSIGNED_INT_5_9_9_9_REV
 
-/// Where red, green, blue and alpha stand in a pixel of so many components.
+/// Tells where red, green, blue and alpha stand in a pixel of so many components.
 struct Layout
 {
     int components;
@@ -89,7 +89,8 @@ float finiteOrZero(float value)
     return std::isfinite(value) ? value : 0.0f;
 }
 
-/// Rows as the image has them: packing and row length make a row longer than its pixels.
+/// Decodes the rows as the image stores them: packing and row length make a row longer than its
+/// pixels.
 template <class Scalar, class Value, class Convert>
 void decodeRows(const osg::Image& image, const Layout& layout, Value one, const Convert& convert,
                 std::vector<Value>& out)
@@ -154,7 +155,8 @@ bool decodePlain(const osg::Image& image, Texture& texture)
     }
 }
 
-/// One number holds all components: the first in the highest bits, or in the lowest if reversed.
+/// Describes a pixel whose components share one number: the first component has the highest bits,
+/// or the lowest if the type is reversed.
 struct Packing
 {
     int bytes;
@@ -196,7 +198,8 @@ std::optional<Packing> packingOf(GLenum type)
     }
 }
 
-/// In the byte order of the machine, as OpenGL reads it [OpenGL21, table 3.8].
+/// Returns the number of a pixel in the byte order of the machine, as OpenGL reads it [OpenGL21,
+/// table 3.8].
 uint32_t packedPixel(const uint8_t* source, int bytes)
 {
     uint32_t value = 0;
@@ -247,8 +250,8 @@ bool decodePacked(const osg::Image& image, const Packing& packing, Texture& text
     return true;
 }
 
-/// Three numbers with a common exponent, or with their own ones, without sign
-/// [OpenGL30, sect. 2.1.3 and 3.9.1].
+/// Decodes three numbers without sign that have a common exponent, or an exponent each [OpenGL30,
+/// sect. 2.1.3 and 3.9.1].
 bool decodeSharedExponent(const osg::Image& image, Texture& texture)
 {
     const bool shared = image.getDataType() == kSharedExponentType;

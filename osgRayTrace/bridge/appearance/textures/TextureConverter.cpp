@@ -1,5 +1,5 @@
-// TextureConverter.cpp - texture targets, wrap and filter modes, and the cache of textures. Layer:
-// bridge.
+// TextureConverter.cpp - converts texture targets, wrap and filter modes, and caches textures.
+// Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
 
@@ -78,7 +78,8 @@ uint32_t TextureConverter::index(const osg::Texture* texture, TextureContent con
     return entry.index;
 }
 
-/// Also after the image was given up, if its format alone says so.
+/// Returns whether the texture is encoded in sRGB. The answer stays after the image was given up if
+/// the format alone tells it.
 bool TextureConverter::isSrgb(const osg::Texture& texture) const
 {
     const osg::Image* image = texture.getImage(0);
@@ -88,7 +89,8 @@ bool TextureConverter::isSrgb(const osg::Texture& texture) const
            isSrgbFormat(known->second.internalFormat);
 }
 
-/// Keeps the entry's index. False if there is nothing to sample.
+/// Converts the texture again in place, so that the entry keeps its index. Returns false if there
+/// is nothing to sample.
 bool TextureConverter::convert(Entry& entry, const osg::Texture& texture, bool decode,
                                ConversionReport& report)
 {
@@ -156,8 +158,9 @@ bool TextureConverter::knows(const osg::Texture& texture) const
     return false;
 }
 
-/// Also true if the image was given up after it went to OpenGL (setUnRefImageDataAfterApply): what
-/// was converted before stays.
+/// Returns whether the entry's texture is unchanged. An image that was given up after it went to
+/// OpenGL (setUnRefImageDataAfterApply) counts as unchanged: the texture that was converted before
+/// stays.
 bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture& texture) const
 {
     if (!entry.converted || entry.texture.get() != &texture) return false;

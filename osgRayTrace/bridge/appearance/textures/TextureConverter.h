@@ -1,4 +1,4 @@
-// TextureConverter.h - from osg::Texture to Texture, each converted once. Layer: bridge.
+// TextureConverter.h - converts each osg::Texture once to a Texture. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -18,47 +18,48 @@
 namespace osgRayTrace::engine
 {
 
-/// What an 8-bit texture holds.
+/// Names the kinds of content of an 8-bit texture.
 enum class TextureContent
 {
-    Color, ///< sRGB encoded in a linear scene
-    Data,  ///< roughness and the like: never decoded
+    Color, ///< colours, sRGB encoded in a linear scene
+    Data,  ///< data such as roughness, never decoded
 };
 
-/// True if OpenGL has texels of it, or will have, and it has no image: a camera renders to it, or
-/// whoever fills it does so by OpenGL. Not so of a texture whose file is missing, which OpenGL does
-/// not show either.
+/// Returns whether OpenGL has or will have texels of a texture that has no image: a camera renders
+/// to it, or somebody fills it by OpenGL. A texture whose file is missing is not such a texture, as
+/// OpenGL does not show it either.
 bool isOnlyInOpenGL(const osg::Texture& texture);
 
 /// Keeps converted textures between snapshots, as long as they are used and their images unchanged.
 class TextureConverter
 {
 public:
-    /// Begins a snapshot. stamp is that of textures converted now.
+    /// Begins a snapshot. stamp becomes the stamp of textures that are converted from now on.
     void begin(bool linear, Stamp stamp);
 
-    /// Goes on with the last snapshot: indices stay, and what has changed is converted in its
-    /// place.
+    /// Continues the last snapshot: indices stay, and a texture that has changed is converted in
+    /// its place.
     void resume(Stamp stamp) { _stamp = stamp; }
 
-    /// Index into all(); kInvalid if there is nothing to sample (no image on the CPU). A
-    /// format that cannot be read becomes magenta.
-    /// 1-D, 2-D, 3-D, rectangle and cube textures; of arrays the first layer.
+    /// Returns the texture's index into all(); kInvalid if there is nothing to sample (no image on
+    /// the CPU). A format that cannot be read becomes magenta. The texture may be 1-D, 2-D, 3-D,
+    /// rectangle or cube; an array gives its first layer.
     uint32_t index(const osg::Texture* texture, TextureContent content, ConversionReport& report);
 
-    /// True if it was converted, though it may have given up its image since.
+    /// Returns whether the texture was converted, though it may have given up its image since.
     bool knows(const osg::Texture& texture) const;
 
-    /// Of this snapshot.
+    /// Returns a texture of this snapshot.
     const Texture& at(uint32_t index) const { return *_textures[index]; }
 
-    /// Of this snapshot. Where one was dropped there is another that nobody samples.
+    /// Returns the textures of this snapshot. A removed texture leaves another one in its place,
+    /// which is never sampled.
     const std::vector<std::shared_ptr<const Texture>>& all() const { return _textures; }
 
-    /// Forgets what was not used in this snapshot.
+    /// Forgets the textures that were not used in this snapshot.
     void end();
 
-    /// Forgets those of the snapshot that are not used any more, by index.
+    /// Forgets the textures of the snapshot that are no longer used, by index.
     void keepOnly(const std::vector<bool>& used);
 
 private:
@@ -77,8 +78,8 @@ private:
         std::vector<ImageSignature> images;
         GLint internalFormat = 0;
         std::shared_ptr<const Texture> converted;
-        uint32_t index = kInvalid; // in this snapshot
-        Stamp looked = 0;          // at its image
+        uint32_t index = kInvalid; // index in this snapshot
+        Stamp looked = 0;          // stamp of the last comparison with the image
     };
 
     bool isSrgb(const osg::Texture& texture) const;
@@ -89,7 +90,7 @@ private:
 
     std::map<Key, Entry> _entries;
     std::vector<std::shared_ptr<const Texture>> _textures;
-    std::vector<uint32_t> _gaps; // in _textures
+    std::vector<uint32_t> _gaps; // free indices of _textures
     bool _linear = false;
     Stamp _stamp = 0;
 };

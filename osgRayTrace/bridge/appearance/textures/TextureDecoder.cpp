@@ -26,7 +26,8 @@ bool isCube(const osg::Texture& texture)
     return texture.getTextureTarget() == GL_TEXTURE_CUBE_MAP;
 }
 
-/// Puts the faces of a cube above each other. False if they are not squares of one size and kind.
+/// Puts the faces of a cube above each other. Returns false if the faces are not squares of one
+/// size and kind.
 bool decodeCube(const osg::Texture& source, Texture& texture)
 {
     for (unsigned int face = 0; face < 6; ++face)
@@ -51,7 +52,8 @@ bool decodeVolume(const osg::Image& image, Texture& texture)
     if (image.isCompressed()) return false;
     for (int r = 0; r < image.r(); ++r)
     {
-        const osg::ref_ptr<osg::Image> slice = new osg::Image; // of the same memory, only read
+        // Refers to the image's memory, and is only read.
+        const osg::ref_ptr<osg::Image> slice = new osg::Image;
         slice->setImage(image.s(), image.t(), 1, image.getInternalTextureFormat(),
                         image.getPixelFormat(), image.getDataType(),
                         const_cast<unsigned char*>(image.data(0, 0, r)), osg::Image::NO_DELETE,

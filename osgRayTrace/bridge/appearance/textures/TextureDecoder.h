@@ -1,4 +1,4 @@
-// TextureDecoder.h - the texels, wrap and filter modes of an osg::Texture. Layer: bridge.
+// TextureDecoder.h - decodes the texels, wrap and filter modes of an osg::Texture. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,7 +13,8 @@ namespace osgRayTrace::engine
 
 TextureWrap wrapOf(const osg::Texture& texture, osg::Texture::WrapParameter direction);
 
-/// Finite, and in [0, 1] as OpenGL takes it for textures of fixed-point formats.
+/// Returns the border colour: finite, and in [0, 1] as OpenGL clamps it for textures of fixed-point
+/// formats.
 Vec4 borderOf(const osg::Texture& texture);
 
 bool isSrgbFormat(GLint internalFormat);
@@ -26,12 +27,14 @@ unsigned int imageCount(const osg::Texture& texture);
 
 std::string nameOf(const osg::Texture& texture, const osg::Image& image);
 
-/// More than the engine takes, or than osg::Image can address in the 32 bits of its offsets.
+/// Returns whether the image has more texels than the engine takes, or than osg::Image can address
+/// in the 32 bits of its offsets.
 bool isTooLarge(const osg::Image& image, int slices);
 
 void fillMagenta(Texture& texture);
 
-/// What OpenGL's base format lacks never reaches the texture environment [OpenGL21, table 3.22].
+/// Sets the channels of the texture. Channels that OpenGL's base format lacks never reach the
+/// texture environment [OpenGL21, table 3.22].
 void setChannels(GLint internalFormat, GLenum pixelFormat, Texture& texture);
 
 bool decodeTexture(const osg::Texture& source, Texture& texture);

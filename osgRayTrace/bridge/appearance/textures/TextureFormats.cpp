@@ -107,12 +107,12 @@ TextureChannels textureChannels(GLint internalFormat, GLenum pixelFormat)
 GLint internalFormatOf(const osg::Texture& texture, const osg::Image* image)
 {
     const osg::Texture::InternalFormatMode mode = texture.getInternalFormatMode();
-    // Only with this mode it computes nothing.
+    // Only in this mode getInternalFormat computes nothing.
     const GLint users =
         mode == osg::Texture::USE_USER_DEFINED_FORMAT ? texture.getInternalFormat() : 0;
     if (users != 0 || !image) return users;
     const GLint format = image->getInternalTextureFormat();
-    // The one compression that keeps less than the image has.
+    // This is the one compression that keeps less than the image has.
     const bool losesAlpha = mode == osg::Texture::USE_S3TC_DXT1c_COMPRESSION &&
                             (image->getPixelFormat() == GL_RGBA || image->getPixelFormat() == 4);
     return losesAlpha ? GL_COMPRESSED_RGB_S3TC_DXT1_EXT : format;

@@ -1,4 +1,5 @@
-// TextureUnits.cpp - texture environments, matrices and generated coordinates. Layer: bridge.
+// TextureUnits.cpp - converts texture environments, matrices and generated coordinates. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
 
@@ -14,7 +15,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// What is enabled, by OpenGL's order of precedence; null: nothing.
+/// Returns the enabled texture of a unit, by OpenGL's order of precedence; null: none is enabled.
 const osg::Texture* enabledTexture(const GraphState& state, unsigned int unit)
 {
     const auto* texture = state.attribute<osg::Texture>(unit, kTextureSlot);
@@ -53,8 +54,8 @@ TextureEnvironment environmentOf(osg::TexEnv::Mode mode)
     }
 }
 
-/// Both keep the transposed matrix of the other's convention, so the numbers stand in the same
-/// places.
+/// Converts a matrix. Each library stores the transposed matrix of the other's convention, so the
+/// numbers stand in the same places.
 Mat4 toMat4(const osg::Matrixd& m)
 {
     Mat4 result;
@@ -64,7 +65,7 @@ Mat4 toMat4(const osg::Matrixd& m)
     return result;
 }
 
-/// Planes of the place's local space, as a matrix for points of engine space.
+/// Returns planes of the place's local space as a matrix for points of engine space.
 osg::Matrixd linearGeneration(const osg::TexGen& source, const osg::Matrixd& engineFromLocal)
 {
     osg::Matrixd planes;
@@ -76,9 +77,9 @@ osg::Matrixd linearGeneration(const osg::TexGen& source, const osg::Matrixd& eng
     return osg::Matrixd::inverse(engineFromLocal) * planes;
 }
 
-/// Eye linear planes are taken to eye space by the modelview matrix of their place, and vertices by
-/// theirs: the view falls out [OpenGL21, sect. 2.11.4]. So both linear kinds are planes of a place
-/// in the scene.
+/// Returns the matrix of a texture generation. Eye linear planes are taken to eye space by the
+/// modelview matrix of their place, and vertices by the matrix of theirs: the view cancels out
+/// [OpenGL21, sect. 2.11.4]. Both linear kinds are therefore planes of a place in the scene.
 osg::Matrixd generation(const osg::TexGen& source, const osg::Matrixd& engineFromPlanes,
                         TextureMapping& mapping)
 {
@@ -109,9 +110,9 @@ public:
     {
     }
 
-    /// False if generated coordinates are asked for and nobody says how. A geometry without any has
-    /// those that OpenGL begins with, (0, 0, 0, 1), at all vertices: a mesh without them is the
-    /// same.
+    /// Sets the way to the coordinates. Returns false if generated coordinates are enabled and no
+    /// texture generation is set. A geometry without coordinates has those that OpenGL begins with,
+    /// (0, 0, 0, 1), at all vertices: a mesh without coordinates is equivalent.
     bool setMapping(const osg::Texture& texture, TextureMapping& mapping) const
     {
         osg::Matrixd matrix, own;
@@ -148,9 +149,9 @@ public:
     }
 
 private:
-    /// Takes from the matrix what is not generated and puts it into own, which is applied to what
-    /// the mesh has. False if there is nothing of the kind that the texture looks at. q is 1 if it
-    /// is not generated.
+    /// Moves the coordinates that are not generated from matrix to own, which is applied to the
+    /// mesh's coordinates. Returns false if all coordinates that the texture uses are generated. q
+    /// is 1 if it is not generated.
     bool keepGenerated(const osg::Texture& texture, osg::Matrixd& matrix, osg::Matrixd& own) const
     {
         const GLenum target = texture.getTextureTarget();
@@ -173,7 +174,8 @@ private:
         return partly;
     }
 
-    /// Object linear planes are those of the object, whoever set them.
+    /// Returns the matrix of a placed texture generation. Object linear planes belong to the
+    /// object, whichever node set them.
     osg::Matrixd placedGeneration(const PlacedTexGen& placed, TextureMapping& mapping) const
     {
         const bool ofObject = placed.texGen->getMode() == osg::TexGen::OBJECT_LINEAR;

@@ -1,4 +1,4 @@
-// TextureUnits.h - what the state of texture units 0 and 1 makes of a material. Layer: bridge.
+// TextureUnits.h - converts the state of texture units 0 and 1 for a material. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,8 +14,8 @@
 namespace osgRayTrace::engine
 {
 
-/// The texture generation that a TexGenNode places, for all that uses generated coordinates and has
-/// no osg::TexGen of its own.
+/// Holds the texture generation that a TexGenNode places, for all parts of the graph that use
+/// generated coordinates and have no osg::TexGen of their own.
 struct PlacedTexGen
 {
     osg::ref_ptr<const osg::TexGen> texGen;
@@ -23,22 +23,22 @@ struct PlacedTexGen
 };
 using PlacedTexGens = std::array<PlacedTexGen, kUnits>;
 
-/// Where a surface is.
+/// Tells where a surface is.
 struct SurfacePlacement
 {
     osg::Matrixd engineFromLocal;
     const PlacedTexGens* texGens = nullptr; ///< null: none
 };
 
-/// True if a unit that is enabled has a texture that only OpenGL has; not so what textures has
-/// converted before its image was given up.
+/// Returns whether an enabled unit has a texture that only OpenGL has. A texture that textures
+/// converted before its image was given up does not count.
 bool looksIntoOpenGL(const GraphState& state, const TextureConverter& textures);
 
-/// True if a unit that is enabled has a texture combiner, which we have no counterpart of.
+/// Returns whether an enabled unit has a texture combiner, for which the engine has no counterpart.
 bool combinesTextures(const GraphState& state);
 
-/// Sets textures, their environments and the way to their coordinates. Counts what is left out:
-/// units whose coordinates nobody generates, texture combiners.
+/// Sets textures, their environments and the way to their coordinates. Counts the omissions: units
+/// whose coordinates nobody generates, and texture combiners.
 void applyTextureUnits(Material& material, const GraphState& state,
                        const SurfacePlacement& placement, TextureConverter& textures,
                        ConversionReport& report);
