@@ -38,9 +38,8 @@ struct Room
                                                           osg::Vec3(0.0f, 1.0f, 0.0f)));
         objects->addChild(quad);
         objects->setCullingActive(false);
-        objects->getOrCreateStateSet()->setMode(
-            GL_LIGHT0,
-            osg::StateAttribute::ON); // set on the room in CalVR
+        objects->getOrCreateStateSet()->setMode(GL_LIGHT0,
+                                                osg::StateAttribute::ON); // CalVR's room sets it
         light->setLightNum(0);
         light->setPosition(osg::Vec4(0.0f, -1e4f, 1e4f, 1.0f));
         source->setLight(light);
