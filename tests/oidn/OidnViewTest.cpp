@@ -1,4 +1,5 @@
-// OidnViewTest.cpp - views that are shown through Open Image Denoise, for which StandIn.h stands.
+// OidnViewTest.cpp - views that are presented through Open Image Denoise, for which StandIn.h
+// stands.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/view/ViewTracer.h"
 
@@ -15,7 +16,7 @@ namespace
 
 constexpr int kSize = 32;
 
-/// A viewer without OpenGL, of the Cornell box.
+/// A viewer of the Cornell box without OpenGL.
 struct Screen
 {
     Screen()
@@ -27,7 +28,7 @@ struct Screen
         version.photons = std::make_shared<PhotonPasses>();
     }
 
-    /// What is shown, whether it is new or not.
+    /// Returns the picture of the display, whether it is new or not.
     std::vector<uint8_t> frame(RayTraceSettings::Denoise denoise, const View& view)
     {
         settings->setDenoise(denoise);
@@ -65,7 +66,7 @@ TEST_CASE("oidn: a view goes from one denoiser to the other without tracing anew
     CHECK(plain != filtered);
     CHECK(plain != mean);
     CHECK(filtered != mean);
-    CHECK(screen.frame(RayTraceSettings::OIDN, view) == mean); // nothing is new: nothing is done
+    CHECK(screen.frame(RayTraceSettings::OIDN, view) == mean); // the frame has nothing new to do
     CHECK(library.times("execute") == 1);
     CHECK(screen.frame(RayTraceSettings::OFF, view) == plain);
     CHECK(screen.frame(RayTraceSettings::FILTER, view) == filtered);
