@@ -1,7 +1,9 @@
-# Modules that other programs load from a folder of theirs find our library from there, wherever that is.
+# Modules that other programs load from a folder of their own find our library from there, wherever
+# that folder is.
 # SPDX-License-Identifier: MIT
 
-# Installs a module to a folder below the prefix, or to an absolute one. libraryDir: of the library, below the prefix.
+# Installs a module to a folder below the prefix, or to an absolute one. libraryDir is the library's
+# folder below the prefix.
 function(osgraytrace_install_module target folder libraryDir)
     install(TARGETS ${target} LIBRARY DESTINATION "${folder}")
     if(NOT IS_ABSOLUTE "${folder}")
@@ -10,8 +12,8 @@ function(osgraytrace_install_module target folder libraryDir)
         return()
     endif()
 
-    # Where the prefix is, is known when it is installed (cmake --install --prefix): the path is written then, into room that
-    # is made for it here.
+    # The prefix is known only when the module is installed (cmake --install --prefix): the path is
+    # written then, into room that is made for it here.
     string(REPEAT "-" 1024 room)
     set(room "/written-when-installed${room}")
     set_target_properties(${target} PROPERTIES INSTALL_RPATH "${room}")

@@ -1,5 +1,5 @@
-# Imported target osgRayTrace::OSG: OpenSceneGraph 3.6's libraries as SYSTEM includes.
-# Used by this project and, installed beside its package file, by its consumers.
+# Defines the imported target osgRayTrace::OSG: OpenSceneGraph 3.6's libraries as SYSTEM includes.
+# This project uses the file, and its consumers use it as installed beside the package file.
 # SPDX-License-Identifier: MIT
 if(NOT TARGET osgRayTrace::OSG)
     find_package(OpenSceneGraph 3.6 REQUIRED QUIET
