@@ -1,5 +1,6 @@
 # Builds apps/examples in the folder to which BuildConsumer.cmake has installed them, runs each
 # program without a display as its user would, and checks the output.
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
 function(run)
