@@ -1,4 +1,4 @@
-# Runs Doxygen and fails if it has anything to say about a public header.
+# Runs Doxygen and fails if Doxygen warns about a public header.
 # Usage: cmake -D ROOT=<source folder> -D DOXYGEN=<program> -D DOXYFILE=<file> -D DOCS=<output folder>
 #              -P BuildApiPages.cmake
 # SPDX-License-Identifier: MIT
@@ -18,7 +18,8 @@ endif()
 file(COPY "${ROOT}/data" DESTINATION "${DOCS}/html"
     FILES_MATCHING PATTERN "*.png" PATTERN "*.gif" PATTERN "*.svg" PATTERN "generator" EXCLUDE)
 
-# Markdown is written for people and for GitHub, whose rules differ from Doxygen's: its warnings are shown.
+# Markdown is written for people and for GitHub, whose rules differ from Doxygen's: warnings about
+# it are only shown.
 file(READ "${DOCS}/warnings.txt" warnings)
 if(warnings)
     message(NOTICE "${warnings}")

@@ -1,4 +1,4 @@
-# Checks the pages that users read: README.md is short, links lead somewhere, no page is lost.
+# Checks the pages that users read: README.md is short, links lead somewhere, and no page is lost.
 # SPDX-License-Identifier: MIT
 # Usage: cmake -D ROOT=<source folder> -P CheckDocuments.cmake; fails and names each offence.
 #
@@ -11,7 +11,8 @@ cmake_minimum_required(VERSION 3.24)
 
 set(offences "")
 
-# Lines of a page without its code blocks, ";" and brackets replaced: they mean something in lists.
+# Reads a page without its code blocks. ";" and brackets are replaced, because they have a meaning
+# in lists.
 function(read_page file result)
     file(READ "${file}" text)
     string(REPLACE "](" "@link@" text "${text}")
@@ -33,7 +34,7 @@ function(read_page file result)
     set(${result} "${kept}" PARENT_SCOPE)
 endfunction()
 
-# The anchors of a page's headings: lower case, "-" for blanks, without punctuation.
+# Returns the anchors of a page's headings: lower case, "-" for blanks, without punctuation.
 function(anchors_of file result)
     read_page("${file}" lines)
     set(anchors "")

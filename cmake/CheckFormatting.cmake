@@ -1,7 +1,8 @@
 # Checks that clang-format 14 would leave each C++ file as it is.
 # Usage: cmake -D ROOT=<source folder> [-D FIX=ON] [-D CLANG_FORMAT=<program>] -P CheckFormatting.cmake
-# FIX: formats the files instead. Without a clang-format of version 14 a check is skipped, which the
-# last line of the output says; other versions format otherwise. Fails and names the lines to change.
+# With FIX the files are formatted instead. Other versions than 14 format otherwise: without a
+# clang-format 14 the check is skipped, which the last line of the output says. The check fails and
+# names the lines to change.
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 include("${CMAKE_CURRENT_LIST_DIR}/SourceFiles.cmake")

@@ -19,8 +19,7 @@ cmake_minimum_required(VERSION 3.24)
 
 set(LAYERS base sampling film scene shading accel photons integrators session bridge API offscreen osgPlugins apps)
 set(ENGINE base sampling film scene shading accel photons integrators session)
-# Each folder of a layer may include those left of it. "root" is the layer's own folder. PEERS do not include
-# each other.
+# The folders of a layer, each of which includes those left of it. "root" is the layer's own folder.
 set(FOLDERS_bridge common geometry appearance/textures appearance/lights appearance/materials
     graph changes pick convert update)
 set(FOLDERS_session image denoise upsample root history view)
@@ -34,7 +33,7 @@ macro(report file reason)
     message(NOTICE "${file}: ${reason}")
 endmacro()
 
-# Sets result to the layer of a path below ROOT; empty if the path is none of ours.
+# Returns the layer of a path below ROOT, or an empty string if the path is not in a layer.
 function(layer_of path result)
     set(layer "")
     if(path MATCHES "^osgRayTrace/([A-Za-z]+)/")
@@ -47,7 +46,7 @@ function(layer_of path result)
     set(${result} "${layer}" PARENT_SCOPE)
 endfunction()
 
-# Sets result to the folder of a path inside its layer: "root" for the layer's own.
+# Returns the folder of a path inside its layer: "root" for the layer's own.
 function(room_of path layer result)
     get_filename_component(room "${path}" DIRECTORY)
     string(REGEX REPLACE "^osgRayTrace/${layer}/?" "" room "${room}")

@@ -1,4 +1,5 @@
-# Finds OSMesa, Mesa's OpenGL in memory. Sets OSMesa_FOUND and defines the imported target OSMesa::OSMesa.
+# Finds OSMesa, Mesa's OpenGL in memory, and sets OSMesa_FOUND and the imported target
+# OSMesa::OSMesa.
 # SPDX-License-Identifier: MIT
 find_path(OSMesa_INCLUDE_DIR GL/osmesa.h)
 find_library(OSMesa_LIBRARY NAMES OSMesa OSMesa32)

@@ -1,5 +1,6 @@
-# Finds the libraries that the project builds on. OpenSceneGraph gets imported targets here (osgRayTrace::OSG), once,
-# because CMake's own FindOpenSceneGraph defines none; the wrapper is installed for consumers as well.
+# Finds the libraries that the project builds on. OpenSceneGraph gets imported targets here
+# (osgRayTrace::OSG), once, because CMake's own FindOpenSceneGraph defines none; the wrapper is
+# installed for consumers as well.
 # SPDX-License-Identifier: MIT
 include(OsgRayTraceOpenSceneGraph)
 
@@ -12,8 +13,8 @@ find_package(glm REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
 find_package(Threads REQUIRED)
 
-# Open Image Denoise is optional: OSGRAYTRACE_HAS_OIDN tells whether it is used. Its package accepts a wanted
-# version only of its own major version, so the version is compared here.
+# Open Image Denoise is optional (OSGRAYTRACE_HAS_OIDN). Its package accepts only a version of the
+# same major number.
 set(OSGRAYTRACE_HAS_OIDN FALSE)
 if(NOT OSGRAYTRACE_OIDN)
     message(STATUS "Open Image Denoise: left out, OSGRAYTRACE_OIDN is off")

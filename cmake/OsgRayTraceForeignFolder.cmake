@@ -1,8 +1,9 @@
-# Lets modules that other programs load from a folder of theirs find our library, wherever that folder is.
+# Modules that other programs load from a folder of their own find our library from there, wherever
+# that folder is.
 # SPDX-License-Identifier: MIT
 
-# Installs a module to a folder below the prefix, or to an absolute one. libraryDir: the library's folder, below the
-# prefix.
+# Installs a module to a folder below the prefix, or to an absolute one. libraryDir is the library's
+# folder below the prefix.
 function(osgraytrace_install_module target folder libraryDir)
     install(TARGETS ${target} LIBRARY DESTINATION "${folder}")
     if(NOT IS_ABSOLUTE "${folder}")
@@ -11,8 +12,8 @@ function(osgraytrace_install_module target folder libraryDir)
         return()
     endif()
 
-    # The prefix is known only when the module is installed (cmake --install --prefix): the path is then written into
-    # room that is made for it here.
+    # The prefix is known only when the module is installed (cmake --install --prefix): the path is
+    # written then, into room that is made for it here.
     string(REPEAT "-" 1024 room)
     set(room "/written-when-installed${room}")
     set_target_properties(${target} PROPERTIES INSTALL_RPATH "${room}")

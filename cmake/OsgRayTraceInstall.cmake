@@ -1,4 +1,4 @@
-# Installs the exported package: find_package(osgRayTrace) gives osgRayTrace::osgRayTrace and
+# The installed, exported package: find_package(osgRayTrace) gives osgRayTrace::osgRayTrace and
 # osgRayTrace::offscreen. The package names no library by its path on the machine that built it:
 # OpenSceneGraph is found again on the machine that uses the package.
 # SPDX-License-Identifier: MIT
@@ -12,7 +12,7 @@ install(TARGETS osgRayTrace osgRayTraceOffscreen EXPORT osgRayTraceTargets
     FILE_SET generatedHeaders DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(EXPORT osgRayTraceTargets NAMESPACE osgRayTrace:: DESTINATION "${OSGRAYTRACE_PACKAGE_DIR}")
 
-# The target all_verify_interface_header_sets compiles each public header alone; a test builds the target.
+# The target all_verify_interface_header_sets compiles each public header alone; a test builds it.
 set_target_properties(osgRayTrace osgRayTraceOffscreen PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 
 configure_package_config_file(
@@ -28,7 +28,8 @@ install(FILES
     "${PROJECT_SOURCE_DIR}/cmake/OsgRayTraceOpenSceneGraph.cmake"
     DESTINATION "${OSGRAYTRACE_PACKAGE_DIR}")
 
-# The README's commands and links work in this one folder: pages, pictures, scenes and configurations.
+# The commands and links of README.md and of the pages in docs/ work in one folder, which has pages,
+# pictures, scenes and configurations.
 set(OSGRAYTRACE_SHARE_DIR "${CMAKE_INSTALL_DATADIR}/osgRayTrace")
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}")
 install(FILES osgRayTrace/README.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace")

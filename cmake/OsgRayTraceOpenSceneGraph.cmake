@@ -1,5 +1,5 @@
 # Defines the imported target osgRayTrace::OSG: OpenSceneGraph 3.6's libraries as SYSTEM includes.
-# This project uses the file and, installed beside its package file, so do its consumers.
+# This project uses the file, and its consumers use it as installed beside the package file.
 # SPDX-License-Identifier: MIT
 if(NOT TARGET osgRayTrace::OSG)
     find_package(OpenSceneGraph 3.6 REQUIRED QUIET

@@ -4,11 +4,12 @@
 add_library(osgRayTraceWarnings INTERFACE)
 target_compile_options(osgRayTraceWarnings INTERFACE
     $<$<CXX_COMPILER_ID:GNU,Clang>:-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-psabi>
-    # "&" between comparisons is meant: it keeps loops over lanes free of branches. Clang 14 leaves a few of these
-    # loops scalar, which is slower, but not wrong.
+    # "&" between comparisons is intended: it keeps loops over lanes free of branches. Clang 14
+    # leaves a few of these loops scalar, which is slower, but not wrong.
     $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical -Wno-pass-failed>)
 
-# Gives every target of the project C++17, hidden symbols, warnings and sanitizers; never installed itself.
+# Each target of the project gets C++17, hidden symbols, warnings and sanitizers by this one. It is
+# never installed.
 add_library(osgRayTraceBuild INTERFACE)
 target_compile_features(osgRayTraceBuild INTERFACE cxx_std_17)
 target_link_libraries(osgRayTraceBuild INTERFACE osgRayTraceWarnings)
@@ -39,7 +40,8 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/bin")
 # OSG looks for plugins in <library path>/osgPlugins-<version>.
 set(OSGRAYTRACE_PLUGIN_DIR "osgPlugins-${OPENSCENEGRAPH_VERSION}")
 
-# osgraytrace_add_plugin(<target> SOURCES ... LIBRARIES ...) adds a module that OSG finds by its name.
+# osgraytrace_add_plugin(<target> SOURCES ... LIBRARIES ...) adds a module that OSG finds by its
+# name.
 function(osgraytrace_add_plugin target)
     cmake_parse_arguments(PLUGIN "" "" "SOURCES;LIBRARIES" ${ARGN})
     add_library(${target} MODULE ${PLUGIN_SOURCES})

@@ -1,4 +1,4 @@
-# Targets for those who work on the project: format, lint and docs. None of them is part of "all".
+# Targets for people who work on the project: format, lint and docs. None of them is part of "all".
 # SPDX-License-Identifier: MIT
 
 set(OSGRAYTRACE_TOOLS "${PROJECT_SOURCE_DIR}/cmake")
@@ -9,7 +9,7 @@ add_custom_target(lint
     COMMAND "${OSGRAYTRACE_TOOLS}/lint.sh" "${PROJECT_BINARY_DIR}"
     USES_TERMINAL VERBATIM)
 
-# The pages of the public headers and of osgRayTrace/docs.
+# The target docs makes the pages of the public headers and of osgRayTrace/docs.
 set(OSGRAYTRACE_DOCS_DIR "${PROJECT_BINARY_DIR}/docs")
 find_package(Doxygen QUIET OPTIONAL_COMPONENTS dot)
 if(DOXYGEN_FOUND)

@@ -1,8 +1,9 @@
 # Lists the project's source files without asking git, so that checks work in a plain source archive.
 # SPDX-License-Identifier: MIT
 
-# source_files(<root> <result> <regex>): paths below ROOT, relative to ROOT, whose name matches REGEX.
-# Only the fixed folders and the files of the top level are searched, so build folders are not met.
+# source_files(<root> <result> <regex>) lists the paths below ROOT, relative to ROOT, whose name
+# matches REGEX. It searches only the fixed folders and the files of the top level, so it never
+# meets build folders.
 function(source_files root result regex)
     foreach(folder osgRayTrace osgPlugins apps data tests cmake)
         file(GLOB_RECURSE found RELATIVE "${root}" LIST_DIRECTORIES false "${root}/${folder}/*")
@@ -16,5 +17,5 @@ function(source_files root result regex)
     set(${result} "${files}" PARENT_SCOPE)
 endfunction()
 
-# C++: .cpp, .h and the headers of the API, which have no suffix.
+# C++ files are .cpp, .h and the headers of the API, which have no suffix.
 set(CPP_FILES "\\.(cpp|h)$|^osgRayTrace/([a-z]+/)?[A-Z][A-Za-z]+$")

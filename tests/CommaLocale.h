@@ -5,8 +5,8 @@
 #include <locale>
 #include <string>
 
-/// While it lives: streams that are made get it. Made here, as a machine need not have any such
-/// locale.
+/// While an object of this class lives, new streams get this locale. The class defines the locale
+/// itself, because a machine need not have one of this kind installed.
 class CommaLocale
 {
 public:

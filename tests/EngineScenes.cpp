@@ -43,7 +43,7 @@ Material lamp(Vec3 radiance)
 std::shared_ptr<Mesh> newMesh(std::vector<Vec3> positions, std::vector<UVec3> triangles)
 {
     auto mesh = std::make_shared<Mesh>();
-    positions.reserve(positions.size() + 1); // Embree reads past the last one
+    positions.reserve(positions.size() + 1); // Embree reads past the last position
     mesh->positions = std::move(positions);
     mesh->triangles = std::move(triangles);
     return mesh;

@@ -14,40 +14,42 @@
 namespace osgRayTrace::engine::test
 {
 
-/// Perfectly diffuse, nothing else.
+/// Returns a perfectly diffuse material.
 Material lambert(Vec3 albedo);
 
-/// A metal that reflects like a mirror, tinted.
+/// Returns a tinted metal that reflects like a mirror.
 Material mirror(Vec3 tint);
 
-/// Clear glass; smooth unless roughness says otherwise.
+/// Returns clear glass, which is smooth by default.
 Material glass(float ior, float roughness = 0.0f);
 
-/// A black surface of the given radiance.
+/// Returns a black material that emits the given radiance.
 Material lamp(Vec3 radiance);
 
 std::shared_ptr<Mesh> newMesh(std::vector<Vec3> positions, std::vector<UVec3> triangles);
 
-/// corner, corner + u, corner + u + v, corner + v; the front is cross(u, v).
+/// Returns a quad with the corners corner, corner + u, corner + u + v, corner + v; its front is the
+/// side of cross(u, v).
 std::shared_ptr<Mesh> quadMesh(Vec3 corner, Vec3 u, Vec3 v);
 
-/// A closed sphere of rows x 2*rows facets, its front outside.
+/// Returns a closed sphere of rows x 2*rows facets, whose front is its outside.
 std::shared_ptr<Mesh> sphereMesh(Vec3 centre, float radius, int rows);
 
-/// A closed axis-aligned box, its front outside.
+/// Returns a closed axis-aligned box, whose front is its outside.
 std::shared_ptr<Mesh> boxMesh(Vec3 low, Vec3 high);
 
-/// Positions are what a test cares about: each function appends and returns the index of what it
-/// added.
+/// Builds a scene of parts at given positions: each function appends a part and returns the index
+/// of this part.
 struct SceneBuilder
 {
     SceneBuilder();
 
     uint32_t material(const Material& material);
     uint32_t add(std::shared_ptr<const Mesh> mesh, const Material& material);
-    /// The mesh emits and is sampled as a light.
+    /// Adds a mesh that emits and is sampled as a light.
     uint32_t addEmissive(std::shared_ptr<const Mesh> mesh, const Material& material);
-    /// A parallelogram light with the quad that rays hit; it shines to the side of cross(u, v).
+    /// Adds a parallelogram light and the quad that rays hit; the light shines to the side of
+    /// cross(u, v).
     uint32_t addQuadLight(Vec3 corner, Vec3 u, Vec3 v, Vec3 radiance, bool twoSided = false);
     uint32_t addLight(const Light& light);
 
@@ -56,18 +58,18 @@ struct SceneBuilder
     std::shared_ptr<Scene> scene; ///< not display referred, black background
 };
 
-/// A fixed-function point light of diffuse 1 whose irradiance falls as pi/d^2.
+/// Returns a fixed-function point light of diffuse 1 whose irradiance falls as pi/d^2.
 Light pointLight(Vec3 position, Vec3 diffuse = Vec3(1.0f));
 
-/// The Cornell box with both blocks [mm], all diffuse, moved by offset.
+/// Returns the Cornell box with both blocks [mm], all of it diffuse, moved by offset.
 SceneBuilder cornellBox(Vec3 offset = Vec3(0.0f));
 
 View perspectiveView(Vec3d eye, Vec3d centre, Vec3d up, double fovyDegrees, int width, int height);
 
-/// The published view of the Cornell box.
+/// Returns the published view of the Cornell box.
 View cornellView(int width, int height);
 
-/// Looks along -direction of the normal at a square of the given side around centre.
+/// Returns a view along the reversed normal of a square of the given side around centre.
 View patchView(Vec3d centre, Vec3d normal, double side, int pixels);
 
 struct Picture

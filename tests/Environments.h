@@ -28,7 +28,8 @@ inline Vec3& pixelOf(EnvironmentImage& image, int x, int y)
                           static_cast<std::size_t>(x)];
 }
 
-/// radiance: of the direction of a pixel's middle.
+/// Returns an image whose pixels have the radiance that the function gives for the direction of
+/// each pixel's middle.
 inline std::shared_ptr<EnvironmentImage> newEnvironment(int width, int height,
                                                         const std::function<Vec3(Vec3d)>& radiance)
 {
@@ -40,8 +41,8 @@ inline std::shared_ptr<EnvironmentImage> newEnvironment(int width, int height,
     return image;
 }
 
-/// A sky that is brighter towards the horizon over darker ground, and a pixel in it with as much
-/// energy as all the rest.
+/// Returns a sky that is brighter towards the horizon, over darker ground; one of its pixels has as
+/// much energy as all others together.
 inline std::shared_ptr<EnvironmentImage> sunnySky(int width, int height)
 {
     const auto image =
@@ -71,11 +72,11 @@ inline Light environmentLight(std::shared_ptr<const EnvironmentImage> image,
     return light;
 }
 
-/// Turns the zenith of the map by an angle towards +x.
+/// Returns the rotation that turns the zenith of the map by an angle towards +x.
 inline Mat3 tilted(float angleRadians)
 {
     const float s = std::sin(angleRadians), c = std::cos(angleRadians);
-    // Columns: what the axes of engine space are in the map.
+    // The columns are the axes of engine space in the coordinates of the map.
     return Mat3(Vec3(c, 0, s), Vec3(0, 1, 0), Vec3(-s, 0, c));
 }
 

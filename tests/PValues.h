@@ -11,18 +11,19 @@
 namespace osgRayTrace::engine::test
 {
 
-/// Probability that a normal variable is farther than |z| from its mean.
+/// Returns the probability that a normal variable is farther than |z| from its mean.
 inline double normalTail(double z)
 {
     return std::erfc(std::abs(z) / std::sqrt(2.0));
 }
 
-/// Regularized incomplete beta function I_x(a, b), by its continued fraction.
+/// Returns the regularized incomplete beta function I_x(a, b), by its continued fraction.
 inline double incompleteBeta(double a, double b, double x)
 {
     if (x <= 0.0) return 0.0;
     if (x >= 1.0) return 1.0;
-    // The fraction converges fast below the mean; beyond it by symmetry.
+    // The continued fraction converges fast below the mean; above the mean the symmetry of I_x is
+    // used.
     if (x > (a + 1.0) / (a + b + 2.0)) return 1.0 - incompleteBeta(b, a, 1.0 - x);
     const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
                                   a * std::log(x) + b * std::log1p(-x)) /
@@ -38,14 +39,15 @@ inline double incompleteBeta(double a, double b, double x)
     return front / (1.0 + first / (1.0 + fraction));
 }
 
-/// Probability that |t| of Student's distribution is larger.
+/// Returns the probability that the absolute value of a variable of Student's distribution is
+/// larger than |t|.
 inline double studentTail(double t, double degrees)
 {
     return incompleteBeta(0.5 * degrees, 0.5, degrees / (degrees + t * t));
 }
 
-/// Probability of means this different if they are equal (Welch). A difference within the rounding
-/// of float sums, given as a share of the means, counts for nothing.
+/// Returns the probability of means this different if they are equal (Welch). A difference within
+/// the rounding of float sums, given as a share of the means, counts for nothing.
 inline double welchTest(const Estimate& a, std::size_t countA, const Estimate& b,
                         std::size_t countB, double rounding = 1e-5)
 {
@@ -61,8 +63,9 @@ inline double welchTest(const Estimate& a, std::size_t countA, const Estimate& b
     return studentTail(difference / std::sqrt(va + vb), degrees);
 }
 
-/// Probability of a largest distance this large or larger between the empirical distribution of
-/// independent values and the uniform one on [0,1] (Kolmogorov; Stephens's correction for few).
+/// Returns the probability of a largest distance this large or larger between the empirical
+/// distribution of independent values and the uniform one on [0,1] (Kolmogorov; Stephens's
+/// correction for few values).
 inline double kolmogorovSmirnovTest(std::vector<double> values)
 {
     std::sort(values.begin(), values.end());

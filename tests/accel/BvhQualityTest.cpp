@@ -13,7 +13,8 @@ namespace
 
 constexpr uint32_t kSide = 40;
 
-/// A square of triangles whose corners are where the function puts the points of a lattice.
+/// Returns a square of triangles whose corners are the places that the function gives to the points
+/// of a lattice.
 template <class Place> Mesh latticeOf(const Place& place)
 {
     std::vector<Vec3> positions;

@@ -1,5 +1,5 @@
-// HitFilterTest.cpp - surfaces of opacity a stop a share a of all rays, culled faces those of the
-// camera.
+// HitFilterTest.cpp - surfaces of opacity a stop a share a of all rays, and culled faces stop no
+// camera rays.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -30,7 +30,7 @@ std::shared_ptr<Mesh> paneAt(float z)
     return quadMesh({-1, -1, z}, {2, 0, 0}, {0, 2, 0});
 }
 
-/// Rays downwards through the square [-0.9, 0.9]^2.
+/// Produces rays downwards through the square [-0.9, 0.9]^2.
 struct RaySource
 {
     std::mt19937 random{7};
@@ -42,11 +42,11 @@ struct RaySource
     }
 };
 
-/// Counts of rays that were stopped, each way of asking.
+/// The rays that were stopped, counted for each kind of query.
 struct Stopped
 {
     int single = 0, singleOccluded = 0, packets = 0, packetsOccluded = 0;
-    bool agree = true; ///< all ways said the same of each ray
+    bool agree = true; ///< all kinds of query gave the same answer for each ray
 };
 
 Stopped stopped(const TracedScene& traced, HitRule rule = {})
@@ -82,7 +82,8 @@ Stopped stopped(const TracedScene& traced, HitRule rule = {})
     return result;
 }
 
-/// Five standard deviations of the binomial count: a false alarm has a probability of 6e-7.
+/// The count may be off by five standard deviations of the binomial distribution: a false alarm has
+/// a probability of 6e-7.
 bool isShare(int count, double share)
 {
     return std::abs(count - kRays * share) <= 5.0 * std::sqrt(kRays * share * (1.0 - share));
@@ -169,7 +170,7 @@ TEST_CASE("filter: camera rays pass culled faces, other rays meet them unless to
                 material.clockwise = clockwise;
                 material.cullsAllRays = forAll;
                 SceneBuilder builder;
-                builder.add(paneAt(0.0f), material); // its counter-clockwise side looks at the rays
+                builder.add(paneAt(0.0f), material); // its counter-clockwise side faces the rays
                 const auto traced = builder.build();
                 const Stopped count = stopped(*traced, kCameraRays);
                 CAPTURE(int(culling), clockwise, forAll);
@@ -178,7 +179,8 @@ TEST_CASE("filter: camera rays pass culled faces, other rays meet them unless to
                 CHECK(count.packetsOccluded == others);
                 CHECK(count.single == others);
                 CHECK(count.singleOccluded == others);
-                // Photons go both ways at a face with one side: that is for who traces them.
+                // Photons meet both sides of a one-sided face: the photon tracer decides what the
+                // face does.
                 const bool isThere = !forAll || culling != FaceCulling::FrontAndBack;
                 CHECK(stopped(*traced, kPhotonRays).packets == (isThere ? kRays : 0));
             }

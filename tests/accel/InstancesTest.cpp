@@ -39,7 +39,7 @@ private:
     std::mt19937 _engine;
 };
 
-/// Turned, scaled by axis, sheared, half of them mirrored.
+/// Returns a transform that rotates, scales by axis and shears; half of the transforms mirror.
 Affine anyTransform(Random& random)
 {
     const Vec3 axis = random.within(1.0f) + Vec3(0.0f, 0.0f, 1e-3f);
@@ -65,7 +65,7 @@ Instance placedInstance(uint32_t mesh, const Affine& m)
     return instance;
 }
 
-/// Of two meshes in turn; the first two instances are in place.
+/// Returns instances of two meshes in turn; the first two instances are in place.
 std::shared_ptr<Scene> manyInstances(Random& random, uint32_t count)
 {
     SceneBuilder builder;
@@ -90,12 +90,12 @@ struct Truth
     double t = 1e30;
 };
 
-/// All triangles one after the other, in double, by Cramer's rule.
+/// Tests all triangles one after the other, in double, by Cramer's rule.
 Truth bruteForce(const Scene& scene, const Ray& ray)
 {
     constexpr double kEdge = 1e-4, kGap = 1e-4;
     Truth truth;
-    std::vector<double> near; // of what is hit, or nearly so
+    std::vector<double> near; // distances of triangles that are hit or nearly so
     const Vec3d origin(ray.origin), direction(ray.direction);
     for (uint32_t i = 0; i < scene.instances.size(); ++i)
     {
@@ -145,7 +145,7 @@ Hit hitOf(const RayHitBlock& block, int i)
             block.v[i], block.ray.tFar[i]};
 }
 
-/// In blocks of which so many lanes are active at a time.
+/// Returns a query by blocks in which the given number of lanes is active at a time.
 Query blocks(Coherence coherence, int lanesAtOnce)
 {
     return [=](const Intersector& intersector, const Ray* rays, Hit* hits)
@@ -163,7 +163,7 @@ Query blocks(Coherence coherence, int lanesAtOnce)
     };
 }
 
-/// Rays through the scene, sixteen of each packet side by side.
+/// Returns rays through the scene; the sixteen rays of each packet are close to each other.
 std::vector<Ray> someRays(Random& random, int packets)
 {
     std::vector<Ray> rays;
@@ -258,7 +258,7 @@ TEST_CASE("instances: what is taken over from the last scene is hit as in a new 
     Random random(6);
     const auto workers = std::make_shared<Workers>(1);
     auto scene = manyInstances(random, 12);
-    std::shared_ptr<const TracedScene> last, previous; // a view may still trace the last but one
+    std::shared_ptr<const TracedScene> last, previous; // a view may still trace the previous one
     for (int edit = 0; edit < 60; ++edit)
     {
         auto next = std::make_shared<Scene>(*scene);
@@ -279,7 +279,7 @@ TEST_CASE("instances: what is taken over from the last scene is hit as in a new 
         default:
             std::swap(instances[chosen], instances[2]);
             if (edit == 44) instances[1].placed = true; // leaves the static BVH
-            if (edit == 54) instances.resize(1);        // and all others go
+            if (edit == 54) instances.resize(1);        // all others are removed
         }
         scene = next;
         if (instances.size() < 4)
@@ -317,7 +317,7 @@ TEST_CASE("instances: bounds hold a mesh wherever it is placed, and a turned bal
             box = {glm::min(box.low, p), glm::max(box.high, p)};
         return box;
     };
-    // The same triangles with a vertex that none of them has.
+    // This mesh has the ball's triangles and one vertex more, which no triangle uses.
     auto stray = std::make_shared<Mesh>(*ball);
     std::vector<Vec3> positions(ball->positions.begin(), ball->positions.end());
     positions.push_back(Vec3(1e6f));
@@ -347,7 +347,7 @@ TEST_CASE("instances: bounds hold a mesh wherever it is placed, and a turned bal
         }
         CAPTURE(mesh->positions.size(), widest);
         CHECK(outside == 0);
-        if (mesh == ball || mesh == stray) CHECK(widest < 1.3f * 2.0f); // its box: up to 1.73 times
+        if (mesh == ball || mesh == stray) CHECK(widest < 1.3f * 2.0f); // a box: up to 1.73 times
     }
 }
 
@@ -379,14 +379,15 @@ TEST_CASE("instances: each takes less than 300 bytes, Embree's share included", 
         const auto traced = TracedScene::build(grid(count), workers);
         return Use{double(traced->embreeBytes()), double(bytesInUse()) - double(before)};
     };
-    measure(kFew); // what is made once
+    measure(kFew); // allocates what is allocated once
     const Use few = measure(kFew), many = measure(kMany);
     const double embree = (many.embree - few.embree) / (kMany - kFew);
     const double heap = (many.heap - few.heap) / (kMany - kFew);
     CAPTURE(embree, heap);
-    CHECK(embree < 140.0); // its BVH; 67 where nodes are narrow
+    CHECK(embree < 140.0); // the BVH: 67 if nodes are narrow
     if (!kCountsMemory) return;
-    // 72 of the scene, 64 for rays, 12 to find changes. Embree's own instances are in here, too.
+    // The scene takes 72 bytes an instance, rays take 64 and the search for changes takes 12.
+    // Embree's own instances are included.
     CHECK(heap - embree > sizeof(Instance));
     CHECK(heap - embree < 160.0);
 }

@@ -25,7 +25,8 @@ void setRay(RayBlock& block, int lane, const TestRay& ray)
     test::setRay(block, lane, ray.origin, ray.direction, ray.tNear, ray.tFar);
 }
 
-/// Every field a ray has with every value that Debian's Embree would end the process for, and more.
+/// Returns rays with each bad value in each field: every value for which Debian's Embree would end
+/// the process, and more.
 std::vector<TestRay> badRays()
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -57,7 +58,7 @@ std::vector<TestRay> badRays()
     return rays;
 }
 
-/// A box, and an instance of one beside it, as seen from (., ., 5) along -z.
+/// Returns a box and an instance of it beside it, to be seen from (., ., 5) along -z.
 SceneBuilder twoBoxes()
 {
     SceneBuilder builder;
@@ -76,8 +77,8 @@ TestRay randomRay(Uniform& random)
             kInfinity};
 }
 
-/// A box and an instance of it beside it in an Embree scene of our own, so that packets of all
-/// widths can be tried on any CPU.
+/// A box and an instance of it beside it in an Embree scene of the test's own, so that packets of
+/// all widths can be tried on any CPU.
 class EmbreeBoxes
 {
 public:
@@ -136,7 +137,7 @@ struct Comparison
     int different = 0, hits = 0;
 };
 
-/// The active lanes of a block of rays against the same rays alone.
+/// Compares the active lanes of a block of rays with the same rays traced singly.
 Comparison compareHits(const Intersector& intersector, const TestRay (&rays)[kLanes], LaneMask mask,
                        Coherence coherence)
 {

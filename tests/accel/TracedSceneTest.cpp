@@ -20,7 +20,7 @@ Affine scaled(float x, float y, float z, Vec3 translation = Vec3(0.0f))
     return m;
 }
 
-/// A unit box placed by the transform.
+/// Returns a unit box placed by the transform.
 SceneBuilder placedBox(const Affine& transform)
 {
     SceneBuilder builder;
@@ -61,7 +61,7 @@ TEST_CASE("traced scene: transforms that Embree cannot invert are left out and c
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     Affine sheared = scaled(1, 1, 1);
-    sheared.linear[2] = sheared.linear[0] + sheared.linear[1]; // columns in a plane
+    sheared.linear[2] = sheared.linear[0] + sheared.linear[1]; // the columns lie in a plane
     Affine nearlyFlat = sheared;
     nearlyFlat.linear[2].z = 1e-7f;
     const std::vector<Affine> bad{scaled(1, 1, 0),
@@ -88,7 +88,7 @@ TEST_CASE("traced scene: transforms that Embree cannot invert are left out and c
              {Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0.3f, 0.4f, -0.866f), Vec3(0, 0, -9e5f)})
         {
             const auto hit = shoot(*traced, Vec3(0.1f, 0.2f, 5.0f), direction);
-            if (hit) CHECK(hit->instance == 1); // the rest of the scene stands
+            if (hit) CHECK(hit->instance == 1); // the rest of the scene is still traced
         }
         CHECK(shoot(*traced, Vec3(0.1f, 0.2f, 5.0f), Vec3(0, 0, -1)));
     }
@@ -103,8 +103,8 @@ TEST_CASE("traced scene: small and far instances are safe for any ray", "[accel]
     {
         const auto traced = placedBox(transform).build();
         CHECK(traced->statistics().invalidInstances == 0);
-        // Origins up to where Embree ends in engine space: those that would leave it in local space
-        // are refused, none aborts.
+        // The origins go up to Embree's limit in engine space: rays that would exceed this limit in
+        // local space are refused, and none aborts.
         for (const float distance : {0.0f, 5.0f, 1e6f, 1e9f, 1e12f, 1e15f, 5e17f, 2e18f})
         {
             for (const float length : {1.0f, 1e-5f, 9e5f})
@@ -137,7 +137,7 @@ TEST_CASE("traced scene: an instance is hit where its transform puts it, mirrore
          {scaled(2, 3, 4, Vec3(1, 2, 3)), scaled(-1, 1, 1), scaled(1, -1e-4f, 1e4f), rotated})
     {
         const auto placed = placedBox(transform).build();
-        // The same triangles, transformed beforehand.
+        // This scene has the same triangles, transformed beforehand.
         SceneBuilder builder;
         const auto box = boxMesh(Vec3(-1.0f), Vec3(1.0f));
         std::vector<Vec3> positions;
@@ -177,7 +177,7 @@ TEST_CASE("traced scene: meshes without area, or empty, are harmless", "[accel]"
     CHECK(hit->instance == good);
     CHECK(hit->primitive == 1);
     CHECK_FALSE(shoot(*traced, Vec3(0.9f, 0.9f, 1), Vec3(0, 0, -1)));
-    shoot(*traced, Vec3(0.5f, 0.0f, 1), Vec3(0, 0, -1)); // along the lines: anything but a crash
+    shoot(*traced, Vec3(0.5f, 0.0f, 1), Vec3(0, 0, -1)); // along the lines: it must not crash
 }
 
 TEST_CASE("traced scene: many equal triangles are one surface", "[accel]")
@@ -208,7 +208,7 @@ TEST_CASE("traced scene: placed meshes that did not change are not built again",
     auto next = TracedScene::build(moved, workers, first);
     CHECK(next->statistics().builtMeshes == 0);
 
-    // The first one is still what it was, and the next one outlives it.
+    // The first traced scene is unchanged, and the next one outlives it.
     CHECK(shoot(*first, Vec3(5.1f, 0.2f, 5), Vec3(0, 0, -1)));
     CHECK_FALSE(shoot(*first, Vec3(9.1f, 0.2f, 5), Vec3(0, 0, -1)));
     first.reset();

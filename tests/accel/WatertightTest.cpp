@@ -40,8 +40,8 @@ TEST_CASE("watertight: no ray leaves a closed sphere, at random or through edges
         }
         CAPTURE(centre.x);
         CHECK(randomMisses == 0);
-        // Embree's robust mode: none at the origin; far away directions of edges are rounded off
-        // them.
+        // In Embree's robust mode no ray to an edge misses at the origin; far away, rounding moves
+        // the directions off the edges.
         CHECK(edgeMisses <= (centre == Vec3(0.0f) ? 0 : kRays / 400));
         CHECK(vertexMisses <= kRays / 80);
     }
@@ -50,9 +50,9 @@ TEST_CASE("watertight: no ray leaves a closed sphere, at random or through edges
 TEST_CASE("watertight: points on skinny triangles lie on them, however grazing the ray",
           "[accel][statistics]")
 {
-    // Aspect 10 to 1000, rays 0.1 to 1 degree off the plane from 100 to 500 away. The point that
-    // Embree reports may be hundreds of units off; ours may not leave the triangle by more than
-    // rounding.
+    // The triangles have aspects of 10 to 1000, and the rays are 0.1 to 1 degree off their planes,
+    // from 100 to 500 away. The point that Embree reports may be hundreds of units off; the surface
+    // point may leave the triangle by no more than rounding.
     Uniform random(2);
     double worst = 0.0;
     int hits = 0;

@@ -45,7 +45,7 @@ osg::Vec4 colorOf(const AreaLight& light)
     return static_cast<const osg::Vec4Array&>(*light.getGeometry()->getColorArray())[0];
 }
 
-/// World-space box of the light wherever the graph has put it, by its own vectors.
+/// Computes the world-space box of the light from its own vectors and its path in the graph.
 class LightBox : public osg::NodeVisitor
 {
 public:
@@ -215,7 +215,7 @@ TEST_CASE("area light: OSG's optimizer leaves it where it is", "[api][arealight]
     const osg::ref_ptr<osg::Geode> floor = new osg::Geode;
     floor->addDrawable(osg::createTexturedQuadGeometry(osg::Vec3(), osg::Vec3(1.0f, 0.0f, 0.0f),
                                                        osg::Vec3(0.0f, 1.0f, 0.0f)));
-    outer->setDataVariance(osg::Object::STATIC); // as OSG's rot, scale and trans loaders have it
+    outer->setDataVariance(osg::Object::STATIC); // as OSG's rot, scale and trans loaders set it
     inner->setDataVariance(osg::Object::STATIC);
     root->addChild(outer);
     outer->addChild(inner);

@@ -1,4 +1,4 @@
-// FormerOptionsTest.cpp - options are read by the names that they had before, with one message.
+// FormerOptionsTest.cpp - options are read by their former names, with one message.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/Messages.h"

@@ -19,7 +19,7 @@ namespace
 
 constexpr double kViewerFovyDegrees = 29.148431;
 
-/// A quad from corner, 6 wide and 2 high, that faces -y.
+/// Returns a quad from corner, 6 wide and 2 high, that faces -y.
 osg::ref_ptr<osg::Node> sign(const osg::Vec3& corner)
 {
     osg::ref_ptr<osg::Geode> geode = new osg::Geode;

@@ -15,8 +15,8 @@ using namespace osgRayTrace;
 
 TEST_CASE("models: each is converted and traced, without a sample that is not finite", "[osg-data]")
 {
-    // Not here: SmokeBox.osgt, which is nothing but particles, and morphing.osg, of whose vertices
-    // OSG 3.6 reads the first only.
+    // Two models are left out: SmokeBox.osgt, which is nothing but particles, and morphing.osg, of
+    // whose vertices OSG 3.6 reads only the first.
     const std::string name =
         GENERATE("axes.osgt", "cessna.osgt", "cessnafire.osgt", "clock.osgt", "cow.osgt",
                  "cube_mapped_torus.osgt", "dot3_bumpmapping.osgt", "dumptruck.osgt", "glider.osgt",

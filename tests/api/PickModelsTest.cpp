@@ -18,7 +18,7 @@ namespace
 
 constexpr int kRays = 10000;
 
-/// Random lines through the middle of a model, from side to side.
+/// Produces random lines through the middle of a model, from side to side.
 class RandomLines
 {
 public:
@@ -52,7 +52,7 @@ struct Tally
     int rays = 0, hits = 0, same = 0, ties = 0, edges = 0, wrong = 0;
 };
 
-/// All that osgUtil tells of a hit.
+/// Checks everything that osgUtil tells about a hit.
 void checkDetails(const Pick& ours, const Pick& theirs, double radius)
 {
     REQUIRE(std::fabs(ours.ratio - theirs.ratio) < 1e-6);

@@ -1,4 +1,4 @@
-// PickRulesTest.cpp - what RayIntersector hits and what not, and when. Layer: tests.
+// PickRulesTest.cpp - what RayIntersector hits, what it ignores, and when. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/api/PickScenes.h"
@@ -126,7 +126,7 @@ TEST_CASE("a plane that makes as many triangles as it takes leaves the numbers o
 {
     const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    for (const float left : {-1.0f, 2.0f, -4.0f}) // cut in two, whole, taken
+    for (const float left : {-1.0f, 2.0f, -4.0f}) // the carpet is cut, whole, removed
         for (const osg::Vec3& corner :
              {osg::Vec3(0, 0, 0), osg::Vec3(2, -1, 0), osg::Vec3(2, 1, 0)})
             vertices->push_back(corner + osg::Vec3(left, 0, 0));
@@ -208,7 +208,7 @@ TEST_CASE("a pick in a viewed scene is that of the last frame")
 
     root->removeChildren(0, 1);
     transform = nullptr;
-    CHECK(down(*scene).size() <= 1); // it may still be there, and is whole
+    CHECK(down(*scene).size() <= 1); // the object may still be there, and is whole then
     frame(3);
     CHECK(down(*scene).empty());
 }
@@ -232,5 +232,5 @@ TEST_CASE("segments end where they end, and disabled scenes are osgUtil's")
     CHECK(picksByRay(*scene, {{0.1, -0.3, 5.0}, {0.1, -0.3, -5.0}}).size() == 1);
     const osg::ref_ptr<RayTracedScene> nothing = new RayTracedScene;
     CHECK(down(*nothing).empty());
-    CHECK(down(*flat).size() >= 1); // there is no traced scene: osgUtil's
+    CHECK(down(*flat).size() >= 1); // without a traced scene osgUtil picks
 }

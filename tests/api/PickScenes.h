@@ -15,7 +15,8 @@ namespace osgRayTrace::test
 
 constexpr auto kAll = osgUtil::Intersector::NO_LIMIT;
 
-/// Vertices of a wavy carpet of 8 x 8 cells in the square [-1,1]^2 at height z, row by row.
+/// Returns the vertices of a wavy carpet of 8 x 8 cells in the square [-1,1]^2 at height z, row by
+/// row.
 inline osg::ref_ptr<osg::Vec3Array> carpetVertices(float z)
 {
     osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
@@ -26,7 +27,7 @@ inline osg::ref_ptr<osg::Vec3Array> carpetVertices(float z)
     return vertices;
 }
 
-/// The carpet's cells as triangles, with degenerate ones and lines between.
+/// Returns the carpet's cells as triangles, with degenerate triangles and lines between them.
 inline osg::ref_ptr<osg::Geometry> carpet(float z)
 {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
@@ -55,7 +56,7 @@ inline osg::ref_ptr<osg::Geometry> carpet(float z)
     return geometry;
 }
 
-/// Flat quads, a quad strip and a fan, side by side, with one colour a primitive set.
+/// Returns flat quads, a quad strip and a fan, side by side, with one colour a primitive set.
 inline osg::ref_ptr<osg::Geometry> tiles(float z)
 {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
@@ -98,7 +99,7 @@ inline osg::ref_ptr<RayTracedScene> sceneOf(osg::Node* child)
     return scene;
 }
 
-/// Both carpets in several places, shared and mirrored, and tiles in a geode.
+/// Returns a graph with both carpets in several places, shared and mirrored, and tiles in a geode.
 inline osg::ref_ptr<osg::Group> manyThings()
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;

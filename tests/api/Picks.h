@@ -1,5 +1,5 @@
-// Picks.h - the same segment by osgUtil's intersector and by ours, and how the two agree. Layer:
-// tests.
+// Picks.h - one segment intersected by osgUtil's intersector and by ours, and how the two agree.
+// Layer: tests.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -45,11 +45,11 @@ picksByRay(osg::Node& root, const Line& line,
     return picksOf(root, *ray);
 }
 
-/// Of one ray: our nearest hit and all of osgUtil's.
+/// How our nearest hit of a ray compares with all hits that osgUtil finds.
 enum class Relation
 {
-    Same, ///< its nearest, or both have none
-    Tie,  ///< another one as near, within rounding
+    Same, ///< osgUtil's nearest hit is the same one, or neither has a hit
+    Tie,  ///< osgUtil has this hit and a nearer one, which differ by rounding only
     Other,
 };
 
@@ -84,8 +84,8 @@ inline std::string describe(const Picks& picks)
     return text.str();
 }
 
-/// Whether a ray that is moved by less than rounding in float has our hit by osgUtil's reckoning:
-/// it runs along an edge, a seam or the rim of the model.
+/// Returns whether osgUtil has our hit if the ray is moved by less than rounding in float: the ray
+/// then runs along an edge, a seam or the rim of the model.
 inline bool isAtAnEdge(osg::Node& root, const Line& line, const Picks& ours, const Picks&,
                        double tolerance)
 {

@@ -39,7 +39,7 @@ void checkAlike(const Pick& ours, const Pick& theirs)
             REQUIRE(ours.matrix->ptr()[i] == Approx(theirs.matrix->ptr()[i]).margin(1e-12));
 }
 
-/// The place that the weights and vertices of a hit say it is at.
+/// Returns the point that the weights and vertices of a hit give.
 osg::Vec3d weighted(const Pick& pick)
 {
     const auto& vertices =
@@ -88,7 +88,7 @@ TEST_CASE("primitives are counted with those that are not traced")
 {
     const osg::ref_ptr<osg::Geometry> geometry = carpet(0.0f);
     const osg::ref_ptr<osg::PrimitiveSet> triangles = geometry->getPrimitiveSet(0);
-    geometry->setPrimitiveSetList({triangles}); // every third of them has no area
+    geometry->setPrimitiveSetList({triangles}); // every third triangle has no area
     const osg::ref_ptr<RayTracedScene> scene = sceneOf(geometry);
     CHECK(checkLines(*scene, 200) > 30);
 }

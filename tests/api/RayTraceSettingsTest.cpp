@@ -18,7 +18,7 @@ osg::ref_ptr<RayTraceSettings> make()
     return new RayTraceSettings;
 }
 
-/// Sets an environment variable as long as it lives.
+/// Sets an environment variable while the object lives.
 class Environment
 {
 public:
@@ -29,7 +29,7 @@ private:
     const char* _name;
 };
 
-/// A value of the option other than its default.
+/// Returns a value of the option other than its default.
 std::string otherValue(const RayTraceSettings::Option& option)
 {
     const auto dots = option.range.find(" .. ");
@@ -275,7 +275,7 @@ TEST_CASE("settings: the environment gives first values, bad ones are refused", 
             CHECK(settings->get(option.name) == value);
             CHECK(settings->getModifiedCount() == 0);
         }
-        if (option.name == "materials") continue; // a file may have any name
+        if (option.name == "materials") continue; // the file may have any name
         const Environment bad(option.environment.c_str(), "no such value");
         CHECK(make()->get(option.name) == option.defaultValue);
     }

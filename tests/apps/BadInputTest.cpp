@@ -1,5 +1,5 @@
-// BadInputTest.cpp - osgraytrace refuses what it cannot do: one clear line, the right exit code, no
-// file.
+// BadInputTest.cpp - osgraytrace refuses what it cannot do with one clear line, the right exit
+// code, and no file.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
@@ -26,7 +26,8 @@ void write(const std::string& file, const std::string& text)
     std::ofstream(file, std::ios::binary) << text;
 }
 
-/// One line, by the program's name, and nothing left in the folder but what was there.
+/// Checks that the program prints one line, which begins with its name, and leaves no file in the
+/// folder.
 void refuses(int exitCode, const std::string& arguments, const std::string& message)
 {
     CAPTURE(arguments);
@@ -112,7 +113,7 @@ TEST_CASE("osgraytrace: a model that is cut short ends with 2, wherever it was c
     const std::string whole = contents(OSGRAYTRACE_TEST_SOURCE "/data/cornell_box.osgt");
     REQUIRE(whole.size() > 20000);
     const TemporaryFolder folder;
-    // Within the header, a name in quotes, a number, between blocks.
+    // The lengths end within the header, in a name in quotes, in a number, and between blocks.
     for (const size_t length : {size_t(0), size_t(30), whole.find("Cornell") + 3, size_t(5001),
                                 size_t(17000), whole.rfind('}') - 1})
     {
@@ -180,7 +181,7 @@ TEST_CASE("osgraytrace: what cannot be written ends with 4", "[apps]")
     CHECK(outcome.exitCode == 4);
     CHECK_THAT(outcome.errors, Contains("it is a folder"));
 
-    if (geteuid() == 0) return; // may write everywhere
+    if (geteuid() == 0) return; // root may write everywhere
     std::filesystem::create_directory(folder / "closed");
     std::filesystem::permissions(folder / "closed", std::filesystem::perms::owner_read);
     CHECK(osgraytrace(folder, kBox + " -o closed/x.png" + kQuick).exitCode == 4);
@@ -191,7 +192,7 @@ TEST_CASE("osgraytrace: a write that fails midway leaves nothing and the old pic
     const TemporaryFolder folder;
     write(folder / "x.exr", "old");
     write(folder / "x.png", "old");
-    // No file may grow beyond 1 KiB; the signal that comes with it is ignored.
+    // No file may grow beyond 1 KiB; the signal for this is ignored.
     for (const std::string picture : {"x.exr", "x.png"})
     {
         CAPTURE(picture);

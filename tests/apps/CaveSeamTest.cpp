@@ -1,4 +1,4 @@
-// CaveSeamTest.cpp - the pictures of a CAVE's walls against rays from its eye. Layer: tests.
+// CaveSeamTest.cpp - the pictures of a CAVE's walls compared with rays from its eye. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "apps/cave/CaveView.h"
 #include "tests/Catch.h"
@@ -24,7 +24,8 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// A colour for each direction, that changes by a sixtieth from a pixel of a wall to the next.
+/// Returns a colour for each direction, which changes by a sixtieth from a pixel of a wall to the
+/// next.
 osg::Vec4 colorOf(const osg::Vec3d& d)
 {
     return osg::Vec4(float(0.5 + 0.4 * std::sin(5.0 * d.x() + d.z())),
@@ -32,7 +33,7 @@ osg::Vec4 colorOf(const osg::Vec3d& d)
                      float(0.5 + 0.4 * std::sin(5.0 * d.z())), 1.0f);
 }
 
-/// A coloured shell around the CAVE, not lit.
+/// Returns an unlit coloured shell around the CAVE.
 osg::ref_ptr<osg::Geometry> shell()
 {
     constexpr int kRows = 60, kColumns = 120;
@@ -61,7 +62,7 @@ osg::ref_ptr<osg::Geometry> shell()
     return geometry;
 }
 
-/// The panorama: what a ray from the eye in this direction meets.
+/// Returns the panorama: the colour that a ray from the eye in this direction meets.
 osg::Vec3d seen(osg::Node& scene, const osg::Vec3d& eye, const osg::Vec3d& towards)
 {
     osg::Vec3d direction = towards - eye;
@@ -90,7 +91,7 @@ std::string configuration()
 {
     std::string text = contents(OSGRAYTRACE_TEST_SOURCE "/data/cave_cube.xml");
     const std::string size = "<SceneSize value=\"4000\"/>";
-    text.replace(text.find(size), size.size(), ""); // models stay as they are
+    text.replace(text.find(size), size.size(), ""); // models keep their size
     for (auto at = text.find("512"); at != std::string::npos; at = text.find("512"))
         text.replace(at, 3, "96");
     return text;
@@ -113,7 +114,8 @@ TEST_CASE("four walls stitched together are one panorama, without a seam")
     const osg::ref_ptr<RayTracedScene> scene = new RayTracedScene;
     scene->addChild(geometry);
     const osg::Vec3d eye(400, -500, 300);
-    // Walls of the cube, by its corners: bottom left, to the right, up, as seen from within.
+    // The walls of the cube are given by their corners: bottom left, to the right and up, as seen
+    // from within.
     struct Face
     {
         osg::Vec3d corner, right, up;
@@ -157,8 +159,8 @@ TEST_CASE("four walls stitched together are one panorama, without a seam")
 TEST_CASE(
     "processes that show a wall each have the pixels of one that shows all, photons and edges")
 {
-    // Two walls side by side, one process each, as the nodes of a cluster; one process for both;
-    // and one wall as wide as the two.
+    // There are two walls side by side, with one process each, as on the nodes of a cluster; one
+    // process for both walls; and one wall as wide as both.
     const TemporaryFolder folder;
     const auto wall = [](int number, int pixels, int width, int centre)
     {
@@ -216,9 +218,9 @@ TEST_CASE(
         CHECK(different == 0);
         CHECK(lit > n * height / 4);
     }
-    // Along the edge the walls have, on either side, the values of the wide one, but for the noise
-    // of a pixel's own samples: 4 standard errors, a false alarm in 16,000 choices of the seed for
-    // each side.
+    // Along the edge the walls have, on either side, the values of the wide wall, except for the
+    // noise of a pixel's own samples: 4 standard errors, a false alarm in 16,000 choices of the
+    // seed for each side.
     for (int w = 0; w < 2; ++w)
     {
         double sum = 0.0, squares = 0.0;
@@ -247,7 +249,7 @@ TEST_CASE("a wall that the head is behind has no picture, and is named")
     const TemporaryFolder folder;
     REQUIRE(osgDB::writeNodeFile(*shell(), folder / "shell.osgt"));
     std::ofstream(folder / "cube.xml") << configuration();
-    // Beyond the left wall, which is the first.
+    // The head is beyond the left wall, which is the first one.
     const Outcome outcome = osgraytrace(
         folder, "--cave cube.xml --head -2000 0 0 0 0 0 --max-passes 1 --output w.png shell.osgt");
     INFO(outcome.errors);
@@ -271,7 +273,7 @@ TEST_CASE("a signal ends the viewer's pictures, which are written")
         std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
         program.signal(SIGTERM);
         CHECK(program.wait() == 143);
-        if (!osgDB::fileExists(folder / "w-0.png")) continue; // it had not begun yet
+        if (!osgDB::fileExists(folder / "w-0.png")) continue; // the program had not begun yet
         CHECK(program.printed().find("osgraytraceviewer: SIGTERM: pictures of ") !=
               std::string::npos);
         for (const char* file : {"w-0.png", "w-1.png", "w-2.png", "w-3.png"})

@@ -1,4 +1,5 @@
-// CaveTest.cpp - CalVR's configurations: what is read of them, and the eye's frusta. Layer: tests.
+// CaveTest.cpp - CalVR's configurations: what is read from them, and the eye's frusta. Layer:
+// tests.
 // SPDX-License-Identifier: MIT
 #include "apps/cave/CaveView.h"
 #include "apps/cave/HeadPath.h"
@@ -26,7 +27,7 @@ std::string written(const TemporaryFolder& folder, const std::string& name, cons
     return file;
 }
 
-/// What reading the text throws; empty: nothing.
+/// Returns the error that reading the text throws, or an empty string if it throws none.
 std::string errorOf(const std::string& text)
 {
     const TemporaryFolder folder;
@@ -87,10 +88,10 @@ TEST_CASE("what is no well-formed XML is read as CalVR reads it")
                 "<WindowConfig><Window name=\"0\"width=\"700\"left=\"5\"/></WindowConfig>\n"
                 "<WindowConfig><Window name=\"0\" height=\"300\" width=\"1\"/></WindowConfig>\n" +
                 std::string(kOne));
-    CHECK(setup.nearPlane == 20.0); // the first counts
+    CHECK(setup.nearPlane == 20.0); // the first element counts
     CHECK(setup.windows[0].width == 700);
     CHECK(setup.windows[0].left == 5);
-    CHECK(setup.windows[0].height == 300); // from the first that has it
+    CHECK(setup.windows[0].height == 300); // from the first element that has it
 }
 
 TEST_CASE("blocks for hosts go to the end of what is around them")
@@ -260,13 +261,13 @@ TEST_CASE("a configuration with any bytes damaged is read or refused")
 TEST_CASE("the frustum of a wall is that of its edges, seen from the eye")
 {
     CaveSetup setup;
-    CaveWall wall; // 3 m by 2 m, 1.5 m to the front
+    CaveWall wall; // 3 m by 2 m, 1.5 m in front
     wall.screenWidth = 3000.0;
     wall.screenHeight = 2000.0;
     wall.screen.position = {0, 1500, 0};
     setup.nearPlane = 10.0;
     const CavePose head{
-        {200, -300, 100}, 30.0, 10.0, 5.0}; // the middle eye does not care for angles
+        {200, -300, 100}, 30.0, 10.0, 5.0}; // the middle eye does not depend on angles
     const auto view = caveView(setup, wall, CaveEye::Centre, head.matrix());
     REQUIRE(view);
     double left, right, bottom, top, zNear, zFar;
@@ -375,7 +376,7 @@ TEST_CASE("our configurations are a cube around the head and a pair of eyes")
     for (const CaveWall& wall : cube.walls)
     {
         CHECK(wall.screen.position.length() == Approx(1500.0));
-        // Each faces the middle of the cube.
+        // Each wall faces the middle of the cube.
         const osg::Vec3d forward =
             osg::Matrixd::transform3x3(osg::Vec3d(0, 1, 0), wall.screen.matrix());
         CHECK((forward * 1500.0 - wall.screen.position).length() < 1e-9);
@@ -385,7 +386,7 @@ TEST_CASE("our configurations are a cube around the head and a pair of eyes")
     REQUIRE(pair.walls.size() == 2);
     CHECK(pair.walls[0].eye == CaveEye::Left);
     CHECK(pair.walls[1].eye == CaveEye::Right);
-    // Turning the head turns the picture, and the frustum stays.
+    // A turn of the head turns the picture, and the frustum stays.
     const osg::Matrixd head = CavePose{{1, 2, 3}, 40.0, 20.0, -10.0}.matrix();
     for (const CaveWall& wall : pair.walls)
     {

@@ -1,4 +1,4 @@
-// CompareTest.cpp - reports against each other, and through their files.
+// CompareTest.cpp - comparison of reports with each other, and through their files.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/CommaLocale.h"
@@ -61,7 +61,8 @@ TEST_CASE("compare: what changed beyond its noise is named, nothing else", "[rep
                           "samplers, open, Sobol, N = 64: MSE"}));
 }
 
-// 300 comparisons of 8 rows whose values are redrawn: 2 quantities each, at a rate of 10 %.
+// There are 300 comparisons of 8 rows whose values are drawn anew, with 2 quantities each, at a
+// rate of 10 %.
 TEST_CASE("compare: false alarms come as often as stated", "[report]")
 {
     Uniform random(7);
@@ -72,7 +73,7 @@ TEST_CASE("compare: false alarms come as often as stated", "[report]")
             sum += random();
         return sum;
     };
-    // As a report does it: each row from 16 pictures, mean and standard error.
+    // As in a report, each row has the mean and the standard error of 16 pictures.
     const auto redraw = [&normal](Report report)
     {
         report.samplers.clear();

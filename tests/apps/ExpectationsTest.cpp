@@ -83,7 +83,7 @@ TEST_CASE("expectations: each can be missed", "[report]")
     SECTION("a method with a kernel that nothing is expected of")
     {
         report.lines[4].method = "PPM";
-        CHECK(failures(report) == 2); // and SPPM was not measured
+        CHECK(failures(report) == 2); // SPPM was not measured either
     }
     SECTION("the displaced mean")
     {

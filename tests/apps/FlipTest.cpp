@@ -1,4 +1,4 @@
-// FlipTest.cpp - the published properties of FLIP, and values worked out by hand.
+// FlipTest.cpp - the published properties of FLIP, and values computed by hand.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
@@ -61,8 +61,8 @@ TEST_CASE("flip: symmetric, and in [0,1]", "[report]")
 // Even pictures have no features, so FLIP is the colour difference alone. Black and white are 100
 // apart in lightness: 100^0.7 = 25.119. The largest difference is that of green, L*a*b* (87.735,
 // -86.183, 83.180), and blue (32.297, 79.188, -107.860): with chroma times L/100, |dL| = 55.438 and
-// the chroma's distance 147.8, 203.3^0.7 = 41.27. The knee is at 0.4 of it, 16.51: 0.95 + (25.12
-// - 16.51) / (41.27 - 16.51) * 0.05.
+// the chroma's distance 147.8, 203.3^0.7 = 41.27. The knee is at 0.4 of it, 16.51: 0.95 + (25.12 -
+// 16.51) / (41.27 - 16.51) * 0.05.
 TEST_CASE("flip: black against white, green against blue", "[report]")
 {
     CHECK(mean(constant(0, 0, 0), constant(1, 1, 1)) == Approx(0.9674).margin(2e-4));

@@ -1,5 +1,5 @@
-// ForeignProgram.cpp - a program that knows OpenSceneGraph alone. Says what its views show. Layer:
-// tests.
+// ForeignProgram.cpp - a program that knows OpenSceneGraph alone, and prints what its views show.
+// Layer: tests.
 // SPDX-License-Identifier: MIT
 #include <osg/Group>
 #include <osgViewer/CompositeViewer>
@@ -25,7 +25,7 @@ int main()
     viewer.setSceneData(graph.get());
     print("viewer", viewer);
     const std::size_t handlers = viewer.getEventHandlers().size();
-    viewer.setSceneData(graph.get()); // as programs do that have changed it
+    viewer.setSceneData(graph.get()); // as programs do that have changed the graph
     std::cout << viewer.getEventHandlers().size() - handlers << " more handlers\n";
     viewer.setSceneData(nullptr);
     print("cleared", viewer);

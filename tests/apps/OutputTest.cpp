@@ -1,4 +1,4 @@
-// OutputTest.cpp - what osgraytrace writes over, what it leaves, and what it says if it cannot
+// OutputTest.cpp - which files osgraytrace replaces, which it leaves, and its messages if it cannot
 // write.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
@@ -58,11 +58,11 @@ TEST_CASE("osgraytrace: pipes and devices are written into, not replaced", "[app
     for (const char* name : {"pipe.json", "pipe.png", "pipe.exr"})
         CHECK(S_ISFIFO(statusOf(folder / name).st_mode));
 
-    // A null device of our own, where we may make one.
+    // The test makes a null device of its own if it may.
     if (mknod((folder / "null.png").c_str(), S_IFCHR | 0600, makedev(1, 3)) != 0) return;
     if (access((folder / "null.png").c_str(), W_OK) != 0) return;
     std::ofstream probe(folder / "null.png");
-    if (!probe) return; // a file system without devices
+    if (!probe) return; // the file system has no devices
     const Outcome device =
         osgraytrace(folder, kBox + kQuick + "-o null.png -o other.png --stats null.png");
     CHECK(device.exitCode == 0);
@@ -170,7 +170,7 @@ TEST_CASE("osgraytrace: what cannot be printed ends with 4", "[apps]")
         CHECK(closed.exitCode == 4);
         CHECK_THAT(closed.errors, Contains("cannot write to standard output"));
     }
-    CHECK_THAT(contents(folder / "x.png"), StartsWith(kPng)); // all the same
+    CHECK_THAT(contents(folder / "x.png"), StartsWith(kPng)); // written nevertheless
     CHECK(folder.fileNames() == Names{"x.png"});
 }
 
@@ -190,7 +190,7 @@ TEST_CASE("osgraytrace: a size that a format cannot have leaves the other output
     CHECK_THAT(wider.errors, Contains("cannot write d.png: a .png is at most 1000000"));
     CHECK(folder.fileNames() == Names{"b.exr", "c.png", "e.exr", "s.json"});
 
-    // Nothing would be left to render for.
+    // No output would be left to render for.
     const Outcome alone = osgraytrace(folder, kBox + " --size 70000 1 --passes 16777216 -o a.jpg");
     CHECK(alone.exitCode == 4);
 }

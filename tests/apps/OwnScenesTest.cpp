@@ -1,5 +1,5 @@
 // OwnScenesTest.cpp - our own scenes as viewers open them that know of no stored view, and without
-// their files.
+// the scenes' files.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
@@ -34,8 +34,8 @@ osg::ref_ptr<osg::Node> ownScene(const std::string& name)
     return scene;
 }
 
-/// What camera rays through the pixels of osgviewer's first picture meet: pixels by the name of the
-/// geode.
+/// Returns what camera rays through the pixels of osgviewer's first picture meet: numbers of pixels
+/// by the names of geodes.
 std::map<std::string, int> seenFirst(osg::Node& scene, const Renderer& renderer)
 {
     const osg::Matrixd worldFromClip =
@@ -108,7 +108,7 @@ TEST_CASE("our own scenes open in a plain viewer with what they are about in sig
             CHECK((found == seen.end() ? 0 : found->second) >= kWidth * kHeight / 100);
         }
 
-        // Light that comes from within: not an outer wall, nor the background.
+        // The light must come from within, not from an outer wall nor from the background.
         renderer->setClearColor(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
         renderer->getSettings()->setMaxPasses(4);
         REQUIRE(renderer->render());
@@ -119,7 +119,7 @@ TEST_CASE("our own scenes open in a plain viewer with what they are about in sig
 TEST_CASE("osgraytrace: a stored bound that is smaller than the scene cuts nothing off", "[apps]")
 {
     const TemporaryFolder folder;
-    // Before and behind the unit sphere that the view is made for, from (0, -4, 0).
+    // The balls are before and behind the unit sphere for which the view from (0, -4, 0) is made.
     for (const osg::Vec4 ball : {osg::Vec4(0, -2.5f, 0, 0.6f), osg::Vec4(0, 40, 0, 30)})
     {
         CAPTURE(ball.y());
@@ -132,7 +132,7 @@ TEST_CASE("osgraytrace: a stored bound that is smaller than the scene cuts nothi
         REQUIRE(osgraytrace(folder, "ball.osgt --size 8 8 --passes 1 -o ball.png").exitCode == 0);
         const osg::ref_ptr<osg::Image> picture = osgDB::readRefImageFile(folder / "ball.png");
         REQUIRE(picture);
-        // Grey, not the blue of the background.
+        // The ball is grey, unlike the blue background.
         const osg::Vec4 middle = picture->getColor(4u, 4u);
         CHECK(middle.r() > 0.5f);
         CHECK(middle.r() == Approx(middle.b()).margin(0.02));

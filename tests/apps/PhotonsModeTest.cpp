@@ -1,4 +1,5 @@
-// PhotonsModeTest.cpp - what osgraytracebench photons measures, on few photons and small pictures.
+// PhotonsModeTest.cpp - the measurements of osgraytracebench photons, with few photons and small
+// pictures.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
@@ -12,7 +13,7 @@
 namespace
 {
 
-/// Rows by name; what is not finite has no value.
+/// Returns the rows' values by name; a row that is not finite has no value.
 std::map<std::string, double> rowsOf(const TemporaryFolder& folder, const std::string& arguments)
 {
     const Outcome outcome = osgraytrace(folder, "photons --json rows.json " + arguments);
@@ -29,7 +30,7 @@ std::map<std::string, double> rowsOf(const TemporaryFolder& folder, const std::s
     return rows;
 }
 
-/// The last row whose name begins and goes on like this.
+/// Returns the value of the last row whose name begins with begin and contains end.
 double rowWith(const std::map<std::string, double>& rows, const std::string& begin,
                const std::string& end)
 {
@@ -56,7 +57,7 @@ TEST_CASE("bench photons: the map finds what the plain grid does, and both are t
     const auto rows = rowsOf(folder, kFew + "--only lookup");
     for (const std::string radius : {"4.0", "2.3"})
     {
-        // 20000 photons on the 1.9 million square millimetres of the box, both sides.
+        // There are 20000 photons on the 1.9 million square millimetres of the box, on both sides.
         const double r = std::stod(radius);
         const double found = rowWith(rows, "lookup r " + radius, "photons found");
         CHECK(found > 20000.0 * 3.14 * r * r / 4.2e6);
@@ -76,7 +77,7 @@ TEST_CASE("bench photons: photons are traced beside bare rays", "[apps]")
     for (const std::string scene :
          {"box", "box with mirror", "box with glass", "caustics of glass"})
     {
-        // 5001 photons are emitted; those for caustics end where they do not meet the glass.
+        // The pass emits 5001 photons; photons for caustics end if they do not meet the glass.
         const double rays = 1e6 * rowWith(rows, "tracing, " + scene + ": rays of a pass", "");
         CHECK(rays > 5000.0);
         CHECK(rays < 5001.0 * 8.0);
@@ -93,7 +94,7 @@ TEST_CASE("bench photons: error against time of all methods", "[apps]")
     for (const std::string box : {"a", "b", "c"})
         for (const std::string method : {"PATH", "PPM", "SPPM", "PHOTON_CAUSTICS"})
         {
-            // Of one or few passes.
+            // The error is that of one or a few passes.
             const double error = rowWith(rows, "error " + box + " " + method + " after", "");
             CHECK(error > 1e-5);
             CHECK(error < 1.0);
@@ -108,7 +109,7 @@ TEST_CASE("bench photons: wrong usage is refused", "[apps]")
         CHECK(osgraytrace(folder, "photons " + arguments).exitCode == 1);
     for (const std::string mode : {"report --quick", "limit", "interactive"})
         CHECK(osgraytrace(folder, mode + " --only nothing").exitCode == 1);
-    // Before it measures for minutes.
+    // The program refuses before it measures for minutes.
     const Outcome unwritable = osgraytrace(folder, "limit --json nowhere/rows.json");
     CHECK(unwritable.exitCode == 4);
     CHECK(unwritable.errors ==
@@ -128,7 +129,7 @@ TEST_CASE("bench photons: a signal leaves the rows that were measured", "[apps]"
         std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
         program.signal(SIGTERM);
         CHECK(program.wait() == 143);
-        if (folder.fileNames().empty()) continue; // it had not begun yet
+        if (folder.fileNames().empty()) continue; // the program had not begun yet
         CHECK(folder.fileNames() == std::vector<std::string>{"rows.json"});
         const auto json = nlohmann::json::parse(contents(folder / "rows.json"));
         CHECK(json.at("rows").size() > 0);

@@ -1,4 +1,4 @@
-// PictureTest.cpp - what osgraytrace writes and prints.
+// PictureTest.cpp - the pictures and messages that osgraytrace writes.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
@@ -42,7 +42,7 @@ Measures measuresIn(const std::string& output)
     return measures;
 }
 
-/// Not compared as strings, which a failure would print.
+/// Compares bytes without a comparison of strings, which a failure would print.
 bool sameBytes(const std::string& a, const std::string& b)
 {
     return !contents(a).empty() && contents(a) == contents(b);
@@ -53,7 +53,7 @@ nlohmann::json statistics(const TemporaryFolder& folder)
     return nlohmann::json::parse(contents(folder / "s.json"));
 }
 
-/// Lit by the headlight alone, before a background of osgviewer's blue.
+/// Writes a model that is lit by the headlight alone, before a background of osgviewer's blue.
 void writeFixedFunctionModel(const std::string& file)
 {
     osg::ref_ptr<osg::ShapeDrawable> sphere =
@@ -70,7 +70,7 @@ TEST_CASE("osgraytrace: one render, several files of each kind", "[apps]")
     const Outcome outcome =
         osgraytrace(folder, kBox + kQuick + "-o a.exr -o b.png -o c.jpg -o d.EXR");
     CHECK(outcome.exitCode == 0);
-    CHECK(outcome.errors.empty()); // no progress bar: not a terminal
+    CHECK(outcome.errors.empty()); // no progress bar, as this is no terminal
     CHECK_THAT(outcome.output, Contains("path, 4 passes"));
     CHECK(folder.fileNames() == std::vector<std::string>{"a.exr", "b.png", "c.jpg", "d.EXR"});
     CHECK(sameBytes(folder / "a.exr", folder / "d.EXR"));
@@ -108,7 +108,7 @@ TEST_CASE("osgraytrace: EXR channels are those asked for", "[apps]")
         CHECK(exr.find(name));
     }
 
-    // The floor's white, seen at the lower edge of the picture: its normal is +z, its albedo 0.73.
+    // The lower edge of the picture shows the floor's white: its normal is +z, its albedo 0.73.
     const size_t pixel = 2 * 64 + 32;
     CHECK(exr.find("normal.Z")->values[pixel] == Approx(1.0f).margin(1e-5));
     CHECK(exr.find("albedo.R")->values[pixel] == Approx(0.73f));
@@ -119,8 +119,8 @@ TEST_CASE("osgraytrace: EXR channels are those asked for", "[apps]")
     CHECK(exr.find("error.R")->values[pixel] > 0.0f);
 }
 
-// The grids of the paper's Figures 1 to 3. Errors differ by factors of 1.2 and more from one
-// strategy to the next; over the 19,200 pixels they vary by some 2 %.
+// The grids are those of the paper's Figures 1 to 3. Errors differ by factors of 1.2 and more from
+// one strategy to the next; over the 19,200 pixels they vary by some 2 %.
 TEST_CASE("osgraytrace: on the grids Sobol points have the least error, random ones the most",
           "[apps]")
 {
@@ -154,9 +154,9 @@ TEST_CASE("osgraytrace: --reference compares with a file of the same picture", "
     CHECK(same.relMse == 0.0);
     CHECK(same.meanRatio == 1.0);
 
-    // Another seed: noise, but the same mean. The light is a few bright pixels, whose edges carry
-    // most of the mean's noise: over 300 seeds its standard deviation is 2.7 %, so 4 sigma of a
-    // ratio are 15 %.
+    // Another seed gives other noise, but the same mean. The light is a few bright pixels, whose
+    // edges cause most of the mean's noise: over 300 seeds its standard deviation is 2.7 %, so 4
+    // sigma of a ratio are 15 %.
     const Outcome other =
         osgraytrace(folder, kBox + kQuick + "--seed 7 -o x.exr --reference r.exr --stats s.json");
     const Measures noise = measuresIn(other.output);
@@ -206,7 +206,7 @@ TEST_CASE("osgraytrace: --stats counts what was done", "[apps]")
     CHECK(json["relativeError"].get<double>() > 0.0);
     CHECK(json["conversion"]["converted.area-light"] == 2);
 
-    // What photons take, for all passes that are kept and for this view.
+    // The memory of photons is stated for all passes that are kept, and for this view.
     REQUIRE(osgraytrace(folder, kBox + " --size 32 32 --passes 3 --integrator ppm --photons 3000 "
                                        "--photon-radius 1e9 -o x.png --stats s.json")
                 .exitCode == 0);
@@ -215,10 +215,11 @@ TEST_CASE("osgraytrace: --stats counts what was done", "[apps]")
     CHECK(photons["bytes"].get<uint64_t>() > 3 * 40 * 1000);
     CHECK(photons["hitPointBytes"].get<uint64_t>() > 32 * 32 * 50);
     CHECK(photons["note"].get<std::string>().find("photon-radius is limited") == 0);
-    // Of the first pass of each half: the third one shares the first one's camera paths.
+    // The camera rays are those of the first pass of each half: the third pass shares the first
+    // one's camera paths.
     CHECK(statistics(folder)["rays"]["camera"] == 2 * 32 * 32);
 
-    // One pass has no error estimate: null, which every JSON reader takes.
+    // One pass has no error estimate: it is null, which every JSON reader accepts.
     REQUIRE(osgraytrace(folder, kBox + " --size 8 8 --passes 1 -o x.png --stats s.json").exitCode ==
             0);
     CHECK(statistics(folder)["relativeError"].is_null());
@@ -241,8 +242,8 @@ TEST_CASE("osgraytrace: stops at passes, seconds or error, whichever comes first
     REQUIRE(osgraytrace(folder, kBox + write + "--error 1e-9 --passes 5").exitCode == 0);
     CHECK(statistics(folder)["passes"] == 5);
 
-    // A tile at least, one of four, however short the time; the 64 passes do not hold if there is
-    // one.
+    // However short the time is, at least one tile of four is traced; the limit of 64 passes does
+    // not apply if there is a time.
     const Outcome part = osgraytrace(folder, kBox + write + "--threads 1 --time 1e-6");
     REQUIRE(part.exitCode == 0);
     CHECK_THAT(part.output,
@@ -315,7 +316,7 @@ TEST_CASE("osgraytrace: the furnace is 1 everywhere", "[apps][statistics]")
     {
         mean += value / (32.0 * 32.0);
     }
-    // A path's radiance varies by less than 1: the mean of 65536 of them is right to 0.004 at one
+    // A path's radiance varies by less than 1: the mean of 65536 paths is right to 0.004 at one
     // sigma.
     CHECK(mean == Approx(1.0).margin(0.016));
 }

@@ -1,4 +1,4 @@
-// PolygonLightTest.cpp - the report's formula for irradiance against values found otherwise.
+// PolygonLightTest.cpp - the report's formula for irradiance compared with values found otherwise.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
@@ -20,8 +20,8 @@ Polygon square(double x, double y, double z)
             Vec3d(x - 0.5, y + 0.5, z)};
 }
 
-/// The same by adding up small pieces of a unit square light at height 1 that the function lets
-/// through.
+/// Computes the irradiance by adding up small pieces of a unit square light at height 1 that the
+/// function lets through.
 template <typename Visible> double summed(const Vec3d& point, const Visible& visible)
 {
     constexpr int kPieces = 1500;
@@ -60,7 +60,7 @@ TEST_CASE("polygon light: what is below the horizon does not count", "[report]")
 
 TEST_CASE("polygon light: occluders against sums of pieces", "[report]")
 {
-    // 1500^2 pieces miss an edge by half a piece at most: 1e-3 of the light.
+    // The 1500^2 pieces miss an edge by half a piece at most: 1e-3 of the light.
     const Vec3d point(0.1, -0.05, 0.0);
     const double turn = 17.0 * M_PI / 180.0;
     const Vec3d across(std::cos(turn), std::sin(turn), 0.0), along(-across.y(), across.x(), 0.0);

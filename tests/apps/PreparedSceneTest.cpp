@@ -1,4 +1,5 @@
-// PreparedSceneTest.cpp - a kept reference picture is used for what it was rendered of, only.
+// PreparedSceneTest.cpp - a kept reference picture is used only for the scene that it was rendered
+// from.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"

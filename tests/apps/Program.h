@@ -1,4 +1,4 @@
-// Program.h - runs osgraytrace as its users do.
+// Program.h - runs osgraytrace as its users run it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -20,12 +20,12 @@ inline std::string contents(const std::string& file)
 
 struct Outcome
 {
-    int exitCode = -1; ///< 124: did not end within a minute
+    int exitCode = -1; ///< 124: the program did not end within a minute
     std::string output;
     std::string errors;
 };
 
-/// Runs it in the folder. The shell splits the arguments; prefix goes before the program
+/// Runs osgraytrace in the folder. The shell splits the arguments; prefix goes before the program
 /// ("NAME=value").
 inline Outcome osgraytrace(const TemporaryFolder& folder, const std::string& arguments,
                            const std::string& prefix = "")
@@ -42,7 +42,7 @@ inline Outcome osgraytrace(const TemporaryFolder& folder, const std::string& arg
     return outcome;
 }
 
-/// A scene of ours, quoted for the shell.
+/// Returns the path of one of our scenes, quoted for the shell.
 inline std::string dataFile(const std::string& name)
 {
     return "'" OSGRAYTRACE_TEST_SOURCE "/data/" + name + "'";

@@ -85,7 +85,7 @@ TEST_CASE("osgraytrace --materials: glass by a name, and errors with their line"
     CHECK(good.exitCode == 0);
     CHECK_THAT(good.errors, Contains("nodes 'cellar': nothing in the scene has this name"));
     const auto json = nlohmann::json::parse(contents(folder / "s.json"));
-    CHECK(json["integrator"] == "path"); // no longer a fixed-function scene
+    CHECK(json["integrator"] == "path"); // the scene is no longer a fixed-function one
 
     write("{ \"nodes\": {\n \"roof\": { \"metalic\": 1 } } }");
     const Outcome bad = osgraytrace(folder, run);

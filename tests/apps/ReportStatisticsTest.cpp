@@ -1,4 +1,5 @@
-// ReportStatisticsTest.cpp - the report's slopes, errors and distributions against known answers.
+// ReportStatisticsTest.cpp - the report's slopes, errors and distributions compared with known
+// answers.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
@@ -35,7 +36,7 @@ Reference flatReference(double value, double variance)
     return reference;
 }
 
-/// Pictures of the value with normal noise; the colours of a pixel share it.
+/// Returns pictures of the value with normal noise, which is the same in all colours of a pixel.
 Pixels noisyPicture(double value, double deviation, Uniform& random)
 {
     Pixels pixels{40, 30, {}};
@@ -64,7 +65,8 @@ TEST_CASE("slopes: power laws are found, with their error", "[report]")
     CHECK(slope->error == Approx(0.0).margin(1e-12));
     CHECK_FALSE(logLogSlope({Series{{1.0}, {1.0}}}));
 
-    // 400 fits to noisy series: their scatter is what each says of itself.
+    // The test makes 400 fits to noisy series: their scatter must be the error that each fit
+    // states.
     Uniform random(1);
     Estimate slopes, errors;
     for (int run = 0; run < 400; ++run)
@@ -114,9 +116,9 @@ TEST_CASE("budget sums: errors, variance and bias of pictures with known noise",
     CHECK(row.relMse == Approx(mse / (4.0 + 0.0004)).epsilon(0.05));
     CHECK(row.relMseFixed == Approx(mse / 4.01).epsilon(0.05));
     CHECK(row.mseError ==
-          Approx(mse * std::sqrt(2.0 / 19200)).epsilon(0.6)); // itself from 16 values
+          Approx(mse * std::sqrt(2.0 / 19200)).epsilon(0.6)); // estimated from 16 values
     CHECK(row.efficiency == Approx(1.0 / (0.09 * 0.5)).epsilon(0.05));
-    // 0.3 / sqrt(19200) of 2 is 0.108 %.
+    // The standard error 0.3 / sqrt(19200) is 0.108 % of 2.
     CHECK(row.biasError == Approx(0.108).epsilon(0.05));
     CHECK(std::abs(row.biasPercent - 1.0) < 4.0 * 0.108);
     CHECK(row.percentile999 == Approx(0.3 * 3.29).epsilon(0.15));

@@ -49,7 +49,7 @@ inline osgRayTrace::bench::Report smallReport()
         row.variance = 1e-4 / row.budget;
         row.mse = row.variance + 1e-3 / (row.budget * row.budget);
         row.biasPercent = 0.2;
-        row.biasError = 0.001; // many errors: a bound in errors would be wrong for it
+        row.biasError = 0.001; // many errors: a bound in errors would be wrong here
     }
     report.lines.push_back(kernel);
     for (const char* strategy : {"Sobol", "random"})

@@ -1,5 +1,4 @@
-// RunTest.cpp - osgraytrace-run puts ray tracing above the scenes of a program of others. Layer:
-// tests.
+// RunTest.cpp - osgraytrace-run puts ray tracing above the scenes of another program. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "Program.h" // runs osgraytrace-run here
 #include "tests/Catch.h"
@@ -19,7 +18,7 @@ const std::string kForeign = "'" OSGRAYTRACE_TEST_FOREIGN "'";
 TEST_CASE("osgraytrace-run: the scenes of another program are ray traced", "[apps]")
 {
     const Outcome outcome = run(kForeign);
-    CHECK(outcome.exitCode == 7); // its own
+    CHECK(outcome.exitCode == 7); // the program's own exit code
     CHECK(outcome.output == "viewer RayTracedScene\n0 more handlers\ncleared nothing\n"
                             "view RayTracedScene\nview RayTracedScene\nshared 1\n");
     CHECK(outcome.errors.empty());

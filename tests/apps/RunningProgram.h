@@ -18,7 +18,8 @@
 class RunningProgram
 {
 public:
-    /// In the folder; what is printed can be waited for. environment: "NAME=value".
+    /// Starts the program in the folder; prints() can wait for its output. environment is
+    /// "NAME=value".
     RunningProgram(const std::string& folder, std::vector<std::string> arguments,
                    const std::vector<std::string>& environment = {})
     {
@@ -42,7 +43,7 @@ public:
     RunningProgram(const RunningProgram&) = delete;
     RunningProgram& operator=(const RunningProgram&) = delete;
 
-    /// False if a minute passes, or the program ends, without that text.
+    /// Returns false if the program does not print the text within a minute or before it ends.
     bool prints(const std::string& text)
     {
         const auto isThere = [&] { return _printed.find(text) != std::string::npos; };
@@ -54,7 +55,7 @@ public:
 
     void signal(int number) { kill(_process, number); }
 
-    /// The exit code, or minus the signal that ended it.
+    /// Returns the exit code, or minus the signal that ended the program.
     int wait()
     {
         while (readSome())

@@ -1,5 +1,5 @@
-// StoredSettingsTest.cpp - what a scene brings with it besides surfaces, and what osgraytrace says
-// of pictures.
+// StoredSettingsTest.cpp - what a scene stores besides surfaces, and what osgraytrace says about
+// pictures.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
@@ -30,7 +30,7 @@ osg::ref_ptr<osg::MatrixTransform> ball(const std::string& name, float x)
     return transform;
 }
 
-/// Two balls beside each other.
+/// Returns two balls beside each other.
 osg::ref_ptr<osg::Group> pair()
 {
     osg::ref_ptr<osg::Group> group = new osg::Group;
@@ -39,7 +39,7 @@ osg::ref_ptr<osg::Group> pair()
     return group;
 }
 
-/// Lighter than the background.
+/// Returns whether the picture is lighter than the background at column x.
 bool showsBall(const std::string& file, unsigned int x)
 {
     const osg::ref_ptr<osg::Image> picture = osgDB::readRefImageFile(file);
@@ -95,7 +95,7 @@ TEST_CASE("osgraytrace: a picture that shows nothing says so, and has no error",
     CHECK_THAT(osgraytrace(folder, "pair.osgt --passes 4" + kQuick).output,
                Contains("estimated error") && !Contains("nothing was hit"));
 
-    // The box without its light.
+    // The view shows the box without its light.
     const Outcome dark =
         osgraytrace(folder, dataFile("cornell_box.osgt") +
                                 " --eye -278 -200 278 --max-bounces 0 --center -278 0 100 "
@@ -127,7 +127,7 @@ TEST_CASE("osgraytrace: what is hinted to be rasterized is in every picture, or 
     CHECK(showsBall(folder / "x.png", 20));
     CHECK_THAT(drawn.errors, Contains("x.exr lacks 1 parts of the scene"));
 
-    // Nothing is left to trace: OSG draws all of it.
+    // OSG draws the whole scene, and nothing is left to trace.
     RayTracedScene::setHint(group, RayTracedScene::RASTERIZE);
     REQUIRE(osgDB::writeNodeFile(*group, folder / "hinted.osgt"));
     const Outcome all =

@@ -1,5 +1,5 @@
-// ViewerTest.cpp - what osgraytraceviewer says over its picture, and which keys it takes. Layer:
-// tests.
+// ViewerTest.cpp - the status line of osgraytraceviewer, and the keys that the viewer handles.
+// Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "apps/common/ErrorText.h"
 #include "apps/osgraytraceviewer/KeyHandler.h"
@@ -20,7 +20,7 @@ namespace
 
 using Event = osgGA::GUIEventAdapter;
 
-/// True if the handler took it.
+/// Returns whether the handler took the event.
 bool send(KeyHandler& keys, osgViewer::Viewer& viewer, Event::EventType type, int key)
 {
     const osg::ref_ptr<Event> event = new Event;
@@ -45,10 +45,10 @@ TEST_CASE("viewer: F freezes the view, and its release toggles nothing however S
         CHECK_FALSE(send(*keys, viewer, Event::KEYUP, released));
     }
     CHECK_FALSE(keys->isFrozen());
-    // f is osgViewer's.
+    // The key f belongs to osgViewer.
     CHECK_FALSE(send(*keys, viewer, Event::KEYDOWN, 'f'));
     CHECK_FALSE(send(*keys, viewer, Event::KEYUP, 'f'));
-    // So are releases of all keys that others have.
+    // The handler also takes the releases of its other keys, which further handlers use as well.
     for (const int key : {'i', 'n', 'r', 'p'})
     {
         CHECK(send(*keys, viewer, Event::KEYDOWN, key));
@@ -83,7 +83,8 @@ TEST_CASE("viewer: the status line says how far the picture is, and what is not 
 
 TEST_CASE("viewer: decimal points of the status line can be seen", "[apps][gl]")
 {
-    // The line alone, with an error of one digit: pixels of the text's colour at the point's place.
+    // The picture is the line alone, with an error of one digit: the test counts pixels of the
+    // text's colour at the place of the point.
     const osg::ref_ptr<RayTracedScene> scene = tracedScene(nullptr);
     const osg::ref_ptr<KeyHandler> keys = new KeyHandler(scene);
     const osg::ref_ptr<StatusLine> line = new StatusLine(scene, keys);

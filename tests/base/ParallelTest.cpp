@@ -91,7 +91,7 @@ TEST_CASE("workers: the exception of a body is rethrown to the caller", "[base]"
     CHECK(begun < 100000); // the rest was skipped
     REQUIRE_THROWS_AS(workers.run([] { throw std::logic_error("run"); }), std::logic_error);
 
-    // Usable again.
+    // The workers are usable again.
     std::atomic<int> calls{0};
     workers.forEach(10, [&](std::size_t) { ++calls; });
     CHECK(calls == 10);
@@ -129,7 +129,7 @@ TEST_CASE("workers: nobody waits for the loop of another caller", "[base]")
             });
         while (held < threads)
             std::this_thread::yield();
-        int calls = 0; // by this thread: all others are held
+        int calls = 0; // made by this thread: all others are held
         workers.run([&] { ++calls; });
         workers.forEach(1, [&](std::size_t) { ++calls; });
         CHECK(calls == 2);
@@ -175,7 +175,7 @@ TEST_CASE("workers: the host's floating-point mode stands, denormals are flushed
         }
         const unsigned int afterThrow = _mm_getcsr();
         _mm_setcsr(before);
-        // Exception flags in the low six bits may be raised by anything.
+        // Anything may raise exception flags, which are the low six bits.
         CHECK((afterForEach & ~0x3fu) == (mode & ~0x3fu));
         CHECK((afterRun & ~0x3fu) == (mode & ~0x3fu));
         CHECK((afterThrow & ~0x3fu) == (mode & ~0x3fu));

@@ -1,4 +1,4 @@
-// SharedArrayTest.cpp - a SharedArray keeps alive what it shows.
+// SharedArrayTest.cpp - a SharedArray keeps the memory that it refers to alive.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 

@@ -1,4 +1,4 @@
-// ClipPlanesTest.cpp - what clip planes leave, and what they cost. Layer: tests.
+// ClipPlanesTest.cpp - what clip planes leave of geometries, and what clipping costs. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/MeshClipper.h"
 #include "tests/Catch.h"
@@ -47,7 +47,7 @@ double areaOf(const Mesh& mesh)
     return area;
 }
 
-/// A square of 2 * n * n triangles, from 0 to 1, z = 0, with uv = xy and colours of x.
+/// Returns a square of 2 * n * n triangles, from 0 to 1 at z = 0, with uv = xy and colours of x.
 Mesh square(unsigned int n)
 {
     std::vector<Vec3> positions, normals;
@@ -95,12 +95,13 @@ TEST_CASE("clip planes: the area that is left, by formula, with values that go o
         }
 }
 
-// A hole would let rays through where two triangles were cut.
+// A hole would let rays through between two triangles that were cut.
 TEST_CASE("clip planes: neighbours share the vertices of a cut", "[bridge]")
 {
     const ConversionResult result = convertGraph(clipped({0.3, 0.5, -0.8, 0.1}, ball()));
     const Mesh& mesh = soleMesh(result);
-    // Directed edges between places that have no opposite one: the rim, which lies in the plane.
+    // The directed edges between places that have no opposite edge are the rim, which lies in the
+    // plane.
     using Edge = std::pair<std::array<float, 3>, std::array<float, 3>>;
     const auto place = [&](uint32_t i)
     {
@@ -125,10 +126,10 @@ TEST_CASE("clip planes: neighbours share the vertices of a cut", "[bridge]")
 TEST_CASE("clip planes: of each number the last one, for states that switch it on", "[bridge]")
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->addChild(clipped({1.0, 0.0, 0.0, -0.25}, triangleGeometry())); // replaced by the next one
+    root->addChild(clipped({1.0, 0.0, 0.0, -0.25}, triangleGeometry())); // the next one replaces it
     root->addChild(placed(osg::Matrixd::translate(0.5, 0.0, 0.0),
                           clipped({1.0, 0.0, 0.0, 0.0}, triangleGeometry())));
-    root->addChild(triangleGeometry()); // has no such state
+    root->addChild(triangleGeometry()); // this one has no clip state
     const ConversionResult result = convertGraph(root);
     REQUIRE(result.scene->instances.size() == 3);
     const auto areaAt = [&](std::size_t i)
@@ -150,7 +151,7 @@ TEST_CASE("clip planes: only what they cross is cut, also when they move", "[bri
     CHECK(countOf(first, "not-traced.clipped-away") == 1);
     REQUIRE(first.scene->instances.size() == 4);
     CHECK_FALSE(first.scene->instances[0].placed);
-    CHECK(first.scene->instances[2].placed); // those in place come first
+    CHECK(first.scene->instances[2].placed); // instances that are in place come first
     CHECK(first.scene->instances[2].mesh == first.scene->instances[3].mesh);
     CHECK(converter.convert(inputFor(clip)).scene == first.scene);
 

@@ -33,7 +33,7 @@ namespace
 constexpr unsigned int kContexts = 8;
 constexpr int kFrames = 3;
 
-/// Of OpenGL contexts that do not exist.
+/// Returns how many OpenGL contexts have state, although none of them exists.
 unsigned int contextsWithState()
 {
     unsigned int count = 0;
@@ -51,7 +51,7 @@ osg::ref_ptr<osg::Image> image(int layers = 1)
     return result;
 }
 
-/// One of each class, with an image, then without.
+/// Returns a texture of each class with an image, then one of each class without.
 std::vector<osg::ref_ptr<osg::Texture>> textures()
 {
     std::vector<osg::ref_ptr<osg::Texture>> all = {
@@ -68,7 +68,7 @@ std::vector<osg::ref_ptr<osg::Texture>> textures()
     return all;
 }
 
-/// Every class of textures in every mode of formats.
+/// Returns a graph with every class of textures in every mode of formats.
 osg::ref_ptr<osg::Group> graphOfTextures()
 {
     using osg::Texture;
@@ -96,7 +96,7 @@ osg::ref_ptr<osg::Group> graphOfTextures()
     return root;
 }
 
-/// What draws with OpenGL in a way of its own.
+/// Returns a graph of objects that draw with OpenGL in ways of their own.
 osg::ref_ptr<osg::Group> graphOfOthers()
 {
     const osg::ref_ptr<osg::Group> root = new osg::Group;
@@ -117,7 +117,7 @@ osg::ref_ptr<osg::Group> graphOfOthers()
     return root;
 }
 
-/// Converted as a viewer has it converted, and without one, and traced.
+/// Converts the model as a viewer has it converted and without a viewer, and traces it.
 void traceEachWay(osg::Node* model)
 {
     convertGraph(model);
@@ -155,7 +155,7 @@ TEST_CASE("conversion makes no state of an OpenGL context: textures of all class
     const osg::ref_ptr<osg::Group> graph = graphOfTextures();
     traceEachWay(graph);
     CHECK(contextsWithState() == 0);
-    // Nor does it write into the scene.
+    // Conversion does not write into the scene either.
     for (unsigned int i = 0; i < graph->getNumChildren(); ++i)
     {
         const osg::StateSet& state = *graph->getChild(i)->getStateSet();
@@ -185,7 +185,7 @@ TEST_CASE("conversion makes no state of an OpenGL context: sample models", "[osg
         WARN("skipped: " << name << " is not in OSG_FILE_PATH");
         return;
     }
-    REQUIRE(contextsWithState() == 0); // nor does reading
+    REQUIRE(contextsWithState() == 0); // nor does reading make any state
     traceEachWay(model);
     CHECK(contextsWithState() == 0);
 }

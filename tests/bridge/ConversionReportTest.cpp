@@ -1,5 +1,5 @@
-// ConversionReportTest.cpp - what the user is told: counts, where, and each reason once. Layer:
-// tests.
+// ConversionReportTest.cpp - what the user is told: counts, node paths, and each reason once.
+// Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
@@ -75,7 +75,7 @@ TEST_CASE("conversion report: bad geometry and bad nodes are found by their path
     root->addChild(lamp);
 
     SceneConverter converter;
-    for (int again = 0; again < 2; ++again) // from the cache, too
+    for (int again = 0; again < 2; ++again) // the second result is from the cache
     {
         const ConversionResult result = converter.convert(inputFor(root));
         CHECK(pathsOf(result, "skipped.index-out-of-range") == Strings{"town/broken"});
@@ -111,11 +111,11 @@ TEST_CASE("conversion report: each reason is named once, with its first object",
     CHECK(messages.timesSaid("converted") == 0);
 }
 
-// What has a line of its own for each object needs none for the reason.
+// A reason whose objects have a line each needs no line of its own.
 TEST_CASE("conversion report: what is named object by object is not named again", "[bridge]")
 {
     osg::ref_ptr<osg::Group> root = town();
-    root->addChild(new EnvironmentLight); // has no image
+    root->addChild(new EnvironmentLight); // this light has no image
     root->addChild(new osg::MatrixTransform(osg::Matrix::scale(0.0, 1.0, 1.0)));
     root->getChild(1)->setName("squashed");
     const test::Messages messages;

@@ -34,7 +34,7 @@ osg::ref_ptr<osg::Image> floatImage(int width, int height, osg::Vec3 value = {1,
     return image;
 }
 
-/// As osgDB leaves it: its name alone.
+/// Returns an image as osgDB leaves it if the file is missing: it has a name and nothing else.
 osg::ref_ptr<osg::Image> missingImage()
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;
@@ -48,7 +48,8 @@ osg::Vec3& pixel(osg::Image& image, int x, int y)
         image.data(static_cast<unsigned int>(x), static_cast<unsigned int>(y)));
 }
 
-/// 8 x 4, black but for the pixel right of the middle above the horizon, and the row at the zenith.
+/// Returns an image of 8 x 4 pixels, black but for the pixel right of the middle above the horizon,
+/// and the row at the zenith.
 osg::ref_ptr<osg::Image> marked()
 {
     osg::ref_ptr<osg::Image> image = floatImage(8, 4, {0, 0, 0});
@@ -58,7 +59,7 @@ osg::ref_ptr<osg::Image> marked()
     return image;
 }
 
-const Vec3 kMark = glm::normalize(Vec3(0.1f, 1.0f, 0.1f)); ///< where that pixel is
+const Vec3 kMark = glm::normalize(Vec3(0.1f, 1.0f, 0.1f)); ///< direction of the marked pixel
 
 /// A triangle and an environment below a transform.
 struct SkyScene
@@ -78,7 +79,7 @@ struct SkyScene
 
     ConversionResult convert() { return converter.convert(inputFor(root)); }
 
-    /// Towards a direction of the world.
+    /// Returns the radiance from a direction of the world.
     Vec3 radiance(Vec3 direction)
     {
         const ConversionResult result = convert();
@@ -117,7 +118,7 @@ TEST_CASE(
     "[bridge]")
 {
     SkyScene scene(marked());
-    // +y to +x, then +x to +z.
+    // The rotation takes +y to +x, then the transform takes +x to +z.
     scene.light->setRotation(osg::Quat(-osg::PI_2, osg::Vec3d(0, 0, 1)) * 3.0);
     CHECK(near(scene.radiance(Vec3(1.0f, -0.1f, 0.1f)), Vec3(1, 2, 3)));
     scene.transform->setMatrix(osg::Matrixd::scale(1e3, 1e3, 1e3) *
@@ -126,18 +127,19 @@ TEST_CASE(
     CHECK(near(scene.radiance(Vec3(-0.1f, -0.1f, 1.0f)), Vec3(1, 2, 3)));
     CHECK(countOf(scene.convert(), "approximated.environment-transform") == 0);
 
-    // Mirrored: +x to -x.
+    // The transform mirrors: +x becomes -x.
     scene.light->setRotation(osg::Quat());
     scene.transform->setMatrix(osg::Matrixd::scale(-2.0, 2.0, 2.0));
     CHECK(near(scene.radiance(Vec3(-0.1f, 1.0f, 0.1f)), Vec3(1, 2, 3)));
     CHECK(near(scene.radiance(kMark), Vec3(0.0f)));
 
-    // Uneven: the zenith stays where it goes, the rest is made perpendicular.
+    // The scale is uneven: the zenith goes where the transform takes it, and the other axes are
+    // made perpendicular to it.
     scene.transform->setMatrix(osg::Matrixd::scale(1.0, 2.0, 50.0));
     CHECK(near(scene.radiance(kMark), Vec3(1, 2, 3)));
     CHECK(countOf(scene.convert(), "approximated.environment-transform") == 1);
 
-    // Singular: it cannot be placed at all.
+    // The transform is singular: the environment cannot be placed at all.
     scene.transform->setMatrix(osg::Matrixd::scale(1.0, 0.0, 1.0));
     const ConversionResult result = scene.convert();
     CHECK(result.scene->lights.empty());
@@ -172,8 +174,8 @@ TEST_CASE("environment light: pixels of all formats; floats are never decoded, b
 
 TEST_CASE("environment light: the first row of a .hdr file is the zenith", "[bridge]")
 {
-    // Radiance's format without run lengths: red, green, blue, and an exponent with an offset of
-    // 136.
+    // This is Radiance's format without run lengths: red, green, blue, and an exponent with an
+    // offset of 136.
     std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
     for (const char* pixel :
          {"\x80\x40\x20\x8b", "\x80\x80\x80\x81"}) // (1024, 512, 256), (1, 1, 1)
@@ -190,7 +192,8 @@ TEST_CASE("environment light: the first row of a .hdr file is the zenith", "[bri
 
 TEST_CASE("environment light: a cube map has OpenGL's faces", "[bridge]")
 {
-    // Each face its own colour; the quarter at s = t = 0 of +x is white, that is towards (1, 1, 1).
+    // Each face has its own colour; the quarter of +x at s = t = 0 is white: it lies towards (1, 1,
+    // 1).
     osg::ref_ptr<osg::TextureCubeMap> cube = new osg::TextureCubeMap;
     for (unsigned int face = 0; face < 6; ++face)
         cube->setImage(face, floatImage(8, 8, {float(face), 0, 0}));
@@ -248,11 +251,11 @@ TEST_CASE("environment light: a scale that no float can hold is limited and name
     const Vec3 radiance = result.scene->lights.at(0).radiance;
     CHECK(radiance.x == Approx(1e10f));
     CHECK(radiance.y == 1e9f);
-    CHECK(radiance.z == 1e38f); // of nothing
+    CHECK(radiance.z == 1e38f); // the image has no blue at all
 }
 
-// It is read as blocks: a type of floats must not have their bytes searched for such as are not
-// finite.
+// A compressed image is read as blocks: even if its type is a float, its bytes must not be searched
+// for values that are not finite.
 TEST_CASE("environment light: the data type of a compressed image does not matter", "[bridge]")
 {
     std::vector<unsigned char> blocks(1024, 0xff);
@@ -291,7 +294,7 @@ TEST_CASE("environment light: without a usable image it is named, and magenta st
 
 TEST_CASE("environment light: the first that can be converted counts", "[bridge]")
 {
-    SkyScene scene(nullptr); // has no image
+    SkyScene scene(nullptr); // the light has no image
     for (const float value : {2.0f, 3.0f})
         scene.root->addChild(new EnvironmentLight(floatImage(4, 2, {value, value, value})));
     CHECK(near(scene.radiance(kMark), Vec3(2.0f)));

@@ -71,7 +71,7 @@ osg::ref_ptr<osg::Vec3Array> GraphEditor::newPositions()
     return positions;
 }
 
-/// Two classes of one size.
+/// Returns triangles of one of two classes, whose objects have one size.
 osg::ref_ptr<osg::PrimitiveSet> GraphEditor::newTriangles()
 {
     const bool wide = number(2);
@@ -89,7 +89,7 @@ osg::ref_ptr<osg::PrimitiveSet> GraphEditor::newTriangles()
     return triangles;
 }
 
-/// Arrays of four classes, all of one size.
+/// Returns an array of one of four classes, whose objects have one size.
 osg::ref_ptr<osg::Array> GraphEditor::newColors()
 {
     const osg::Vec4 color(shade(), shade(), shade(), 1.0f);
@@ -180,7 +180,7 @@ osg::ref_ptr<osg::StateSet> GraphEditor::newState()
 
 void GraphEditor::place(osg::Node& node)
 {
-    // A height of its own, so that no two tiles lie in one plane.
+    // Each tile has a height of its own, so that no two tiles lie in one plane.
     const osg::Vec3d at(2.4 * real() - 1.7, 2.4 * real() - 1.7, 1.5 * real());
     if (auto* matrix = dynamic_cast<osg::MatrixTransform*>(&node))
         matrix->setMatrix(osg::Matrixd::rotate(0.3 * real(), 1.0, 0.0, 0.0) *
@@ -204,7 +204,7 @@ osg::ref_ptr<osg::Node> GraphEditor::newObject()
     return object;
 }
 
-/// Three classes; two of them are leaves of about one size.
+/// Returns a lamp of one of three classes; two of them are leaves of about one size.
 osg::ref_ptr<osg::Node> GraphEditor::newLamp()
 {
     switch (number(3))
@@ -247,7 +247,7 @@ osg::Group& GraphEditor::anyObject()
     return *group.getChild(number(group.getNumChildren()))->asGroup();
 }
 
-/// Null: the object has lost its own.
+/// Returns null if the object has lost its geometry.
 osg::Geometry* GraphEditor::anyGeometry()
 {
     osg::Group& object = anyObject();
@@ -255,11 +255,11 @@ osg::Geometry* GraphEditor::anyGeometry()
     return object.getChild(number(object.getNumChildren()))->asGeometry();
 }
 
-/// The old one is gone before there is a new one.
+/// Releases the old child before the new one is created.
 void GraphEditor::replaceChild(osg::Group& group, unsigned int child, NodeMaker make)
 {
     if (child >= group.getNumChildren()) return;
-    // In the same place, without a moment in which the group has another number of children.
+    // The old child makes room in its place, so that the group's number of children never changes.
     group.setChild(child, new osg::Group);
     const osg::ref_ptr<osg::Node> fresh = (this->*make)();
     group.setChild(child, fresh);
@@ -279,7 +279,7 @@ void GraphEditor::edit()
     osg::Geometry* const geometry = anyGeometry();
     switch (_last)
     {
-    case 0: // removed and added: the group's list is as long as before
+    case 0: // a child is removed and another added: the group's list is as long as before
         _lamps->removeChildren(0, 1);
         _lamps->addChild(newLamp());
         break;
@@ -342,7 +342,7 @@ void GraphEditor::edit()
     case 11:
         object.setNodeMask(object.getNodeMask() ? 0u : 0xffffffffu);
         break;
-    case 12: // a hidden one
+    case 12: // a hidden object is replaced
     {
         const unsigned int child = number(kMostObjects);
         if (child >= _objects->getNumChildren() || _objects->getChild(child)->getNodeMask()) break;
@@ -360,7 +360,7 @@ void GraphEditor::edit()
     case 15:
         place(object);
         break;
-    case 16: // one more path to what is there
+    case 16: // an existing tile gets one more path
     {
         if (_objects->getNumChildren() >= kMostObjects || object.getNumChildren() == 0) break;
         osg::ref_ptr<osg::MatrixTransform> other = new osg::MatrixTransform;

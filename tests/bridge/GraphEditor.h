@@ -25,7 +25,7 @@ public:
 
     void edit();
 
-    /// The kind of the last edit, for messages.
+    /// Returns the kind of the last edit, for messages.
     int last() const { return _last; }
 
     static constexpr int kKinds = 22;

@@ -1,4 +1,4 @@
-// GraphHashTest.cpp - what is a change of the scene. Layer: tests.
+// GraphHashTest.cpp - what counts as a change of the scene. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/changes/GraphHash.h"
 
@@ -26,7 +26,8 @@ using namespace osgRayTrace::engine;
 namespace
 {
 
-/// Has other data without a sign, as another image at the address of one that is gone.
+/// An image that gets other data without a sign, as if another image were at the address of a
+/// deleted one.
 struct ExchangedImage : osg::Image
 {
     void exchange(unsigned char*& data) { std::swap(_data, data); }
@@ -140,7 +141,7 @@ TEST_CASE("graph hash: changes with what is traced, and with nothing else", "[br
         unsigned char* other = texel;
         image->exchange(other);
         CHECK(changed());
-        image->exchange(other); // its own again, which it deletes
+        image->exchange(other); // the image gets its own data back, which it deletes
         CHECK(changed());
         stateSet->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
         CHECK(changed());

@@ -1,4 +1,4 @@
-// GraphTest.cpp - what of a graph is visible, where it is, and what becomes an instance.
+// GraphTest.cpp - which parts of a graph are visible, where they are, and what becomes an instance.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
@@ -36,7 +36,7 @@ osg::ref_ptr<osg::MatrixTransform> placed(const osg::Matrixd& matrix, osg::Node*
     return transform;
 }
 
-/// A triangle whose first corner is (x, 0, 0).
+/// Returns a triangle whose first corner is (x, 0, 0).
 osg::ref_ptr<osg::Node> triangleAt(double x)
 {
     return placed(osg::Matrixd::translate(x, 0.0, 0.0), triangleGeometry());
@@ -50,7 +50,7 @@ std::vector<float> visibleAt(const ConversionResult& result)
     return xs;
 }
 
-/// Distance of the corner from what OSG's own matrix of the path says.
+/// Returns how far the corner is from the place that OSG's own matrix of the path gives.
 float cornerError(osg::Transform* transform)
 {
     transform->addChild(triangleGeometry());
@@ -128,7 +128,7 @@ TEST_CASE("nested transforms at earth radius keep float precision near the origi
         CHECK(result.scene->origin.x == input.origin.x());
     };
     check(converter.convert(input));
-    root->addChild(placed(osg::Matrixd::translate(5.0, 0.0, 0.0), node)); // now with instances
+    root->addChild(placed(osg::Matrixd::translate(5.0, 0.0, 0.0), node)); // now an instance
     const ConversionResult instanced = converter.convert(input);
     CHECK(instanced.scene->instances[0].placed);
     check(instanced);
@@ -278,7 +278,7 @@ TEST_CASE("levels of detail: the child for the eye's distance, in the LOD's own 
     CHECK(visibleFrom(21.0) == std::vector<float>{2.0f});
     CHECK(visibleFrom(201.0).empty());
 
-    lod->setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN); // the finest there is
+    lod->setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN); // the finest level is taken
     CHECK(visibleFrom(50.0) == std::vector<float>{2.0f});
 }
 
@@ -331,7 +331,7 @@ TEST_CASE("cameras and projections inside the graph are not part of the scene", 
     CHECK(countOf(result, "not-traced.render-to-texture-camera") == 1);
     CHECK(countOf(result, "not-traced.projection") == 1);
 
-    // A viewer's camera given as the root is only a group.
+    // A viewer's camera that is given as the root is only a group.
     osg::ref_ptr<osg::Camera> viewer = new osg::Camera;
     viewer->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
     viewer->setViewMatrix(osg::Matrixd::translate(0.0, 0.0, -10.0));
@@ -374,9 +374,9 @@ TEST_CASE("what moves particles is not seen, and not counted as something that i
     root->addChild(new osgParticle::ParticleSystemUpdater);
     CHECK(countOf(convertGraph(root), "not-traced.custom-node") == 0);
     CHECK(countOf(convertGraph(root), "not-traced.particles") == 0);
-    root->addChild(new osgParticle::PrecipitationEffect); // is seen
+    root->addChild(new osgParticle::PrecipitationEffect); // this node is visible
     CHECK(countOf(convertGraph(root), "not-traced.particles") == 1);
-    // In a viewer all of them go on working.
+    // OSG goes on drawing all of these nodes in a viewer.
     ConversionInput input = inputFor(root);
     input.rasterizesRest = true;
     SceneConverter converter;

@@ -13,8 +13,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Lower left half of the unit square, counter-clockwise seen from +z. Shared arrays in Embree's
-/// layout.
+/// Returns the lower left half of the unit square, counter-clockwise seen from +z. Its arrays have
+/// Embree's layout, so that they can be shared.
 inline osg::ref_ptr<osg::Geometry> triangleGeometry()
 {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
@@ -29,7 +29,7 @@ inline osg::ref_ptr<osg::Geometry> triangleGeometry()
     return geometry;
 }
 
-/// count vertices (i, i*i, 0), so that no three are collinear.
+/// Returns count vertices (i, i*i, 0): no three of them are collinear.
 inline osg::ref_ptr<osg::Vec3Array> curveVertices(unsigned int count)
 {
     osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
@@ -59,7 +59,7 @@ inline ConversionResult convertGraph(osg::Node* root)
     return converter.convert(inputFor(root));
 }
 
-/// The sole instance's mesh.
+/// Returns the mesh of the only instance.
 inline const Mesh& soleMesh(const ConversionResult& result)
 {
     return *result.scene->meshes.at(result.scene->instances.at(0).mesh);
@@ -76,7 +76,7 @@ inline uint64_t countOf(const ConversionResult& result, const std::string& what)
     return found == result.counts.end() ? 0 : found->second;
 }
 
-/// Position of the first vertex of the first triangle of an instance, in engine space.
+/// Returns the position of the first vertex of the first triangle of an instance, in engine space.
 inline Vec3 firstCorner(const Scene& scene, std::size_t instance)
 {
     const Instance& use = scene.instances.at(instance);

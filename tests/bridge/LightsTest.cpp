@@ -19,7 +19,7 @@ namespace
 
 constexpr auto kOn = osg::StateAttribute::ON;
 
-/// A triangle and lights; the numbers are enabled for all of it.
+/// A triangle and lights; the given light numbers are enabled for the whole scene.
 struct LitScene
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;
@@ -109,7 +109,7 @@ TEST_CASE("point light: position relative to the origin, attenuation and spot te
 
     light->setSpotCutoff(180.0f);
     CHECK(scene.lights()[0].spotCosCutoff == -1.0f);
-    light->setSpotCutoff(135.0f); // no such thing in OpenGL
+    light->setSpotCutoff(135.0f); // OpenGL has no such angle
     CHECK(scene.lights()[0].spotCosCutoff == -1.0f);
 
     light->setPosition({std::numeric_limits<float>::quiet_NaN(), 0.0f, 0.0f, 1.0f});
@@ -148,7 +148,7 @@ TEST_CASE("the headlight casts no shadows unless asked to, all other lights do",
     auto lights = scene.lights();
     REQUIRE(lights.size() == 2);
     CHECK_FALSE(lights[0].castsShadows);
-    CHECK(lights[1].castsShadows); // an application's own
+    CHECK(lights[1].castsShadows); // a light of the application
 
     const ConversionSettings before = scene.input;
     scene.input.headlightShadows = true;
@@ -161,7 +161,7 @@ TEST_CASE("the headlight casts no shadows unless asked to, all other lights do",
 
     scene.input.viewLightInEyeSpace = true;
     scene.add(0);
-    CHECK(scene.lights()[0].castsShadows); // takes the headlight's place
+    CHECK(scene.lights()[0].castsShadows); // the light replaces the headlight
 }
 
 TEST_CASE("lights are kept by number: the last one in the graph replaces all before it", "[bridge]")
@@ -174,7 +174,7 @@ TEST_CASE("lights are kept by number: the last one in the graph replaces all bef
     REQUIRE(lights.size() == 1);
     CHECK(lights[0].diffuse.x == 0.5f);
     CHECK_FALSE(lights[0].eyeSpace);
-    // The report has the one that lost its place, which the viewer's does not count for.
+    // The report counts the light of the graph that was replaced, but not the viewer's.
     CHECK(countOf(scene.converter.convert(scene.input), "unused.light-replaced") == 1);
 }
 
@@ -193,10 +193,10 @@ TEST_CASE("lights are enabled for each surface by mode, wherever their source is
     const auto& instances = result.scene->instances;
     CHECK(result.scene->materials[instances[0].material].lightMask == 0x1);
     CHECK(result.scene->materials[instances[1].material].lightMask == 0x2);
-    CHECK(result.scene->lights.size() == 2); // nobody has enabled number 2
+    CHECK(result.scene->lights.size() == 2); // number 2 is not enabled
     CHECK(countOf(result, "converted.light") == 1);
     CHECK(countOf(result, "converted.headlight") == 1);
-    // A light of the graph with the viewer's number takes its place.
+    // A light of the graph with the number of the viewer's light replaces the viewer's.
     scene.add(0);
     CHECK(countOf(scene.converter.convert(scene.input), "converted.light") == 2);
     CHECK(countOf(scene.converter.convert(scene.input), "converted.headlight") == 0);
@@ -217,7 +217,7 @@ TEST_CASE("lights of any number shine on what has their mode on", "[bridge]")
     std::vector<uint32_t> numbers;
     for (const Light& light : result.scene->lights)
         numbers.push_back(light.number);
-    CHECK(numbers == std::vector<uint32_t>{0, 1, 31, 32, 39, 1000, kHighest}); // nobody enabled 33
+    CHECK(numbers == std::vector<uint32_t>{0, 1, 31, 32, 39, 1000, kHighest}); // 33 is not enabled
     const auto materialOf = [&](std::size_t i)
     { return result.scene->materials[result.scene->instances[i].material]; };
     const Material first = materialOf(0), second = materialOf(1);
@@ -234,7 +234,7 @@ TEST_CASE("lights whose mode is another one of OpenGL's are named", "[bridge]")
 {
     LitScene scene({0});
     scene.add(-1);
-    scene.add(0x403a); // GL_RESCALE_NORMAL, were it a mode of a light
+    scene.add(0x403a); // as a mode of a light this would be GL_RESCALE_NORMAL
     scene.root->getOrCreateStateSet()->setMode(0x803a, kOn);
     const ConversionResult result = scene.converter.convert(scene.input);
     CHECK(result.scene->lights.empty());
@@ -300,7 +300,8 @@ TEST_CASE("area light: a mirrored transform keeps the front where the node has i
 {
     osg::ref_ptr<osgRayTrace::AreaLight> light = new osgRayTrace::AreaLight(
         {0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {1.0f, 1.0f, 1.0f});
-    // Front is +z in the node; scaled by -1 along x it still is, along z it is -z.
+    // The front is +z in the node; if the node is scaled by -1 along x it still is +z, and along z
+    // it is -z.
     for (const double sign : {1.0, -1.0})
     {
         osg::ref_ptr<osg::MatrixTransform> root =
@@ -345,7 +346,7 @@ TEST_CASE("lights with a size: by kind, by name, in engine lengths", "[bridge]")
 {
     LitScene scene({0, 1, 2, 3});
     scene.root->addChild(
-        new osg::MatrixTransform(osg::Matrixd::translate(1e-9, 0.0, 0.0))); // no effect
+        new osg::MatrixTransform(osg::Matrixd::translate(1e-9, 0.0, 0.0))); // without effect
     scene.add(0)->setPosition(osg::Vec4(0, 0, 5, 1));
     scene.add(1)->setPosition(osg::Vec4(0, 0, 5, 0));
     osg::Light* key = scene.add(2);
@@ -370,7 +371,7 @@ TEST_CASE("lights with a size: by kind, by name, in engine lengths", "[bridge]")
     CHECK(countOf(result, "warned.light-size") == 1);
     CHECK(result.paths.at("warned.light-size").front() == "light-sizes 'nobody'");
 
-    // A tiny scene has a unit of its own; a size alone makes a new snapshot.
+    // A tiny scene has a unit of its own; another size of a light alone makes a new snapshot.
     scene.root->removeChild(0u);
     osg::ref_ptr<osg::MatrixTransform> small =
         new osg::MatrixTransform(osg::Matrixd::scale(1e-12, 1e-12, 1e-12));

@@ -185,7 +185,7 @@ const std::vector<float>& LiveView::image()
 
 std::vector<float> freshImage(const osg::Node& root, int passes)
 {
-    LiveView fresh(const_cast<osg::Node*>(&root)); // reads it
+    LiveView fresh(const_cast<osg::Node*>(&root)); // only reads the graph
     std::vector<float> image;
     for (int i = 0; i < passes; ++i)
         image = fresh.image();

@@ -17,22 +17,23 @@
 namespace osgRayTrace::test
 {
 
-/// Bumpy tiles side by side, each below a transform, with materials and one texture; a light.
+/// A graph of bumpy tiles side by side, each below a transform, with materials, one texture and a
+/// light.
 struct LiveGraph
 {
     static constexpr int kObjects = 6;
 
     LiveGraph();
 
-    /// A tile of its own triangles and state at a place; nothing is added to the graph.
+    /// Returns a tile with triangles and state of its own at a place; the graph stays as it is.
     osg::ref_ptr<osg::MatrixTransform> newObject(int number, double x, double y) const;
 
     osg::Geometry& geometry(int object) { return *objects[object]->getChild(0)->asGeometry(); }
 
     void deform(int object, float height);
     void shuffle(int object);      ///< exchanges vertices, so that all triangles are long
-    void dropTriangle(int object); ///< the last one
-    void paint(int red);           ///< the texture
+    void dropTriangle(int object); ///< drops the last one
+    void paint(int red);           ///< paints the texture
 
     osg::ref_ptr<osg::Group> root = new osg::Group;
     osg::ref_ptr<osg::PositionAttitudeTransform> group = new osg::PositionAttitudeTransform;
@@ -46,7 +47,7 @@ struct LiveGraph
 
 void deformTile(osg::Geometry& tile, float height);
 
-/// What RayTraceDrawable does for a view, without it.
+/// Does for a view what RayTraceDrawable does, without OpenGL.
 class LiveView
 {
 public:
@@ -54,16 +55,16 @@ public:
 
     void update();
 
-    /// As RayTracedScene::dirtyScene.
+    /// Does what RayTracedScene::dirtyScene does.
     void setDirty() { _updater.setDirty(); }
 
-    /// Records another eye; what is traced stays the same view.
+    /// Records another eye; the traced view stays the same.
     void recordEye(const osg::Vec3d& eye);
 
-    /// Traces a pass and resolves it: linear RGBA.
+    /// Traces a pass and resolves the image: linear RGBA.
     const std::vector<float>& image();
 
-    /// What image() gave last.
+    /// Returns the last result of image().
     const std::vector<float>& lastImage() const { return _last; }
 
     int passes() const { return _tracer.progress().passes; }
@@ -78,16 +79,17 @@ private:
     std::vector<float> _last;
 };
 
-/// So many passes of a scene that was converted just now.
+/// Returns the image that this many passes give of a scene that has just been converted.
 std::vector<float> freshImage(const osg::Node& root, int passes);
 
-/// Pixels where two images of one size are apart by more than rounding.
+/// Counts the pixels in which two images of one size differ by more than rounding.
 int differentPixels(const std::vector<float>& a, const std::vector<float>& b);
 
-/// Updates, traces a pass and compares with a fresh conversion; all pixels if the update failed.
+/// Updates, traces a pass and returns how many pixels differ from a fresh conversion; all pixels
+/// count if the update failed.
 int wrongPixels(LiveView& view, const osg::Node& root);
 
-/// Of 96 x 96: those where rounding decides which side of an edge a ray passes.
+/// In this many pixels of 96 x 96 rounding decides which side of an edge a ray passes.
 constexpr int kRoundedPixels = 8;
 
 } // namespace osgRayTrace::test

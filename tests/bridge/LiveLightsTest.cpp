@@ -1,5 +1,4 @@
-// LiveLightsTest.cpp - lights of all kinds that are edited, and transforms above them. Layer:
-// tests.
+// LiveLightsTest.cpp - edits of lights of all kinds and of transforms above them. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"
@@ -16,7 +15,7 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// Makes edits one after the other. Each must show, and as in a fresh conversion.
+/// Makes edits one after the other. Each edit must be visible, and look as in a fresh conversion.
 class Watched
 {
 public:
@@ -28,7 +27,7 @@ public:
         change();
         const std::vector<float> before = _view.lastImage();
         CHECK(wrongPixels(_view, *_root) <= kRoundedPixels);
-        CHECK(_view.passes() == 1); // as before: what differs is no noise
+        CHECK(_view.passes() == 1); // as before: the noise is the same
         CHECK(differentPixels(_view.lastImage(), before) > kRoundedPixels);
     }
 
@@ -37,7 +36,7 @@ private:
     LiveView _view;
 };
 
-/// With another colour in each direction.
+/// Returns an image of the sphere with another colour in each direction.
 osg::ref_ptr<osg::Image> sky()
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;
@@ -69,7 +68,7 @@ TEST_CASE("live lights: the places and edges of area lights", "[bridge]")
     LiveGraph graph;
     osg::ref_ptr<osg::MatrixTransform> holder = new osg::MatrixTransform;
     osg::ref_ptr<AreaLight> lamp = new AreaLight;
-    lamp->setCorner(osg::Vec3(0.5f, -0.7f, 0.6f)); // in the picture
+    lamp->setCorner(osg::Vec3(0.5f, -0.7f, 0.6f)); // within the picture
     lamp->setEdgeU(osg::Vec3(0.5f, 0.0f, 0.0f));
     lamp->setEdgeV(osg::Vec3(0.0f, 0.4f, 0.0f));
     lamp->setTwoSided(true);

@@ -1,4 +1,4 @@
-// LivePathsTest.cpp - nodes that come and go: on which of several paths, how many, with which
+// LivePathsTest.cpp - nodes that come and go: on which of several paths, how many, and with which
 // state. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
@@ -20,7 +20,7 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// What an update was made by, once its picture is that of a fresh conversion.
+/// How an update was made, once its picture is that of a fresh conversion.
 struct Made
 {
     uint64_t conversions, patches;
@@ -71,7 +71,7 @@ TEST_CASE("live paths: of several to one tile that one goes that was taken away"
     LiveGraph graph;
     osg::ref_ptr<osg::MatrixTransform> object = graph.newObject(1, 0.0, 0.0);
     osg::Node* tile = object->getChild(0);
-    // Each of a colour of its own, all beside each other.
+    // Each path has a colour of its own, and all paths are beside each other.
     const auto addPath = [&](osg::Group& parent, const osg::Matrixd& matrix, std::size_t material)
     {
         osg::ref_ptr<osg::MatrixTransform> path = pathTo(tile, matrix);
@@ -127,7 +127,8 @@ TEST_CASE("live paths: what cannot be an instance has no mesh too many, and stay
 {
     LiveGraph graph;
     osg::ref_ptr<osg::MatrixTransform> placed = graph.newObject(1, 0.0, -0.9);
-    // So flat that it cannot be an instance: its mesh is in the coordinates of the scene.
+    // The object is so flat that it cannot be an instance: its mesh is in the coordinates of the
+    // scene.
     osg::ref_ptr<osg::MatrixTransform> flat =
         pathTo(placed->getChild(0), osg::Matrixd::scale(1.0, 1.0, 1e-9) * at(2.0, -0.9));
     graph.root->addChild(placed);
@@ -138,7 +139,7 @@ TEST_CASE("live paths: what cannot be an instance has no mesh too many, and stay
     graph.root->removeChild(placed);
     (void)updateOf(view, *graph.root);
     CHECK(meshesWithTriangles(*view.scene()) == LiveGraph::kObjects + 1);
-    deformTile(*flat->getChild(0)->asGeometry(), 0.1f); // and stays where it is
+    deformTile(*flat->getChild(0)->asGeometry(), 0.1f); // the mesh keeps its place
     (void)updateOf(view, *graph.root);
     graph.root->removeChild(flat);
     (void)updateOf(view, *graph.root);
@@ -169,7 +170,7 @@ TEST_CASE("live paths: so many that come or go that one by one they would take l
     for (unsigned int i = 0; i < many->getNumChildren(); ++i)
         many->getChild(i)->setNodeMask(0);
     CHECK(updateOf(view, *graph.root) == kConverted);
-    graph.deform(0, 0.1f); // and all is watched again
+    graph.deform(0, 0.1f); // the whole graph is watched again
     CHECK(updateOf(view, *graph.root) == kPatched);
 }
 

@@ -18,16 +18,17 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// An edit since the last image, which was a first pass, shows as in a fresh conversion.
+/// Checks that an edit since the last image, which was a first pass, is visible and looks as in a
+/// fresh conversion.
 void checkShown(LiveView& view, const osg::Node& root)
 {
     const std::vector<float> before = view.lastImage();
     CHECK(wrongPixels(view, root) <= kRoundedPixels);
-    CHECK(view.passes() == 1); // as before: what differs is no noise
+    CHECK(view.passes() == 1); // as before: the noise is the same
     CHECK(differentPixels(view.lastImage(), before) > kRoundedPixels);
 }
 
-/// Cannot be looked at for a while.
+/// A group that cannot be traversed while it is broken.
 struct Broken : osg::Group
 {
     void traverse(osg::NodeVisitor& visitor) override
@@ -65,8 +66,8 @@ TEST_CASE("live signs: vertex arrays that are exchanged in each frame do not pil
     CHECK(view.statistics().patches == 12);
     const auto alive = std::count_if(arrays.begin(), arrays.end(),
                                      [](const auto& array) { return array.valid(); });
-    CHECK(alive <= 3);     // its own, and those of meshes that the last version has
-    graph.deform(2, 0.3f); // the last one is watched
+    CHECK(alive <= 3);     // the tile's array, and those in meshes of the last version
+    graph.deform(2, 0.3f); // the last array is watched
     CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
     CHECK(view.statistics().patches == 13);
 }
@@ -166,7 +167,7 @@ TEST_CASE("live signs: first vertices of primitive sets, whose setters mark noth
         checkShown(view, *graph.root);
         set->setFirsts({0, 3});
         set->setCounts({0, 3});
-        view.update(); // the same triangle
+        view.update(); // the triangle is the same
         set->setCounts({3, 0});
         checkShown(view, *graph.root);
     }

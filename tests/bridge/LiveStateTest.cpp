@@ -1,4 +1,4 @@
-// LiveStateTest.cpp - edits of state and of what it makes depend on places. Layer: tests.
+// LiveStateTest.cpp - edits of state, and of effects of state that depend on places. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"
@@ -27,7 +27,7 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// A picture with edges of its own in each direction and with transparent texels.
+/// Returns a picture with edges in each direction, no two alike, and with transparent texels.
 osg::ref_ptr<osg::Image> pattern()
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;
@@ -44,7 +44,8 @@ osg::ref_ptr<osg::Image> pattern()
     return image;
 }
 
-/// The live graph with all state that is traced on its first tile, in values that do little.
+/// The live graph with all kinds of traced state on its first tile, whose values have little
+/// effect.
 struct StateGraph : LiveGraph
 {
     StateGraph()
@@ -98,7 +99,7 @@ struct StateGraph : LiveGraph
     osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
 };
 
-/// Makes edits one after the other. Each must show, and as in a fresh conversion.
+/// Makes edits one after the other. Each edit must be visible, and look as in a fresh conversion.
 class Watched
 {
 public:
@@ -197,7 +198,8 @@ TEST_CASE("live state: opacity and faces", "[bridge]")
 {
     StateGraph graph;
     Watched watched(graph);
-    // While nothing moves, and then with a BVH of its own.
+    // The first round is made while nothing moves, the second one while the tile has a BVH of its
+    // own.
     for (int round = 0; round < 2; ++round)
     {
         CAPTURE(round);
@@ -290,7 +292,7 @@ TEST_CASE("live state: light model and two sides", "[bridge]")
                  [&]
                  {
                      graph.materials[0]->setAmbient(
-                         osg::Material::BACK, // it looks away from the light
+                         osg::Material::BACK, // the tile's back faces the light
                          osg::Vec4(0.1f, 0.9f, 0.1f, 1.0f));
                  });
     watched.move("moved", at(0.3, 0.3));
@@ -334,7 +336,7 @@ TEST_CASE("live state: generated coordinates", "[bridge]")
 TEST_CASE("live state: raised faces", "[bridge]")
 {
     StateGraph graph;
-    // In the plane of another tile: which is seen is a matter of the offset alone.
+    // The tile lies in the plane of another one: the offset alone decides which of them is visible.
     graph.objects[1]->setMatrix(at(0.3, 0.2));
     graph.objects[0]->setMatrix(at(0.0, 0.0));
     graph.deform(0, 0.0f);

@@ -21,7 +21,7 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// Each level has the next one twice: 2^levels paths to the leaf.
+/// Returns a graph in which each level has the next one twice: 2^levels paths lead to the leaf.
 osg::ref_ptr<osg::Group> doubled(int levels, osg::Node* leaf)
 {
     osg::ref_ptr<osg::Group> top = new osg::Group;
@@ -57,7 +57,7 @@ ConversionResult converted(osg::Node& root, bool rasterizesRest)
     return SceneConverter().convert(input);
 }
 
-/// Lets go of its children when it is traversed: after or before it goes through them.
+/// A group that removes children when it is traversed: before or after it traverses them.
 class Shedding : public osg::Group
 {
 public:
@@ -139,7 +139,7 @@ TEST_CASE("nodes that remove their children while they are traversed do no harm"
         view.update();
         view.image();
         CHECK(view.statistics().ok);
-        view.setDirty(); // converts whatever there is
+        view.setDirty(); // converts the whole graph
         view.update();
         view.image();
         CHECK(view.statistics().ok);

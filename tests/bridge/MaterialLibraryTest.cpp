@@ -1,4 +1,4 @@
-// MaterialLibraryTest.cpp - material files: what they say, where they are wrong, what gets them.
+// MaterialLibraryTest.cpp - material files: their content, their errors, and what they apply to.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
@@ -27,7 +27,7 @@ std::string errorOf(const std::string& text)
     return result.error;
 }
 
-/// An error of a parameter in line 3.
+/// Returns the message about an error of a parameter in line 3.
 std::string parameterError(const std::string& parameter)
 {
     return errorOf("{ \"nodes\": {\n \"cow\": {\n" + parameter + "\n} } }");
@@ -166,7 +166,7 @@ TEST_CASE("material files: patterns", "[bridge]")
 
 TEST_CASE("material files: very many names are no more than many names", "[bridge]")
 {
-    // With each name compared with each other one this takes minutes.
+    // This takes minutes if each name is compared with each other one.
     constexpr int kNames = 200000;
     std::string text = "{ \"nodes\": {\n";
     for (int i = 0; i < kNames; ++i)
@@ -223,7 +223,7 @@ TEST_CASE("material files: nodes win over materials over textures, names over pa
     CHECK(house
               .material(
                   R"({"nodes": { "house": { "roughness": 0.5 }, "roof": { "roughness": 0 } } })")
-              .roughness == 0.0f); // the nearest
+              .roughness == 0.0f); // the nearest node decides
     CHECK(house
               .material(R"({"nodes": { "r*": { "roughness": 0.5 }, "*": { "roughness": 0.75 },
                            "roof": { "roughness": 0.25 } } })")
@@ -231,7 +231,7 @@ TEST_CASE("material files: nodes win over materials over textures, names over pa
     CHECK(
         house.material(R"({"nodes": { "r*": { "roughness": 0.5 }, "*": { "roughness": 0.75 } } })")
             .roughness == 0.5f);
-    // Also over what the model says itself.
+    // The file also replaces what the model itself says.
     osg::ref_ptr<PhysicalMaterial> own = new PhysicalMaterial;
     house.roof->getStateSet()->setAttribute(own, osg::StateAttribute::OVERRIDE);
     CHECK(house.material("{" + materials + "}").roughness == 0.25f);
@@ -250,7 +250,7 @@ TEST_CASE("material files: without a base colour the model's stays", "[bridge]")
     CHECK(given.baseColorTexture == kInvalid);
     CHECK(given.baseColor == Vec3(1.0f, 0.5f, 0.0f));
 
-    // One rule, two models.
+    // One rule applies to two models.
     House other;
     other.tiles->setDiffuse(osg::Material::FRONT, osg::Vec4(0.0f, 0.0f, 1.0f, 1.0f));
     house.group->addChild(other.group);

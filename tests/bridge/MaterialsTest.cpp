@@ -1,4 +1,4 @@
-// MaterialsTest.cpp - what the inherited state makes of a surface, and the colour rule.
+// MaterialsTest.cpp - the surface that inherited state gives, and the rule for colours.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/ToneMap.h"
 #include "tests/Catch.h"
@@ -95,7 +95,7 @@ TEST_CASE("without material and colours: ambient follows diffuse once glColor ch
     material->setSpecular(kSide, {0.8f, 0.8f, 0.8f, 1.0f});
     CHECK(plain().ambient == Vec3(0.2f)); // glColor is that of SPECULAR, which is 0.8, too
 
-    // A material that changes it, and colours that ambient light follows, in one.
+    // One graph has a material that sets glColor, and vertex colours that ambient light follows.
     material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
     const ConversionResult result = convertGraph(root);
     CHECK(result.scene->materials[result.scene->instances[1].material].ambient == Vec3(0.3f));
@@ -118,7 +118,7 @@ TEST_CASE("culled faces are there for other rays than the camera's, or for none;
     CHECK(converted().cullsAllRays);
     input.cullAllRays = false;
     CHECK(converted().culling == FaceCulling::Front);
-    CHECK(!converted().cullsAllRays); // the same graph: the material must not be the one of before
+    CHECK(!converted().cullsAllRays); // the graph is the same: the material must be another one
 
     osg::ref_ptr<PhysicalMaterial> lamp = new PhysicalMaterial;
     state->setAttribute(lamp);
@@ -138,7 +138,7 @@ TEST_CASE("polygon offset is reported where its back can be seen", "[bridge]")
     CHECK(reported() == 0);
     state->setMode(GL_POLYGON_OFFSET_FILL, kOn);
     CHECK(reported() == 1);
-    state->setMode(GL_CULL_FACE, kOn); // back faces
+    state->setMode(GL_CULL_FACE, kOn); // culls back faces
     CHECK(reported() == 0);
     state->setAttribute(new osg::CullFace(osg::CullFace::FRONT));
     CHECK(reported() == 1);
@@ -159,7 +159,7 @@ TEST_CASE("osg::Material: all values, and colours by its color mode", "[bridge]"
     CHECK(material.specular == Vec3(0.3f, 0.0f, 0.0f));
     CHECK(material.emission == Vec3(0.4f, 0.0f, 0.0f));
     CHECK(material.shininess == 20.0f);
-    CHECK(material.alpha == 1.0f); // no blending
+    CHECK(material.alpha == 1.0f); // blending is off
     CHECK(material.vertexColorUse == VertexColorUse::None);
 
     state->setMode(GL_BLEND, kOn);
@@ -267,7 +267,7 @@ TEST_CASE("one geometry under different state is one mesh with two materials; eq
     CHECK(result.scene->meshes.size() == 1);
     CHECK(instances[0].material != instances[1].material);
     CHECK(instances[1].material == instances[2].material); // two objects of equal values
-    CHECK(result.scene->materials.size() == 2); // no vertex colours: the color mode is no matter
+    CHECK(result.scene->materials.size() == 2); // without vertex colours the color mode is ignored
 }
 
 TEST_CASE("light model: ambient of the scene, two sides of the material", "[bridge]")

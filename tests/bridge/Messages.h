@@ -1,4 +1,4 @@
-// Messages.h - what the host's log is told, for tests of warnings.
+// Messages.h - records what is written to the host's log, for tests of warnings.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace osgRayTrace::engine::test
 {
 
-/// What OSG is told while this lives.
+/// Records what OSG is told to log while an object of this class lives.
 class Messages
 {
 public:

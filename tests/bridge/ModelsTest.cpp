@@ -15,7 +15,7 @@ using namespace osgRayTrace::engine;
 namespace
 {
 
-/// Sums of what OSG says is there, without any of the bridge.
+/// Adds up the triangles that OSG finds, without any code of the bridge.
 struct TriangleCounter : public osg::NodeVisitor
 {
     TriangleCounter() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
@@ -103,7 +103,7 @@ void checkModel(const std::string& file)
     const double tolerance = 1e-4 * bounds.getBoundingBox().radius();
     const osg::BoundingSphere sphere = model->getBound();
     CHECK((osg::Vec3d(box.center()) - osg::Vec3d(sphere.center())).length() < sphere.radius());
-    if (counter.hasBillboards) return; // OSG's bounds leave their positions out
+    if (counter.hasBillboards) return; // OSG's bounds leave out the positions of billboards
     CHECK((osg::Vec3d(box.center()) - osg::Vec3d(bounds.getBoundingBox().center())).length() <
           tolerance);
     CHECK(std::fabs(box.radius() - bounds.getBoundingBox().radius()) < tolerance);

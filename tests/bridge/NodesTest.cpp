@@ -63,8 +63,9 @@ ViewingConditions conditionsOf(const ConversionInput& input)
     return conditions;
 }
 
-/// Whether the watch of a graph with the node in it has it converted again, when it is viewed so
-/// and then so, and changed in between. If it has, the next look finds nothing.
+/// Returns whether the watch of a graph with the node in it has the graph converted again, if the
+/// graph is viewed under two conditions and changed in between. Once the change is recorded, the
+/// next look must find nothing.
 template <class Change>
 bool watchSees(osg::Node* node, const ViewingConditions& before, const ViewingConditions& after,
                const Change& change)
@@ -154,8 +155,8 @@ TEST_CASE("nodes: levels by size in pixels, with OSG's scale", "[bridge]")
         input.view->lodScale = scale;
         return soleMesh(convertFrom(input)).positions.size();
     };
-    CHECK(corners(5.0, 1.0f) == 4);  // of 500 pixels for 3.6 units
-    CHECK(corners(60.0, 1.0f) == 3); // of 500 pixels for 44
+    CHECK(corners(5.0, 1.0f) == 4);  // 500 pixels are 3.6 units wide
+    CHECK(corners(60.0, 1.0f) == 3); // 500 pixels are 44 units wide
     CHECK(corners(5.0, 20.0f) == 3);
 
     const auto watched = [&](double distance, float scale)
@@ -245,7 +246,7 @@ TEST_CASE("nodes: what hides things from a view only hides nothing", "[bridge]")
     volume->addChild(triangleGeometry());
     root->addChild(volume);
     CHECK(convertFrom(viewedFrom(root, {0.0, -50.0, 0.0})).scene->instances.size() == 4);
-    // Behind the eye.
+    // The node is behind the eye.
     CHECK(convertFrom(viewedFrom(root, {0.0, 0.0, 9.0}, {0, 1, 0})).scene->instances.size() == 4);
 }
 
@@ -290,7 +291,7 @@ TEST_CASE("nodes: of other kits are traced, or left to OSG and counted", "[bridg
     CHECK(countOf(hinted, "approximated.effect") == 1);
     CHECK(countOf(hinted, "rasterized.effect") == 0);
     CHECK(countOf(hinted, "rasterized.volume") == 1);
-    CHECK(countOf(hinted, "warned.trace-hint") == 2); // light points and volumes cannot be
+    CHECK(countOf(hinted, "warned.trace-hint") == 2); // for the light points and the volume
 }
 
 TEST_CASE("nodes: a billboard is left to OSG as a whole if anything in it is", "[bridge]")
@@ -370,9 +371,10 @@ TEST_CASE("poses: a rig that the hardware or no update has posed is posed by its
     moved(osg::Matrix::translate(1.0, 0.0, 0.0));
     CHECK(firstCorner(*converter.convert(inputFor(scene.skeleton)).scene, 0) ==
           Vec3(1.0f, 0.0f, 0.0f));
-    CHECK_FALSE(scene.rig->getVertexArray()); // the application's own stays as it was
+    CHECK_FALSE(scene.rig->getVertexArray()); // the application's array is left alone
 
-    // Below a transform between skeleton and rig, in whose coordinates its vertices are.
+    // The rig is below a transform between skeleton and rig, and its vertices are in the
+    // coordinates of this transform.
     scene.skeleton->removeChild(scene.rig);
     osg::ref_ptr<osg::MatrixTransform> between =
         new osg::MatrixTransform(osg::Matrixd::translate(0.0, 5.0, 0.0));
@@ -414,6 +416,6 @@ TEST_CASE("poses: a morph of the hardware has the shape of its weights", "[bridg
     CHECK(static_cast<osg::Vec3Array*>(morph->getVertexArray())->front().z() == 0.0f);
 
     morph->addMorphTarget(curveGeometry(2, new osg::DrawArrays(GL_TRIANGLES, 0, 2)),
-                          1.0f); // too short
+                          1.0f); // the array is too short
     CHECK(countOf(converter.convert(inputFor(morph)), "approximated.hardware-pose") == 1);
 }

@@ -14,13 +14,13 @@ using namespace osgRayTrace::engine;
 namespace
 {
 
-/// Signed, in the plane z = 0.
+/// Returns the signed area of a triangle in the plane z = 0.
 double areaOf(const Vec3d& a, const Vec3d& b, const Vec3d& c)
 {
     return 0.5 * glm::cross(b - a, c - a).z;
 }
 
-/// A star-shaped outline around the origin; its fan is wrong nearly always.
+/// Returns a star-shaped outline around the origin; its fan is nearly always wrong.
 std::vector<Vec3d> star(std::mt19937& random, int corners)
 {
     std::vector<Vec3d> outline;
@@ -70,13 +70,13 @@ TEST_CASE("polygons: ears cover a concave outline once", "[bridge]")
         for (int i = 0; i < corners; ++i)
             area += areaOf(Vec3d(0.0), outline[i], outline[(i + 1) % corners]);
         const std::vector<UVec3> triangles = concavePolygonTriangles(outline);
-        if (triangles.empty()) continue; // convex enough
+        if (triangles.empty()) continue; // a fan does for this outline
         CHECK(triangles.size() == outline.size() - 2);
         double sum = 0.0;
         for (const UVec3& t : triangles)
         {
             const double each = areaOf(outline[t.x], outline[t.y], outline[t.z]);
-            CHECK(each >= 0.0); // none turned over: with the sum right, none upon another
+            CHECK(each >= 0.0); // none is turned over: as the sum is right, none overlaps another
             sum += each;
         }
         CHECK(sum == Approx(area).epsilon(1e-9));
@@ -92,7 +92,7 @@ TEST_CASE("polygons: a fan where that is right or nothing else is", "[bridge]")
     const Vec3d a(0, 0, 0), b(1, 0, 0), c(1, 1, 0), d(0, 1, 0);
     CHECK(concavePolygonTriangles({a, b, c, d}).empty()); // convex
     CHECK(concavePolygonTriangles({a, b, c}).empty());
-    CHECK(concavePolygonTriangles({a, c, b, d}).empty()); // cuts itself, no area
+    CHECK(concavePolygonTriangles({a, c, b, d}).empty()); // cuts itself and has no area
     CHECK(concavePolygonTriangles({a, b, c, Vec3d(NAN, 0, 0), d}).empty());
     CHECK(concavePolygonTriangles({a, a, a, a, a}).empty());
     std::mt19937 random(7);

@@ -15,7 +15,7 @@ namespace
 constexpr GLenum kModes[] = {GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN,
                              GL_QUADS,     GL_QUAD_STRIP,     GL_POLYGON};
 
-/// OSG's own reading, the independent reference.
+/// Collects the triangles as OSG reads them: the independent reference.
 struct CollectTriangles
 {
     std::vector<UVec3> triangles;
@@ -25,7 +25,8 @@ struct CollectTriangles
     }
 };
 
-/// Without those that have equal corners: our vertices have no other degenerate triangles.
+/// Returns OSG's triangles without those that have equal corners: the vertices of these tests have
+/// no other degenerate triangles.
 std::vector<UVec3> expectedTriangles(const osg::Geometry& geometry)
 {
     osg::TriangleIndexFunctor<CollectTriangles> functor;
@@ -36,7 +37,7 @@ std::vector<UVec3> expectedTriangles(const osg::Geometry& geometry)
     return kept;
 }
 
-/// Turned so that the smallest index comes first: the same triangle with the same front side.
+/// Returns the triangle turned so that the smallest index comes first, which keeps the front side.
 UVec3 turned(const UVec3& t)
 {
     if (t.x <= t.y && t.x <= t.z) return t;

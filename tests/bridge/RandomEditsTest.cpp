@@ -14,7 +14,7 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// Edits a graph; what it adds is its own, and can be taken away again.
+/// Edits a graph; the nodes that the editor adds are its own, and can be removed again.
 class Editor
 {
 public:
@@ -61,10 +61,10 @@ public:
         }
     }
 
-    /// Where it all began; deformed tiles stay as they are.
+    /// Restores the nodes of the beginning; deformed tiles stay as they are.
     void removeAll() { _added->removeChildren(0, _added->getNumChildren()); }
 
-    /// Everything that was there from the beginning has become live.
+    /// Changes every node of the beginning, so that all of them are dynamic or deforming.
     void touchAll()
     {
         for (int i = 0; i < LiveGraph::kObjects; ++i)
@@ -93,13 +93,13 @@ private:
         b.setStateSet(state);
     }
 
-    /// A new tile, or one more path to a tile that is there.
+    /// Adds a new tile, or one more path to an existing tile.
     void add()
     {
         if (_added->getNumChildren() >= 20) return;
         osg::ref_ptr<osg::MatrixTransform> fresh =
             _graph.newObject(int(number(8)), 2.0 * real(), 2.0 * real());
-        fresh->postMult(osg::Matrixd::translate(0.0, 0.0, real())); // in no other's plane
+        fresh->postMult(osg::Matrixd::translate(0.0, 0.0, real())); // in a plane of its own
         if (number(3) == 0) fresh->setChild(0, object().getChild(0));
         _added->insertChild(number(_added->getNumChildren() + 1), fresh);
     }
@@ -121,7 +121,7 @@ TEST_CASE("random edits: a thousand, and each twentieth picture is that of a fre
     for (int i = 0; i < 1000; ++i)
     {
         editor.edit();
-        if (i % 7 == 0) editor.edit(); // two in one frame
+        if (i % 7 == 0) editor.edit(); // two edits in one frame
         view.update();
         const std::vector<float> image = view.image();
         if (i % 20) continue;
@@ -134,9 +134,9 @@ TEST_CASE("random edits: a thousand, and each twentieth picture is that of a fre
     }
     INFO("most pixels that rounding changed: " << worst);
     const Statistics done = view.statistics();
-    CHECK(done.patches > 800); // nearly all; some repaint or hide nothing, and are none
+    CHECK(done.patches > 800); // nearly all edits; some change nothing and need no patch
     CHECK(done.conversions < 50);
-    CHECK(done.conversions > 5); // a tile of the static BVH that is shared now
+    CHECK(done.conversions > 5); // a tile of the static BVH has become shared
     CHECK(done.refitMeshes > 10);
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("random edits: objects that are replaced by others at their addresses"
                     for (int frame = 1; frame <= 1500; ++frame)
                     {
                         editor.edit();
-                        if (frame % 7 == 0) editor.edit(); // two in one frame
+                        if (frame % 7 == 0) editor.edit(); // two edits in one frame
                         view.update();
                         if (frame % 50) continue;
                         CAPTURE(seed, frame, editor.last());
@@ -173,7 +173,7 @@ TEST_CASE("random edits: memory comes back", "[bridge]")
     LiveView view(graph.root.get());
     const auto settle = [&]
     {
-        for (int i = 0; i < 6; ++i) // each part in its two copies
+        for (int i = 0; i < 6; ++i) // each part has two copies
         {
             editor.removeAll();
             editor.touchAll();

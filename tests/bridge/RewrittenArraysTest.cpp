@@ -1,4 +1,4 @@
-// RewrittenArraysTest.cpp - arrays that are marked as modified with the values that they had.
+// RewrittenArraysTest.cpp - arrays that are marked as modified although they keep their values.
 // Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/MemoryHash.h"
@@ -16,7 +16,7 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// As osgAnimation does it: positions are written and marked in each frame, whether or not they
+/// Does what osgAnimation does: it writes and marks positions in each frame, whether or not they
 /// move.
 void rewrite(LiveGraph& graph, float height)
 {
@@ -34,7 +34,8 @@ void drawRewritten(LiveGraph& graph, LiveView& view, int frames)
     }
 }
 
-/// The image accumulates while the arrays keep their values, and begins again once one differs.
+/// Checks that the image accumulates while the arrays keep their values, and begins again once one
+/// value differs.
 void checkConverges(LiveGraph& graph)
 {
     LiveView view(graph.root.get());
@@ -80,7 +81,7 @@ TEST_CASE("rewritten arrays: a conversion for another reason keeps their meshes"
     const Statistics before = view.statistics();
     for (int i = 0; i < 3; ++i)
     {
-        osg::ref_ptr<osg::LightSource> light = new osg::LightSource; // concerns the whole graph
+        osg::ref_ptr<osg::LightSource> light = new osg::LightSource; // lights the whole graph
         light->getLight()->setLightNum(1 + i);
         graph.root->addChild(light);
         drawRewritten(graph, view, 1);

@@ -76,7 +76,7 @@ TEST_CASE("stability 3: small and large scenes get a power of two", "[bridge]")
 TEST_CASE("stability 3: the unit is that of the distance to the origin, not of the float bounds",
           "[bridge]")
 {
-    // Between the corners there is no float at this place.
+    // The corners are closer together than the floats at this place.
     const osg::ref_ptr<osg::Vec3dArray> vertices = new osg::Vec3dArray;
     const osg::Vec3d place(6378137.0, 0.0, 0.0);
     const double size = 0x1p-24;
@@ -116,7 +116,7 @@ TEST_CASE("stability 3: the lights go with the unit", "[bridge]")
         CHECK(area.edgeU == Vec3(0.25f, 0.0f, 0.0f));
         CHECK(area.radiance == Vec3(1.0f, 2.0f, 3.0f));
         const Light& point = scene->lights[1];
-        // In eye space it is the session that has the camera's matrix, and places it.
+        // The session, which has the camera's matrix, places lights of eye space.
         CHECK(point.position ==
               (eyeSpace ? Vec3(0x1p-41f, 0.0f, 0x1p-40f) : Vec3(0.5f, 0.0f, 1.0f)));
         CHECK(point.attenuationLinear == 1.0f);
@@ -159,7 +159,7 @@ TEST_CASE("stability 13: a few wild vertices do not change the unit", "[bridge]"
             auto& vertices = static_cast<osg::Vec3Array&>(*geometry->getVertexArray());
             vertices[4].y() = wild;
             const auto root = placed(osg::Matrixd::scale(scale, scale, scale), geometry);
-            // 121 is the largest coordinate.
+            // The largest coordinate is 121.
             CHECK(convertGraph(root).scene->unit == (scale == 1.0 ? 1.0 : 64.0 * scale));
         }
     }
@@ -178,7 +178,7 @@ TEST_CASE("stability 2: coarse floats are told from fine ones", "[bridge]")
     CHECK(isCoarse(10.0, 6.4e6));
     CHECK(isCoarse(1e-6, 1.0));
     CHECK_FALSE(isCoarse(1e4, 6.4e6));
-    CHECK_FALSE(isCoarse(0.0, 6.4e6)); // one point: nothing to trace
+    CHECK_FALSE(isCoarse(0.0, 6.4e6)); // a single point cannot be traced
 }
 
 TEST_CASE("a change of the unit gives all parts new stamps", "[bridge]")
@@ -193,7 +193,8 @@ TEST_CASE("a change of the unit gives all parts new stamps", "[bridge]")
     CHECK(after->meshes[0]->changed == after->changed);
     CHECK(converter.convert(inputFor(root)).scene == after);
 
-    // Twice as large a world in twice as large a unit: all parts are the same, but not the scene.
+    // The world is twice as large, and so is the unit: all parts stay the same, but the scene
+    // changes.
     root->setMatrix(osg::Matrixd::scale(2e-12, 2e-12, 2e-12));
     const auto doubled = converter.convert(inputFor(root)).scene;
     CHECK(doubled->unit == 2.0 * after->unit);

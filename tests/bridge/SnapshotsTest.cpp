@@ -1,4 +1,4 @@
-// SnapshotsTest.cpp - what two conversions of one graph share, and which time stamps move.
+// SnapshotsTest.cpp - what two conversions of one graph share, and which stamps change.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
@@ -167,7 +167,7 @@ TEST_CASE("a texture is converted again only if its image changes", "[bridge]")
     CHECK(after->textures[0]->changed > before->textures[0]->changed);
     CHECK(after->meshes == before->meshes);
 
-    texture->setImage(nullptr); // given up after the upload to OpenGL
+    texture->setImage(nullptr); // released after the upload to OpenGL
     CHECK(graph.convert()->textures == after->textures);
 }
 

@@ -1,4 +1,4 @@
-// StateStackTest.cpp - inheritance of state is that of osg::State, for any nesting.
+// StateStackTest.cpp - state is inherited as osg::State does it, for any nesting.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/StateStack.h"
 #include "tests/Catch.h"
@@ -20,7 +20,7 @@ namespace
 constexpr unsigned int kFlags[] = {0, osg::StateAttribute::OVERRIDE, osg::StateAttribute::PROTECTED,
                                    osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED};
 
-/// OSG's own stacks; captureCurrentState leaves textures out.
+/// Gives access to OSG's own stacks, because captureCurrentState leaves textures out.
 class OpenState : public osg::State
 {
 public:

@@ -1,4 +1,4 @@
-// TexturesTest.cpp - pixel formats, texture state and what is not sampled.
+// TexturesTest.cpp - pixel formats, texture state and textures that are not sampled.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/textures/PixelDecoder.h"
 #include "tests/Catch.h"
@@ -30,7 +30,7 @@ namespace
 
 constexpr auto kOn = osg::StateAttribute::ON;
 
-/// An image that owns a copy of the values.
+/// Returns an image that owns a copy of the values.
 template <class Scalar>
 osg::ref_ptr<osg::Image> imageOf(int width, int height, GLenum format, GLenum type,
                                  const std::vector<Scalar>& values, int packing = 1)
@@ -110,7 +110,7 @@ TEST_CASE("wide formats decode to floats, what is not finite to 0", "[bridge]")
 TEST_CASE("rows: packing and row length; the first in memory is the lowest, whatever the origin",
           "[bridge]")
 {
-    // 3 RGB pixels are 9 bytes, padded to 12.
+    // A row of 3 RGB pixels has 9 bytes, which are padded to 12.
     const Bytes rows{1, 1, 1, 2, 2, 2, 3, 3, 3, 0, 0, 0, 4, 4, 4, 5, 5, 5, 6, 6, 6};
     const auto image = imageOf<uint8_t>(3, 2, GL_RGB, GL_UNSIGNED_BYTE, rows, 4);
     const Bytes expected{1, 1, 1, 255, 2, 2, 2, 255, 3, 3, 3, 255,
@@ -128,7 +128,8 @@ TEST_CASE("rows: packing and row length; the first in memory is the lowest, what
 
 TEST_CASE("DXT blocks decode", "[bridge]")
 {
-    // DXT1: both end points white (0xffff), or red (0xf800) as first colour of a block of index 0.
+    // DXT1: both end points are white (0xffff), or the first colour of a block of index 0 is red
+    // (0xf800).
     osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(4, 4, 1, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_UNSIGNED_BYTE);
     const uint8_t block[8] = {0x00, 0xf8, 0x00, 0x00, 0, 0, 0, 0};
@@ -142,7 +143,7 @@ TEST_CASE("DXT blocks decode", "[bridge]")
 namespace
 {
 
-/// A 4x4 image of one block.
+/// Returns a 4x4 image of one block.
 osg::ref_ptr<osg::Image> blockImage(GLenum format, const Bytes& block)
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;
@@ -152,7 +153,7 @@ osg::ref_ptr<osg::Image> blockImage(GLenum format, const Bytes& block)
     return image;
 }
 
-/// Codes 0 to 7 and again, of three bits each.
+/// The codes 0 to 7 come twice, in three bits each.
 const Bytes kAllCodes{0x88, 0xc6, 0xfa, 0x88, 0xc6, 0xfa};
 
 Bytes joined(const Bytes& a, const Bytes& b)
@@ -178,7 +179,8 @@ TEST_CASE("block formats: every code of every mode, by the specification", "[bri
             values.push_back(pixels[4 * i + std::size_t(c)]);
         return values;
     };
-    // Eight values between the ends: 210 to 0 in sevenths. Six in fifths, then 0 and 1.
+    // The eight values go from 210 to 0 in sevenths. The six go in fifths and are followed by 0 and
+    // 1.
     const Bytes eight{210, 0, 180, 150, 120, 90, 60, 30}, six{0, 200, 40, 80, 120, 160, 0, 255};
     const Bytes rgtc1 = bytesOf(*blockImage(GL_COMPRESSED_RED_RGTC1_EXT, channelBlock(210, 0)));
     CHECK(channel(rgtc1, 0) == eight);
@@ -198,7 +200,8 @@ TEST_CASE("block formats: every code of every mode, by the specification", "[bri
     for (std::size_t i = 0; i < 8; ++i)
         CHECK(signedValues[4 * i] == Approx(expected[i]).margin(1e-6));
 
-    // Codes 0 to 3 in the first row; red 0xf800 above blue 0x001f, then below it.
+    // The first row has the codes 0 to 3; red 0xf800 is the larger end point 0 in the one block and
+    // end point 1 in the other.
     const auto colors = [](GLenum format, Bytes block)
     {
         const Bytes pixels = bytesOf(*blockImage(format, block));
@@ -212,7 +215,7 @@ TEST_CASE("block formats: every code of every mode, by the specification", "[bri
           Bytes{0, 0, 255, 255, 255, 0, 0, 255, 128, 0, 128, 255, 0, 0, 0, 0});
     CHECK(colors(GL_COMPRESSED_RGB_S3TC_DXT1_EXT, three)[15] == 255);
 
-    // No three-colour code here.
+    // DXT3 has no three-colour code.
     const Bytes dxt3 = joined({0x10, 0x32, 0x10, 0x32, 0x10, 0x32, 0x10, 0x32}, three);
     CHECK(colors(GL_COMPRESSED_RGBA_S3TC_DXT3_EXT, dxt3) ==
           Bytes{0, 0, 255, 0, 255, 0, 0, 17, 85, 0, 170, 34, 170, 0, 85, 51});
@@ -286,7 +289,7 @@ TEST_CASE("textures that cannot be sampled are left out and counted", "[bridge]"
     SECTION("an image whose file was not read")
     {
         osg::ref_ptr<osg::Image> image = new osg::Image;
-        image->setFileName("bricks.png"); // as osgDB leaves it
+        image->setFileName("bricks.png"); // as osgDB leaves the image
         const ConversionResult result = convertGraph(texturedGeometry(new osg::Texture2D(image)));
         CHECK(soleMaterial(result).baseColorTexture == kInvalid);
         CHECK(countOf(result, "approximated.texture-without-image") == 0);
@@ -416,7 +419,7 @@ TEST_CASE("3-D textures: all slices, and the third coordinate of the mesh", "[br
     volume->setWrap(osg::Texture::WRAP_R, osg::Texture::REPEAT);
     result = converter.convert(inputFor(geometry));
     CHECK(result.scene->textures.at(0)->wrapR == TextureWrap::Repeat);
-    // Homogeneous ones are divided; where all are 0 there are none.
+    // Homogeneous coordinates are divided; if r is 0 throughout, the mesh has no third coordinates.
     const osg::ref_ptr<osg::Vec4Array> projective = new osg::Vec4Array(3);
     (*projective)[0].set(0, 0, 6, 2);
     (*projective)[1].w() = (*projective)[2].w() = 1;
@@ -430,7 +433,7 @@ TEST_CASE("3-D textures: all slices, and the third coordinate of the mesh", "[br
 namespace
 {
 
-/// With OpenGL beside it.
+/// Converts as for a viewer, which draws the rest with OpenGL.
 ConversionResult convertForViewer(SceneConverter& converter, osg::Node* root)
 {
     ConversionInput input = inputFor(root);
@@ -493,7 +496,7 @@ TEST_CASE("textures that only OpenGL has leave their geometry to it", "[bridge]"
         SceneConverter converter;
         convertForViewer(converter, root);
         texture->setImage(nullptr);
-        texture->setTextureSize(1, 1); // as OSG records it when it uploads
+        texture->setTextureSize(1, 1); // as OSG records it on upload
         const ConversionResult result = convertForViewer(converter, root);
         CHECK(countOf(result, reason) == 0);
         CHECK(soleMaterial(result).baseColorTexture == 0);
@@ -504,7 +507,7 @@ TEST_CASE("textures that only OpenGL has leave their geometry to it", "[bridge]"
 namespace
 {
 
-/// As virtual programs are: its shaders are its own.
+/// A program of another class, as virtual programs are: it holds shaders in a way of its own.
 struct VirtualProgram : osg::Program
 {
     META_StateAttribute(test, VirtualProgram, PROGRAM)
@@ -541,7 +544,7 @@ TEST_CASE("programs of any class, stencils and colour masks leave their geometry
     SECTION("programs")
     {
         CHECK(counted(geometry, "shader-program") == 0);
-        state.setAttribute(new osg::Program); // the fixed function
+        state.setAttribute(new osg::Program); // without shaders: the fixed function
         CHECK(counted(geometry, "shader-program") == 0);
         state.setAttribute(new VirtualProgram);
         CHECK(counted(geometry, "shader-program") == 1);
@@ -552,7 +555,7 @@ TEST_CASE("programs of any class, stencils and colour masks leave their geometry
     SECTION("ARB's programs")
     {
         state.setAttribute(new osg::FragmentProgram);
-        CHECK(counted(geometry, "shader-program") == 0); // not enabled
+        CHECK(counted(geometry, "shader-program") == 0); // the mode is off
         state.setMode(GL_FRAGMENT_PROGRAM_ARB, kOn);
         CHECK(counted(geometry, "shader-program") == 1);
     }

@@ -17,7 +17,7 @@ namespace
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-/// The triangle (0,0,0) (2,0,0) (0,4,0) in an array of any type.
+/// Returns the triangle (0,0,0) (2,0,0) (0,4,0) in an array of any type.
 template <class Array, class Make> osg::ref_ptr<osg::Geometry> triangleOf(const Make& make)
 {
     osg::ref_ptr<Array> array = new Array;
@@ -92,8 +92,8 @@ TEST_CASE("triangles with vertices that are not finite or too large are dropped 
 namespace
 {
 
-/// Arrays that end where a page does are copied, as Embree reads past the last vertex: chance
-/// decides.
+/// Returns an array that does not end at the end of a page. An array that ends there by chance is
+/// copied by the converter, because Embree reads past the last vertex.
 template <class A>
 osg::ref_ptr<A> awayFromPageEnd(osg::ref_ptr<A> array, osg::ref_ptr<osg::Array>& other)
 {
@@ -108,7 +108,7 @@ osg::ref_ptr<A> awayFromPageEnd(osg::ref_ptr<A> array, osg::ref_ptr<osg::Array>&
 TEST_CASE("arrays in the right layout are shared, not copied", "[bridge]")
 {
     const auto geometry = triangleGeometry();
-    osg::ref_ptr<osg::Array> others[4]; // stay, so that copies are elsewhere
+    osg::ref_ptr<osg::Array> others[4]; // kept, so that copies get other addresses
     geometry->setVertexArray(
         awayFromPageEnd(osg::ref_ptr<osg::Array>(geometry->getVertexArray()), others[0]));
     osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array(3);

@@ -1,4 +1,5 @@
-# Installs the library, moves the install elsewhere, and builds and runs the consumer project with it.
+# Installs the library, moves the install elsewhere, and builds and runs the consumer project with
+# it.
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
@@ -14,7 +15,7 @@ file(REMOVE_RECURSE "${WORK}")
 run(${CMAKE_COMMAND} --install "${LIBRARY_BUILD}" --prefix "${WORK}/installed")
 file(RENAME "${WORK}/installed" "${WORK}/moved")
 
-# Public headers only, and all of them.
+# The install must have all public headers, and no others.
 file(GLOB headers RELATIVE "${WORK}/moved/include/osgRayTrace" "${WORK}/moved/include/osgRayTrace/*")
 list(REMOVE_ITEM headers Export offscreen)
 string(REPLACE "," ";" expected "${PUBLIC_HEADERS}")
@@ -25,7 +26,7 @@ if(NOT headers STREQUAL expected)
     message(FATAL_ERROR "Installed headers are '${headers}', public ones '${expected}'")
 endif()
 
-# The package names nothing by a path of the machine that built it.
+# The package must name nothing by a path of the machine that built it.
 file(GLOB packageFiles "${WORK}/moved/${LIBDIR}/cmake/osgRayTrace/*.cmake")
 foreach(file IN LISTS packageFiles)
     file(STRINGS "${file}" paths REGEX "(/usr/|\\.a[\"; ]|embree|tbb|glm)")
@@ -42,7 +43,7 @@ foreach(file IN LISTS packageFiles)
     endif()
 endforeach()
 
-# The README's example compiles as it stands there.
+# The README's example must compile as it stands there.
 file(READ "${LIBRARY_SOURCE}/README.md" example)
 string(FIND "${example}" "```cpp\n" begin)
 math(EXPR begin "${begin} + 7")
@@ -58,7 +59,8 @@ run(${CMAKE_COMMAND} --build "${WORK}/build")
 run("${WORK}/build/consumer")
 run("${WORK}/build/offscreenConsumer")
 
-# The installed program finds the installed library and plugins, to read scene and reference, where they lie.
+# The installed program finds the installed library and plugins, and so reads the scene and the
+# reference.
 set(share "${WORK}/moved/share/osgRayTrace")
 set(render "${WORK}/moved/bin/osgraytrace" "${share}/data/cornell_box.osgt" --size 8 8)
 run(${render} -o "${WORK}/box.exr")
@@ -67,7 +69,8 @@ if(NOT output MATCHES "RMSE 0\n")
     message(FATAL_ERROR "The same picture twice, but: ${output}")
 endif()
 
-# Beside the installed README lies all that the pages name: links, and files of data.
+# Beside the installed README there must be everything that the pages name: links, and files of
+# data.
 file(GLOB docs RELATIVE "${LIBRARY_SOURCE}" "${LIBRARY_SOURCE}/osgRayTrace/docs/*.md")
 foreach(page README.md data/README.md tests/README.md osgRayTrace/README.md ${docs})
     if(NOT EXISTS "${share}/${page}")
@@ -76,7 +79,7 @@ foreach(page README.md data/README.md tests/README.md osgRayTrace/README.md ${do
     file(READ "${share}/${page}" text)
     get_filename_component(folder "${share}/${page}" DIRECTORY)
     string(REPLACE "](" "@link@" text "${text}")
-    string(REGEX REPLACE "[][;]" " " text "${text}") # they mean something in lists
+    string(REGEX REPLACE "[][;]" " " text "${text}") # both have a meaning in lists
     string(REGEX MATCHALL "@link@[^):]+\\)" links "${text}")
     foreach(link IN LISTS links)
         string(REGEX REPLACE "^@link@(.+).$" "\\1" link "${link}")
@@ -105,7 +108,8 @@ if(missing)
     message(FATAL_ERROR "Named, but not installed:\n  ${missing}")
 endif()
 
-# A scene finds its environment where both are installed: its picture is that of the source folder.
+# A scene finds its environment if both are installed: its picture must be that of the source
+# folder.
 set(render "${WORK}/moved/bin/osgraytrace" --size 16 12 --passes 2)
 run(${render} "${LIBRARY_SOURCE}/data/terrace.osgt" -o "${WORK}/terrace.exr")
 run(${render} "${share}/data/terrace.osgt" -o "${WORK}/terrace.png" --report

@@ -1,5 +1,5 @@
-# Builds apps/examples where BuildConsumer.cmake has installed them, runs each program without a display
-# as its user would, and looks at what comes out.
+# Builds apps/examples in the folder to which BuildConsumer.cmake has installed them, runs each
+# program without a display as its user would, and checks the output.
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
@@ -41,14 +41,15 @@ run(${CMAKE_COMMAND} -S "${share}/apps/examples" -B "${bin}" -G "${GENERATOR}"
     -D "CMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
 run(${CMAKE_COMMAND} --build "${bin}")
 
-# Each frame is one pass of the whole picture, however long that takes.
+# Each frame is one pass of the whole picture, however long the pass takes.
 set(ENV{OSG_LIBRARY_PATH} "${WORK}/moved/${LIBDIR}")
 set(ENV{OSG_THREADING} SingleThreaded)
 set(ENV{OSG_WINDOW} "0 0 320 240")
 set(ENV{OSGRAYTRACE_FRAME_BUDGET} 0)
 unset(ENV{DISPLAY})
 
-# run_in_window(<script> <program> <arguments>): windowsInMemory.cpp has the script's words.
+# run_in_window(<script> <program> <arguments>) runs a program in windows in memory;
+# windowsInMemory.cpp lists the script's words.
 function(run_in_window script program)
     run(${CMAKE_COMMAND} -E env "LD_PRELOAD=${OSMESA} ${WORK}/build/libwindowsInMemory.so"
         "OSGRAYTRACE_TEST_SCRIPT=${script}" "${bin}/${program}" ${ARGN})
@@ -60,7 +61,7 @@ function(check)
     message(STATUS "${output}")
 endfunction()
 
-# Headless: the radiance is that of osgraytrace, but for the rounding of the view matrix.
+# The headless example has the radiance of osgraytrace, except for the rounding of the view matrix.
 set(model "${pictures}/model.osgt")
 check(model "${model}")
 run("${bin}/headless" "${model}" "${pictures}/headless")
@@ -71,12 +72,12 @@ if(NOT output MATCHES "RMSE (0|[0-9.]+e-0[5-9])\n")
     message(FATAL_ERROR "headless and osgraytrace differ: ${output}")
 endif()
 
-# The viewer shows what has been rendered without it, but for noise.
+# The viewer shows what has been rendered without it, except for noise.
 run_in_window("11 picture ${pictures}/viewer.png 13 close" viewer "${model}")
 check(lit "${pictures}/viewer.png")
 check(differ "${pictures}/headless.png" "${pictures}/viewer.png" 0 10)
 
-# Each edit changes the picture, which is complete after four passes and stays the same otherwise.
+# Each edit changes the picture, which is complete after four passes and otherwise stays the same.
 set(ENV{OSGRAYTRACE_MAX_PASSES} 4)
 run_in_window("4 picture ${pictures}/edit0.png 5 key m 9 picture ${pictures}/edit1.png \
 10 key c 14 picture ${pictures}/edit2.png 15 key d 19 picture ${pictures}/edit3.png \

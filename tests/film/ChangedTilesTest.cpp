@@ -18,7 +18,7 @@ namespace
 
 constexpr int kSizes[][2] = {{1, 1}, {16, 16}, {17, 33}, {340, 250}, {1920, 1080}};
 
-/// How often each pixel is in a rectangle.
+/// Counts the rectangles that cover each pixel.
 std::vector<int> covered(const std::vector<PixelRect>& rects, int width, int height)
 {
     std::vector<int> counts(std::size_t(width * height));
@@ -112,7 +112,8 @@ TEST_CASE("tile order: grouped, each tile once, squares together and all over th
                 if (group == 4 && across == 120) CHECK(together >= seen.size() * 3 / 4);
             }
 
-    // The first eighth of 1920 x 1080 pixels, by quarters of the image from the bottom to the top.
+    // The tiles are the first eighth of 1920 x 1080 pixels, by quarters of the image from the
+    // bottom to the top.
     const TileOrder order(120, 68, 4);
     int quarters[4] = {};
     for (std::size_t i = 0; i < order.places() / 8; ++i)

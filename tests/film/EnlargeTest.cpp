@@ -1,4 +1,4 @@
-// EnlargeTest.cpp - small pictures shown large: as OpenGL's linear filter has it.
+// EnlargeTest.cpp - small pictures are enlarged as OpenGL's linear filter does it.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
@@ -46,7 +46,7 @@ Picture enlarged(Picture small, int width, int height)
     return large;
 }
 
-/// OpenGL 4.6, section 8.14.3: GL_LINEAR with GL_CLAMP_TO_EDGE, in double.
+/// Filters as OpenGL 4.6, section 8.14.3, defines it: GL_LINEAR with GL_CLAMP_TO_EDGE, in double.
 double linear(const Picture& small, int x, int y, int width, int height, int channel)
 {
     const double u = (x + 0.5) / width * small.width - 0.5,

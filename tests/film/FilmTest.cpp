@@ -12,7 +12,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// Values of all channels and pixels of a tile from value(pixel, channel).
+/// Sets all channels and pixels of a tile to value(pixel, channel).
 template <class Value> void fill(TileRgba& tile, const Value& value)
 {
     for (int b = 0; b < kTileBlocks; ++b)
@@ -125,7 +125,8 @@ TEST_CASE("film: the mean of any number of passes, across the folding into total
 
 TEST_CASE("film: a million passes keep their mean to 1e-6", "[film][stability 38]")
 {
-    // A constant that float cannot sum exactly, and a uniform stream against its double sum.
+    // The samples are a constant that float cannot sum exactly, then a uniform stream, which is
+    // compared with its sum in double.
     Film film;
     film.reset(16, 16);
     Uniform random(3);
@@ -149,8 +150,9 @@ TEST_CASE("film: a million passes keep their mean to 1e-6", "[film][stability 38
 
 TEST_CASE("film: the error estimate is the true error on average", "[film][statistics]")
 {
-    // Gaussian-like noise (sum of 4 uniforms) of known mean; 100 seeds, also for an odd number of
-    // passes and across folding. The relative spread of the ratio over seeds is below 0.5 %.
+    // The noise is nearly Gaussian (a sum of 4 uniform variables) and of known mean. There are 100
+    // seeds, and numbers of passes that are odd or fold the sums. The relative spread of the ratio
+    // over seeds is below 0.5 %.
     const float reference = 2.0f;
     for (const int passes : {2, 3, 5, 16, 300})
     {

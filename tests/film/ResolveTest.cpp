@@ -11,7 +11,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// A film of one pass whose red is value(x, y), and depth likewise.
+/// Returns a film of one pass whose red and depth are value(x, y).
 template <class Value> Film filmOf(int width, int height, const Value& value)
 {
     Film film;
@@ -54,7 +54,7 @@ TEST_CASE("resolve: each pixel lands in its row and column, whatever the size", 
         const auto value = [width = width](int x, int y) { return float(x + y * width) / 8192.0f; };
         const Film film = filmOf(width, height, value);
         const auto pixels = static_cast<std::size_t>(width * height);
-        // One more value behind each image: it must stay.
+        // One more value stands behind each image and must not change.
         std::vector<float> radiance(4 * pixels + 1, -1.0f), depth(pixels + 1, -1.0f),
             displayDepth(pixels + 1, -1.0f);
         std::vector<uint8_t> bytes(4 * pixels + 1, 77);
@@ -104,7 +104,8 @@ TEST_CASE("tone map: sRGB there and back", "[film]")
 
 TEST_CASE("resolve: display bytes are the rounded exact sRGB values, and monotonous", "[film]")
 {
-    // All of [0,1] in steps of 1/65536: at most half a grey level and rounding off.
+    // The values are all of [0,1] in steps of 1/65536: they may be off by half a grey level and
+    // rounding.
     constexpr int kSize = 256;
     const Film film =
         filmOf(kSize, kSize, [](int x, int y) { return float(y * kSize + x) / 65536.0f; });
@@ -150,8 +151,8 @@ TEST_CASE("resolve: display-referred bytes at exposure 0 are the film's values",
 
 TEST_CASE("resolve: at edges the radiance is encoded, and multiplied with coverage", "[film]")
 {
-    // A quarter of the pixel is covered by radiance 0.4; display-referred, by the display value
-    // 0.4.
+    // Radiance 0.4 covers a quarter of the pixel; in display-referred scenes the display value 0.4
+    // covers it.
     Film film;
     film.reset(16, 16);
     TileRgba values;

@@ -1,5 +1,5 @@
-// AllocationFailureTest.cpp - every allocation of a render fails once: a message, and no harm done.
-// Layer: tests.
+// AllocationFailureTest.cpp - every allocation of a render fails once: the failure is reported, and
+// nothing else goes wrong. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "CountedMemory.h"
 #include "tests/Catch.h"
@@ -30,7 +30,8 @@ osg::ref_ptr<osg::Texture2D> checkered()
     return new osg::Texture2D(image);
 }
 
-/// Instances, a texture, glass, a mirror, an emissive mesh, an area light: each part of the way.
+/// Returns a scene that uses every part of a render: instances, a texture, glass, a mirror, an
+/// emissive mesh and an area light.
 osg::ref_ptr<osg::Node> smallScene()
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;
@@ -78,7 +79,8 @@ bool samePicture(const osg::Image* a, const osg::Image* b)
            std::memcmp(a->data(), b->data(), a->getTotalSizeInBytes()) == 0;
 }
 
-/// Lets allocation 0, 1, 2, ... fail until there is no such one. Returns how many there were.
+/// Lets allocation 0, 1, 2, ... fail until a render has no such allocation. Returns how many
+/// renders failed.
 int sweep(Failing failing, osg::Node* scene, const osg::Image* expected)
 {
     int failures = 0;
@@ -100,7 +102,8 @@ int sweep(Failing failing, osg::Node* scene, const osg::Image* expected)
             REQUIRE_FALSE(renderer->getStatistics().message.empty());
             REQUIRE(renderer->render());
         }
-        // What did not fail, or failed and was tried again, is as if nothing had been.
+        // A render that did not fail, or failed and was repeated, gives the picture that it gives
+        // without failures.
         REQUIRE(renderer->getStatistics().passes == 2);
         REQUIRE(renderer->getStatistics().droppedSamples == 0);
         REQUIRE(renderer->getStatistics().cameraRays == 1024u * 2u); // whole tiles
@@ -124,7 +127,8 @@ TEST_CASE(
     for (const Failing failing : {Failing::Once, Failing::Onward})
     {
         CHECK(sweep(failing, scene, expected) > 100);
-        // What is made once in a process is there now; a leak would grow with each failure.
+        // Objects that a process allocates only once exist now; a leak would grow with each
+        // failure.
         const int64_t before = liveAllocations();
         const int failures = sweep(failing, scene, expected);
         CAPTURE(failures, liveAllocations() - before);

@@ -25,13 +25,13 @@ struct AddressRange
 {
     uintptr_t begin = 0, end = 0;
 };
-AddressRange drivers[16]; // written before armed, read while it is
+AddressRange drivers[16]; // written before the failure is armed, only read while it is armed
 
 void addDriver(const dl_phdr_info& info)
 {
-    // When an operator new fails within its parallel build Embree 3.13.5 frees what it still uses
-    // (one run in fifteen crashed in rtcReleaseDevice): its memory is refused through its memory
-    // monitor instead.
+    // If an operator new fails within Embree's parallel build, Embree 3.13.5 frees memory that it
+    // still uses (one run in fifteen crashed in rtcReleaseDevice). So Embree is refused memory by
+    // its memory monitor instead.
     for (const char* name :
          {"libLLVM", "libOSMesa", "swrast_dri", "libGL", "libEGL", "libembree", "libtbb"})
     {

@@ -10,28 +10,29 @@ namespace osgRayTrace::test
 
 enum class Failing
 {
-    Once,  ///< one allocation fails, those after it do not
-    Onward ///< that one and all after it
+    Once,  ///< one allocation fails, later ones succeed
+    Onward ///< one allocation and all later ones fail
 };
 
-/// While it lives the n-th allocation from now on (0 is the next), of any thread, throws
-/// std::bad_alloc. At most one at a time. Not counted are those of OpenGL's drivers, which are
-/// built without exceptions, and of Embree and TBB, which do not survive it.
+/// While an object of this class lives, the n-th allocation from now on (0 is the next), of any
+/// thread, throws std::bad_alloc. At most one object may live at a time. Allocations of OpenGL's
+/// drivers do not count, because the drivers are built without exceptions; nor do those of Embree
+/// and TBB, which do not survive a failure.
 class FailingMemory
 {
 public:
     explicit FailingMemory(int64_t n, Failing failing = Failing::Once);
     ~FailingMemory();
 
-    /// True if there was an n-th allocation.
+    /// Returns whether there was an n-th allocation.
     bool failed() const;
 };
 
-/// Calls of operator new that are not deleted yet.
+/// Returns how many allocations of operator new have not been deleted yet.
 int64_t liveAllocations();
 
-/// The largest single allocation since the last call [bytes], and the most that lived at once since
-/// then.
+/// The largest single allocation since the last call [bytes], and the largest sum of living
+/// allocations since then.
 struct MemoryPeak
 {
     std::size_t single = 0, total = 0;

@@ -57,7 +57,8 @@ TEST_CASE("stability 52: when an allocation of the conversion fails, a viewer sh
         for (int n = 0;; ++n)
         {
             CAPTURE(n, int(failing));
-            // Of its first conversion, before there is any version to go on with.
+            // The failure is one of the drawable's first conversion, which has no earlier version
+            // to fall back on.
             osg::ref_ptr<RayTracedScene> fresh = osg::clone(scene.get(), osg::CopyOp::SHALLOW_COPY);
             bool failed = false;
             {
@@ -66,7 +67,7 @@ TEST_CASE("stability 52: when an allocation of the conversion fails, a viewer sh
                 failed = memory.failed();
             }
             if (!failed) break;
-            // Libraries go on without some of them, such as buffers for a faster sort.
+            // Libraries go on without some allocations, such as buffers for a faster sort.
             const Statistics statistics = fresh->getDrawable()->getStatistics();
             REQUIRE(statistics.ok == statistics.message.empty());
             REQUIRE((statistics.triangles == 2u || !statistics.ok));
@@ -92,10 +93,9 @@ TEST_CASE("stability 52: when an allocation of a draw fails, the next frame show
         scene->getDrawable()->setDrawCallback(callback);
         TestViewer view(kSize, kSize, scene.get());
         view.camera().setProjectionResizePolicy(osg::Camera::FIXED);
-        view.frames(); // OpenGL's objects are there: OSG makes some of them in a way that nothing
-                       // may stop
-        // Nor may the driver's compiler be stopped, of the shader that shows an image of another
-        // size.
+        view.frames(); // makes OpenGL's objects: OSG makes some of them in code that must not fail
+        // The driver's compiler must not fail either when it compiles the shader for images of
+        // another size.
         scene->getDrawable()->setPaused(true);
         view.camera().setViewport(0, 0, kSize - 2, kSize - 2);
         view.viewer.frame();
@@ -106,7 +106,7 @@ TEST_CASE("stability 52: when an allocation of a draw fails, the next frame show
             CAPTURE(n, int(failing));
             const int size = kSize - 2 * (n % 3); // the display's images are made again
             view.camera().setViewport(0, 0, size, size);
-            scene->setEnabled(true); // forgets the failure before
+            scene->setEnabled(true); // clears the former failure
             callback->n = n;
             callback->failed = false;
             view.viewer.frame();

@@ -20,7 +20,8 @@ namespace
 std::atomic<int64_t> untilRefused{-1}; ///< requests that are granted; negative: all
 std::atomic<bool> refused{false};
 
-/// What the engine asked for. Kept: Embree calls it as long as a device lives.
+/// The monitor that the engine asked for. It is kept because Embree calls it as long as a device
+/// lives.
 struct EngineMonitor
 {
     RTCMemoryMonitorFunction function;
@@ -39,7 +40,7 @@ bool refusingMonitor(void* self, ssize_t bytes, bool post)
     return !monitor.function || monitor.function(monitor.data, bytes, post);
 }
 
-/// Meshes of their own, and one with several instances.
+/// Returns a scene with meshes of one instance each, and one with several instances.
 std::shared_ptr<const Scene> meshes()
 {
     auto scene = std::make_shared<Scene>();
@@ -78,7 +79,8 @@ extern "C"
 {
     void __real_rtcSetDeviceMemoryMonitorFunction(RTCDevice, RTCMemoryMonitorFunction, void*);
 
-    // Not hidden: the library, which is not wrapped, refers to Embree's function, too.
+    // The function has default visibility, because the library, which is not wrapped, refers to
+    // Embree's function, too.
     __attribute__((visibility("default"))) void
     __wrap_rtcSetDeviceMemoryMonitorFunction(RTCDevice device, RTCMemoryMonitorFunction function,
                                              void* data)
@@ -118,6 +120,6 @@ TEST_CASE("stability 52: memory that Embree does not get is an error of the buil
         REQUIRE(TracedScene::build(scene, workers)->statistics().builtMeshes == 3);
     }
     CHECK(failures > 3);
-    // What was built before is whole.
+    // The scene that was built before is intact.
     CHECK(built->statistics().builtMeshes == 3);
 }

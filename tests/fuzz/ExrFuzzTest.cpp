@@ -1,5 +1,5 @@
-// ExrFuzzTest.cpp - damaged OpenEXR files: an image or an error, and memory within reason. Layer:
-// tests.
+// ExrFuzzTest.cpp - damaged OpenEXR files give an image or an error, and take memory within reason.
+// Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "CountedMemory.h"
 #include "FuzzSeeds.h"
@@ -21,8 +21,8 @@ namespace
 
 constexpr int kFiles = 20000; ///< seeds
 
-/// The plugin's limit for pictures that a file of a few KiB claims to hold, times channels and
-/// formats.
+/// The plugin's limit for pictures that a file of a few KiB claims to hold, times the number of
+/// channels and formats.
 constexpr std::size_t kMostBytes = std::size_t(700) << 20;
 
 osgDB::ReaderWriter* exrPlugin()
@@ -32,7 +32,7 @@ osgDB::ReaderWriter* exrPlugin()
     return plugin;
 }
 
-/// A file as our plugin writes it.
+/// Returns a file as our plugin writes it.
 std::string validFile(Dice& dice)
 {
     constexpr GLenum kFormats[] = {GL_RGBA, GL_RGB, GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_ALPHA};
@@ -41,7 +41,7 @@ std::string validFile(Dice& dice)
     osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(1 + dice.below(40), 1 + dice.below(70), 1, dice.oneOf(kFormats), GL_FLOAT);
     auto* values = reinterpret_cast<float*>(image->data());
-    const bool smooth = dice.oneIn(2); // compresses well: the chunks are short
+    const bool smooth = dice.oneIn(2); // smooth pictures compress well: the chunks are short
     for (unsigned int i = 0; i < image->getTotalSizeInBytes() / sizeof(float); ++i)
         values[i] =
             smooth ? static_cast<float>(i % 7) : static_cast<float>(dice.between(-1.0, 3.0));
@@ -51,13 +51,14 @@ std::string validFile(Dice& dice)
     return stream.str();
 }
 
-/// Writes a number of 32 bits where the file has one.
+/// Writes a number of 32 bits to a place of the file that holds one.
 void putNumber(std::string& file, std::size_t at, uint32_t value)
 {
     if (at + sizeof(value) <= file.size()) std::memcpy(&file[at], &value, sizeof(value));
 }
 
-/// Of the value of a header's attribute; npos if there is none.
+/// Returns where the value of a header's attribute begins, or npos if the header has no such
+/// attribute.
 std::size_t valueOf(const std::string& file, const std::string& name, const std::string& type)
 {
     const std::string key = name + '\0' + type + '\0';
@@ -85,7 +86,7 @@ void editHeader(std::string& file, Dice& dice)
     const std::size_t at = valueOf(file, attribute.name, attribute.type);
     if (at == std::string::npos) return;
     const std::size_t number = static_cast<std::size_t>(dice.below(attribute.numbers));
-    if (dice.oneIn(12)) // the attribute's size
+    if (dice.oneIn(12)) // changes the attribute's size
         putNumber(file, at - 4, dice.oneOf(kNumbers));
     else if (attribute.numbers == 1 && dice.oneIn(2))
         file[at] = static_cast<char>(dice.below(12));
@@ -136,7 +137,7 @@ TEST_CASE("fuzz: a damaged .exr file gives an error or an image, and no absurd a
                         REQUIRE_FALSE(result.message().empty());
                     }
                 });
-    // The damage is neither always nor never fatal.
+    // The damage is neither always fatal nor never.
     CHECK(images > seedCount(kFiles) / 50);
     CHECK(errors > seedCount(kFiles) / 4);
 }

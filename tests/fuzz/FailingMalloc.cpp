@@ -1,8 +1,9 @@
 // FailingMalloc.cpp - preloaded, it makes the C library's allocations fail for good. Layer: tests.
 // SPDX-License-Identifier: MIT
 //
-// From allocation OSGRAYTRACE_FAIL_FROM of the process on all fail, whoever asks. At its end the
-// process writes how many there were to the file OSGRAYTRACE_COUNT_TO, unless a child of it has.
+// From allocation number OSGRAYTRACE_FAIL_FROM of the process on, all allocations fail, whoever
+// asks for them. At its end the process writes their number to the file OSGRAYTRACE_COUNT_TO,
+// unless a child of the process has written it.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -13,7 +14,7 @@
 
 extern "C"
 {
-    // The GNU C library's own, which its malloc is another name of.
+    // The GNU C library's own functions, of which malloc and its family are other names.
     void* __libc_malloc(std::size_t size);
     void* __libc_calloc(std::size_t count, std::size_t size);
     void* __libc_realloc(void* memory, std::size_t size);
@@ -27,7 +28,8 @@ std::atomic<long> allocations{0};
 
 bool fails()
 {
-    // Without a guard, which might allocate: threads that come here at once find the same.
+    // The variable has a constant initializer, because a guarded one might allocate: threads that
+    // come here at once compute the same value.
     static std::atomic<long> from{-1};
     if (from < 0)
     {

@@ -1,4 +1,4 @@
-// FuzzSeeds.cpp - random numbers of a seed, and the seed's name when all else fails. Layer: tests.
+// FuzzSeeds.cpp - random numbers of a seed, and the seed's name if the process dies. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "FuzzSeeds.h"
 
@@ -18,7 +18,7 @@ namespace osgRayTrace::test
 namespace
 {
 
-volatile uint32_t t_seed = 0; // of this process's only test thread; read when it dies
+volatile uint32_t t_seed = 0; // of this process's only test thread; read when the process dies
 
 #if defined(__SANITIZE_ADDRESS__)
 void nameSeed()

@@ -32,7 +32,7 @@ constexpr GLenum kModes[] = {GL_TRIANGLES,
 
 constexpr int kSizes[] = {0, 1, 2, 3, 4, 5, 8, 13, 40, 200};
 
-/// Numbers of elements, or first elements, that callers have got wrong.
+/// Returns a number of elements, or of a first element, as callers get it wrong.
 int strangeCount(Dice& dice, int usual)
 {
     constexpr int kStrange[] = {
@@ -118,7 +118,8 @@ osg::ref_ptr<osg::Array> oddArray(Dice& dice, int size, int rarity)
     }
 }
 
-/// Of the usual type or of another, of the vertices' size or of another.
+/// Returns an array of the usual type or another, and of as many elements as there are vertices or
+/// another number.
 template <class Usual> osg::ref_ptr<osg::Array> attributeArray(Dice& dice, int vertices, int rarity)
 {
     const int size = dice.oneIn(6) ? dice.oneOf(kSizes) : vertices;
@@ -202,7 +203,8 @@ osg::ref_ptr<osg::Geometry> randomGeometry(Dice& dice)
 {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     const int vertices = dice.oneOf(kSizes);
-    // Else a geometry of many vertices has always a bad one.
+    // Half of the geometries have only right values; otherwise every geometry of many vertices
+    // would have a bad one.
     const int rarity = dice.oneIn(2) ? 1 << 30 : 4 + dice.below(60);
     if (dice.oneIn(12))
         geometry->setVertexAttribArray(0, arrayOf<osg::Vec3Array>(dice, vertices, rarity));

@@ -10,11 +10,12 @@
 namespace osgRayTrace::test
 {
 
-/// Any primitive sets over any arrays: wrong sizes, types, bindings, indices and values.
+/// Returns any primitive sets over any arrays: sizes, types, bindings, indices and values may be
+/// wrong.
 osg::ref_ptr<osg::Geometry> randomGeometry(Dice& dice);
 
-/// Triangles that OpenGL makes of the geometry's primitive sets, whatever their indices; found in
-/// another way than the converter's.
+/// Returns the number of triangles that OpenGL makes of the geometry's primitive sets, whatever
+/// their indices; it is counted in another way than the converter counts.
 uint64_t trianglesOfSets(const osg::Geometry& geometry);
 
 } // namespace osgRayTrace::test

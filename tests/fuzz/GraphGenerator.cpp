@@ -61,8 +61,9 @@ osg::Matrixd randomMatrix(Dice& dice)
     }
 }
 
-/// OSG's own reads through indices, and beyond the arrays if those are wrong: what an application
-/// with such a geometry has to set before OSG can draw it.
+/// Computes the bound of all vertices. OSG's own callback reads through indices, and beyond the
+/// arrays if the indices are wrong, so an application with such a geometry has to set this one
+/// before OSG can draw.
 struct BoundOfVertices : osg::Drawable::ComputeBoundingBoxCallback
 {
     osg::BoundingBox computeBound(const osg::Drawable& drawable) const override
@@ -130,7 +131,8 @@ private:
         return made;
     }
 
-    /// What osgAnimation would read and write through, right or not.
+    /// Returns a rig whose arrays and influences, through which osgAnimation would read and write,
+    /// may be wrong.
     osg::ref_ptr<osg::Node> rig()
     {
         osg::ref_ptr<osgAnimation::RigGeometry> made = new osgAnimation::RigGeometry;
@@ -156,7 +158,7 @@ private:
         return below(made);
     }
 
-    /// A skeleton around it, as a rule.
+    /// Returns the rig below a node, which as a rule is below a skeleton.
     osg::ref_ptr<osg::Node> below(osg::Node* rig)
     {
         osg::ref_ptr<osg::Group> holder = new osg::MatrixTransform(randomMatrix(_dice));
@@ -235,7 +237,7 @@ private:
         return light;
     }
 
-    /// Texels that light, and some that no light has.
+    /// Returns an image of radiances, some of which no light has.
     osg::ref_ptr<osg::Image> sky(int width, int height)
     {
         osg::ref_ptr<osg::Image> image = new osg::Image;
@@ -337,7 +339,7 @@ private:
         case 2:
         {
             osg::ref_ptr<osg::LOD> lod = new osg::LOD;
-            lod->setCenter(osg::Vec3()); // else OSG takes that of its bound
+            lod->setCenter(osg::Vec3()); // otherwise OSG takes the centre of the bound
             lod->setRange(0, 0.0f, strangeFloat(_dice, 100.0, 2));
             return lod;
         }
@@ -366,7 +368,7 @@ private:
 
     Dice& _dice;
     RandomGraph _graph;
-    std::vector<osg::ref_ptr<osg::Node>> _made; // to be used again: shared subgraphs
+    std::vector<osg::ref_ptr<osg::Node>> _made; // used again as shared subgraphs
 };
 
 } // namespace

@@ -16,11 +16,12 @@ namespace osgRayTrace::test
 struct RandomGraph
 {
     osg::ref_ptr<osg::Group> root;
-    std::vector<osg::ref_ptr<osg::Geometry>> geometries; ///< each once, wherever it is used
+    std::vector<osg::ref_ptr<osg::Geometry>> geometries; ///< each once, however often it is used
     bool bounded = false; ///< OSG can compute the bounds of all geometries without harm
 };
 
-/// Within about 3 of the origin but for what is deliberately not.
+/// Returns a graph whose nodes are within about 3 of the origin, except those that are deliberately
+/// not.
 RandomGraph randomGraph(Dice& dice);
 
 } // namespace osgRayTrace::test

@@ -1,5 +1,5 @@
-// HdrFuzzTest.cpp - damaged Radiance pictures: an image or an error, and memory within reason.
-// Layer: tests.
+// HdrFuzzTest.cpp - damaged Radiance pictures give an image or an error, and take memory within
+// reason. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "CountedMemory.h"
 #include "FuzzSeeds.h"
@@ -18,7 +18,7 @@ namespace
 
 constexpr int kFiles = 40000; ///< seeds
 
-/// For the 2^24 pixels that a small file may hold: bytes of the file and of the image.
+/// The bytes of the file and of the image, for the 2^24 pixels that a small file may hold.
 constexpr std::size_t kMostBytes = std::size_t(400) << 20;
 
 Rgbe anyPixel(Dice& dice)
@@ -40,7 +40,8 @@ std::string anyLine(int length, Dice& dice)
     return mayBeNew && dice.oneIn(2) ? newLine(pixels) : flat(pixels);
 }
 
-/// Sometimes not even before it is damaged: pixels may be what lines must not begin with.
+/// Returns a file, which may be invalid even before it is damaged: pixels may have values with
+/// which lines must not begin.
 std::string anyFile(Dice& dice)
 {
     const char* const kVariables[] = {"",
@@ -62,7 +63,7 @@ std::string anyFile(Dice& dice)
     return file;
 }
 
-/// Another size in the line of the resolution.
+/// Puts another size into the line of the resolution.
 void editResolution(std::string& file, Dice& dice)
 {
     const char* const kNumbers[] = {"0",
@@ -137,7 +138,7 @@ TEST_CASE("fuzz: a damaged .hdr file gives an error or an image, and no absurd a
                     for (unsigned int i = 0; i < image.getTotalSizeInBytes() / sizeof(float); ++i)
                         if (!std::isfinite(values[i])) FAIL("value " << i << " is " << values[i]);
                 });
-    // The damage is neither always nor never fatal.
+    // The damage is neither always fatal nor never.
     CHECK(images > seedCount(kFiles) / 8);
     CHECK(errors > seedCount(kFiles) / 4);
 }

@@ -1,4 +1,4 @@
-// MallocFailureTest.cpp - osgraytrace where the C library's malloc fails for good. Layer: tests.
+// MallocFailureTest.cpp - osgraytrace while the C library's malloc fails for good. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
@@ -7,7 +7,8 @@ namespace
 {
 
 // While the loader runs the constructors of OSG's plugins, a failure ends the process in their
-// code, as no exception passes the loader. Here that is over after some 14,000 allocations.
+// code, because no exception passes the loader. The constructors are through after some 14,000
+// allocations.
 constexpr long kPluginsLoaded = 15000;
 
 } // namespace

@@ -1,5 +1,5 @@
-// MaterialFileFuzzTest.cpp - damaged material files: a library with values in range, or an error
-// that says where. Layer: tests.
+// MaterialFileFuzzTest.cpp - damaged material files give a library with values in range, or an
+// error that names the place. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "FuzzSeeds.h"
 #include "tests/Catch.h"

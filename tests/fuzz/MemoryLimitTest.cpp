@@ -26,7 +26,8 @@ TEST_CASE(
     "stability 52: what does not fit into 1 GiB is refused with a message, and leaves no file",
     "[stability][fuzz]")
 {
-    // The film does not fit; the film does, but not the pictures made of it.
+    // At the largest sizes the film does not fit into memory; at others the film fits, but not the
+    // pictures made of it.
     for (const char* size : {"16384 16384", "8192 8192", "6000 6000", "5000 5000", "4000 4000"})
     {
         CAPTURE(size);
@@ -38,7 +39,7 @@ TEST_CASE(
         if (outcome.exitCode == 0) continue;
         CHECK((outcome.exitCode == 3 || outcome.exitCode == 4)); // cannot render, cannot write
         CHECK(outcome.errors.find("osgraytrace: ") !=
-              std::string::npos); // after warnings of the library
+              std::string::npos); // follows warnings of the library
         CHECK(outcome.errors.find("memory") != std::string::npos);
         CHECK(folder.fileNames().empty());
     }

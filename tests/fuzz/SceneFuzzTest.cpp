@@ -29,7 +29,8 @@ namespace
 constexpr int kSize = 16;
 constexpr int kGeometries = 10000, kGraphs = 10000; ///< seeds
 
-/// Empty, or what is wrong with a mesh that Embree and the integrators are to trust.
+/// Returns an empty string, or what is wrong with a mesh that Embree and the integrators will
+/// trust.
 std::string faultOf(const Mesh& mesh)
 {
     const std::size_t count = mesh.positions.size();
@@ -63,7 +64,8 @@ uint64_t countIn(const ConversionCounts& counts, const std::string& what)
     return found == counts.end() ? 0 : found->second;
 }
 
-/// Cut by planes it is no larger; with restarts it has no more triangles.
+/// Checks the mesh cut by planes, and the mesh with a restart index, which must not have more
+/// triangles.
 void requireSoundVariants(const osg::Geometry& geometry, const ConvertedMesh& whole)
 {
     MeshRequest cut;
@@ -88,7 +90,8 @@ void requireSoundVariants(const osg::Geometry& geometry, const ConvertedMesh& wh
     REQUIRE(runs.mesh->triangles.size() <= trianglesOfSets(geometry));
 }
 
-/// A geometry that is not refused as a whole: each triangle of its sets is in the mesh or counted.
+/// Checks a geometry that is not refused as a whole: each triangle of its primitive sets is in the
+/// mesh or counted.
 void requireAllTrianglesCounted(const osg::Geometry& geometry)
 {
     const ConvertedMesh converted = convertGeometry(geometry, MeshRequest());
@@ -158,7 +161,7 @@ View viewOfOrigin()
     return view;
 }
 
-/// Mostly one that looks at the origin.
+/// Returns a view that in most cases looks at the origin.
 ReferenceView randomView(Dice& dice, const osg::Vec3d& eye)
 {
     ReferenceView view;
@@ -171,7 +174,7 @@ ReferenceView randomView(Dice& dice, const osg::Vec3d& eye)
     return view;
 }
 
-/// True if anything is seen.
+/// Returns whether anything is visible.
 bool requireFinitePass(const std::shared_ptr<const TracedScene>& traced,
                        const std::shared_ptr<Workers>& workers, IntegratorKind kind,
                        EnvironmentSampling sampling)
@@ -223,11 +226,11 @@ TEST_CASE("fuzz: any geometry is converted, each triangle kept or counted", "[fu
                     const ConvertedMesh converted = convertGeometry(*geometry, MeshRequest());
                     kept += converted.mesh != nullptr;
                 });
-    // The generator is no use if nothing gets through.
+    // The generator is of no use if all geometries are refused.
     CHECK(kept > static_cast<uint64_t>(seedCount(kGeometries)) / 4);
 }
 
-// Without rendering, so that the sanitizers see as many.
+// This test does not render, so that it can run the same number of graphs under sanitizers.
 TEST_CASE("fuzz: ten thousand scene graphs are converted for changing views", "[fuzz]")
 {
     osg::setNotifyLevel(osg::FATAL);
@@ -257,8 +260,8 @@ TEST_CASE("fuzz: ten thousand scene graphs are converted for changing views", "[
                 });
     const auto count = static_cast<uint64_t>(seedCount(10000 * sanitizerShare()));
     CHECK(traced > count / 2);
-    CHECK(cut > count / 50);    // clip planes are met
-    CHECK(posed > count / 100); // and poses that must be refused
+    CHECK(cut > count / 50);    // clip planes cut some geometries
+    CHECK(posed > count / 100); // some poses must be refused
     CHECK(skies > count / 20);
     CHECK(noSkies > count / 50);
 }
@@ -286,7 +289,7 @@ TEST_CASE("fuzz: any scene graph is converted, built and rendered, and stays fin
             SceneConverter converter;
             const ConversionResult result = converter.convert(input);
             requireSound(result);
-            // As in the next frame: nothing has changed.
+            // The next frame has the same graph: nothing may change.
             REQUIRE(converter.convert(input).scene->instances.size() ==
                     result.scene->instances.size());
             if (graph.bounded)

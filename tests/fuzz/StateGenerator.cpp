@@ -185,7 +185,7 @@ osg::ref_ptr<osg::StateSet> randomStateSet(Dice& dice)
         stateSet->setAttribute(
             new osg::PrimitiveRestartIndex(static_cast<unsigned int>(dice.below(300))));
     if (dice.oneIn(9)) stateSet->setMode(GL_PRIMITIVE_RESTART, randomMode(dice));
-    if (dice.oneIn(9)) stateSet->setMode(0x8D69, randomMode(dice)); // at the largest index
+    if (dice.oneIn(9)) stateSet->setMode(0x8D69, randomMode(dice)); // restart at the largest index
     if (dice.oneIn(9))
         stateSet->setAttributeAndModes(
             new osg::ClipPlane(static_cast<unsigned int>(dice.below(10))));

@@ -14,12 +14,12 @@ namespace osgRayTrace::test
 
 osg::ref_ptr<osg::StateSet> randomStateSet(Dice& dice);
 
-/// Of any format, also of such as there are not, sometimes without any pixels.
+/// Returns an image of any format, even of formats that do not exist, sometimes without any pixels.
 osg::ref_ptr<osg::Image> randomImage(Dice& dice);
 
 osg::ref_ptr<osg::Light> randomLight(Dice& dice);
 
-/// As Dice::strange, with infinity for what is larger than any float.
+/// Returns what Dice::strange does, with infinity for values that are larger than any float.
 float strangeFloat(Dice& dice, double size, int rarity);
 
 } // namespace osgRayTrace::test

@@ -1,4 +1,4 @@
-// BackgroundTest.cpp - pictures that workers make while a viewer draws on. Layer: tests.
+// BackgroundTest.cpp - pictures that workers trace while a viewer goes on drawing. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "TestViewer.h"
 #include "tests/Catch.h"
@@ -25,7 +25,7 @@ osg::ref_ptr<RayTracedScene> ballScene(RayTraceSettings::Presentation presentati
     return scene;
 }
 
-/// Workers of this scene need half an hour for their first image, and a moment for each tile.
+/// Returns a scene whose workers need half an hour for the first image, and a moment for each tile.
 osg::ref_ptr<RayTracedScene> endlessScene()
 {
     osg::ref_ptr<RayTracedScene> scene = ballScene(RayTraceSettings::BACKGROUND, 1 << 24);
@@ -33,7 +33,7 @@ osg::ref_ptr<RayTracedScene> endlessScene()
     settings.setShadows(true);
     settings.setLightAngle(20.0f);
     settings.setLightSamples(4096);
-    settings.setPassesPerFrame(1024); // without a budget
+    settings.setPassesPerFrame(1024); // in force without a budget
     return scene;
 }
 
@@ -47,7 +47,7 @@ osg::Vec3d eyeAt(int i)
     return osg::Vec3d(0.4 * (i % 5), 0.3 * (i % 3), 10.0);
 }
 
-/// Draws until it is so; a machine that needs more than these frames has other troubles.
+/// Draws until the condition holds; gives up after more frames than any machine should need.
 template <class Condition> bool framesUntil(TestViewer& view, const Condition& condition)
 {
     for (int i = 0; i < 20000; ++i)
@@ -59,7 +59,7 @@ template <class Condition> bool framesUntil(TestViewer& view, const Condition& c
     return false;
 }
 
-/// There is no image yet.
+/// Returns whether there is no image yet.
 bool isBlack(const osg::Image& image)
 {
     for (int y = 0; y < image.t(); ++y)
@@ -95,7 +95,7 @@ TEST_CASE("background: the picture at rest is that of a frame-locked view, bit b
     CHECK(statistics(*scene).imageAge == 0);
     CHECK(scene->getDrawable()->getColorImage());
 
-    // Another exposure reaches the display, too.
+    // A change of the exposure reaches the display, too.
     locked->getSettings()->setExposure(1.0f);
     scene->getSettings()->setExposure(1.0f);
     const osg::ref_ptr<osg::Image> brighter = exact.frames();
@@ -116,7 +116,7 @@ TEST_CASE(
         }
         CHECK(isBlack(*view.frames()));
         CHECK(statistics(*scene).ok);
-        CHECK(statistics(*scene).passes == 0); // else somebody has waited
+        CHECK(statistics(*scene).passes == 0); // otherwise draw would have waited
 
         SECTION("a camera")
         {
@@ -127,7 +127,7 @@ TEST_CASE(
             view.frames(3);
             view.viewer.removeSlave(0);
             second = nullptr;
-            view.frames(300); // until its view is forgotten
+            view.frames(300); // the camera's view is forgotten
         }
         SECTION("the scene")
         {
@@ -191,7 +191,7 @@ TEST_CASE("background: a view that moves in each frame has new pictures, each of
                           int found = -1;
                           for (int i = 0; i < kViews && found < 0; ++i)
                               if (equal(shown, *expected[std::size_t(i)])) found = i;
-                          torn |= found < 0 && !isBlack(shown); // black: none yet
+                          torn |= found < 0 && !isBlack(shown); // black: no image yet
                           changes += found >= 0 && found != last;
                           last = found;
                           return changes == 30;
@@ -215,12 +215,12 @@ TEST_CASE("background: the presentation changes while it runs, and the image goe
         const int now = statistics(*scene).passes;
         CHECK((now > passes || now == 40));
         passes = now;
-        // What a frame-locked view shows is its image as it is now.
+        // A frame-locked view presents its newest image.
         while (statistics(*locked).passes < now)
             exact.frames();
         CHECK(equal(*image, *exact.frames(now == 40 ? 1 : 0)));
     }
-    // A moved view, as soon as it is frame-locked.
+    // The view moves just before it is frame-locked.
     scene->getSettings()->setPresentation(RayTraceSettings::BACKGROUND);
     view.look(eyeAt(1));
     view.frames(2);
@@ -247,7 +247,7 @@ TEST_CASE("background: what cannot be traced is rasterized, until told to try ag
 {
     osg::ref_ptr<RayTracedScene> scene = ballScene(RayTraceSettings::BACKGROUND, 1);
     TestViewer view(kSize, kSize, scene.get());
-    view.camera().removeFinalDrawCallback(view.capture.get()); // it would copy all that
+    view.camera().removeFinalDrawCallback(view.capture.get()); // it would copy all these pixels
     view.camera().setProjectionResizePolicy(osg::Camera::FIXED);
     view.camera().setViewport(0, 0, 20000, 20000); // more pixels than a film holds
     view.viewer.realize();
@@ -328,7 +328,8 @@ TEST_CASE("background: two windows and draw threads of their own", "[gl]")
     CHECK(statistics(*scene).ok);
 }
 
-/// Run alone: the process ends with code 0 while the worker traces and the viewer is still there.
+/// This test runs alone: the process ends with code 0 while the worker traces and the viewer still
+/// exists.
 TEST_CASE("background: exit() from a host that closes nothing", "[.][background-exit]")
 {
     static const osg::ref_ptr<RayTracedScene> scene = endlessScene(); // destroyed after main

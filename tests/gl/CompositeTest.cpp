@@ -1,4 +1,4 @@
-// CompositeTest.cpp - ray traced and rasterized things in one picture. Layer: tests.
+// CompositeTest.cpp - ray traced and rasterized parts in one picture. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "TestViewer.h"
 #include "tests/Catch.h"
@@ -64,7 +64,8 @@ enum class Seen
     Wall
 };
 
-/// What is nearest at a point of the picture: sphere around the origin, or the unlit square.
+/// Returns what is nearest at a point of the picture: the sphere around the origin, the unlit
+/// square or the background.
 Seen expected(const osg::Camera& camera, double x, double y, double radius, double half)
 {
     const PixelRay ray(camera, x, y);
@@ -76,8 +77,8 @@ Seen expected(const osg::Camera& camera, double x, double y, double radius, doub
     return wall ? Seen::Wall : Seen::Background;
 }
 
-/// The corners of the pixel and a margin, for the sphere's tessellation, see the same as its
-/// centre.
+/// Returns what the pixel sees if its corners, with a margin for the sphere's tessellation, see the
+/// same as its centre.
 std::optional<Seen> certain(const osg::Camera& camera, int x, int y, double radius, double half)
 {
     const Seen seen = expected(camera, x + 0.5, y + 0.5, radius, half);
@@ -110,7 +111,7 @@ TEST_CASE("composite: a rasterized sphere in a ray traced wall shows exactly its
     const float radius = 1.0f, half = 2.0f;
     osg::ref_ptr<RayTracedScene> traced = tracedScene(unlitSquare(half, kGreen).get());
     osg::ref_ptr<osg::Group> root = new osg::Group;
-    // Drawn before it and after it: the order in the graph must not matter.
+    // The sphere is drawn before or after the wall: the order in the graph must not matter.
     const bool first = GENERATE(true, false);
     if (first) root->addChild(rasterizedSphere(osg::Vec3(), radius));
     root->addChild(traced);
@@ -204,9 +205,9 @@ TEST_CASE("composite: what is see-through blends over the ray traced picture", "
 
 TEST_CASE("composite: edges lie between their two sides", "[gl]")
 {
-    // A linear scene, whose display values are encoded: a grey square on a background that is
-    // brighter in blue and darker in red and green. Turned a little, so that all kinds of coverage
-    // occur.
+    // The test has a linear scene, whose display values are encoded: a grey square on a background
+    // that is brighter in blue and darker in red and green. The square is turned a little, so that
+    // all kinds of coverage occur.
     osg::ref_ptr<osg::MatrixTransform> turned =
         new osg::MatrixTransform(osg::Matrix::rotate(0.3, osg::Vec3d(0, 0, 1)));
     turned->addChild(unlitSquare(1.0f, osg::Vec4(0.5f, 0.5f, 0.5f, 1.0f)));
@@ -235,8 +236,8 @@ TEST_CASE("composite: edges lie between their two sides", "[gl]")
 
 TEST_CASE("composite: the drawable leaves OSG's state as it was", "[gl]")
 {
-    // Quads that need textures, lighting and a material, to the left and the right, before and
-    // after.
+    // Quads that need textures, lighting and a material stand to the left and the right, before and
+    // after the traced scene.
     osg::ref_ptr<osg::Image> checks = new osg::Image;
     checks->allocateImage(8, 8, 1, GL_RGB, GL_UNSIGNED_BYTE);
     for (int i = 0; i < 64; ++i)
@@ -268,16 +269,16 @@ TEST_CASE("composite: the drawable leaves OSG's state as it was", "[gl]")
         for (bool lit : {false, true})
             for (bool textured : {false, true})
                 group->addChild(quadAt(-4.0f + float(column++), lit, textured));
-    // Bins are drawn in order, so these really come before and after; the last has no state of its
-    // own.
+    // Bins are drawn in order, so these quads really come before and after; the last quad has no
+    // state of its own.
     before->getOrCreateStateSet()->setRenderBinDetails(-1, "RenderBin");
     after->getOrCreateStateSet()->setRenderBinDetails(2, "RenderBin");
     osg::ref_ptr<osg::Geometry> plain = osg::createTexturedQuadGeometry(
         osg::Vec3(-4.0f, 1.5f, 1.0f), osg::Vec3(8.0f, 0, 0), osg::Vec3(0, 0.5f, 0));
     after->addChild(plain);
     root->addChild(before);
-    // Hidden behind the quads or out of their way: the picture's difference is the traced square
-    // alone.
+    // The traced square is hidden behind the quads or out of their way, so that the pictures differ
+    // in this square alone.
     osg::ref_ptr<RayTracedScene> traced = tracedScene(unlitSquare(1.0f, kGreen).get());
     osg::ref_ptr<osg::MatrixTransform> below =
         new osg::MatrixTransform(osg::Matrix::translate(0, -2.3, 0));
@@ -310,7 +311,7 @@ TEST_CASE("composite: the drawable leaves OSG's state as it was", "[gl]")
     CHECK(different == 0);
 }
 
-// Where a mirror shows the background, it has to be the one that the picture has.
+// A mirror that shows the background must show the one that the picture has.
 TEST_CASE("composite: a ClearNode in the scene is the background, also of mirrors", "[gl]")
 {
     osg::ref_ptr<osg::ClearNode> clear = new osg::ClearNode;
@@ -321,7 +322,7 @@ TEST_CASE("composite: a ClearNode in the scene is the background, also of mirror
     metal->setRoughness(0.0f);
     metal->setBaseColor(osg::Vec3(1.0f, 1.0f, 1.0f));
     mirror->getOrCreateStateSet()->setAttribute(metal);
-    clear->addChild(mirror); // a group like others
+    clear->addChild(mirror); // a ClearNode is a group like others
     TestViewer viewer(kSize, kSize, tracedScene(clear));
     viewer.camera().setClearColor(osg::Vec4(1.0f, 0.0f, 0.0f, 1.0f));
     const osg::ref_ptr<osg::Image> picture = viewer.frames(3);

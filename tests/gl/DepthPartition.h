@@ -1,4 +1,4 @@
-// DepthPartition.h - draws what is below it in slices of depth, as CalVR does. Layer: tests.
+// DepthPartition.h - draws its children in slices of depth, as CalVR does. Layer: tests.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,8 +12,9 @@
 namespace osgRayTrace::test
 {
 
-/// A camera for each slice, the last one first; each clears depth and draws all children with the
-/// matrices of the pass, but for its own near and far planes. Each eye has cameras of its own.
+/// Has a camera for each slice; the last slice is drawn first. Each camera clears depth and draws
+/// all children with the matrices of the pass, but for the near and far planes of its slice. Each
+/// eye has cameras of its own.
 class DepthPartition : public osg::Group
 {
 public:

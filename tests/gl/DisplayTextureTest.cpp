@@ -1,5 +1,5 @@
-// DisplayTextureTest.cpp - a picture of which parts are copied to OpenGL shows what a whole one
-// does. Layer: tests.
+// DisplayTextureTest.cpp - a picture that is copied to OpenGL in parts looks like one that is
+// copied as a whole. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/DisplayTexture.h"
 #include "osgRayTrace/film/Film.h"
@@ -73,7 +73,7 @@ struct Window
         REQUIRE(glGetError() == GL_NO_ERROR);
         GLint rowLength = -1;
         glGetIntegerv(GL_UNPACK_ROW_LENGTH, &rowLength);
-        REQUIRE(rowLength == 0); // who else copies to OpenGL finds it as it was
+        REQUIRE(rowLength == 0); // other code that copies to OpenGL finds the default
         return seen;
     }
 
@@ -84,7 +84,8 @@ struct Window
     osg::RenderInfo renderInfo;
 };
 
-/// Two displays that are written to alike: one is told of parts, the other copies all each time.
+/// Two displays that get the same pictures: one is told of changed parts, the other copies
+/// everything each time.
 struct Pair
 {
     std::mt19937 random{3};
@@ -105,7 +106,7 @@ struct Pair
         }
     }
 
-    /// All of it, of so many pixels.
+    /// Replaces the whole picture by one of the given size.
     void replace(int width, int height, bool full)
     {
         for (DisplayTexture* display : both)
@@ -116,7 +117,8 @@ struct Pair
             display->modified();
     }
 
-    /// Some tiles of the picture that has the view's size; colours, mostly, and depths.
+    /// Changes some tiles of a picture that has the view's size: always their colours, and in a
+    /// third of the calls their depths, too.
     void change(unsigned percent)
     {
         ChangedTiles tiles;
@@ -175,7 +177,7 @@ TEST_CASE("display: a picture copied in parts is the whole one, whatever happens
             {
                 pair.change(what < 8 ? 10 : what < 10 ? 60 : 100);
             }
-            if (pair.random() % 4 != 0) checkSame(window, pair); // else it is not drawn
+            if (pair.random() % 4 != 0) checkSame(window, pair); // otherwise the frame is not drawn
         }
         checkSame(window, pair);
         for (DisplayTexture* display : pair.both)
@@ -213,7 +215,7 @@ TEST_CASE("display: memory for pictures of full size is there once, and changes 
     uint8_t* large = display.rgba();
     CHECK(std::count(large, large + 4 * 32 * 16, 0) == 4 * 32 * 16);
     large[5] = 77;
-    display.reserve(64, 64); // of a window that grew: resize() makes room for that
+    display.reserve(64, 64); // as for a window that grew: resize() makes room
     CHECK((display.width() == 32 && display.height() == 16));
     CHECK(display.rgba() == large);
     CHECK(display.rgba()[5] == 77);

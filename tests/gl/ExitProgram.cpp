@@ -1,12 +1,13 @@
-// ExitProgram.cpp - a program that draws on while another thread ends it. Layer: tests.
+// ExitProgram.cpp - a program that goes on drawing while another thread ends it. Layer: tests.
 // SPDX-License-Identifier: MIT
 //
 // Usage: exitProgram plain|frame-locked|background|renderer FRAMES MILLISECONDS
 //
-// After FRAMES another thread calls exit(). A handler of the host then takes MILLISECONDS, in which
-// frames go on. It is registered when OpenGL has drawn and nothing has been traced: so all static
-// objects that tracing has constructed are destroyed before it, and OpenGL's, which no program
-// survives that draws on, after it. 0: there is no such handler, and all goes as it may.
+// After FRAMES frames another thread calls exit(). A handler of the host then takes MILLISECONDS,
+// in which frames go on. The handler is registered when OpenGL has drawn and nothing has been
+// traced. So all static objects that tracing has constructed are destroyed before the handler runs.
+// OpenGL's static objects, without which no program can draw, are destroyed after it. If
+// MILLISECONDS is 0 there is no handler, and the order is left to chance.
 #include "TestViewer.h"
 
 #include <osgRayTrace/AreaLight>
@@ -52,7 +53,8 @@ osg::ref_ptr<osg::Node> ball(double x, float ior, float roughness)
     return placed;
 }
 
-/// Other children, materials and textures in each frame: conversions, patches and warnings.
+/// Replaces children, materials and textures in each frame: this makes conversions, patches and
+/// warnings.
 void change(osg::Group& group, int frame)
 {
     group.removeChildren(0, group.getNumChildren());
@@ -65,7 +67,7 @@ void change(osg::Group& group, int frame)
     square->getOrCreateStateSet()->setTextureAttributeAndModes(0, new osg::Texture2D(image));
     square->setName("frame " + std::to_string(frame));
     square->setNormalArray(new osg::Vec3Array(4),
-                           osg::Array::BIND_PER_VERTEX); // of no length: a warning
+                           osg::Array::BIND_PER_VERTEX); // the array is empty: a warning
     group.addChild(square);
     if (frame % 2)
         group.addChild(new AreaLight(osg::Vec3(-1, -1, 3), osg::Vec3(0, 2, 0), osg::Vec3(2, 0, 0),

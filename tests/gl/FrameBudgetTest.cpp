@@ -1,5 +1,5 @@
-// FrameBudgetTest.cpp - frame budgets in a viewer: whose they are, and what is seen under them.
-// Layer: tests.
+// FrameBudgetTest.cpp - frame budgets in a viewer: which views share one, and what the pictures
+// are. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "TestViewer.h"
 #include "tests/Catch.h"
@@ -20,8 +20,8 @@ namespace
 {
 
 constexpr int kSize = 128;
-constexpr float kEndless = 60000.0f; // [ms] no machine is that slow
-constexpr float kNothing = 1e-3f;    // [ms] nor that fast
+constexpr float kEndless = 60000.0f; // [ms] no frame takes so long
+constexpr float kNothing = 1e-3f;    // [ms] no frame is so fast
 
 const osg::Vec4 kGreen(0.0f, 1.0f, 0.0f, 1.0f);
 
@@ -43,7 +43,7 @@ TEST_CASE("frame budget: a frame with time for all passes makes them all", "[gl]
     scene->getSettings()->setMaxPasses(12);
     scene->getSettings()->setFrameBudget(kEndless);
     TestViewer view(kSize, kSize, scene.get());
-    view.frames(2); // the first knows no costs
+    view.frames(2); // in the first frame costs are unknown
     CHECK(passes(*scene) == 12);
     CHECK(divider(*scene) == 1);
     CHECK(scene->getDrawable()->getStatistics().frameSeconds > 0.0);
@@ -75,7 +75,7 @@ TEST_CASE("frame budget: a camera's own wins, of any type", "[gl]")
     for (int i = 1; i <= 3; ++i)
     {
         view.frames();
-        CHECK(passes(*scene) == i); // passes-per-frame
+        CHECK(passes(*scene) == i); // by the option passes-per-frame
     }
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("frame budget: with no time at all a moving view is coarse and smooth,
     view.look(osg::Vec3d(0.0, 0.0, 10.0));
     const osg::ref_ptr<osg::Image> coarse = view.frames();
     CHECK(divider(*budgeted) > 4);
-    CHECK(meanDifference(*coarse, *fine) < 20.0); // the same picture
+    CHECK(meanDifference(*coarse, *fine) < 20.0); // the pictures are of one scene
     CHECK(meanDifference(*coarse, *fine) > 0.5);
     int steps =
         0; // in the middle of the sphere neighbours are alike: blocks would differ from theirs
@@ -111,7 +111,7 @@ TEST_CASE("frame budget: with no time at all a moving view is coarse and smooth,
         osgDB::writeImageFile(*view.frames(), std::string(folder) + "/budget-mixed.png");
     }
 
-    // At least a tile in each frame: 64 tiles, four passes.
+    // At least one tile is traced in each frame: there are 64 tiles and four passes.
     for (int i = 0; i < 300 && (divider(*budgeted) > 1 || passes(*budgeted) < 4); ++i)
         view.frames();
     CHECK(divider(*budgeted) == 1);
@@ -122,7 +122,7 @@ TEST_CASE("frame budget: with no time at all a moving view is coarse and smooth,
 namespace
 {
 
-/// What the views of a scene showed when they were drawn last.
+/// Records what the views of a scene showed when they were last drawn.
 struct Shown : osg::Camera::DrawCallback
 {
     explicit Shown(const RayTracedScene& traced) : scene(&traced) {}

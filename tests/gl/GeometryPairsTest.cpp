@@ -24,7 +24,7 @@ osg::ref_ptr<osg::MatrixTransform> at(double x, double y, osg::Node* node)
     return test::at(osg::Matrix::translate(x, y, 0.0), node);
 }
 
-/// Alternating points of a band along an arc, each of its own colour.
+/// Returns alternating points of a band along an arc, each with a colour of its own.
 template <class Positions> osg::ref_ptr<osg::Geometry> band(int count, double scale = 1.0)
 {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
@@ -99,7 +99,7 @@ TEST_CASE("pairs: strips that restart, at any index and at the largest", "[gl]")
                     return {-1, -1, -1, 1, 1, 1};
                 }
             };
-            strips->setComputeBoundingBoxCallback(new NoBox); // OSG's own would read vertex 99
+            strips->setComputeBoundingBoxCallback(new NoBox); // OSG's callback would read vertex 99
             strips->setUseDisplayList(false);
             strips->setUseVertexBufferObjects(true);
             osg::StateSet* state = strips->getOrCreateStateSet();
@@ -113,13 +113,13 @@ TEST_CASE("pairs: strips that restart, at any index and at the largest", "[gl]")
 
 TEST_CASE("pairs: a concave polygon looks as OSG's tessellator makes it", "[gl]")
 {
-    bool tessellated = true; // the rasterized one comes first
+    bool tessellated = true; // the rasterized scene is made first
     checkSame(
         "concave",
         [&]
         {
-            // An arrow, a comb and an outline that leads to a hole and back; the fan of each is
-            // wrong.
+            // The outlines are an arrow, a comb and one that leads to a hole and back; the fan of
+            // each is wrong.
             const std::vector<std::vector<osg::Vec2>> outlines = {
                 {{0.5f, 0.0f}, {1.0f, 1.0f}, {0.5f, 0.6f}, {0.0f, 1.0f}},
                 {{0, 0},

@@ -1,4 +1,4 @@
-// HintsTest.cpp - users say what is ray traced and what is rasterized. Layer: tests.
+// HintsTest.cpp - users decide what is ray traced and what is rasterized. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "TestViewer.h"
 #include "tests/Catch.h"
@@ -28,7 +28,7 @@ osg::ref_ptr<osg::MatrixTransform> at(float x, osg::Node* node)
     return transform;
 }
 
-/// A shader that is green. Ray traced, the ball below it is red.
+/// Adds a shader that draws the node green. Ray traced, the ball below the node is red.
 void addShader(osg::Node& node)
 {
     osg::ref_ptr<osg::Program> program = new osg::Program;
@@ -58,7 +58,7 @@ struct Shown
 {
     osg::ref_ptr<osg::Image> image;
 
-    /// 'r' ray traced, 'g' by the shader, '-' not at all.
+    /// Returns 'r' if the ball is ray traced, 'g' if the shader drew it, '-' if it is not visible.
     char at(double x) const
     {
         const int column = static_cast<int>(kSize * (0.5 + 0.5 * x / 3.64)); // 40 degrees, from 10
@@ -90,11 +90,11 @@ TEST_CASE("hints: a node and what is below it, the nearest counts", "[gl]")
 {
     Balls balls;
     Traced traced(balls.group.get());
-    CHECK(traced.show().balls() == "gg"); // shaders are left to OpenGL
+    CHECK(traced.show().balls() == "gg"); // OpenGL draws what has shaders
     CHECK(traced.count("rasterized.shader-program") == 2);
 
     RayTracedScene::setHint(balls.group.get(), RayTracedScene::TRACE);
-    CHECK(traced.show().balls() == "rr"); // the next frame shows it
+    CHECK(traced.show().balls() == "rr"); // the next frame has the hint
     CHECK(traced.count("approximated.shader") == 2);
     CHECK(traced.count("rasterized.shader-program") == 0);
 
@@ -115,7 +115,8 @@ TEST_CASE("hints: a node and what is below it, the nearest counts", "[gl]")
     CHECK(balls.group->getNumDescriptions() == 1);
 }
 
-// The two composite: what is hinted to be rasterized hides and is hidden as before.
+// Both kinds of parts composite: a part with the hint to be rasterized hides and is hidden as
+// before.
 TEST_CASE("hints: rasterized parts look as in the rasterizer", "[gl]")
 {
     osg::ref_ptr<osg::Group> group = new osg::Group;
@@ -134,7 +135,7 @@ TEST_CASE("hints: rasterized parts look as in the rasterizer", "[gl]")
     CHECK(traced.count("converted.geometry") == 1);
     const auto isBlue = [&](int x, int y) { return pixel(*wanted, x, y).b() > 100.0f; };
     const auto isRed = [&](int x, int y) { return pixel(*wanted, x, y).r() > 100.0f; };
-    CHECK(meanDifference(*image, *wanted, isBlue) < 0.5); // the same, but for the edges between
+    CHECK(meanDifference(*image, *wanted, isBlue) < 0.5); // only the edges between parts differ
     CHECK(meanDifference(*image, *wanted, isRed) < 3.0);
 }
 

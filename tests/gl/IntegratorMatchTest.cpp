@@ -1,6 +1,6 @@
-// IntegratorMatchTest.cpp - classic materials send back as much light, of the same hue, whoever
-// computes it: OpenGL, WHITTED or PATH. Layer: tests. Set OSG_FILE_PATH to OpenSceneGraph's sample
-// models.
+// IntegratorMatchTest.cpp - classic materials reflect as much light, of the same hue, whether
+// OpenGL, WHITTED or PATH computes it. Set OSG_FILE_PATH to OpenSceneGraph's sample models. Layer:
+// tests.
 // SPDX-License-Identifier: MIT
 #include "MatchPictures.h"
 
@@ -18,8 +18,8 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// One directional light at the eye that nothing of OpenGL clamps, and no ambient light: what is
-/// seen is what materials reflect.
+/// Sets one directional light at the eye, which nothing in OpenGL clamps, and no ambient light: the
+/// picture is what materials reflect.
 void lightFromTheEye(TestViewer& view)
 {
     osg::Light& light = *view.viewer.getLight();
@@ -30,7 +30,8 @@ void lightFromTheEye(TestViewer& view)
 
 using SceneMaker = std::function<osg::ref_ptr<osg::Node>()>;
 
-/// Textures give their images to the context of a picture, so each picture has a scene of its own.
+/// Returns a new scene for each picture, because textures release their images to the context of a
+/// picture.
 osg::ref_ptr<osg::Node> lit(const SceneMaker& make)
 {
     const osg::ref_ptr<osg::Node> node = make();
@@ -44,8 +45,8 @@ osg::ref_ptr<osg::Node> lit(const SceneMaker& make)
     return group;
 }
 
-/// The mean colour, 0 to 255, of the pixels that OpenGL covers. The background is black, so it does
-/// not matter who finds how much of it in pixels at edges.
+/// Returns the mean colour, 0 to 255, of the pixels that OpenGL covers. The background is black, so
+/// its share in pixels at edges does not matter.
 osg::Vec3d meanOf(const Picture& picture, const Picture& rasterized)
 {
     osg::Vec3d sum;
@@ -64,7 +65,7 @@ double sumOf(const osg::Vec3d& color)
     return color.x() + color.y() + color.z();
 }
 
-/// How far two colours are apart once they are equally bright, 0 to 255.
+/// Returns how far two colours are apart once they are equally bright, 0 to 255.
 double hueDifference(const osg::Vec3d& color, const osg::Vec3d& other)
 {
     const osg::Vec3d d = color - other * (sumOf(color) / std::max(sumOf(other), 1e-6));
@@ -73,7 +74,7 @@ double hueDifference(const osg::Vec3d& color, const osg::Vec3d& other)
 
 struct Agreement
 {
-    double ratio; ///< of PATH's or WHITTED's brightness to OpenGL's
+    double ratio; ///< PATH's or WHITTED's brightness over OpenGL's
     double hue;
 };
 
@@ -95,7 +96,7 @@ Agreements compareIntegrators(const std::string& name, const SceneMaker& make, M
         setup.settings = [integrator](RayTraceSettings& settings)
         {
             settings.setIntegrator(integrator);
-            settings.setMaxBounces(1); // what one surface sends to another is not OpenGL's to show
+            settings.setMaxBounces(1); // OpenGL has no light from other surfaces
         };
         const Picture traced = rayTrace(lit(make).get(), setup);
         keepPictures(name + (integrator == RayTraceSettings::PATH ? "-path" : "-whitted"), traced,
@@ -126,8 +127,8 @@ TEST_CASE("integrator match: highlights leave the diffuse colour alone", "[gl]")
         float diffuse; ///< times (1, 0.5, 0.2)
         float specular, shininess;
     };
-    // Highlights of low exponent are as bright as OpenGL's as long as no more light is sent back
-    // than comes: those of the last two rows.
+    // Highlights of low exponent, as in the last two rows, are as bright as OpenGL's as long as no
+    // more light is reflected than arrives.
     const Surface surface =
         GENERATE(Surface{0.7f, 0.0f, 0.0f}, Surface{0.7f, 0.2f, 5.0f}, Surface{0.7f, 0.5f, 12.5f},
                  Surface{0.8f, 1.0f, 40.0f}, Surface{0.9f, 1.0f, 128.0f}, Surface{0.4f, 0.2f, 1.0f},
@@ -162,12 +163,12 @@ TEST_CASE("integrator match: sample models are as bright and of the same hue", "
     struct Model
     {
         std::string name;
-        double brightness = 0.05, hue = 2.0; ///< that PATH may differ by
+        double brightness = 0.05, hue = 2.0; ///< largest difference of PATH from OpenGL
     };
-    // OpenGL lights the cessna's coarse noses by vertex, PATH both sides of the letters of
-    // axes.osgt. The cow of chrome would send back up to 1.9 times what comes: its highlights give
-    // way. Not here: SmokeBox.osgt, cessnafire.osgt, clock.osgt, dot3_bumpmapping.osgt and
-    // morphing.osg, which go by the clock.
+    // OpenGL lights the cessna's coarse noses by vertex, and PATH lights both sides of the letters
+    // of axes.osgt. The cow of chrome would reflect up to 1.9 times the light that arrives: its
+    // highlights are reduced. SmokeBox.osgt, cessnafire.osgt, clock.osgt, dot3_bumpmapping.osgt and
+    // morphing.osg are left out, because they depend on the clock.
     const Model tested = GENERATE(
         Model{"axes.osgt", 0.09}, Model{"cessna.osgt", 0.06}, Model{"cow.osgt", 0.35, 2.5},
         Model{"cube_mapped_torus.osgt"}, Model{"dumptruck.osgt"}, Model{"glider.osgt"},

@@ -47,7 +47,7 @@ osg::ref_ptr<RayTracedScene> sceneOf(osg::Node* graph)
     return scene;
 }
 
-/// A view that looks at the graph, from a side of its own.
+/// Returns a view of the graph from a side of its own.
 osg::ref_ptr<osgViewer::View> newView(int number, osg::ref_ptr<FrameCapture>& capture)
 {
     osg::ref_ptr<osgViewer::View> view = new osgViewer::View;
@@ -64,7 +64,7 @@ osg::ref_ptr<osgViewer::View> newView(int number, osg::ref_ptr<FrameCapture>& ca
     return view;
 }
 
-/// The scene in so many views, each in a context of its own.
+/// The scene in several views, each in a context of its own.
 struct Viewers
 {
     explicit Viewers(int count) : captures(static_cast<std::size_t>(count))
@@ -101,11 +101,11 @@ int differentPixels(const osg::Image& a, const osg::Image& b)
     return count;
 }
 
-/// Most of those where rounding decides which side of an edge a ray passes.
+/// The most pixels in which rounding decides which side of an edge a ray passes.
 constexpr int kRoundedPixels = 5;
 
-/// Edits a graph between the frames of a viewer; now and then its pictures must be those of a scene
-/// that was converted just now.
+/// Edits a graph between the frames of a viewer; now and then the viewer's pictures must be those
+/// of a scene that has just been converted.
 void editLive(uint32_t seed, osgViewer::ViewerBase::ThreadingModel model, int viewCount)
 {
     osg::ref_ptr<osg::Group> graph = new osg::Group;
@@ -119,7 +119,7 @@ void editLive(uint32_t seed, osgViewer::ViewerBase::ThreadingModel model, int vi
     for (int frame = 1; frame <= kFrames; ++frame)
     {
         editor.edit();
-        if (frame % 7 == 0) editor.edit(); // two in one frame
+        if (frame % 7 == 0) editor.edit(); // two edits in one frame
         live.viewer.frame();
         if (frame % kCompared) continue;
         CAPTURE(seed, frame, model, viewCount, editor.last());
@@ -179,7 +179,7 @@ TEST_CASE("live edits: what is removed is freed with the next frame", "[gl]")
     const auto addOne = [&group]
     {
         const osg::ref_ptr<osg::Geometry> square = unlitSquare(0.5f, osg::Vec4(1, 1, 1, 1));
-        osg::ref_ptr<osg::LightSource> light = new osg::LightSource; // with what is below it
+        osg::ref_ptr<osg::LightSource> light = new osg::LightSource; // comes with its children
         light->addChild(square);
         group->addChild(light);
         return osg::observer_ptr<osg::Geometry>(square);
@@ -190,7 +190,7 @@ TEST_CASE("live edits: what is removed is freed with the next frame", "[gl]")
         viewer.frames(2);
         group->removeChildren(0, 1);
         viewer.frames(1);
-        viewer.frames(1); // until then OSG's render stage has what it drew
+        viewer.frames(1); // until then OSG's render stage refers to what it drew
         CHECK(!square.valid());
     }
     SECTION("while ray tracing is switched off")

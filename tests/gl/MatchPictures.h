@@ -1,4 +1,5 @@
-// MatchPictures.h - a scene drawn by OpenGL and traced, and how much the two differ. Layer: tests.
+// MatchPictures.h - a scene drawn by OpenGL and traced, and how much the pictures differ. Layer:
+// tests.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -22,7 +23,7 @@ namespace osgRayTrace::test
 struct Picture
 {
     osg::ref_ptr<osg::Image> color;
-    std::vector<bool> covered; ///< anywhere within the pixel
+    std::vector<bool> covered; ///< whether anything is within the pixel
 };
 
 /// How the two pictures of a scene are made.
@@ -31,8 +32,8 @@ struct MatchSetup
     int width = 120, height = 90;
     int samples =
         4; ///< a pixel and axis, of the rasterized picture; squared, passes of the traced one
-    bool homeView = false;                                ///< osgviewer's, else TestViewer's
-    std::function<void(TestViewer&)> view = {};           ///< further changes
+    bool homeView = false;                      ///< osgviewer's view instead of TestViewer's
+    std::function<void(TestViewer&)> view = {}; ///< further changes
     std::function<void(RayTraceSettings&)> settings = {}; ///< of the traced picture
 };
 
@@ -41,7 +42,7 @@ inline bool isCovered(const osg::Image& depth, int x, int y)
     return *reinterpret_cast<const float*>(depth.data(x, y)) < 1.0f;
 }
 
-/// A pixel is covered if any of its samples is.
+/// Reduces samples to pixels. A pixel is covered if any of its samples is.
 inline Picture reduced(const osg::Image& color, const osg::Image& depth, const MatchSetup& setup)
 {
     const int n = setup.samples;
@@ -68,8 +69,8 @@ inline void setUp(TestViewer& view, const MatchSetup& setup)
     if (setup.homeView) view.frames(); // the manipulator goes home
 }
 
-/// OSG's first frame is not like those that follow: state of OpenGL's that it sets last stays for
-/// the next one, and pictures are loaded. So pictures are those of the third.
+/// OSG's first frame is not like the later ones: state that OSG sets last stays for the next frame,
+/// and pictures are still being loaded. So the pictures are those of the third frame.
 constexpr int kFramesBefore = 2;
 
 inline Picture rasterize(osg::Node* model, const MatchSetup& setup)
@@ -126,7 +127,7 @@ inline Comparison compare(const Picture& a, const Picture& b)
     return comparison;
 }
 
-/// Writes the two beside each other to look at, if OSGRAYTRACE_PICTURES names a folder.
+/// Writes the two pictures beside each other if OSGRAYTRACE_PICTURES names a folder.
 inline void keepPictures(const std::string& name, const Picture& traced, const Picture& rasterized)
 {
     const char* folder = std::getenv("OSGRAYTRACE_PICTURES");
@@ -143,7 +144,7 @@ inline void keepPictures(const std::string& name, const Picture& traced, const P
     osgDB::writeImageFile(*pair, std::string(folder) + "/" + name + ".png");
 }
 
-/// Draws a scene both ways and compares.
+/// Draws a scene both ways and compares the pictures.
 inline Comparison match(const std::string& name, osg::Node* model, const MatchSetup& setup = {},
                         Statistics* statistics = nullptr)
 {

@@ -1,5 +1,5 @@
-// ModelPairsTest.cpp - all of OSG's sample models, traced and rasterized. Layer: tests.
-// Set OSG_FILE_PATH to OpenSceneGraph's sample models.
+// ModelPairsTest.cpp - all of OSG's sample models, traced and rasterized. Set OSG_FILE_PATH to
+// OpenSceneGraph's sample models. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "PicturePair.h"
 #include "tests/Catch.h"
@@ -16,7 +16,7 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// At osgviewer's home view.
+/// Sets osgviewer's home view.
 void goHome(TestViewer& view)
 {
     view.camera().setComputeNearFarMode(osg::Camera::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);

@@ -58,7 +58,8 @@ osg::ref_ptr<osg::ShapeDrawable> box(const osg::Vec4& color, float size = 1.0f)
     return drawable;
 }
 
-/// In the plane y = 0, facing -y as billboards do; a dark corner shows which way is up.
+/// Returns a sign in the plane y = 0 that faces -y, as billboards do; a dark corner shows which way
+/// is up.
 osg::ref_ptr<osg::Geometry> sign(const osg::Vec4& color)
 {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
@@ -109,7 +110,7 @@ TEST_CASE("pairs: clip planes cut what their states switch on", "[gl]")
                       clip->addClipPlane(plane(3, 0.0, -0.2, -1.0, 0.45));
                       clip->addChild(sphere(osg::Vec3(), 1.0f, kRed));
                       clip->addChild(at(0.0, 1.7, 0.0, box(kGreen).get()));
-                      clip->addChild(at(-2.6, 0.0, 0.0, box(kBlue).get())); // wholly cut away
+                      clip->addChild(at(-2.6, 0.0, 0.0, box(kBlue).get())); // clipped away
                       const auto turned = at(osg::Matrix::rotate(0.4, osg::Vec3d(0.3, 1.0, 0.2)) *
                                                  osg::Matrix::scale(1.2, 1.0, 0.9) *
                                                  osg::Matrix::translate(0.3, 0.0, 0.2),
@@ -173,7 +174,7 @@ TEST_CASE("pairs: billboards turn to the view", "[gl]")
     checkSame("billboard-world", make(osg::Billboard::POINT_ROT_WORLD, z, back));
 }
 
-// What OSG draws of them is where they put it.
+// Drawables that OSG draws are where the billboard puts them.
 TEST_CASE("pairs: billboards of which OSG draws a part", "[gl]")
 {
     checkSame("billboard-rasterized",
@@ -225,7 +226,8 @@ TEST_CASE("pairs: AutoTransform turns and scales for the view", "[gl]")
                       osg::ref_ptr<osg::AutoTransform> turning = new osg::AutoTransform;
                       turning->setPosition(osg::Vec3d(1.2 * i - 1.2, 0.3 * i, 0.0));
                       turning->setAutoRotateMode(modes[i]);
-                      // To the screen, signs lie on their backs: x right, y up.
+                      // Signs that turn to the screen lie on their backs: their x points right and
+                      // their y up.
                       turning->addChild(i == 2 ? static_cast<osg::Node*>(sign(kRed).get())
                                                : at(osg::Matrix::rotate(-1.4, osg::Vec3d(1, 0, 0)),
                                                     sign(kGreen).get())
@@ -235,7 +237,8 @@ TEST_CASE("pairs: AutoTransform turns and scales for the view", "[gl]")
                   osg::ref_ptr<osg::AutoTransform> scaled = new osg::AutoTransform;
                   scaled->setPosition(osg::Vec3d(0.0, -1.0, -1.0));
                   scaled->setAutoScaleToScreen(true);
-                  // Of 60 pixels of this picture, and of four times as many of the large one.
+                  // The limits of the scale make the box 60 pixels wide in the traced picture, and
+                  // four times as many in the large one.
                   scaled->addChild(at(osg::Matrix::scale(1, 1, 1), box(kBlue, 1.0f).get()));
                   scaled->setMinimumScale(0.8);
                   scaled->setMaximumScale(0.9);
@@ -254,7 +257,7 @@ TEST_CASE("pairs: AutoTransform keeps a size in pixels", "[gl]")
         scaled->addChild(at(osg::Matrix::scale(pixels, pixels, pixels), box(kBlue).get()));
         return group({scaled});
     };
-    // The rasterized picture is four times as large.
+    // The rasterized picture is four times as large as the traced one.
     bool large = true;
     checkSame("auto-scale",
               [&]
@@ -292,7 +295,8 @@ TEST_CASE("pairs: levels of detail, by distance and by size in pixels", "[gl]")
                       const bool pixels = i == 1;
                       lod->setRangeMode(pixels ? osg::LOD::PIXEL_SIZE_ON_SCREEN
                                                : osg::LOD::DISTANCE_FROM_EYE_POINT);
-                      // The pictures differ in size: 12 and 48 pixels, and 60 and 240.
+                      // The pictures differ in size: the boxes are 12 and 48 pixels wide in one, 60
+                      // and 240 in the other.
                       lod->addChild(box(kRed, 0.9f), 0.0f, pixels ? 20.0f : 4.0f);
                       lod->addChild(sphere(osg::Vec3(), 0.7f, kGreen), pixels ? 20.0f : 4.0f,
                                     pixels ? 1e6f : 30.0f);
@@ -340,7 +344,7 @@ TEST_CASE("pairs: pages and proxies are loaded for the view", "[gl]")
             osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
             paged->setCenter(osg::Vec3());
             paged->setRadius(1.0f);
-            paged->addChild(box(kRed), 20.0f, 1e6f); // shown until the near one is there
+            paged->addChild(box(kRed), 20.0f, 1e6f); // visible until the near one is loaded
             paged->setFileName(1, near);
             paged->setRange(1, 0.0f, 20.0f);
             osg::ref_ptr<osg::ProxyNode> proxy = new osg::ProxyNode;
@@ -354,7 +358,8 @@ TEST_CASE("pairs: pages and proxies are loaded for the view", "[gl]")
         {
             lookAskew(view);
             view.viewer.realize();
-            // Without a clock: until the pager has nothing to do, for some frames.
+            // The test does not look at a clock: it waits until the pager has had nothing to do for
+            // some frames.
             for (int quiet = 0; quiet < 20; ++quiet)
             {
                 view.viewer.frame(0.0);
@@ -409,7 +414,8 @@ TEST_CASE("pairs: a tile of a terrain", "[gl]")
 
 TEST_CASE("pairs: effects and solid text are drawn as before", "[gl]")
 {
-    // Of OSG's data. Another font may have faces that lie in each other: then there is no text.
+    // The font is OSG's own. Other fonts may have faces that overlap, and then the test has no
+    // text.
     const bool hasFont = !osgDB::findDataFile("fonts/arial.ttf").empty();
     const PicturePair pair =
         checkSame("effects",

@@ -46,7 +46,8 @@ osg::ref_ptr<osg::Geometry> makeQuad(const osg::Vec4& color = kQuadColor)
     return quad;
 }
 
-/// The same colour by GLSL: OSG finds those entry points in another way than the ones of OpenGL 1.
+/// Sets the same colour by GLSL: OSG finds GLSL's entry points in another way than those of OpenGL
+/// 1.
 void addGlsl(osg::StateSet& stateSet)
 {
     osg::ref_ptr<osg::Program> program = new osg::Program;
@@ -109,7 +110,7 @@ void requireQuad(FrameCapture& capture, int width, int height)
     REQUIRE(depth.t() == height);
 
     REQUIRE(hasColor(color, width / 2, height / 2, kQuadColor));
-    // 24 bits of depth, to half a step.
+    // The buffer has 24 bits of depth; depths are compared to half a step.
     const auto depthAt = [&](int x, int y)
     { return *reinterpret_cast<const float*>(depth.data(x, y)); };
     REQUIRE(depthAt(width / 2, height / 2) == Approx(0.25).margin(0.6 / (1 << 24)));
@@ -119,8 +120,9 @@ void requireQuad(FrameCapture& capture, int width, int height)
     REQUIRE(depthAt(0, 0) == 1.0f);
 }
 
-/// Without what malloc keeps for later: whether a freed image is used again or cut up depends on
-/// the order in which the threads of Mesa free theirs, and on a busy machine none was used again.
+/// Returns the resident memory without what malloc keeps for later. Whether a freed image is used
+/// again or cut up depends on the order in which Mesa's threads free their images; on a busy
+/// machine none was used again.
 std::size_t residentBytes()
 {
 #if defined(__GLIBC__)
@@ -167,7 +169,7 @@ TEST_CASE("offscreen: a context of either kind is OpenGL 3 or newer, with buffer
         REQUIRE(depthBits == 24);
         REQUIRE(stencilBits == 8);
 
-        // What osgViewer asks for by the traits.
+        // The buffer is the one that osgViewer chooses by the traits.
         glDrawBuffer(context->getTraits()->doubleBuffer ? GL_BACK : GL_FRONT);
         REQUIRE(glGetError() == GL_NO_ERROR);
         REQUIRE(context->releaseContext());
@@ -231,7 +233,7 @@ TEST_CASE("offscreen: a plain SceneView works in both kinds of context", "[offsc
         sceneView->setLightingMode(osgUtil::SceneView::NO_SCENEVIEW_LIGHT);
         sceneView->setState(context->getState());
         setUpCamera(*sceneView->getCamera(), context.get());
-        // SceneView's own settings, not its camera's, decide here.
+        // SceneView's own settings decide here, not its camera's.
         sceneView->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
         sceneView->setSceneData(makeQuad().get());
         sceneView->setFrameStamp(new osg::FrameStamp);
@@ -305,7 +307,7 @@ TEST_CASE("offscreen: both kinds of context take turns in one thread", "[offscre
         }
     }
 
-    // Without letting go in between: the other kind takes over, and its results stay apart.
+    // No context is released in between: the other kind takes over, and the results stay apart.
     for (int round = 0; round < 3; ++round)
     {
         for (std::size_t i = 0; i < 4; ++i)
@@ -359,7 +361,8 @@ TEST_CASE("offscreen: shared contexts share textures", "[offscreen][gl]")
         const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
         texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
 
-        // Upload in the first context only; the second one finds the object by its contextID.
+        // The object is uploaded in the first context only; the second context finds it by its
+        // contextID.
         REQUIRE(first->realize());
         REQUIRE(first->makeCurrent());
         texture->apply(*first->getState());
@@ -404,7 +407,8 @@ TEST_CASE("offscreen: a hundred contexts, one after the other, leave nothing beh
         }
         REQUIRE(osg::GraphicsContext::getMaxContextID() == maxContextId);
         REQUIRE(osg::GraphicsContext::getAllRegisteredGraphicsContexts().empty());
-        // Drivers keep some 100 KiB a context; one forgotten buffer each would be 320 MiB.
+        // Drivers keep some 100 KiB a context; one forgotten buffer in each context would be 320
+        // MiB.
         INFO("grown by " << (double(residentBytes()) - double(before)) / (1 << 20) << " MiB");
         REQUIRE(residentBytes() < before + (std::size_t(80) << 20));
     }

@@ -29,7 +29,7 @@ osg::ref_ptr<osg::Geometry> floorSquare()
     return unlit(square(3.2f, osg::Vec4(0.9f, 0.8f, 0.2f, 1.0f), 1.0f, -1.0f));
 }
 
-/// A box without a lid, seen into: inner faces are back faces.
+/// Returns a box without a lid, into which the eye looks: its inner faces are back faces.
 osg::ref_ptr<osg::Node> box()
 {
     osg::ref_ptr<osg::ShapeDrawable> shape =
@@ -75,7 +75,7 @@ TEST_CASE("match: all functions of the alpha test", "[gl][coverage]")
         osg::StateSet& state = *front->getStateSet();
         state.setTextureAttributeAndModes(
             0, textureOf(patchwork(8), osg::Texture::REPEAT, osg::Texture::NEAREST));
-        // 1 is a value that the texture has.
+        // The reference 1 is a value that the texture has.
         const float reference =
             function == osg::AlphaFunc::EQUAL || function == osg::AlphaFunc::NOTEQUAL ||
                     function == osg::AlphaFunc::LEQUAL || function == osg::AlphaFunc::GEQUAL
@@ -110,7 +110,7 @@ TEST_CASE("match: culled faces, turned winding and mirrored transforms", "[gl][c
             state.setAttribute(new osg::FrontFace(c.front));
             const auto matrix = osg::Matrixd::scale(c.mirror, 1.0, 1.0);
             auto root = groupOf({placed(matrix, thing)});
-            if (shared) // instances of one mesh take another way than a mesh of its own
+            if (shared) // instances of one mesh are handled in another way than a mesh of its own
                 root->addChild(placed(matrix * osg::Matrixd::translate(2.0, 1.0, -3.0), thing));
             checkMatch(std::string("cull-") + c.name + (shared ? "-shared" : ""), root);
         }
@@ -131,8 +131,8 @@ TEST_CASE("match: polygon offset puts decals before what they lie on", "[gl][cov
     };
     MatchSetup setup;
     setup.view = [](TestViewer& view) { view.look({3.0, 5.0, 6.0}); };
-    // Drawn last, all would lose or win by chance; the order of the graph is not that of the
-    // layers.
+    // Without offsets, chance would decide whether the decal that is drawn last is visible; the
+    // order of the graph is not that of the layers.
     const auto layers = groupOf({decal(1.0f, {0.1f, 0.1f, 0.9f, 1.0f}, -2.0f),
                                  decal(3.0f, {0.8f, 0.8f, 0.8f, 1.0f}, 0.0f),
                                  decal(2.0f, {0.9f, 0.1f, 0.1f, 1.0f}, -1.0f)});
@@ -140,7 +140,7 @@ TEST_CASE("match: polygon offset puts decals before what they lie on", "[gl][cov
     const auto base = groupOf(
         {decal(2.0f, {0.9f, 0.1f, 0.1f, 1.0f}, 0.0f), decal(3.0f, {0.8f, 0.8f, 0.8f, 1.0f}, 1.0f)});
     checkMatch("polygon-offset-back", base, setup);
-    // Shared, as instances are: one of two uses has the offset.
+    // The geometry is shared, so that it becomes instances: one of its two uses has the offset.
     const auto shared = unlit(square(1.0f, {0.1f, 0.9f, 0.1f, 1.0f}));
     const auto raised = placed(osg::Matrixd::translate(1.0, 0.5, 0.0), shared);
     raised->getOrCreateStateSet()->setAttributeAndModes(new osg::PolygonOffset(-1.0f, -1.0f));

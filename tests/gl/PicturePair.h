@@ -25,8 +25,8 @@ struct PicturePair
     osg::ref_ptr<osg::Image> rasterized, traced;
     Statistics statistics;
     double difference = 0.0; ///< mean over all pixels, 0 to 255
-    double worst = 0.0; ///< mean of the worst 8 x 8 pixels: what a cluster that is wrong would show
-    long covered = 0;   ///< pixels of the rasterized picture that are not background
+    double worst = 0.0;      ///< largest mean of 8 x 8 pixels: finds a cluster that is wrong
+    long covered = 0;        ///< pixels of the rasterized picture that are not background
 
     uint64_t count(const std::string& what) const
     {
@@ -50,15 +50,17 @@ inline double worstTile(const osg::Image& a, const osg::Image& b)
 
 using SceneMaker = std::function<osg::ref_ptr<osg::Node>()>;
 
-/// Light by normals of unit length, as traced: OpenGL's own depends on how a transform scales them.
+/// Makes OpenGL light by normals of unit length, as tracing does: OpenGL's own lengths depend on
+/// how a transform scales them.
 inline void normalize(TestViewer& view)
 {
     view.camera().getOrCreateStateSet()->setMode(GL_NORMALIZE, osg::StateAttribute::ON);
 }
 
-/// Both pictures of frame number `frames`, so that OSG may have prepared, loaded and animated; of
-/// two scenes made alike, as a viewer leaves its mark on one: images are let go, particles keep the
-/// time. Shadows are off. With OSGRAYTRACE_TEST_PICTURES both are written there, to be looked at.
+/// Returns both pictures of frame number `frames`, by which OSG has prepared, loaded and animated
+/// the scene. The pictures are of two scenes made alike, because a viewer changes its scene: images
+/// are released, and particles keep the time. Shadows are off. If OSGRAYTRACE_TEST_PICTURES names a
+/// folder, both pictures are written there.
 inline PicturePair picturePair(const std::string& name, const SceneMaker& makeScene,
                                const std::function<void(TestViewer&)>& setUp, int frames = 3)
 {
@@ -98,7 +100,8 @@ inline PicturePair picturePair(const std::string& name, const SceneMaker& makeSc
     return pair;
 }
 
-/// Few pixels differ, and no 8 x 8 of them are plainly wrong: edges alone give up to 12.
+/// Checks that few pixels differ, and that no 8 x 8 pixels are plainly wrong: edges alone give up
+/// to 12.
 inline PicturePair checkSame(const std::string& name, const SceneMaker& makeScene,
                              const std::function<void(TestViewer&)>& setUp, int frames = 3)
 {
@@ -111,7 +114,7 @@ inline PicturePair checkSame(const std::string& name, const SceneMaker& makeScen
     return pair;
 }
 
-/// The plane z = 0 from above, askew.
+/// Sets a view of the plane z = 0 from above, askew.
 inline void lookDown(TestViewer& view)
 {
     normalize(view);

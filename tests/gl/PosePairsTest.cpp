@@ -1,5 +1,5 @@
-// PosePairsTest.cpp - what poses move, and pictures that change, traced and rasterized. Layer:
-// tests.
+// PosePairsTest.cpp - geometries that poses move, and pictures that change, traced and rasterized.
+// Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "PicturePair.h"
 #include "tests/Catch.h"
@@ -30,7 +30,7 @@ PicturePair checkSame(const std::string& name, const SceneMaker& makeScene, int 
     return test::checkSame(name, makeScene, lookDown, frames);
 }
 
-/// A tube of rings along z, of two bones.
+/// Returns a tube of rings along z, posed by two bones.
 osg::ref_ptr<osg::Geometry> tube()
 {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
@@ -127,8 +127,8 @@ osg::ref_ptr<osg::Node> fattened(osgAnimation::MorphTransform* transform)
               morph.get());
 }
 
-/// Shades as the shader that OSG would load from its data does not: nothing but to be there, with
-/// no vertex shader file.
+/// Returns a minimal vertex shader, which poses nothing. It only has to exist, in place of the one
+/// that OSG would load from a file, because there is no such file.
 osg::ref_ptr<osg::Shader> noShader()
 {
     return new osg::Shader(
@@ -136,7 +136,7 @@ osg::ref_ptr<osg::Shader> noShader()
         "void main() { gl_Position = ftransform(); gl_FrontColor = vec4(1.0); }");
 }
 
-/// A video of one new picture a frame.
+/// A video that has one new picture a frame.
 class Video : public osg::ImageStream
 {
 public:
@@ -167,7 +167,7 @@ private:
 
 TEST_CASE("pairs: a rig whose transform is left to the hardware", "[gl]")
 {
-    bool software = true; // the rasterized one comes first
+    bool software = true; // the rasterized scene is made first
     checkSame("rig",
               [&]
               {

@@ -21,30 +21,31 @@ namespace
 
 constexpr int kSize = 96;
 
-/// What is drawn into, and how close depths must be there.
+/// A framebuffer to draw into, and how close depths must be in it.
 struct Target
 {
     const char* name;
-    GLint depthFormat; ///< of a framebuffer object; 0: the window itself
-    double unit;       ///< by which depths differ at least
-    double most;       ///< traced from drawn [units]
-    bool lessFloats;   ///< but for what vertices and matrices that are floats are worth
+    GLint depthFormat; ///< of a framebuffer object; 0: the window's own buffer
+    double unit;       ///< smallest difference of two depths
+    double most;       ///< largest difference of traced and drawn depths [units]
+    bool lessFloats;   ///< rounding of vertices and matrices to float is allowed on top
 };
 const Target kTargets[] = {{"24 bits", 0, 1.0 / 16777215.0, 3.0, true},
                            {"16 bits", GL_DEPTH_COMPONENT16, 1.0 / 65535.0, 1.0, false}};
 
-/// Red, green and blue: means of samples tell how much of each is seen in a pixel.
+/// Red, green and blue: the mean of the samples tells how much of each colour is in a pixel.
 const osg::Vec4 kColors[] = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}};
 
 struct Projection
 {
     osg::Matrixd matrix;
-    double nearest = 1.0, farthest = 20.0; ///< along -z of the eye, of what is looked at
+    double nearest = 1.0, farthest = 20.0; ///< of the triangles, along -z of the eye
     bool reversed = false;
     std::string name;
 };
 
-/// Clip coordinates, row vectors: x and y, and the planes that -1 and 1 of z are.
+/// Returns a perspective projection for row vectors whose far plane is at infinity: z is -1 at
+/// zNear and 1 at infinity.
 osg::Matrixd infinite(double left, double right, double bottom, double top, double zNear)
 {
     osg::Matrixd m = osg::Matrixd::frustum(left, right, bottom, top, zNear, 2.0 * zNear);
@@ -53,8 +54,8 @@ osg::Matrixd infinite(double left, double right, double bottom, double top, doub
     return m;
 }
 
-/// Of all kinds, by a number: off-axis, sheared, tiled, orthographic and oblique; with finite or
-/// infinite far planes, ordinary and reversed depths.
+/// Returns a projection of one of all kinds by its number: off-axis, sheared, tiled, orthographic
+/// and oblique, with finite or infinite far planes and ordinary or reversed depths.
 Projection randomProjection(int index)
 {
     std::mt19937 random(1000u + static_cast<unsigned int>(index));
@@ -62,7 +63,7 @@ Projection randomProjection(int index)
     { return from + (to - from) * (random() / 4294967296.0); };
     const double zNear = 0.5, zFar = 40.0;
     const double width = uniform(0.3, 0.8), height = uniform(0.3, 0.8);
-    // As far to the side as a wall beside its eye is.
+    // The view goes as far to the side as that of a wall beside its eye.
     const double left = uniform(-1.0, 0.6), bottom = uniform(-1.0, 0.6);
 
     Projection p;
@@ -79,7 +80,7 @@ Projection randomProjection(int index)
         p.matrix = osg::Matrixd::frustum(left, left + width, bottom, bottom + height, zNear, zFar);
     if (index % 5 == 1)
     {
-        // x and y move with z, as of an oblique or turned screen.
+        // x and y change with z, as for an oblique or turned screen.
         osg::Matrixd shear;
         shear(2, 0) = uniform(-0.4, 0.4);
         shear(2, 1) = uniform(-0.4, 0.4);
@@ -88,7 +89,7 @@ Projection randomProjection(int index)
     }
     if (index % 5 == 2)
     {
-        // One of 3 x 2 tiles of the picture.
+        // The projection is that of one of 3 x 2 tiles of the picture.
         p.matrix.postMult(
             osg::Matrixd::translate(int(random() % 3) * 2 - 2, int(random() % 2) * 2 - 1, 0) *
             osg::Matrixd::scale(3, 2, 1));
@@ -108,10 +109,11 @@ Projection randomProjection(int index)
     return p;
 }
 
-/// The point that is seen at x and y of the picture, from -1 to 1, at a distance along -z.
+/// Returns the point at x and y of the picture, from -1 to 1, at a distance along -z.
 osg::Vec3d seenAt(const osg::Matrixd& projection, double x, double y, double distance)
 {
-    // x w = X and y w = Y of the clip coordinates are two equations for the two other coordinates.
+    // The two other coordinates follow from two equations of the clip coordinates: x w = X and y w
+    // = Y.
     const auto at = [&](int column, double factor, int row)
     { return projection(row, column) - factor * projection(row, 3); };
     const double z = -distance;
@@ -121,8 +123,8 @@ osg::Vec3d seenAt(const osg::Matrixd& projection, double x, double y, double dis
     return {(e * d - b * f) / determinant, (a * f - e * c) / determinant, z};
 }
 
-/// Triangles that fill a part of the picture each: tilted so that they reach through each other, or
-/// each at one distance.
+/// Returns triangles each of which fills a part of the picture: either they are tilted so that they
+/// intersect, or each has a constant distance.
 osg::ref_ptr<osg::Geometry> triangles(const Projection& p, const osg::Matrixd& worldFromView,
                                       int index, bool tilted)
 {
@@ -154,7 +156,7 @@ osg::ref_ptr<osg::Geometry> triangles(const Projection& p, const osg::Matrixd& w
     return geometry;
 }
 
-/// The same triangles, each from another of its corners on.
+/// Returns the same triangles, each of which begins with another corner.
 osg::ref_ptr<osg::Geometry> turned(const osg::Geometry& geometry)
 {
     osg::ref_ptr<osg::Geometry> result = new osg::Geometry(geometry);
@@ -210,7 +212,8 @@ Shot shot(osg::Node* node, const Projection& p, const osg::Matrixd& viewFromWorl
     return made;
 }
 
-/// The one colour that all of the pixel has, 3: the background; -1: it has several.
+/// Returns the one colour that the whole pixel has, 3 for the background, or -1 if the pixel has
+/// several colours.
 int pure(const osg::Image& image, int x, int y)
 {
     const osg::Vec4 color = pixel(image, x, y);
@@ -219,26 +222,26 @@ int pure(const osg::Image& image, int x, int y)
     return color.r() + color.g() + color.b() == 0.0f ? 3 : -1;
 }
 
-/// A whole number of the buffer's units: what is read back is a float.
+/// Returns a whole number of the buffer's units, because the depth is read back as a float.
 double depthAt(const Shot& shot, int x, int y, const Target& target)
 {
     const float depth = *reinterpret_cast<const float*>(shot.depth->data(x, y));
     return std::round(depth / target.unit) * target.unit;
 }
 
-/// Window depth, by double, where a triangle is in the middle of a pixel.
+/// The window depth, in double, of a triangle in the middle of a pixel.
 struct ExactDepth
 {
     double depth;
-    double
-        tolerance; ///< what vertices and matrices that are floats are worth, for OpenGL as for rays
+    double tolerance; ///< effect of rounding vertices and matrices to float, in OpenGL and in rays
 };
 
 ExactDepth exactDepth(const osg::Geometry& geometry, int triangle,
                       const osg::Matrixd& viewFromWorld, const osg::Matrixd& projection, int x,
                       int y)
 {
-    // The plane through the corners' window coordinates: depth is linear there in any projection.
+    // The depth is linear in window coordinates for any projection, so it lies in the plane through
+    // the corners' window coordinates.
     const auto& vertices = static_cast<const osg::Vec3Array&>(*geometry.getVertexArray());
     osg::Vec3d corners[3];
     for (int i = 0; i < 3; ++i)
@@ -251,9 +254,9 @@ ExactDepth exactDepth(const osg::Geometry& geometry, int triangle,
     const double slope =
         (std::fabs(normal.x()) + std::fabs(normal.y())) / std::fabs(normal.z()) / kSize;
 
-    // Along the slope a ten-thousandth of a pixel; and two spacings of floats at the point's
-    // coordinates, in depth: where the vertices are is rounded, where the point is between them is,
-    // too.
+    // The tolerance is a ten-thousandth of a pixel along the slope, and the depth of two spacings
+    // of floats at the point's coordinates: one for rounding the vertices, one for rounding the
+    // point between them.
     const double a = projection(2, 2), b = projection(3, 2), c = projection(2, 3),
                  d = projection(3, 3);
     const double z = (b - clip * d) / (clip * c - a);
@@ -271,15 +274,16 @@ struct Agreement
     int inner = 0;      ///< pixels whose depth can be compared
     double shift = 0.0; ///< mean signed displacement of edges [pixels]
     double nearestInner = 0.0, nearestEdge = 0.0; ///< largest 1 - depth, or depth if reversed
-    // Largest differences of depth [units]
+    // The largest differences of depth [units].
     double units = 0.0;
-    double lessFloats = 0.0;                    ///< less what floats are worth
-    double tracedError = 0.0, drawnError = 0.0; ///< from the truth, less that
+    double lessFloats = 0.0;                    ///< reduced by the effect of floats
+    double tracedError = 0.0, drawnError = 0.0; ///< from the exact depth, reduced likewise
     double drawnTwice = 0.0;                    ///< between two drawings of the same triangles
 };
 
-/// A pixel whose middle OpenGL finds covered shows something of it, and one that shows nothing else
-/// is covered in the middle: otherwise an edge is half a pixel away.
+/// Compares a traced picture with a drawn one. A pixel in whose middle OpenGL draws a colour must
+/// show some of this colour. A pixel that has a single colour in the traced picture must have it in
+/// its middle in the drawn one. Otherwise an edge is half a pixel away.
 Agreement agreement(const Shot& traced, const Shot& drawn, const Shot& drawnAgain,
                     const osg::Geometry& geometry, const osg::Matrixd& viewFromWorld,
                     const Projection& p, const Target& target)
@@ -332,12 +336,12 @@ TEST_CASE("projections: edges and depths of twenty kinds are those of the raster
     Agreement worst;
     for (int index = 0; index < 20; ++index)
     {
-        if (kSanitized && index / 4 % 4 != part) continue; // each once
+        if (kSanitized && index / 4 % 4 != part) continue; // each projection is tested once
         const Projection p = randomProjection(index);
         CAPTURE(index, p.name, tilted, target.name);
         const osg::ref_ptr<osg::Geometry> geometry = triangles(p, worldFromView, index, tilted);
         const Shot drawn = shot(geometry.get(), p, viewFromWorld, target);
-        // How far OSMesa is from itself tells what its own 24 bits are worth.
+        // The difference of two drawings by OSMesa tells how accurate its 24 bits are.
         const Shot drawnAgain = tilted && target.lessFloats
                                     ? shot(turned(*geometry).get(), p, viewFromWorld, target)
                                     : drawn;
@@ -358,7 +362,8 @@ TEST_CASE("projections: edges and depths of twenty kinds are those of the raster
         CHECK(std::fabs(same.shift) < 0.05);
         CHECK(same.tracedError <= 1.0);
         CHECK((target.lessFloats ? same.lessFloats : same.units) <= target.most + 1e-6);
-        // Pixels whose first sample missed have no depth: right in front of the background.
+        // Pixels whose first sample missed have no depth: their depth is right in front of the
+        // background.
         if (!tilted) CHECK(same.nearestEdge <= same.nearestInner + 2.0 * target.unit);
         CHECK(same.edges > 50);
         CHECK(same.inner > 800);

@@ -1,4 +1,4 @@
-// RasterizedPartsTest.cpp - what is not ray traced stays where it was. Layer: tests.
+// RasterizedPartsTest.cpp - parts that are not ray traced stay where they were. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "TestViewer.h"
 #include "tests/Catch.h"
@@ -53,7 +53,7 @@ osg::ref_ptr<osgText::Text> label(const char* words)
     return text;
 }
 
-/// A corner of the window, whatever the view is.
+/// Returns a camera that draws into a corner of the window, whatever the view is.
 osg::ref_ptr<osg::Camera> headUpDisplay()
 {
     osg::ref_ptr<osg::Camera> camera = new osg::Camera;
@@ -66,7 +66,7 @@ osg::ref_ptr<osg::Camera> headUpDisplay()
     return camera;
 }
 
-/// No geometry that anyone could read: it draws one of its own, and counts how often.
+/// A drawable without a geometry that could be read: it draws one of its own, and counts how often.
 class CustomDrawable : public osg::Drawable
 {
 public:
@@ -105,7 +105,7 @@ osg::ref_ptr<osg::MatrixTransform> at(const osg::Vec3& place, osg::Node* node)
     return transform;
 }
 
-/// In front of a traced wall; each of them is also partly behind another one.
+/// Returns the nodes in front of a traced wall; another traced square hides a part of each.
 osg::ref_ptr<osg::Group> scene(const std::vector<osg::ref_ptr<osg::Node>>& nodes)
 {
     osg::ref_ptr<osg::Group> group = new osg::Group;
@@ -126,11 +126,11 @@ osg::ref_ptr<osg::Image> picture(osg::Node* content, bool enabled)
     return viewer.frames(2);
 }
 
-/// Mean differences, 0 to 255, over the pixels that the nodes change when all is rasterized.
+/// Mean differences, 0 to 255, over the pixels that the nodes change in the rasterized picture.
 struct Compared
 {
     double difference; ///< of the ray traced picture from the rasterized one
-    double shown;      ///< of the rasterized one without the nodes
+    double shown;      ///< of the rasterized picture from the one without the nodes
     long pixels;
 };
 
@@ -300,7 +300,7 @@ TEST_CASE("rasterized parts: a texture that a camera of the graph renders", "[gl
     checkSame({camera, screen});
 }
 
-// Conversion keeps what it leaves to OSG; that must not keep the decorator.
+// Conversion keeps the nodes that OSG goes on drawing, and must not keep the decorator by them.
 TEST_CASE("rasterized parts: the scene is freed with its owner", "[gl]")
 {
     osg::observer_ptr<RayTracedScene> observed;
@@ -314,7 +314,7 @@ TEST_CASE("rasterized parts: the scene is freed with its owner", "[gl]")
     CHECK_FALSE(observed.valid());
 }
 
-// An edited scene draws the parts that it has now, and lets go of the others.
+// An edited scene draws its present parts, and releases the others.
 TEST_CASE("rasterized parts: added and removed while drawn", "[gl]")
 {
     osg::ref_ptr<osg::Group> content = scene({});

@@ -1,5 +1,5 @@
-// RasterizerMatchTest.cpp - plain lit models look as OpenGL draws them. Layer: tests.
-// Set OSG_FILE_PATH to OpenSceneGraph's sample models.
+// RasterizerMatchTest.cpp - plain lit models look as OpenGL draws them. Set OSG_FILE_PATH to
+// OpenSceneGraph's sample models. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "MatchPictures.h"
 
@@ -25,7 +25,8 @@ MatchSetup homeView()
     return setup;
 }
 
-/// The cow is a chrome one: its texture is looked up by the reflected direction.
+/// Removes textures: the cow is made of chrome, whose texture is looked up by the reflected
+/// direction.
 struct RemoveTextures : osg::NodeVisitor
 {
     RemoveTextures() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
@@ -54,9 +55,8 @@ osg::ref_ptr<osg::Node> plainModel(const std::string& name)
     return model;
 }
 
-/// OpenGL's lighting [OpenGL 2.1, eq. 2.1-2.4] of a directional light without attenuation, but
-/// evaluated by pixel. The material is osg::Material's, or the vertex colour's where the model has
-/// none.
+/// Does OpenGL's lighting [OpenGL 2.1, eq. 2.1-2.4] of a directional light without attenuation, but
+/// by pixel. The material is osg::Material's, or the vertex colour if the model has no material.
 enum class Lookup
 {
     None,
@@ -118,8 +118,8 @@ osg::ref_ptr<osg::Program> lightingByPixel(bool usesVertexColors, Lookup lookup 
 
 TEST_CASE("rasterizer match: plain lit models look as OpenGL draws them", "[gl][osg-data]")
 {
-    // The cessna's noses and leading edges are so coarse that OpenGL's lighting by vertex shows:
-    // there alone the difference is larger, and gone when OpenGL lights by pixel.
+    // The cessna's noses and leading edges are so coarse that OpenGL's lighting by vertex is
+    // visible: for this model alone the difference is larger, and gone if OpenGL lights by pixel.
     struct Model
     {
         std::string name;
@@ -154,8 +154,8 @@ TEST_CASE("rasterizer match: plain lit models look as OpenGL draws them", "[gl][
 
 TEST_CASE("rasterizer match: chrome looks as OpenGL draws it", "[gl][osg-data]")
 {
-    // OpenGL looks generated coordinates up at the vertices of coarse meshes, we at each point: the
-    // difference is gone when OpenGL does so, too.
+    // OpenGL looks generated coordinates up at the vertices of coarse meshes, whereas tracing does
+    // so at each point: the difference is gone if OpenGL looks them up by pixel.
     struct Model
     {
         std::string name;
@@ -178,7 +178,8 @@ TEST_CASE("rasterizer match: chrome looks as OpenGL draws it", "[gl][osg-data]")
     const Picture traced = rayTrace(model.get(), setup);
     osg::ref_ptr<osg::Group> shaded = new osg::Group;
     const Comparison byVertex = compare(traced, rasterize(model.get(), setup));
-    // Again: textures have given their images to the context of the last picture.
+    // The model is read again, because textures have released their images to the context of the
+    // last picture.
     shaded->addChild(osgDB::readRefNodeFile(tested.name));
     shaded->getOrCreateStateSet()->setAttribute(
         lightingByPixel(!tested.hasMaterial, tested.lookup));
@@ -194,13 +195,13 @@ TEST_CASE("rasterizer match: chrome looks as OpenGL draws it", "[gl][osg-data]")
 
 TEST_CASE("rasterizer match: models with textures and alpha", "[gl][osg-data]")
 {
-    // Not here: clock.osgt and cessnafire.osgt, which go by the clock.
+    // clock.osgt and cessnafire.osgt are left out, because they depend on the clock.
     struct Model
     {
         std::string name;
         double most; ///< mean difference, of 255
     };
-    // What glsl_simple.osgt leaves to OpenGL has jagged edges in one of the two pictures.
+    // The part of glsl_simple.osgt that OpenGL draws has jagged edges in one of the two pictures.
     const Model tested =
         GENERATE(Model{"lz.osgt", 2.0}, Model{"simpleroom.osgt", 2.0}, Model{"axes.osgt", 2.0},
                  Model{"nathan.osg", 2.0}, Model{"glsl_simple.osgt", 6.0});
@@ -210,7 +211,7 @@ TEST_CASE("rasterizer match: models with textures and alpha", "[gl][osg-data]")
         WARN("skipped: " << tested.name << " is not in OSG_FILE_PATH");
         return;
     }
-    // We always take normals as of length 1.
+    // Tracing takes all normals as of length 1.
     model->getOrCreateStateSet()->setMode(GL_NORMALIZE, osg::StateAttribute::ON);
     MatchSetup setup = homeView();
     setup.width = 240;

@@ -28,7 +28,7 @@ osg::ref_ptr<RayTracedScene> greenScene()
     return tracedScene(unlitSquare(1.0f, kGreen).get());
 }
 
-/// The debug channel of normals: something that no rasterizer shows.
+/// Selects the debug channel of normals, which no rasterizer shows.
 void showNormals(RayTracedScene& scene)
 {
     scene.getSettings()->setIntegrator(RayTraceSettings::DEBUG);
@@ -88,7 +88,8 @@ TEST_CASE("traced scene: passes add up while nothing changes, and stop at the mo
 
 TEST_CASE("traced scene: an image goes on while OSG computes near and far planes", "[gl]")
 {
-    // OSG's culling clamps the last frame's projection again, and its rounding never ends.
+    // OSG's culling clamps the projection of the last frame again in each frame, and its rounding
+    // never ends.
     osg::ref_ptr<RayTracedScene> scene = tracedScene(sphere(osg::Vec3(), 1.7f, kGreen).get());
     TestViewer view(kSize, kSize, scene.get());
     view.camera().setComputeNearFarMode(osg::Camera::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
@@ -149,7 +150,7 @@ TEST_CASE("traced scene: a change shows in the next frame", "[gl]")
     {
         auto& vertices = static_cast<osg::Vec3Array&>(*square->getVertexArray());
         for (osg::Vec3& v : vertices)
-            v.x() = 0.5f * (v.x() + 1.0f); // the right half of what it was
+            v.x() = 0.5f * (v.x() + 1.0f); // the right half of the former square
         CHECK(pixel(*view.frames(), kMiddle - 4, kMiddle) == kGreenPixel);
         scene->dirtyScene();
         const osg::ref_ptr<osg::Image> halved = view.frames();
@@ -181,7 +182,7 @@ TEST_CASE("traced scene: osgViewer's light is found, and followed", "[gl]")
     osg::ref_ptr<osg::Geometry> square = unlitSquare(1.0f, osg::Vec4(1, 1, 1, 1));
     square->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
     osg::ref_ptr<RayTracedScene> scene = tracedScene(square.get());
-    // A transform above: the light must be the same in the scene's own coordinates.
+    // The scene is below a transform: the light must be the same in the scene's own coordinates.
     osg::ref_ptr<osg::MatrixTransform> turned =
         new osg::MatrixTransform(osg::Matrix::rotate(osg::PI_4, osg::Vec3d(0.0, 1.0, 0.0)));
     turned->addChild(scene);
@@ -254,7 +255,7 @@ TEST_CASE("drawable: the viewport may change, start anywhere and be empty", "[gl
     const osg::ref_ptr<osg::Image> radiance = scene->getDrawable()->getColorImage();
     REQUIRE(radiance);
     CHECK(radiance->s() == kSize / 2);
-    // The capture is of the viewport.
+    // The captured picture is that of the viewport.
     const int quarter = countGreen(*view.frames());
     CHECK(quarter == Approx(whole / 4.0).epsilon(0.1));
 
@@ -377,7 +378,7 @@ TEST_CASE("drawable: denoising changes the picture without tracing anew, and fol
     other->setSettings(scene->getSettings());
     TestViewer fresh(kSize, kSize, other.get());
     fresh.look(osg::Vec3d(3.0, 1.0, 10.0), osg::Vec3d(0.5, 0.0, 0.0));
-    // The fresh one has another origin, and so other roundings.
+    // The fresh scene has another origin, and so other roundings.
     CHECK(meanDifference(*fresh.frames(), *moved) < 0.1);
 
     scene->getSettings()->setDenoise(RayTraceSettings::OFF);
@@ -392,7 +393,8 @@ TEST_CASE("drawable: near and far planes are computed from the scene", "[gl]")
     view.camera().setComputeNearFarMode(
         GENERATE(osg::Camera::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES,
                  osg::Camera::COMPUTE_NEAR_FAR_USING_PRIMITIVES));
-    // Far behind the far plane that the projection was given, and in front of the near plane.
+    // The eye is so far away that the scene is far behind the projection's far plane, or so near
+    // that it is in front of the near plane.
     view.look(osg::Vec3d(0.0, 0.0, GENERATE(2000.0, 0.5)));
     view.camera().setProjectionMatrixAsPerspective(
         view.camera().getViewMatrix().getTrans().z() < -1000.0 ? 0.1 : 40.0, 1.0, 1.0, 100.0);
@@ -413,7 +415,7 @@ TEST_CASE("traced scene: what cannot be traced is rasterized, until told to try 
     osg::ref_ptr<RayTracedScene> scene = greenScene();
     showNormals(*scene);
     TestViewer view(kSize, kSize, scene.get());
-    view.camera().removeFinalDrawCallback(view.capture.get()); // it would copy all that
+    view.camera().removeFinalDrawCallback(view.capture.get()); // it would copy all these pixels
     view.camera().setProjectionResizePolicy(osg::Camera::FIXED);
     view.camera().setViewport(0, 0, 20000, 20000); // more pixels than a film holds
     view.frames();

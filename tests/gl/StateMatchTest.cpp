@@ -12,7 +12,7 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// Fine, so that OpenGL's lighting at vertices is that at points.
+/// Returns a shape so fine that OpenGL's lighting at vertices equals lighting at points.
 osg::ref_ptr<osg::ShapeDrawable> shapeOf(osg::Shape* shape, const osg::Vec4& color)
 {
     osg::ref_ptr<osg::TessellationHints> hints = new osg::TessellationHints;
@@ -73,7 +73,7 @@ TEST_CASE("match: without materials and colours, alone and beside a material", "
         geometry->setColorArray(nullptr);
         return placed(osg::Matrixd::translate(x, 0.0, 0.0), geometry);
     };
-    osg::ref_ptr<osg::LightModel> bright = new osg::LightModel; // it is ambient light that differs
+    osg::ref_ptr<osg::LightModel> bright = new osg::LightModel; // only ambient light differs
     bright->setAmbientIntensity({0.3f, 0.3f, 0.3f, 1.0f});
     const osg::ref_ptr<osg::Group> alone = groupOf({plain(-1.8f), plain(1.8f)});
     alone->getOrCreateStateSet()->setAttribute(bright);
@@ -165,7 +165,7 @@ TEST_CASE("match: LightModel with two sides, a local viewer, separate highlights
     material->setDiffuse(osg::Material::BACK, {0.7f, 0.2f, 0.2f, 1.0f});
     material->setSpecular(osg::Material::BACK, {0.1f, 0.2f, 0.9f, 1.0f});
 
-    // A hemisphere open to the side shows both of its sides.
+    // A hemisphere that is open to the side shows both of its faces.
     const auto ball = shapeOf(new osg::Sphere({}, 2.5f), {1, 1, 1, 1});
     const osg::ref_ptr<osg::ShapeDrawable> bowl =
         shapeOf(new osg::Cone({}, 2.0f, 3.0f), {1, 1, 1, 1});

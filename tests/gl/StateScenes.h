@@ -1,4 +1,4 @@
-// StateScenes.h - small things to put a state on. Layer: tests.
+// StateScenes.h - small geometries to put a state on. Layer: tests.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,11 +13,11 @@ namespace osgRayTrace::test
 constexpr auto kOn = osg::StateAttribute::ON;
 constexpr auto kOff = osg::StateAttribute::OFF;
 
-/// Larger than what the human eye forgives; what both pictures cover, and in which they must agree.
+/// The largest mean difference over the pixels that both pictures cover.
 constexpr double kMostDifference = 2.0; ///< of 255
 
-/// A square in the plane z = 0 with coordinates 0 to repeat in units 0 and 1, normals +z, of one
-/// colour.
+/// Returns a square in the plane z = 0 of one colour, with normals +z and texture coordinates from
+/// 0 to repeat in units 0 and 1.
 inline osg::ref_ptr<osg::Geometry> square(float half, const osg::Vec4& color = {1, 1, 1, 1},
                                           float repeat = 1.0f, float z = 0.0f)
 {
@@ -35,7 +35,7 @@ inline osg::ref_ptr<osg::Geometry> unlit(osg::ref_ptr<osg::Geometry> geometry)
     return geometry;
 }
 
-/// size*size texels of different colours and alpha, none of them black.
+/// Returns size*size texels of different colours and alpha, none of them black.
 inline osg::ref_ptr<osg::Image> patchwork(int size, GLenum format = GL_RGBA)
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;
@@ -79,7 +79,8 @@ inline osg::ref_ptr<osg::MatrixTransform> placed(const osg::Matrixd& matrix, osg
     return transform;
 }
 
-/// Draws both, writes what differs, and wants them alike: traced in the main and covered alike.
+/// Draws the scene both ways, prints the difference, and checks that the colours and the coverage
+/// of the two pictures are alike.
 inline Statistics checkMatch(const std::string& name, osg::Node* model,
                              const MatchSetup& setup = {})
 {

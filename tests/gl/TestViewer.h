@@ -1,4 +1,5 @@
-// TestViewer.h - a viewer in an OSMesa context, and looks at what it drew. Layer: tests.
+// TestViewer.h - a viewer in an OSMesa context, and functions that examine its pictures. Layer:
+// tests.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,15 +17,15 @@
 namespace osgRayTrace::test
 {
 
-/// Sanitizers find in fewer pictures what is theirs to find.
+/// Whether a sanitizer is on: sanitizers find their errors in fewer pictures.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kSanitized = true;
 #else
 constexpr bool kSanitized = false;
 #endif
 
-/// Single threaded, without a manipulator, near and far planes fixed unless changed; black
-/// background.
+/// A viewer with one thread, without a manipulator, with fixed near and far planes unless a test
+/// changes them, and with a black background.
 struct TestViewer
 {
     TestViewer(int width, int height, osg::Node* scene,
@@ -52,7 +53,7 @@ struct TestViewer
         viewer.getCamera()->setViewMatrixAsLookAt(eye, center, up);
     }
 
-    /// A copy of the picture after so many frames.
+    /// Draws this many frames and returns a copy of the last picture.
     osg::ref_ptr<osg::Image> frames(int count = 1)
     {
         if (!viewer.isRealized()) viewer.realize();
@@ -82,7 +83,8 @@ inline bool equal(const osg::Image& a, const osg::Image& b)
            std::memcmp(a.data(), b.data(), a.getTotalSizeInBytes()) == 0;
 }
 
-/// Mean absolute difference of RGB, 0 to 255, over pixels for which use(x, y) is true.
+/// Returns the mean absolute difference of RGB, 0 to 255, over the pixels for which use(x, y) is
+/// true.
 template <class Use> double meanDifference(const osg::Image& a, const osg::Image& b, const Use& use)
 {
     double sum = 0.0;
@@ -103,8 +105,8 @@ inline double meanDifference(const osg::Image& a, const osg::Image& b)
     return meanDifference(a, b, [](int, int) { return true; });
 }
 
-/// Means of samples * samples pixels: a traced picture is antialiased, so what it is compared with
-/// must be.
+/// Returns the means of samples * samples pixels each: a traced picture is antialiased, so a
+/// picture that it is compared with must be, too.
 inline osg::ref_ptr<osg::Image> reduced(const osg::Image& image, int samples)
 {
     osg::ref_ptr<osg::Image> small = new osg::Image;
@@ -122,7 +124,7 @@ inline osg::ref_ptr<osg::Image> reduced(const osg::Image& image, int samples)
     return small;
 }
 
-/// A square of side 2*half in the plane z = 0, facing +z, of one colour and not lit.
+/// Returns an unlit square of side 2*half in the plane z = 0, which faces +z and has one colour.
 inline osg::ref_ptr<osg::Geometry> unlitSquare(float half, const osg::Vec4& color)
 {
     osg::ref_ptr<osg::Geometry> square = osg::createTexturedQuadGeometry(
@@ -144,8 +146,8 @@ inline osg::ref_ptr<osg::ShapeDrawable> sphere(const osg::Vec3& center, float ra
     return drawable;
 }
 
-/// Settings that do not depend on the tester's environment, nor pictures on how fast the machine
-/// is.
+/// Returns a scene whose settings do not depend on the tester's environment, and whose pictures do
+/// not depend on the speed of the machine.
 inline osg::ref_ptr<RayTracedScene> tracedScene(osg::Node* child)
 {
     osg::ref_ptr<RayTracedScene> scene = new RayTracedScene;

@@ -1,5 +1,5 @@
-// TextureMatchTest.cpp - textures look as OpenGL draws them: coordinates, wrap modes, environments,
-// formats.
+// TextureMatchTest.cpp - textures look as OpenGL draws them: coordinates, wrap modes, environments
+// and formats.
 // SPDX-License-Identifier: MIT
 #include "StateScenes.h"
 
@@ -18,7 +18,7 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// Bright where it reflects the side that the name of the texel says.
+/// Returns an environment picture whose smooth colours tell in which direction it is looked up.
 osg::ref_ptr<osg::Image> environmentPicture(int size)
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;
@@ -80,7 +80,7 @@ osg::ref_ptr<osg::TexGen> texGenOf(osg::TexGen::Mode mode)
     return texGen;
 }
 
-/// Fine enough for OpenGL's coordinates at vertices to be those at points.
+/// Returns a sphere so fine that OpenGL's coordinates at vertices equal those at points.
 osg::ref_ptr<osg::ShapeDrawable> fineSphere(float radius = 3.0f)
 {
     osg::ref_ptr<osg::TessellationHints> hints = new osg::TessellationHints;
@@ -129,7 +129,8 @@ TEST_CASE("match: texture matrix, also a projective one", "[gl][coverage]")
     const bool projective = GENERATE(false, true);
     if (projective) matrix(0, 3) = 0.7;
     const auto geometry = unlit(square(3.0f));
-    // OpenGL interpolates (s, t, q) over each triangle, so this is right for large ones, too.
+    // OpenGL interpolates (s, t, q) over each triangle, so its result is right for large triangles,
+    // too.
     geometry->getStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
     geometry->getStateSet()->setTextureAttribute(0, new osg::TexMat(matrix));
     checkMatch(projective ? "texture-matrix-projective" : "texture-matrix", geometry);
@@ -145,7 +146,7 @@ TEST_CASE("match: object and eye linear texture generation", "[gl][coverage]")
         placed(osg::Matrixd::rotate(0.5, osg::Vec3d(1, 1, 0)) *
                    osg::Matrixd::translate(0.5, 0.3, 0.0) * osg::Matrixd::scale(1.0, 1.5, 1.0),
                ball);
-    // OpenGL would light with the length that the scale gives to normals; we never do.
+    // OpenGL would light with the length that the scale gives to normals; tracing never does.
     root->getOrCreateStateSet()->setMode(GL_NORMALIZE, kOn);
     checkMatch(mode == osg::TexGen::OBJECT_LINEAR ? "texgen-object-linear" : "texgen-eye-linear",
                root, obliquely());
@@ -239,7 +240,8 @@ TEST_CASE("match: one-dimensional and rectangle textures", "[gl][coverage]")
 namespace
 {
 
-/// An image of any format, its bytes made by a hash: whatever they mean, OpenGL and we must agree.
+/// Returns an image of any format with bytes made by a hash: whatever they mean, OpenGL and tracing
+/// must agree.
 osg::ref_ptr<osg::Image> anyImage(GLenum format, GLenum type)
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;
@@ -294,7 +296,7 @@ TEST_CASE("match: pixel formats, packed, wide and compressed", "[gl][coverage]")
                               {"rgtc2", GL_COMPRESSED_RED_GREEN_RGTC2_EXT, GL_UNSIGNED_BYTE}};
     for (const Format& format : formats)
     {
-        // The alpha counts, too: it blends over a background of another colour.
+        // The alpha is compared, too: it blends over a background of another colour.
         const auto front = unlit(square(3.0f, {1, 1, 1, 1}, 1.0f, 0.1f));
         osg::StateSet& state = *front->getStateSet();
         const auto image = anyImage(format.format, format.type);
@@ -308,7 +310,7 @@ TEST_CASE("match: pixel formats, packed, wide and compressed", "[gl][coverage]")
     }
 }
 
-/// Four blocks of one colour each, which compression keeps.
+/// Returns four blocks of one colour each, which compression keeps.
 static osg::ref_ptr<osg::Image> blocks(GLenum format)
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;
@@ -352,7 +354,7 @@ TEST_CASE("match: textures that OpenGL compresses", "[gl]")
 namespace
 {
 
-/// Each slice of other colours.
+/// Returns a volume whose slices have different colours.
 osg::ref_ptr<osg::Texture3D> volume(osg::Texture::WrapMode wrap, osg::Texture::FilterMode filter)
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;

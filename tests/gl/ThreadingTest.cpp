@@ -28,7 +28,7 @@ osg::ref_ptr<FrameCapture> addCamera(osgViewer::Viewer& viewer, const osg::Matri
     return capture;
 }
 
-/// Changes of all kinds, as an application makes them: in callbacks of the update traversal, with
+/// Makes changes of all kinds as an application does: in callbacks of the update traversal, with
 /// DataVariance DYNAMIC.
 class EditAll : public osg::NodeCallback
 {
@@ -124,7 +124,7 @@ TEST_CASE("threading: 50 frames of a moving scene in three contexts", "[gl]")
     }
     const Statistics statistics = scene->getDrawable()->getStatistics();
     CHECK(statistics.passes >= 1);
-    CHECK(statistics.patches > 10); // what comes and goes, too
+    CHECK(statistics.patches > 10); // nodes that come and go are patched, too
     CHECK(statistics.conversions >= 1);
     CHECK(statistics.refitMeshes > 5);
 }

@@ -1,4 +1,4 @@
-# Runs osgraytraceviewer without a display: what it says and which exit code it gives.
+# Runs osgraytraceviewer without a display, and checks its message and its exit code.
 # Usage: cmake -D PROGRAM=<osgraytraceviewer> -D MODEL=<file it can load> -P ViewerExitCodes.cmake
 # SPDX-License-Identifier: MIT
 unset(ENV{DISPLAY})

@@ -26,7 +26,7 @@ namespace
 
 constexpr int kSize = 96;
 
-/// Not lit, and without edges that meet: what two ways to draw it may differ in is its edges alone.
+/// Returns unlit squares whose edges do not meet: two ways to draw them may differ only at edges.
 osg::ref_ptr<osg::Group> squares()
 {
     const struct
@@ -41,7 +41,7 @@ osg::ref_ptr<osg::Group> squares()
     osg::ref_ptr<osg::Group> group = new osg::Group;
     for (const auto& square : all)
     {
-        // Tilted, so that slices cut them.
+        // The squares are tilted, so that the slices cut them.
         osg::ref_ptr<osg::MatrixTransform> place =
             new osg::MatrixTransform(osg::Matrixd::rotate(0.7, osg::Vec3d(0.3, 1.0, 0.0)) *
                                      osg::Matrixd::translate(square.at));
@@ -82,7 +82,7 @@ osg::ref_ptr<osg::DisplaySettings> stereo(osg::DisplaySettings::StereoMode mode)
     return settings;
 }
 
-/// The picture of a scene set up by setUp after so many frames.
+/// Returns the picture, after this many frames, of a scene whose viewer is prepared by setUp.
 template <class SetUp>
 osg::ref_ptr<osg::Image> picture(osg::Node* scene, const SetUp& setUp, int frames = 1)
 {
@@ -91,8 +91,8 @@ osg::ref_ptr<osg::Image> picture(osg::Node* scene, const SetUp& setUp, int frame
     return view.frames(frames);
 }
 
-/// Of the pixels that have one colour, the share that OpenGL has another one for: where matrices or
-/// eyes are not the same ones.
+/// Returns the share of the pixels of one colour to which OpenGL gives another colour: it is not
+/// small if matrices or eyes differ.
 double differenceInside(const std::string& name, const osg::Image& drawn, const osg::Image& traced)
 {
     keep(name + "-osg", drawn);
@@ -167,8 +167,8 @@ TEST_CASE("views: viewports and slave cameras in one window", "[gl]")
 {
     const auto setUp = [](TestViewer& view)
     {
-        // Four cameras in quarters of a window: from the side, through another lens, off-axis,
-        // parallel.
+        // Four cameras draw into the quarters of a window: from the side, through another lens,
+        // off-axis, and parallel.
         const osg::Matrixd projections[] = {osg::Matrixd(), osg::Matrixd::scale(1.5, 1.5, 1.0),
                                             osg::Matrixd::translate(0.4, 0.2, 0.0),
                                             osg::Matrixd::rotate(0.2, osg::Vec3d(0, 0, 1))};
@@ -188,7 +188,7 @@ TEST_CASE("views: viewports and slave cameras in one window", "[gl]")
             view.viewer.addSlave(camera.get(), projections[i], views[i]);
         }
     };
-    // The capture is of the last camera's quarter: its place in the window is that.
+    // The captured picture is the last camera's quarter of the window.
     const osg::ref_ptr<osg::Image> drawn = picture(squares().get(), setUp, 2);
     const osg::ref_ptr<RayTracedScene> scene = tracedSquares();
     TestViewer view(kSize, kSize, scene.get());
@@ -214,7 +214,7 @@ TEST_CASE("views: a scene that a pass shows twice has an image for each, nested 
             osg::Matrixd::scale(0.5, 0.5, 0.5) * osg::Matrixd::translate(-1.5, -1.5, 7.0));
         beside->addChild(scene);
         root->addChild(beside);
-        // Below a camera of its own, turned, in the same stage.
+        // The scene is also below a turned camera of its own, in the same stage.
         osg::ref_ptr<osg::Camera> nested = new osg::Camera;
         nested->setRenderOrder(osg::Camera::NESTED_RENDER);
         nested->setViewMatrix(osg::Matrixd::rotate(0.4, osg::Vec3d(0, 0, 1)) *
@@ -234,7 +234,7 @@ TEST_CASE("views: a scene that a pass shows twice has an image for each, nested 
     const osg::ref_ptr<osg::Image> traced = view.frames();
     const osg::ref_ptr<osg::Image> drawn =
         picture(twice(squares().get()).get(), [](TestViewer&) {});
-    // Pixels at the edges of what is in front hide what is drawn behind them later.
+    // Traced pixels at the edges of near squares hide what is drawn behind them later.
     CHECK(differenceInside("twice", *drawn, *traced) < 0.003);
 }
 
@@ -252,7 +252,7 @@ TEST_CASE("views: slices of depth are traced once an eye, and each writes its ow
         else
             view.camera().setProjectionMatrixAsPerspective(50.0, 1.0, 0.5, 200.0);
     };
-    // What OSG draws in the same slices composites with what is traced.
+    // A square that OSG draws in the same slices composites with the traced ones.
     const osg::ref_ptr<osg::MatrixTransform> raster = new osg::MatrixTransform(
         osg::Matrixd::rotate(1.2, osg::Vec3d(1, 0, 0)) * osg::Matrixd::translate(0.0, -0.5, 3.0));
     raster->addChild(unlitSquare(3.0f, osg::Vec4(1, 0, 1, 1)));
@@ -271,7 +271,7 @@ TEST_CASE("views: slices of depth are traced once an eye, and each writes its ow
     for (int frame = 1; frame <= 4; ++frame)
     {
         view.frames();
-        CHECK(statistics(*scene).passes == frame); // not three times that
+        CHECK(statistics(*scene).passes == frame); // not three times as many
     }
     scene->getSettings()->setPassesPerFrame(60);
     const osg::ref_ptr<osg::Image> sliced = view.frames();
@@ -282,9 +282,9 @@ TEST_CASE("views: slices of depth are traced once an eye, and each writes its ow
         std::string("slices") + (inStereo ? "-stereo" : "") + (orthographic ? "-ortho" : "");
     keep(name + "-whole", *whole);
     CHECK(meanDifference(*sliced, *whole) < 0.1);
-    CHECK(differenceInside(name, *drawn, *sliced) < 0.004); // as there, and where slices end
+    CHECK(differenceInside(name, *drawn, *sliced) < 0.004); // at edges, and where slices end
 
-    // The picture is there for any slice in the first frame, moving planes or not.
+    // Each slice has its picture in the first frame, whether or not the planes move.
     const osg::ref_ptr<RayTracedScene> moving = tracedSquares(64);
     const osg::ref_ptr<osg::Group> root = content(moving.get(), true);
     TestViewer other(kSize, kSize, root.get());
@@ -333,7 +333,7 @@ TEST_CASE("views: eyes and slices that workers trace come to the pictures of fra
         view.look(osg::Vec3d(x, 0.0, 10.0));
         const osg::ref_ptr<osg::Image> expected = exact.frames(4);
         bool came = false;
-        for (int i = 0; i < 20000 && !came; ++i) // longer than any machine needs
+        for (int i = 0; i < 20000 && !came; ++i) // more frames than any machine needs
         {
             came = equal(*view.frames(), *expected);
             if (!came) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -344,11 +344,11 @@ TEST_CASE("views: eyes and slices that workers trace come to the pictures of fra
 
 TEST_CASE("views: what a second eye costs with photons", "[.][second-eye]")
 {
-    // Lines to read, run by hand; that photons are traced once for both is in
-    // photons/PhotonPassTest.
+    // This test prints figures and is run by hand; photons/PhotonPassTest checks that photons are
+    // traced once for both eyes.
     const auto integrator = GENERATE(RayTraceSettings::PPM, RayTraceSettings::PHOTON_CAUSTICS);
     const int size = GENERATE(256, 512, 1024);
-    const int photons = GENERATE_COPY(65536, size * size); // as by default, and as many as pixels
+    const int photons = GENERATE_COPY(65536, size * size); // the default, and one a pixel
     osg::ref_ptr<PhysicalMaterial> glass = new PhysicalMaterial;
     glass->setTransmission(1.0f);
     glass->setRoughness(0.0f);

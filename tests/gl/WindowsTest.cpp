@@ -48,14 +48,14 @@ osg::ref_ptr<osg::Camera> windowCamera(osg::GraphicsContext* context)
     return camera;
 }
 
-/// A camera in the scene graph that draws the scene once more, comes and goes between frames, and
-/// is not kept by anyone else: what a frame that is still being drawn keeps of it is its name.
+/// Adds and removes, between frames, a camera in the scene graph that draws the scene once more.
+/// Nothing else keeps this camera: a frame that is still being drawn keeps only its name.
 class NestedCameras : public osg::NodeCallback
 {
 public:
-    /// ownStages: some of them draw in a stage of their own. OSG 3.6.5 makes its cache of stages
-    /// without a lock, so that cull threads that meet a new camera at once race for it, with ray
-    /// tracing or without.
+    /// If ownStages is true, some cameras draw in a stage of their own. OSG 3.6.5 makes its cache
+    /// of stages without a lock, so cull threads that meet a new camera at the same time race for
+    /// the cache, with ray tracing or without.
     NestedCameras(osg::Node* scene, bool ownStages) : _scene(scene), _ownStages(ownStages) {}
 
     void operator()(osg::Node* node, osg::NodeVisitor* visitor) override
@@ -83,7 +83,8 @@ private:
     int _frame = 0;
 };
 
-/// OSGRAYTRACE_STRESS_SECONDS for each threading model; without it so many frames.
+/// Runs for OSGRAYTRACE_STRESS_SECONDS in each threading model, or for a number of frames if the
+/// variable is not set.
 class Frames
 {
 public:
@@ -100,7 +101,7 @@ public:
         return passed.count() < _seconds;
     }
 
-    double seconds() const { return _seconds; } ///< 0: so many frames
+    double seconds() const { return _seconds; } ///< 0: a number of frames
 
 private:
     int _count;
@@ -108,7 +109,7 @@ private:
     std::chrono::steady_clock::time_point _start = std::chrono::steady_clock::now();
 };
 
-/// What there is of OpenGL's objects in the contexts that share them.
+/// The number of OpenGL's objects in contexts that share them.
 struct GlObjects
 {
     int textures = 0, buffers = 0, programs = 0, shaders = 0;
@@ -121,7 +122,7 @@ GlObjects countObjects(osg::GraphicsContext& context)
     REQUIRE(context.makeCurrent());
     const osg::GLExtensions& gl = *context.getState()->get<osg::GLExtensions>();
     GlObjects count;
-    for (GLuint name = 1; name < 4096; ++name) // more than all windows have
+    for (GLuint name = 1; name < 4096; ++name) // more names than all windows use
     {
         count.textures += glIsTexture(name) == GL_TRUE;
         count.buffers += gl.glIsBuffer(name) == GL_TRUE;
@@ -132,8 +133,9 @@ GlObjects countObjects(osg::GraphicsContext& context)
     return count;
 }
 
-/// Blocks that a thread of glibc's keeps for itself count as used. So that they are always the
-/// same, the calling thread is made to keep all that it may: 7 of each size.
+/// Fills glibc's cache of free blocks of the calling thread. Cached blocks count as used, so the
+/// thread is made to keep as many as it may, which is 7 of each size: their number is then always
+/// the same.
 void fillHeapCache()
 {
     constexpr int kMost = 7;
@@ -147,7 +149,7 @@ void fillHeapCache()
     }
 }
 
-/// Bytes of the heap that are in use.
+/// Returns the bytes of the heap that are in use.
 std::size_t heapBytes()
 {
     fillHeapCache();
@@ -193,10 +195,10 @@ TEST_CASE("windows: resized and closed, cameras made and deleted, in all threadi
     for (int frame = 0; frames.more(frame); ++frame)
     {
         viewer.frame();
-        // Draw threads may be at work on this frame still. So values are changed, as osgViewer does
-        // when a window is resized: another viewport would change the camera's state set, which
-        // they go through.
-        if (frame % 10 != 9) // and is drawn at rest now and then
+        // Draw threads may still be at work on this frame. So the values of the viewport are
+        // changed, as osgViewer does when a window is resized: a new viewport object would change
+        // the camera's state set, which draw threads traverse.
+        if (frame % 10 != 9) // now and then the size stays
             for (unsigned int i = 0; i < 2; ++i)
             {
                 const int width = kSize / 2 + frame * 7 % (kSize / 2),
@@ -206,7 +208,7 @@ TEST_CASE("windows: resized and closed, cameras made and deleted, in all threadi
             }
         if (frame % 20 == 9)
         {
-            // A third camera, in the first window, and out of it again.
+            // A third camera comes into the first window, and goes again.
             viewer.stopThreading();
             osg::ref_ptr<osg::Camera> camera = windowCamera(windows[0].get());
             camera->setViewport(kSize / 2, 0, kSize / 2, kSize / 2);
@@ -229,7 +231,8 @@ TEST_CASE("windows: resized and closed, cameras made and deleted, in all threadi
     nested->setUpdateCallback(nullptr);
     for (unsigned int i = 0; i < 2; ++i)
     {
-        // Now only: a capture reads its camera's viewport while it draws.
+        // The callbacks are added only now, because a capture reads its camera's viewport while it
+        // draws.
         osg::Camera& camera = *viewer.getSlave(i)._camera;
         camera.setViewport(0, 0, kSize, kSize);
         camera.addFinalDrawCallback(captures[i].get());
@@ -249,12 +252,13 @@ namespace
 
 struct Left
 {
-    GlObjects open;     ///< in the last window
-    GlObjects objects;  ///< at most, after any window
-    double bytes = 0.0; ///< that the heap grows by a window
+    GlObjects open;     ///< while the last window is open
+    GlObjects objects;  ///< the most after any window was closed
+    double bytes = 0.0; ///< growth of the heap by a window
 };
 
-/// Of the windows, in the median over stretches of some: what one keeps each keeps.
+/// Returns the growth of the heap by a window, as the median over stretches of windows: a leak of
+/// one window is one of each window.
 double growth(const std::vector<std::size_t>& heap)
 {
     constexpr std::size_t kStretch = 12;
@@ -265,7 +269,8 @@ double growth(const std::vector<std::size_t>& heap)
     return grown[grown.size() / 2];
 }
 
-/// Opens windows on the scene and closes them, after a few that what is made once is made in.
+/// Opens windows on the scene and closes them, after a few windows in which objects are made that
+/// are made only once.
 Left openAndClose(osg::Node* node, osg::GraphicsContext& keeper, int cycles)
 {
     constexpr int kWarm = 12;
@@ -296,12 +301,13 @@ Left openAndClose(osg::Node* node, osg::GraphicsContext& keeper, int cycles)
 
 TEST_CASE("windows: a hundred that are opened and closed leave nothing behind", "[gl]")
 {
-    // All share their objects with one that stays, so that those that are left can be counted.
+    // All windows share their objects with a context that stays, so that the objects that are left
+    // can be counted.
     const osg::ref_ptr<osg::GraphicsContext> keeper = createOSMesaContext(8, 8);
     REQUIRE(keeper);
     REQUIRE(keeper->realize());
     const osg::ref_ptr<RayTracedScene> traced = scene();
-    traced->getSettings()->setThreads(1); // others keep blocks, too
+    traced->getSettings()->setThreads(1); // other threads keep blocks of the heap, too
     const Left left = openAndClose(traced.get(), *keeper, 100);
     const osg::ref_ptr<osg::Node> plain = unlitSquare(1.0f, kGreen);
     const Left osgAlone = kSanitized ? Left() : openAndClose(plain.get(), *keeper, 100);
@@ -316,7 +322,7 @@ TEST_CASE("windows: a hundred that are opened and closed leave nothing behind", 
     CHECK(left.objects.buffers == 0);
     CHECK(left.objects.programs == 0);
     CHECK(left.objects.shaders == 0);
-    // Under sanitizers the heap is theirs, and they tell.
+    // Under sanitizers the heap is the sanitizer's, which finds leaks by itself.
     CHECK(left.bytes - osgAlone.bytes < 100.0);
     traced->releaseGLObjects();
 }

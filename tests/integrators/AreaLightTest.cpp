@@ -1,4 +1,4 @@
-// AreaLightTest.cpp - irradiance of square lights against Lambert's closed form, by every
+// AreaLightTest.cpp - irradiance of square lights compared with Lambert's closed form, by every
 // estimator.
 // SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
@@ -12,8 +12,8 @@ namespace
 struct Square
 {
     const char* name;
-    Vec3 corner, u, v; ///< cross(u, v) looks at the receiver, at the origin with its normal at +z
-    double irradiance; ///< of radiance 1 [Lambert 1760]
+    Vec3 corner, u, v; ///< cross(u, v) points to the receiver, at the origin with its normal at +z
+    double irradiance; ///< for radiance 1 [Lambert 1760]
 };
 
 const Square kSquares[] = {
@@ -131,7 +131,7 @@ TEST_CASE("area light: very small and very distant lights are point lights",
             for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
             {
                 CAPTURE(square.name, int(emitter), int(kind));
-                // Radiance 1e12: I / d^2 = 1.
+                // The radiance is 1e12, so that I / d^2 = 1.
                 const Estimate radiance = measure(receiverUnder(square, emitter, 1e12f),
                                                   receiverView(), optionsOf(kind, 4), 4);
                 CHECK(radiance.mean() * M_PI == Approx(1.0).epsilon(1e-4));
@@ -143,7 +143,7 @@ TEST_CASE("area light: very small and very distant lights are point lights",
 TEST_CASE("area light: a receiver next to the middle of a light gets pi L",
           "[integrators][statistics]")
 {
-    // Only chance hits find this light: to be weighted right, they must stay finite.
+    // Only chance hits find this light: they are weighted right only if they stay finite.
     for (const float gap : {1e-2f, 1e-4f, 1e-6f})
     {
         const Square close{"close", {-0.5f, -0.5f, gap}, {0, 1, 0}, {1, 0, 0}, M_PI};
@@ -154,7 +154,7 @@ TEST_CASE("area light: a receiver next to the middle of a light gets pi L",
             const Estimate radiance = measure(receiverUnder(close, emitter, 1.0f, 0.01f), view,
                                               optionsOf(IntegratorKind::Path, 4), 32);
             const double expected =
-                1.0 - 4.0 * gap * gap; // less than this is missing at the horizon
+                1.0 - 4.0 * gap * gap; // an upper bound of what is missing at the horizon
             CAPTURE(gap, int(emitter), radiance.mean(), radiance.standardError());
             CHECK(radiance.agrees(expected, 1e-3));
             CHECK(radiance.standardError() < 0.01);
@@ -208,7 +208,7 @@ TEST_CASE("area light: several lights of different power add up", "[integrators]
     double expected = 0.0;
     for (int i = 0; i < 3; ++i)
     {
-        // The shifted one to the other side, so that none is in the way of another.
+        // The shifted square goes to the other side, so that no square hides another.
         Square s = kSquares[i];
         if (i == 1) s.corner.x = -1.5f;
         if (i == 1)
@@ -229,8 +229,8 @@ TEST_CASE("area light: several lights of different power add up", "[integrators]
 TEST_CASE("area light: found by chance or sampled, every material shows the same",
           "[integrators][statistics][long]")
 {
-    // A lamp that is in the light table against one that only bounces find: multiple importance
-    // sampling may not change the mean. 4 standard errors, 16 seeds each.
+    // A lamp in the light table is compared with a lamp that only bounces find: multiple importance
+    // sampling must not change the mean. The bound is 4 standard errors of 16 seeds each.
     std::vector<std::pair<const char*, Material>> materials{{"lambert", lambert(Vec3(0.8f))},
                                                             {"rough glass", glass(1.5f, 0.5f)}};
     Material plastic = lambert(Vec3(0.8f));

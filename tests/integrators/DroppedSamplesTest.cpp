@@ -1,4 +1,4 @@
-// DroppedSamplesTest.cpp - samples that are no numbers, or too large to be summed, are black and
+// DroppedSamplesTest.cpp - samples that are not numbers, or too large to be summed, are black and
 // counted.
 // SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
@@ -22,7 +22,7 @@ TEST_CASE("dropped samples: each value and channel that is none, and no other", 
     result.rgba = rgba;
     result.debug = debug.get();
     const auto valueOf = [](int b, int i) { return static_cast<float>(1 + b * kLanes + i); };
-    // Every other pixel is bad in one of its channels.
+    // Every other pixel has a bad value in one of its channels.
     uint64_t bad = 0;
     for (int b = 0; b < kTileBlocks; ++b)
     {

@@ -1,4 +1,4 @@
-// EnvironmentTest.cpp - light from all around against closed forms, by every estimator.
+// EnvironmentTest.cpp - light from environments compared with closed forms, by every estimator.
 // SPDX-License-Identifier: MIT
 #include "tests/Environments.h"
 #include "tests/integrators/Measure.h"
@@ -14,10 +14,11 @@ struct Sky
     const char* name;
     std::shared_ptr<const EnvironmentImage> image;
     Mat3 mapFromEngine;
-    double irradiance; ///< of a surface that looks to +z
+    double irradiance; ///< of a surface that faces +z
 };
 
-/// Closed forms: of the rows and columns as they are, each of constant radiance.
+/// Returns environments whose closed forms hold for the rows and columns as they are, each of
+/// constant radiance.
 std::vector<Sky> skies()
 {
     std::vector<Sky> skies;
@@ -26,7 +27,8 @@ std::vector<Sky> skies()
     const auto half = newEnvironment(64, 32, [](Vec3d d) { return Vec3(d.x > 0.0 ? 1.0f : 0.0f); });
     skies.push_back({"half", half, Mat3(1.0f), 0.5 * M_PI});
 
-    // Lune between the horizon and a plane tilted by 60 degrees from it: E = pi (1 + cos 120) / 2.
+    // The light comes from the lune between the horizon and a plane tilted by 60 degrees from it: E
+    // = pi (1 + cos 120) / 2.
     const auto upper =
         newEnvironment(64, 32, [](Vec3d d) { return Vec3(d.z > 0.0 ? 1.0f : 0.0f); });
     skies.push_back({"turned half", upper, tilted(float(2.0 * M_PI / 3.0)), M_PI * 0.25});
@@ -65,7 +67,7 @@ RenderOptions sampledBy(EnvironmentSampling sampling, RenderOptions options)
     return options;
 }
 
-/// A floor and two blocks on it, one of them shiny.
+/// Returns a floor and two blocks on it, one of which is shiny.
 SceneBuilder blocks()
 {
     SceneBuilder builder;
@@ -93,7 +95,7 @@ TEST_CASE("environment: irradiance of closed forms by paths and by Whitted's sam
         for (const EnvironmentSampling sampling :
              {EnvironmentSampling::Importance, EnvironmentSampling::Uniform})
         {
-            // cos^5 is sampled at the middles of 128 rows: right to 1e-4.
+            // cos^5 is sampled at the middles of 128 rows: its closed form is right to 1e-4.
             const double rounding = 1e-4;
             const Estimate path =
                 measure(traced, receiverView(),
@@ -126,7 +128,7 @@ TEST_CASE("environment: one pixel of 1e9 on 0.5", "[integrators][statistics][sta
     CHECK(path.agrees(exact / M_PI, 1e-5 * exact));
     CHECK(std::fabs(path.mean() * M_PI / exact - 1.0) < 0.005);
 
-    // In its shadow there is the sky alone.
+    // In the shadow of this pixel only the sky gives light.
     SceneBuilder builder;
     builder.add(quadMesh({-0.5f, -0.5f, 0}, {1, 0, 0}, {0, 1, 0}), lambert(Vec3(1.0f)));
     const Vec3 towards(map.direction(x + 0.5, y + 0.5));
@@ -148,7 +150,7 @@ TEST_CASE("environment: structured sampling has no noise, and its bias is small"
         const Picture picture = render(traced, receiverView(), options, 1);
         options.seed = 77;
         CHECK(render(traced, receiverView(), options, 1).rgba == picture.rgba);
-        options.integrator = IntegratorKind::Path; // one edge: strata alone
+        options.integrator = IntegratorKind::Path; // a path of one edge has only the strata
         options.maxBounces = 1;
         const Picture path = render(traced, receiverView(), options, 1);
         for (int p = 0; p < 256; ++p)
@@ -193,8 +195,8 @@ TEST_CASE("furnace: nothing is seen of white and clear things under an even sky"
     builder.add(sphereMesh({0, 2.4f, 0}, 1.0f, 48), mirror(Vec3(1.0f)));
     builder.addLight(environmentLight(newEnvironment(16, 8, Vec3(1.0f))));
     const auto traced = builder.build();
-    // Light goes round in glass of many facets: beyond 512 edges there are 5e-5 of the picture
-    // left, beyond 64 3e-4.
+    // Light goes round in glass of many facets: beyond 512 edges 5e-5 of the picture is left,
+    // beyond 64 edges 3e-4.
     const View view = perspectiveView({0, 0.8, 8}, {0, 0.8, 0}, {0, 1, 0}, 40.0, 48, 48);
     for (const EnvironmentSampling sampling :
          {EnvironmentSampling::Importance, EnvironmentSampling::Uniform})
@@ -205,7 +207,8 @@ TEST_CASE("furnace: nothing is seen of white and clear things under an even sky"
         CHECK(path.agrees(1.0, 1e-4));
         CHECK(path.standardError() < 2e-3);
     }
-    // Direct light of the white ball is what is seen of it by Whitted too: its neighbours are not.
+    // Whitted computes direct light only, which is all the light that the white ball gets if it has
+    // no neighbours.
     SceneBuilder alone;
     alone.add(sphereMesh({0, 0, 0}, 1.0f, 48), lambert(Vec3(1.0f)));
     alone.addLight(environmentLight(newEnvironment(16, 8, Vec3(1.0f))));
@@ -221,7 +224,7 @@ TEST_CASE("environment: all ways to sample it have the same mean",
           "[integrators][statistics][long]")
 {
     SceneBuilder builder = blocks();
-    builder.addQuadLight({1, 1, 3}, {0, 1, 0}, {1, 0, 0}, Vec3(3.0f)); // beside other lights
+    builder.addQuadLight({1, 1, 3}, {0, 1, 0}, {1, 0, 0}, Vec3(3.0f)); // beside the environment
     builder.addLight(environmentLight(sunnySky(32, 16)));
     const auto traced = builder.build();
     const Estimate importance =
@@ -234,7 +237,7 @@ TEST_CASE("environment: all ways to sample it have the same mean",
                 sampledBy(EnvironmentSampling::Structured, optionsOf(IntegratorKind::Path, 6)), 4);
     CAPTURE(importance.mean(), importance.standardError(), uniform.mean(), uniform.standardError(),
             structured.mean(), structured.standardError());
-    // Both have an error: 16 values each, a false alarm in 1,000.
+    // Both means have an error: of 16 values each, with a false alarm in 1,000 runs.
     CHECK(std::fabs(importance.mean() - uniform.mean()) <
           4.0 * std::hypot(importance.standardError(), uniform.standardError()));
     CHECK(importance.standardError() < 2e-3 * importance.mean());
@@ -252,7 +255,8 @@ TEST_CASE("environment: with a sun, importance sampling needs twenty times less"
     RenderOptions options = optionsOf(IntegratorKind::Path, 4);
     options.seed = 9;
     const Picture reference = render(traced, view, options, 4096);
-    // Over the pixels that show something lit, of independent passes: proportional to 1 / passes.
+    // The error is taken over the pixels that show something lit. Passes are independent, so the
+    // error is proportional to 1 / passes.
     const auto relativeSquaredError = [&](EnvironmentSampling sampling, int passes, double& rays)
     {
         RenderOptions with = sampledBy(sampling, optionsOf(IntegratorKind::Path, 4));

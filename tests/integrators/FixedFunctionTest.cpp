@@ -1,5 +1,5 @@
-// FixedFunctionTest.cpp - OpenGL's lighting equations, with shadows, as Whitted's tracer evaluates
-// them.
+// FixedFunctionTest.cpp - OpenGL's lighting equations, with shadows, as the Whitted integrator
+// evaluates them.
 // SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
@@ -29,7 +29,7 @@ Material phong()
     return material;
 }
 
-/// A square at z = 0 seen from above.
+/// Returns a square at z = 0, to be seen from above.
 SceneBuilder floorOf(const Material& material)
 {
     SceneBuilder builder;
@@ -67,7 +67,7 @@ TEST_CASE("fixed function: emission, ambient and diffuse terms", "[integrators]"
 
     SceneBuilder shadowed = builder;
     shadowed.add(quadMesh({-3, -3, 3}, {6, 0, 0}, {0, 6, 0}), lambert(Vec3(0.5f)));
-    checkColor(seen(shadowed), ambient); // ambient light knows no shadows
+    checkColor(seen(shadowed), ambient); // ambient light has no shadows
 }
 
 TEST_CASE("fixed function: highlights with the viewer at infinity", "[integrators]")
@@ -107,7 +107,7 @@ TEST_CASE("fixed function: light masks, unlit surfaces and clamping", "[integrat
     light.number = 0;
     light.diffuse = Vec3(9.0f);
     bright.addLight(light);
-    bright.scene->displayReferred = true; // as OpenGL shows it: clamped to 1
+    bright.scene->displayReferred = true; // clamped to 1, as OpenGL displays it
     checkColor(seen(bright), Vec3(1.0f));
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("fixed function: back faces keep their normal unless lighting is two-s
 {
     Material material = phong();
     SceneBuilder builder = floorOf(material);
-    builder.addLight(sun({0, 0, 1})); // from below
+    builder.addLight(sun({0, 0, 1})); // shines from below
     const Vec3 ambient = Vec3(0.3f) * material.ambient + material.emission;
     checkColor(seen(builder, {0, 0, -1}), ambient);
     material.twoSidedLighting = true;

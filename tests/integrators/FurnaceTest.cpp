@@ -20,7 +20,7 @@ View insideView(int pixels)
     return perspectiveView({0.1, 0.2, -0.1}, {0.3, 0.1, 0.8}, {0, 1, 0}, 80.0, pixels, pixels);
 }
 
-/// Radiance of a room of emission 1 after so many bounces.
+/// Returns the radiance of a room of emission 1 after this many bounces.
 double truncated(double albedo, int bounces)
 {
     return (1.0 - std::pow(albedo, bounces + 1)) / (1.0 - albedo);
@@ -51,15 +51,15 @@ TEST_CASE("furnace: path tracing reaches Le / (1 - rho), cut after maxBounces",
                                               optionsOf(IntegratorKind::Path, c.bounces), 2);
             CAPTURE(radiance.mean(), radiance.standardError());
             CHECK(radiance.agrees(c.radiance, 2e-5 * c.radiance));
-            CHECK(radiance.standardError() < 0.0025 * c.radiance); // a density off by 2 % is seen
+            CHECK(radiance.standardError() < 0.0025 * c.radiance); // shows densities off by 2 %
         }
     }
 }
 
 TEST_CASE("furnace: the same far from the origin", "[integrators][statistics]")
 {
-    // Leaks would show as loss. Ray offsets are 0.6 there, and so is the error of positions about
-    // 1e-3.
+    // Leaks would show as a loss of light. At this distance ray offsets are 0.6, and the error of
+    // positions is about 1e-3 of the radius.
     const Vec3 centre(148376.0f, 1234.0f, -223423.0f);
     SceneBuilder sphere;
     sphere.addEmissive(sphereMesh(centre, 200.0f, 24), furnaceWall(0.5f));
@@ -98,8 +98,8 @@ TEST_CASE("sphere: a point light of intensity pi in a sphere of albedo 1/2 gives
 TEST_CASE("integrating sphere: indirect light is uniform wherever the light is",
           "[integrators][statistics][long]")
 {
-    // Direct rho cos / d^2, indirect rho E_ind / pi with E_ind = rho Phi / (4 pi (1 - rho)), Phi =
-    // 4 pi^2.
+    // The direct radiance is rho cos / d^2. The indirect radiance is rho E_ind / pi with E_ind =
+    // rho Phi / (4 pi (1 - rho)) and Phi = 4 pi^2.
     SceneBuilder sphere;
     sphere.add(sphereMesh(Vec3(0.0f), 1.0f, 100), lambert(Vec3(0.5f)));
     sphere.addLight(pointLight(Vec3(0.0f, 0.0f, 0.5f)));
@@ -107,7 +107,7 @@ TEST_CASE("integrating sphere: indirect light is uniform wherever the light is",
     const RenderOptions options = optionsOf(IntegratorKind::Path, 64);
     for (const float pole : {1.0f, -1.0f})
     {
-        // Halfway up the pyramid of facets around the pole.
+        // The patch is halfway up the pyramid of facets around the pole.
         const double distance = std::abs(double(pole) - 0.5);
         const View patch = patchView({0.0, 0.0, 0.9995 * pole}, {0, 0, -pole}, 0.05, 16);
         const Estimate radiance = measure(traced, patch, options, 64);

@@ -1,5 +1,5 @@
-// ManyLightsTest.cpp - scenes of more lights than a pass samples: its work is bounded, its mean
-// right.
+// ManyLightsTest.cpp - scenes with more lights than a pass samples: the work of a pass is bounded,
+// and the mean is right.
 // SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
@@ -15,7 +15,7 @@ namespace
 
 constexpr int kSide = 8; ///< of the view [pixels]
 
-/// A white floor around the origin.
+/// Returns a white floor around the origin.
 SceneBuilder whiteFloor()
 {
     SceneBuilder builder;
@@ -28,7 +28,8 @@ View floorView()
     return patchView({0, 0, 0}, {0, 0, 1}, 1e-3, kSide);
 }
 
-/// Light number i of a field above the floor; some are a hundred times brighter than others.
+/// Returns the place of light number i of a field above the floor; some lights are a hundred times
+/// brighter than others.
 Vec3 placeOf(int i)
 {
     return {0.37f * float(i % 37) - 6.5f, 0.41f * float(i % 31) - 6.0f, 2.0f + 0.1f * float(i % 7)};
@@ -46,7 +47,7 @@ std::shared_ptr<const TracedScene> underPoints(int count)
     return builder.build();
 }
 
-/// What the floor sends of them, at the origin.
+/// Returns the radiance of the floor at the origin that the point lights cause.
 double radianceOfPoints(int count)
 {
     double sum = 0.0;
@@ -67,7 +68,8 @@ std::shared_ptr<const TracedScene> underSquares(int count)
     return builder.build();
 }
 
-/// As seen from afar: each is a point for all that 1e-3 of accuracy cares.
+/// Returns the radiance that the squares cause. They are so far away that they count as points to
+/// an accuracy of 1e-3.
 double radianceOfSquares(int count)
 {
     double sum = 0.0;
@@ -114,7 +116,7 @@ TEST_CASE("many lights: up to the bound each light has all of its samples", "[in
     CHECK(render(underSquares(100), view, options, 1).progress.lights.samplesOfEach == 2);
     CHECK(shadowRaysAPixel(render(underPoints(256), view, options, 1)) == 256.0);
 
-    RenderOptions cells = options; // samples come in squares
+    RenderOptions cells = options; // numbers of stratified samples are squares
     cells.lightSampling = LightSampling::Stratified;
     CHECK(samplesOfEach(cells, 64) == 4);
     CHECK(samplesOfEach(cells, 100) == 1);
@@ -149,7 +151,7 @@ TEST_CASE("many lights: the progress says how many are sampled", "[integrators]"
     CHECK(squares.sampledAreaLights == 256);
     CHECK(squares.samplesOfEach == 1);
     CHECK(squares.wantedOfEach == 4);
-    CHECK(lightsOf(underSquares(1000), IntegratorKind::Path).areaLights == 0); // it samples one
+    CHECK(lightsOf(underSquares(1000), IntegratorKind::Path).areaLights == 0); // one is sampled
     const SampledLightCounts points = lightsOf(underPoints(300), IntegratorKind::Path);
     CHECK(points.deltaLights == 300);
     CHECK(points.sampledDeltaLights == 256);

@@ -9,8 +9,8 @@
 namespace osgRayTrace::engine::test
 {
 
-/// Mean green radiance of the picture, one value for each of 16 seeds. Demands that no sample was
-/// dropped.
+/// Returns the mean green radiance of the picture, with one value for each of 16 seeds. Requires
+/// that no sample was dropped.
 inline Estimate measure(const std::shared_ptr<const TracedScene>& traced, const View& view,
                         RenderOptions options, int passes)
 {

@@ -1,4 +1,4 @@
-// OpacityTest.cpp - a pane of opacity a leaves 1 - a of the light: to camera, mirror, shadow and
+// OpacityTest.cpp - a pane of opacity a leaves 1 - a of the light of camera, mirror, shadow and
 // photon rays.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
@@ -14,7 +14,7 @@ namespace
 constexpr float kAlpha = 0.4f;
 constexpr int kPixels = 16;
 
-/// Black, so that what it stops is lost.
+/// Returns a black material, so that light that the pane stops is lost.
 Material paneMaterial()
 {
     Material material = lambert(Vec3(0.0f));
@@ -23,7 +23,7 @@ Material paneMaterial()
     return material;
 }
 
-/// The mean of the picture over eight seeds.
+/// Returns the mean of the picture over eight seeds.
 Estimate meanOf(const SceneBuilder& builder, const View& view, IntegratorKind kind, int passes,
                 int maxBounces = 8)
 {
@@ -40,8 +40,8 @@ Estimate meanOf(const SceneBuilder& builder, const View& view, IntegratorKind ki
     return estimate;
 }
 
-/// 5 standard errors of eight values each: a false alarm has a probability of about 1e-3 in each
-/// case by Student's distribution, 0 with these fixed seeds.
+/// Checks the share by 5 standard errors of eight values each. By Student's distribution a false
+/// alarm has a probability of about 1e-3 in each case; with these fixed seeds there is none.
 void checkShare(const Estimate& with, const Estimate& without)
 {
     const double expected = (1.0 - kAlpha) * without.mean();
@@ -80,7 +80,7 @@ TEST_CASE("opacity: where nothing is behind, coverage is the opacity", "[integra
     const View view = patchView({0, 0, 0}, {0, 0, 1}, 1.0, kPixels);
     SceneBuilder builder;
     builder.add(quadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), paneMaterial());
-    builder.scene->background = Vec4(9.0f); // never seen by camera rays: others compose over it
+    builder.scene->background = Vec4(9.0f); // camera rays never see it: it is composited later
     const Picture picture = render(builder.build(), view, optionsOf(IntegratorKind::Whitted), 1);
     CHECK(picture.rgba[0] == 0.0f);
     CHECK(picture.rgba[3] == Approx(kAlpha));
@@ -93,8 +93,8 @@ TEST_CASE("opacity: mirror, shadow and photon rays", "[integrators]")
     CAPTURE(int(kind));
     SECTION("a mirror shows a plate behind a pane")
     {
-        // The mirror fills the view; the pane is between it and the plate, beside the camera's
-        // rays.
+        // The mirror fills the view; the pane is between the mirror and the plate, beside the
+        // camera's rays.
         const View view = perspectiveView({0, -4, 4}, {0, 0, 0}, {0, 0, 1}, 4.0, kPixels, kPixels);
         const auto scene = [](bool pane)
         {
@@ -123,7 +123,8 @@ TEST_CASE("opacity: mirror, shadow and photon rays", "[integrators]")
 
 TEST_CASE("opacity: photons on their way to a mirror and from it", "[integrators]")
 {
-    // Light, mirror above, floor below: all that the patch of the floor gets comes by the mirror.
+    // The light is shielded, the mirror is above and the floor below: the patch of the floor gets
+    // all its light from the mirror.
     const auto kind = GENERATE(IntegratorKind::Sppm, IntegratorKind::PhotonCaustics);
     CAPTURE(int(kind));
     const View view = perspectiveView({0, -0.3, 1.2}, {0, 0, 0}, {0, 1, 0}, 30.0, kPixels, kPixels);
@@ -137,8 +138,9 @@ TEST_CASE("opacity: photons on their way to a mirror and from it", "[integrators
         if (pane) builder.add(quadMesh({-2, -2, 2}, {4, 0, 0}, {0, 4, 0}), paneMaterial());
         return builder;
     };
-    // Through the pane twice: on the way up and on the way down. Three edges: light that the floor
-    // sends up to the mirror and gets back, one part in fifteen, would go through it twice more.
+    // Photons pass the pane twice: on the way up and on the way down. Paths have three edges,
+    // because light that the floor sends up to the mirror and gets back, one part in fifteen, would
+    // pass the pane twice more.
     const Estimate with = meanOf(scene(true), view, kind, 24, 3),
                    without = meanOf(scene(false), view, kind, 12, 3);
     const double share = (1.0 - kAlpha) * (1.0 - kAlpha), expected = share * without.mean();

@@ -9,11 +9,11 @@ namespace
 {
 
 constexpr int kPixels = 32;
-constexpr int kRegion = 4; ///< pixels a side of what is compared
+constexpr int kRegion = 4; ///< pixels a side of a compared region
 constexpr int kRegions = kPixels / kRegion;
 
-/// The same surface, but one whose paths are not reused: its colour could change from point
-/// to point.
+/// Returns the same surface, but one whose paths are not reused, because its colour could change
+/// from point to point.
 Material varying(const Material& diffuse)
 {
     Material material;
@@ -22,7 +22,7 @@ Material varying(const Material& diffuse)
     return material;
 }
 
-/// The Cornell box in which every step-th material is varying.
+/// Returns the Cornell box in which every step-th material is varying.
 std::shared_ptr<const TracedScene> boxWith(std::size_t step)
 {
     const SceneBuilder box = cornellBox();
@@ -34,10 +34,11 @@ std::shared_ptr<const TracedScene> boxWith(std::size_t step)
 
 struct Measured
 {
-    std::vector<Estimate> regions; ///< radiance of each, all channels
+    std::vector<Estimate> regions; ///< radiance of each region, all channels
     std::vector<Estimate> pixels;
 
-    /// As relMSE, or the pixels at the light's edge would be all of it.
+    /// Returns a relative variance as relMSE defines it; an absolute one would come from the pixels
+    /// at the light's edge alone.
     double relativeVariance() const
     {
         double sum = 0.0;
@@ -47,8 +48,9 @@ struct Measured
     }
 };
 
-/// Over 24 seeds. Passes enough for the sums of regions to be about normal: with a quarter of them
-/// the largest of 192 differences was once 5.02 standard errors where there was none.
+/// Measures the box over 24 seeds. There are so many passes that the sums of regions are nearly
+/// normal: with a quarter of them the largest of 192 differences of equal means was once 5.02
+/// standard errors.
 Measured measureBox(const std::shared_ptr<const TracedScene>& traced, uint32_t firstSeed)
 {
     Measured measured;
@@ -80,7 +82,7 @@ Measured measureBox(const std::shared_ptr<const TracedScene>& traced, uint32_t f
     return measured;
 }
 
-/// Largest difference of two means in standard errors.
+/// Returns the largest difference of two means in standard errors.
 double largestDifference(const std::vector<Estimate>& a, const std::vector<Estimate>& b)
 {
     double largest = 0.0;
@@ -109,13 +111,15 @@ TEST_CASE("path reuse: the same light in all parts of the Cornell box, with less
     const Measured reused = measureBox(boxWith(1000), 200);
     const Measured mixed = measureBox(boxWith(2), 300);
 
-    // 192 differences of about 46 degrees of freedom: one beyond 5 is a false alarm of 0.2 %.
+    // There are 192 differences with about 46 degrees of freedom: a false alarm, which is one
+    // beyond 5, has a probability of 0.2 %.
     CHECK(largestDifference(own.regions, reused.regions) < 5.0);
     CHECK(largestDifference(own.regions, mixed.regions) < 5.0);
-    // Six standard errors.
+    // The bound is six standard errors.
     CHECK(sumOf(reused.regions) == Approx(sumOf(own.regions)).epsilon(0.004));
     CHECK(sumOf(mixed.regions) == Approx(sumOf(own.regions)).epsilon(0.004));
 
-    // About a half here, where pixels are far apart and share little; an eighth at 512 x 512.
+    // The variance is about a half here, where pixels are far apart and share little; it is an
+    // eighth at 512 x 512.
     CHECK(reused.relativeVariance() < 0.7 * own.relativeVariance());
 }

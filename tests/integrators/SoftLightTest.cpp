@@ -1,5 +1,5 @@
-// SoftLightTest.cpp - lights with a size, by every estimator: irradiance, shadows, the limit of
-// none.
+// SoftLightTest.cpp - lights with a size, by every estimator: irradiance, shadows, and the limit of
+// no size.
 // SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
@@ -15,7 +15,7 @@ Vec3 towards(double degrees)
     return Vec3(std::sin(angle), 0.0, std::cos(angle));
 }
 
-/// Of radiance 1, its centre at a distance of 2 radii from the origin.
+/// Returns a light of radiance 1 whose centre is 2 radii away from the origin.
 Light sphereLight(double degrees)
 {
     Light light = pointLight(2.0f * towards(degrees));
@@ -23,7 +23,7 @@ Light sphereLight(double degrees)
     return light;
 }
 
-/// Of radiance 1 in a half-angle of 30 degrees.
+/// Returns a light of radiance 1 in a half-angle of 30 degrees.
 Light sun(double degrees)
 {
     Light light;
@@ -58,7 +58,8 @@ constexpr Known kKnown[] = {{0.0, 0.78539816},
                             {90.0, 0.09058607},
                             {100.0, 0.03544902}};
 
-/// Within 4 sigma and 0.1 %, of which the error itself is not more than a quarter.
+/// Checks that the irradiance is right within 4 sigma and within 0.1 %, and that the standard error
+/// is at most a quarter of this.
 void check(const Estimate& radiance, double irradiance)
 {
     CAPTURE(radiance.mean() * M_PI, radiance.standardError() * M_PI, irradiance);
@@ -67,7 +68,7 @@ void check(const Estimate& radiance, double irradiance)
     CHECK(radiance.standardError() * M_PI < 2.5e-4 * irradiance);
 }
 
-/// A floor with a ball above it.
+/// Returns a floor with a ball above it.
 SceneBuilder ballOverFloor()
 {
     SceneBuilder builder;
@@ -122,7 +123,7 @@ TEST_CASE("soft light: what stands between shadows its part", "[integrators][sta
     check(measure(builder.build(), receiverView(), options, 16), expected);
 }
 
-// In the limit of no size: the picture of the point light, its hard shadow's edge included.
+// In the limit of no size the picture is that of the point light, with the edge of its hard shadow.
 TEST_CASE("soft light: a tiny one is the point light", "[integrators]")
 {
     for (const bool directional : {false, true})

@@ -8,7 +8,8 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// A room of radiance 1 around a box, which unlike facets of a sphere never traps light for long.
+/// Returns a room of radiance 1 around a box. Unlike the facets of a sphere, a box never traps
+/// light for long.
 std::shared_ptr<const TracedScene> inWhiteRoom(const Material& material, bool sampled)
 {
     SceneBuilder builder;
@@ -26,7 +27,7 @@ View outside()
     return perspectiveView({1.4, -2.1, 0.9}, {0, 0, 0}, {0, 0, 1}, 50.0, 48, 48);
 }
 
-/// Largest difference of any channel of any pixel.
+/// Returns the largest difference of any channel of any pixel.
 float largestDifference(const Picture& a, const Picture& b)
 {
     float largest = 0.0f;
@@ -119,7 +120,7 @@ TEST_CASE("mirror: a white one in a white room cannot be seen, nor a mirror room
 
 TEST_CASE("mirror: shows the mirrored scene", "[integrators]")
 {
-    // Two lamps above a mirror floor against the same two below it without the mirror.
+    // Two lamps above a mirror floor are compared with two such lamps below it without the mirror.
     SceneBuilder reflected, direct;
     reflected.add(quadMesh({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), mirror(Vec3(1.0f)));
     reflected.add(quadMesh({-2, -1, 2}, {0, 2, 0}, {1.5f, 0, 0}), lamp(Vec3(1.0f, 2.0f, 3.0f)));
@@ -131,8 +132,8 @@ TEST_CASE("mirror: shows the mirrored scene", "[integrators]")
     CHECK(truth.mean().y > 0.05f);
     for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
     {
-        // One sample a pixel, the same in both: only pixels that the lamps' edges run through may
-        // differ.
+        // Both pictures have the same sample of each pixel: only pixels that the lamps' edges cross
+        // may differ.
         const Picture picture = render(reflected.build(), view, optionsOf(kind), 1);
         int different = 0;
         for (int y = 0; y < 64; ++y)
@@ -172,7 +173,7 @@ TEST_CASE("mirror: as roughness vanishes the image becomes the mirror's",
     const View view = perspectiveView({0, -3, 1.5}, {0, -0.6, -1}, {0, 0, 1}, 60.0, 32, 32);
     const RenderOptions options = optionsOf(IntegratorKind::Path);
     const Picture smooth = render(traced(0.0f), view, options, 64);
-    // Relative, mean over pixels.
+    // Returns the mean difference over the pixels, relative to the mirrored picture.
     const auto difference = [](const Picture& picture, const Picture& mirrored)
     {
         double sum = 0.0, total = 0.0;
@@ -187,8 +188,9 @@ TEST_CASE("mirror: as roughness vanishes the image becomes the mirror's",
         return sum / total;
     };
     CHECK(largestDifference(render(traced(0.02f), view, options, 64), smooth) ==
-          0.0f); // alpha below 1e-3
-    // The rough lobe draws other numbers: 5.4e-3 apart after 64 passes, 2.5e-3 after 1024.
+          0.0f); // alpha is below 1e-3
+    // The rough lobe uses other random numbers: the pictures are 5.4e-3 apart after 64 passes, and
+    // 2.5e-3 after 1024.
     const Picture nearly = render(traced(0.035f), view, options, 1024);
     CHECK(nearly.progress.droppedSamples == 0);
     CHECK(difference(nearly, render(traced(0.0f), view, options, 1024)) < 5e-3);

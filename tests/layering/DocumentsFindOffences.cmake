@@ -1,9 +1,10 @@
-# Gives cmake/CheckDocuments.cmake one small set of pages for each rule that breaks just that rule, and
-# one that breaks none.
+# Gives cmake/CheckDocuments.cmake one small set of pages for each rule that breaks only this rule,
+# and one that breaks none.
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
-# check(<page> <text> <expected message or empty>): a tree of good pages in which this page has this text.
+# check(<page> <text> <expected message or empty>) checks a tree of good pages in which this page
+# has this text.
 function(check page text expected)
     file(REMOVE_RECURSE "${WORK}")
     file(WRITE "${WORK}/README.md" "[a](osgRayTrace/docs/a.md) [p](osgRayTrace/docs/photon-mapping.md)\n")

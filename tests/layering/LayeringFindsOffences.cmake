@@ -1,9 +1,9 @@
-# Gives cmake/CheckLayering.cmake one small source tree for each rule that breaks just that rule, and
-# one that breaks none.
+# Gives cmake/CheckLayering.cmake one small source tree for each rule that breaks only this rule,
+# and one that breaks none.
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
-# check(<file> <text> <expected message or empty>): a tree of one good file and this one.
+# check(<file> <text> <expected message or empty>) checks a tree of one good file and this one.
 function(check file text expected)
     file(REMOVE_RECURSE "${WORK}")
     file(WRITE "${WORK}/osgRayTrace/scene/Good.h" "#include \"osgRayTrace/base/Math.h\"\n")

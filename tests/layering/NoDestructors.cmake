@@ -1,5 +1,6 @@
-# Static objects of the library and the plugins are never destroyed (see base/NeverDestroyed.h), and no thread has objects
-# that are: their object files ask for neither. The one exception is the stream library's own, which is safe.
+# Checks that static objects of the library and the plugins are never destroyed (see
+# base/NeverDestroyed.h), and that no thread has objects that are: their object files must ask for
+# neither. The one exception is the stream library's own object, which is safe.
 # Usage: cmake -D NM=<nm> -D BUILD=<build folder> -P NoDestructors.cmake
 # SPDX-License-Identifier: MIT
 file(GLOB_RECURSE objects "${BUILD}/osgRayTrace/*.o" "${BUILD}/osgPlugins/*.o" "${BUILD}/apps/osgraytrace-run/*.o")

@@ -1,5 +1,5 @@
-// DenoiserTest.cpp - how Open Image Denoise is called, and what takes its place where it fails.
-// StandIn.h stands for the library.
+// DenoiserTest.cpp - how Open Image Denoise is called, and what replaces it if it fails. StandIn.h
+// stands for the library.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/denoise/Denoiser.h"
 
@@ -20,7 +20,7 @@ namespace
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// A picture with noise, of a wall of albedo 1/2 that faces the view.
+/// A noisy picture of a wall of albedo 1/2 that faces the eye.
 struct NoisyWall
 {
     NoisyWall(int width, int height)
@@ -144,7 +144,8 @@ TEST_CASE("oidn: the network is given light over alpha, and guides within their 
     CHECK(pixel(library.normal, 4) == Vec3(0.0f, -0.6f, 0.8f));
     CHECK(pixel(library.normal, 5) == Vec3(0.0f, 0.0f, -1.0f));
 
-    // What comes out, here the mean of 3 x 3 pixels, is multiplied by alpha again; that stays.
+    // The library's result, here the mean of 3 x 3 pixels, is multiplied by alpha again, and alpha
+    // stays as it is.
     Vec3 mean(0);
     for (int y = 1; y <= 3; ++y)
         for (int x = 0; x <= 2; ++x)
@@ -165,7 +166,7 @@ TEST_CASE("oidn: pixels that are not there or not finite stay as they are, bit f
     wall.at(2, 0)[3] = 0.0f;
     wall.at(3, 0)[3] = kNan;
     wall.at(4, 0)[2] = 1e25f;
-    wall.at(5, 0)[0] = -0.5f; // is no light, but has some: it is filtered
+    wall.at(5, 0)[0] = -0.5f; // negative light, but finite: the pixel is filtered
     const NoisyWall before = wall;
     Denoiser denoiser;
     wall.denoise(denoiser, DenoiseKind::Oidn);

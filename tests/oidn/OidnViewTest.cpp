@@ -1,4 +1,5 @@
-// OidnViewTest.cpp - views that are shown through Open Image Denoise, for which StandIn.h stands.
+// OidnViewTest.cpp - views that are presented through Open Image Denoise, for which StandIn.h
+// stands.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/PhotonPasses.h"
 #include "osgRayTrace/session/view/ViewTracer.h"
@@ -16,7 +17,7 @@ namespace
 
 constexpr int kSize = 32;
 
-/// A viewer without OpenGL, of the Cornell box.
+/// A viewer of the Cornell box without OpenGL.
 struct Screen
 {
     Screen()
@@ -28,7 +29,7 @@ struct Screen
         inputs.photons = std::make_shared<PhotonPasses>();
     }
 
-    /// What is shown, whether it is new or not.
+    /// Returns the picture of the display, whether it is new or not.
     std::vector<uint8_t> frame(DenoiseKind denoise, const View& view)
     {
         inputs.denoise = denoise;
@@ -64,7 +65,7 @@ TEST_CASE("oidn: a view goes from one denoiser to the other without tracing anew
     CHECK(plain != filtered);
     CHECK(plain != mean);
     CHECK(filtered != mean);
-    CHECK(screen.frame(DenoiseKind::Oidn, view) == mean); // nothing is new: nothing is done
+    CHECK(screen.frame(DenoiseKind::Oidn, view) == mean); // the frame has nothing new to do
     CHECK(library.times("execute") == 1);
     CHECK(screen.frame(DenoiseKind::Off, view) == plain);
     CHECK(screen.frame(DenoiseKind::Filter, view) == filtered);

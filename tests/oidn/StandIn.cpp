@@ -22,11 +22,11 @@ struct Image
     std::size_t width = 0, height = 0;
 };
 
-/// Errors are kept for each thread and the first of them stays, as in the library.
+/// Errors are kept for each thread, and the first of them stays, as in the library.
 struct Errors
 {
     std::map<std::thread::id, std::string> first;
-    std::string told; ///< stays valid until the next is asked for
+    std::string told; ///< stays valid until the next error is asked for
 };
 
 Errors globalErrors;
@@ -56,7 +56,7 @@ struct OIDNFilterImpl
 namespace
 {
 
-/// A mistake of the caller's: the test is told, and the caller as the library would.
+/// Records a mistake of the caller for the test, and reports it to the caller as the library would.
 void mistake(OIDNDevice device, const std::string& message)
 {
     state.mistakes.push_back(message);
@@ -78,7 +78,8 @@ void setValue(OIDNFilter filter, const std::string& name, bool value)
     filter->values[name] = value;
 }
 
-/// Of the pixels' values the first that is not in [low, high], as a mistake.
+/// Returns whether all values of the pixels are in [low, high]; the first other value is recorded
+/// as a mistake.
 bool areWithin(OIDNFilter filter, const std::string& name, float low, float high)
 {
     const Image& image = filter->images[name];
@@ -256,7 +257,7 @@ extern "C"
         state.normal = valuesOf(filter->images["normal"]);
         if (state.fault == Fault::Execute)
         {
-            const Image& output = filter->images["output"]; // what is in it then, nobody knows
+            const Image& output = filter->images["output"]; // its contents are undefined then
             std::fill_n(output.pixels, 3 * output.width * output.height, NAN);
             return fail(filter->device->errors, "out of luck");
         }

@@ -9,7 +9,7 @@
 namespace osgRayTrace::engine::test
 {
 
-/// A call that fails, as the library says it: by an error that is asked for later.
+/// The call that fails, as the library reports it: by an error that is asked for later.
 enum class Fault
 {
     None,
@@ -20,23 +20,23 @@ enum class Fault
     Execute,
 };
 
-/// What the library was asked for since begin(). One thread.
+/// The requests to the library since beginStandIn(). It may be used by one thread.
 struct StandIn
 {
     Fault fault = Fault::None;
 
-    std::vector<std::string> calls; ///< that make something of it: "device 2 threads", "commit 8x6"
-    std::vector<std::string> mistakes;        ///< what it must not be asked for
-    int devices = 0, filters = 0;             ///< that are not released
-    std::vector<float> light, albedo, normal; ///< of the last execution, as they came in
+    std::vector<std::string> calls;    ///< that make something: "device 2 threads", "commit 8x6"
+    std::vector<std::string> mistakes; ///< requests that the library does not allow
+    int devices = 0, filters = 0;      ///< not yet released
+    std::vector<float> light, albedo, normal; ///< inputs of the last execution
 
     int times(const std::string& call) const;
 };
 
-/// The one there is.
+/// Returns the only stand-in.
 StandIn& standIn();
 
-/// All forgotten but devices and filters.
+/// Forgets everything but devices and filters, and returns the stand-in.
 StandIn& beginStandIn(Fault fault = Fault::None);
 
 } // namespace osgRayTrace::engine::test

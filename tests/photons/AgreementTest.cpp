@@ -13,9 +13,10 @@ namespace
 {
 
 constexpr int kSize = 24;
-constexpr int kBounces = 24; ///< what is cut off there is nothing
+constexpr int kBounces = 24; ///< longer paths carry no noticeable light
 
-/// All comparisons of a list of scenes together raise a false alarm with a probability of 1 %.
+/// Checks that photons agree with paths. All comparisons of a list of scenes together raise a false
+/// alarm with a probability of 1 %.
 void checkAgreement(const std::vector<ComparedScene>& scenes)
 {
     const double threshold = sidak(0.01, 3 * static_cast<int>(scenes.size()));
@@ -30,9 +31,9 @@ void checkAgreement(const std::vector<ComparedScene>& scenes)
         {
             options.integrator = kind;
             options.photons = 6000;
-            // Edges lose light to where there is no surface: 0.1 % of the picture at these radii.
-            // Those of PHOTON_CAUSTICS meet photons after a bounce, too: small ones seldom, and
-            // brightly.
+            // At edges, discs lose light to places without a surface: 0.1 % of the picture at these
+            // radii. Discs of PHOTON_CAUSTICS collect photons after a bounce, too: small discs
+            // collect them seldom and brightly.
             const bool caustics = kind == IntegratorKind::PhotonCaustics;
             options.photonRadius = static_cast<float>((caustics ? 0.01 : 0.004) * scene.size);
             const int passes = kind == IntegratorKind::Ppm ? 12 * kPathPasses : 12; // equal paths
@@ -61,8 +62,7 @@ TEST_CASE("photons and paths agree: what photons find hard", "[photons][statisti
 TEST_CASE("photons and paths agree: no terminator in mirrors", "[photons]")
 {
     // Facets with a terminator offset take light from below their planes, where no photon lands.
-    // Where they mirror they must not: a coarse mirror ball gave 0.2 % of the light of its room
-    // twice.
+    // Mirrors must not do so: a coarse mirror ball gave 0.2 % of the light of its room twice.
     for (const ComparedScene& scene : photonScenes(kSize, kSize))
     {
         if (std::string(scene.name) != "smooth mirror balls") continue;

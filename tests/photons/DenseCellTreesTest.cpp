@@ -1,4 +1,4 @@
-// DenseCellTreesTest.cpp - dense cells: the same photons are found, and few are read.
+// DenseCellTreesTest.cpp - look-ups in dense cells find the same photons, and read few of them.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
@@ -14,8 +14,9 @@ namespace
 
 const Vec3 kUp(0, 0, 1);
 
-/// On floors one above the other and walls between them, on a lattice of 2^-20 within a cube of
-/// 2^-10: all distances and sums are exact. Most come from above, the others from the side.
+/// Returns photons on floors above each other and on walls between them, on a lattice of 2^-20
+/// within a cube of 2^-10, so that all distances and sums are exact. Most photons come from above,
+/// the others from the side.
 std::vector<Photon> denseCell(std::size_t count, uint32_t seed)
 {
     Uniform uniform(seed);
@@ -92,7 +93,8 @@ TEST_CASE("dense cells: what a search through all photons finds, added up or rea
                 REQUIRE(sum.power == expected.power);
             else
                 REQUIRE(glm::distance(sum.power, expected.power) <= 1e-4f * expected.power.y);
-            // Fewer read than found: the rest was added up.
+            // If fewer photons were read than found, the others were added by the sums of their
+            // boxes.
             if (map.work(q) < expected.count) addedUp += expected.count - map.work(q);
         }
     }
@@ -110,10 +112,11 @@ TEST_CASE("dense cells: small discs and whole ones read little", "[photons][stab
         p.normal = p.wi = kUp;
         p.power = Vec3(1.0f);
     }
-    photons[0].position = Vec3(1.0f); // else the cells would be of the dense cell's size
+    photons[0].position = Vec3(1.0f); // otherwise cells would have the dense cell's size
     const PhotonMap map(photons, 0.01f, Workers(2));
     CHECK(map.bytes() < 50u * kPhotons);
-    // Of 26 photons: a uniform grid's cells of two radii hold 33, and four of them are touched.
+    // The disc holds 26 photons: a uniform grid's cells of two radii hold 33, and the disc touches
+    // four of them.
     const float radius = 1e-3f * std::sqrt(26.0f / (float(kPhotons) * kPi));
     std::size_t most = 0, found = 0;
     for (std::size_t k = 1; k < 4000; ++k)
@@ -129,11 +132,11 @@ TEST_CASE("dense cells: small discs and whole ones read little", "[photons][stab
         CAPTURE(large);
         const PhotonQuery q = query(Vec3(0.0f), large);
         CHECK(map.gather(q).count >= 120000);
-        CHECK(map.work(q) <= 60000); // the rim
+        CHECK(map.work(q) <= 60000); // the photons at the rim
     }
     CHECK(map.gather(query(Vec3(0.0f), 5e-3f)).count == kPhotons - 1);
 
-    // All in one point, and the disc around it.
+    // All photons are in one point, and the disc is around it.
     for (std::size_t k = 1; k < kPhotons; ++k)
         photons[k].position = Vec3(0.0f);
     const PhotonMap point(photons, 0.01f, Workers(2));

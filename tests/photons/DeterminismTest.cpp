@@ -1,5 +1,5 @@
-// DeterminismTest.cpp - photon pictures depend on the seed alone; and what millions of photons in
-// one place or a single one make of them.
+// DeterminismTest.cpp - photon pictures depend on the seed alone, even with a single photon or with
+// millions in one place.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -17,7 +17,7 @@ namespace
 constexpr IntegratorKind kKinds[] = {IntegratorKind::Ppm, IntegratorKind::Sppm,
                                      IntegratorKind::PhotonCaustics};
 
-/// Glass, metal, diffuse surfaces; lights with and without area.
+/// Returns a scene of glass, metal and diffuse surfaces with lights with and without area.
 SceneBuilder stage()
 {
     SceneBuilder builder;
@@ -46,7 +46,7 @@ TEST_CASE("photon pictures: equal for 1, 2 and 5 threads, bit by bit, and beside
         for (const RadiusSchedule schedule : {RadiusSchedule::Global, RadiusSchedule::Local})
         {
             RenderOptions options = optionsOf(kind);
-            options.photons = 7000; // several chunks, the last of them not full
+            options.photons = 7000; // several chunks, the last of which is not full
             options.radiusSchedule = schedule;
             CAPTURE(int(kind), int(schedule));
             const Picture first = render(stage().build(1), stageView(), options, 4, 1);
@@ -66,7 +66,7 @@ TEST_CASE("photon pictures: equal for 1, 2 and 5 threads, bit by bit, and beside
             CHECK(seedMatters);
             options.seed = 0;
 
-            // Another view of the same scene is there, one pass ahead, and its photons are used.
+            // Another view of the same scene is one pass ahead, and its photons are used.
             const auto traced = stage().build(2);
             const auto workers = std::make_shared<Workers>(2);
             const auto photons = std::make_shared<PhotonPasses>();
@@ -121,7 +121,8 @@ TEST_CASE("photon map: ten million photons in one cell", "[photons][stability 42
 TEST_CASE("photon pictures: a single photon, and all photons in one spot",
           "[photons][stability 42]")
 {
-    // A spot so narrow that all photons of all passes land within 1e-4 of each other, by a mirror.
+    // The spot is so narrow that all photons of all passes land, by a mirror, within 1e-4 of each
+    // other.
     SceneBuilder builder;
     builder.add(quadMesh({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}), lambert(Vec3(0.7f)));
     builder.add(quadMesh({1, 1, -0.5f}, {0, -2, 0}, {0, 0, 2}), mirror(Vec3(1.0f)));

@@ -1,5 +1,5 @@
-// EmissionShapeTest.cpp - where photons leave lights, which way, and that all of their power
-// arrives.
+// EmissionShapeTest.cpp - where photons leave lights, in which directions, and that all of their
+// power arrives.
 // SPDX-License-Identifier: MIT
 #include "tests/photons/PhotonMeans.h"
 
@@ -14,7 +14,7 @@ namespace
 constexpr double kPiD = glm::pi<double>();
 constexpr int kPhotons = 200000;
 
-/// A closed box with nothing to aim at.
+/// Returns a closed box without targets.
 SceneBuilder box(const Material& material)
 {
     SceneBuilder builder;
@@ -22,8 +22,8 @@ SceneBuilder box(const Material& material)
     return builder;
 }
 
-/// Counts of the photons in cells of equal expectation, and that their powers are all alike: plain
-/// emission is in proportion to what the light sends, so that counting is enough.
+/// Returns the p-value of a chi-square test that the photons fall evenly into the cells. Plain
+/// emission is in proportion to what the light sends, so that counting photons is enough.
 template <class CellOf> double chiSquareOf(const SceneBuilder& builder, int cells, CellOf cellOf)
 {
     const auto traced = builder.build(1);
@@ -49,7 +49,8 @@ int cell(double u, int cells)
     return std::clamp(static_cast<int>(u * cells), 0, cells - 1);
 }
 
-/// 8 x 8 cells: azimuth around +z, and a height in which the light's flux is even.
+/// Returns one of 8 x 8 cells, by the azimuth around +z and by a height in which the light's flux
+/// is even.
 int directionCell(Vec3 d, double evenHeight)
 {
     const double azimuth = std::atan2(double(d.y), double(d.x)) / (2.0 * kPiD) + 0.5;
@@ -67,11 +68,11 @@ Light sun()
 
 } // namespace
 
-// Nine chi-square tests, each at 1e-3.
+// These are nine chi-square tests, each at 1e-3.
 TEST_CASE("photon emission: directions and places are spread as the light shines",
           "[photons][statistics]")
 {
-    // Lambert's law: the square of the cosine is even.
+    // By Lambert's law the square of the cosine is even.
     SceneBuilder quad = box(lambert(Vec3(0.0f)));
     quad.addQuadLight({-0.5f, -0.25f, 0}, {1, 0, 0}, {0.2f, 0.5f, 0}, Vec3(3.0f));
     const auto lambertCell = [](const PhotonStart& s)
@@ -84,7 +85,7 @@ TEST_CASE("photon emission: directions and places are spread as the light shines
     };
     CHECK(chiSquareOf(quad, 64, quadCell) > 1e-3);
 
-    // Both sides of a mesh of two unequal triangles.
+    // Both sides of a mesh of two unequal triangles emit.
     SceneBuilder mesh = box(lambert(Vec3(0.0f)));
     mesh.addEmissive(
         newMesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0.25f, 0}}, {{0, 1, 2}, {0, 2, 3}}),
@@ -95,8 +96,8 @@ TEST_CASE("photon emission: directions and places are spread as the light shines
         return directionCell(s.direction, 0.5 + 0.5 * z * std::abs(z));
     };
     CHECK(chiSquareOf(mesh, 64, bothSides) > 1e-3);
-    // Areas of 1/2 and 1/8, the first the part below the diagonal: five equal cells by area along
-    // x.
+    // The triangles have areas of 1/2 and 1/8, and the first lies below the diagonal: there are
+    // five cells of equal area along x.
     const auto meshCell = [](const PhotonStart& s)
     {
         const double x = s.origin.x, y = s.origin.y;
@@ -112,7 +113,7 @@ TEST_CASE("photon emission: directions and places are spread as the light shines
                           return directionCell(s.direction, 0.5 + 0.5 * double(s.direction.z));
                       }) > 1e-3);
 
-    // A spot's photons are even in its cone, and their power is what falls off.
+    // A spot's photons are even in its cone; it is their power that falls off.
     Light light = pointLight(Vec3(0.0f));
     light.direction = Vec3(0, 0, 1);
     light.spotCosCutoff = 0.6f;
@@ -123,7 +124,7 @@ TEST_CASE("photon emission: directions and places are spread as the light shines
                           return directionCell(s.direction, (double(s.direction.z) - 0.6) / 0.4);
                       }) > 1e-3);
 
-    // The sun fills the disc of the sphere around the box, 2 sqrt(3).
+    // The sun fills the disc of the sphere around the box, whose radius is 2 sqrt(3).
     SceneBuilder sunny = box(lambert(Vec3(0.0f)));
     sunny.addLight(sun());
     CHECK(chiSquareOf(sunny, 64,
@@ -134,7 +135,7 @@ TEST_CASE("photon emission: directions and places are spread as the light shines
                           return directionCell(s.origin, r2 / 12.0);
                       }) > 1e-3);
 
-    // Three lights of power 1 : 2 : 5 have as many photons.
+    // Three lights of power 1 : 2 : 5 have numbers of photons in this proportion.
     SceneBuilder three = box(lambert(Vec3(0.0f)));
     for (const float power : {1.0f, 2.0f, 5.0f})
         three.addQuadLight({power, 0, 0}, {0.1f, 0, 0}, {0, 0.1f, 0}, Vec3(power));
@@ -162,7 +163,7 @@ TEST_CASE("photon emission: the power of a spot falls with its exponent", "[phot
         const auto start = emitter.emit({0.5f, uniform(), Vec2(0.0f), Vec2(uniform(), uniform())});
         REQUIRE(start);
         REQUIRE(start->direction.z >= 0.6f);
-        // pi I over the density 1 / (2 pi 0.4).
+        // The power is pi I over the density 1 / (2 pi 0.4).
         const double expected =
             2.0 * kPiD * std::pow(double(start->direction.z), 4.0) * 2.0 * kPiD * 0.4;
         REQUIRE(double(start->power.y) == Approx(expected).epsilon(1e-4));
@@ -172,12 +173,12 @@ TEST_CASE("photon emission: the power of a spot falls with its exponent", "[phot
 namespace
 {
 
-/// Power that lands after one straight pass through glass that is hardly there: a closed skin of
-/// index 1 around the light, within a box. Direct light is not stored, this is.
+/// The power that lands after one straight pass through glass without refraction: a closed skin of
+/// index 1 is around the light, within a box. Direct light is not stored, but this light is.
 struct Landed
 {
     Estimate all;  ///< [W] a pass
-    Estimate disc; ///< of it on the disc of radius 1/2 in the middle of the floor
+    Estimate disc; ///< part of all, on the disc of radius 1/2 in the middle of the floor
 };
 
 Landed landed(const Light& light, float guidedShare)
@@ -186,7 +187,7 @@ Landed landed(const Light& light, float guidedShare)
     Material skin = glass(1.0f);
     skin.baseColor = Vec3(1.0f - 0x1p-20f); // without any tint it would not be traced
     builder.add(sphereMesh(Vec3(0.0f), 1.9f, 16), skin);
-    builder.add(sphereMesh({0, 0, -1.0f}, 0.4f, 8), skin); // to aim at
+    builder.add(sphereMesh({0, 0, -1.0f}, 0.4f, 8), skin); // a target
     if (light.kind == LightKind::Parallelogram)
         builder.addQuadLight(light.corner, light.edgeU, light.edgeV, light.radiance);
     else
@@ -222,8 +223,8 @@ Landed landed(const Light& light, float guidedShare)
 
 } // namespace
 
-// 16 independent passes each: twelve comparisons at 4 standard errors, 1e-3 a comparison; the seeds
-// are fixed.
+// Each estimate has 16 independent passes: there are twelve comparisons at 4 standard errors, with
+// a false alarm of 1e-3 a comparison; the seeds are fixed.
 TEST_CASE("photon emission: all power arrives at the walls, and its share at a disc",
           "[photons][statistics]")
 {
@@ -246,7 +247,8 @@ TEST_CASE("photon emission: all power arrives at the walls, and its share at a d
     } cases[] = {{pointLight({0, 0, 1}), 4.0 * kPiD * kPiD, 2.0 * kPiD * kPiD * (1.0 - c)},
                  {spot, 2.0 * kPiD * kPiD * (1.0 - 0.125) / 3.0,
                   2.0 * kPiD * kPiD * (1.0 - c * c * c) / 3.0},
-                 // Form factor of a small patch and a disc; the patch's size shows at 1e-3 of it.
+                 // The form factor is that of a small patch and a disc; the size of the patch
+                 // changes it by 1e-3.
                  {quad, kPiD * 50.0 * 0.01, kPiD * 50.0 * 0.01 * 0.25 / (9.0 + 0.25)}};
     for (const auto& k : cases)
         for (const float share : {0.0f, 0.9f})

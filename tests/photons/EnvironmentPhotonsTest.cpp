@@ -1,4 +1,4 @@
-// EnvironmentPhotonsTest.cpp - photons from environments against formulas and against paths.
+// EnvironmentPhotonsTest.cpp - photons from environments compared with formulas and with paths.
 // SPDX-License-Identifier: MIT
 #include "tests/Environments.h"
 #include "tests/PValues.h"
@@ -31,7 +31,7 @@ TEST_CASE("photons and paths agree: glass under a sky with a sun", "[photons][st
 {
     const auto traced = glassOnFloor(sunnySky(16, 8)).build();
     RenderOptions options = optionsOf(IntegratorKind::Path, 12);
-    options.terminatorCorrection = false; // as in AgreementTest
+    options.terminatorCorrection = false; // no photon lands below the plane of a facet
     const Estimate path = meanOf(traced, glassView(), options, 96);
     CHECK(path.standardError() < 6e-3 * path.mean());
     const double threshold = sidak(0.01, 2);
@@ -74,7 +74,7 @@ TEST_CASE("photons: an environment sends its integral times the scene's disc",
                 emitter.emit({uniform(), choice, {uniform(), uniform()}, {uniform(), uniform()}});
             power.add(start ? double(luminance(start->power)) : 0.0);
             if (!start) continue;
-            // Starts outside of the scene and goes through its sphere.
+            // The photon starts outside of the scene and goes through the scene's sphere.
             const Vec3 d = emitter.scene().centre - start->origin;
             const float along = glm::dot(d, start->direction);
             CHECK(along > radius);

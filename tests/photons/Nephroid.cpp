@@ -13,8 +13,9 @@ namespace
 constexpr double kHalfArc = glm::pi<double>() / 3.0;
 constexpr int kFacets = 4096;
 
-/// The wall from the floor to z = height, its normals those of the cylinder, its front towards the
-/// axis. A facet is 5e-4 wide: positions are 3e-8 off the cylinder, directions are exact.
+/// Returns the wall from the floor to z = height, with the normals of the cylinder and its front
+/// towards the axis. A facet is 5e-4 wide: positions are 3e-8 off the cylinder, and directions are
+/// exact.
 std::shared_ptr<Mesh> arc(float height)
 {
     std::vector<Vec3> positions, normals;
@@ -39,7 +40,7 @@ std::shared_ptr<Mesh> arc(float height)
 
 } // namespace
 
-/// The sun reaches the wall over the whole arc, and the floor before it.
+/// The sun reaches the wall over the whole arc, and the floor before the wall.
 SceneBuilder nephroid()
 {
     SceneBuilder builder;
@@ -48,7 +49,7 @@ SceneBuilder nephroid()
     Light sun;
     sun.kind = LightKind::Directional;
     sun.direction = glm::normalize(Vec3(1, 0, -1));
-    sun.diffuse = Vec3(std::sqrt(2.0f)); // the floor's direct radiance is 1
+    sun.diffuse = Vec3(std::sqrt(2.0f)); // gives the floor a direct radiance of 1
     builder.addLight(sun);
     return builder;
 }
@@ -59,16 +60,16 @@ double gainOnAxis(double x)
     return 1.0 / std::abs(1.0 - 2.0 * x) + (three ? 2.0 / (4.0 * x * x - 1.0) : 0.0);
 }
 
-/// Mean of G over the disc: the share of light that lands there, ray by ray. Light that meets the
-/// wall at azimuth phi and height z runs s = z; its flux is cos(phi) dphi dz, and G = 1 is one of
-/// unit area.
+/// Returns the mean of G over the disc: the share of light that lands there, ray by ray. Light that
+/// meets the wall at azimuth phi and height z runs s = z; its flux is cos(phi) dphi dz, and G = 1
+/// is a flux of 1 per unit area.
 double meanGain(double x, double y, double radius, int steps)
 {
     double sum = 0.0;
     for (int k = 0; k < steps; ++k)
     {
         const double phi = kHalfArc * (2.0 * (k + 0.5) / steps - 1.0);
-        // The chord of the ray from (cos phi, sin phi) along (-cos 2 phi, -sin 2 phi).
+        // The ray from (cos phi, sin phi) along (-cos 2 phi, -sin 2 phi) has a chord in the disc.
         const double dx = std::cos(phi) - x, dy = std::sin(phi) - y;
         const double along = dx * std::cos(2.0 * phi) + dy * std::sin(2.0 * phi);
         const double half2 = radius * radius - (dx * dx + dy * dy - along * along);

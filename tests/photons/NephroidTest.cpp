@@ -1,4 +1,4 @@
-// NephroidTest.cpp - the caustic of a concave mirror wall against its closed form.
+// NephroidTest.cpp - the caustic of a concave mirror wall compared with its closed form.
 // SPDX-License-Identifier: MIT
 #include "tests/photons/Nephroid.h"
 #include "tests/Catch.h"
@@ -12,7 +12,8 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// Discs are as large as G varies little in them: each gathers a per cent of the light or more.
+/// The discs are so large that G varies little in them: each gathers one per cent of the light or
+/// more.
 struct Row
 {
     double x, gain, radius;
@@ -21,8 +22,8 @@ constexpr Row kTable[] = {{0.10, 1.25, 0.10},    {0.25, 2.0, 0.10}, {0.40, 5.0, 
                           {0.60, 9.54545, 0.05}, {0.75, 3.6, 0.08}, {0.90, 2.14286, 0.08}};
 constexpr std::size_t kRows = 6;
 
-/// Light by the wall over direct light, in each row: one value for each of 8 seeds. The views share
-/// their photons.
+/// Returns the light by the wall over direct light, in each row, with one value for each of 8
+/// seeds. The views share their photons.
 std::vector<Estimate> measuredGains(IntegratorKind kind, int passes)
 {
     constexpr double kSide = 1e-3;
@@ -36,10 +37,10 @@ std::vector<Estimate> measuredGains(IntegratorKind kind, int passes)
         for (const Row& row : kTable)
         {
             RenderOptions options =
-                optionsOf(kind, 2, seed); // nothing from the floor by the wall again
+                optionsOf(kind, 2, seed); // light of the floor does not come back by the wall
             options.photons = 1 << 16;
             options.photonRadius = static_cast<float>(row.radius);
-            options.photonAlpha = 1.0f; // all passes with the same disc
+            options.photonAlpha = 1.0f; // all passes have the same disc
             sessions.push_back(std::make_unique<RenderSession>(workers, photons));
             sessions.back()->setScene(traced);
             sessions.back()->setView(patchView({row.x, 0, 0}, {0, 0, 1}, kSide, 1));
@@ -73,12 +74,12 @@ TEST_CASE("nephroid: the mean over a disc tends to the closed form", "[photons]"
         CHECK(gainOnAxis(row.x) == Approx(row.gain).epsilon(1e-5));
         CHECK(meanGain(row.x, 0.0, 0.002) == Approx(row.gain).epsilon(2e-3));
     }
-    // What the kernel adds at the place that is next to the caustic.
+    // At the place next to the caustic, this is G with the kernel's bias.
     CHECK(meanGain(0.6, 0.0, 0.01) == Approx(9.608).epsilon(2e-3));
 }
 
-// 1 % as the table demands, four standard errors of which at most: a false alarm of all twelve has
-// a probability below 1e-3.
+// The bound is 1 %, as the table demands, and the standard error is at most a quarter of it: a
+// false alarm of all twelve comparisons has a probability below 1e-3.
 TEST_CASE("nephroid: irradiance at six places of the axis", "[photons][statistics]")
 {
     for (const IntegratorKind kind : {IntegratorKind::PhotonCaustics, IntegratorKind::Sppm})

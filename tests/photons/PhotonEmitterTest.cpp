@@ -1,4 +1,5 @@
-// PhotonEmitterTest.cpp - lights send what their formulas say, however photons are guided.
+// PhotonEmitterTest.cpp - lights emit the power that their formulas give, however photons are
+// guided.
 // SPDX-License-Identifier: MIT
 #include "tests/photons/PhotonMeans.h"
 
@@ -8,7 +9,8 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// A large floor and, well inside of what surrounds it, a small glass ball and a mirror to aim at.
+/// Returns a large floor and, well inside of the bounding sphere, a small glass ball and a mirror
+/// as targets.
 SceneBuilder stage()
 {
     SceneBuilder builder;
@@ -18,7 +20,7 @@ SceneBuilder stage()
     return builder;
 }
 
-/// Lights and bins whose weights differ as far as they can.
+/// Returns a guide whose weights of lights and bins differ as far as they can.
 std::shared_ptr<const PhotonGuide> anyGuide(const PhotonEmitter& emitter)
 {
     Uniform uniform(5);
@@ -39,8 +41,8 @@ Flux emitted(const SceneBuilder& builder, float guidedShare, bool learnt = false
     return emittedFlux(emitter, 23, photonGuide.get());
 }
 
-/// Demands the analytic flux without aiming, with two shares of it and with weights, and that the
-/// ball gets the same.
+/// Checks the analytic flux without guiding, with two guided shares and with a learnt guide, and
+/// that the ball gets the same flux.
 void checkFlux(const SceneBuilder& builder, double expected)
 {
     const Flux plain = emitted(builder, 0.0f);
@@ -64,8 +66,8 @@ constexpr double kPiD = 3.14159265358979323846;
 
 } // namespace
 
-// Each call of checkFlux: four means within 4 standard errors and three differences; a false alarm
-// of all twelve calls has a probability of 5e-3 at most.
+// Each call of checkFlux tests four means within 4 standard errors and three differences; a false
+// alarm of all twelve calls has a probability of 5e-3 at most.
 TEST_CASE("photon emission: a parallelogram, one side and two", "[photons][statistics]")
 {
     for (const bool twoSided : {false, true})
@@ -223,7 +225,7 @@ TEST_CASE("photon emission: sixteen at once are what they are one by one", "[pho
             }
             CAPTURE(int(kind), share, learnt, different);
             CHECK(started > 12000);
-            // Directions within roundings of a cone's rim are in it or not.
+            // Rounding decides whether directions at a cone's rim are in the cone.
             CHECK(different <= 3);
         }
     }

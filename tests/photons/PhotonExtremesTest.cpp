@@ -1,4 +1,4 @@
-// PhotonExtremesTest.cpp - photons where there is too much or too little of something.
+// PhotonExtremesTest.cpp - photons in scenes that have too much or too little of something.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -84,7 +84,7 @@ TEST_CASE("stability 42: no photon and one photon a pass", "[photons][stability 
         CAPTURE(int(kind));
         const Picture none = render(traced, roomView(), photonOptions(kind, 0), 3);
         CHECK(none.progress.rays.photon == 0);
-        CHECK(none.progress.photonNote == PhotonNote::None); // as it was asked for
+        CHECK(none.progress.photonNote == PhotonNote::None); // no photons were asked for
         CHECK(none.mean().y > 0.02f);
         const Picture one = render(traced, roomView(), photonOptions(kind, 1), 20);
         CHECK(one.progress.rays.photon <= 20u * 8u);
@@ -117,7 +117,7 @@ TEST_CASE("photon extremes: a closed box of mirrors comes to an end, with a note
         CHECK(picture.progress.storedPhotons == 0);
         CHECK(picture.progress.droppedSamples == 0);
         CHECK(picture.mean() == Vec3(0.0f));
-        // Each photon makes all its edges and no more.
+        // Each photon takes all its edges, and no more.
         CHECK(picture.progress.rays.photon > 100u * 2u * 2000u);
         CHECK(picture.progress.rays.photon <= 200u * 2u * 2000u);
 
@@ -128,8 +128,8 @@ TEST_CASE("photon extremes: a closed box of mirrors comes to an end, with a note
     }
 }
 
-// 3 comparisons at 4 standard errors of 12 values each: a false alarm of all has a probability of
-// 0.005.
+// There are 3 comparisons at 4 standard errors of 12 values each: a false alarm of all has a
+// probability of 0.005.
 TEST_CASE("photon extremes: a light inside of glass", "[photons][statistics][long]")
 {
     SceneBuilder builder = darkRoom();
@@ -200,7 +200,8 @@ TEST_CASE("photon extremes: a million lights of no power", "[photons]")
         CHECK(picture.mean() == Vec3(0.0f));
     }
 
-    // One of power among them gets all photons, and costs no more than alone.
+    // If one light has power, it gets all photons, and the picture costs no more than with this
+    // light alone.
     builder.addQuadLight({-0.8f, -0.8f, 2.0f}, {0, 1.6f, 0}, {1.6f, 0, 0}, Vec3(2.0f));
     const Picture many = render(builder.build(), roomView(), photonOptions(kPhotonKinds[1]), 2);
     const Picture alone = render(litRoom().build(), roomView(), photonOptions(kPhotonKinds[1]), 2);

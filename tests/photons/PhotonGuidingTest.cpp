@@ -1,4 +1,4 @@
-// PhotonGuidingTest.cpp - photons go where views see their light, and their mean stays what it is.
+// PhotonGuidingTest.cpp - photons go where views see their light, and their mean stays the same.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -16,9 +16,9 @@ namespace
 constexpr int kSize = 32;
 constexpr float kStep = 2.0f;
 constexpr int kBalls = 48;          ///< in two rows
-const Vec3 kSeen(9.0f, 0.0f, 0.0f); ///< on the floor below one of them
+const Vec3 kSeen(9.0f, 0.0f, 0.0f); ///< on the floor below one of the balls
 
-/// A long floor with glass balls in two rows, far more than a view shows.
+/// Returns a long floor with glass balls in two rows, many more than a view shows.
 SceneBuilder hall()
 {
     SceneBuilder builder;
@@ -52,7 +52,7 @@ enum Lit
     ByMany,
 };
 
-/// ByMany: lights of every kind, most of which light what is not seen.
+/// Returns the lit hall. ByMany adds lights of every kind, most of which light invisible surfaces.
 SceneBuilder litHall(Lit lit)
 {
     SceneBuilder builder = hall();
@@ -76,7 +76,7 @@ SceneBuilder litHall(Lit lit)
     return builder;
 }
 
-/// One ball and its light on the floor.
+/// Returns a view of one ball and its light on the floor.
 View viewOfOne(Vec3 at = kSeen, int size = kSize)
 {
     const Vec3d centre(at);
@@ -117,7 +117,7 @@ struct SharedSession
     RenderSession session;
 };
 
-/// Photons of the session's last pass on the floor around a point.
+/// Counts the photons of the session's last pass on the floor around a point.
 uint32_t photonsAround(SharedSession& s, const std::shared_ptr<const TracedScene>& traced,
                        const RenderOptions& options, int pass, Vec3 at)
 {
@@ -141,14 +141,14 @@ uint32_t photonsAround(SharedSession& s, const std::shared_ptr<const TracedScene
 
 TEST_CASE("photon guiding: the same light with and without", "[photons][statistics]")
 {
-    // Eight means and four comparisons within 4 standard errors: a false alarm has a probability of
-    // 6e-4 in all.
+    // The test has eight means and four comparisons within 4 standard errors: a false alarm has a
+    // probability of 6e-4 in all.
     for (const Lit lit : {ByLamp, BySun, ByMany})
     {
         const auto traced = litHall(lit).build(2);
         for (const IntegratorKind kind : {IntegratorKind::PhotonCaustics, IntegratorKind::Sppm})
         {
-            // SPPM in one hall is enough.
+            // One hall is enough for SPPM.
             if (kind == IntegratorKind::Sppm && lit != ByMany) continue;
             Estimate means[2];
             for (const bool guided : {false, true})
@@ -208,7 +208,7 @@ TEST_CASE("photon guiding: equal for any number of threads, and of views that co
         many.upTo(7);
         CHECK(many.session.resolveRadiance() == expected);
 
-        // Elsewhere and back: what was learnt there is forgotten.
+        // The view moves away and comes back: what was learnt elsewhere is forgotten.
         many.session.setView(viewOfOne({-9, 0, 0}));
         many.upTo(7);
         CHECK(many.session.resolveRadiance() != expected);
@@ -255,7 +255,7 @@ TEST_CASE("photon guiding: two views of a scene get photons both, from the same 
             left.upTo(pass);
             right.upTo(pass);
         }
-        left.upTo(5); // aims at what left has recorded, then with right at both
+        left.upTo(5); // guided by the records of left, later passes by those of both views
         right.upTo(5);
         left.upTo(6);
         const uint64_t rays = photons->tracedRays();
@@ -264,7 +264,7 @@ TEST_CASE("photon guiding: two views of a scene get photons both, from the same 
         CHECK(photonsAround(left, traced, options, 5, kSeen) > 4 * before);
         CHECK(photonsAround(left, traced, options, 5, other) > 4 * before);
     }
-    // The right view is gone, so is what it saw.
+    // The right view is gone, and so are its records.
     left.upTo(7);
     CHECK(photonsAround(left, traced, options, 6, kSeen) > 8 * before);
     CHECK(photonsAround(left, traced, options, 6, other) < 2 * before);

@@ -1,4 +1,4 @@
-// PhotonLanesTest.cpp - sixteen look-ups at once find and send back what sixteen single ones do.
+// PhotonLanesTest.cpp - sixteen look-ups at once find and reflect what sixteen single ones do.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
@@ -23,7 +23,7 @@ Vec3 unit(Uniform& uniform)
                     squareToCosineHemisphere(uniform(), uniform()));
 }
 
-/// In a unit cube, on a lattice: sums are exact, whatever their order.
+/// Returns photons in a unit cube on a lattice: sums are exact, whatever their order.
 std::vector<Photon> cube(std::size_t count, uint32_t seed)
 {
     Uniform uniform(seed);
@@ -47,7 +47,8 @@ void setLane(PhotonQueryLanes& queries, int i, const PhotonQuery& query)
     queries.radius[i] = query.radius;
 }
 
-/// Around a place, as far apart and as unlike as round says; lanes out of use hold no numbers.
+/// Returns queries around a place that are as far apart and as unlike as round demands; unused
+/// lanes hold NaN.
 PhotonQueryLanes blockAround(Vec3 place, float radius, int round, Uniform& uniform)
 {
     const float spreads[] = {0.0f, 0.5f, 2.0f, 6.0f, 40.0f};
@@ -91,7 +92,7 @@ TEST_CASE("photon lanes: sixteen look-ups are as many single ones", "[photons]")
 {
     const Workers workers(2);
     uint64_t all = 0;
-    // Few photons around, more than are read together, and a dense cell.
+    // The maps have few photons around a query, more than are read together, and a dense cell.
     for (const auto& [count, cell] :
          {std::pair(3000, 0.2f), std::pair(60000, 0.1f), std::pair(9000, 4.0f)})
     {
@@ -141,7 +142,7 @@ TEST_CASE("photon lanes: sixteen look-ups are as many single ones", "[photons]")
 namespace
 {
 
-/// Light from all around onto both sides of the square of 2 around the origin.
+/// Returns light from all directions onto both sides of the square of side 2 around the origin.
 std::vector<Photon> sheet(std::size_t count, uint32_t seed)
 {
     Uniform uniform(seed);
@@ -157,7 +158,7 @@ std::vector<Photon> sheet(std::size_t count, uint32_t seed)
     return photons;
 }
 
-/// The sum as it is written down, by evalBsdf.
+/// Returns the sum as its definition gives it, by evalBsdf.
 Vec3 expectedPower(const PhotonMap& map, const GatherLanes& points, int i, uint32_t& count)
 {
     const ShadingFrame frame(laneOf(points.queries.shadingNormal, i));
@@ -190,7 +191,8 @@ Vec3 expectedPower(const PhotonMap& map, const GatherLanes& points, int i, uint3
 TEST_CASE("photon lanes: surfaces of all kinds send back what their BSDFs say", "[photons]")
 {
     const Workers workers(1);
-    // So few that lanes read them together, and so many that each reads its own.
+    // One map has so few photons that lanes read them together, the other so many that each lane
+    // reads its own.
     const PhotonMap few(sheet(800, 3), 0.4f, workers), many(sheet(6000, 3), 0.4f, workers);
     std::vector<BsdfKind> kinds = allKinds();
     for (BsdfKind& kind : extremeKinds())
@@ -212,7 +214,7 @@ TEST_CASE("photon lanes: surfaces of all kinds send back what their BSDFs say", 
         const Vec3 place(uniform() - 0.5f, uniform() - 0.5f, 0.0f);
         for (int i = 0; i < kLanes; ++i)
         {
-            // Of one kind, or of many side by side.
+            // The block has one kind of BSDF, or many side by side.
             bsdfs[i] = kinds[round % 2 ? kind : any(kinds.size())].bsdf;
             PhotonQuery query;
             query.position = place + Vec3(0.2f * uniform(), 0.2f * uniform(), 0.0f);
@@ -241,7 +243,7 @@ TEST_CASE("photon lanes: surfaces of all kinds send back what their BSDFs say", 
             const Vec3 expected = expectedPower(map, points, i, count),
                        power = laneOf(sums.power, i);
             REQUIRE(sums.count[i] == count);
-            // Narrow lobes lose digits of how far off their axis a facet is.
+            // For narrow lobes the angle between a microfacet and the lobe's axis loses digits.
             const float tolerance = bsdfs[i].alpha < 0.01f ? 2e-3f : 5e-5f;
             REQUIRE(glm::distance(power, expected) <= tolerance * glm::length(expected) + 1e-6f);
             lit += glm::length(expected) > 0.01f;
@@ -254,7 +256,7 @@ TEST_CASE("photon lanes: surfaces of all kinds send back what their BSDFs say", 
 
 TEST_CASE("photon lanes: what lanes out of use hold gets into nothing", "[photons]")
 {
-    // The albedo of lanes that are not Lambert's is not set, and their sums are added to.
+    // The albedo of lanes that are not Lambert's is not set, although their sums are added to.
     const PhotonMap map(sheet(800, 3), 0.4f, Workers(1));
     const float none = std::numeric_limits<float>::quiet_NaN();
     PhotonQueryLanes queries;

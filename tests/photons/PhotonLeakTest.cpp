@@ -16,7 +16,7 @@ namespace
 
 constexpr float kThickness = 1e-3f;
 
-/// One photon, somewhere in each cell of a side x side grid over corner, u, v.
+/// Adds one photon at a random place of each cell of a side x side grid over corner, u, v.
 void addPhotons(std::vector<Photon>& photons, Vec3 corner, Vec3 u, Vec3 v, Vec3 normal, int side)
 {
     Uniform uniform(3);
@@ -27,7 +27,7 @@ void addPhotons(std::vector<Photon>& photons, Vec3 corner, Vec3 u, Vec3 v, Vec3 
         p.position = corner + u * ((x + uniform()) / static_cast<float>(side)) +
                      v * ((y + uniform()) / static_cast<float>(side));
         p.normal = normal;
-        p.wi = glm::normalize(Vec3(1, 0, 1)); // to both faces of the corner
+        p.wi = glm::normalize(Vec3(1, 0, 1)); // reaches both faces of the corner
         p.power = Vec3(1.0f / static_cast<float>(side * side));
         photons.push_back(p);
     }
@@ -42,7 +42,7 @@ PhotonQuery query(Vec3 position, Vec3 normal, float radius)
     return q;
 }
 
-/// Photons within the radius, whatever surface they belong to.
+/// Counts the photons within the radius, whatever surface they belong to.
 uint32_t near(const std::vector<Photon>& photons, Vec3 position, float radius)
 {
     uint32_t count = 0;
@@ -51,9 +51,9 @@ uint32_t near(const std::vector<Photon>& photons, Vec3 position, float radius)
     return count;
 }
 
-/// Discs of radius 1 whose centres lie on the dark side of a wall of this thickness, on its foot
-/// and beyond: the part of them on the lit side, summed over the distance of centres. 2/(3 pi)
-/// without a wall.
+/// Returns the part of discs of radius 1 that is on the lit side, if their centres lie on the dark
+/// side of a wall of this thickness, at its foot and beyond, summed over the distance of the
+/// centres. Without a wall it is 2/(3 pi).
 double litPart(double thickness)
 {
     constexpr int kSteps = 20000;
@@ -74,7 +74,7 @@ TEST_CASE("stability 44: nothing leaks through a thin wall, round a corner or ov
     const Workers workers(2);
     constexpr float kRadius = 1e-2f;
     const Vec3 up(0, 0, 1), left(-1, 0, 0), right(1, 0, 0);
-    // The lit face of a wall, and the lit floor before it.
+    // The photons lie on the lit face of a wall and on the lit floor before it.
     std::vector<Photon> photons;
     addPhotons(photons, {kThickness, -0.1f, 0}, {0, 0.2f, 0}, {0, 0, 0.2f}, right, 300);
     addPhotons(photons, {kThickness, -0.1f, 0}, {0, 0.2f, 0}, {0.2f, 0, 0}, up, 300);
@@ -83,11 +83,12 @@ TEST_CASE("stability 44: nothing leaks through a thin wall, round a corner or ov
     uint64_t close = 0;
     for (int k = 0; k < 50; ++k)
     {
-        // On the dark face, down to the foot: all photons near by are behind it, or turned away.
+        // The point is on the dark face, down to the foot: all photons near by are behind the face,
+        // or on surfaces turned away.
         const Vec3 dark(0.0f, 0.1f * uniform() - 0.05f, 0.02f * uniform());
         close += near(photons, dark, kRadius);
         CHECK(map.gather(query(dark, left, kRadius)).count == 0);
-        // In the corner each face has its own photons and none of the other's.
+        // In the corner each face has its own photons and none of the other face.
         const Vec3 foot(kThickness, dark.y, 0.0f);
         const uint32_t floor = map.gather(query(foot, up, kRadius)).count;
         const uint32_t wall = map.gather(query(foot, right, kRadius)).count;
@@ -95,16 +96,16 @@ TEST_CASE("stability 44: nothing leaks through a thin wall, round a corner or ov
         CHECK(floor == Approx(half).epsilon(0.1));
         CHECK(wall == Approx(half).epsilon(0.1));
     }
-    CHECK(close > 50 * 100); // without the tests they would all have been taken
+    CHECK(close > 50 * 100); // without the limits all of them would have been found
 
-    // A lower floor of the same direction: seen while it is within a quarter of the radius, not
-    // after.
+    // A lower floor of the same direction contributes while it is within a quarter of the radius,
+    // and not beyond.
     constexpr float kStep = 0.004f;
     const Vec3 above(kThickness + 0.1f, 0.0f, kStep);
     CHECK(map.gather(query(above, up, 4.1f * kStep)).count > 1000);
     CHECK(map.gather(query(above, up, 3.9f * kStep)).count == 0);
     CHECK(near(photons, above, 3.9f * kStep) > 1000);
-    // A floor that slopes by less than 60 degrees has them; a steeper one has none.
+    // A floor that slopes by less than 60 degrees finds the photons; a steeper one finds none.
     const auto slope = [](double degrees)
     { return Vec3(std::sin(glm::radians(degrees)), 0.0, std::cos(glm::radians(degrees))); };
     const Vec3 ground(kThickness + 0.1f, 0.0f, 0.0f);
@@ -112,9 +113,9 @@ TEST_CASE("stability 44: nothing leaks through a thin wall, round a corner or ov
     CHECK(map.gather(query(ground, slope(61.0), kRadius)).count == 0);
 }
 
-// What no test of planes and normals can tell apart is one floor on both sides of a wall: a strip
-// as wide as the radius, less the wall, gets light. Its flux falls with the radius, as the strip
-// does, and is gone where the wall is thicker.
+// One floor on both sides of a wall cannot be told apart by planes and normals: a strip as wide as
+// the radius, less the wall, gets light. The strip's flux falls with the radius, as the strip does,
+// and is gone if the wall is thicker than the radius.
 TEST_CASE("stability 44: under a wall a strip leaks, in proportion to the radius",
           "[photons][stability 44]")
 {
@@ -122,7 +123,8 @@ TEST_CASE("stability 44: under a wall a strip leaks, in proportion to the radius
     std::vector<Photon> photons;
     addPhotons(photons, {0, -0.1f, 0}, {0, 0.2f, 0}, {0.2f, 0, 0}, Vec3(0, 0, 1), 1000);
     const PhotonMap map(photons, 0.02f, workers);
-    // Radiant flux per length of a wall of the thickness; the irradiance is 1 / 0.04.
+    // Returns the radiant flux per length of a wall of the given thickness; the irradiance is 1 /
+    // 0.04.
     const auto leaked = [&](double thickness, double radius)
     {
         constexpr int kSide = 48;
@@ -151,12 +153,12 @@ TEST_CASE("stability 44: under a wall a strip leaks, in proportion to the radius
     CHECK(leaked(double(kThickness), 0.99 * double(kThickness)) == 0.0);
 }
 
-// 2 comparisons at 4 standard errors of 10 values each: a false alarm of all has a probability of
-// 0.006.
+// There are 2 comparisons at 4 standard errors of 10 values each: a false alarm of all has a
+// probability of 0.006.
 TEST_CASE("stability 44: the leak of a picture falls with its passes as the radius does",
           "[photons][statistics][long][stability 44]")
 {
-    // A lit room behind a wall, closed; a dark floor before it.
+    // The scene is a closed, lit room behind a wall, and a dark floor before it.
     SceneBuilder builder;
     const Material white = lambert(Vec3(0.8f));
     builder.add(quadMesh({-1, -1, 0}, {2.5f, 0, 0}, {0, 2, 0}), white);
@@ -167,7 +169,7 @@ TEST_CASE("stability 44: the leak of a picture falls with its passes as the radi
     builder.add(boxMesh({0.0f, -0.31f, 0.6f}, {0.61f, 0.31f, 0.61f}), white);
     builder.addQuadLight({0.2f, -0.1f, 0.59f}, {0, 0.2f, 0}, {0.2f, 0, 0}, Vec3(10.0f));
     const auto traced = builder.build();
-    constexpr double kWidth = 0.04; // of the strip that is looked at, and the first radius
+    constexpr double kWidth = 0.04; // of the visible strip, and the first radius
     const View view = patchView({-0.5 * kWidth, 0, 0}, {0, 0, 1}, kWidth, 16);
 
     RenderOptions options = optionsOf(IntegratorKind::Path, 6);
@@ -205,7 +207,7 @@ TEST_CASE("stability 44: the leak of a picture falls with its passes as the radi
                                                  many.standardError() / many.mean());
         CAPTURE(passes, ratio, formula(passes) / formula(4), spread);
         CHECK(spread < 0.03 * ratio);
-        // The lit floor is not quite even: a hundredth.
+        // The lit floor is even to a hundredth.
         CHECK(std::abs(ratio - formula(passes) / formula(4)) <= 4.0 * spread + 0.01);
         CHECK(formula(passes) / formula(4) < (passes == 16 ? 0.85 : 0.70));
     }

@@ -1,4 +1,4 @@
-// PhotonMapTest.cpp - the grid finds what a search through all photons finds, whatever the cells.
+// PhotonMapTest.cpp - the grid finds what a search through all photons finds, whatever its cells.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
@@ -13,9 +13,9 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// On a lattice of 2^-10 in a cube of 1 around centre, with powers of 1 to 8: all sums and squares
-/// are exact in float, so the search through all of them has no roundings that the grid's could
-/// differ from.
+/// Returns photons on a lattice of 2^-10 in a cube of side 1 around centre, with powers of 1 to 8:
+/// all sums and squares are exact in float, so that the grid's sums must equal those of the search
+/// through all photons.
 std::vector<Photon> latticePhotons(std::size_t count, Vec3 centre, uint32_t seed)
 {
     Uniform uniform(seed);
@@ -82,8 +82,8 @@ uint64_t checkAgainstBruteForce(const PhotonMap& map, const std::vector<Photon>&
 TEST_CASE("photon map: counts and powers are those of a search through all photons", "[photons]")
 {
     const Workers workers(2);
-    // 256 buckets up to 2^20; cells from a thousandth of the cube (colliding buckets) to all in
-    // one.
+    // The numbers of photons give 256 to 2^20 buckets. The cells go from a thousandth of the cube,
+    // with colliding buckets, to one cell for all.
     for (const std::size_t count : {1u, 2u, 100u, 300u, 5000u, 70000u, 600000u, 1u << 20})
     {
         for (const Vec3 centre : {Vec3(0.0f), Vec3(-40.0f, 8.0f, 100.0f)})
@@ -99,7 +99,7 @@ TEST_CASE("photon map: counts and powers are those of a search through all photo
                 const int number = count > 100000 ? 12 : 120;
                 for (int k = 0; k < number; ++k)
                 {
-                    // In the cube, beside it and far off.
+                    // The query is in the cube, beside it or far off.
                     const float spread = k % 3 == 0 ? 4.0f : 1.25f;
                     const auto lattice = [&]
                     { return std::floor((uniform() - 0.5f) * spread * 1024.0f) * 0x1p-10f; };
@@ -143,7 +143,7 @@ TEST_CASE("photon map: slanted discs, up to the rounding of their rims", "[photo
             for (const Photon& p : photons)
             {
                 const Vec3d d = Vec3d(p.position) - Vec3d(q.position), n(q.normal);
-                // Largest excess over the four limits; normals are stored in bytes.
+                // The largest excess over the four limits; normals are stored in bytes.
                 const double excess = std::max(
                     std::max(glm::length(d) / double(q.radius) - 1.0,
                              std::fabs(glm::dot(d, n)) / (double(kPlaneShare * q.radius)) - 1.0),
@@ -171,7 +171,7 @@ TEST_CASE("photon map: a radius below the spacing of floats finds what lies at t
     for (std::size_t k = 0; k < photons.size(); ++k)
     {
         photons[k].position = Vec3(1000.0f + uniform(), -1000.0f - uniform(), 1000.0f + uniform());
-        if (k % 4) photons[k].position = photons[k - 1].position; // four of each
+        if (k % 4) photons[k].position = photons[k - 1].position; // four at each place
         photons[k].normal = photons[k].wi = Vec3(0, 0, 1);
         photons[k].power = Vec3(1.0f);
     }

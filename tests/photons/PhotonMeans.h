@@ -1,4 +1,4 @@
-// PhotonMeans.h - what tests of photons estimate: the mean of pictures, and the flux that leaves
+// PhotonMeans.h - estimates for tests of photons: the mean of pictures, and the flux that leaves
 // lights.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -14,8 +14,8 @@ namespace osgRayTrace::engine::test
 
 constexpr int kRuns = 16;
 
-/// Mean luminance of the picture, one value for each of kRuns seeds, which are others for each
-/// integrator. Demands that no sample was dropped.
+/// Returns the mean luminance of the picture, with one value for each of kRuns seeds, which differ
+/// from integrator to integrator. Requires that no sample was dropped.
 inline Estimate meanOf(const std::shared_ptr<const TracedScene>& traced, const View& view,
                        RenderOptions options, int passes)
 {
@@ -41,14 +41,14 @@ inline EmissionPoint randomPoint(Uniform& uniform)
     return point;
 }
 
-/// A ball to aim at.
+/// A ball that serves as a target.
 const Vec3 kBall(0.5f, 0.2f, 0.6f);
 constexpr float kBallRadius = 0.4f;
 
 struct Flux
 {
-    Estimate total; ///< all that leaves
-    Estimate ball;  ///< that meets the ball's sphere
+    Estimate total; ///< of all photons
+    Estimate ball;  ///< of the photons that meet the ball's sphere
 };
 
 inline Flux emittedFlux(const PhotonEmitter& emitter, uint32_t seed,

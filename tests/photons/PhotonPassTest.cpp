@@ -1,4 +1,4 @@
-// PhotonPassTest.cpp - what is done again in each pass and after each change, and what is kept.
+// PhotonPassTest.cpp - what is computed again in each pass and after each change, and what is kept.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -13,7 +13,7 @@ namespace
 
 constexpr int kSize = 40; // tiles at the border are cut
 
-/// A smooth-shaded ball of few facets: rays that leave it have a terminator offset.
+/// Returns a smooth-shaded ball of few facets: rays that leave it have a terminator offset.
 std::shared_ptr<Mesh> smoothBall(Vec3 centre, float radius)
 {
     auto mesh = sphereMesh(centre, radius, 8);
@@ -24,8 +24,8 @@ std::shared_ptr<Mesh> smoothBall(Vec3 centre, float radius)
     return mesh;
 }
 
-/// Every kind of hit point: diffuse, coated, glossy, mirror, clear and rough glass, and light of
-/// all kinds.
+/// Returns a room with every kind of hit point: diffuse, coated, glossy, mirror, clear and rough
+/// glass, and light of all kinds.
 SceneBuilder room(float ballX)
 {
     SceneBuilder builder;
@@ -110,7 +110,8 @@ TEST_CASE("photon passes: PPM follows new camera paths in every second pass of a
 TEST_CASE("photon passes: PPM antialiases, and its camera paths fill the pixels evenly",
           "[photons]")
 {
-    // The edge of a lamp leaves 0.3 of a row of pixels bright; fixed paths know but 0 and 1.
+    // The edge of a lamp makes 0.3 of a row of pixels bright; paths without antialiasing would give
+    // 0 or 1.
     SceneBuilder builder;
     builder.addQuadLight({-20, -20, 0}, {20.3f, 0, 0}, {0, 40, 0}, Vec3(1.0f));
     builder.add(quadMesh({-20, -20, -1}, {40, 0, 0}, {0, 40, 0}), lambert(Vec3(0.0f)));
@@ -124,7 +125,7 @@ TEST_CASE("photon passes: PPM antialiases, and its camera paths fill the pixels 
     CHECK(s.session.estimateRelativeError() > 0.05);
     s.passes(124);
     const std::vector<float> image = s.session.resolveRadiance();
-    for (std::size_t x = 0; x < 16; ++x) // +x of the scene is up
+    for (std::size_t x = 0; x < 16; ++x) // the scene's +x is up
     {
         double bright = 0.0;
         for (std::size_t y = 0; y < 16; ++y)
@@ -136,7 +137,7 @@ TEST_CASE("photon passes: PPM antialiases, and its camera paths fill the pixels 
 
 TEST_CASE("photon passes: kept hit points gather what paths do", "[photons]")
 {
-    // In their first pass both follow the same paths: SPPM keeps nothing.
+    // In the first pass both integrators follow the same paths: SPPM keeps nothing.
     const auto traced = room(-0.1f).build();
     for (const RadiusSchedule schedule : {RadiusSchedule::Global, RadiusSchedule::Local})
     {
@@ -147,7 +148,7 @@ TEST_CASE("photon passes: kept hit points gather what paths do", "[photons]")
         const Picture followed = render(traced, viewFrom(0.5), options, 1);
         REQUIRE(kept.rgba.size() == followed.rgba.size());
         CHECK(followed.progress.hitPointBytes < kept.progress.hitPointBytes);
-        // Mirrors and smooth glass have no hit points, so none of their useless shadow rays.
+        // Mirrors and smooth glass have no hit points, and so none of their useless shadow rays.
         CHECK(kept.progress.rays.shadow < followed.progress.rays.shadow);
         int lit = 0;
         for (std::size_t k = 0; k < kept.rgba.size(); ++k)
@@ -173,7 +174,7 @@ TEST_CASE("photon passes: a moved camera keeps them, a moved object does not", "
         const uint64_t traced = s.photons->tracedRays();
         CHECK(traced > 20u * 5000u);
 
-        // As a head that moves sees it: a few passes for each place.
+        // The view moves as with a head: each place gets a few passes.
         for (const double x : {0.6, 0.7, 0.8})
         {
             s.session.setView(viewFrom(x));
@@ -185,7 +186,7 @@ TEST_CASE("photon passes: a moved camera keeps them, a moved object does not", "
         }
         CHECK(s.photons->tracedRays() == traced);
 
-        // And back: the same picture as at first sight.
+        // The view comes back: the picture equals the first one.
         s.session.setView(viewFrom(0.5));
         s.passes(3);
         CHECK(s.photons->tracedRays() == traced);
@@ -220,8 +221,7 @@ TEST_CASE("photon passes: eyes that take turns share all of them, guided ones, t
                 REQUIRE(session->render(rule).passes == pass + 1);
         return double(photons->tracedRays());
     };
-    // A pass that was traced twice would be an eighth more; other guides are some rays more or
-    // less.
+    // A pass that was traced twice would add an eighth; other guides add or remove some rays.
     CHECK(raysOf({0.5, 0.51}) == Approx(raysOf({0.5})).epsilon(0.05));
 }
 
@@ -236,6 +236,7 @@ TEST_CASE("photon passes: memory of kept passes is bounded", "[photons]")
     const RenderProgress many = s.passes(12);
     CHECK(first.photonBytes > 40 * first.storedPhotons);
     CHECK(some.photonBytes > 6 * first.photonBytes);
-    // 4 of the first passes and 4 of the last; each pass stores about as many photons.
+    // Four of the first passes and four of the last ones are kept; each pass stores about as many
+    // photons.
     CHECK(many.photonBytes == Approx(double(some.photonBytes)).epsilon(0.05));
 }

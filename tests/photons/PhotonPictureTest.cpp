@@ -1,4 +1,5 @@
-// PhotonPictureTest.cpp - pictures made with photons show what path tracing and formulas say.
+// PhotonPictureTest.cpp - pictures made with photons have the light that path tracing and formulas
+// give.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -14,7 +15,8 @@ namespace
 
 constexpr int kSize = 24;
 
-/// A floor and a wall under a light so large that path tracing meets it through glass and mirrors.
+/// Returns a floor and a wall under a light so large that path tracing finds it through glass and
+/// mirrors.
 SceneBuilder room(const Material& floor, const Material& wall = lambert(Vec3(0.6f, 0.3f, 0.3f)))
 {
     SceneBuilder builder;
@@ -33,11 +35,11 @@ RenderOptions photonOptions(IntegratorKind kind)
 {
     RenderOptions options = optionsOf(kind, 24);
     options.photons = 6000;
-    options.photonRadius = 0.02f; // a hundredth of the room: what edges lose is below the noise
+    options.photonRadius = 0.02f; // a hundredth of the room: losses at edges are below the noise
     return options;
 }
 
-/// Mean over the image, one value for each of 12 seeds.
+/// Returns the mean over the image, with one value for each of 12 seeds.
 Estimate meanOf(const std::shared_ptr<const TracedScene>& traced, const View& view,
                 RenderOptions options, int passes)
 {
@@ -53,18 +55,18 @@ Estimate meanOf(const std::shared_ptr<const TracedScene>& traced, const View& vi
     return estimate;
 }
 
-/// passes: times 24 with photons, times 64 without.
+/// Checks that photons agree with paths, in passes of times 24 with photons and times 64 without.
 void checkAgreement(const char* name, const SceneBuilder& builder, int times = 1)
 {
     const auto traced = builder.build();
     const Estimate path =
         meanOf(traced, roomView(), photonOptions(IntegratorKind::Path), 64 * times);
     REQUIRE(path.mean() > 0.05);
-    CHECK(path.standardError() < 0.008 * path.mean()); // it converges: a difference of 5 % is seen
+    CHECK(path.standardError() < 0.008 * path.mean()); // shows a difference of 5 %
     for (const IntegratorKind kind :
          {IntegratorKind::Sppm, IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
     {
-        const int sharing = kind == IntegratorKind::Ppm ? kPathPasses : 1; // of as many paths
+        const int sharing = kind == IntegratorKind::Ppm ? kPathPasses : 1; // gives as many paths
         const Estimate photons =
             meanOf(traced, roomView(), photonOptions(kind), 24 * times * sharing);
         const double spread = std::hypot(path.standardError(), photons.standardError());
@@ -79,8 +81,8 @@ const Material kGrey = lambert(Vec3(0.7f));
 
 } // namespace
 
-// 18 comparisons at 4 standard errors of 12 values each: a false alarm of all has a probability of
-// 0.02; the seeds are fixed.
+// There are 18 comparisons at 4 standard errors of 12 values each: a false alarm of all has a
+// probability of 0.02; the seeds are fixed.
 TEST_CASE("photon pictures: a glass ball", "[photons][statistics]")
 {
     SceneBuilder builder = room(kGrey);
@@ -107,8 +109,9 @@ TEST_CASE("photon pictures: rough glass", "[photons][statistics]")
 {
     SceneBuilder builder = room(kGrey);
     builder.add(sphereMesh(kBallCentre, 0.4f, 24), glass(1.5f, 0.55f));
-    // Photons are looked up on the glass itself, from both sides. Where the camera paths could not
-    // leave it at angles beyond the critical one, as its facets let light do, they found 2 % more.
+    // Photons are looked up on the glass itself, from both sides. When camera paths could not leave
+    // the glass at angles beyond the critical one, as its facets let light do, photons gave 2 %
+    // more light.
     checkAgreement("rough glass", builder);
 }
 
@@ -122,7 +125,7 @@ TEST_CASE("photon pictures: diffuse surfaces under a mirror-like coat", "[photon
     checkAgreement("coat", builder);
 }
 
-// Photons are looked up at the wall, the direct ones alone, and at what it reflects: all.
+// At the wall only direct photons are looked up; at the surfaces that it reflects all photons are.
 TEST_CASE("photon pictures: a glossy wall", "[photons][statistics]")
 {
     Material glossy = mirror(Vec3(0.9f));
@@ -132,13 +135,13 @@ TEST_CASE("photon pictures: a glossy wall", "[photons][statistics]")
     checkAgreement("glossy", builder, 4);
 }
 
-// 12 comparisons at 4 standard errors of 12 values each: a false alarm of all has a probability of
-// 0.02.
+// There are 12 comparisons at 4 standard errors of 12 values each: a false alarm of all has a
+// probability of 0.02.
 TEST_CASE("photon pictures: as many edges a path as path tracing has, from 1 on",
           "[photons][statistics]")
 {
-    // Four surfaces that all matter: with one edge too many or too few the means differ by 10 % and
-    // more.
+    // The scene has four surfaces that all matter: with one edge too many or too few the means
+    // differ by 10 % and more.
     SceneBuilder builder = room(kGrey);
     builder.add(quadMesh({-1, 1, 0}, {0, -2, 0}, {0, 0, 2}), mirror(Vec3(0.9f)));
     builder.add(boxMesh({-0.1f, -0.3f, 0.05f}, {0.4f, 0.3f, 0.5f}), glass(1.5f));
@@ -150,7 +153,7 @@ TEST_CASE("photon pictures: as many edges a path as path tracing has, from 1 on"
         options.maxBounces = bounces;
         const Estimate path = meanOf(traced, roomView(), options, 64);
         CHECK(path.standardError() < 0.008 * path.mean());
-        CHECK(path.mean() > 1.03 * previous); // each edge brings light
+        CHECK(path.mean() > 1.03 * previous); // each edge adds light
         previous = path.mean();
         for (const IntegratorKind kind :
              {IntegratorKind::Sppm, IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
@@ -165,8 +168,8 @@ TEST_CASE("photon pictures: as many edges a path as path tracing has, from 1 on"
     }
 }
 
-// Light of a point light by a flat mirror: on the floor it is that of the light's mirror image.
-// Path tracing cannot meet it.
+// The light of a point light by a flat mirror is, on the floor, that of the light's mirror image.
+// Path tracing cannot find it.
 TEST_CASE("photon pictures: a point light and its mirror image", "[photons][statistics]")
 {
     SceneBuilder builder;
@@ -192,7 +195,7 @@ TEST_CASE("photon pictures: a point light and its mirror image", "[photons][stat
     const double mirrored = 0.5 / glm::pi<double>() * irradiance({2, 0, 1});
     const View view = patchView(centre, {0, 0, 1}, kSide, 16);
 
-    // Two edges after the camera ray: no light from floor to mirror to floor.
+    // Paths have two edges after the camera ray: light does not go from floor to mirror to floor.
     RenderOptions options = optionsOf(IntegratorKind::Path, 2);
     options.photons = 10000;
     options.photonRadius = 0.1f;
@@ -273,7 +276,7 @@ TEST_CASE("photon pictures: nothing to emit, nothing to meet, nothing to see", "
     options.photons = 0;
     CHECK(render(litScene, roomView(), options, 2).rgba ==
           render(litScene, roomView(), optionsOf(IntegratorKind::Path), 2).rgba);
-    // So they are where nothing is mirror-like, and no photon is traced.
+    // Without mirror-like surfaces all paths are the path tracer's, too, and no photon is traced.
     const auto diffuse = room(kGrey).build();
     const Picture picture =
         render(diffuse, roomView(), optionsOf(IntegratorKind::PhotonCaustics), 2);

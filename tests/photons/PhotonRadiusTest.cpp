@@ -1,4 +1,4 @@
-// PhotonRadiusTest.cpp - the radius that a lookup begins with. Layer: test.
+// PhotonRadiusTest.cpp - the radius that a look-up begins with. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
@@ -17,7 +17,7 @@ namespace
 
 constexpr float kSpacing = 0.01f;
 
-/// A floor that is lit where x > 0: photons on a lattice.
+/// Returns a floor that is lit if x > 0, with photons on a lattice.
 PhotonMap halfLit(const Workers& workers)
 {
     std::vector<Photon> photons;
@@ -42,7 +42,8 @@ PhotonQuery queryAt(float x)
     return query;
 }
 
-/// Anywhere in a cube, looking anywhere; count of them, all but a few in one corner of it.
+/// Returns count photons anywhere in a cube with any direction; all but a tenth are in the cube's
+/// middle.
 std::vector<Photon> cloud(int count)
 {
     Uniform uniform(12);
@@ -124,9 +125,10 @@ TEST_CASE("photon radius: where photons lie on a lattice, where there are many a
 TEST_CASE("photon radius: the photons that chose it are right in the mean",
           "[photons][statistics][long]")
 {
-    // Random photons on an even floor, anew for each of 40,000 discs; bounds that no disc meets,
-    // that half of them meet below, above, and on both sides; and so many that the radius is
-    // narrowed down first.
+    // Each of 40,000 discs has new random photons on an even floor. The bounds of the radius are
+    // such that no disc meets them, that half of the discs meet one below, one above, or one of
+    // both. In the last case, of 4,000 discs, there are so many photons that the radius is narrowed
+    // down first.
     const struct
     {
         int photons;
@@ -167,7 +169,7 @@ TEST_CASE("photon radius: the photons that chose it are right in the mean",
         CAPTURE(c.photons, c.least, c.largest, mean, error);
         CHECK(std::abs(mean - 1.0) < 4.0 * error);
         CHECK(error <
-              (c.photons > 1000 ? 0.005 : 0.0015)); // the next photon counted as well: 1/16 more
+              (c.photons > 1000 ? 0.005 : 0.0015)); // counting one photon more would add 1/16
     }
 }
 
@@ -176,7 +178,7 @@ TEST_CASE("photon radius: no ring around light that has shrunk", "[photons]")
     const Workers workers(1);
     const PhotonMap map = halfLit(workers);
     GatherScratch scratch;
-    // The radius of a later pass, away from the light: what it gets never rises.
+    // With the radius of a later pass, the density never rises on the way from the light.
     for (const float shrink : {1.0f, 0.7f, 0.5f, 0.3f})
     {
         float last = kInfinity;
@@ -186,7 +188,8 @@ TEST_CASE("photon radius: no ring around light that has shrunk", "[photons]")
             query.radius = shrink * radiusOf(map, query, 0.001f, 0.6f, scratch);
             const float got = map.gather(query).power.x / (kPi * query.radius * query.radius);
             CAPTURE(shrink, x, query.radius, got, last);
-            // A fifth: photons are counted, and a few of them make what is left at a rim.
+            // The density may rise by a fifth, because photons are counted, and few of them are
+            // left at a rim.
             CHECK(got <= last + 0.2f);
             last = std::min(last, got);
         }

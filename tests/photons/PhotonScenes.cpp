@@ -1,4 +1,4 @@
-// PhotonScenes.cpp - scenes of what photons find hard, in each of which path tracing converges.
+// PhotonScenes.cpp - scenes that are hard for photons, in each of which path tracing converges.
 // SPDX-License-Identifier: MIT
 #include "tests/photons/PhotonScenes.h"
 
@@ -12,8 +12,8 @@ namespace osgRayTrace::engine::test
 namespace
 {
 
-/// A floor, a back wall and a side wall; lamps of this size are met by chance after a mirror or
-/// glass.
+/// Returns a floor, a back wall and a side wall; the lamps are so large that paths find them by
+/// chance after a mirror or glass.
 SceneBuilder room(bool lit = true)
 {
     SceneBuilder builder;
@@ -52,7 +52,7 @@ Material clear(float transmission, float metallic, float roughness)
     return material;
 }
 
-/// Coarse balls whose interpolated normals are up to ten degrees off their facets.
+/// Returns coarse balls whose interpolated normals are up to ten degrees off their facets.
 SceneBuilder smoothBalls(const Material& material)
 {
     SceneBuilder builder = room();
@@ -61,7 +61,7 @@ SceneBuilder smoothBalls(const Material& material)
     return builder;
 }
 
-/// A smooth ball and a smooth-shaded box, both of them mirrored, stretched and turned.
+/// Returns a smooth ball and a smooth-shaded box, both of them mirrored, stretched and turned.
 SceneBuilder placedSmooth(const Material& material)
 {
     SceneBuilder builder = room();
@@ -83,7 +83,8 @@ SceneBuilder translucent()
     return builder;
 }
 
-/// Panes without an interface let a part of the light straight through, checked by a texture.
+/// Returns panes without an interface, which let a part of the light straight through, as the
+/// checks of a texture decide.
 SceneBuilder panes()
 {
     SceneBuilder builder = room();
@@ -136,7 +137,8 @@ SceneBuilder manyLights()
     return builder;
 }
 
-/// A sun, a spot, and an OpenGL light that fades slowly and that the box does not see.
+/// Returns a room with a sun, a spot, and an OpenGL light that fades slowly and does not light the
+/// box.
 SceneBuilder sunAndSpot()
 {
     SceneBuilder builder = room(false);
@@ -165,8 +167,8 @@ SceneBuilder sunAndSpot()
     return builder;
 }
 
-/// A sun that casts shadows and one that nothing hides: it lights the floor below a table, the
-/// walls behind each other, and the inside of a box.
+/// Returns a room with a sun that casts shadows and a sun that nothing hides. The latter lights the
+/// floor below a table, the walls behind each other, and the inside of a box.
 SceneBuilder lightWithoutShadows()
 {
     SceneBuilder builder = room(false);
@@ -186,7 +188,7 @@ SceneBuilder lightWithoutShadows()
     return builder;
 }
 
-/// Lamps within balls of glass: no shadow ray reaches them from outside.
+/// Returns lamps within glass: no shadow ray reaches them from outside.
 SceneBuilder lampsInGlass()
 {
     SceneBuilder builder = room(false);
@@ -197,7 +199,7 @@ SceneBuilder lampsInGlass()
     return builder;
 }
 
-/// OpenGL's materials: highlights from broad to narrow.
+/// Returns bodies of OpenGL's materials with highlights from broad to narrow.
 SceneBuilder highlights()
 {
     SceneBuilder builder = room();
@@ -213,8 +215,8 @@ SceneBuilder highlights()
     return builder;
 }
 
-/// Polished metal and a mirror: light by glossy lobes of widths below and above where photons end
-/// paths.
+/// Returns polished metal and a mirror. The widths of the glossy lobes are below and above the one
+/// at which photons end paths.
 SceneBuilder polishedMetal()
 {
     SceneBuilder builder = room();
@@ -229,9 +231,9 @@ SceneBuilder polishedMetal()
     return builder;
 }
 
-/// All faces are there from one side only: a room that is looked into through its near wall, shades
-/// that hold back the light from above, or let it pass and are lit, clear and dull bodies without
-/// their far halves.
+/// Returns a scene in which all faces exist from one side only. It is a room that is looked into
+/// through its near wall, with shades that hold back the light from above, or let it pass and are
+/// lit. Clear and dull bodies are without their far halves.
 SceneBuilder oneSided()
 {
     SceneBuilder builder = room(false);
@@ -255,7 +257,7 @@ SceneBuilder tallMirrorBox()
 {
     SceneBuilder builder = cornellBox();
     Scene& scene = *builder.scene;
-    // Its five sides follow the room's five and the short block's five.
+    // The five sides of the tall block follow the room's five and the short block's five.
     for (std::size_t i = 10; i < 15; ++i)
     {
         scene.materials.push_back(mirror(Vec3(0.95f)));

@@ -1,4 +1,4 @@
-// PhotonScenes.h - scenes of what photons find hard, in each of which path tracing converges.
+// PhotonScenes.h - scenes that are hard for photons, in each of which path tracing converges.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,8 +7,8 @@
 namespace osgRayTrace::engine::test
 {
 
-/// Smooth-shaded coarse meshes, mirrored and uneven instances of glass, materials that let a part
-/// of the light through, many lights of all kinds, lights inside glass.
+/// Returns scenes of smooth-shaded coarse meshes, mirrored and uneven instances of glass, materials
+/// that let a part of the light through, many lights of all kinds, and lights inside glass.
 std::vector<ComparedScene> photonScenes(int width, int height);
 
 } // namespace osgRayTrace::engine::test

@@ -11,7 +11,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-// A density of 1 + 8 (x^2 + y^2) on the square [-1,1]^2, looked up at its centre.
+// The density is 1 + 8 (x^2 + y^2) on the square [-1,1]^2, and it is looked up at the centre.
 constexpr double kMass = 4.0 + 64.0 / 3.0;
 constexpr double kCentre = 1.0 / kMass;
 constexpr double kLaplacian = 32.0 / kMass;
@@ -19,7 +19,7 @@ constexpr double kRadius = 0.25;
 constexpr int kPhotons = 2000; ///< a pass
 constexpr int kRuns = 16000;
 
-/// Share of the photons that fall into the disc.
+/// Returns the share of the photons that fall into the disc.
 double insideDisc(double radius2)
 {
     return kPi * radius2 * (1.0 + 4.0 * radius2) / kMass;
@@ -30,15 +30,16 @@ double gammaRatio(double a, double b)
     return std::exp(std::lgamma(a) - std::lgamma(b));
 }
 
-/// Of the mean of n passes of the global schedule with a flat disc, exact for a density of constant
-/// Laplacian; follows from the recurrence.
+/// Returns the bias of the mean of n passes of the global schedule with a flat disc. It is exact
+/// for a density of constant Laplacian, and follows from the recurrence.
 double theoryBias(int n, double alpha)
 {
     const double grown = gammaRatio(n + 1 + alpha, n + 1.0) / std::tgamma(1.0 + alpha);
     return kRadius * kRadius * kLaplacian / 8.0 / (n * alpha) * (grown - 1.0);
 }
 
-/// With the density of the centre.
+/// Returns the variance of the mean of n passes for a density that is constant at its value in the
+/// centre.
 double theoryVariance(int n, double alpha)
 {
     const double sum = gammaRatio(n + 2.0, n + alpha) - 1.0 / std::tgamma(alpha);
@@ -84,7 +85,7 @@ TEST_CASE("radius schedule: the global radii follow their recurrence", "[photons
             REQUIRE(globalRadiusSquared(i, alpha) == Approx(expected).epsilon(1e-10));
         }
     }
-    // Published-size numbers: radius of pass 100, 10^4, 10^6 over the first.
+    // The radii of passes 100, 10^4 and 10^6 over the first are the published ones.
     CHECK(std::sqrt(globalRadiusSquared(99, 2.0 / 3.0)) == Approx(0.488).epsilon(2e-3));
     CHECK(std::sqrt(globalRadiusSquared(9999, 2.0 / 3.0)) == Approx(0.227).epsilon(3e-3));
     CHECK(std::sqrt(globalRadiusSquared(999999, 2.0 / 3.0)) == Approx(0.105).epsilon(5e-3));
@@ -124,7 +125,7 @@ TEST_CASE("radius schedule: a pixel's own statistics", "[photons]")
 {
     LocalStatistics s;
     s.radius2 = 4.0f;
-    addPhotons(s, 10, Vec3(5.0f), 0.5f); // N = 5, R^2 halves, so does the flux
+    addPhotons(s, 10, Vec3(5.0f), 0.5f); // N = 5; R^2 and the flux are halved
     CHECK(s.photons == 5.0f);
     CHECK(s.radius2 == 2.0f);
     CHECK(s.flux == Vec3(2.5f));
@@ -141,7 +142,7 @@ TEST_CASE("radius schedule: a pixel's own statistics", "[photons]")
 TEST_CASE("radius schedule: the local schedule converges to an even density",
           "[photons][statistics]")
 {
-    // 2000 photons a pass, even on a unit square; the disc holds 39 of them at first.
+    // Each pass has 2000 photons, even on a unit square; the disc holds 39 of them at first.
     Estimate estimate;
     float radius2 = 0.0f;
     for (uint32_t run = 0; run < 400; ++run)
@@ -160,7 +161,8 @@ TEST_CASE("radius schedule: the local schedule converges to an even density",
         radius2 = s.radius2;
     }
     CAPTURE(estimate.mean(), estimate.standardError());
-    // Radii remember the counts; at 0.13 % of standard error no bias by that is seen.
+    // The radii depend on the counts, but a bias by this is not visible at a standard error of 0.13
+    // %.
     CHECK(std::abs(estimate.mean() - 1.0) <= 4.0 * estimate.standardError());
     CHECK(radius2 < 0.3f * 0.00625f);
 }

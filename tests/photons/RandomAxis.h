@@ -1,4 +1,4 @@
-// RandomAxis.h - directions along the axes: their products with what is on a lattice are exact.
+// RandomAxis.h - directions along the axes: their products with lattice points are exact.
 // SPDX-License-Identifier: MIT
 #pragma once
 

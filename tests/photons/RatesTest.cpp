@@ -19,18 +19,19 @@ constexpr double kPiD = glm::pi<double>();
 constexpr int kCounts[] = {64, 128, 256, 512, 1024, 2048, 4096};
 constexpr std::size_t kLast = 6;
 
-/// A patch of floor whose radiance is known, pixel by pixel, also as a mean over discs.
+/// A patch of floor whose radiance is known, for each pixel and as a mean over discs.
 struct Known
 {
     SceneBuilder builder;
     Vec3d centre;
     double side;
-    double (*mean)(double x, double y, double radius); ///< of what photons carry
+    double (*mean)(double x, double y, double radius); ///< of the light that photons carry
     double (*direct)(double x, double y);
 };
 
-/// A point light at (0, 0, 1) beside a mirror at x = 1: its image is at (2, 0, 1). What falls onto
-/// the patch from there has gone through the mirror wherever the patch's discs reach.
+/// Returns a point light at (0, 0, 1) beside a mirror at x = 1: the light's image is at (2, 0, 1).
+/// Light that falls onto the patch from the image has gone through the mirror wherever the patch's
+/// discs reach.
 SceneBuilder flatMirror()
 {
     SceneBuilder builder;
@@ -40,14 +41,16 @@ SceneBuilder flatMirror()
     return builder;
 }
 
-/// Radiance of a white floor under a point light of intensity pi, one length above the foot.
+/// Returns the radiance of a white floor under a point light of intensity pi, which is one length
+/// above the foot.
 double underLight(double x, double y)
 {
     return std::pow(1.0 + x * x + y * y, -1.5);
 }
 
-/// To the fourth order of the radius: 1e-6 at the discs of this test. E = (1 + q)^-1.5, q the
-/// square of the distance from the foot: its Laplacian is (9 q - 6) (1 + q)^-3.5.
+/// Returns the mean over a disc to the fourth order of the radius, which is 1e-6 at the discs of
+/// this test. E = (1 + q)^-1.5, where q is the square of the distance from the foot: its Laplacian
+/// is (9 q - 6) (1 + q)^-3.5.
 double mirroredMean(double x, double y, double radius)
 {
     const double q = (x - 2.0) * (x - 2.0) + y * y;
@@ -60,7 +63,7 @@ Known flatMirrorPatch()
     return {flatMirror(), {0.1, 0, 0}, 0.8, mirroredMean, underLight};
 }
 
-/// Between the centre and the nephroid's cusp, where G rises from 1.4 to 5.
+/// Returns a patch between the centre and the nephroid's cusp, where G rises from 1.4 to 5.
 Known nephroidPatch()
 {
     return {nephroid(),
@@ -70,15 +73,16 @@ Known nephroidPatch()
             [](double, double) { return 1.0; }};
 }
 
-/// Means over the pixels of the error over the true value and of its square at each of kCounts, a
-/// value a run.
+/// The means, over the pixels, of the error over the true value and of its square at each of
+/// kCounts, with one value a run.
 struct Errors
 {
     std::vector<Estimate> relative, squared;
-    std::vector<double> slopes; ///< of the squared error, a run
+    std::vector<double> slopes; ///< of the squared error, one a run
 };
 
-/// Of pixel k, row by row from below; patchView looks down with +x up.
+/// Returns the centre of pixel k; pixels count row by row from below, and patchView looks down with
+/// +x up.
 Vec3d pixelCentre(const Known& known, int k)
 {
     const double up = (k / kPixels + 0.5) / kPixels - 0.5,
@@ -86,8 +90,8 @@ Vec3d pixelCentre(const Known& known, int k)
     return known.centre + Vec3d(up, -right, 0.0) * known.side;
 }
 
-/// Radiance of the pixels without noise and bias. The mean over a disc with the square's second
-/// moments is that over the pixel, to the fourth order of its size.
+/// Returns the radiance of the pixels without noise and bias. The mean over a disc with the
+/// square's second moments is the mean over the pixel, to the fourth order of the pixel's size.
 std::vector<double> truth(const Known& known)
 {
     std::vector<double> values;
@@ -158,7 +162,7 @@ void checkSlope(const char* name, const Errors& errors, const RenderOptions& opt
     CHECK(fitted == Approx(-double(options.photonAlpha)).margin(0.07));
 }
 
-/// Power of a photon that comes by the mirror: all are alike [W].
+/// Returns the power of a photon that comes by the mirror: all photons have the same [W].
 double photonPower(const Known& known, const RenderOptions& options)
 {
     const auto traced = known.builder.build();
@@ -172,9 +176,9 @@ double photonPower(const Known& known, const RenderOptions& options)
     return double(first->map.photon(0).power.y);
 }
 
-/// Mean over the pixels of variance and squared bias over the squared value after count passes:
-/// pass i has a disc of r_i^2 = r_1^2 globalRadiusSquared(i), whose photons are Poisson
-/// distributed.
+/// Returns the mean, over the pixels, of variance and squared bias over the squared value after
+/// count passes. Pass i has a disc of r_i^2 = r_1^2 globalRadiusSquared(i), whose photons are
+/// Poisson distributed.
 double expectedSquare(const Known& known, const RenderOptions& options, double power, int count)
 {
     const std::vector<double> expected = truth(known);
@@ -189,7 +193,8 @@ double expectedSquare(const Known& known, const RenderOptions& options, double p
                                    globalRadiusSquared(i, double(options.photonAlpha));
             const double inDisc = known.mean(p.x, p.y, std::sqrt(radius2));
             mean += inDisc / count;
-            // A flux F = pi L of photons of power w through the disc A: var(L) = w F A / (pi A)^2.
+            // A flux F = pi L of photons of power w through the disc A gives var(L) = w F A / (pi
+            // A)^2.
             variance += power * inDisc / (kPiD * kPiD * radius2) / (double(count) * count);
         }
         const double bias = mean - known.mean(p.x, p.y, 0.0);
@@ -205,16 +210,16 @@ RenderOptions optionsFor(IntegratorKind kind, RadiusSchedule schedule, int photo
     options.radiusSchedule = schedule;
     options.photons = photons;
     options.photonRadius = radius;
-    // The formulas are of passes that are all alike: later ones would be better.
+    // The formulas assume that all passes are alike: with guiding, later passes would be better.
     options.photonGuiding = false;
     return options;
 }
 
 } // namespace
 
-// The slopes have a standard error of 0.02 at most: 0.07 is 3.5 of them, a false alarm of all five
-// has a probability of 2e-3. Mean squares are those of the formulas to 12 %: four standard errors
-// and what the photons are spread more evenly than by chance.
+// The slopes have a standard error of 0.02 at most: 0.07 is 3.5 of them, and a false alarm of all
+// five has a probability of 2e-3. Mean squares are those of the formulas to 12 %: four standard
+// errors, and some because photons are spread more evenly than by chance.
 TEST_CASE("rates: a flat mirror's light by global radii", "[photons][statistics][stability 41]")
 {
     const Known known = flatMirrorPatch();
@@ -252,8 +257,9 @@ TEST_CASE("rates: the nephroid's light", "[photons][statistics][stability 41]")
     checkSlope("nephroid", measured(nephroidPatch(), options, 6), options);
 }
 
-// Beside the nephroid, where the first disc holds 30 % too much: the mean of the discs' means over
-// the passes, within four standard errors of 32 values (a false alarm of the three: 1e-3).
+// At a place beside the nephroid the first disc holds 30 % too much light. The mean of the discs'
+// means over the passes must be right within four standard errors of 32 values (a false alarm of
+// the three: 1e-3).
 TEST_CASE("rates: bias beside the nephroid falls as the discs do", "[photons][statistics]")
 {
     const auto traced = nephroid().build();

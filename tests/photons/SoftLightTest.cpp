@@ -1,4 +1,4 @@
-// SoftLightTest.cpp - photons of lights with a size: power, guiding, and the light that paths see.
+// SoftLightTest.cpp - photons of lights with a size: power, guiding, and agreement with paths.
 // SPDX-License-Identifier: MIT
 #include "tests/PValues.h"
 #include "tests/photons/PhotonMeans.h"
@@ -20,7 +20,7 @@ Light softSpot(Vec3 position, Vec3 direction)
     light.direction = glm::normalize(direction);
     light.spotCosCutoff = std::cos(glm::radians(50.0f));
     light.spotExponent = 2.0f;
-    light.attenuationConstant = 1.0f; // OpenGL's default: it does not fade
+    light.attenuationConstant = 1.0f; // OpenGL's default: the light does not fade
     light.attenuationQuadratic = 0.0f;
     return light;
 }
@@ -35,7 +35,7 @@ Light softSun(Vec3 direction)
     return light;
 }
 
-/// A floor, and a glass ball to aim at.
+/// Returns the flux of the light above a floor with a glass ball as a target.
 Flux emitted(const Light& light, float guidedShare, double& sceneRadius)
 {
     SceneBuilder builder;
@@ -48,7 +48,7 @@ Flux emitted(const Light& light, float guidedShare, double& sceneRadius)
     return emittedFlux(emitter, 29);
 }
 
-/// A closed room with a block and a rough block of metal.
+/// Returns a closed room with a block and a rough block of metal.
 SceneBuilder room()
 {
     SceneBuilder builder;
@@ -66,7 +66,7 @@ SceneBuilder room()
     return builder;
 }
 
-/// A floor and a block in the open, for suns.
+/// Returns a floor and a block in the open, for suns.
 SceneBuilder yard()
 {
     SceneBuilder builder;
@@ -81,7 +81,8 @@ View insideView()
     return perspectiveView({0.3, -1.9, 1.6}, {0, 0.4, 0.6}, {0, 0, 1}, 70, 24, 24);
 }
 
-/// Six comparisons, of which one in a hundred runs raises a false alarm.
+/// Checks that photons agree with paths. The two scenes have six comparisons, of which one in a
+/// hundred runs raises a false alarm.
 void checkAgreement(const std::shared_ptr<const TracedScene>& traced)
 {
     const double threshold = sidak(0.01, 6);
@@ -132,7 +133,7 @@ TEST_CASE("photons of soft lights: all power leaves, guided or not", "[photons][
     }
 }
 
-// A wall through the sphere, so that surfaces are inside of it, too.
+// A wall goes through the light's sphere, so that some surfaces are inside of it.
 TEST_CASE("photons of soft lights: a spot that fades in its own way, as paths see it",
           "[photons][statistics]")
 {

@@ -1,5 +1,5 @@
-// SphereTest.cpp - an integrating sphere and a diffuse room by photons: uniform, and the same both
-// ways.
+// SphereTest.cpp - an integrating sphere is lit evenly by photons, and a diffuse room carries light
+// equally both ways.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -24,9 +24,9 @@ Light offCentreSpot()
     return spot;
 }
 
-/// A sphere of 100 rows of facets; PHOTON_CAUSTICS has photons for it only if something bends
-/// light: a small ball without an interface, and off all ways of light that are looked at, if one
-/// is wanted.
+/// Returns a sphere of 100 rows of facets. PHOTON_CAUSTICS has photons for it only if something
+/// bends light. So, if bent is true, there is a small ball without an interface, off all paths of
+/// light that are measured.
 SceneBuilder integratingSphere(bool bent)
 {
     SceneBuilder sphere;
@@ -36,7 +36,7 @@ SceneBuilder integratingSphere(bool bent)
     return sphere;
 }
 
-/// Places around the sphere that the spot does not light.
+/// Returns places around the sphere that the spot does not light.
 std::vector<Vec3d> darkPlaces()
 {
     const Light spot = offCentreSpot();
@@ -52,7 +52,8 @@ std::vector<Vec3d> darkPlaces()
     return places;
 }
 
-/// Radiance of each place, a value for each of 12 seeds. The views share their photons.
+/// Returns the radiance of each place, with one value for each of 12 seeds. The views share their
+/// photons.
 std::vector<Estimate> radiances(const std::shared_ptr<const TracedScene>& traced,
                                 const std::vector<Vec3d>& places, RenderOptions options, int passes,
                                 int pixels)
@@ -92,10 +93,10 @@ std::vector<Estimate> radiances(const std::shared_ptr<const TracedScene>& traced
 
 } // namespace
 
-// E_ind = rho Phi / (4 pi R^2 (1 - rho)) wherever the spot is and shines. Eight places or more by
-// two estimators, each within 4 standard errors of 12 values beside the facets' 0.25 % and, for
-// photons, what their planes leave out: a false alarm of all has a probability of 0.03; the seeds
-// are fixed.
+// E_ind = rho Phi / (4 pi R^2 (1 - rho)) holds wherever the spot is and shines. Seven places or
+// more are measured by two estimators, each within 4 standard errors of 12 values and a bias of 0.4
+// %: the facets have 0.25 % of it, and photons leave out some light at their planes. A false alarm
+// of all has a probability of 0.03; the seeds are fixed.
 TEST_CASE("integrating sphere: photons light all of it alike",
           "[photons][statistics][stability 48]")
 {
@@ -131,8 +132,9 @@ TEST_CASE("integrating sphere: photons light all of it alike",
 TEST_CASE("diffuse room: photons carry as much from A to B as from B to A",
           "[photons][statistics][stability 49]")
 {
-    // Two equal patches of one albedo, on the floor and on the back wall of the Cornell box without
-    // its lamp; either shines with radiance 10. Welch, p > 1e-3.
+    // Two equal patches of one albedo are on the floor and on the back wall of the Cornell box
+    // without its lamp; one of them shines with radiance 10. The means are compared by Welch's
+    // test, p > 1e-3.
     constexpr float kSide = 120.0f;
     const struct
     {

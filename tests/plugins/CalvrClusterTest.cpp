@@ -1,4 +1,4 @@
-// CalvrClusterTest.cpp - tests of what the nodes of a cluster agree on, without CalVR.
+// CalvrClusterTest.cpp - what the nodes of a cluster agree on, tested without CalVR.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
@@ -33,7 +33,7 @@ namespace
 
 const FrameWork kOffer{3, 6, 1000, 2};
 
-/// Bytes on their way from one node to another. Readers wait for theirs, but not for ever.
+/// Bytes on their way from one node to another. A reader waits for its bytes for 20 s at most.
 class Wire
 {
 public:
@@ -50,7 +50,7 @@ public:
         std::unique_lock<std::mutex> lock(_mutex);
         const auto isThere = [&] { return _cut || _bytes.size() >= bytes; };
         _changed.wait_for(lock, std::chrono::seconds(20), isThere);
-        if (_bytes.size() < bytes) _cut = true; // out of step: nobody else shall wait as long
+        if (_bytes.size() < bytes) _cut = true; // out of step: later readers need not wait as long
         if (_bytes.size() < bytes) return false;
         std::copy_n(_bytes.begin(), bytes, static_cast<char*>(data));
         _bytes.erase(_bytes.begin(), _bytes.begin() + static_cast<std::ptrdiff_t>(bytes));
@@ -67,7 +67,7 @@ public:
     size_t left() const { return _bytes.size(); }
 
 private:
-    std::mutex _mutex; // of two nodes
+    std::mutex _mutex; // taken by both nodes
     std::condition_variable _changed;
     std::deque<char> _bytes;
     bool _cut = false;
@@ -82,7 +82,7 @@ struct Wires
     std::vector<Wire> toMaster, toSlave;
 };
 
-/// Node 0 is the master. Counts its calls.
+/// A node of the cluster, which counts its calls. Node 0 is the master.
 class Node : public Connections
 {
 public:
@@ -213,7 +213,7 @@ TEST_CASE("work agreement: with connections lost a node goes on with its own off
     REQUIRE(wires.toMaster[0].read(&sent, sizeof sent));
     const FrameWork own{1, 4, 9, 1};
     CHECK(ofMaster.agree(own) == own);
-    CHECK(master.calls == 2); // both, although the first one failed
+    CHECK(master.calls == 2); // both calls were made, although the first one failed
 }
 
 TEST_CASE("work agreement: a node of another version stays in step, and is not followed", "[calvr]")

@@ -1,4 +1,4 @@
-// CalvrPluginTest.cpp - tests that CalVR can load its plugin, without a running CalVR.
+// CalvrPluginTest.cpp - CalVR can load its plugin, tested without a running CalVR.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 

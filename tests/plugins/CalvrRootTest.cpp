@@ -1,4 +1,4 @@
-// CalvrRootTest.cpp - tests of a node that is put under ray tracing and taken out again, without
+// CalvrRootTest.cpp - a node that is put under ray tracing and taken out again, tested without
 // CalVR.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
@@ -22,7 +22,7 @@ using osgRayTrace::Statistics;
 namespace
 {
 
-/// The part of CalVR's graph that matters: room > [transform > scale > objects, menu, light].
+/// The part of CalVR's graph that matters here: room > [transform > scale > objects, menu, light].
 struct Room
 {
     Room()
@@ -39,7 +39,7 @@ struct Room
         objects->addChild(quad);
         objects->setCullingActive(false);
         objects->getOrCreateStateSet()->setMode(GL_LIGHT0,
-                                                osg::StateAttribute::ON); // the room's, in CalVR
+                                                osg::StateAttribute::ON); // CalVR's room sets it
         light->setLightNum(0);
         light->setPosition(osg::Vec4(0.0f, -1e4f, 1e4f, 1.0f));
         source->setLight(light);
@@ -84,7 +84,7 @@ TEST_CASE("traced root: on, it is between the node and its parents; off, the gra
     for (int round = 0; round < 3; ++round)
     {
         root.switchOn(room.objects);
-        root.switchOn(room.objects); // once more does nothing
+        root.switchOn(room.objects); // a second call does nothing
         CHECK(root.isOn());
         CHECK(room.scale->getChild(1) == &root.scene());
         CHECK(other->getChild(1) == &root.scene());
@@ -165,7 +165,7 @@ TEST_CASE("room lights: a light beside the objects lights them, and moves with n
     REQUIRE(copy);
     const osg::Vec4d back = osg::Vec4d(copy->getLight()->getPosition()) *
                             (room.scale->getMatrix() * room.transform->getMatrix());
-    CHECK((back - osg::Vec4d(room.light->getPosition())).length() < 0.01); // of 14142: floats
+    CHECK((back - osg::Vec4d(room.light->getPosition())).length() < 0.01); // of 14142, in float
     const Statistics second = convert(root, 2);
     CHECK(second.conversions == 1);
     CHECK(second.patches == first.patches + 1);

@@ -1,4 +1,4 @@
-// CalvrSettingsTest.cpp - tests of CalVR's configuration and menu as settings, without CalVR.
+// CalvrSettingsTest.cpp - CalVR's configuration and menu as settings, tested without CalVR.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
@@ -15,7 +15,7 @@ namespace
 
 using Elements = std::vector<std::pair<std::string, std::string>>;
 
-/// As CalVR: of several elements of one name the first one's value.
+/// Reads the elements as CalVR does: if several have one name, the first one's value counts.
 PluginConfig read(const Elements& elements, RayTraceSettings& settings)
 {
     std::vector<std::string> names;
@@ -37,7 +37,7 @@ std::string allOf(const RayTraceSettings& settings)
     return text;
 }
 
-/// "light-samples" as an element is called.
+/// Returns the name of the element for an option: LightSamples for "light-samples".
 std::string elementName(const std::string& option)
 {
     std::string name;
@@ -109,7 +109,7 @@ TEST_CASE("CalVR configuration: what is no option or no value is complained of a
     CHECK(allOf(*settings) == before);
     CHECK(config.trace);
     CHECK(config.clusterBudget == 33.0);
-    REQUIRE(config.complaints.size() == 6); // of LightSamples once
+    REQUIRE(config.complaints.size() == 6); // one for the two elements LightSamples
     CHECK(config.complaints[0] == "there is no option 'Integrater'");
     CHECK(config.complaints[1] == "'LightSamples' cannot be 'many'");
 }
@@ -134,11 +134,11 @@ TEST_CASE("cluster settings: all nodes have the master's, each its own threads",
     makeEqualOnAllNodes(*slave, ofSlave);
     CHECK(takeSharedSettings(sharedSettings(*master, ofMaster), *slave, ofSlave).empty());
     CHECK_FALSE(ofSlave.trace);
-    CHECK(ofSlave.clusterBudget == 33.0); // each node's own
+    CHECK(ofSlave.clusterBudget == 33.0); // each node has its own
     CHECK(slave->getThreads() == 64);
     CHECK_FALSE(slave->getPhotonGuiding());
     CHECK(slave->getEqualViews());
-    CHECK(slave->getFrameBudget() == 33.0f); // each node's own
+    CHECK(slave->getFrameBudget() == 33.0f); // each node has its own
     CHECK(master->getFrameBudget() == 16.0f);
     slave->setThreads(2);
     slave->setFrameBudget(16.0f);
@@ -163,7 +163,7 @@ TEST_CASE("cluster settings: what the configuration wants otherwise is overruled
     };
     CHECK(overruled({}).empty());
     CHECK(overruled({{"ClusterBudget", "50"}, {"Photons", "1024"}}).empty());
-    // What is as it has to be need not be told.
+    // A setting that has the required value is not reported.
     CHECK(overruled({{"Presentation", "frame-locked"}, {"PhotonGuiding", "off"}}).empty());
     CHECK(overruled({{"ClusterBudget", "20"}, {"FrameBudget", "20"}}).empty());
 

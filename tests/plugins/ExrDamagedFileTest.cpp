@@ -1,4 +1,5 @@
-// ExrDamagedFileTest.cpp - files that end too early, are garbage or say wrong sizes. Layer: tests.
+// ExrDamagedFileTest.cpp - files that end too early, are garbage or state wrong sizes. Layer:
+// tests.
 // SPDX-License-Identifier: MIT
 #include "ExrFiles.h"
 #include "tests/Catch.h"
@@ -51,7 +52,7 @@ TEST_CASE("exr: garbage is an error, and a damaged file at least no crash", "[ex
     for (int round = 0; round < 4000; ++round)
     {
         std::string damaged = bytes;
-        // Half of the rounds in the header, where it hurts most.
+        // Half of the rounds damage the header, where damage has most effects.
         const std::size_t range = round % 2 ? bytes.size() : 400;
         for (int i = 0; i < 1 + round % 3; ++i)
             damaged[random() % range] = static_cast<char>(random());
@@ -67,7 +68,7 @@ TEST_CASE("exr: a size that the file cannot hold is refused before memory is tak
     std::ostringstream whole;
     REQUIRE(writeExr(whole, makeExrImage(4, 4, {"Y"})).empty());
 
-    // minX minY maxX maxY, little endian, behind the name, the type and the size.
+    // The values minX minY maxX maxY, little endian, stand behind the name, the type and the size.
     const auto withWindows = [&](std::int32_t maxX, std::int32_t maxY)
     {
         std::string bytes = whole.str();

@@ -39,7 +39,7 @@ inline osgDB::ReaderWriter::WriteResult writeImage(const osg::Image& image, cons
     return plugin()->writeImage(image, path, makeOptions(options));
 }
 
-/// Different values in each component of each pixel, halves all of them.
+/// Returns an image with different values in each component of each pixel, all of which are halves.
 inline osg::ref_ptr<osg::Image> makeImage(int width, int height, GLenum format = GL_RGBA)
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;

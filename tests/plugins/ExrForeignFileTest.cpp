@@ -19,7 +19,8 @@ using namespace osgRayTrace::engine;
 namespace
 {
 
-/// What the tests write at a place of the data window: y counts down from the top.
+/// Returns the value that the tests write at a place of the data window: y counts down from the
+/// top.
 float pattern(int x, int y)
 {
     return x * 1.0f + y * 100.0f;
@@ -58,8 +59,8 @@ void writeScanlines(const std::string& path, const Imath::Box2i& display, const 
     file.writePixels(data.max.y - data.min.y + 1);
 }
 
-/// The image is the display window: the pattern where there was data, 0 elsewhere, row 0 at the
-/// bottom.
+/// Requires that the image is the display window: it has the pattern in the data window, 0
+/// elsewhere, and row 0 at the bottom.
 void requirePattern(const std::string& path, const Imath::Box2i& display, const Imath::Box2i& data)
 {
     ExrImage image;

@@ -1,4 +1,4 @@
-// ExrPluginTest.cpp - osgdb_exr and the channels beneath it. Layer: osgPlugins.
+// ExrPluginTest.cpp - osgdb_exr and its channels. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
 #include "ExrFiles.h"
 #include "tests/Catch.h"
@@ -136,7 +136,7 @@ TEST_CASE("exr: bytes are sRGB, their alpha is linear, and they come back the sa
 
     const osg::ref_ptr<osg::Image> read = readImage(folder / "a.exr").takeImage();
     REQUIRE(read);
-    // IEC 61966-2-1: the middle of the bytes is a fifth of the light.
+    // By IEC 61966-2-1 the middle of the bytes is a fifth of the light.
     REQUIRE(valueAt(*read, 128, 0, 0) == Approx(0.2158605).epsilon(1e-5));
     REQUIRE(valueAt(*read, 10, 0, 1) == Approx(10 / 255.0 / 12.92).epsilon(1e-5));
     REQUIRE(valueAt(*read, 255, 0, 2) == 1.0f);
@@ -176,7 +176,7 @@ TEST_CASE("exr: other layouts of osg::Image are written right", "[exr]")
     REQUIRE(read->getPixelFormat() == GL_RGBA);
     REQUIRE(valueAt(*read, 1, 1, 0) == valueAt(*image, 1, 1, 2));
 
-    // Rows with padding.
+    // The rows have padding.
     const osg::ref_ptr<osg::Image> padded = new osg::Image;
     padded->allocateImage(3, 2, 1, GL_RGB, GL_UNSIGNED_BYTE, 8);
     std::memset(padded->data(), 77, padded->getTotalSizeInBytes());
@@ -187,7 +187,7 @@ TEST_CASE("exr: other layouts of osg::Image are written right", "[exr]")
     REQUIRE(valueAt(*read, 0, 1, 0) == 1.0f);
     REQUIRE(valueAt(*read, 2, 1, 2) == 1.0f);
 
-    // Stored from the top.
+    // The image is stored from the top.
     const osg::ref_ptr<osg::Image> topDown = makeImage(3, 2, GL_RGB);
     topDown->setOrigin(osg::Image::TOP_LEFT);
     REQUIRE(writeImage(*topDown, folder / "a.exr").success());
@@ -216,7 +216,8 @@ TEST_CASE("exr: what cannot be written is refused and leaves nothing behind", "[
     REQUIRE_FALSE(writeImage(*image, folder / "old.exr", "compression=best").success());
     REQUIRE(bytesOf(folder / "old.exr") == "old");
 
-    // No such folder; a file in its place; a folder in the file's place.
+    // The folder does not exist, a file has the name of the folder, or a folder has the name of the
+    // file.
     REQUIRE_FALSE(writeImage(*image, folder / "missing/a.exr").success());
     REQUIRE_FALSE(writeImage(*image, folder / "old.exr/a.exr").success());
     std::filesystem::create_directory(folder / "folder.exr");
@@ -302,7 +303,7 @@ TEST_CASE("exr: channels of any name come back, in the order of their names", "[
     REQUIRE(read.channels.size() == 1);
     REQUIRE(read.channels.front().name == "depth.Z");
 
-    // Without a colour there is nothing to show.
+    // Without a colour the file holds no picture.
     REQUIRE(writeExr(folder / "a.exr", makeExrImage(7, 3, {"depth.Z"})).empty());
     auto result = readImage(folder / "a.exr");
     REQUIRE_FALSE(result.success());

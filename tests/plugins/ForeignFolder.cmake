@@ -1,5 +1,6 @@
-# Installs a module below the prefix, deeper below it and outside of it, with a prefix that is given when it is installed; builds
-# and libraries elsewhere are gone then, and a program must load it.
+# Installs a module below the prefix, deeper below it and outside of it, with a prefix that is given
+# at the installation. The build and libraries elsewhere are gone then, and a program must load the
+# module.
 # Usage: cmake -D SOURCE= -D WORK= -D GENERATOR= -D ROOT= -P ForeignFolder.cmake
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)

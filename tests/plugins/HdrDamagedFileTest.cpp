@@ -1,4 +1,5 @@
-// HdrDamagedFileTest.cpp - Radiance files that end too early or say what cannot be. Layer: tests.
+// HdrDamagedFileTest.cpp - Radiance files that end too early or state impossible values. Layer:
+// tests.
 // SPDX-License-Identifier: MIT
 #include "HdrFiles.h"
 #include "tests/Catch.h"
@@ -83,14 +84,14 @@ TEST_CASE("hdr: what a file says that cannot be is named", "[hdr]")
 
 TEST_CASE("hdr: a size that the file cannot hold is refused before memory is taken", "[hdr]")
 {
-    // Lines of sixteen bytes that claim a million pixels each.
+    // Lines of sixteen bytes claim a million pixels each.
     std::string file = headerOf("-Y 256 +X 1048576");
     for (int y = 0; y < 256; ++y)
         file += oldRun({0, 0, 0, 0}, 1 << 20);
     auto result = readHdr(file);
     REQUIRE_FALSE(result.success());
     CHECK(result.message().find("too short") != std::string::npos);
-    // Few of them are few.
+    // A few such lines are accepted.
     std::string small = headerOf("-Y 4 +X 1048576");
     for (int y = 0; y < 4; ++y)
         small += oldRun({128, 0, 0, 129}, 1 << 20);

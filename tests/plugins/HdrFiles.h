@@ -17,7 +17,7 @@ namespace osgRayTrace::engine::test
 
 using Pixels = std::vector<Rgbe>;
 
-/// Ours, or there is nothing to test: OSG's has no such name.
+/// Returns our plugin, or fails: OSG's plugin has another name.
 inline osgDB::ReaderWriter* hdrPlugin()
 {
     osgDB::ReaderWriter* result = osgDB::Registry::instance()->getReaderWriterForExtension("hdr");
@@ -34,7 +34,7 @@ inline osgDB::ReaderWriter::ReadResult readHdr(const std::string& bytes,
     return hdrPlugin()->readImage(stream, parsed);
 }
 
-/// Reads as an image, or fails.
+/// Reads the bytes as an image, or fails.
 inline osg::ref_ptr<osg::Image> imageOf(const std::string& bytes, const std::string& options = "")
 {
     auto result = readHdr(bytes, options);
@@ -48,7 +48,7 @@ inline std::string headerOf(const std::string& resolution, const std::string& va
     return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + variables + "\n" + resolution + "\n";
 }
 
-/// Pixels as they are.
+/// Returns the pixels as they are.
 inline std::string flat(const Pixels& pixels)
 {
     std::string bytes;
@@ -58,7 +58,7 @@ inline std::string flat(const Pixels& pixels)
     return bytes;
 }
 
-/// All of the first colour, in the format of 1985.
+/// Returns a run of the colour, in the format of 1985.
 inline std::string oldRun(const Rgbe& pixel, int count)
 {
     Pixels pixels{pixel};
@@ -67,7 +67,7 @@ inline std::string oldRun(const Rgbe& pixel, int count)
     return flat(pixels);
 }
 
-/// A line in the format of 1991 without runs.
+/// Returns a line in the format of 1991 without runs.
 inline std::string newLine(const Pixels& pixels)
 {
     const std::size_t length = pixels.size();
@@ -81,7 +81,7 @@ inline std::string newLine(const Pixels& pixels)
     return bytes;
 }
 
-/// A line in the format of 1991 that is one run.
+/// Returns a line in the format of 1991 that is one run.
 inline std::string newRun(const Rgbe& pixel, int length)
 {
     std::string bytes{2, 2, static_cast<char>(length >> 8), static_cast<char>(length & 255)};
@@ -99,7 +99,7 @@ inline const float* valuesAt(const osg::Image& image, int x, int y)
     return reinterpret_cast<const float*>(image.data(x, y));
 }
 
-/// Different in each pixel, with mantissas as writers make them.
+/// Returns pixels that all differ, with mantissas as writers make them.
 inline Pixels somePixels(std::size_t count)
 {
     Pixels pixels;

@@ -1,5 +1,5 @@
-// HdrPluginTest.cpp - osgdb_hdr: what Radiance's files say, and what OSG's own plugin made of them.
-// Layer: tests.
+// HdrPluginTest.cpp - osgdb_hdr: what Radiance's files state, and what OSG's own plugin made of
+// them. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "HdrFiles.h"
 #include "tests/Catch.h"
@@ -21,7 +21,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// (1, 1/2, 1/4), and the same times 2^n.
+/// Returns (1, 1/2, 1/4) times 2^n.
 Rgbe colored(int n = 0)
 {
     return {128, 64, 32, static_cast<std::uint8_t>(129 + n)};
@@ -90,7 +90,7 @@ TEST_CASE("hdr: flat, old and new lines hold the same", "[hdr]")
         const auto newRuns = imageOf(header + newRun(colored(), length));
         CHECK(std::memcmp(run->data(), newRuns->data(), run->getTotalSizeInBytes()) == 0);
     }
-    // Each line is of its own kind, and a run may follow any pixel.
+    // Each line is of another kind, and a run may follow any pixel.
     const auto mixed = imageOf(headerOf("-Y 3 +X 8") + newRun(colored(), 8) + flat(somePixels(8)) +
                                flat({colored(1), colored(2), {1, 1, 1, 6}}));
     CHECK(colorAt(*mixed, 7, 2) == osg::Vec3(1, 0.5f, 0.25f));
@@ -100,8 +100,8 @@ TEST_CASE("hdr: flat, old and new lines hold the same", "[hdr]")
 
 TEST_CASE("hdr: all eight orientations", "[hdr]")
 {
-    // Pixels in the order of the file, and where they belong; the picture is three wide and two
-    // high.
+    // The rows give the places of the first two pixels of the file; the picture is three wide and
+    // two high.
     struct Order
     {
         const char* resolution;
@@ -137,10 +137,11 @@ TEST_CASE("hdr: exposure, colour correction and gamma are undone", "[hdr]")
     CHECK(read("EXPOSURE= 4.0e+00\nEXPOSURE=.5\n") == osg::Vec3(0.5f, 0.25f, 0.125f));
     CHECK(read("COLORCORR=1 2 0.5\nEXPOSURE=2\n") == osg::Vec3(0.5f, 0.125f, 0.25f));
     CHECK(read("GAMMA=2\n") == osg::Vec3(1, 0.25f, 0.0625f));
-    // Those of pictures that this one was made from are indented; the rest is for others.
+    // Values of pictures that this one was made from are indented and do not count; the other lines
+    // are for other programs.
     CHECK(read("\tEXPOSURE=4\n# EXPOSURE=4\nSOFTWARE=EXPOSURE=4\npfilt -e 1\nVIEW= -vtv\n") ==
           osg::Vec3(1, 0.5f, 0.25f));
-    // Numbers are those of files, whatever the locale says.
+    // Numbers are read as files write them, whatever the locale says.
     struct Comma : std::numpunct<char>
     {
         char do_decimal_point() const override { return ','; }
@@ -148,7 +149,7 @@ TEST_CASE("hdr: exposure, colour correction and gamma are undone", "[hdr]")
     const std::locale before = std::locale::global(std::locale(std::locale(), new Comma));
     CHECK(read("EXPOSURE=.5\n") == osg::Vec3(2, 1, 0.5f));
     std::locale::global(before);
-    // Never infinite.
+    // Values are never infinite.
     const auto bright =
         imageOf(headerOf("-Y 1 +X 1", "EXPOSURE=1e-20\n") + flat({{255, 255, 0, 255}}));
     CHECK(colorAt(*bright, 0, 0).x() == std::numeric_limits<float>::max());
@@ -214,7 +215,7 @@ TEST_CASE("hdr: what is written comes back", "[hdr]")
         REQUIRE((again->s() == width && again->t() == height));
         CHECK(std::memcmp(image->data(), again->data(), image->getTotalSizeInBytes()) == 0);
     }
-    // Runs are found: two bytes for 127 values.
+    // The writer finds runs: it writes two bytes for 127 values.
     const auto black = floatImage(1000, 4);
     std::memset(black->data(), 0, black->getTotalSizeInBytes());
     CHECK(writtenOf(*black).size() < 4 * (4 + 4 * 16) + 80);
@@ -261,7 +262,7 @@ TEST_CASE("hdr: writing takes floats of any layout, bytes as they are, and the o
     *reinterpret_cast<float*>(gray->data()) = 3;
     CHECK(colorAt(*imageOf(writtenOf(*gray)), 0, 0) == osg::Vec3(3, 3, 3));
 
-    // Also what readers would take for a run.
+    // Pixels that readers would take for a run are written as well.
     const std::string file = headerOf("-Y 1 +X 2") + flat({{12, 200, 3, 140}, {2, 2, 2, 129}});
     CHECK(writtenOf(*imageOf(file, "RAW"), "RAW") == file);
     osg::ref_ptr<osg::Image> bytes = new osg::Image;
@@ -269,7 +270,7 @@ TEST_CASE("hdr: writing takes floats of any layout, bytes as they are, and the o
     std::memcpy(bytes->data(), "\x01\x01\x01\x82", 4);
     CHECK(colorAt(*imageOf(writtenOf(*bytes, "RAW")), 0, 0).x() == std::ldexp(1.0f, 130 - 136));
 
-    // What cannot be written leaves the file as it was.
+    // An image that cannot be written leaves the file as it was.
     const TemporaryFolder folder;
     std::ofstream(folder / "a.hdr") << "before";
     for (const std::string options : {"", "RAW"})

@@ -1,4 +1,4 @@
-// PluginOrderTest.cpp - our plugins are taken before others of their names. Layer: tests.
+// PluginOrderTest.cpp - our plugins are taken before others of the same names. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/plugins/HdrFiles.h"
@@ -31,7 +31,7 @@ TEST_CASE(
     CHECK_FALSE(osgDB::readRefNodeFile("none.osgt.raytrace"));
     CHECK(folders.front() != other);
 
-    hdrPlugin(); // is ours
+    hdrPlugin(); // fails if the plugin is not ours
     const std::size_t count = folders.size();
     CHECK(osgDB::Registry::instance()->getReaderWriterForExtension("raytrace"));
     CHECK(folders.size() == count);

@@ -1,4 +1,4 @@
-// PseudoLoaderTest.cpp - tests of "model.osgt.raytrace" and its parameters.
+// PseudoLoaderTest.cpp - "model.osgt.raytrace" and its parameters.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
@@ -23,7 +23,7 @@ using Result = osgDB::ReaderWriter::ReadResult;
 namespace
 {
 
-/// A folder with a model, for as long as it lives.
+/// A folder with a model, which exists while the object lives.
 class Folder
 {
 public:

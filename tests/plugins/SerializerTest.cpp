@@ -1,4 +1,4 @@
-// SerializerTest.cpp - tests that our classes survive OSG's three native formats.
+// SerializerTest.cpp - our classes survive OSG's three native formats.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/CommaLocale.h"
@@ -31,7 +31,7 @@ namespace
 struct Format
 {
     const char* extension;
-    const char* fileType; ///< what OSG's reader takes for it when it works on streams
+    const char* fileType; ///< the name by which OSG's stream reader knows the format
 };
 
 constexpr Format kFormats[] = {{"osgt", "Ascii"}, {"osgb", "Binary"}, {"osgx", "XML"}};
@@ -366,7 +366,7 @@ TEST_CASE("serializers: EnvironmentLight keeps its images and parameters", "[plu
         REQUIRE(copy->getCubeMap());
         for (unsigned int face = 0; face < 6; ++face)
             CHECK(copy->getCubeMap()->getImage(face)->data()[0] == face);
-        // OSG's reader of text adds digit by digit.
+        // OSG's reader of text adds up digit by digit, so the last digits differ.
         CHECK((copy->getRotation() - light->getRotation()).length() < 1e-12);
         CHECK(copy->getScale() == light->getScale());
         CHECK_FALSE(copy->getVisible());
@@ -403,13 +403,13 @@ TEST_CASE("serializers: a truncated file is refused or read in part, not fatal",
     scene->getOrCreateStateSet()->setAttribute(new PhysicalMaterial);
     scene->getSettings()->setLightSamples(9);
     const osg::NotifySeverity level = osg::getNotifyLevel();
-    osg::setNotifyLevel(osg::ALWAYS); // OSG's readers say a lot
+    osg::setNotifyLevel(osg::ALWAYS); // OSG's readers log a lot
     for (const Format& format : kFormats)
     {
         const std::string text = written(*scene, format);
-        // Not every length: where a binary file ends just before the count of a list of OSG's own
-        // (its state set, at byte 128), OSG 3.6.5 loops over a count that it has not read, for
-        // hours. An odd step misses it.
+        // The file is not cut at every length. If a binary file ends just before the count of a
+        // list of OSG's own (its state set, at byte 128), OSG 3.6.5 loops for hours over a count
+        // that it has not read. An odd step misses this length.
         const size_t step = text.size() / 113 | 1;
         for (size_t length = 0; length < text.size(); length += step)
         {

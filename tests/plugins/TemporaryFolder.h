@@ -1,4 +1,4 @@
-// TemporaryFolder.h - a folder of a test's own that goes with it.
+// TemporaryFolder.h - a folder of a test's own that is removed with the object.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -27,10 +27,10 @@ public:
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-    /// The path of a file in the folder.
+    /// Returns the path of a file in the folder.
     std::string operator/(const std::string& name) const { return (_path / name).string(); }
 
-    /// All that is in it, sorted.
+    /// Returns the names of everything in the folder, sorted.
     std::vector<std::string> fileNames() const
     {
         std::vector<std::string> names;

@@ -1,4 +1,4 @@
-// ErrorEstimateTest.cpp - what a session says of its error is its error.
+// ErrorEstimateTest.cpp - the error that a session states is its true error.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -10,8 +10,8 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// mean((x - r)^2 / (R^2 + 0.01)) over pixels and RGB, R the mean of r over the pixel's tile of
-/// 16 x 16: the definition of RenderProgress::relativeError.
+/// Returns mean((x - r)^2 / (R^2 + 0.01)) over pixels and RGB, where R is the mean of r over the
+/// pixel's tile of 16 x 16: the definition of RenderProgress::relativeError.
 double relativeSquaredError(const std::vector<float>& image, const std::vector<float>& reference,
                             int size)
 {
@@ -47,19 +47,19 @@ struct Errors
     double estimated = 0.0, actual = 0.0; ///< means of squares over seeds
 };
 
-/// Walls, floor and blocks of the box, but not its light.
+/// Returns a view of the walls, the floor and the blocks of the box, but not of its light.
 View viewWithoutLight(int size)
 {
     return perspectiveView({278, 400, 20}, {278, 100, 559}, {0, 1, 0}, 45.0, size, size);
 }
 
-/// Close to the lamp: half of the picture is its edges.
+/// Returns a view close to the lamp: half of the picture's error is at the lamp's edges.
 View viewOfLight(int size)
 {
     return perspectiveView({278, 273, -800}, {200, 548, 279}, {0, 1, 0}, 12.0, size, size);
 }
 
-/// A glass sphere on a floor under a small lamp: its caustic is found by few paths.
+/// Returns a glass sphere on a floor under a small lamp: few paths find its caustic.
 std::shared_ptr<const TracedScene> glassSphere()
 {
     SceneBuilder builder;
@@ -74,7 +74,7 @@ View viewOfSphere(int size)
     return perspectiveView({0, -4, 2}, {0, 0, 0.4}, {0, 0, 1}, 40.0, size, size);
 }
 
-/// Demands that over 100 seeds the estimated error is the true one to 20 %, after each number of
+/// Checks that over 100 seeds the estimated error is the true one to 20 %, after each number of
 /// passes.
 void checkErrors(const std::shared_ptr<const TracedScene>& traced, IntegratorKind kind,
                  const View& view, const std::vector<int>& passCounts, int referencePasses = 4096)
@@ -116,8 +116,8 @@ void checkErrors(const std::shared_ptr<const TracedScene>& traced, IntegratorKin
     }
 }
 
-/// The same for integrators with photons, with the standard deviation over the seeds for the true
-/// error: the halves of an image cannot tell what discs of photons blur.
+/// Checks integrators with photons likewise, but takes the standard deviation over the seeds for
+/// the true error: the halves of an image cannot tell what discs of photons blur.
 void checkPhotonErrors(const std::shared_ptr<const TracedScene>& traced, IntegratorKind kind,
                        const View& view, int passes)
 {
@@ -157,8 +157,8 @@ const IntegratorKind kBoth[] = {IntegratorKind::Path, IntegratorKind::Whitted};
 
 } // namespace
 
-// Over 100 seeds of 1728 values each the ratio of the roots has a standard error below 3 %; with
-// the light's edge in view, where a few pixels make the error, below 5 %.
+// Over 100 seeds of 1728 values each the ratio of the roots has a standard error below 3 %. With
+// the light's edge in view, where a few pixels make the error, it is below 5 %.
 
 TEST_CASE("error estimate: within 20 % of the true error", "[render][statistics]")
 {
@@ -168,7 +168,7 @@ TEST_CASE("error estimate: within 20 % of the true error", "[render][statistics]
 
 TEST_CASE("error estimate: and with a light's edges in view", "[render][statistics]")
 {
-    // The smaller the light, the fewer samples find it.
+    // The smaller the light is, the fewer samples find it.
     for (const IntegratorKind kind : kBoth)
     {
         checkErrors(cornellBox().build(), kind, cornellView(24, 24), {2, 4, 16, 64});
@@ -179,7 +179,7 @@ TEST_CASE("error estimate: and with a light's edges in view", "[render][statisti
 
 TEST_CASE("error estimate: and for an odd number of passes", "[render][statistics]")
 {
-    // The halves then differ in size, which Film::errorScale allows for.
+    // The two halves differ in size then, which Film::errorScale allows for.
     for (const IntegratorKind kind : kBoth)
         checkErrors(cornellBox().build(), kind, cornellView(24, 24), {3, 5, 9}, 1024);
 }
@@ -194,8 +194,9 @@ TEST_CASE("error estimate: and of a caustic, once its error is below what is see
 TEST_CASE("error estimate: and with photons, of camera paths as well as of light",
           "[render][statistics]")
 {
-    // What antialiases the light's edges, and what a glossy floor spreads, is the noise of camera
-    // paths: PPM claimed 2 to 60 times too little where the halves of its image shared them.
+    // The noise of camera paths appears in the antialiasing of the light's edges and in the blur of
+    // a glossy floor. When the halves of PPM's image shared camera paths, PPM stated 2 to 60 times
+    // too small an error.
     SceneBuilder glossyBox = cornellBox();
     Material glossy = mirror(Vec3(0.9f));
     glossy.roughness = 0.45f;

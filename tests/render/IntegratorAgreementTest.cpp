@@ -12,7 +12,7 @@ namespace
 
 constexpr int kSize = 32, kTile = 8, kTiles = kSize / kTile;
 
-/// Mean radiance of each tile and channel, one value for each seed.
+/// Returns the mean radiance of each tile and channel, with one value for each seed.
 std::vector<Estimate> tileMeans(const std::shared_ptr<const TracedScene>& traced, const View& view,
                                 RenderOptions options, int passes)
 {
@@ -35,8 +35,8 @@ std::vector<Estimate> tileMeans(const std::shared_ptr<const TracedScene>& traced
     return means;
 }
 
-/// Demands that no tile differs by more than 4 standard errors (Welch) and rounding. With 30
-/// degrees of freedom a tile does by chance with a probability of 4e-4.
+/// Checks that no tile differs by more than 4 standard errors (Welch) and rounding. With 30 degrees
+/// of freedom a tile does so by chance with a probability of 4e-4.
 void checkEqual(const std::vector<Estimate>& a, const std::vector<Estimate>& b)
 {
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -101,7 +101,8 @@ TEST_CASE("agreement: a parallelogram light and the same quad as an emissive mes
 TEST_CASE("agreement: a placed and mirrored scene shows what the scene moved beforehand shows",
           "[render][statistics]")
 {
-    // Glass from inside and outside, smooth normals, an emissive mesh and a diffuse floor.
+    // The scene has glass seen from inside and outside, smooth normals, an emissive mesh and a
+    // diffuse floor.
     Affine transform;
     transform.linear = Mat3(0, 1.5f, 0, 1, 0, 0, 0, 0, 1.2f); // swaps x and y: mirrored
     transform.translation = Vec3(0.1f, 0.2f, 0.0f);

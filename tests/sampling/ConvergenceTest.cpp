@@ -26,7 +26,8 @@ enum class Occluder
     RotatedEdge,
 };
 
-/// cos cos / r^2 of a point (u, v) of a unit square light at height 1 over a receiver at (x, 0, 0).
+/// Returns cos cos / r^2 of a point (u, v) of a unit square light at height 1 over a receiver at
+/// (x, 0, 0).
 double kernel(double u, double v, double x, Occluder occluder)
 {
     const double dx = u - 0.5 - x, dy = v - 0.5;
@@ -38,7 +39,7 @@ double kernel(double u, double v, double x, Occluder occluder)
     return 1.0 / (d2 * d2);
 }
 
-/// Variance of the mean of n*n samples, over receivers and seeds.
+/// Returns the variance of the mean of n*n samples, over receivers and seeds.
 double variance(Strategy strategy, Occluder occluder, uint32_t n)
 {
     constexpr int kReceivers = 30, kSeeds = 100;
@@ -98,7 +99,7 @@ Convergence convergence(Strategy strategy, Occluder occluder)
 } // namespace
 
 // Each slope is fitted to 3 numbers of samples with 3000 runs each: its standard error is about
-// 0.03, so the margins below are 4 of them.
+// 0.03, so the margins below are 4 standard errors.
 
 TEST_CASE("convergence: unoccluded square light", "[sampling][statistics]")
 {

@@ -1,4 +1,5 @@
-// SamplerTest.cpp - random numbers depend on their key alone, and keys do not collide or correlate.
+// SamplerTest.cpp - random numbers depend on their key alone, and keys neither collide nor
+// correlate.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
@@ -19,7 +20,8 @@ TEST_CASE("hash: a bijection on a sample, and every output bit flips with every 
         seen.insert(hash(i * 2654435761u));
     CHECK(seen.size() == 200000);
 
-    // Avalanche: 4096 trials a pair of bits; each flip rate within 6 sigma of 1/2.
+    // The avalanche test has 4096 trials for a pair of bits; each flip rate must be within 6 sigma
+    // of 1/2.
     constexpr int kTrials = 4096;
     for (int in = 0; in < 32; ++in)
     {
@@ -70,8 +72,8 @@ TEST_CASE("sampler: pixels, dimensions and halves have seeds of their own", "[sa
             }
         }
     }
-    // 65,536 keys into 2^32 values: half a collision is expected by chance; 8 have a probability of
-    // 1e-8.
+    // The test maps 65,536 keys to 2^32 values: half a collision is expected by chance; 8 have a
+    // probability of 1e-8.
     CHECK(seeds.size() > keys - 8);
     CHECK(pixelSeed(passKey(0, 0), 3, 7) != pixelSeed(passKey(0, 0), 7, 3));
     CHECK(bounceDimension(0, 0) == DimensionBounceFirst);
@@ -81,8 +83,8 @@ TEST_CASE("sampler: pixels, dimensions and halves have seeds of their own", "[sa
 TEST_CASE("sampler: neighbouring pixels, dimensions and halves are uncorrelated",
           "[sampling][statistics]")
 {
-    // Correlation of the first sample with that of the next key, over 2^16 pixels: below 4.5 /
-    // sqrt(n), a false alarm in 1.5e5 for each of 4.
+    // The first samples of neighbouring keys over 2^16 pixels have a correlation below 4.5 /
+    // sqrt(n): a false alarm in 1.5e5 for each of 4 tests.
     constexpr uint32_t kSide = 256;
     double sums[4] = {};
     const auto value = [](int pass, uint32_t x, uint32_t y, uint32_t dimension)

@@ -26,7 +26,7 @@ std::vector<Point> points(uint32_t first, uint32_t count, uint32_t seed)
     return result;
 }
 
-/// True if each elementary interval of area 2^-k holds exactly one of the 2^k points.
+/// Returns whether each elementary interval of area 2^-k holds exactly one of the 2^k points.
 bool isNet(const std::vector<Point>& points, int k)
 {
     for (int bitsX = 0; bitsX <= k; ++bitsX)
@@ -102,7 +102,8 @@ TEST_CASE("sobol1: the first coordinate of sobol2", "[sampling]")
 
 TEST_CASE("sobol2: over seeds each point is uniform on the square", "[sampling][statistics]")
 {
-    // Chi-square on 32 x 32 cells for points of several numbers; 1 % false alarms in all.
+    // These are chi-square tests on 32 x 32 cells for points of several numbers, with 1 % false
+    // alarms in all.
     constexpr int kSide = 32;
     const std::vector<uint32_t> indices{0, 1, 2, 3, 17, 100, 65535};
     constexpr uint32_t kSeeds = 100000;
@@ -124,8 +125,9 @@ TEST_CASE("sobol2: over seeds each point is uniform on the square", "[sampling][
 
 TEST_CASE("sobol2: sequences of different seeds are uncorrelated", "[sampling][statistics]")
 {
-    // Same index, neighbouring raw seeds: correlation of the coordinates over 2^16 pairs is below
-    // 4.5 / sqrt(n); 4 tests, a false alarm in 3e5.
+    // The points have the same index and neighbouring raw seeds: the correlation of their
+    // coordinates over 2^16 pairs is below 4.5 / sqrt(n). There are 4 tests, with a false alarm in
+    // 3e5.
     constexpr int kPairs = 1 << 16;
     double sums[4] = {};
     for (uint32_t i = 0; i < kPairs; ++i)
@@ -146,8 +148,8 @@ TEST_CASE("sobol2: sequences of different seeds are uncorrelated", "[sampling][s
 TEST_CASE("sobol2: reference points of an unscrambled sequence have the second matrix of Sobol",
           "[sampling]")
 {
-    // Reversed bits of 0..7 in base 2, and their second coordinate: 0, 1/2, 3/4, 1/4, 5/8, 1/8,
-    // 3/8, 7/8.
+    // The first coordinates are the reversed bits of 0..7 in base 2, the second ones 0, 1/2, 3/4,
+    // 1/4, 5/8, 1/8, 3/8, 7/8.
     const double second[] = {0.0, 0.5, 0.75, 0.25, 0.625, 0.125, 0.375, 0.875};
     for (uint32_t i = 0; i < 8; ++i)
         CHECK(reverseBits(sobolSecondReversed(i)) * 0x1p-32 == second[i]);

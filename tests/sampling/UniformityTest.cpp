@@ -16,7 +16,8 @@ namespace
 constexpr int kSide = 32;
 constexpr uint32_t kPixels = 1024; ///< a side of the image that points are taken from
 
-/// Probability of counts this uneven over kSide x kSide cells of the square, of a point a pixel.
+/// Returns the probability of counts this uneven over kSide x kSide cells of the square, with one
+/// point a pixel.
 template <class Point> double fitOf(const Point& pointOf)
 {
     std::vector<double> counts(kSide * kSide, 0.0);
@@ -39,7 +40,8 @@ template <class Point> double fitOf(const Point& pointOf)
 
 } // namespace
 
-// Chi-square on 1024 cells of 1024 points each, 1 % false alarms in all tests of a case (Sidak).
+// The tests are chi-square tests on 1024 cells of 1024 points each, with 1 % false alarms in all
+// tests of a case (Sidak).
 
 TEST_CASE("uniformity: each dimension and pass of the pixels' Sobol points",
           "[sampling][statistics]")
@@ -79,7 +81,7 @@ TEST_CASE("uniformity: points within the pixels, of each pass", "[sampling][stat
 TEST_CASE("uniformity: pairs of dimensions, of passes, of halves and of neighbours",
           "[sampling][statistics]")
 {
-    // What one number was tells nothing of the other.
+    // One number must tell nothing about the other.
     const auto first = [](uint32_t seed, int pass, uint32_t x, uint32_t y, uint32_t dimension)
     {
         const PassKey key = passKey(seed, pass);
@@ -94,8 +96,8 @@ TEST_CASE("uniformity: pairs of dimensions, of passes, of halves and of neighbou
         int pass;
         uint32_t dx, dimension;
     };
-    // The partner of (seed 5, pass 4, pixel, dimension 0). Passes of one half are stratified
-    // against each other: not independent, and not among these.
+    // Each row is a partner of (seed 5, pass 4, pixel, dimension 0). Passes of one half are
+    // stratified against each other: they are not independent, and not among the rows.
     const Pair pairs[] = {
         {"next dimension", 5, 4, 0, 1}, {"next bounce", 5, 4, 0, kDimensionsPerBounce},
         {"other half", 5, 5, 0, 0},     {"other half, other pass", 5, 7, 0, 0},

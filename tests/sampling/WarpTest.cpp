@@ -25,7 +25,8 @@ TEST_CASE("sinCosTurn: within 2e-7 of the exact values", "[sampling]")
 
 TEST_CASE("cosine hemisphere: unit directions of density cos/pi", "[sampling][statistics]")
 {
-    // Chi-square on 20 x 40 cells of equal probability, 1e6 samples, 1 % false alarms.
+    // The tests are chi-square tests on 20 x 40 cells of equal probability, with 1e6 samples and 1
+    // % false alarms.
     constexpr int kRows = 20, kColumns = 40, kSamples = 1000000;
     std::vector<double> counts(kRows * kColumns, 0.0);
     Uniform random(1);
@@ -37,7 +38,7 @@ TEST_CASE("cosine hemisphere: unit directions of density cos/pi", "[sampling][st
         worstLength = std::max(worstLength, std::abs(glm::length(glm::dvec3(w)) - 1.0));
         double phi = std::atan2(double(w.y), double(w.x)) / (2.0 * M_PI);
         if (phi < 0.0) phi += 1.0;
-        // cos^2 is uniform.
+        // The square of the cosine is uniform.
         const int row = std::min(kRows - 1, int(double(w.z) * w.z * kRows));
         const int column = std::min(kColumns - 1, int(phi * kColumns));
         ++counts[static_cast<std::size_t>(row * kColumns + column)];

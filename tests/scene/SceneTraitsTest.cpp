@@ -1,4 +1,4 @@
-// SceneTraitsTest.cpp - what a scene needs is found, and nothing else.
+// SceneTraitsTest.cpp - all needs of a scene are found, and no others.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -57,7 +57,7 @@ TEST_CASE("scene traits: materials", "[scene]")
     CHECK(traitsOf(glass(1.5f)).transmission);
     CHECK(traitsOf(glass(1.5f)).specular);
     CHECK_FALSE(traitsOf(glass(1.5f, 0.5f)).specular);
-    CHECK_FALSE(traitsOf(glass(1.0f)).physical); // nothing to be seen
+    CHECK_FALSE(traitsOf(glass(1.0f)).physical); // invisible
     CHECK_FALSE(traitsOf(glass(1.0f)).transmission);
 
     Material textured = lambert(Vec3(1.0f));
@@ -93,7 +93,7 @@ TEST_CASE("integrator: automatic takes the cheapest that is right for the scene"
     physical.physical = true;
     CHECK(chooseIntegrator(IntegratorKind::Automatic, fixed) == IntegratorKind::Whitted);
     CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::Path);
-    physical.specular = true; // nothing shines through or into it
+    physical.specular = true; // no light passes through its surface
     CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::Path);
     physical.areaLights = true;
     CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::PhotonCaustics);

@@ -1,4 +1,4 @@
-// ViewTest.cpp - camera rays of any projection against a reference in double.
+// ViewTest.cpp - camera rays of any projection compared with a reference in double.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -23,14 +23,15 @@ struct Ray
     Vec3d origin, direction;
 };
 
-/// The ray through a pixel position, in engine space, from the linear form in float.
+/// Returns the ray through a pixel position, in engine space, from the linear form in float.
 Ray rayAt(const CameraRays& c, float x, float y)
 {
     return {Vec3d(c.origin + x * c.originDx + y * c.originDy),
             Vec3d(c.direction + x * c.directionDx + y * c.directionDy)};
 }
 
-/// Distance in pixels between (x, y) and the projection of points of the ray through it, in double.
+/// Returns the distance in pixels between (x, y) and the projection of points of the ray through
+/// (x, y), in double.
 double pixelError(const View& view, const Vec3d& origin, const CameraRays& rays, double x, double y)
 {
     const Ray ray = rayAt(rays, static_cast<float>(x), static_cast<float>(y));
@@ -39,7 +40,7 @@ double pixelError(const View& view, const Vec3d& origin, const CameraRays& rays,
     for (const double s : {double(rays.nearS), 1.5 + rays.nearS, 100.0 / length + rays.nearS})
     {
         const Vec3d p = ray.origin + s * ray.direction;
-        // View and translation are put together first, where large numbers cancel.
+        // The view and the translation are multiplied first, because large numbers cancel there.
         Mat4d viewFromEngine = view.viewFromWorld;
         viewFromEngine[3] = view.viewFromWorld * Vec4d(origin, 1.0);
         const Vec4d clip = view.clipFromView * (viewFromEngine * Vec4d(p, 1.0));
@@ -75,7 +76,7 @@ View viewOf(const Mat4d& clipFromView, const Mat4d& viewFromWorld)
 
 const Mat4d kLookAt = glm::lookAt(Vec3d(3, -5, 2), Vec3d(0.5, 0.25, 0.125), Vec3d(0, 0, 1));
 
-/// glm::frustum with the far plane at infinity.
+/// Returns glm::frustum with the far plane at infinity.
 Mat4d infiniteFrustum(double left, double right, double bottom, double top, double zNear)
 {
     Mat4d m = glm::frustum(left, right, bottom, top, zNear, 2.0 * zNear);
@@ -84,7 +85,7 @@ Mat4d infiniteFrustum(double left, double right, double bottom, double top, doub
     return m;
 }
 
-/// Depth from 1 at the near plane to -1 at the far plane.
+/// Returns a projection whose depth goes from 1 at the near plane to -1 at the far plane.
 Mat4d reversed(Mat4d m)
 {
     for (int column = 0; column < 4; ++column)
@@ -97,8 +98,8 @@ struct PixelErrors
     double ours = 0.0, best = 0.0; ///< largest [pixels]
 };
 
-/// All over a perspective picture: of our rays, and of the best that floats have, which are exact
-/// directions of length 1, rounded.
+/// Returns the errors all over a perspective picture: those of our rays, and those of the best rays
+/// in float, which are exact directions of length 1, rounded.
 PixelErrors errorsEverywhere(const View& view)
 {
     const std::optional<CameraRays> rays = cameraRays(view, Vec3d(0.0));
@@ -137,8 +138,8 @@ TEST_CASE("camera rays: within a thousandth of a pixel for every kind of project
         Mat4d projection;
         double tolerance = 1e-3; // [pixels]
     };
-    // Rays are float: where a pixel subtends little of the direction, its 2^-24 are what can be
-    // seen.
+    // Rays are float: if a pixel subtends a small part of the direction, the direction's 2^-24
+    // become visible.
     const Case projections[] = {
         {"perspective", perspective},
         {"narrow", glm::perspective(0.02, aspect, 1.0, 1e4), 4e-3},
@@ -166,10 +167,10 @@ TEST_CASE("camera rays: within a thousandth of a pixel for every kind of project
 
 TEST_CASE("camera rays: what floats cannot hold, and no more than that", "[scene][stability 18]")
 {
-    // A component of a direction of length 1 is rounded by up to 2^-25: h pixels of a view of angle
-    // a see that as 2^-25 h / a, 1.6e-3 at 0.02 radians; a wall beside the eye, seen at 6 degrees,
-    // multiplies it. No origin makes up for an angle but at one distance. Our linear form rounds
-    // its terms as well.
+    // A component of a direction of length 1 is rounded by up to 2^-25. In h pixels of a view of
+    // angle a this is an error of 2^-25 h / a, which is 1.6e-3 at 0.02 radians; for a wall beside
+    // the eye, seen at 6 degrees, the error is larger. An origin makes up for an angle at one
+    // distance only. Our linear form rounds its terms as well.
     const double aspect = double(kWidth) / kHeight;
     const Mat4d narrow = glm::perspective(0.02, aspect, 1.0, 1e4);
     const Mat4d beside = glm::frustum(0.5, 0.9, 0.2, 0.6, 0.1, 100.0);
@@ -180,7 +181,7 @@ TEST_CASE("camera rays: what floats cannot hold, and no more than that", "[scene
         CHECK(errors.best > 1e-3);
         CHECK(errors.ours < 2.0 * errors.best);
     }
-    // Very wide views have room: their terms are the larger ones.
+    // Very wide views allow for more: their terms are the larger ones.
     const PixelErrors wide =
         errorsEverywhere(viewOf(glm::perspective(2.8, aspect, 0.1, 100.0), kLookAt));
     CAPTURE(wide.ours, wide.best);
@@ -251,7 +252,7 @@ TEST_CASE("camera rays: window depths along rays are those of the matrix, whiche
     const Mat4d perspective = glm::perspective(0.8, 1.5, 0.25, 40.0);
     const Mat4d parallel = glm::ortho(-2.0, 3.0, -1.0, 2.0, 0.25, 40.0);
     Mat4d oblique = perspective;
-    oblique[0][2] += 0.03; // a near plane that is not at right angles to the view
+    oblique[0][2] += 0.03; // the near plane is not at right angles to the view
     const struct
     {
         const char* name;
@@ -281,7 +282,7 @@ TEST_CASE("camera rays: window depths along rays are those of the matrix, whiche
             {
                 const double s = rays->nearS + distance / glm::length(ray.direction);
                 const Vec4d p = view.viewFromWorld * Vec4d(ray.origin + s * ray.direction, 1.0);
-                CHECK(p.z < 0.0); // away from the eye
+                CHECK(p.z < 0.0); // in front of the eye
                 const Vec4d clip = view.clipFromView * p;
                 const double change =
                     rays->orthographic ? s : 1.0 / s - 1.0 - x * rays->depthDx - y * rays->depthDy;
@@ -336,7 +337,7 @@ TEST_CASE("stability 3: camera rays of a scaled world in a scaled unit are the s
             glm::perspective(0.8, 16.0 / 9.0, 0.125 * s, 64.0 * s),
             glm::frustum(-0.1 * s, 0.35 * s, -0.02 * s, 0.3 * s, 0.1 * s, 100.0 * s),
             glm::ortho(-2.0 * s, 3.0 * s, -1.0 * s, 2.0 * s, 0.125 * s, 50.0 * s),
-            // An eye beside the view's origin, as of stereo: a pole with a length of its own.
+            // The eye is beside the view's origin, as in stereo: the pole has a length of its own.
             glm::translate(glm::perspective(0.8, 1.0, 0.125 * s, 64.0 * s), Vec3d(0.03 * s, 0, 0))};
     };
     const std::vector<Mat4d> ordinary = scaled(1.0);

@@ -1,5 +1,5 @@
-// BackgroundTracerTest.cpp - a worker that is held at the looks it takes at its clock: who waits
-// for it, what it hands over, when it sleeps. Layer: tests.
+// BackgroundTracerTest.cpp - a worker that is held whenever it looks at its clock: who waits for
+// the worker, what it hands over, and when it sleeps. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -26,7 +26,8 @@ namespace
 constexpr int kWidth = 64, kHeight = 48; // 12 tiles
 constexpr long kAll = std::numeric_limits<long>::max();
 
-/// A clock that moves on by 1 with each look, and lets so many looks pass.
+/// A clock that moves on by 1 with each look, and holds its caller after the number of looks that
+/// pass() has allowed.
 class Gate
 {
 public:
@@ -47,7 +48,7 @@ public:
         _changed.notify_all();
     }
 
-    /// Until the worker stands at the gate.
+    /// Waits until the worker is held by the gate.
     void awaitHeld()
     {
         std::unique_lock<std::mutex> lock(_mutex);
@@ -67,7 +68,7 @@ private:
     bool _held = false;
 };
 
-/// Waits for what another thread will bring about; a minute is for ever.
+/// Waits for what another thread will bring about, and gives up after a minute.
 template <class Condition> bool eventually(const Condition& condition)
 {
     for (int i = 0; i < 60000; ++i)
@@ -97,11 +98,11 @@ struct Pixels
     }
 };
 
-/// A scene, a view's worker, and what its images should be.
+/// A scene, the worker of one view, and the images that the worker should make.
 struct Desk
 {
     Desk()
-        : gate(std::make_shared<Gate>()), // the worker's, too, which outlives this
+        : gate(std::make_shared<Gate>()), // the worker has the gate, too, and outlives the desk
           tracer(std::make_unique<BackgroundTracer>([gate = gate] { return gate->look(); }))
     {
         inputs.options.integrator = IntegratorKind::Path;
@@ -119,7 +120,7 @@ struct Desk
         tracer->ask({inputs, view, {view}, budget, true}, ++frame);
     }
 
-    /// What a session makes of a view that nobody interrupts.
+    /// Returns the image that a session makes of a view if nobody interrupts the session.
     const Pixels& reference(double x, int passes = 1, float exposure = 0.0f)
     {
         Pixels& pixels = references[{x, passes, exposure}];
@@ -137,7 +138,7 @@ struct Desk
         return pixels;
     }
 
-    /// Lets looks pass one by one until it is so; how many.
+    /// Lets looks pass one by one until the condition holds; returns their number.
     template <class Condition> long passUntil(const Condition& condition)
     {
         long passed = 0;
@@ -169,7 +170,7 @@ TEST_CASE("background: who asks never waits, and what was begun first is shown f
 {
     Desk desk;
     desk.ask(0.0);
-    desk.gate->awaitHeld(); // at work on it
+    desk.gate->awaitHeld(); // the worker traces view 0
     for (int i = 1; i <= 100; ++i)
     {
         desk.ask(i);
@@ -181,7 +182,7 @@ TEST_CASE("background: who asks never waits, and what was begun first is shown f
     desk.passUntil([&] { return desk.tracer->takeNewest(desk.shown); });
     CHECK(desk.reference(0.0) == desk.shown);
     desk.passUntil([&] { return desk.tracer->takeNewest(desk.shown); });
-    CHECK(desk.reference(100.0) == desk.shown); // nobody wants the others any more
+    CHECK(desk.reference(100.0) == desk.shown); // views 1 to 99 are no longer wanted
     desk.gate->pass(kAll);
     REQUIRE(desk.rests());
     CHECK_FALSE(desk.tracer->takeNewest(desk.shown));
@@ -196,7 +197,7 @@ TEST_CASE("background: a view that moves has images all the time, each of one vi
     REQUIRE(eventually(
         [&]
         {
-            desk.ask(desk.frame % 5); // moves in each frame
+            desk.ask(desk.frame % 5); // the view moves in each frame
             if (!desk.tracer->takeNewest(desk.shown)) return false;
             bool asked = false;
             for (int x = 0; x < 5; ++x)
@@ -212,19 +213,19 @@ TEST_CASE("background: once an image is there, another view cuts the pass at wor
 {
     Desk desk;
     desk.inputs.maxPasses = 100000;
-    desk.budget = {2000.0, false}; // looks: each tile is one
+    desk.budget = {2000.0, false}; // in looks: each tile is one look
     const auto stepEnds = [&] { return desk.tracer->report(desk.frame).fresh; };
     desk.ask(0.0);
     desk.passUntil(stepEnds);
     const int passes = desk.tracer->report(desk.frame).progress.passes;
     desk.gate->pass(100);
-    desk.gate->awaitHeld(); // somewhere in the second step
+    desk.gate->awaitHeld(); // the worker is within the second step
     desk.ask(1.0);
     CHECK(desk.passUntil(stepEnds) < 20);
     CHECK(desk.tracer->report(desk.frame).progress.passes < passes + 20);
     CHECK(desk.tracer->report(desk.frame).age > 0);
 
-    // The first image of a view is not given up for another one.
+    // The first image of a view is completed even if another view is asked for.
     desk.gate->pass(100);
     desk.gate->awaitHeld();
     desk.ask(2.0);
@@ -248,7 +249,8 @@ TEST_CASE(
     CHECK(done.passes == 5);
     CHECK(desk.tracer->report(desk.frame).age == 0);
 
-    // The same again, but for OSG's rounding: the worker does not even look at its clock.
+    // The same view is asked for again but for a difference as by OSG's rounding: the worker does
+    // not even look at its clock.
     const long looks = desk.gate->looks();
     View same = viewAt(0.0);
     same.clipFromView[2][2] *= 1.0 + 1e-15;
@@ -257,7 +259,7 @@ TEST_CASE(
     CHECK_FALSE(desk.tracer->isWorking());
     CHECK(desk.gate->looks() == looks);
 
-    // Another exposure: another picture of the same samples.
+    // Another exposure gives another picture of the same samples.
     desk.inputs.exposureEv = 1.0f;
     desk.ask(0.0);
     REQUIRE(desk.rests());
@@ -288,7 +290,7 @@ TEST_CASE("background: destroyed while its worker traces it does not wait, and n
     desk.gate->awaitHeld();
     desk.tracer.reset();
     desk.inputs = ViewInputs();
-    CHECK_FALSE(scene.expired()); // it is traced still
+    CHECK_FALSE(scene.expired()); // the worker still traces the scene
     desk.gate->pass(kAll);
     CHECK(eventually([&] { return scene.expired(); }));
 }
@@ -312,7 +314,7 @@ TEST_CASE(
         tracer->trace(desk.inputs, viewAt(0.0));
         CHECK(tracer->progress().passes == passes + 1);
     }
-    CHECK_FALSE(desk.tracer->takeNewest(desk.shown)); // of before
+    CHECK_FALSE(desk.tracer->takeNewest(desk.shown)); // images of before are gone
     CHECK(desk.rests());                              // the thread ends
     desk.inputs.maxPasses = passes + 4;
     desk.ask(0.0);
@@ -411,17 +413,16 @@ TEST_CASE("background: each thread of a worker is prepared once, before it trace
     CHECK(prepared.size() == 2);
 }
 
-// A test of its own: what it checks is that the process ends.
+// This test runs in a process of its own, because it checks that the process ends.
 TEST_CASE("background: who asks on while the process ends does not keep the worker from ending",
           "[.][ask-while-exiting]")
 {
     static Desk& desk = *new Desk;
     desk.ask(0.0);
-    desk.gate->awaitHeld(); // at work
+    desk.gate->awaitHeld(); // the worker is tracing
     const auto askOn = []
     {
-        desk.ask(1.0); // the view's worker has been told to stop: threads are in the order of their
-                       // start
+        desk.ask(1.0); // the worker has been told to stop: threads stop in the order of their start
         desk.gate->pass(kAll);
     };
     REQUIRE(startBackgroundThread([] {}, askOn));

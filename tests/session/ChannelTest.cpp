@@ -13,7 +13,7 @@ namespace
 
 constexpr int kWidth = 37, kHeight = 21;
 
-/// A tilted plane that fills part of the view, far to the left of it nothing.
+/// A tilted plane that fills the view but for the left part, which is empty.
 struct TiltedPlane
 {
     Vec3d origin{1000.0, -2000.0, 500.0}; ///< of the scene
@@ -52,7 +52,8 @@ struct Truth
     double depth = 1.0, distance = 0.0;
 };
 
-/// Where the line of a pixel centre meets the plane, by the matrices in double.
+/// Returns the point in which the line through a pixel's centre meets the plane, by the matrices in
+/// double.
 Truth truthAt(const View& view, const TiltedPlane& plane, int x, int y)
 {
     const Mat4d worldFromClip = glm::inverse(view.clipFromView * view.viewFromWorld);
@@ -69,7 +70,7 @@ Truth truthAt(const View& view, const TiltedPlane& plane, int x, int y)
     truth.position = near + t * (far - near);
     const Vec3d local = truth.position - plane.corner;
     const Vec4d clip = view.clipFromView * view.viewFromWorld * Vec4d(truth.position, 1.0);
-    // The parallelogram's coordinates.
+    // These are the parallelogram's coordinates of the point.
     const double uu = glm::dot(plane.u, plane.u), vv = glm::dot(plane.v, plane.v),
                  uv = glm::dot(plane.u, plane.v);
     const double lu = glm::dot(local, plane.u), lv = glm::dot(local, plane.v),
@@ -111,8 +112,8 @@ TEST_CASE("channels: depth, normal, position and id agree with the matrices", "[
                 const Truth truth = truthAt(view, plane, x, y);
                 const auto at = static_cast<std::size_t>(y * kWidth + x);
                 CAPTURE(x, y);
-                // The first pass looks for depth somewhere in the pixel: at the plane's edge it may
-                // miss.
+                // The first pass takes the depth of a random point of the pixel: at the plane's
+                // edge this point may miss the plane.
                 depthErrors += std::abs(depth[at] - truth.depth) > 2e-6;
                 if (!truth.hit)
                 {
@@ -135,7 +136,7 @@ TEST_CASE("channels: depth, normal, position and id agree with the matrices", "[
         CHECK(misses > 100);
         CHECK(depthErrors < 2 * kHeight);
 
-        // Display depth is the depth channel.
+        // The display's depth is the depth channel.
         std::vector<uint8_t> bytes(4 * kWidth * kHeight);
         std::vector<float> displayDepth(kWidth * kHeight);
         session.resolveDisplay(ToneMap(), bytes.data(), displayDepth.data());
@@ -147,7 +148,7 @@ TEST_CASE("channels: normals face the viewer on back sides", "[session]")
 {
     SceneBuilder builder;
     builder.add(quadMesh({-5, -5, 0}, {0, 10, 0}, {10, 0, 0}),
-                lambert(Vec3(0.5f))); // its front looks down
+                lambert(Vec3(0.5f))); // its front faces downwards
     RenderSession session(std::make_shared<Workers>(1));
     session.setScene(builder.build());
     session.setView(patchView({0, 0, 0}, {0, 0, 1}, 1.0, 4));
@@ -169,8 +170,8 @@ TEST_CASE("channels: the error channel holds the halves' difference", "[session]
     session.render(rule);
     const std::vector<float> error = session.resolveChannel(Channel::Error),
                              image = session.resolveRadiance();
-    // The square root of its mean square, relative to the mean of 16 x 16 pixels as the session's
-    // estimate is.
+    // The expected value is the square root of the channel's mean square, relative to the mean of
+    // 16 x 16 pixels, as in the session's estimate.
     double sum = 0.0;
     for (std::size_t tile = 0; tile < 4; ++tile)
     {
@@ -226,7 +227,7 @@ TEST_CASE("debug integrator: each channel shows what it says", "[session]")
     CHECK(shown(DebugChannel::Id) == shown(DebugChannel::Id));
     CHECK(shown(DebugChannel::Id) != Vec3(0.0f));
     CHECK(shown(DebugChannel::Cost).x >= 1.0f / 64.0f);
-    // A plane halfway between near and far plane of an orthographic view: 0.5 to 2 sides away, it
-    // is at 1.
+    // The plane is halfway between the near and the far plane of an orthographic view: these are
+    // 0.5 and 2 sides away, and the plane is 1 side away.
     CHECK(shown(DebugChannel::Depth).x == Approx(1.0 / 3.0).epsilon(1e-3));
 }

@@ -1,4 +1,4 @@
-// DenoiseFilterTest.cpp - noise goes, edges stay, and a converged image is left alone.
+// DenoiseFilterTest.cpp - noise is removed, edges stay, and a converged image is left alone.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/denoise/DenoiseFilter.h"
 
@@ -16,7 +16,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// A wall at distance 5, square to the view, of albedo 1/2.
+/// Returns a sample of a wall at distance 5 with albedo 1/2 that faces the eye.
 SurfaceSample wall(Vec3 normal = Vec3(0, 0, 1), float distance = 5.0f, Vec3 albedo = Vec3(0.5f))
 {
     return {normal, distance, albedo, 1};
@@ -49,7 +49,8 @@ struct TestImage
         denoise.filter(image, workers);
     }
 
-    /// Each channel multiplied by 1 + sigma times a normal number, cut off at 0; the errors say so.
+    /// Multiplies all channels of a pixel by 1 + sigma times a normal number, cut off at 0; the
+    /// errors tell this noise.
     void addNoise(double sigma, bool withErrors, unsigned seed)
     {
         std::mt19937 random(seed);
@@ -58,7 +59,7 @@ struct TestImage
         for (std::size_t i = 0; i < image.radiance.size() / 4; ++i)
         {
             const double factor = std::max(0.0, 1.0 + sigma * normal(random));
-            const double error = sigma * std::fabs(normal(random)); // of two halves: one number
+            const double error = sigma * std::fabs(normal(random)); // two halves: one number
             for (std::size_t c = 0; c < 3; ++c)
             {
                 if (withErrors)
@@ -87,7 +88,7 @@ double meanSquare(const std::vector<float>& a, const std::vector<float>& b)
     return sum / static_cast<double>(a.size());
 }
 
-/// Mean of the pixels' red over columns [left, right).
+/// Returns the mean of the pixels' red over columns [left, right).
 double meanOfColumns(const TestImage& t, int left, int right)
 {
     double sum = 0.0;
@@ -110,7 +111,7 @@ TEST_CASE("denoise: an even image is left as it is", "[session][denoise]")
                             x < 20 ? Vec3(0.8f, 0.0f, 0.3f) : Vec3(0.1f * float(y % 7)));
             },
             [](int, int) { return Vec3(0); });
-        for (std::size_t i = 0; i < t.surfaces.size(); ++i) // as much light everywhere
+        for (std::size_t i = 0; i < t.surfaces.size(); ++i) // the irradiance is even
             for (int c = 0; c < 3; ++c)
                 t.image.radiance[4 * i + std::size_t(c)] =
                     3.0f * std::max(t.surfaces[i].albedo[c], 0.02f);
@@ -124,8 +125,8 @@ TEST_CASE("denoise: an even image is left as it is", "[session][denoise]")
 
 TEST_CASE("denoise: noise on a wall falls to a 300th, on a floor to a 120th", "[session][denoise]")
 {
-    // Square to the view, and a floor whose distance grows from row to row up to 10 times what it
-    // was.
+    // The surfaces are a wall that faces the eye, and a floor whose distance grows from row to row
+    // up to tenfold.
     for (const bool floor : {false, true})
     {
         for (const bool withErrors : {false, true})
@@ -162,7 +163,7 @@ TEST_CASE("denoise: edges of depth, of normals and of albedo keep their contrast
         t.addNoise(0.5, false, 3);
         t.filter();
         INFO("kind " << kind);
-        // What is left of the noise in the mean of a column is a hundredth of it.
+        // The mean of a column has a hundredth of the noise left.
         CHECK(meanOfColumns(t, kEdge - 1, kEdge) == Approx(0.8).epsilon(0.1));
         CHECK(meanOfColumns(t, kEdge, kEdge + 1) == Approx(0.1).epsilon(0.1));
     }
@@ -206,7 +207,7 @@ TEST_CASE("denoise: lamps, mirrors and the background stay as they are and lend 
     {
         for (int x = 0; x < 64; ++x)
         {
-            // The pixels beside them may show some of them.
+            // Pixels beside the bright stripes may contain some of their light.
             const bool keeps = x >= 15 && (x < 33 || x >= 47);
             if (keeps)
                 REQUIRE(t.at(x, y) == before.at(x, y));
@@ -222,7 +223,7 @@ TEST_CASE("denoise: lamps, mirrors and the background stay as they are and lend 
 
 TEST_CASE("denoise: as errors fall, what is changed stays within them", "[session][denoise]")
 {
-    // Ripples that no guide shows, of a period of 6 pixels.
+    // The image has ripples of a period of 6 pixels that no guide shows.
     for (const double sigma : {0.3, 0.03, 0.003})
     {
         TestImage t(
@@ -280,7 +281,8 @@ TEST_CASE("denoise: what is not finite stays where it is", "[session][denoise]")
 TEST_CASE("denoise: alpha is kept and divided by first, and what is not there lends nothing",
           "[session][denoise]")
 {
-    // A veil of alpha 1/4 left, an empty stripe, and as bright a wall right.
+    // The image has a veil of alpha 1/4 on the left, an empty stripe, and a wall as bright as the
+    // veil on the right.
     TestImage t(
         96, 32, [](int, int) { return wall(); }, [](int, int) { return Vec3(0.4f); });
     t.addNoise(0.3, false, 4);
@@ -334,7 +336,7 @@ TEST_CASE("denoise: any size, and an image of another size is left alone", "[ses
 namespace
 {
 
-/// Passes of the box, and the same filtered.
+/// Passes of the box before and after filtering.
 struct Filtered
 {
     std::vector<float> before, after;
@@ -383,8 +385,8 @@ TEST_CASE("denoise: at one pass the box has a quarter of the error, at four half
     constexpr int kSize = 64;
     const Filtered converged = filteredBox(scene, kSize, 256, 99, 2);
     const std::vector<float>& right = converged.before;
-    // The edges of the lamp and of the sky are as rough as before: pixels beside them show some of
-    // them, or none, by chance.
+    // The edges of the lamp and of the sky are as rough as before: by chance, pixels beside them
+    // contain some of their light or none.
     const auto isEdge = [&](int pixel)
     {
         const int column = pixel % kSize, row = pixel / kSize;
@@ -413,7 +415,7 @@ TEST_CASE("denoise: at one pass the box has a quarter of the error, at four half
             const Filtered box = filteredBox(scene, kSize, passes, seed, 2);
             INFO("passes " << passes << ", before " << relMse(box.before) << ", after "
                            << relMse(box.after));
-            // Of 64 x 64 pixels many are edges, whose jitter is not the filter's.
+            // Many of the 64 x 64 pixels are edges, whose jitter the filter does not change.
             CHECK(relMse(box.after) < relMse(box.before) / (passes == 1 ? 4.0 : 2.0));
         }
     }
@@ -427,6 +429,6 @@ TEST_CASE("denoise: a converged box is left within its standard error", "[sessio
         variance += double(error) * error;
     variance /= static_cast<double>(box.error.size());
     CHECK(variance > 0.0);
-    // Means over RGBA, of which alpha does not change, against means over RGB.
+    // The means are over RGBA, where alpha does not change, and are compared with means over RGB.
     CHECK(meanSquare(box.after, box.before) * 4.0 / 3.0 < variance);
 }

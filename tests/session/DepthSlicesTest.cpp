@@ -1,5 +1,5 @@
-// DepthSlicesTest.cpp - one picture for slices of depth: planes and depths against matrices. Layer:
-// tests.
+// DepthSlicesTest.cpp - one picture for slices of depth: planes and depths compared with matrices.
+// Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/view/DepthSlices.h"
 
@@ -29,7 +29,7 @@ Mat4d reversed(Mat4d m)
     return m;
 }
 
-/// Window depth at a distance along -z.
+/// Returns the window depth at a distance along -z.
 double windowDepth(const View& view, double distance)
 {
     const Vec4d clip = view.clipFromView * Vec4d(0.0, 0.0, -distance, 1.0);
@@ -38,7 +38,7 @@ double windowDepth(const View& view, double distance)
 
 constexpr double kNear = 0.01, kFar = 10000.0;
 
-/// Planes of three slices that follow each other.
+/// The planes of three slices that follow each other.
 constexpr double kPlanes[] = {kNear, 1.0, 100.0, kFar};
 
 } // namespace
@@ -74,7 +74,7 @@ TEST_CASE("depth slices: planes of a view from its matrix", "[session]")
         CHECK(planes->reversed() == (c.name[0] == 'r'));
     }
     Mat4d oblique = perspective;
-    oblique[0][2] = 0.1; // depth changes with x
+    oblique[0][2] = 0.1; // the depth changes with x
     CHECK_FALSE(depthPlanes(viewOf(oblique)));
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("depth slices: depths of the traced view become those of each slice", 
         {
             const double expected = windowDepth(slices[i], distance);
             const double depth = windowDepth(traced, distance);
-            // As a film keeps it, as a shader computes.
+            // A film keeps float depths, and a shader computes in float.
             const float stored = static_cast<float>(depth);
             const float shown = map.scale * stored + map.offset;
             if (!orthographic) CHECK((depth > 0.0 && depth <= 1.0 + 1e-12));
@@ -110,8 +110,8 @@ TEST_CASE("depth slices: depths of the traced view become those of each slice", 
                 distance > kPlanes[2 - i] * 1.001 && distance < kPlanes[3 - i] * 0.999;
             const bool outside =
                 distance < kPlanes[2 - i] * 0.999 || distance > kPlanes[3 - i] * 1.001;
-            // Three units of a buffer of 24 bits; all slices of a parallel view share the floats of
-            // one.
+            // The tolerance is three units of a buffer of 24 bits; all slices of a parallel view
+            // share the floats of one depth range.
             const double tolerance =
                 orthographic ? 6e-8 * kFar / (kPlanes[3 - i] - kPlanes[2 - i]) : 1.8e-7;
             if (inside) CHECK(std::fabs(shown - expected) < tolerance);

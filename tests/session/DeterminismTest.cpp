@@ -1,5 +1,5 @@
-// DeterminismTest.cpp - images do not depend on threads, on the order of tiles or on where the
-// world is.
+// DeterminismTest.cpp - images do not depend on threads, on the order of tiles or on the place of
+// the scene in the world.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -20,7 +20,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// The Cornell box with one of each kind of surface in it.
+/// Returns the Cornell box with a surface of each kind in it.
 SceneBuilder mixedBox(Vec3 offset = Vec3(0.0f))
 {
     SceneBuilder builder = cornellBox(offset);
@@ -42,7 +42,7 @@ SceneBuilder mixedBox(Vec3 offset = Vec3(0.0f))
 TEST_CASE("determinism: equal images for 1, 2, 3 and 16 threads and in every run, bit by bit",
           "[session][stability 50]")
 {
-    // Else TBB has no more threads than the machine has cores.
+    // Without this limit TBB has no more threads than the machine has cores.
     const tbb::global_control sixteen(tbb::global_control::max_allowed_parallelism, 16);
     const auto traced = mixedBox().build();
     for (const IntegratorKind kind :
@@ -50,7 +50,7 @@ TEST_CASE("determinism: equal images for 1, 2, 3 and 16 threads and in every run
           IntegratorKind::PhotonCaustics})
     {
         RenderOptions options = optionsOf(kind);
-        options.photons = 20000; // some for each of the threads
+        options.photons = 20000; // some for each thread
         const Picture one = render(traced, cornellView(70, 50), options, 6, 1);
         CHECK(one.progress.droppedSamples == 0);
         CHECK(one.mean().y > 0.01f);
@@ -120,7 +120,8 @@ TEST_CASE("determinism: a scene at the radius of the earth looks as it does at t
         const Picture there = render(far.build(), view, optionsOf(kind), 2);
         CHECK(there.rgba == here.rgba);
 
-        // Turned, the eye moves by 1e-9: a handful of paths may meet an edge from its other side.
+        // In a turned view the eye moves by 1e-9: a handful of paths may meet an edge from its
+        // other side.
         View turned =
             perspectiveView({150, 300, -700}, {290, 250, 10}, {0.1, 1, 0.05}, 37.0, 48, 48);
         const Picture hereTurned = render(near.build(), turned, optionsOf(kind), 2);

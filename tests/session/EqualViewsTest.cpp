@@ -1,5 +1,5 @@
-// EqualViewsTest.cpp - the walls of a CAVE under one frame budget: what they cost differs, what
-// they show does not.
+// EqualViewsTest.cpp - the walls of a CAVE under one frame budget: their costs differ, their
+// pictures do not.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -27,14 +27,14 @@ namespace
 constexpr int kWidth = 160, kHeight = 128, kMaxPasses = 4; // 80 tiles
 constexpr double kBudget = 250.0;
 
-/// Walls beside each other, all looked at from x.
+/// Returns the view of one of several walls beside each other, all seen from x.
 View viewOf(int wall, double x)
 {
     return perspectiveView({278 + x, 278, 20}, {78 + 200.0 * wall, 250, 559}, {0, 1, 0}, 40.0,
                            kWidth, kHeight);
 }
 
-/// What a tracer shows after a frame.
+/// The state of a wall's picture after a frame.
 struct WallPicture
 {
     int divider = 0, passes = 0, width = 0;
@@ -44,8 +44,7 @@ struct WallPicture
     }
 };
 
-/// A scene on several walls. Each tile that is traced moves the clock on by what it costs on its
-/// wall.
+/// A scene on several walls. Each traced tile moves the clock on by the cost of its wall.
 struct Cave
 {
     explicit Cave(const std::vector<double>& costs) : agreement(std::make_shared<FrameAgreement>())
@@ -134,11 +133,11 @@ struct Cave
     std::atomic<double> clock{0.0};
     double budget = kBudget;
     bool degrade = true;
-    double seconds = 0.0; ///< that the last frame took
+    double seconds = 0.0; ///< taken by the last frame
     uint64_t number = 100;
     ViewInputs inputs;
     std::shared_ptr<FrameAgreement> agreement;
-    std::vector<std::unique_ptr<Wall>> walls; ///< after what they refer to
+    std::vector<std::unique_ptr<Wall>> walls; ///< declared after what they refer to
 };
 
 bool allSame(const std::vector<WallPicture>& pictures)
@@ -147,7 +146,7 @@ bool allSame(const std::vector<WallPicture>& pictures)
                        [&](const WallPicture& picture) { return picture == pictures.front(); });
 }
 
-/// What a session that nobody hurries makes of a view.
+/// Returns the picture that a session without a deadline makes of a view.
 std::vector<uint8_t> reference(const Cave& cave, int wall, double x, const WallPicture& shown)
 {
     View view = viewOf(wall, x);
@@ -221,7 +220,7 @@ TEST_CASE(
     "equal views: at rest all walls complete each pass in the same frame, though it takes several",
     "[session]")
 {
-    Cave cave({0.5, 8.0, 3.0}); // 920 of 250 for a pass
+    Cave cave({0.5, 8.0, 3.0}); // a pass takes 920, the budget is 250
     for (int i = 0; i < 15; ++i)
         cave.frame(i);
     int last = 0, completed = 0, frames = 0;
@@ -242,7 +241,7 @@ TEST_CASE(
               reference(cave, wall, 14.0, {1, kMaxPasses, kWidth}));
     const double clock = cave.clock;
     cave.frame(14.0);
-    CHECK(cave.clock == clock); // done: no tile more
+    CHECK(cave.clock == clock); // all passes are done: no tile is traced
 }
 
 TEST_CASE("equal views: across the edge both walls show pictures of the same resolution and passes",
@@ -324,29 +323,29 @@ TEST_CASE("equal views: what becomes five thousand times as dear is given up aft
     Cave cave({0.02, 0.02});
     for (int i = 0; i < 10; ++i)
         cave.frame(i);
-    cave.walls[0]->cost = 100.0; // 8000 for a pass
+    cave.walls[0]->cost = 100.0; // a pass takes 8000
     const std::vector<WallPicture> pictures = cave.frame(10.0);
     CHECK(cave.seconds < 13.0 * kBudget);
     CHECK(pictures[0].divider > 1);
-    CHECK(allSame(pictures)); // the other comes later
+    CHECK(allSame(pictures)); // the other wall is drawn later
     for (int i = 11; i < 30; ++i)
     {
         CAPTURE(i);
         REQUIRE(allSame(cave.frame(i)));
-        if (i > 11) CHECK(cave.seconds < 1.3 * kBudget); // by a tile
+        if (i > 11) CHECK(cave.seconds < 1.3 * kBudget); // a tile may be too many
     }
 }
 
 TEST_CASE("equal views: passes that take far too long are fewer, for those that come later, too",
           "[session]")
 {
-    Cave cave({0.5, 0.02}); // 40 for a pass
+    Cave cave({0.5, 0.02}); // a pass takes 40
     cave.inputs.maxPasses = 100;
     for (int i = 0; i < 10; ++i)
         cave.frame(i);
     const int passes = cave.frame(10.0)[0].passes;
     CHECK(passes > 3);
-    cave.walls[0]->cost = 20.0; // 1600 for a pass: more than ten budgets for two
+    cave.walls[0]->cost = 20.0; // a pass takes 1600: two take more than ten budgets
     const std::vector<WallPicture> pictures = cave.frame(11.0);
     CHECK(pictures[0].passes < passes);
     CHECK(allSame(pictures));
@@ -382,15 +381,15 @@ TEST_CASE("equal views: passes that are imposed are traced, whatever they take",
     for (int i = 0; i < 5; ++i)
         for (const WallPicture& picture : cave.frame(i))
             CHECK(picture == WallPicture{3, 2, reducedSize(kWidth, 3)});
-    cave.frame(4.0); // not settled yet
+    cave.frame(4.0); // the view has not settled yet
     for (const WallPicture& picture : cave.frame(4.0))
-        CHECK(picture.divider == 3); // half of the tiles of the first pass
+        CHECK(picture.divider == 3); // half of the tiles of the first pass are traced
     for (const int passes : {1, 1, 2, 2, 3})
         for (const WallPicture& picture : cave.frame(4.0))
             CHECK(picture == WallPicture{1, passes, kWidth});
     const std::optional<FrameWork> offer = cave.agreement->offer(kBudget, true);
     REQUIRE(offer);
-    CHECK(offer->divider > 3); // it knows what they cost nevertheless
+    CHECK(offer->divider > 3); // the costs are known nevertheless
 }
 
 TEST_CASE("equal views: an offer is by the cost of all views, not of the one drawn last",
@@ -423,8 +422,8 @@ TEST_CASE("equal views: traced by several threads at once they agree, too", "[se
     std::condition_variable arrived;
     int waiting = 0, frame = -1;
     double begun = 0.0;
-    std::vector<double> taken; // by frames
-    // The swap of a frame waits for all windows.
+    std::vector<double> taken; // by each frame
+    // Returns once all windows have drawn the frame, as the swap of a frame does.
     const auto barrier = [&]
     {
         std::unique_lock<std::mutex> lock(mutex);
@@ -457,7 +456,8 @@ TEST_CASE("equal views: traced by several threads at once they agree, too", "[se
         CHECK(allSame(shown[std::size_t(i)]));
     }
     CHECK(shown.back()[0].divider == 1);
-    // Who is charged for what is not told exactly, and by the scheduler's luck a frame may be late.
+    // Costs are not charged exactly to their walls, and by the scheduler's luck a frame may be
+    // late.
     const auto median = taken.begin() + static_cast<std::ptrdiff_t>(taken.size() / 2);
     std::nth_element(taken.begin(), median, taken.end());
     CHECK(*median < 1.2 * kBudget);

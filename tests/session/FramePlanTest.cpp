@@ -1,4 +1,5 @@
-// FramePlanTest.cpp - resolutions and passes follow from costs, and hold still. Without a clock.
+// FramePlanTest.cpp - resolutions and passes follow from costs, and do not flicker. No test needs a
+// clock.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
@@ -22,11 +23,11 @@ int tilesAt(int divider)
     return tilesOf(reducedSize(kWidth, divider), reducedSize(kHeight, divider));
 }
 
-/// Frames of a machine whose costs are known to the test alone.
+/// Frames of a machine whose costs only the test knows.
 struct Machine
 {
     double passSeconds = 0.2;     ///< of full resolution
-    double reducedPenalty = 1.25; ///< of a tile of reduced resolution
+    double reducedPenalty = 1.25; ///< factor for a tile of reduced resolution
     double photonSeconds = 0.0;   ///< of each moved frame
     double noise = 0.1;           ///< standard deviation, relative
     double budget = 0.033;
@@ -42,8 +43,8 @@ struct Machine
     struct Frame
     {
         int divider;
-        double whole;   ///< what the first pass took, with photons
-        double seconds; ///< with what was added until the budget was spent
+        double whole;   ///< time of the first pass, with photons
+        double seconds; ///< with the passes that were added until the budget was spent
     };
 
     Frame moved(FramePlanner& planner)
@@ -116,8 +117,8 @@ TEST_CASE("frame plan: moving views fit into their budgets and fill them", "[ses
             }
             CHECK(late <= 4); // of 180, with a tenth of noise
             CHECK(spent > 0.9);
-            // As fine as fits: the next finer pass would not have been within kLittle of the
-            // budget.
+            // The resolution is as fine as fits: the next finer pass would not have been within
+            // kLittle of the budget.
             const int divider = frames.back().divider;
             if (divider > 1)
                 CHECK(pass * machine.reducedPenalty / ((divider - 1) * (divider - 1)) >
@@ -128,7 +129,7 @@ TEST_CASE("frame plan: moving views fit into their budgets and fill them", "[ses
 
 TEST_CASE("frame plan: the resolution is held while the view moves", "[session]")
 {
-    // Whatever the cost is near: with a tenth of noise there is no flicker.
+    // With a tenth of noise there is no flicker, whatever divider the cost is near to.
     for (double pass = 0.03; pass < 1.0; pass *= 1.07)
     {
         CAPTURE(pass);
@@ -146,9 +147,9 @@ TEST_CASE("frame plan: coarser at once, finer with patience", "[session]")
     machine.noise = 0.0;
     FramePlanner planner;
     const int divider = run(machine, planner, 40).back().divider;
-    CHECK(divider == 4); // 0.2 * 1.25 / 16 is below 0.75 of the budget, / 9 above
+    CHECK(divider == 4); // 0.2 * 1.25 / 16 is below 0.75 of the budget, 0.2 * 1.25 / 9 above
 
-    machine.passSeconds = 1.0; // the view turned to what is heavy
+    machine.passSeconds = 1.0; // the view has turned to heavy objects
     const auto heavy = run(machine, planner, 3);
     CHECK(heavy[0].divider == divider);
     CHECK(heavy[1].divider > divider);
@@ -173,7 +174,7 @@ TEST_CASE("frame plan: photons leave less for the picture", "[session]")
     CHECK(with.divider > without.divider);
     CHECK(with.whole < 0.033);
 
-    withPhotons.photonSeconds = 0.05; // more than all: the frame is late, but goes on
+    withPhotons.photonSeconds = 0.05; // more than the budget: the frame is late, but goes on
     const auto late = run(withPhotons, other, 40).back();
     CHECK(late.divider == FramePlanner::kLargestDivider);
 }
@@ -188,18 +189,18 @@ TEST_CASE("frame plan: a view at rest has full resolution, passes to fill the fr
     frame.width = kWidth;
     frame.height = kHeight;
     frame.seconds = 0.033;
-    CHECK(planner.plan(frame).passes == 1); // nothing is known
+    CHECK(planner.plan(frame).passes == 1); // costs are unknown
     machine.still(planner);
-    CHECK(planner.plan(frame).passes == 4); // three, and a part
+    CHECK(planner.plan(frame).passes == 4); // three, and a part of one
     frame.tilesLeft = tilesAt(1) / 2;
-    CHECK(planner.plan(frame).passes == 4); // half a one, two, and a part
+    CHECK(planner.plan(frame).passes == 4); // half a one, two, and a part of one
     machine.passSeconds = 0.2;
     for (int i = 0; i < 40; ++i)
         machine.still(planner);
     frame.tilesLeft = 0;
     CHECK(planner.plan(frame).passes == 1);
     frame.tilesLeft = tilesAt(1) / 20;
-    CHECK(planner.plan(frame).passes == 2); // the last tiles of one
+    CHECK(planner.plan(frame).passes == 2); // the last tiles of one, and the next
 }
 
 TEST_CASE("frame plan: a motion begins with what the still view cost", "[session]")

@@ -1,4 +1,4 @@
-// ImageStagesTest.cpp - upsampling goes along edges as far as there is time for it.
+// ImageStagesTest.cpp - upsampling follows edges as far as there is time.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -19,11 +19,11 @@ constexpr double kPixels = double(kWidth) * kHeight;
 enum class Traced
 {
     Nothing,
-    Edges,  ///< themselves
-    Around, ///< and what is beside them
+    Edges,  ///< pixels on edges
+    Around, ///< pixels on edges and beside them
 };
 
-/// The first pass of a reduced image.
+/// Renders the first pass of a reduced image.
 void renderReduced(RenderSession& session, const View& view)
 {
     RenderOptions options = optionsOf(IntegratorKind::Whitted);
@@ -36,7 +36,7 @@ void renderReduced(RenderSession& session, const View& view)
     REQUIRE(session.render(rule).status.ok());
 }
 
-/// A reduced image, and stages whose clock says that making the large one took so long.
+/// A reduced image, and stages whose clock says that upsampling took a given time.
 struct Enlarged
 {
     Enlarged()
@@ -48,14 +48,14 @@ struct Enlarged
         renderReduced(session, view);
         linear = expected(0.0);
         around = expected(ImageStages::kMostTraced);
-        REQUIRE(counts.around > 0.06); // enough to learn from
+        REQUIRE(counts.around > 0.06); // enough to learn the cost from
         REQUIRE(counts.around < ImageStages::kMostTraced);
         REQUIRE(counts.edges < 0.9 * counts.around);
         edges = expected(counts.edges);
         stages.reset(workers);
     }
 
-    /// What is traced if there are so many seconds.
+    /// Returns which pixels are traced if upsampling may take this many seconds.
     Traced traced(double seconds)
     {
         std::vector<uint8_t> rgba(4 * std::size_t(kPixels));
@@ -67,7 +67,7 @@ struct Enlarged
         return Traced::Nothing;
     }
 
-    /// So many pictures in which nothing is seen.
+    /// Presents this many pictures in which nothing is visible.
     void showBlank(int pictures)
     {
         View view = perspectiveView({278, 278, -900}, {278, 250, -2000}, {0, 1, 0}, 50.0, 8, 8);
@@ -111,14 +111,14 @@ TEST_CASE("image stages: edges are traced where there is time for them", "[sessi
     CHECK(enlarged.foreseen() == Approx(0.040).epsilon(0.01));
     CHECK(enlarged.traced(0.041) == Traced::Around);
 
-    // Without them it takes 1 ms. What edges would take is foreseen still, so that fewer pixels are
-    // chosen.
+    // Without edges an image takes 1 ms. The expected cost of edges is kept, so that fewer pixels
+    // are chosen.
     enlarged.taken = 0.001;
     CHECK(enlarged.traced(0.005) == Traced::Nothing);
     CHECK(enlarged.traced(0.005) == Traced::Nothing);
     CHECK(enlarged.foreseen() > 0.035);
 
-    // It is forgotten after a while, and tried again.
+    // The expected cost is forgotten after a while, and edges are tried again.
     int frames = 0;
     while (frames < 1000 && enlarged.traced(0.020) != Traced::Around)
         ++frames;
@@ -128,7 +128,7 @@ TEST_CASE("image stages: edges are traced where there is time for them", "[sessi
 
 TEST_CASE("image stages: the first picture along edges takes no more than it may", "[session]")
 {
-    // Nothing is known of edges, as where the views before had none.
+    // The cost of edges is unknown, as after views without edges.
     Enlarged enlarged;
     enlarged.taken = 0.001;
     CHECK(enlarged.traced(0.0015) == Traced::Nothing);
@@ -145,6 +145,6 @@ TEST_CASE("image stages: images without edges do not make edges cheap", "[sessio
     enlarged.taken = 3e-6;
     enlarged.showBlank(2000);
     enlarged.taken = 0.001;
-    CHECK(enlarged.foreseen() < 0.002);                // of a picture without
-    CHECK(enlarged.traced(0.0015) == Traced::Nothing); // as if nothing were known
+    CHECK(enlarged.foreseen() < 0.002);                // the time of a picture without edges
+    CHECK(enlarged.traced(0.0015) == Traced::Nothing); // as if the cost were unknown
 }

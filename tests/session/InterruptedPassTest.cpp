@@ -27,7 +27,7 @@ struct Display
     }
 };
 
-/// From within the box, so that there is noise in each tile.
+/// Returns a view from within the box, so that there is noise in each tile.
 View insideView()
 {
     return perspectiveView({278, 278, 20}, {278, 250, 559}, {0, 1, 0}, 50.0, kWidth, kHeight);
@@ -52,7 +52,7 @@ struct Room
     RenderSession session;
 };
 
-/// The rule that lets a call begin so many tiles.
+/// Returns the rule that lets a call begin this many tiles.
 StopRule someTiles(int passes, int tiles)
 {
     StopRule rule;
@@ -71,7 +71,7 @@ void copyMarked(const Display& from, Display& to, const ChangedTiles& changed)
     }
 }
 
-/// Of the tile of the pixel.
+/// Returns whether the tile that begins at the pixel is the same in both displays.
 bool sameTile(const Display& a, const Display& b, int tileX, int tileY)
 {
     for (int y = tileY; y < std::min(tileY + kTileSize, kHeight); ++y)
@@ -94,7 +94,7 @@ TEST_CASE("interrupted passes: bit by bit the image of an uninterrupted render",
           IntegratorKind::PhotonCaustics})
     {
         CAPTURE(int(kind));
-        constexpr int kPasses = 7; // past those after which photons are guided
+        constexpr int kPasses = 7; // includes passes whose photons are guided
         Room calm(kind), spread(kind);
         StopRule rule;
         rule.passes = kPasses;
@@ -111,9 +111,8 @@ TEST_CASE("interrupted passes: bit by bit the image of an uninterrupted render",
         CHECK(calls > kPasses);
         CHECK(spread.session.resolveRadiance() == calm.session.resolveRadiance());
         CHECK(spread.session.progress().rays.total() == calm.session.progress().rays.total());
-        CHECK(spread.session.tilesLeft() == 35); // of the next pass
-        CHECK(spread.session.render(someTiles(kPasses, 5)).newTiles ==
-              0); // done: nothing is traced
+        CHECK(spread.session.tilesLeft() == 35);                           // of the next pass
+        CHECK(spread.session.render(someTiles(kPasses, 5)).newTiles == 0); // all passes are done
     }
 }
 
@@ -123,7 +122,7 @@ TEST_CASE(
 {
     constexpr int kPasses = 3, kMost = 14;
     std::vector<Display> whole(kPasses + 1);
-    std::fill(whole[0].rgba.begin(), whole[0].rgba.end(), uint8_t(77)); // what is shown before
+    std::fill(whole[0].rgba.begin(), whole[0].rgba.end(), uint8_t(77)); // the former picture
     std::fill(whole[0].depth.begin(), whole[0].depth.end(), 0.25f);
     Room calm(IntegratorKind::Path);
     for (int pass = 1; pass <= kPasses; ++pass)
@@ -138,7 +137,7 @@ TEST_CASE(
     {
         Room spread(IntegratorKind::Path, threads);
         Display display = whole[0], copy = whole[0];
-        std::vector<int> passOf(35); // tile
+        std::vector<int> passOf(35); // by tile
         for (int call = 0; spread.session.progress().passes < kPasses; ++call)
         {
             StopRule rule = someTiles(kPasses, 1 + call % kMost);
@@ -150,7 +149,7 @@ TEST_CASE(
             target.changed = &changed;
             const RenderProgress result = spread.session.render(rule, {}, &target);
             copyMarked(display, copy, changed);
-            REQUIRE(copy.rgba == display.rgba); // nothing is written without a mark
+            REQUIRE(copy.rgba == display.rgba); // unmarked tiles are not written
             REQUIRE(copy.depth == display.depth);
             int sum = 0;
             for (int tile = 0; tile < 35; ++tile)
@@ -160,10 +159,10 @@ TEST_CASE(
                 while (pass <= kPasses && !sameTile(display, whole[static_cast<std::size_t>(pass)],
                                                     tile % 7 * kTileSize, tile / 7 * kTileSize))
                     ++pass;
-                REQUIRE(pass <= kPasses); // torn, if it is none of them
+                REQUIRE(pass <= kPasses); // otherwise the tile is torn
                 sum += pass - before;
             }
-            REQUIRE(sum == result.newTiles); // and each tile that was traced is shown
+            REQUIRE(sum == result.newTiles); // the display has each tile that was traced
             REQUIRE(*std::max_element(passOf.begin(), passOf.end()) <=
                     *std::min_element(passOf.begin(), passOf.end()) + 1);
         }
@@ -182,11 +181,11 @@ TEST_CASE("interrupted passes: shouldStop is asked before passes, with the photo
     rule.shouldStop = [&](int tiles, double seconds)
     {
         if (tiles % 35 == 0 && tiles > 0 && seconds > 0.0)
-            ahead.push_back(seconds); // this thread's
+            ahead.push_back(seconds); // the time of this thread's photons
         return false;
     };
     CHECK(room.session.render(rule).newTiles == 7 * 35);
-    CHECK(ahead.size() == 6); // all but the first, whose photons are no choice
+    CHECK(ahead.size() == 6); // all but the first pass, which must have photons
 
     View moved = insideView();
     moved.viewFromWorld[3][0] += 5.0;
@@ -194,7 +193,7 @@ TEST_CASE("interrupted passes: shouldStop is asked before passes, with the photo
     ahead.clear();
     rule.passes = 4;
     CHECK(room.session.render(rule).newTiles == 4 * 35);
-    CHECK(ahead.empty()); // the first four are kept
+    CHECK(ahead.empty()); // the first four passes are kept
 }
 
 TEST_CASE("interrupted passes: so many tiles as are allowed, by any number of threads, and the "
@@ -224,7 +223,7 @@ TEST_CASE("interrupted passes: so many tiles as are allowed, by any number of th
 
 TEST_CASE("interrupted passes: what is not shown in the pass is shown at the end", "[session]")
 {
-    // keepGoing ends after the first pass, though more were allowed.
+    // keepGoing ends the render after the first pass, although more passes were allowed.
     Room room(IntegratorKind::Whitted);
     Display shown, expected;
     DisplayTarget target = shown.target(false);

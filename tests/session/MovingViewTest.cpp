@@ -1,5 +1,4 @@
-// MovingViewTest.cpp - a view that moves takes along what it has accumulated, and nothing that is
-// wrong.
+// MovingViewTest.cpp - a view that moves carries its samples along, and nothing that is wrong.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/PhotonPasses.h"
 #include "osgRayTrace/session/view/ViewTracer.h"
@@ -25,14 +24,14 @@ View viewAt(double t, int width = kWidth, int height = kHeight)
                            {0, 1, 0}, 40.0, width, height);
 }
 
-/// Of the blocks and the floor alone.
+/// Returns a view of the blocks and the floor only.
 View lowViewAt(double t)
 {
     return perspectiveView({278.0 + 6.0 * t, 150.0 + 3.0 * t, -600.0}, {278.0, 150.0, 279.0},
                            {0, 1, 0}, 20.0, kWidth, kHeight);
 }
 
-/// A view traced frame by frame, one pass each.
+/// Traces a view frame by frame, with one pass each.
 struct Walker
 {
     explicit Walker(std::shared_ptr<const TracedScene> scene, bool reproject = true,
@@ -47,7 +46,7 @@ struct Walker
         inputs.options.seed = seed;
     }
 
-    /// What is shown of the frame: the display values, too, are those of the radiance.
+    /// Returns the radiance that is presented in the frame; rgba has its display values.
     std::vector<float> show(const View& view)
     {
         rgba.assign(
@@ -64,7 +63,7 @@ struct Walker
     std::vector<uint8_t> rgba;
 };
 
-/// That of the first frame of a view that was never anywhere else.
+/// Returns the picture of the first frame of a view without any history.
 std::vector<float> fresh(const Walker& walker, const View& view)
 {
     Walker other(walker.inputs.scene);
@@ -81,7 +80,7 @@ std::vector<float> converged(const std::shared_ptr<const TracedScene>& scene, co
     return render(scene, view, optionsOf(IntegratorKind::Path, 8, 77), passes).rgba;
 }
 
-/// Mean squared error of RGB.
+/// Returns the mean squared error of RGB.
 double squaredError(const std::vector<float>& picture, const std::vector<float>& reference)
 {
     double sum = 0.0;
@@ -135,13 +134,13 @@ TEST_CASE("moving view: the samples of earlier frames lower the error of a frame
     CHECK(with.share() > 0.9);
     CHECK(error < 0.3 * plain);
 
-    // What is displayed is that: sRGB of its values, to rounding.
+    // The display values are sRGB of the radiance, to rounding.
     for (std::size_t i = 0; i < image.size(); i += 4)
     {
         const double v = std::min(1.0, std::max(0.0, double(image[i])));
         const double display =
             255.0 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055);
-        if (image[i + 3] < 1.0f) continue; // encoded before it is multiplied by that
+        if (image[i + 3] < 1.0f) continue; // values are encoded before coverage scales them
         INFO(i << ": " << image[i] << " shown as " << int(with.rgba[i]));
         REQUIRE(std::abs(with.rgba[i] - display) < 0.52);
     }
@@ -165,11 +164,11 @@ TEST_CASE("moving view: at rest the history fades, and the image is the film's o
         const double plain = squaredError(
             render(scene, rest, optionsOf(IntegratorKind::Path), passes).rgba, reference);
         INFO(passes << " passes: " << plain << " to " << error);
-        // Both vary by chance.
+        // Both errors vary by chance.
         CHECK(error < 1.3 * plain);
     }
     CHECK(walker.share() == 0.0);
-    // And from here on as fast as ever: display values are written while tiles are traced.
+    // From here on tracing is as fast as ever: display values are written while tiles are traced.
     std::vector<float> depth(kWidth * kHeight);
     CHECK(walker.tracer.trace(walker.inputs, rest, {}, walker.rgba.data(), depth.data()));
 }
@@ -215,7 +214,8 @@ TEST_CASE("moving view: no change of the scene or the options leaves a trace of 
         check(*walker, view);
     }
 
-    // Switched off, it is gone; switched on again, it begins anew.
+    // The history is dropped if reprojection is switched off, and begins anew if it is switched on
+    // again.
     auto walker = walked();
     walker->inputs.reprojects = false;
     check(*walker, next);
@@ -223,13 +223,13 @@ TEST_CASE("moving view: no change of the scene or the options leaves a trace of 
     walker->show(next);
     CHECK(walker->share() == 0.0);
 
-    // A cut to where nothing was seen before.
+    // The view is cut to surfaces that nothing has seen before.
     walker = walked();
     walker->show(
         perspectiveView({278, 273, 200}, {278, 273, -900}, {0, 1, 0}, 40.0, kWidth, kHeight));
     CHECK(walker->share() == 0.0);
 
-    // A view that cannot be traced leaves things as they are.
+    // A view that cannot be traced leaves the history as it is.
     walker = walked();
     View broken = next;
     broken.clipFromView = Mat4d(0.0);
@@ -241,7 +241,8 @@ TEST_CASE("moving view: no change of the scene or the options leaves a trace of 
 TEST_CASE("moving view: a view of another size takes along what it can", "[session]")
 {
     const auto scene = cornellBox().build();
-    // To more pixels, where each sample counts for less; to fewer; and back.
+    // The sizes have more pixels, in which each sample counts for less, then fewer, then nearly as
+    // many as at first.
     const int sizes[][2] = {
         {2 * kWidth, 2 * kHeight}, {kWidth, kHeight}, {kWidth + 5, kHeight - 3}};
     Walker walker(scene), plain(scene, false);
@@ -259,7 +260,7 @@ TEST_CASE("moving view: a view of another size takes along what it can", "[sessi
         CHECK(walker.share() > 0.9);
         CHECK(error < 0.5 * without);
     }
-    walker.show(viewAt(8, 1, 1)); // whatever that shows
+    walker.show(viewAt(8, 1, 1)); // any picture will do
     CHECK(walker.show(lowViewAt(8)).size() == 4u * kWidth * kHeight);
 }
 
@@ -290,9 +291,9 @@ TEST_CASE("moving view: lights and textures that follow the eye leave no history
 
 TEST_CASE("moving view: the mean of a diffuse scene stays what it is", "[session][statistics]")
 {
-    // No lamp is seen: its edge would hide all else. Sixteen walks of twelve frames; false alarms:
-    // see Estimate::agrees, 1e-3 each. Pixels on edges mix surfaces that move apart: their four
-    // samples may bring 2 % of the picture's mean.
+    // No lamp is visible, because its edge would hide all else. There are sixteen walks of twelve
+    // frames; false alarms are those of Estimate::agrees, 1e-3 each. Pixels on edges mix surfaces
+    // that move apart: their four samples may bring 2 % of the picture's mean.
     const auto scene = cornellBox().build();
     const View last = lowViewAt(0.7 * 11);
     RenderSession session(std::make_shared<Workers>(1));
@@ -360,7 +361,7 @@ TEST_CASE("moving view: errors are those of film and history together", "[sessio
         ResolvedImage image = session.resolvedImage();
         if (passes == 1)
         {
-            // Four frames of one sample each are gone with the ninth pass, and not before.
+            // Four frames of one sample each are dropped with the ninth pass, and not before.
             const ResolvedImage film = image;
             ResolvedImage early = film, late = film;
             history.blend(early, 8, *workers);
@@ -378,7 +379,8 @@ TEST_CASE("moving view: errors are those of film and history together", "[sessio
         }
         const double actual = squaredError(image.radiance, reference);
         INFO(passes << " passes a frame: " << estimated << " estimated, " << actual << " actual");
-        // Carried samples are means of neighbours': they err less than as many of one pixel.
+        // Carried samples are means of neighbours' samples: they err less than as many samples of
+        // one pixel.
         CHECK(estimated < 4.0 * actual);
         CHECK(estimated > 0.7 * actual);
     }

@@ -1,4 +1,4 @@
-// RenderSessionTest.cpp - restart, continue, stop, cancel, and what bad views do.
+// RenderSessionTest.cpp - restart, continue, stop, cancel, and the effects of bad views.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -47,7 +47,7 @@ TEST_CASE("session: passes add up over calls to the same image as in one call", 
     const RenderProgress second = steps.renderTo(7);
     CHECK_FALSE(second.restarted);
     CHECK(second.passes == 7);
-    CHECK(steps.renderTo(5).passes == 7); // there already
+    CHECK(steps.renderTo(5).passes == 7); // this number has been reached
     const RenderProgress all = whole.renderTo(7);
     CHECK(steps.session.resolveRadiance() == whole.session.resolveRadiance());
     CHECK(second.rays.camera == all.rays.camera);
@@ -78,7 +78,7 @@ TEST_CASE("session: a new scene, view or option restarts; the same ones do not",
     CHECK(box.session.resolveRadiance() != before);
     box.session.setView(cornellView(40, 40));
     CHECK(box.renderTo(2).restarted);
-    CHECK(box.session.resolveRadiance() == before); // there and back again
+    CHECK(box.session.resolveRadiance() == before); // the view came back
 
     box.session.setOptions(optionsOf(IntegratorKind::Path, 3, 1));
     CHECK(box.renderTo(2).restarted);
@@ -87,7 +87,7 @@ TEST_CASE("session: a new scene, view or option restarts; the same ones do not",
     box.session.setScene(cornellBox().build());
     box.session.setOptions(optionsOf(IntegratorKind::Path, 3));
     CHECK(box.renderTo(2).restarted);
-    CHECK(box.session.resolveRadiance() == before); // an equal scene, an equal image
+    CHECK(box.session.resolveRadiance() == before); // an equal scene gives an equal image
 }
 
 TEST_CASE("session: stops at the estimated error that was asked for", "[session]")
@@ -109,9 +109,9 @@ TEST_CASE("session: stops at the estimated error that was asked for", "[session]
     CHECK(progress.passes > 2);
     CHECK(progress.passes < 4096);
     CHECK(errors.front() ==
-          std::numeric_limits<double>::infinity()); // one pass knows nothing of its error
+          std::numeric_limits<double>::infinity()); // one pass does not tell its error
     for (const double error : errors)
-        CHECK(error > 0.12); // and it did not go on after it
+        CHECK(error > 0.12); // rendering stopped once the error was reached
 }
 
 TEST_CASE("session: stops when its time is over, or when told to", "[session]")
@@ -149,7 +149,7 @@ TEST_CASE("session: cancelled again and again, the image is still that of an uni
             }
         });
     int cancelled = 0, largest = 0;
-    // It ends: a tile that is begun is finished, so each call adds some.
+    // The loop ends: a tile that is begun is finished, so each call adds some tiles.
     for (int call = 0; call < 1000000 && disturbed.session.progress().passes < kPasses; ++call)
     {
         const RenderProgress progress = disturbed.renderTo(kPasses);

@@ -18,7 +18,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// Part of a plane, relative to the world's point that a test chooses.
+/// A part of a plane, relative to the point of the world that a test chooses.
 struct Plane
 {
     Vec3d point, normal;
@@ -33,7 +33,7 @@ struct Seen
     uint32_t object = 0;
 };
 
-/// What the pixels of a view see of some planes, worked out in double.
+/// What the pixels of a view see of some planes, computed in double.
 struct Sight
 {
     View view;
@@ -149,7 +149,7 @@ View infiniteView(Vec3d eye, Vec3d centre, int width, int height)
     return view;
 }
 
-/// Waves of about twelve pixels.
+/// Returns waves of about twelve pixels.
 Vec3 waves(const Seen& seen)
 {
     if (seen.object == 0) return Vec3(0.0f);
@@ -185,7 +185,7 @@ TEST_CASE(
         const auto sight = [&](Vec3d eye, Vec3d centre)
         { return look(c.view(c.origin + eye, c.origin + centre, 101, 77), {kWall}, c.origin); };
         const Sight from = sight({0.2, 0.3, 6}, {0, 0, 0});
-        // Moved, turned, nearer.
+        // The view is moved, turned and nearer.
         const Sight to = sight({0.237, 0.281, 5.9}, {0.1, 0.05, 0});
         const SampledImage result = carry(imageOf(from, waves, 8.0f), from, to);
         int taken = 0, full = 0, off = 0;
@@ -205,8 +205,8 @@ TEST_CASE(
                 unmoved = std::max(unmoved, double(std::abs(before[k] - expected[k])));
             }
         }
-        // Waves are 0.26 steep a pixel; cubics lose a hundredth of them, bilinear means at the
-        // image's rim more.
+        // The waves have a slope of 0.26 a pixel. Cubics lose a hundredth of them, and bilinear
+        // means at the image's rim lose more.
         CHECK(largest < 0.12);
         CHECK(off < 0.03 * 3.0 * taken);
         CHECK(unmoved > 0.2);
@@ -237,7 +237,7 @@ TEST_CASE("reprojection: a view that does not change changes nothing", "[session
 
 TEST_CASE("reprojection: what a bar hid has no history, and none of the bar's", "[session]")
 {
-    for (const uint32_t barObject : {1u, 2u}) // of the wall's own object, too
+    for (const uint32_t barObject : {1u, 2u}) // 1 is the wall's own object
     {
         const Plane bar{
             {0, 0, 1.5}, {0, 0, 1}, barObject, [](Vec3d p) { return std::abs(p.x) < 0.4; }};
@@ -259,9 +259,11 @@ TEST_CASE("reprojection: what a bar hid has no history, and none of the bar's", 
             {
                 const Seen& seen = to.seen[i];
                 const float red = result.radiance[4 * i], green = result.radiance[4 * i + 1];
-                // Where the line from the point to the old eye (0, 0, 6) passes z = 1.5.
+                // This is the x at which the line from the point to the old eye (0, 0, 6) passes z
+                // = 1.5.
                 const double x = seen.point.x * (1.0 - 1.5 / 6.0);
-                // Both have been seen as they are; at the rim of the old image there is nothing.
+                // The bar and the wall keep their own colours; at the rim of the old image there
+                // are no samples.
                 if (!isBar(seen))
                 {
                     REQUIRE(red == 0.0f);
@@ -279,7 +281,7 @@ TEST_CASE("reprojection: what a bar hid has no history, and none of the bar's", 
             }
             CHECK(hidden > 200 * std::abs(move));
             CHECK(kept > 500);
-            // But for what borders on the bar in the new view.
+            // Only pixels that border on the bar in the new view are lost.
             CHECK(lost < 0.05 * kept);
         }
     }
@@ -288,7 +290,7 @@ TEST_CASE("reprojection: what a bar hid has no history, and none of the bar's", 
 TEST_CASE("reprojection: pixels that border on other surfaces give nothing to those that do not",
           "[session]")
 {
-    // As renders have them, the pixels beside the bar are mixed of both.
+    // The pixels beside the bar are mixtures of both surfaces, as in renders.
     const Plane bar{{0, 0, 1.5}, {0, 0, 1}, 2, [](Vec3d p) { return std::abs(p.x) < 0.4; }};
     const auto sight = [&](double x) {
         return look(perspectiveView({x, 0, 6}, {x, 0, 0}, {0, 1, 0}, 40.0, 160, 90), {kWall, bar});
@@ -344,12 +346,12 @@ TEST_CASE(
         sample.object = 2;
     CHECK(shareOf(other) == 0.0);
 
-    // A pixel is 2 tan(20 degrees) 6 / 48 = 0.09 wide there.
+    // A pixel is 2 tan(20 degrees) 6 / 48 = 0.09 wide at the wall.
     CHECK(shareOf(look(after, {Plane{{0, 0, 0.5}, {0, 0, 1}}})) == 0.0);
     CHECK(shareOf(look(after, {Plane{{0, 0, -0.5}, {0, 0, 1}}})) == 0.0);
     CHECK(shareOf(look(after, {Plane{{0, 0, 0.05}, {0, 0, 1}}})) > 0.95);
 
-    // A cut: another side, or another place.
+    // The view is cut to another side or to another place.
     CHECK(shareOf(look(perspectiveView({0, 0, -6}, {0, 0, -20}, {0, 1, 0}, 40.0, 64, 48),
                        {Plane{{0, 0, -12}, {0, 0, 1}}})) == 0.0);
     CHECK(shareOf(look(perspectiveView({50, 0, 6}, {50, 0, 0}, {0, 1, 0}, 40.0, 64, 48),
@@ -380,7 +382,7 @@ TEST_CASE("reprojection: mirrors keep what was seen from the same place alone, g
         const Sight from = sight({0, 0, 6}, 0.0f, lobe);
         CHECK(countOf(from, from) == most);
         CHECK(countOf(from, sight({0, 0, 6}, 0.1f, lobe)) == most); // turned
-        // The point is seen from 0.06 / 6 = 0.01 radians aside.
+        // The eye has moved aside by 0.06 / 6 = 0.01 radians as seen from the point.
         const float moved = countOf(from, sight({0.06, 0, 6}, 0.0f, lobe));
         CHECK(moved == Approx(lobe < 1.0f ? 0.5f * lobe / 0.01f : most).epsilon(0.02));
         CHECK(countOf(from, from, 0.02f) ==
@@ -399,9 +401,10 @@ TEST_CASE("reprojection: the background is far away", "[session]")
         image.radiance.insert(image.radiance.end(),
                               {static_cast<float>(i % 64), static_cast<float>(i / 64), 0.0f, 0.0f});
     const SampledImage result = carry(image, from, to);
-    // Centre ray of the new view, in pixels of the old one: 24 / tan(20 degrees) a unit of slope.
+    // The centre ray of the new view is given in pixels of the old one: 24 / tan(20 degrees) a unit
+    // of slope.
     const double scale = 24.0 / std::tan(20.0 * 3.14159265358979 / 180.0);
-    const std::size_t centre = 24 * 64 + 32; // half a pixel right of and above it
+    const std::size_t centre = 24 * 64 + 32; // half a pixel right of the centre and above it
     CHECK(result.count[centre] == 5.0f);
     CHECK(result.radiance[4 * centre] == Approx(32.0 + 0.05 * scale).margin(0.1));
     CHECK(result.radiance[4 * centre + 1] == Approx(24.0 + 0.02 * scale).margin(0.1));
@@ -451,7 +454,7 @@ TEST_CASE("reprojection: any number of threads gives the same image", "[session]
 
 TEST_CASE("reprojection: frames of a moving view blur little", "[session]")
 {
-    // Half a pixel a frame is the worst; 32 frames are all that a sample lives.
+    // A motion of half a pixel a frame is the worst; a sample lives for 32 frames at most.
     const double pixel = 2.0 * std::tan(20.0 * 3.14159265358979 / 180.0) * 6.0 / 90.0;
     const auto sight = [&](int frame)
     {
@@ -469,7 +472,7 @@ TEST_CASE("reprojection: frames of a moving view blur little", "[session]")
         image = carry(image, from, to);
         from = to;
     }
-    // Of the image's own stripes, as far as it has them in its pixels.
+    // The contrast is compared with that of the stripes as the image's own pixels have them.
     const SampledImage exact = imageOf(from, stripes, 1.0f);
     double kept = 0.0, all = 0.0;
     for (std::size_t x = 40; x < 100; ++x)
@@ -478,8 +481,8 @@ TEST_CASE("reprojection: frames of a moving view blur little", "[session]")
         kept += (image.radiance[i] - 1.0) * (exact.radiance[i] - 1.0);
         all += (exact.radiance[i] - 1.0) * (exact.radiance[i] - 1.0);
     }
-    // Cubics keep (9 cos(w/2) - cos(3w/2)) / 8 a frame of what has w radians a pixel, bilinear
-    // means cos(w/2).
+    // Cubics keep (9 cos(w/2) - cos(3w/2)) / 8 a frame of a wave of w radians a pixel, and bilinear
+    // means keep cos(w/2).
     const double w = 6.283185307 / 12.0;
     const double expected = std::pow((9.0 * std::cos(0.5 * w) - std::cos(1.5 * w)) / 8.0, 32.0);
     CHECK(expected > 0.9);

@@ -1,5 +1,5 @@
-// ResolvedImageTest.cpp - images that take the long way to the display are those that take the
-// short one.
+// ResolvedImageTest.cpp - images that pass through the stages to the display equal those that do
+// not.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/ToneMap.h"
 #include "osgRayTrace/session/image/SurfaceMap.h"
@@ -18,7 +18,7 @@ namespace
 
 constexpr int kWidth = 37, kHeight = 21;
 
-/// A lit plane that fills half of the view.
+/// Returns a lit plane that fills half of the view.
 std::shared_ptr<const TracedScene> litPlane(bool displayReferred)
 {
     SceneBuilder builder;
@@ -63,7 +63,7 @@ TEST_CASE("resolved image: display values and depths are those of resolveDisplay
                 }
                 CHECK(brightest > 40);
                 CHECK(largest <=
-                      (displayReferred ? 1 : 0)); // its values are decoded and encoded again
+                      (displayReferred ? 1 : 0)); // display values are decoded and encoded again
             }
         }
     }
@@ -179,9 +179,9 @@ TEST_CASE("resolved image: samples that a first pass through the middles records
                 noting.setOptions(options);
                 rule.shouldStop = [](int tiles, double) { return tiles >= 2; };
                 noting.render(rule);
-                CHECK(noting.surfaceSamples().empty()); // a part of them
+                CHECK(noting.surfaceSamples().empty()); // only a part of them is recorded
                 rule.shouldStop = {};
-                rule.passes = 3; // of which the first one records them
+                rule.passes = 3; // the first pass records them
                 REQUIRE(noting.render(rule).status.ok());
 
                 const std::vector<SurfaceSample>& recorded = noting.surfaceSamples();
@@ -218,7 +218,7 @@ TEST_CASE(
             material.roughness = 0.4f;
         }
     const auto scene = builder.build();
-    // Wider than the box: there is nothing at its sides.
+    // The view is wider than the box: there is nothing at its sides.
     const View view =
         perspectiveView({278, 273, -800}, {278, 273, 279}, {0, 1, 0}, 40.0, kWidth, kHeight);
     for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})
@@ -264,5 +264,5 @@ TEST_CASE(
     StopRule rule;
     rule.passes = 1;
     REQUIRE(session.render(rule).status.ok());
-    CHECK(session.surfaces().view.width == 0); // nobody wanted it
+    CHECK(session.surfaces().view.width == 0); // surfaces were not asked for
 }

@@ -1,5 +1,4 @@
-// UpsampleTest.cpp - images of fewer pixels at full size: edges, depths and colours are those of a
-// full-size image.
+// UpsampleTest.cpp - upsampled images: edges, depths and colours are those of a full-size image.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -13,13 +12,13 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// The full-size view, an image of it with fewer pixels and what is made of that.
+/// A reduced image of the full-size view, and the upsampled image.
 struct Upsampled
 {
     ResolvedImage small, image;
     std::vector<SurfaceSample> samples;
     UpsampleCounts counts;
-    ResolvedImage reference; ///< of the full size, through the middles of the pixels
+    ResolvedImage reference; ///< of full size, through the middles of the pixels
 };
 
 ResolvedImage imageOf(RenderSession& session, const std::shared_ptr<const TracedScene>& scene,
@@ -36,7 +35,8 @@ ResolvedImage imageOf(RenderSession& session, const std::shared_ptr<const Traced
     return session.resolvedImage();
 }
 
-/// The image has one pixel for divider x divider, and for what is left at the sides.
+/// Upsamples an image that has one pixel for divider x divider pixels, and one for the rest at the
+/// sides.
 Upsampled upsampled(const std::shared_ptr<const TracedScene>& scene, const View& view, int divider,
                     int threads = 2)
 {
@@ -63,7 +63,8 @@ Vec4 pixelOf(const ResolvedImage& image, int x, int y)
     return Vec4(p[0], p[1], p[2], p[3]);
 }
 
-/// But for traces of the weights of what is unlike, where that is all there is around a pixel.
+/// Returns whether two pixels are alike but for traces of unlike samples, which have a small weight
+/// if there are no others around the pixel.
 bool isNear(Vec4 a, Vec4 b)
 {
     return glm::length(a - b) < 1e-4f;
@@ -77,7 +78,7 @@ float largestDepthError(const Upsampled& u)
     return largest;
 }
 
-/// Unlit: its radiance is what it emits, wherever it is seen.
+/// Returns an unlit material: its radiance is what it emits, wherever it is seen.
 Material glowing(Vec3 radiance)
 {
     return lamp(radiance);
@@ -93,8 +94,8 @@ View frontView(int width, int height)
 TEST_CASE("upsampling: an edge between two colours is where it is in a full-size image",
           "[session][upsample]")
 {
-    // Two halves of different depth and colour; their edge is slanted, so that it crosses the
-    // pixels anyhow.
+    // The scene has two halves of different depth and colour; their edge is slanted, so that it
+    // crosses the pixels in all ways.
     SceneBuilder builder;
     builder.add(quadMesh({-9, -9, -1}, {18, 0, 0}, {0, 18, 0}), glowing({0.1f, 0.2f, 0.9f}));
     builder.add(quadMesh({-9, -9, 0}, {8, 0, 0}, {3, 18, 0}), glowing({0.9f, 0.4f, 0.1f}));
@@ -114,7 +115,7 @@ TEST_CASE("upsampling: an edge between two colours is where it is in a full-size
         CHECK(left > 161 * 97 / 4);
         CHECK(left < 161 * 97 * 3 / 4);
         CHECK(largestDepthError(u) <= 1e-6f);
-        CHECK(u.counts.traced < 161 * 97 / (divider < 8 ? 2 : 1)); // the rest was interpolated
+        CHECK(u.counts.traced < 161 * 97 / (divider < 8 ? 2 : 1)); // the rest is interpolated
     }
 }
 
@@ -156,7 +157,7 @@ TEST_CASE("upsampling: depths of planes are those of a full-size image, in any p
 TEST_CASE("upsampling: a step of one object that its normals and colours do not show",
           "[session][upsample]")
 {
-    // Two parallel faces of one mesh, one as far behind the other as a few pixels are wide.
+    // The mesh has two parallel faces, one as far behind the other as a few pixels are wide.
     SceneBuilder builder;
     builder.add(newMesh({{-9, -9, 0},
                          {-1, -9, 0},
@@ -229,8 +230,8 @@ TEST_CASE("upsampling: where there is nothing, it stays transparent", "[session]
 TEST_CASE("upsampling: a bar of one pixel survives where it is found, and has its own colour",
           "[session][upsample]")
 {
-    // One pixel of the full size wide, slanted so that it passes pixel centres of the image here
-    // and there.
+    // The bar is one pixel of the full size wide. It is slanted, so that it passes pixel centres of
+    // the reduced image here and there.
     const int width = 160, height = 160;
     const float pixel = 2.0f * 6.0f * std::tan(glm::radians(25.0f)) / height;
     SceneBuilder builder;
@@ -260,7 +261,8 @@ TEST_CASE("upsampling: a bar of one pixel survives where it is found, and has it
 
 TEST_CASE("upsampling: textures are as sharp as in a full-size image", "[session][upsample]")
 {
-    // Squares of white and black, or nearly, that are two to three pixels of the image wide.
+    // The squares are white and black or nearly so, and two to three pixels of the reduced image
+    // wide.
     for (const bool displayReferred : {false, true})
         for (const uint8_t dark : {40, 0})
         {
@@ -295,8 +297,8 @@ TEST_CASE("upsampling: textures are as sharp as in a full-size image", "[session
             CAPTURE(displayReferred, int(dark), wrong);
             CHECK(bright > 7000);
             CHECK(black > (dark ? 0 : 7000));
-            // Display values were lit before they were decoded: over albedo they are light but for
-            // sRGB's toe.
+            // Display values were lit before they were decoded: divided by the albedo they are the
+            // light, except in sRGB's toe.
             CHECK(wrong <= 160 * 120 / (displayReferred ? 33 : 200));
         }
 }
@@ -309,8 +311,8 @@ TEST_CASE("upsampling: curved surfaces are near those of a full-size image", "[s
     const View view = frontView(320, 320);
     const Upsampled u = upsampled(builder.build(), view, 4);
     CHECK(u.counts.traced < 320 * 320 * 2 / 3);
-    // A pixel is 0.017 wide there; depth is a length over it of 0.1 / (z * z) about, near plane
-    // 0.1.
+    // A pixel is 0.017 wide at the sphere; a length of depth changes the depth by about 0.1 / (z *
+    // z), since the near plane is at 0.1.
     const double nearPlane = view.clipFromView[3][2] / (view.clipFromView[2][2] - 1.0);
     CHECK(largestDepthError(u) <= 0.25 * 0.0175 * nearPlane / (4.0 * 4.0));
 }
@@ -346,12 +348,12 @@ TEST_CASE("upsampling: with too many edges less is traced, and nothing is black"
     CAPTURE(traced[0], traced[1], traced[2]);
     CHECK(traced[0] > traced[1]);
     CHECK(traced[1] > traced[2]);
-    CHECK(traced[2] == 16 * (2 * (40 + 30) - 4)); // blocks at the border
+    CHECK(traced[2] == 16 * (2 * (40 + 30) - 4)); // the blocks at the border
 }
 
 TEST_CASE("upsampling: of a blended layer the layer is what is seen, at edges, too", "[session]")
 {
-    // Half of the camera rays would pass it by chance, and meet something else.
+    // Half of the camera rays would pass the layer by chance, and meet another surface.
     SceneBuilder builder;
     Material pane = glowing(Vec3(0.2f, 0.6f, 1.0f));
     pane.alpha = 0.5f;
@@ -374,7 +376,8 @@ TEST_CASE("upsampling: of a blended layer the layer is what is seen, at edges, t
 TEST_CASE("centred first pass: it sees what first hits are sampled of, later ones their own points",
           "[session][upsample]")
 {
-    // Emission alone, of two halves with a slanted edge: a sample tells which half it was on.
+    // The scene has emission alone, of two halves with a slanted edge: a sample tells which half it
+    // is from.
     SceneBuilder builder;
     builder.add(quadMesh({-9, -9, -1}, {18, 0, 0}, {0, 18, 0}), glowing(Vec3(0.25f)));
     builder.add(quadMesh({-9, -9, 0}, {8, 0, 0}, {3, 18, 0}), glowing(Vec3(1.0f)));

@@ -18,7 +18,7 @@ std::shared_ptr<int> acquire(Registry& registry, const PassIdentity& pass)
     return registry.acquire(pass, [] { return std::make_shared<int>(0); }).state;
 }
 
-/// Names of cameras and stages.
+/// Returns one of several objects that stand for cameras and stages.
 HostName nameOf(int number)
 {
     static const std::vector<int> objects(16);
@@ -35,14 +35,14 @@ PassIdentity pass(int camera, int stage, uint64_t frame, std::array<int, 4> view
     return identity;
 }
 
-/// A view of its own for each eye, between these planes.
+/// Returns the view of an eye, with the given near and far planes.
 View viewAt(double eye, double near = 1.0, double far = 100.0)
 {
     View view;
     view.width = view.height = 8;
     view.viewFromWorld[3][0] = eye;
     view.clipFromView = glm::frustum(-0.1 * near, 0.2 * near, -0.1 * near, 0.1 * near, near, far);
-    // The same rays, digit by digit, whatever the near plane.
+    // The rays are the same, digit by digit, whatever the near plane.
     view.clipFromView[0][0] = view.clipFromView[1][1] = 7.0;
     view.clipFromView[2][0] = 0.25;
     view.clipFromView[2][1] = 0.0;
@@ -119,7 +119,7 @@ TEST_CASE("view registry: what is no longer drawn expires, whatever the frame nu
 {
     Registry registry;
     std::weak_ptr<int> gone = acquire(registry, pass(0, 0, 1));
-    // Two viewers, each with its own frame numbers, far apart.
+    // There are two viewers, each with its own frame numbers, far apart.
     const auto a = acquire(registry, pass(1, 1, 1000000));
     const auto b = acquire(registry, pass(2, 2, 7));
     for (uint64_t i = 1; i < 2 * Registry::kExpiry; ++i)
@@ -137,10 +137,10 @@ TEST_CASE("view registry: an eye that does not draw leaves the other one its ima
     Registry registry;
     const auto left = acquire(registry, at(pass(0, 0, 1), viewAt(-0.03)));
     const auto right = acquire(registry, at(pass(0, 1, 1), viewAt(0.03)));
-    CHECK(acquire(registry, at(pass(0, 1, 2), viewAt(0.03))) == right); // the left one sees nothing
+    CHECK(acquire(registry, at(pass(0, 1, 2), viewAt(0.03))) == right); // the left one is not drawn
     CHECK(acquire(registry, at(pass(0, 0, 3), viewAt(-0.03))) == left);
     CHECK(acquire(registry, at(pass(0, 1, 3), viewAt(0.03))) == right);
-    // Moving, eyes are told apart by their order.
+    // While the head moves, eyes are told apart by their order.
     CHECK(acquire(registry, at(pass(0, 0, 4), viewAt(-0.02))) == left);
     CHECK(acquire(registry, at(pass(0, 1, 4), viewAt(0.04))) == right);
     CHECK(registry.states().size() == 2u);
@@ -153,12 +153,12 @@ TEST_CASE("view registry: what a pass draws several times has a view for each", 
     for (int i = 0; i < 3; ++i)
         first.push_back(acquire(registry, at(pass(0, 0, 1), viewAt(i))));
     CHECK(registry.states().size() == 3u);
-    // At rest, moving, and each by itself again.
+    // The views are at rest, then they move, and each is found again.
     for (uint64_t frame = 2; frame < 6; ++frame)
         for (int i = 0; i < 3; ++i)
             CHECK(acquire(registry, at(pass(0, 0, frame), viewAt(i + 10.0 * (frame / 3)))) ==
                   first[static_cast<std::size_t>(i)]);
-    // Tiles of a large picture, drawn without a new frame, do not pile up.
+    // Tiles of a large picture are drawn without a new frame, and their views do not pile up.
     for (int tile = 0; tile < 100; ++tile)
         acquire(registry, at(pass(0, 0, 6), viewAt(1000.0 + tile)));
     CHECK(registry.states().size() <= Registry::kMostTimes);
@@ -166,12 +166,12 @@ TEST_CASE("view registry: what a pass draws several times has a view for each", 
 
 TEST_CASE("view registry: slices of an eye's depths share its state, eyes do not", "[session]")
 {
-    // Cameras 1 and 2 are slices, each drawn for both eyes.
+    // Cameras 1 and 2 are slices; each is drawn for both eyes.
     Registry registry;
     const View far = viewAt(-1.0, 10.0, 100.0), near = viewAt(-1.0, 1.0, 10.0);
     const View rightFar = viewAt(1.0, 10.0, 100.0), rightNear = viewAt(1.0, 1.0, 10.0);
     std::shared_ptr<int> left, right;
-    for (const uint64_t frame : {1u, 2u, 3u, 0u, 0u, 0u}) // 0: the viewer counts none
+    for (const uint64_t frame : {1u, 2u, 3u, 0u, 0u, 0u}) // 0: the viewer counts no frames
     {
         CAPTURE(frame);
         const auto a = acquireSlice(registry, at(pass(1, 1, frame), far));
@@ -197,7 +197,7 @@ TEST_CASE("view registry: slices of an eye's depths share its state, eyes do not
     }
     CHECK(registry.states().size() == 2u);
 
-    // In two viewports, windows or frames they are views of their own.
+    // Slices in different viewports, windows or frames are views of their own.
     CHECK_FALSE(acquireSlice(registry, at(pass(2, 1, 4, {8, 0, 8, 8}), near)).shared);
     PassIdentity window = at(pass(2, 1, 4), near);
     window.contextId = 1;
@@ -211,7 +211,7 @@ TEST_CASE("view registry: slices that are culled before the first draws are know
     Registry registry;
     for (uint64_t frame = 1; frame < 4; ++frame)
     {
-        // The head moves, and the planes with it.
+        // The head moves, and the planes move with it.
         const double eye = 0.1 * double(frame), middle = 10.0 + double(frame);
         const View far = viewAt(eye, middle, 100.0),
                    near = viewAt(eye, 1.0 / double(frame), middle);
@@ -221,7 +221,7 @@ TEST_CASE("view registry: slices that are culled before the first draws are know
         const auto b = acquireSlice(registry, at(pass(2, 1, frame), near));
         REQUIRE(a.slices.size() == 2u);
         CHECK(b.shared);
-        // So what the first one traces is what the second one needs.
+        // The first slice traces what the second one needs.
         CHECK(viewOfSlices(a.slices) == viewOfSlices(b.slices));
     }
 }
@@ -250,5 +250,6 @@ TEST_CASE("view registry: a camera made for each picture does not pile up", "[se
         acquire(registry, identity);
     }
     CHECK(registry.states().size() <= Registry::kMostSingles);
-    CHECK(registry.states().size() > 1u); // a name that is kept is not given again
+    CHECK(registry.states().size() >
+          1u); // the cameras are told apart, though malloc reuses addresses
 }

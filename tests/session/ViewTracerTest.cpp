@@ -1,5 +1,5 @@
-// ViewTracerTest.cpp - frames under a budget, by a clock that each tile moves on: what is shown is
-// whole.
+// ViewTracerTest.cpp - frames under a budget, by a clock that each tile moves on: every picture
+// that is presented is whole.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -23,7 +23,7 @@ namespace
 {
 
 constexpr int kWidth = 340, kHeight = 250, kTiles = 352;
-constexpr double kBudget = 80.0, kTile = 1.0; // a tile, and each other look at the clock
+constexpr double kBudget = 80.0, kTile = 1.0; // of a tile, and of each other look at the clock
 
 View viewAt(double x)
 {
@@ -40,7 +40,7 @@ struct Pixels
     {
         width = w;
         height = h;
-        rgba.assign(4 * std::size_t(w * h), uint8_t(123)); // values are lost
+        rgba.assign(4 * std::size_t(w * h), uint8_t(123)); // the former values are lost
         depth.assign(std::size_t(w * h), 0.123f);
     }
 };
@@ -78,7 +78,7 @@ bool sameTile(const Pixels& a, const Pixels& b, int tile)
     return true;
 }
 
-/// What each pass of a view makes, by a session that nobody interrupts.
+/// Keeps the images of all passes of a view, made by a session that nobody interrupts.
 class References
 {
 public:
@@ -113,7 +113,7 @@ private:
     std::map<std::tuple<double, int, int, float>, Pixels> _images;
 };
 
-/// A viewer without OpenGL: it does as RayTraceDrawable does.
+/// A viewer without OpenGL, which does what RayTraceDrawable does.
 struct Screen
 {
     explicit Screen(double tile = kTile) : tileSeconds(tile), tracer([this] { return look(); })
@@ -128,7 +128,7 @@ struct Screen
 
     double look()
     {
-        if (resolveLooks > 0 && --resolveLooks == 0) // the one after upsampling
+        if (resolveLooks > 0 && --resolveLooks == 0) // the look after upsampling
             clock += upsamplePixelSeconds * display.width * display.height;
         return clock += tileSeconds;
     }
@@ -172,8 +172,8 @@ struct Screen
         tracer.recordPresented();
     }
 
-    /// Tiles of the picture that are those of a whole pass; those of the enlarged picture of
-    /// reduced resolution; none of both.
+    /// The tiles of the picture: those of a whole pass, those of the enlarged reduced picture, and
+    /// those that are neither.
     struct Tiles
     {
         int traced = 0, enlarged = 0, torn = 0;
@@ -208,16 +208,16 @@ struct Screen
     }
 
     double clock = 0.0, tileSeconds;
-    double at = 0.0; ///< the last frame's
+    double at = 0.0; ///< x of the last frame
     double budget = kBudget;
     bool degrade = true;
-    double upsampleSeconds = 0.0;      ///< that it takes, beside looks at the clock
-    double upsamplePixelSeconds = 0.0; ///< the same, of a pixel of its result
-    int resolveLooks = 0;              ///< that are still to come
-    double upsampleShare = 0.0;        ///< reduced pictures are shown as they are
+    double upsampleSeconds = 0.0;      ///< cost of upsampling, beside looks at the clock
+    double upsamplePixelSeconds = 0.0; ///< cost of upsampling, for a pixel of its result
+    int resolveLooks = 0;              ///< looks that are still to come in a resolve
+    double upsampleShare = 0.0;        ///< 0: reduced pictures are presented as they are
     ViewInputs inputs;
     ViewTracer tracer;
-    /// What a resolve of all makes of the present image.
+    /// Returns what a full resolve makes of the present image.
     Pixels whole()
     {
         Pixels pixels;
@@ -226,10 +226,11 @@ struct Screen
         return pixels;
     }
 
-    /// shown: copied of the display, what is marked alone; reduced: as it was shown last.
+    /// shown holds copies of the changed rectangles of display; reduced is the last picture of
+    /// reduced size.
     Pixels display, shown, reduced;
     bool resolved = false;
-    int copies = 0, colorCopies = 0; ///< of what is marked
+    int copies = 0, colorCopies = 0; ///< of changed rectangles
 };
 
 } // namespace
@@ -268,7 +269,7 @@ TEST_CASE("frame budget: at rest full resolution fills in, passes add up, then n
          i < 100 && (screen.tracer.progress().passes < 3 || screen.tracer.frame().divider > 1); ++i)
     {
         screen.frame(4.0);
-        if (screen.shown.width < kWidth) continue; // not settled yet
+        if (screen.shown.width < kWidth) continue; // the view has not settled yet
         const Screen::Tiles tiles = screen.tiles(4.0, references);
         CAPTURE(i);
         CHECK(tiles.torn == 0);
@@ -279,7 +280,7 @@ TEST_CASE("frame budget: at rest full resolution fills in, passes add up, then n
         whole = tiles.enlarged == 0;
         before = tiles.traced;
     }
-    CHECK(mixed > 3); // some 70 of 352 tiles in a frame
+    CHECK(mixed > 3); // a frame has time for some 70 of 352 tiles
     CHECK(screen.tracer.progress().passes == 3);
     const Pixels& last = references.image(4.0, 1, 3, 0.0f);
     CHECK((screen.shown.rgba == last.rgba));
@@ -291,7 +292,7 @@ TEST_CASE("frame budget: at rest full resolution fills in, passes add up, then n
         const double clock = screen.clock;
         screen.frame(4.0);
         CHECK_FALSE(screen.resolved);
-        CHECK(screen.clock - clock < 10.0 * kTile); // looks at the clock, no tile
+        CHECK(screen.clock - clock < 10.0 * kTile); // looks at the clock, but no tile
     }
     CHECK(screen.tracer.progress().rays.total() == rays);
 }
@@ -308,11 +309,11 @@ TEST_CASE("frame budget: moved, stopped, slowed down and redrawn at random no ti
     {
         if (stillFrames-- <= 0)
         {
-            x = double(random() % 4); // back to where it was, too
+            x = double(random() % 4); // also a place where it was before
             stillFrames = random() % 3 == 0 ? int(random() % 24) : 0;
         }
         screen.tileSeconds =
-            random() % 10 == 0 ? 4.0 * kTile : kTile; // another program takes the machine
+            random() % 10 == 0 ? 4.0 * kTile : kTile; // at times another program takes the machine
         screen.frame(x, random() % 20 != 0);
         const Screen::Tiles tiles = screen.tiles(x, references);
         CAPTURE(i, x, screen.tracer.frame().divider);
@@ -373,7 +374,7 @@ TEST_CASE("frame budget: reduced pictures are upsampled where there is time for 
         CHECK((screen.shown.rgba == expected.rgba));
         CHECK((screen.shown.depth == expected.depth));
     }
-    screen.upsampleShare = 1e-9; // it took longer
+    screen.upsampleShare = 1e-9; // upsampling took longer than this share
     screen.frame(6.0);
     CHECK(screen.shown.width < kWidth);
 }
@@ -383,7 +384,7 @@ TEST_CASE("frame budget: reduced pictures are upsampled as far as there is time 
 {
     Screen screen;
     screen.upsampleShare = 0.2;
-    const double half = 0.4 * kBudget / (kWidth * kHeight); // of both sides: a tenth of the budget
+    const double half = 0.4 * kBudget / (kWidth * kHeight); // half size: a tenth of the budget
     double x = 0.0;
     const auto widthAfter = [&](int frames, double pixelSeconds)
     {
@@ -400,7 +401,7 @@ TEST_CASE("frame budget: reduced pictures are upsampled as far as there is time 
         CHECK(screen.tracer.frame().seconds < 1.1 * kBudget);
         CHECK(screen.tracer.frame().traceSeconds > 0.7 * kBudget);
     }
-    // Full size is the next step; what it takes is known before it is done.
+    // Full size is the next step; its cost is known before it is done.
     screen.upsamplePixelSeconds = half / 5.0;
     do
     {
@@ -409,10 +410,10 @@ TEST_CASE("frame budget: reduced pictures are upsampled as far as there is time 
     } while (screen.shown.width < kWidth && x < 100.0);
     CHECK(screen.shown.width == kWidth);
     CHECK(widthAfter(30, 1e3 * half) == reducedSize(kWidth, screen.tracer.frame().divider));
-    // What it takes is learnt while it is done only.
+    // The cost of upsampling is learnt only while it is done.
     CHECK(widthAfter(800, half) == reducedSize(kWidth, 2));
 
-    // At rest the tiles of full resolution are laid over it.
+    // At rest the tiles of full resolution are laid over the upsampled picture.
     screen.frame(x);
     screen.reduced = Pixels();
     screen.reduced.resize(kWidth, kHeight);
@@ -447,7 +448,7 @@ TEST_CASE("frame budget: tiles laid over the upsampled picture make that of a fu
         CHECK(same(screen.shown, screen.whole()));
     }
     CHECK(laid > 3);
-    CHECK(screen.colorCopies > 3); // depths are those of the first pass
+    CHECK(screen.colorCopies > 3); // depths come from the first pass alone
 }
 
 TEST_CASE("frame budget: after a jump there is time for upsampling", "[session]")
@@ -490,7 +491,7 @@ TEST_CASE("frame budget: copies of what is marked equal the whole, whatever chan
         if (random() % 60 == 0) screen.inputs.reprojects = random() % 2 != 0;
         if (random() % 60 == 0) screen.inputs.scene = cornellBox().build();
         screen.budget = random() % 30 == 0 ? 0.0 : kBudget;
-        screen.frame(x, random() % 30 != 0); // which requires it
+        screen.frame(x, random() % 30 != 0); // a lost display requires a resolve
     }
     INFO(screen.copies << ", of colours alone " << screen.colorCopies);
     CHECK(screen.copies > 20);
@@ -561,7 +562,7 @@ TEST_CASE(
         CHECK(screen.tracer.progress().passes >= 1);
         CHECK(screen.tiles(i, references).traced == kTiles);
     }
-    screen.frame(3.0); // at rest the budget holds
+    screen.frame(3.0); // at rest the budget is kept
     CHECK(screen.tracer.frame().seconds < 1.1 * kBudget);
 }
 
@@ -570,7 +571,7 @@ TEST_CASE("frame budget: a scene that changes is not held by an image that is no
 {
     Screen screen;
     for (int i = 0; i < 20; ++i)
-        screen.frame(0.0); // both sessions have had it
+        screen.frame(0.0); // both sessions have had the scene
     std::vector<std::weak_ptr<const TracedScene>> scenes;
     for (int i = 0; i < 4; ++i)
     {
@@ -619,7 +620,7 @@ TEST_CASE("frame budget: what fills in is not denoised: the picture under it is 
     }
     CHECK(fillingIn > 2);
     CHECK(made == 1);
-    // The whole image is denoised, and so is each that has another pass.
+    // The whole image is denoised, and so is each image of a further pass.
     REQUIRE(screen.tracer.frame().divider == 1);
     CHECK(screen.resolved);
 }

@@ -1,4 +1,4 @@
-// BsdfDensity.cpp - whether the samples of a Bsdf have the density that it claims.
+// BsdfDensity.cpp - tests whether the samples of a Bsdf have the density that it claims.
 // SPDX-License-Identifier: MIT
 #include "tests/shading/BsdfDensity.h"
 
@@ -56,8 +56,8 @@ struct Grid
     }
 };
 
-/// Integral of the density over a cell, on one side of the surface; splits where it must, and all
-/// along the horizon.
+/// Integrates the density over a cell, on one side of the surface. The cell is split if the
+/// integral requires it, and always along the horizon.
 class CellIntegral
 {
 public:
@@ -83,7 +83,7 @@ private:
         return pdfW * std::sin(theta);
     }
 
-    /// Gauss-Legendre, 3 x 3 points.
+    /// Applies the Gauss-Legendre rule of 3 x 3 points.
     double rule(double theta0, double theta1, double phi0, double phi1) const
     {
         static const double kPoint[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
@@ -127,18 +127,18 @@ private:
 DensityResult testDensity(const Bsdf& bsdf, Vec3 wo, uint32_t seed, int samples)
 {
     const double smallest = std::max(0.1 * bsdf.alpha, 1e-4);
-    // Refraction by the middle one of the visible normals: from grazing angles few look straight
-    // up.
+    // The axis is the refraction by the middle one of the visible normals: from grazing angles few
+    // of them point straight up.
     const std::optional<Vec3> through =
         refract(wo, sampleGgxVisible(wo, bsdf.alpha, 0.5f, 0.5f), bsdf.eta);
-    // Normals that scatter by alpha turn refracted rays by |eta - 1| of that.
+    // Normals that scatter by alpha turn refracted rays by |eta - 1| alpha.
     const double bend = std::min(1.0, std::abs(bsdf.eta - 1.0) + 1e-3);
     const Grid above(Vec3(-wo.x, -wo.y, wo.z), smallest),
         below(through ? *through : -wo, smallest * bend);
 
     std::vector<double> observed(2 * kRows * kColumns + 1, 0.0), expected(observed.size(), 0.0);
     DensityResult result;
-    double deltaPmf = 0.0; // a last cell for refraction that is not rough
+    double deltaPmf = 0.0; // of a last cell, for refraction that is not rough
     Uniform random(seed);
     for (int i = 0; i < samples; ++i)
     {

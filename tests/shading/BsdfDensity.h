@@ -1,4 +1,4 @@
-// BsdfDensity.h - whether the samples of a Bsdf have the density that it claims.
+// BsdfDensity.h - tests whether the samples of a Bsdf have the density that it claims.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace osgRayTrace::engine::test
 {
 
-/// Of one surface and direction.
+/// The results for one surface and direction.
 struct DensityResult
 {
     double fit = 1.0;            ///< probability of the chi-square test
@@ -18,8 +18,8 @@ struct DensityResult
     int bad = 0;                 ///< densities that are negative or not finite
 };
 
-/// Chi-square of samples over cells around the mirror and the refracted direction, up to 640,
-/// against the integral of the density over each.
+/// Returns the chi-square test of samples over cells around the mirror and the refracted direction,
+/// up to 640 of them, against the integral of the density over each cell.
 DensityResult testDensity(const Bsdf& bsdf, Vec3 wo, uint32_t seed, int samples);
 
 } // namespace osgRayTrace::engine::test

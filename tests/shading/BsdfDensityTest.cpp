@@ -14,8 +14,8 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// Demands of each surface and direction a fit of the samples, with 1 % false alarms in all
-/// (Sidak).
+/// Checks that the samples of each surface and direction fit their density, with 1 % false alarms
+/// in all (Sidak).
 void checkDensities(const std::vector<BsdfKind>& kinds, const std::vector<Vec3>& directions,
                     int samples)
 {
@@ -38,7 +38,7 @@ void checkDensities(const std::vector<BsdfKind>& kinds, const std::vector<Vec3>&
         CHECK(result.inconsistent == 0);
         CHECK(result.bad == 0);
         CHECK(result.total < 1.0 + 1e-3);
-        // What the density lacks to 1 are the discarded samples: 5 sigma.
+        // The discarded samples are what the density lacks to 1, within 5 sigma.
         const double spread = std::sqrt(result.total * std::max(1.0 - result.total, 0.0) / samples);
         CHECK(result.accepted == Approx(result.total).margin(5.0 * spread + 2e-4));
     }
@@ -71,7 +71,7 @@ TEST_CASE("bsdf: smooth lobes are chosen with the probability that they claim",
         for (const Vec3& wo : directions)
         {
             CAPTURE(kind.name, wo.z);
-            // uLobe stratified: frequencies are exact to 1/n.
+            // uLobe is stratified: frequencies are exact to 1/n.
             constexpr int kStrata = 4096;
             double reflected = 0.0, transmitted = 0.0, reflectedPmf = 0.0, transmittedPmf = 0.0;
             for (int i = 0; i < kStrata; ++i)

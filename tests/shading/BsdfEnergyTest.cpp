@@ -1,4 +1,4 @@
-// BsdfEnergyTest.cpp - surfaces conserve energy, are reciprocal, and stay finite at the edges.
+// BsdfEnergyTest.cpp - surfaces conserve energy, are reciprocal, and stay finite at extreme values.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -19,7 +19,7 @@ Vec3 directionOf(double cosine, double phi)
     return Vec3(sine * std::cos(phi), sine * std::sin(phi), cosine);
 }
 
-/// Share of a photon's flux that goes on.
+/// Returns the share of a photon's flux that is scattered.
 Estimate albedo(const Bsdf& bsdf, Vec3 wo, int samples, uint32_t seed)
 {
     Estimate estimate;
@@ -59,7 +59,7 @@ Bsdf roughGlass(float eta, float alpha)
 TEST_CASE("bsdf: single-scattering GGX keeps what the white furnace table says",
           "[shading][statistics][stability 32]")
 {
-    // 1 - ln 2 at alpha = 1 is exact; the others are rounded to 3 or 4 digits.
+    // The value 1 - ln 2 at alpha = 1 is exact; the others are rounded to 3 or 4 digits.
     const struct
     {
         float alpha;
@@ -99,8 +99,8 @@ TEST_CASE("bsdf: no surface makes energy, from any angle", "[shading][statistics
 TEST_CASE("bsdf: a white base takes what its rough coat leaves, no more",
           "[shading][statistics][long]")
 {
-    // In a white furnace nothing is lost but where the table of what the coat reflects is above it:
-    // at the bend that total reflection makes, from inside.
+    // In a white furnace light is lost only where the table of the coat's reflectance is too high:
+    // from inside, at the bend that total reflection makes.
     for (const float roughness : {0.0317f, 0.1f, 0.37f, 0.5f, 0.93f, 1.0f})
     {
         for (const float ior : {1.02f, 1.5f, 2.4f})
@@ -130,8 +130,8 @@ TEST_CASE("bsdf: smooth surfaces and Lambert's keep all energy", "[shading][stat
         {
             CAPTURE(kind.name, cosine);
             const Estimate share = albedo(kind.bsdf, directionOf(cosine, 0.4), 100000, 3);
-            // Under a smooth coat this holds on average over angles of the light: exactly, for
-            // light from all sides. The quadrature of its mean reflectance is good to 1e-4.
+            // Under a smooth coat this holds on average over angles of the light, and exactly for
+            // light from all sides. The quadrature of the coat's mean reflectance is good to 1e-4.
             CHECK(share.agrees(1.0, 2e-4));
         }
     }
@@ -179,7 +179,8 @@ TEST_CASE("bsdf: reflection is the same both ways", "[shading]")
         CAPTURE(kind.name);
         for (int i = 0; i < 3000; ++i)
         {
-            // Every third pair near the mirror's, where a narrow lobe is, every third at grazing.
+            // Every third pair is near the mirror direction, where a narrow lobe is, and every
+            // third is at grazing angles.
             const double lowest = i % 3 == 2 ? 0.0 : 0.01, highest = i % 3 == 2 ? 0.02 : 1.0;
             const double cosine = random.between(lowest, highest), phi = random.between(0.0, 6.28);
             const Vec3 a = directionOf(cosine, phi);
@@ -198,8 +199,8 @@ TEST_CASE("bsdf: reflection is the same both ways", "[shading]")
 
 TEST_CASE("bsdf: refraction of radiance is the adjoint of that of importance", "[shading]")
 {
-    // f(wo -> wi) of radiance with eta is f(wi -> wo) of importance with 1/eta, seen from the other
-    // side.
+    // f(wo -> wi) of radiance with eta equals f(wi -> wo) of importance with 1/eta, seen from the
+    // other side.
     Uniform random(5);
     const auto turned = [](Vec3 w) { return Vec3(w.x, w.y, -w.z); };
     for (const float eta : {1.5f, 1.0f / 1.5f, 2.4f, 1.05f, 3.0f, 1.0f / 3.0f})
@@ -217,7 +218,7 @@ TEST_CASE("bsdf: refraction of radiance is the adjoint of that of importance", "
                 if (!sample || !sample->transmitted || sample->wi.z > -0.02f) continue;
                 const Vec3 wi = sample->wi;
                 // Microfacets that are nearly edge-on are near total reflection from the other
-                // side, where 1 - F hangs on the last bits of the cosine.
+                // side, where 1 - F depends on the last bits of the cosine.
                 const Vec3d h = glm::normalize(Vec3d(wo) + Vec3d(wi) * double(eta));
                 if (std::abs(glm::dot(Vec3d(wo), h)) < 0.01 ||
                     std::abs(glm::dot(Vec3d(wi), h)) < 0.01)
@@ -335,7 +336,7 @@ TEST_CASE("bsdf: an interface of index 1, or nearly 1, is invisible at any rough
 
 TEST_CASE("bsdf: a clear slab passes (1-R)/(1+R)", "[shading]")
 {
-    // All internal bounces of two parallel smooth faces, n = 1.5.
+    // The transmittances include all internal bounces of two parallel smooth faces with n = 1.5.
     const struct
     {
         double degrees, transmittance;
@@ -348,7 +349,7 @@ TEST_CASE("bsdf: a clear slab passes (1-R)/(1+R)", "[shading]")
         const double through = double(in.refraction.x) * out.refraction.x, back = out.reflection.x;
         CAPTURE(c.degrees);
         CHECK(through / (1.0 - back * back) == Approx(c.transmittance).epsilon(1e-6));
-        CHECK(in.reflection.x == Approx(back).epsilon(1e-5)); // the same R from both sides
-        CHECK(glm::length(out.refracted + wo) < 1e-6f);       // parallel to where it came from
+        CHECK(in.reflection.x == Approx(back).epsilon(1e-5)); // R is the same from both sides
+        CHECK(glm::length(out.refracted + wo) < 1e-6f);       // parallel to the incident ray
     }
 }

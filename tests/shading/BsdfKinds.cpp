@@ -17,7 +17,7 @@ namespace
 Bsdf bsdfOf(const Material& material, bool front)
 {
     static std::list<std::pair<Scene, std::unique_ptr<MaterialTable>>>
-        tables; // own what coats reflect
+        tables; // own the coats' reflectances
     tables.emplace_back();
     auto& [scene, table] = tables.back();
     scene.materials = {material};

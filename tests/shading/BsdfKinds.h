@@ -16,29 +16,29 @@ struct BsdfKind
     Bsdf bsdf;
 };
 
-/// Made by MaterialTable, as in a scene; white, so that a furnace shows energy that is made or
-/// lost.
+/// Returns kinds made by MaterialTable, as in a scene. They are white, so that a furnace shows
+/// energy that is gained or lost.
 std::vector<BsdfKind> roughKinds();
 
-/// Metal, plastic and glass from the least roughness that is not smooth to 1, of
-/// indices 1.0001, 1.5 and 3, from outside and inside.
+/// Returns metal, plastic and glass of the indices 1.0001, 1.5 and 3, from the least roughness that
+/// is not smooth up to 1, from outside and inside.
 std::vector<BsdfKind> extremeKinds();
-/// White, no metal; from outside, and if it transmits from inside.
+/// Returns white kinds that are no metal, from outside, and also from inside if they transmit.
 std::vector<BsdfKind> kindsOf(float roughness, float transmission, float ior);
 
-/// The same below that roughness, down to 0.
+/// Returns the extreme kinds below the least roughness that is not smooth, down to 0.
 std::vector<BsdfKind> extremeSmoothKinds();
 
-/// Kinds with delta lobes.
+/// Returns kinds with delta lobes.
 std::vector<BsdfKind> smoothKinds();
 
-/// Both.
+/// Returns rough and smooth kinds.
 std::vector<BsdfKind> allKinds();
 
-/// Unit directions above the surface, from normal to grazing.
+/// Returns unit directions above the surface, from normal to grazing.
 std::vector<Vec3> outgoingDirections();
 
-/// Down to 0.1 degrees above the surface.
+/// Returns directions down to 0.1 degrees above the surface.
 std::vector<Vec3> grazingDirections();
 
 } // namespace osgRayTrace::engine::test

@@ -1,4 +1,4 @@
-// BsdfLanesTest.cpp - sixteen surfaces at once are what each of them is alone.
+// BsdfLanesTest.cpp - sixteen surfaces at once give what each of them gives alone.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
@@ -37,7 +37,7 @@ TEST_CASE("bsdf lanes: values and densities are those of each surface alone", "[
             names[i] = kind.name;
             const Vec3 n = direction(Vec3(0, 0, uniform() < 0.5f ? 1 : -1), 1.0f);
             const Vec3 o = direction(uniform() < 0.05f ? -n : n, 1.0f);
-            // Near the mirror direction, where narrow lobes are, every other time.
+            // Half of the directions are near the mirror direction, where narrow lobes are.
             const Vec3 mirrored = glm::normalize(n * (2.0f * glm::dot(n, o)) - o);
             setLane(normal, i, n);
             setLane(wo, i, o);

@@ -1,5 +1,5 @@
-// EnvironmentMapTest.cpp - directions towards environments: their distribution, poles, seam,
-// extremes.
+// EnvironmentMapTest.cpp - directions towards environments: distribution, poles, seam, extreme
+// values.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Environments.h"
@@ -25,7 +25,7 @@ std::shared_ptr<EnvironmentImage> speckled(int width, int height, uint32_t seed)
     return image;
 }
 
-/// Pixel that a direction lies in, by double arithmetic.
+/// Returns the index of the pixel that a direction lies in, computed in double.
 std::size_t pixelIndex(const EnvironmentImage& image, Vec3 d)
 {
     const double turn = std::atan2(double(d.x), double(d.y)) / (2.0 * M_PI) + 0.5;
@@ -85,8 +85,8 @@ TEST_CASE("environment map: samples are distributed as their density says",
 TEST_CASE("environment map: within a pixel directions are uniform in solid angle",
           "[shading][statistics]")
 {
-    // One pixel that reaches from a pole to 45 degrees below the equator, cut into cells of equal
-    // solid angle.
+    // A single pixel that reaches from a pole to 45 degrees below the equator is cut into cells of
+    // equal solid angle.
     const EnvironmentMap map(
         newEnvironment(3, 2, [](Vec3d d) { return Vec3(d.z < 0.0 && d.y > 0.5 ? 1.0f : 0.0f); }));
     std::vector<double> observed(64), expected(64, 200000 / 64.0);
@@ -133,7 +133,7 @@ TEST_CASE("environment map: a pixel of 1e9 leaves all dim ones their share",
         const int row = std::clamp(static_cast<int>((d.z + 1.0f) * 2.0f), 0, 3);
         ++observed[static_cast<std::size_t>(row * 8 + column)];
     }
-    // Poisson: 4 standard deviations, a false alarm in 16,000.
+    // The count is Poisson distributed: 4 standard deviations, a false alarm in 16,000.
     CHECK(std::fabs(found - dim * kSamples) < 4.0 * std::sqrt(dim * kSamples));
     CHECK(chiSquareTest(observed, expected) > 0.001);
 }
@@ -150,7 +150,7 @@ TEST_CASE("environment map: poles and seam", "[shading][stability 30]")
         CHECK(map.radiance(pole) == Vec3(1.0f));
         CHECK(glm::length(map.interpolatedRadiance(pole) - Vec3(1.0f)) < 1e-6f);
     }
-    // -y is the seam: to the left of it, seen from inside, is the right border of the image.
+    // The seam is at -y: to the left of it, seen from inside, is the right border of the image.
     const Vec3 before = glm::normalize(Vec3(-1e-4f, -1.0f, 0.2f)),
                after = glm::normalize(Vec3(1e-4f, -1.0f, 0.2f));
     CHECK(map.radiance(before) == Vec3(2.0f));
@@ -159,7 +159,7 @@ TEST_CASE("environment map: poles and seam", "[shading][stability 30]")
     CHECK(map.radiance(Vec3(-0.0f, -1.0f, 0.2f)).x >= 2.0f);
     const float step = map.interpolatedRadiance(before).x - map.interpolatedRadiance(after).x;
     CHECK(std::fabs(step) < 1e-3f);
-    // Interpolation meets the pixels in their middles, and goes on over the poles.
+    // Interpolation gives the pixels at their middles, and goes on over the poles.
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 8; ++x)
         {
@@ -192,7 +192,7 @@ TEST_CASE("environment map: black has nothing to sample, one pixel is a sphere",
     CHECK(std::fabs(sphere.integral().x - 3.0 * kFourPi) < 1e-6);
     CHECK(std::fabs(sphere.pdfW(Vec3(0, 0, 1)) * kFourPi - 1.0) < 1e-6);
     CHECK(sphere.interpolatedRadiance(glm::normalize(Vec3(1, 2, 3))) == Vec3(3.0f));
-    // Of what is no direction a sample is dropped, not taken from memory beside the image.
+    // A sample without a valid direction is dropped, and does not read memory beside the image.
     CHECK(!isFinite(sphere.interpolatedRadiance(Vec3(NAN, 0.0f, 1.0f))));
     for (const float u : {0.0f, 0.5f, kOneMinusEpsilon})
         for (const float v : {0.0f, 0.5f, kOneMinusEpsilon})

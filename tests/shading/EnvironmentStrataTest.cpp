@@ -1,5 +1,5 @@
-// EnvironmentStrataTest.cpp - structured importance sampling: light is kept, strata are where it
-// is.
+// EnvironmentStrataTest.cpp - structured importance sampling keeps the light, and strata are where
+// the light is.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/EnvironmentStrata.h"
 
@@ -29,7 +29,7 @@ double irradiance(const std::vector<EnvironmentStratum>& strata, Vec3d normal)
     return sum;
 }
 
-/// By the middles of pixels: right to 1e-3 for 256 x 128 of them.
+/// Returns the irradiance by the middles of pixels, which is right to 1e-3 for 256 x 128 pixels.
 double irradiance(const EnvironmentMap& map, Vec3d normal)
 {
     const EnvironmentImage& image = *map.image();
@@ -79,7 +79,7 @@ TEST_CASE("strata: coarse images are cut up, none of black pixels", "[shading][s
         CHECK(std::fabs(irradiance(strata, Vec3d(0, 0, 1)) / M_PI - 1.0) < 0.01);
         CHECK(std::fabs(irradiance(strata, Vec3d(0.6, 0, -0.8)) / M_PI - 1.0) < 0.01);
     }
-    // 4 x 4 cells of one pixel, all of them within it.
+    // There are 4 x 4 cells of one pixel, all of them within it.
     const auto image = newEnvironment(64, 32, Vec3(0.0f));
     pixelOf(*image, 10, 20) = Vec3(5.0f);
     const EnvironmentMap map(image);
@@ -90,7 +90,7 @@ TEST_CASE("strata: coarse images are cut up, none of black pixels", "[shading][s
     const auto one = environmentStrata(map, 1);
     REQUIRE(one.size() == 1);
     CHECK(glm::length(Vec3d(one[0].direction) - map.direction(10.5, 20.5)) <
-          1e-3); // 0.1 wide; its mean is not its middle
+          1e-3); // it is 0.1 wide, and its mean is not in its middle
 }
 
 TEST_CASE("strata: the sun has its own, where it is, and no light but its own", "[shading]")
@@ -116,8 +116,8 @@ TEST_CASE("strata: the sun has its own, where it is, and no light but its own", 
 
 TEST_CASE("strata: regions do not end at the seam or at a pole", "[shading]")
 {
-    // A disc below 0.01 sr with as much light as the rest: in two halves it would count for less,
-    // 2^(-1/4) times its importance, four strata.
+    // A disc below 0.01 sr has as much light as the rest: cut in two halves it would count for
+    // less, 2^(-1/4) times its importance, which is four strata.
     const auto inDisc = [](Vec3d centre)
     {
         const auto image = newEnvironment(
@@ -166,9 +166,9 @@ TEST_CASE("strata: irradiance without occluders is near the exact one, nearer wi
 
 TEST_CASE("strata: far apart, as Hochbaum and Shmoys's bound says", "[shading]")
 {
-    // Of an even sky the centres are the farthest-point sequence: 100 points on the sphere cover it
-    // with caps of twice the radius of the best covering at most; that of 100 is 0.223 (half angle
-    // of caps of 4 pi / 100 times 1.24).
+    // For an even sky the centres are the farthest-point sequence: 100 points cover the sphere with
+    // caps of at most twice the radius of the best covering. The best radius for 100 points is
+    // 0.223 (half angle of caps of 4 pi / 100 times 1.24).
     const EnvironmentMap map(newEnvironment(128, 64, Vec3(1.0f)));
     const auto strata = environmentStrata(map, 100);
     REQUIRE(strata.size() == 100);

@@ -1,4 +1,4 @@
-// FresnelTest.cpp - reflectances against known values and a reference in double.
+// FresnelTest.cpp - reflectances compared with known values and with a reference in double.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
@@ -20,7 +20,7 @@ float reflectance(double degrees, float eta)
     return fresnelDielectric(static_cast<float>(std::cos(radians(degrees))), eta);
 }
 
-/// Textbook form, by the two polarisations.
+/// Returns the textbook form, by the two polarisations.
 double exact(double cosI, double eta)
 {
     const double sin2T = (1.0 - cosI * cosI) / (eta * eta);
@@ -39,7 +39,7 @@ TEST_CASE("fresnel: glass of index 1.5", "[shading]")
     CHECK(reflectance(30.0, 1.5f) == Approx(0.04152263).epsilon(1e-5));
     CHECK(reflectance(60.0, 1.5f) == Approx(0.08918671).epsilon(1e-5));
     CHECK(reflectance(85.0, 1.5f) == Approx(0.61279965).epsilon(1e-5));
-    // At Brewster's angle only one polarisation is left.
+    // At Brewster's angle only one polarisation is reflected.
     const double brewster = 56.309932;
     const double s = std::sin(radians(2.0 * brewster - 90.0));
     CHECK(reflectance(brewster, 1.5f) == Approx(0.5 * s * s).epsilon(1e-5));

@@ -22,7 +22,7 @@ struct Quad
     Vec3 corner, u, v;
 };
 
-/// Ordinary, tiny, huge, narrow and skewed until the edges are nearly parallel.
+/// The quads are ordinary, tiny, huge, narrow and skewed until the edges are nearly parallel.
 const Quad kQuads[] = {
     {"square", {-0.5f, -0.5f, 1}, {0, 1, 0}, {1, 0, 0}},
     {"tiny", {0.1f, 0.1f, 1}, {0, 1e-4f, 0}, {1e-4f, 0, 0}},
@@ -34,7 +34,7 @@ const Quad kQuads[] = {
 
 const Vec3 kPoints[] = {{0, 0, 0}, {0.3f, -0.2f, 0.999f}, {4, 3, -2}, {300, 20, -50}};
 
-/// Coordinates of a point of the parallelogram's plane along its edges.
+/// Returns the coordinates of a point of the parallelogram's plane along its edges.
 Vec2 edgeCoordinates(const Quad& quad, Vec3d point)
 {
     const Vec3d u(quad.u), v(quad.v), d = point - Vec3d(quad.corner);
@@ -43,8 +43,8 @@ Vec2 edgeCoordinates(const Quad& quad, Vec3d point)
     return Vec2(glm::dot(glm::cross(d, v), n) / n2, glm::dot(glm::cross(u, d), n) / n2);
 }
 
-/// Of samples of light 0 from p: chi-square over cells of the solid angle, which the claimed
-/// density must fill, and the sum of 1/pdfW, which must be the solid angle of the light.
+/// The result of samples of light 0 from p: the chi-square test over cells of equal area, and the
+/// sum of 1/pdfW, which must be the solid angle of the light.
 struct LightResult
 {
     double fit = 1.0;
@@ -67,7 +67,8 @@ LightResult sampleQuad(const LightTable& table, const Quad& quad, Vec3 p, uint32
         if (!sample) continue;
         result.bad += !(sample->pdfW > 0.0f) || !std::isfinite(sample->pdfW) ||
                       !isFinite(sample->wi) || !isFinite(sample->point);
-        // The density follows from where the direction meets the light, worked out from wi alone.
+        // The density follows from the point in which the direction meets the light, computed from
+        // wi alone.
         const Vec3d n = glm::normalize(glm::cross(Vec3d(quad.u), Vec3d(quad.v)));
         const Vec3d wi(sample->wi), d = Vec3d(quad.corner) - Vec3d(p);
         const double distance = glm::dot(d, n) / glm::dot(wi, n);
@@ -98,8 +99,9 @@ double solidAngle(Vec3d a, Vec3d b, Vec3d c)
 
 TEST_CASE("light density: parallelograms of any size and shape", "[shading][statistics]")
 {
-    // Uniform by area in 576 cells, and by the claimed density the light's exact solid angle. 1 %
-    // false alarms in all of the chi-squares (Sidak), 6e-5 for each solid angle.
+    // Samples are uniform by area in 576 cells, and the claimed density gives the light's exact
+    // solid angle. There are 1 % false alarms in all of the chi-square tests (Sidak), and 6e-5 for
+    // each solid angle.
     const double significance = sidak(0.01, 6 * 4);
     uint32_t seed = 0;
     for (const Quad& quad : kQuads)
@@ -117,7 +119,7 @@ TEST_CASE("light density: parallelograms of any size and shape", "[shading][stat
             const Vec3d a = Vec3d(quad.corner) - Vec3d(p), b = a + Vec3d(quad.u),
                         c = b + Vec3d(quad.v), d = a + Vec3d(quad.v);
             const double exact = solidAngle(a, b, c) + solidAngle(a, c, d);
-            // Close to a huge light few samples make the sum: its spread tells nothing there.
+            // Close to a huge light a few samples make the sum, and its spread tells nothing.
             const Vec3d n = glm::normalize(glm::cross(Vec3d(quad.u), Vec3d(quad.v)));
             const double extent = glm::length(Vec3d(quad.u)) + glm::length(Vec3d(quad.v));
             if (extent < 100.0 * std::abs(glm::dot(a, n)))
@@ -128,7 +130,8 @@ TEST_CASE("light density: parallelograms of any size and shape", "[shading][stat
 
 TEST_CASE("light density: triangles of very unequal area, cell by cell", "[shading][statistics]")
 {
-    // Areas from 0.5 to 5e-7, 40 triangles in a row at x = 2k; each in four equal parts.
+    // Forty triangles in a row at x = 2k have areas from 0.5 to 5e-7; each is tested in four equal
+    // parts.
     std::vector<Vec3> positions;
     std::vector<UVec3> triangles;
     std::vector<double> areas;
@@ -176,7 +179,7 @@ TEST_CASE("light density: triangles of very unequal area, cell by cell", "[shadi
 TEST_CASE("light density: lights of very unequal power are chosen as claimed",
           "[shading][statistics]")
 {
-    // 60 lights, powers over twelve orders of magnitude.
+    // There are 60 lights, whose powers range over twelve orders of magnitude.
     SceneBuilder builder;
     for (int k = 0; k < 60; ++k)
     {
@@ -214,8 +217,9 @@ TEST_CASE(
     "light density: a light too faint for a float's share is still sampled, or says it is not",
     "[shading]")
 {
-    // Next to one of 1e12 times its power: a share of 0 is honest, as the path tracer then takes
-    // all of its light by chance; a share that is claimed but never drawn would lose it.
+    // The light is next to one of 1e12 times its power. A share of 0 is right, because the path
+    // tracer then finds all of its light by chance. A share that is claimed but never drawn would
+    // lose the light.
     SceneBuilder builder;
     builder.addQuadLight({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Vec3(1e-6f));
     builder.addQuadLight({2, 0, 0}, {1, 0, 0}, {0, 1, 0}, Vec3(1e6f));
@@ -226,7 +230,8 @@ TEST_CASE(
         const float pmf = table.areaLightPmf(light);
         CHECK((pmf == 0.0f || pmf > 1e-14f));
         if (pmf == 0.0f) continue;
-        // Drawn by numbers below its share (or the highest there is), if it claims one.
+        // The light is drawn by numbers below its share (or the highest number there is), if it
+        // claims a share.
         const float u = light == 0 ? 0.5f * pmf : kOneMinusEpsilon;
         CHECK(table.chooseAreaLight(u).light == light);
     }

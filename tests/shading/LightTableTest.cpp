@@ -1,4 +1,4 @@
-// LightTableTest.cpp - sampling of area lights, and what the others send.
+// LightTableTest.cpp - sampling of area lights, and the light of other kinds.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -12,7 +12,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// Solid angle of a triangle [Van Oosterom, Strackee 1983].
+/// Returns the solid angle of a triangle [Van Oosterom, Strackee 1983].
 double solidAngle(Vec3d a, Vec3d b, Vec3d c)
 {
     const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
@@ -30,7 +30,7 @@ double solidAngle(const Mesh& mesh, Vec3d from)
     return sum;
 }
 
-/// Mean of 1/pdfW over stratified samples: the solid angle.
+/// Returns the mean of 1/pdfW over stratified samples, which is the solid angle.
 double sampledSolidAngle(const LightTable& table, Vec3 from,
                          int side = 516) // whole strata for 2 and 12 triangles
 {
@@ -81,7 +81,7 @@ TEST_CASE("area light: a closed emissive mesh is seen twice, front and back", "[
 TEST_CASE("area light: one-sided lights are dark behind", "[shading]")
 {
     SceneBuilder builder;
-    builder.addQuadLight({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, Vec3(1.0f)); // shines down
+    builder.addQuadLight({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, Vec3(1.0f)); // shines downwards
     const LightTable table(*builder.scene);
     const auto below = table.sampleArea(0, Vec3(0.5f, 0.5f, 0.0f), 0.25f, 0.75f);
     REQUIRE(below);
@@ -99,7 +99,8 @@ TEST_CASE("area light: one-sided lights are dark behind", "[shading]")
 TEST_CASE("area light: triangles of a mesh are chosen by area, those without area never",
           "[shading][statistics]")
 {
-    // Areas 0.5, 0, 1.5, 0; the second has two equal corners, the fourth lies on a line.
+    // The triangles have the areas 0.5, 0, 1.5, 0; the second has two equal corners, the fourth
+    // lies on a line.
     const auto mesh =
         newMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {8, 0, 0}, {5, 1, 0}, {6.5f, 0, 0}},
                 {{0, 1, 2}, {0, 0, 2}, {3, 4, 5}, {3, 6, 4}});
@@ -128,7 +129,7 @@ TEST_CASE("area light: triangles of a mesh are chosen by area, those without are
             REQUIRE((q.y > -1e-4f && (q.x - 5.0f) / 3.0f + q.y < 1.0f + 1e-4f));
         }
     }
-    // 5 sigma of a binomial count of share 1/4.
+    // The count is binomial with a share of 1/4; the bound is 5 sigma.
     CHECK(std::abs(first - kSamples / 4) < 5.0 * std::sqrt(kSamples * 3.0 / 16.0));
     CHECK(first + second == kSamples);
 }
@@ -170,7 +171,7 @@ TEST_CASE("area light: lights are chosen by power", "[shading]")
     builder.addQuadLight({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Vec3(1.0f));
     builder.addLight(pointLight(Vec3(0.0f)));
     builder.addQuadLight({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Vec3(1.0f),
-                         true); // both sides: twice the power
+                         true); // two-sided: twice the power
     builder.addQuadLight({0, 0, 0}, {1, 0, 0}, {0, 5, 0}, Vec3(1.0f));
     const LightTable table(*builder.scene);
     CHECK(table.areaLights() == std::vector<uint32_t>{0, 2, 3});

@@ -1,4 +1,4 @@
-// MaterialTableTest.cpp - material descriptions become the surfaces that they mean.
+// MaterialTableTest.cpp - material descriptions become the surfaces that they describe.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -67,7 +67,7 @@ TEST_CASE("material: metallic, roughness and base colour as in glTF", "[shading]
     CHECK(plastic.coatAverage == Approx(0.091778).margin(1e-4));
     material.baseColor = Vec3(5.0f);
     material.roughness = 3.0f;
-    CHECK(bsdfOf(material).diffuse == Vec3(1.0f)); // out of range is clamped
+    CHECK(bsdfOf(material).diffuse == Vec3(1.0f)); // clamped to its range
     CHECK(bsdfOf(material).alpha == 1.0f);
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("material: highlights are as bright on average as OpenGL's", "[shading
         {
             const double cosine = (i + 0.5) / kRings;
             const Vec3 w(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
-            const Vec3 radiance = evalBsdf(bsdf, w, w).fCos * kPi; // of an irradiance of pi
+            const Vec3 radiance = evalBsdf(bsdf, w, w).fCos * kPi; // for an irradiance of pi
             red += 2.0 * cosine * radiance.x / kRings;
             green += 2.0 * cosine * radiance.y / kRings;
         }
@@ -174,11 +174,11 @@ TEST_CASE("material: a highlight leaves the diffuse colour alone", "[shading]")
                 material.shininess = shininess;
                 const Bsdf bsdf = bsdfOf(material);
                 CAPTURE(base, specular, shininess);
-                CHECK(bsdf.diffuse.x >= std::min(base, 0.96f) - 1e-6f); // what index 1.5 leaves
+                CHECK(bsdf.diffuse.x >= std::min(base, 0.96f) - 1e-6f); // left by an index of 1.5
                 CHECK(bsdf.diffuse.y == Approx(0.5f * bsdf.diffuse.x));
                 CHECK((specular == 0.0f || bsdf.grazing >= 0.001f));
                 CHECK(bsdf.grazing == Approx(std::max(bsdf.reflectance.x, bsdf.reflectance.y)));
-                CHECK(bsdf.diffuse.x + bsdf.grazing <= 1.000001f); // no energy is made
+                CHECK(bsdf.diffuse.x + bsdf.grazing <= 1.000001f); // no energy is gained
                 if (base + specular * 4.0f <= 1.0f) CHECK(bsdf.diffuse == material.diffuse);
             }
         }

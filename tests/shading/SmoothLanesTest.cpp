@@ -1,4 +1,4 @@
-// SmoothLanesTest.cpp - sixteen rays at smooth interfaces against one at a time.
+// SmoothLanesTest.cpp - sixteen rays at smooth interfaces compared with one ray at a time.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/shading/BsdfKinds.h"
@@ -64,7 +64,7 @@ Block blockOf(const std::vector<BsdfKind>& kinds, uint32_t round)
         block.interfaces.set(i, *block.bsdfs[i]);
         const Vec3 normal = squareToCosineHemisphere(number(k + 1), number(k + 2));
         const Vec3 across = glm::normalize(glm::cross(normal, Vec3(0.6f, 0.64f, -0.48f)));
-        // From normal to grazing incidence, and some from below.
+        // The angles go from normal to grazing incidence; some rays come from below.
         const float angle = 1.6f * number(k + 3);
         setLane(block.normal, i, normal);
         setLane(block.direction, i,
@@ -113,7 +113,7 @@ TEST_CASE("smooth lanes: what sampleBsdf says of each, and the other lanes untou
                 Vec3 tangent, bitangent;
                 frameOf(normal.x, normal.y, normal.z, tangent, bitangent);
                 const Vec3 wo(-glm::dot(d, tangent), -glm::dot(d, bitangent), -glm::dot(d, normal));
-                if (std::fabs(wo.z) < 1e-6f) continue; // either side, by rounding
+                if (std::fabs(wo.z) < 1e-6f) continue; // rounding decides on the side
                 const std::optional<BsdfSample> sample =
                     sampleBsdf(*block.bsdfs[i], wo, block.lobe[i], 0.5f, 0.5f, transport);
                 const bool alive = (result.alive >> i) & 1u;
@@ -121,8 +121,8 @@ TEST_CASE("smooth lanes: what sampleBsdf says of each, and the other lanes untou
                 CAPTURE(round, i, wo.z, block.lobe[i], block.bsdfs[i]->eta);
                 if (alive != sample.has_value() || (sample && transmitted != sample->transmitted))
                 {
-                    // The lobe number may be within rounding of the bound, at the critical angle
-                    // too.
+                    // The lobe number may be within rounding of its bound, also at the critical
+                    // angle.
                     ++undecided;
                     continue;
                 }
@@ -133,7 +133,7 @@ TEST_CASE("smooth lanes: what sampleBsdf says of each, and the other lanes untou
                 REQUIRE(sample->delta);
                 const Vec3 expected =
                     tangent * sample->wi.x + bitangent * sample->wi.y + normal * sample->wi.z;
-                // Refraction at grazing angles takes a root of what little is left.
+                // Refraction at grazing angles takes a root of a small remainder.
                 REQUIRE(near(wi, expected, 1e-3f));
                 REQUIRE(std::fabs(glm::length(wi) - 1.0f) < 1e-6f);
                 const float largest =

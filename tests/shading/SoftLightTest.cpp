@@ -1,4 +1,4 @@
-// SoftLightTest.cpp - spheres and suns: cones, weights and the irradiance that they make.
+// SoftLightTest.cpp - spheres and suns: cones, weights and the irradiance that they cause.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -14,7 +14,7 @@ namespace
 
 constexpr double kPiD = glm::pi<double>();
 
-/// A sphere whose radiance is 1, if it fades with the square of the distance.
+/// Returns a sphere whose radiance is 1 if it fades with the square of the distance.
 Light sphereLight(Vec3 position, float radius)
 {
     Light light = pointLight(position, Vec3(radius * radius));
@@ -27,12 +27,12 @@ Light sun(Vec3 direction, float sine)
     Light light;
     light.kind = LightKind::Directional;
     light.direction = glm::normalize(direction);
-    light.diffuse = Vec3(sine * sine); // its radiance is 1
+    light.diffuse = Vec3(sine * sine); // gives a radiance of 1
     light.sine = sine;
     return light;
 }
 
-/// Irradiance at the origin, normal +z, by side x side points of the square.
+/// Returns the irradiance at the origin, with the normal +z, by side x side points of the square.
 double irradiance(const Light& light, int side)
 {
     double sum = 0.0;
@@ -105,7 +105,8 @@ TEST_CASE("soft light: 1 - cosine has no cancellation", "[shading]")
     }
 }
 
-// The point light's irradiance for all sizes, as long as nothing is below the horizon.
+// The irradiance is that of the point light for all sizes, as long as no part of the light is below
+// the horizon.
 TEST_CASE("soft light: tiny and far ones are the point light", "[shading]")
 {
     for (const float radius : {1.0f, 0.1f, 1e-3f, 1e-6f, 1e-20f})
@@ -123,7 +124,7 @@ TEST_CASE("soft light: tiny and far ones are the point light", "[shading]")
     }
 }
 
-// Inside it is as on the surface: neither dark nor infinite.
+// Inside the light the irradiance is that on its surface: neither 0 nor infinite.
 TEST_CASE("soft light: from outside to inside there is no step", "[shading]")
 {
     const auto at = [](float distance) {
@@ -135,7 +136,7 @@ TEST_CASE("soft light: from outside to inside there is no step", "[shading]")
     CHECK(sampleSoft(sphereLight({0, 0, 0}, 1.0f), Vec3(0.0f), Vec2(0.5f)).attenuation == 0.0f);
 }
 
-// Each test at 1e-3.
+// Each test has a false alarm of 1e-3.
 TEST_CASE("soft light: directions are uniform in the cone, and end at the disc",
           "[shading][statistics]")
 {
@@ -157,7 +158,7 @@ TEST_CASE("soft light: directions are uniform in the cone, and end at the disc",
                                   (1.0 - std::sqrt(1.0 - double(sine) * sine));
             const int row = std::clamp(int(height * kCells), 0, kCells - 1);
             counts[std::size_t(row * kCells + sectors.of(wi, kCells))] += 1.0;
-            // The disc's centre is the light's, and it faces the ray.
+            // The disc has its centre at the light's and faces the ray.
             const Vec3d end = wi * double(sample.distance) - Vec3d(light.position);
             REQUIRE(std::abs(glm::dot(end, wi)) < 1e-4 * glm::length(light.position));
             REQUIRE(glm::length(end) < 3.001);
@@ -173,8 +174,8 @@ TEST_CASE("soft light: a spot's profile belongs to directions", "[shading]")
     light.direction = {0, 0, -1};
     light.spotCosCutoff = std::cos(glm::radians(20.0f));
     light.spotExponent = 3.0f;
-    // Mean over the cone of 30 degrees of cos^4 within 20 degrees, times its solid angle, is
-    // 2 pi (1 - c^5) / 5.
+    // The mean over the cone of 30 degrees of cos^4 within 20 degrees, times the cone's solid
+    // angle, is 2 pi (1 - c^5) / 5.
     const double c = light.spotCosCutoff;
     CHECK(irradiance(light, 1024) ==
           Approx(2.0 * kPiD * (1.0 - std::pow(c, 5)) / 5.0).epsilon(1e-3));

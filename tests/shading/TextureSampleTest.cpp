@@ -13,7 +13,7 @@ using namespace osgRayTrace::engine;
 namespace
 {
 
-/// 4 x 2 texels, red = column / 10, green = row / 10.
+/// Returns 4 x 2 texels with red = column / 10 and green = row / 10.
 Texture ramp(bool linear, TextureWrap wrap)
 {
     Texture texture;
@@ -54,8 +54,7 @@ TEST_CASE("texture: bilinear between texel centres", "[shading]")
     CHECK(red(texture, 0.25f, 0.25f) == Approx(0.05));
     CHECK(red(texture, 0.5f, 0.7f) == Approx(0.15));
     CHECK(sampleTexture(texture, Vec2(0.3f, 0.5f)).y == Approx(0.05));
-    CHECK(red(texture, 0.0f, 0.0f) ==
-          Approx(0.0).margin(1e-7)); // beyond the outer centres: clamped
+    CHECK(red(texture, 0.0f, 0.0f) == Approx(0.0).margin(1e-7)); // clamped beyond the outer centres
     CHECK(red(texture, 1.0f, 0.0f) == Approx(0.3));
 }
 
@@ -134,7 +133,7 @@ TEST_CASE("texture: 3-D images, between slices and beyond them", "[shading]")
     CHECK(sampleTexture(texture, Vec4(0.5f, 0.25f, 0.5f, 1.0f)).x == Approx(0.15));
     texture.wrapR = TextureWrap::Repeat;
     CHECK(blue(1.5f) == Approx(0.6));
-    CHECK(blue(0.0f) == Approx(0.6)); // between the last and the first
+    CHECK(blue(0.0f) == Approx(0.6)); // between the last and the first layer
     texture.wrapR = TextureWrap::Mirror;
     CHECK(blue(1.0f + 0.5f / 3) == Approx(0.7));
     texture.wrapR = TextureWrap::ClampToBorder;
@@ -144,5 +143,5 @@ TEST_CASE("texture: 3-D images, between slices and beyond them", "[shading]")
     CHECK(blue(0.34f) == Approx(0.6));
     CHECK(blue(-0.01f) == Approx(0.9));
     texture.wrapR = TextureWrap::Clamp;
-    CHECK(blue(9.0f) == Approx(0.7)); // with the nearest texel there is no border
+    CHECK(blue(9.0f) == Approx(0.7)); // the nearest texel has no border
 }

@@ -1,4 +1,4 @@
-// CoverageTest.cpp - intervals of 68 and 95 % made from the two halves hold the truth as often.
+// CoverageTest.cpp - intervals of 68 and 95 % made from the two halves contain the truth as often.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
@@ -13,8 +13,8 @@ namespace
 constexpr int kSize = 48, kTile = 16, kTiles = kSize / kTile;
 constexpr int kSeeds = 250;
 
-/// A sum of independent errors, estimated from the halves of each: for the degrees of freedom that
-/// such an estimate has see Satterthwaite, An Approximate Distribution of Estimates of Variance
+/// A sum of independent errors, estimated from the halves of each. The degrees of freedom of such
+/// an estimate are those of Satterthwaite, An Approximate Distribution of Estimates of Variance
 /// Components, 1946.
 struct Interval
 {
@@ -29,7 +29,8 @@ struct Interval
     }
 };
 
-/// Green of each tile, its error from the channel that holds that of each pixel.
+/// Returns the green of each tile; its error follows from the channel that holds each pixel's
+/// error.
 std::vector<Interval> tileIntervals(const RenderSession& session)
 {
     const std::vector<float> image = session.resolveRadiance(),
@@ -40,7 +41,7 @@ std::vector<Interval> tileIntervals(const RenderSession& session)
         const int x = pixel % kSize, y = pixel / kSize;
         Interval& tile = tiles[static_cast<std::size_t>(y / kTile * kTiles + x / kTile)];
         const double share = 1.0 / (kTile * kTile);
-        // Green alone: the channels of a pixel share their samples.
+        // Only green is used, because the channels of a pixel share their samples.
         const double error = errors[static_cast<std::size_t>(3 * pixel + 1)] * share;
         tile.mean += image[static_cast<std::size_t>(4 * pixel + 1)] * share;
         tile.variance += error * error;
@@ -49,7 +50,7 @@ std::vector<Interval> tileIntervals(const RenderSession& session)
     return tiles;
 }
 
-/// The whole image from its tiles.
+/// Returns the interval of the whole image from those of its tiles.
 Interval wholeOf(const std::vector<Interval>& tiles)
 {
     Interval whole;
@@ -81,7 +82,8 @@ struct Coverage
     double share95() const { return double(in95) / trials; }
 };
 
-/// Shares of trials are binomial: 3.9 sigma, a false alarm in 10 000 for each check.
+/// Checks a share of trials, which is binomial, by 3.9 sigma: a false alarm in 10 000 for each
+/// check.
 void checkShare(double share, double claimed, int trials)
 {
     const double spread = std::sqrt(claimed * (1.0 - claimed) / trials);
@@ -144,7 +146,7 @@ std::vector<PixelEstimate> pixelEstimates(const RenderSession& session)
     return pixels;
 }
 
-/// The two halves of one pixel are one degree of freedom.
+/// Checks the intervals of single pixels: the two halves of a pixel give one degree of freedom.
 void checkPixelCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
                         RenderOptions options, int passes)
 {
@@ -179,9 +181,9 @@ void checkPixelCoverage(const std::shared_ptr<const TracedScene>& traced, const 
     checkShare(double(in95) / trials, 0.95, trials);
 }
 
-/// Integrators with photons: the truth is the expectation of the image after so many passes, the
-/// mean over all seeds. How far it is from the light itself, because photons are looked up in
-/// discs, the halves of an image cannot tell.
+/// Checks integrators with photons: the truth is the expectation of the image after this many
+/// passes, taken as the mean over all seeds. The halves of an image cannot tell how far it is from
+/// the light itself, because photons are looked up in discs.
 void checkPhotonCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
                          RenderOptions options, int passes)
 {
@@ -221,7 +223,7 @@ View withoutLight()
     return perspectiveView({278, 400, 20}, {278, 100, 559}, {0, 1, 0}, 45.0, kSize, kSize);
 }
 
-/// Colours could change from point to point: no paths are reused.
+/// Returns a box whose colours could change from point to point, so that no paths are reused.
 SceneBuilder boxWithoutLoans()
 {
     SceneBuilder box = cornellBox();
@@ -240,8 +242,7 @@ SceneBuilder boxWithoutLoans()
 
 TEST_CASE("coverage: path tracing with Sobol points", "[statistics]")
 {
-    // Pixels of a tile share paths: the error of each is known, but not that of their
-    // sum.
+    // Pixels of a tile share paths: the error of each pixel is known, but not that of their sum.
     for (const int passes : {4, 5, 16})
         checkPixelCoverage(cornellBox().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),
                            passes);
@@ -256,7 +257,7 @@ TEST_CASE("coverage: path tracing whose pixels share nothing", "[statistics]")
 
 TEST_CASE("coverage: photons, seen by paths that glossy surfaces spread", "[statistics]")
 {
-    // A glossy floor: most of the noise of its pixels is that of camera paths, which passes of PPM
+    // On a glossy floor, most of the noise of pixels is that of camera paths, which passes of PPM
     // share.
     SceneBuilder box = cornellBox();
     Material glossy = mirror(Vec3(0.9f));
@@ -293,8 +294,8 @@ TEST_CASE("coverage: the other light strategies", "[statistics]")
 
 TEST_CASE("coverage: with the light's edges in view", "[statistics]")
 {
-    // The few pixels along the edges make the error of their tile: it takes Whitted's ray tracer,
-    // which has no other noise there, more passes until theirs is normally distributed.
+    // The few pixels along the edges make the error of their tile. Whitted's ray tracer has no
+    // other noise there, so it takes more passes until this error is normally distributed.
     checkCoverage(boxWithoutLoans().build(), cornellView(kSize, kSize),
                   optionsOf(IntegratorKind::Path, 4), 16);
     checkCoverage(cornellBox().build(), cornellView(kSize, kSize),

@@ -1,4 +1,4 @@
-// PValuesTest.cpp - the tests' own tail probabilities, against tables and by simulation.
+// PValuesTest.cpp - the tests' own tail probabilities, compared with tables and by simulation.
 // SPDX-License-Identifier: MIT
 #include "tests/PValues.h"
 #include "tests/Catch.h"
@@ -17,7 +17,7 @@ TEST_CASE("p-values: Student's t as in the tables", "[statistics]")
 
 TEST_CASE("p-values: Kolmogorov's distance as in the tables", "[statistics]")
 {
-    // 100 even values pushed together to a distance of 0.134: 5 % for n = 100.
+    // The values are 100 even values pushed together to a distance of 0.134: 5 % for n = 100.
     std::vector<double> values;
     for (int i = 0; i < 100; ++i)
         values.push_back((i + 0.5) / 100.0);
@@ -29,7 +29,7 @@ TEST_CASE("p-values: Kolmogorov's distance as in the tables", "[statistics]")
 
 TEST_CASE("p-values: of equal means they are uniform, of others small", "[statistics]")
 {
-    // 4000 comparisons of 12 against 20 values of different spread; 1 % false alarms.
+    // There are 4000 comparisons of 12 and 20 values of different spread, with 1 % false alarms.
     Uniform random(7);
     const auto normal = [&]
     {

@@ -17,11 +17,11 @@ namespace
 
 struct SurfacePoint
 {
-    Vec3d position, normal, shading; ///< both normals on the side that the ray comes from
+    Vec3d position, normal, shading; ///< both normals are on the side of the incoming ray
     MaterialPoint on;
     uint32_t material = 0;
     uint32_t light = kInvalid;
-    double clearance = 0.0; ///< to leave the surface by
+    double clearance = 0.0; ///< distance at which rays leave the surface
 };
 
 struct Basis
@@ -142,7 +142,7 @@ private:
         return sum;
     }
 
-    /// f cos; of a Lambert surface worked out here.
+    /// Returns f cos; for a Lambert surface it is computed here.
     static Vec3d value(const Bsdf& bsdf, Vec3 wo, Vec3 wi)
     {
         if (bsdf.isDiffuse()) return Vec3d(bsdf.diffuse) * (std::max(double(wi.z), 0.0) / M_PI);
@@ -175,7 +175,7 @@ private:
         beta *= double(ways);
         direction = basis.toWorld(wi);
         const double side = glm::dot(direction, point.normal);
-        // Smooth normals: light does not leak to the other side of the face.
+        // Light does not leak to the other side of the face, even if its normals are smooth.
         if ((side < 0.0) != (wi.z < 0.0) || beta == Vec3d(0.0)) return false;
         origin = point.position + point.normal * (side < 0.0 ? -point.clearance : point.clearance);
         return true;

@@ -1,4 +1,4 @@
-// TenScenes.cpp - scenes that between them have every kind of surface, light and placement.
+// TenScenes.cpp - scenes that together have every kind of surface, light and placement.
 // SPDX-License-Identifier: MIT
 #include "tests/statistics/TenScenes.h"
 
@@ -21,7 +21,7 @@ Material rough(Vec3 color, float roughness, float metallic, float transmission =
     return material;
 }
 
-/// A floor and a back wall, around z = 0 and y = 1.5.
+/// Returns a floor and a back wall, around z = 0 and y = 1.5.
 SceneBuilder room(const Material& floor)
 {
     SceneBuilder builder;
@@ -68,7 +68,7 @@ SceneBuilder emissiveMeshes()
     SceneBuilder builder = room(lambert(Vec3(0.6f)));
     builder.addEmissive(sphereMesh({-0.8f, 0, 1}, 0.35f, 8), lamp(Vec3(4, 2, 1)));
     builder.addEmissive(boxMesh({0.4f, -0.4f, 0.4f}, {1.1f, 0.3f, 0.6f}), lamp(Vec3(1, 2, 4)));
-    // Unequal triangles: a fan around a corner.
+    // The triangles are unequal: a fan around a corner.
     builder.addEmissive(newMesh({{-0.3f, -0.6f, 0.2f},
                                  {0.3f, -0.6f, 0.2f},
                                  {0.3f, -0.5f, 0.25f},
@@ -149,7 +149,7 @@ SceneBuilder pointAndArea()
     return builder;
 }
 
-/// The scene of data/grids.osgt, its bars simplified to slats, under a larger light.
+/// Returns the scene of data/grids.osgt, with its bars simplified to slats, under a larger light.
 SceneBuilder grids()
 {
     SceneBuilder builder;

@@ -1,4 +1,4 @@
-// TenScenes.h - scenes that between them have every kind of surface, light and placement.
+// TenScenes.h - scenes that together have every kind of surface, light and placement.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,7 +14,7 @@ struct ComparedScene
     std::string name;
     std::shared_ptr<const TracedScene> traced;
     View view;
-    bool mirrors = false; ///< has smooth surfaces, which reflect things in WHITTED's direct light
+    bool mirrors = false; ///< smooth surfaces reflect others in WHITTED's direct light
     double size = 4.0;    ///< of the room [length]
 };
 

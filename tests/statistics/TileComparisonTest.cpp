@@ -18,7 +18,8 @@ constexpr int kRuns = 16;
 using TileMeans =
     std::vector<Estimate>; ///< a tile, and last the whole image; one value for each run
 
-/// Green alone: the channels of a path share its directions, and p-values must be independent.
+/// Adds a run to the means. Only green is used, because the channels of a path share its
+/// directions, and p-values must be independent.
 template <class At> void addRun(TileMeans& means, const At& at)
 {
     means.resize(kTiles * kTiles + 1);
@@ -61,7 +62,7 @@ TileMeans referenced(const ComparedScene& scene, int maxBounces, int paths)
     return means;
 }
 
-/// p-values of a family of comparisons.
+/// The p-values of a family of comparisons.
 class Family
 {
 public:
@@ -77,9 +78,8 @@ public:
         }
     }
 
-    /// No tile nor image differs, at 1 % in all (Sidak), and the p-values are uniform
-    /// (Kolmogorov-Smirnov, 1
-    /// %).
+    /// Checks that no tile and no image differs, at 1 % in all (Sidak), and that the p-values are
+    /// uniform (Kolmogorov-Smirnov, 1 %).
     void check() const
     {
         const double significance = sidak(0.01, static_cast<int>(_tests.size()));
@@ -118,7 +118,7 @@ TEST_CASE("tiles: path tracing against the reference tracer without light sampli
 TEST_CASE("tiles: direct light of Whitted's ray tracer against path tracing of one bounce",
           "[statistics]")
 {
-    // Each scene with another strategy of sampling its lights.
+    // Each scene has another strategy of sampling its lights.
     const LightSampling strategies[] = {LightSampling::Sobol, LightSampling::Random,
                                         LightSampling::UniformJitter, LightSampling::Stratified};
     Family family;

@@ -1,4 +1,5 @@
-# Takes the comments out of one public header: cmake/BuildApiPages.cmake must name the members that lack one.
+# Removes the comments from one public header: cmake/BuildApiPages.cmake must name the members that
+# lack one.
 # Usage: cmake -D ROOT=<source folder> -D DOXYGEN=<program> -D DOXYFILE=<file> -D WORK=<folder> -P this
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
@@ -9,7 +10,7 @@ string(REPLACE "    ///" "    //" header "${header}")
 file(WRITE "${WORK}/osgRayTrace/AreaLight" "${header}")
 file(READ "${DOXYFILE}" settings)
 string(REPLACE "\"${ROOT}/osgRayTrace/AreaLight\"" "\"${WORK}/osgRayTrace/AreaLight\"" settings "${settings}")
-string(REGEX REPLACE "\"[^\"]*\\.md\"" "" settings "${settings}") # no pages but those of headers
+string(REGEX REPLACE "\"[^\"]*\\.md\"" "" settings "${settings}") # only the pages of headers are made
 file(WRITE "${WORK}/Doxyfile"
     "${settings}\nOUTPUT_DIRECTORY = \"${WORK}/docs\"\nWARN_LOGFILE = \"${WORK}/docs/warnings.txt\"\nHAVE_DOT = NO\n")
 

@@ -5,8 +5,8 @@ cmake_minimum_required(VERSION 3.24)
 
 set(licence "// SPDX-License-Identifier: MIT\n")
 
-# check(<check> <file> <text> <expected message>): a tree of one good file and this one. If no message is
-# expected the check must pass.
+# check(<check> <file> <text> <expected message>) checks a tree of one good file and this one. If no
+# message is expected the check must pass.
 function(check script file text expected)
     file(REMOVE_RECURSE "${WORK}")
     file(COPY "${SOURCE}/.clang-format" DESTINATION "${WORK}")

@@ -1,4 +1,4 @@
-// main.cpp - renders a sphere with the installed package and checks that it is there.
+// main.cpp - renders a sphere with the installed package and checks that it is visible.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/PhysicalMaterial>

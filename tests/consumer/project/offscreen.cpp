@@ -1,4 +1,5 @@
-// offscreen.cpp - an OSG application in memory with the installed package: its scene, ray traced.
+// offscreen.cpp - an OSG application in memory with the installed package, whose scene is ray
+// traced.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/RayTracedScene>
 #include <osgRayTrace/offscreen/FrameCapture>

@@ -1,4 +1,4 @@
-// pictureCheck.cpp - says by its exit code whether the examples' pictures show what they should.
+// pictureCheck.cpp - tells by its exit code whether the examples' pictures are right.
 // SPDX-License-Identifier: MIT
 #include <osg/Image>
 #include <osg/LightSource>
@@ -28,7 +28,7 @@ void expect(bool condition, const std::string& what)
     if (!condition) throw std::runtime_error(what);
 }
 
-/// "model FILE": writes a ball before a wall in slanting sunlight.
+/// Implements "model FILE": writes a ball before a wall in slanting sunlight.
 void writeModel(const std::string& file)
 {
     osg::ref_ptr<osg::LightSource> sun = new osg::LightSource;
@@ -38,7 +38,8 @@ void writeModel(const std::string& file)
     expect(osgDB::writeNodeFile(*sun, file), file + " cannot be written");
 }
 
-/// "lit FILE": neither black nor white, and not of one colour. The mean of RGB goes from 0 to 1.
+/// Implements "lit FILE": the picture must be neither black nor white, and not of one colour. The
+/// mean of RGB goes from 0 to 1.
 void checkLit(const std::string& file)
 {
     const osg::ref_ptr<osg::Image> image = read(file);
@@ -58,7 +59,7 @@ void checkLit(const std::string& file)
     expect(mean > 0.05 && mean < 0.95 && deviation > 0.05, file + " is blank");
 }
 
-/// The mean of so many by so many pixels.
+/// Returns the mean of factor by factor pixels.
 osg::Vec4 meanColor(const osg::Image& image, int x, int y, int factor)
 {
     osg::Vec4 sum;
@@ -67,8 +68,8 @@ osg::Vec4 meanColor(const osg::Image& image, int x, int y, int factor)
     return sum / float(factor * factor);
 }
 
-/// "differ A B LEAST MOST": mean absolute difference of RGB in the middle half of each side, in
-/// units of 1/255. A may be larger by a whole factor.
+/// Implements "differ A B LEAST MOST": checks the mean absolute difference of RGB in the middle
+/// half of each side, in units of 1/255. A may be larger by a whole factor.
 void checkDifference(const std::string& a, const std::string& b, double least, double most)
 {
     const osg::ref_ptr<osg::Image> first = read(a), second = read(b);
@@ -90,7 +91,8 @@ void checkDifference(const std::string& a, const std::string& b, double least, d
     expect(mean >= least && mean <= most, a + " and " + b + " differ by so much");
 }
 
-/// Mean column, from the left of the half, of the pixels in which one colour outshines the others.
+/// Returns the mean column, from the left of the half, of the pixels in which one colour is
+/// brighter than the others.
 double meanColumn(const osg::Image& image, int half, unsigned channel)
 {
     const int width = image.s() / 2;
@@ -109,9 +111,10 @@ double meanColumn(const osg::Image& image, int half, unsigned channel)
     return sum / count;
 }
 
-/// "parallax FILE LEAST": the left eye's picture on the left. It has what is before the screen
-/// (red) further to the right than the right eye's picture has it, what is behind (blue) further to
-/// the left, each by so many pixels at least, and what is on the screen (green) in the same place.
+/// Implements "parallax FILE LEAST": the left eye's picture must be on the left. Compared with the
+/// right eye's picture, it must have objects before the screen (red) further to the right and
+/// objects behind it (blue) further to the left, each by LEAST pixels at least. Objects on the
+/// screen (green) must be in the same place.
 void checkParallax(const std::string& file, double least)
 {
     const osg::ref_ptr<osg::Image> image = read(file);
@@ -125,15 +128,15 @@ void checkParallax(const std::string& file, double least)
     expect(shift[2] < -least, "what is behind the screen is not there");
 }
 
-/// "materials FILE": chrome, gold, plastic and glass from the left to the right, each in its
-/// colour.
+/// Implements "materials FILE": chrome, gold, plastic and glass must stand from the left to the
+/// right, each in its colour.
 void checkMaterials(const std::string& file)
 {
     const osg::ref_ptr<osg::Image> image = read(file);
     osg::Vec4 balls[4];
     for (int i = 0; i < 4; ++i)
     {
-        // A square of 8 x 8 pixels at the middle of the ball.
+        // A square of 8 x 8 pixels is in the middle of the ball.
         const int x = int(image->s() * (0.5 + 0.171 * (i - 1.5))), y = image->t() / 2;
         balls[i] = meanColor(*image, x / 8, y / 8, 8);
         std::cout << file << ": ball " << i << " has the colour " << balls[i].r() << ' '

@@ -1,4 +1,5 @@
-// windowsInMemory.cpp - preloaded, it opens windows of osgViewer in memory, for a scripted user.
+// windowsInMemory.cpp - preloaded, this library opens windows of osgViewer in memory, for a
+// scripted user.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/offscreen/OffscreenContext>
 
@@ -14,7 +15,7 @@ namespace
 
 /// The script is the variable OSGRAYTRACE_TEST_SCRIPT: words, each command with the number of the
 /// frame before which it is executed: "5 key m 9 click 160 120 12 picture FILE 20 close". A click
-/// is in pixels from the upper left corner, a picture is that of the frame.
+/// is given in pixels from the upper left corner, and a picture is that of the frame.
 class WindowInMemory : public osgViewer::GraphicsWindow
 {
 public:
@@ -97,7 +98,7 @@ private:
     osg::ref_ptr<osg::GraphicsContext> _context;
     std::istringstream _script;
     int _frame = 0, _nextFrame = 0;
-    std::string _picture; ///< that is written after the frame; empty: none
+    std::string _picture; ///< file that is written after the frame; empty: none
 };
 
 struct WindowingSystem : osg::GraphicsContext::WindowingSystemInterface

@@ -1,6 +1,6 @@
 // oidn.h - not Open Image Denoise: a stand-in for tests that declares what DenoiseOidn.cpp calls,
-// as its documentation has it. OIDN_VERSION_MAJOR, 1 or 2, is given by CMake; the names of setters
-// depend on it. StandIn.h tells what it does.
+// as the library's documentation describes it. CMake gives OIDN_VERSION_MAJOR, 1 or 2, on which the
+// names of setters depend. StandIn.h describes what the stand-in does.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -1,4 +1,4 @@
-// BadGeometryTest.cpp - bad vertices and indices are left out, the rest stands. Layer: tests.
+// BadGeometryTest.cpp - bad vertices and indices are left out, and the rest stays. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/stability/geometry/Pictured.h"
@@ -21,7 +21,7 @@ struct Grid
     osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     std::vector<GLuint> indices;
 
-    /// Waves around the origin.
+    /// Makes waves around the origin.
     Grid()
     {
         for (unsigned int y = 0; y < kSide; ++y)
@@ -74,13 +74,13 @@ TEST_CASE("stability 12: triangles without area are left out, the picture is tha
     const auto first = static_cast<GLuint>(bad.vertices->size());
     bad.vertices->push_back({0.5f, 0.5f, 0.5f});
     bad.vertices->push_back({0.5f, 0.5f, 0.5f});   // the same point
-    bad.vertices->push_back({0.75f, 0.5f, 0.5f});  // with both: a line
+    bad.vertices->push_back({0.75f, 0.5f, 0.5f});  // on a line with both
     bad.vertices->push_back({0.625f, 0.5f, 0.5f}); // between them: no area
     std::vector<GLuint> good;
     good.swap(bad.indices);
     for (std::size_t i = 0; i < good.size(); i += 3)
     {
-        // Among the good ones, not behind them.
+        // The bad triangles are among the good ones, not behind them.
         if (i == 300) bad.add(first, first, first);
         if (i == 3000) bad.add(first, first + 1, first + 1);
         if (i == 6000) bad.add(first, first + 1, first + 2);
@@ -161,7 +161,7 @@ TEST_CASE("stability 14: bad indices and empty arrays are refused by drawable, w
               "geometry 'Group/beyond': 2 triangles with an index beyond the vertex array") == 1);
     converter.forget();
     converter.convert(inputFor(root));
-    CHECK(messages.timesSaid("Group/beyond") == 1); // not again
+    CHECK(messages.timesSaid("Group/beyond") == 1); // not repeated
     REQUIRE(converted.scene->instances.size() == 1);
     for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})
         checkSamePicture(converted, pictureOf(convertGraph(lit({Grid().geometry()})), kind), kind);

@@ -1,4 +1,4 @@
-// CameraTest.cpp - nothing to see, and eyes in places where no eye should be. Layer: tests.
+// CameraTest.cpp - views of nothing, and eyes in unusual places. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 #include "tests/stability/geometry/Compare.h"
@@ -11,7 +11,7 @@ namespace
 
 const IntegratorKind kBoth[] = {IntegratorKind::Whitted, IntegratorKind::Path};
 
-/// All values of the picture are one of the two; how many are the first.
+/// Returns how many values are the first one. Every value of the picture must be one of the two.
 int countOfTwo(const Picture& picture, float a, float b)
 {
     int first = 0;
@@ -24,7 +24,7 @@ int countOfTwo(const Picture& picture, float a, float b)
     return first;
 }
 
-/// Unpolarised, from the side of index n to that of index 1.
+/// Returns the unpolarised reflectance, from the side of index n to that of index 1.
 double exactReflectance(double cosI, double n)
 {
     const double sinT = n * std::sqrt(1.0 - cosI * cosI);
@@ -47,7 +47,8 @@ TEST_CASE("stability 21: without geometry nothing is covered, without lights all
         return !picture.rgba.empty();
     };
     const View view = perspectiveView({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 20.0, 33, 17);
-    // Radiance is without the background, which lies below it when shown.
+    // The radiance does not include the background, which is composited when the picture is
+    // displayed.
     const Vec4 nothing(0.0f);
     for (const IntegratorKind kind : kBoth)
     {
@@ -69,7 +70,7 @@ TEST_CASE("stability 21: without geometry nothing is covered, without lights all
 
 TEST_CASE("stability 22: an eye exactly on a surface", "[stability]")
 {
-    // Black floor, a ceiling of radiance 1 and a cellar of radiance 7.
+    // The scene has a black floor, a ceiling of radiance 1 and a cellar of radiance 7.
     SceneBuilder builder;
     builder.add(quadMesh({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), lambert(Vec3(0.0f)));
     builder.add(quadMesh({-1e4f, -1e4f, 5}, {0, 2e4f, 0}, {2e4f, 0, 0}), lamp(Vec3(1.0f)));
@@ -77,8 +78,8 @@ TEST_CASE("stability 22: an eye exactly on a surface", "[stability]")
     const auto traced = builder.build();
     for (const IntegratorKind kind : kBoth)
     {
-        // Rays of a perspective view begin at its near plane: above the floor they see all of the
-        // ceiling, below it all of the cellar.
+        // Rays of a perspective view begin at its near plane: above the floor they all meet the
+        // ceiling, below it they all meet the cellar.
         for (const double side : {1.0, -1.0})
         {
             const Picture picture =
@@ -89,7 +90,7 @@ TEST_CASE("stability 22: an eye exactly on a surface", "[stability]")
             CHECK(picture.progress.droppedSamples == 0);
             CHECK(countOfTwo(picture, side > 0.0 ? 1.0f : 7.0f, -1.0f) == 32 * 32);
         }
-        // Parallel rays begin on the floor itself, and see it or what is behind it.
+        // Parallel rays begin on the floor itself, and meet the floor or what is behind it.
         View view;
         view.width = view.height = 32;
         view.viewFromWorld = glm::lookAt(Vec3d(0, 0, 2), Vec3d(0.0), Vec3d(0, 1, 0));
@@ -117,8 +118,8 @@ TEST_CASE("stability 22: an eye inside of a light sees its radiance", "[stabilit
 TEST_CASE("stability 22: an eye in glass in a white room sees n^2 times its radiance",
           "[stability][statistics]")
 {
-    // A black body's radiance is n^2 L in a medium. Off the centre of a ball by half of the radius
-    // nothing is totally reflected: all that is reflected comes out in the end.
+    // A black body's radiance is n^2 L in a medium. At a distance of half of the radius from a
+    // ball's centre nothing is totally reflected: all reflected light leaves the ball in the end.
     SceneBuilder builder;
     builder.add(sphereMesh(Vec3(0.0f), 1.0f, 100), glass(1.5f));
     builder.add(boxMesh(Vec3(-9.0f), Vec3(9.0f)), lamp(Vec3(1.0f)));
@@ -132,9 +133,9 @@ TEST_CASE("stability 22: an eye in glass in a white room sees n^2 times its radi
 TEST_CASE("stability 22: from inside of glass the world is in Snell's cone",
           "[stability][statistics]")
 {
-    // One interface, z = 0, of a block that the eye is in; above it a lamp for x < 1 at height 2,
-    // black beyond. What a ray at the angle theta sees is T(theta) n^2 if it comes out below the
-    // lamp's edge, and nothing otherwise: also beyond the critical angle.
+    // The eye is in a block with one interface at z = 0. Above it a lamp at height 2 covers x < 1,
+    // and the rest is black. A ray at the angle theta sees T(theta) n^2 if it leaves the block and
+    // meets the lamp, and nothing otherwise, as beyond the critical angle.
     constexpr double kDepth = 1.0, kHeight = 2.0, kEdge = 1.0, kIor = 1.5;
     SceneBuilder builder;
     builder.add(boxMesh({-50, -50, -50}, {50, 50, 0}), glass(1.5f));
@@ -158,13 +159,14 @@ TEST_CASE("stability 22: from inside of glass the world is in Snell's cone",
     {
         for (int x = 0; x < kPixels; ++x)
         {
-            // Smallest and largest of what the pixel's corners and a fine grid within should see.
+            // These are the smallest and the largest value that the pixel's corners and a fine grid
+            // in the pixel should see.
             double least = 1e9, most = 0.0;
             for (int sub = 0; sub < 64; ++sub)
             {
                 const double u = (x + (sub % 8) / 7.0) / kPixels,
                              v = (y + (sub / 8) / 7.0) / kPixels;
-                // Looking up z with up = y, right is -x.
+                // The view goes along z with up = y, so that right is -x.
                 const Vec3d d(-(2.0 * u - 1.0) * extent, (2.0 * v - 1.0) * extent, 1.0);
                 const double sinI = std::hypot(d.x, d.y) / glm::length(d), sinT = kIor * sinI;
                 double expected = 0.0;
@@ -188,7 +190,7 @@ TEST_CASE("stability 22: from inside of glass the world is in Snell's cone",
     }
     CAPTURE(litPixels);
     CHECK(litPixels > 200);
-    // 4 sigma of 16 seeds in some 400 pixels, dark ones have no noise: 0.4 by chance, more than 3
-    // with a probability of 7e-4.
+    // The bound is 4 sigma of 16 seeds in some 400 pixels, because dark ones have no noise: 0.4
+    // pixels are wrong by chance, and more than 3 with a probability of 7e-4.
     CHECK(wrong <= 3);
 }

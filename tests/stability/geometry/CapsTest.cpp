@@ -1,4 +1,5 @@
-// CapsTest.cpp - what is too large is refused with a message, untouched. Layer: tests.
+// CapsTest.cpp - objects that are too large are refused with a message, and are not read. Layer:
+// tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/stability/geometry/Pictured.h"
@@ -16,7 +17,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// So many transforms above a triangle.
+/// Returns a triangle below this many transforms.
 osg::ref_ptr<osg::Node> chain(std::size_t length)
 {
     osg::ref_ptr<osg::Node> node = triangleGeometry();
@@ -40,7 +41,7 @@ osg::ref_ptr<osg::Geometry> textured(osg::Image* image)
     return geometry;
 }
 
-/// Claims a size; there is one byte. Nobody may read it.
+/// Returns an image that claims a size but has one byte. Nobody may read it.
 osg::ref_ptr<osg::Image> claimed(int width, int height, GLenum format, GLenum type)
 {
     static unsigned char byte = 0;
@@ -66,7 +67,7 @@ TEST_CASE("caps: a path of 5000 nodes is traced, what is deeper is skipped and n
     root->addChild(tooDeep);
     root->addChild(triangleGeometry());
     const ConversionResult result = convertGraph(root);
-    CHECK(result.scene->instances.size() == 1); // the rest stands
+    CHECK(result.scene->instances.size() == 1); // the rest is converted
     CHECK(countOf(result, "skipped.too-deep") == 1);
     CHECK(messages.timesSaid("lies below 4999 others, its children are skipped") == 1);
     CHECK(graphHash(*root, {}) == graphHash(*root, {}));

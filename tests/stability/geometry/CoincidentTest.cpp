@@ -1,4 +1,5 @@
-// CoincidentTest.cpp - of surfaces in one place the same one is always seen. Layer: tests.
+// CoincidentTest.cpp - the visible one of several surfaces in one place is always the same. Layer:
+// tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/stability/geometry/Compare.h"
@@ -13,7 +14,7 @@ namespace
 
 constexpr int kPixels = 96;
 
-/// A wavy grid of 2 * cells^2 triangles around the origin.
+/// Returns a wavy grid of 2 * cells^2 triangles around the origin.
 std::shared_ptr<Mesh> gridMesh(int cells)
 {
     std::vector<Vec3> positions;
@@ -42,11 +43,11 @@ View obliqueView(int pixels = kPixels)
 
 enum class Placing
 {
-    OneMesh,   ///< all in engine space
+    OneMesh,   ///< all triangles in engine space
     Instances, ///< Embree instances of two meshes
 };
 
-/// A red and a green grid in the same place, both shining.
+/// Returns a red and a green grid in the same place, both of which emit light.
 SceneBuilder redAndGreen(int cells, Placing placing)
 {
     SceneBuilder builder;
@@ -76,7 +77,7 @@ Seen seenIn(const Picture& picture)
     return seen;
 }
 
-/// A block on a floor below a light, with each triangle of the block so many times.
+/// Returns a block on a floor below a light, with each triangle of the block this many times.
 SceneBuilder repeated(int times)
 {
     SceneBuilder builder;
@@ -130,15 +131,15 @@ TEST_CASE("stability 11: a thousand copies of each triangle look like one", "[st
         CHECK(one.mean().y > 0.03f);
         const auto thousand = repeated(1000).build();
         CHECK(differing(render(thousand, obliqueView(), optionsOf(kind), 4), one) == 0);
-        // No tree that grows out of hand for want of anything to split.
+        // The tree must not grow without bounds because the triangles cannot be separated.
         CHECK(thousand->statistics().embreeBytes < 12000u * 500u);
     }
 }
 
 TEST_CASE("stability 11: 1e5 triangles around one centre look like the largest", "[stability]")
 {
-    // Nested in one plane, the largest last, so that none may be left out. Built in 0.04 s on one
-    // core; no test asks the clock.
+    // The triangles are nested in one plane, the largest last, so that none may be left out. The
+    // BVH takes 0.04 s on one core, which the test does not check.
     const auto nested = [](int count)
     {
         std::vector<Vec3> positions;

@@ -1,4 +1,4 @@
-// Compare.h - how many values of two pictures differ. Layer: tests.
+// Compare.h - counts the values in which two pictures differ. Layer: tests.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,7 +7,8 @@
 namespace osgRayTrace::engine::test
 {
 
-/// Values that are not equal, bit by bit but for the sign of zero; NaN differs from itself.
+/// Returns the number of values that are not equal bit by bit, except for the sign of zero; NaN
+/// differs from itself.
 inline std::size_t differing(const Picture& a, const Picture& b)
 {
     if (a.rgba.size() != b.rgba.size() || a.rgba.empty()) return a.rgba.size() + b.rgba.size() + 1;

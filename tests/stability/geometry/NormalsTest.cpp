@@ -1,4 +1,4 @@
-// NormalsTest.cpp - vertex normals that are no normals of their faces. Layer: tests.
+// NormalsTest.cpp - vertex normals that do not suit their faces. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/stability/geometry/Pictured.h"
@@ -16,7 +16,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// A box whose sides have vertices of their own, so that face normals are vertex normals.
+/// Returns a box whose sides have vertices of their own, so that face normals are vertex normals.
 osg::ref_ptr<osg::Geometry> box(const osg::Vec3* normalOfAll, bool physical)
 {
     const auto mesh = boxMesh(Vec3(-0.6f), Vec3(0.6f, 0.5f, 0.4f));
@@ -37,7 +37,7 @@ osg::ref_ptr<osg::Geometry> box(const osg::Vec3* normalOfAll, bool physical)
     return geometry;
 }
 
-/// The face normals, turned if sign is -1.
+/// Sets the face normals, reversed if sign is -1.
 void setFaceNormals(osg::Geometry& geometry, float sign)
 {
     const auto& vertices = *static_cast<const osg::Vec3Array*>(geometry.getVertexArray());
@@ -74,7 +74,7 @@ TEST_CASE("stability 54: normals of no length or no number are those of the face
                 const auto allBad = box(&bad, physical);
                 CHECK(differing(pictureOf(convertGraph(lit({allBad})), kind), expected) == 0);
 
-                // One bad one among good ones.
+                // One bad normal is among good ones.
                 const auto oneBad = box(nullptr, physical);
                 setFaceNormals(*oneBad, 1.0f);
                 (*static_cast<osg::Vec3Array*>(oneBad->getNormalArray()))[4] = bad;
@@ -97,7 +97,8 @@ TEST_CASE("stability 54: normals opposite to their faces are counted", "[stabili
         setFaceNormals(*geometry, -1.0f);
         CHECK(countOf(convertGraph(lit({geometry})), "warned.opposite-normals") == 12);
 
-        // One side of the box; a single corner that leans back is what smooth edges have.
+        // The test changes one side of the box. A single corner that leans back is normal for
+        // smooth edges.
         setFaceNormals(*geometry, 1.0f);
         auto& normals = *static_cast<osg::Vec3Array*>(geometry->getNormalArray());
         normals[6] = -normals[6];
@@ -106,7 +107,7 @@ TEST_CASE("stability 54: normals opposite to their faces are counted", "[stabili
         normals[8] = -normals[8];
         CHECK(countOf(convertGraph(lit({geometry})), "warned.opposite-normals") == 1);
 
-        // A transform that mirrors changes neither.
+        // A transform that mirrors changes neither the faces nor the normals' sides.
         osg::ref_ptr<osg::MatrixTransform> mirrored =
             new osg::MatrixTransform(osg::Matrixd::scale(-1.0, 1.0, 1.0));
         mirrored->addChild(geometry);
@@ -125,8 +126,8 @@ TEST_CASE("stability 54: normals opposite to their faces are turned, but for Ope
         CHECK(expected.mean().y > 0.01f);
         CHECK(differing(pictureOf(convertGraph(lit({against})), kind), expected) == 0);
 
-        // One-sided lighting of OpenGL takes normals as they come: all its sides are dark but for
-        // the ambient light.
+        // One-sided lighting of OpenGL takes normals as they are: all sides of the box are dark but
+        // for the ambient light.
         const auto fixed = box(nullptr, false);
         const Picture shown = pictureOf(convertGraph(lit({fixed})), kind);
         setFaceNormals(*fixed, -1.0f);

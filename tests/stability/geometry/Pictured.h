@@ -1,4 +1,4 @@
-// Pictured.h - a scene graph as a picture, and what was said about it. Layer: tests.
+// Pictured.h - a scene graph as a picture, and the messages about it. Layer: tests.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,7 +14,7 @@
 namespace osgRayTrace::engine::test
 {
 
-/// The nodes below a point light at (1, -3, 4).
+/// Returns the nodes below a point light at (1, -3, 4).
 inline osg::ref_ptr<osg::Group> lit(std::initializer_list<osg::ref_ptr<osg::Node>> nodes)
 {
     osg::ref_ptr<osg::LightSource> source = new osg::LightSource;

@@ -1,4 +1,5 @@
-// SkinnyTest.cpp - what rays hit at a grazing angle on skinny triangles lies on them. Layer: tests.
+// SkinnyTest.cpp - hits of rays at grazing angles on skinny triangles lie on the triangles. Layer:
+// tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"

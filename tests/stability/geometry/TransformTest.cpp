@@ -26,7 +26,8 @@ osg::ref_ptr<osg::Node> placed(const osg::Matrixd& matrix, osg::Node* child)
     return transform;
 }
 
-/// A smooth ball of radius 1 around the origin, its vertices moved by the matrix beforehand.
+/// Returns a smooth ball of radius 1 around the origin, whose vertices are moved by the matrix
+/// beforehand.
 osg::ref_ptr<osg::Geometry> ball(const osg::Matrixd& matrix = osg::Matrixd(), int rows = 24)
 {
     const auto sphere = sphereMesh(Vec3(0.0f), 1.0f, rows);
@@ -40,7 +41,8 @@ osg::ref_ptr<osg::Geometry> ball(const osg::Matrixd& matrix = osg::Matrixd(), in
     {
         const osg::Vec3d local(p.x, p.y, p.z);
         vertices->push_back(local * matrix);
-        // Row vectors: the inverse transpose is the inverse from the other side.
+        // OSG's vectors are rows: multiplied from the other side, the inverse acts as the inverse
+        // transpose.
         osg::Vec3d normal = osg::Matrixd::transform3x3(inverse, local);
         normal.normalize();
         normals->push_back(normal);
@@ -61,7 +63,7 @@ std::shared_ptr<const TracedScene> tracedOf(osg::Node* root)
     return TracedScene::build(convertGraph(root).scene, std::make_shared<Workers>());
 }
 
-/// The node as an instance: once more, out of sight.
+/// Returns the node twice, so that it becomes an instance; the second one is out of sight.
 osg::ref_ptr<osg::Group> shared(const osg::Matrixd& matrix, osg::Node* child)
 {
     osg::ref_ptr<osg::Group> group = new osg::Group;
@@ -127,7 +129,7 @@ TEST_CASE("stability 15: transforms that nothing can be placed by leave the rest
 TEST_CASE("stability 15: a model under a scale of 1e-20 is kept, too small to be seen",
           "[stability]")
 {
-    // Not skipped: what it holds may be as large as the scale is small.
+    // The transform is not skipped, because its children may be as large as the scale is small.
     const osg::Matrixd tiny = osg::Matrixd::scale(1e-20, 1e-20, 1e-20);
     const Picture alone = pictureOf(convertGraph(lit({ball()})), IntegratorKind::Path);
     for (const osg::Matrixd& matrix : {tiny * osg::Matrixd::translate(0.0, 0.0, 2.0), tiny})
@@ -167,7 +169,8 @@ TEST_CASE("stability 16: mirrored and uneven scales give the normals of the move
         double worst = 0.0;
         for (int k = 0; k < 3000; ++k)
         {
-            // From outside or inside to a point within, in the ball's own coordinates.
+            // Rays go from a point outside or inside to a point within, in the ball's own
+            // coordinates.
             const auto within = [&]
             {
                 return osg::Vec3d(random.between(-0.5, 0.5), random.between(-0.5, 0.5),
@@ -234,7 +237,8 @@ TEST_CASE("stability 16: a mirrored ball of glass refracts as one that was made 
         const Picture other =
             pictured(instanced ? osg::ref_ptr<osg::Node>(shared(matrix, ball(osg::Matrixd(), 96)))
                                : placed(matrix, ball(osg::Matrixd(), 96)));
-        // A last bit may send a path to the other side of an edge: few pixels, not their mean.
+        // A last bit may send a path to the other side of an edge: a few pixels change, but not
+        // their mean.
         int different = 0;
         for (std::size_t i = 0; i < moved.rgba.size(); ++i)
             different += std::abs(moved.rgba[i] - other.rgba[i]) > 1e-5f;
@@ -266,7 +270,7 @@ TEST_CASE("stability 17: 64 nested transforms place as their product in long dou
             for (int row = 0; row < 4; ++row)
                 for (int column = 0; column < 4; ++column)
                     m[row][column] = static_cast<long double>(matrix(row, column));
-            worldFromLocal = m * worldFromLocal; // each is above those before
+            worldFromLocal = m * worldFromLocal; // each transform is above those before
             node = placed(matrix, node);
         }
         const auto world = [&](const Vec3& p)

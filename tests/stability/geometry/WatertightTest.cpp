@@ -13,7 +13,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-constexpr int kRows = 200; // of 400 facets
+constexpr int kRows = 200; // each of 400 facets
 constexpr std::size_t kBlocks = 62500;
 
 enum class Aim
@@ -33,7 +33,7 @@ Vec3d target(const Mesh& sphere, Aim aim, const Vec3d& eye, Uniform& random)
     }
     if (aim == Aim::Vertex)
     {
-        // Each but the poles, of which there are many copies.
+        // The vertex is any but a pole, of which there are many copies.
         constexpr int kColumns = 2 * kRows;
         return Vec3d(
             sphere.positions[static_cast<std::size_t>(random.between(kColumns, kColumns * kRows))]);
@@ -45,7 +45,7 @@ Vec3d target(const Mesh& sphere, Aim aim, const Vec3d& eye, Uniform& random)
     return a + (b - a) * double(random());
 }
 
-/// Of a million rays from eye.
+/// Counts which of a million rays from eye miss the sphere.
 int64_t escapes(const Mesh& sphere, const TracedScene& traced, const Vec3& eye, Aim aim)
 {
     std::atomic<int64_t> count{0};
@@ -73,9 +73,9 @@ int64_t escapes(const Mesh& sphere, const TracedScene& traced, const Vec3& eye, 
 
 TEST_CASE("stability 5: closed sphere, rays at edges and vertices", "[stability]")
 {
-    // Coordinates are relative to the camera: its place in the world does not matter, its size does
-    // not but for powers of two. The eye is at the centre, where edges and vertices are met head
-    // on and by symmetry, and somewhere.
+    // Coordinates are relative to the camera, so its place in the world does not matter, and of its
+    // size only the digits matter, not the power of two. One eye is at the centre, where rays meet
+    // edges and vertices head on and by symmetry; the other is elsewhere.
     const auto sphere = sphereMesh(Vec3(0.0f), 2.0f, kRows);
     SceneBuilder builder;
     builder.add(sphere, lambert(Vec3(0.5f)));
@@ -85,19 +85,20 @@ TEST_CASE("stability 5: closed sphere, rays at edges and vertices", "[stability]
         CAPTURE(eye.x);
         CHECK(escapes(*sphere, *traced, eye, Aim::Random) == 0);
         CHECK(escapes(*sphere, *traced, eye, Aim::Edge) == 0);
-        // Embree's robust test leaves vertices open: 0.78 to 1.8 % by the place of the
-        // eye alone: the same rays are lost in packets, coherent packets and one
-        // by one, flat and in an instance. 98 % of them hit if turned by one ulp, but a second try
-        // would be paid by all rays that see the background, and rays so aimed are found in tests
-        // only.
+        // Embree's robust test leaves vertices open: 0.78 to 1.8 % of the rays are lost, depending
+        // on the place of the eye alone. The same rays are lost in packets, in coherent packets and
+        // one by one, in a flat scene and in an instance. 98 % of them hit if they are turned by
+        // one ulp. A second try would cost time for all rays that see the background, and rays with
+        // such an aim occur in tests only.
         CHECK(escapes(*sphere, *traced, eye, Aim::Vertex) <= 20000);
     }
 }
 
 TEST_CASE("stability 6: a furnace far from the origin leaks no light", "[stability][statistics]")
 {
-    // Le / (1 - rho) = 2, every bounce the same: what is lost is lost through cracks, or where a
-    // ray begins outside. Baked in world coordinates is the loader's fault, and still closed.
+    // The radiance is Le / (1 - rho) = 2, and every bounce is alike: light is lost only through
+    // cracks or by rays that begin outside. If the vertices are in world coordinates, the loader is
+    // to blame for their rounding, and the sphere is still closed.
     const Vec3d centre(148376.0, 1234.0, -223423.0);
     Material wall = lambert(Vec3(0.5f));
     wall.emission = Vec3(1.0f);

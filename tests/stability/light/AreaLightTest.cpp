@@ -8,7 +8,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// A white receiver of the given side around the origin, its normal at +z.
+/// Adds a white receiver of the given side around the origin, with its normal at +z.
 void addReceiver(SceneBuilder& builder, float side)
 {
     builder.add(quadMesh({-0.5f * side, -0.5f * side, 0}, {side, 0, 0}, {0, side, 0}),
@@ -20,7 +20,7 @@ void addReceiver(SceneBuilder& builder, float side)
 TEST_CASE("stability 24: a round light at and below the horizon of its receiver",
           "[stability][statistics]")
 {
-    // There is no such kind of light: a sphere is an emissive mesh. 200 rows of facets have an
+    // Area lights are not round, so the sphere is an emissive mesh. Its 200 rows of facets have an
     // outline that is 1e-4 smaller in area. [Snyder, 1996] has the formula for the part above the
     // horizon.
     const struct
@@ -52,8 +52,9 @@ TEST_CASE("stability 24: a round light at and below the horizon of its receiver"
 
 TEST_CASE("stability 26: receiver just above a light", "[stability][statistics]")
 {
-    // A unit light fills the hemisphere but for 4e-12 of it: pi L, to 1e-3 with four standard
-    // errors beside. Of a million samples none may stand out, or the variance would not be finite.
+    // A unit light fills the hemisphere but for 4e-12 of it: the radiance is pi L, to 1e-3 with
+    // four standard errors included. None of a million samples may be much brighter, or the
+    // variance would not be finite.
     for (const bool mesh : {false, true})
     {
         SceneBuilder builder;
@@ -88,7 +89,7 @@ TEST_CASE("stability 27: a receiver on the light's plane gets exactly nothing", 
         {
             for (const bool mesh : {false, true})
             {
-                for (const float left : {1.0f, 0.5f}) // the second touches the receiver
+                for (const float left : {1.0f, 0.5f}) // the second light touches the receiver
                 {
                     SceneBuilder builder;
                     addReceiver(builder, 1.0f);

@@ -10,8 +10,8 @@ using namespace osgRayTrace::engine::test;
 
 TEST_CASE("stability 38: 1e8 samples of a pixel keep their mean to 1e-6", "[stability]")
 {
-    // A constant that float cannot sum exactly (a float sum would stall at 2^24 of them) and a
-    // uniform stream against its sum in double, through the film's own sums.
+    // The film sums a constant that float cannot sum exactly (a float sum would stall at 2^24
+    // samples), and a uniform stream, which is compared with its sum in double.
     constexpr int kSamples = 100000000;
     Film film;
     film.reset(16, 16);
@@ -21,7 +21,8 @@ TEST_CASE("stability 38: 1e8 samples of a pixel keep their mean to 1e-6", "[stab
     tile[0].r[0] = 0.1f;
     for (int pass = 0; pass < kSamples; ++pass)
     {
-        // A thousand values, over and over: random numbers would take longer than the film.
+        // The stream repeats each of a thousand values: random numbers would take longer than the
+        // film.
         if (pass % 100000 == 0) tile[0].g[0] = random();
         sum += tile[0].g[0];
         film.beginPass();

@@ -7,9 +7,9 @@ using namespace osgRayTrace::engine::test;
 
 TEST_CASE("stability 37: a closed room of albedo 0.99", "[stability][statistics]")
 {
-    // Le (1 - rho^(k+1)) / (1 - rho); 4096 bounces are all there are to 1e-17. Paths end by
-    // roulette alone there: after a hundred bounces on average, and as many again for one standard
-    // deviation.
+    // The radiance is Le (1 - rho^(k+1)) / (1 - rho); 4096 bounces give all of it to 1e-17.
+    // Roulette alone ends these paths: after a hundred bounces on average, with a standard
+    // deviation of a hundred.
     const struct
     {
         int bounces, passes;
@@ -39,8 +39,9 @@ TEST_CASE("stability 37: a closed room of albedo 0.99", "[stability][statistics]
 TEST_CASE("stability 48: an off-centre spot in an integrating sphere lights all of it alike",
           "[stability][statistics]")
 {
-    // E_ind = rho Phi / (4 pi R^2 (1 - rho)), wherever the spot is and shines. Its flux by OpenGL's
-    // terms, intensity pi cos^e within the cutoff: Phi = 2 pi^2 (1 - cos^(e+1) cutoff) / (e + 1).
+    // E_ind = rho Phi / (4 pi R^2 (1 - rho)) holds wherever the spot is and shines. The spot's flux
+    // follows from OpenGL's terms, an intensity of pi cos^e within the cutoff: Phi = 2 pi^2 (1 -
+    // cos^(e+1) cutoff) / (e + 1).
     constexpr double kRho = 0.5, kExponent = 1.0;
     const double cosCutoff = std::cos(1.2);
     Light spot = pointLight(Vec3(0.45f, -0.2f, 0.3f));
@@ -59,7 +60,7 @@ TEST_CASE("stability 48: an off-centre spot in an integrating sphere lights all 
     int dark = 0;
     for (int i = 0; i < 14; ++i)
     {
-        // Off the directions that facets meet at, all around.
+        // The places are off the directions in which facets meet, all around the sphere.
         const double z = -0.93 + 0.14 * i, phi = 2.4 * i + 0.1, r = std::sqrt(1.0 - z * z);
         const Vec3d n(r * std::cos(phi), r * std::sin(phi), z);
         const Vec3d towards = glm::normalize(n - Vec3d(spot.position));
@@ -81,15 +82,15 @@ TEST_CASE("stability 48: an off-centre spot in an integrating sphere lights all 
 
 TEST_CASE("stability 49: light from A to B is light from B to A", "[stability][statistics]")
 {
-    // Two equal patches of the same albedo, one on the floor and one on the back wall, in the
-    // Cornell box without its lamp; either sends out radiance 10 to its front. The tall block is in
-    // the way of some of the direct light. Welch: 16 seeds a side, about 28 degrees of freedom, p >
-    // 1e-3 is |t| < 3.67.
+    // Two equal patches of the same albedo are on the floor and on the back wall of the Cornell box
+    // without its lamp; one of them has radiance 10 on its front. The tall block hides some of the
+    // direct light. Welch's test has 16 seeds a side, about 28 degrees of freedom, and p > 1e-3 is
+    // |t| < 3.67.
     constexpr float kSide = 120.0f;
     const struct
     {
         Vec3 corner, u, v;
-    } patches[2] = {{{60, 1, 300}, {0, 0, kSide}, {kSide, 0, 0}},     // on the floor, looks up
+    } patches[2] = {{{60, 1, 300}, {0, 0, kSide}, {kSide, 0, 0}},     // on the floor, faces up
                     {{400, 240, 558}, {0, kSide, 0}, {kSide, 0, 0}}}; // on the back wall
     const auto room = [&patches](int emitter)
     {

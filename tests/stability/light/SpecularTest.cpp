@@ -10,7 +10,8 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// Squared error over the squared reference, mean over pixels, as relMSE: epsilon 0.01.
+/// Returns the squared error over the squared reference, as the mean over pixels, like relMSE with
+/// an epsilon of 0.01.
 double relativeSquaredError(const Picture& picture, const Picture& reference)
 {
     double sum = 0.0;
@@ -38,8 +39,8 @@ Material metal(float alpha)
     return material;
 }
 
-/// A mirror floor below one lamp of radiance 1000 and two large dim ones. sampled: they are in the
-/// light table.
+/// Returns a mirror floor below one lamp of radiance 1000 and two large dim lamps. If sampled is
+/// true, the lamps are in the light table.
 std::shared_ptr<const TracedScene> floorBelowLamps(float alpha, bool sampled)
 {
     SceneBuilder builder;
@@ -62,7 +63,7 @@ View floorView()
     return perspectiveView({0, -3, 1.5}, {0, -0.6, -1}, {0, 0, 1}, 60.0, 32, 32);
 }
 
-/// Two polarisations, in double.
+/// Returns the reflectance by the two polarisations, in double.
 double exactReflectance(double cosI, double eta)
 {
     const double sin2T = (1.0 - cosI * cosI) / (eta * eta);
@@ -73,8 +74,8 @@ double exactReflectance(double cosI, double eta)
     return 0.5 * (s * s + p * p);
 }
 
-/// count panes of glass of thickness 0.1, 0.1 apart, in front of a wide lamp of radiance 1 at z = 0
-/// below.
+/// Returns count panes of glass of thickness 0.1, which are 0.1 apart, above a wide lamp of
+/// radiance 1.
 std::shared_ptr<const TracedScene> panes(int count)
 {
     SceneBuilder builder;
@@ -112,8 +113,8 @@ TEST_CASE("stability 31: roughness towards 0 tends to the mirror image", "[stabi
             CAPTURE(sampled, alpha);
             CHECK(relativeSquaredError(pictureOf(alpha, sampled, 64), mirrored) <= 1e-4);
         }
-        // Past the width that is taken for smooth nothing jumps: a blur, whose noise is at the
-        // lamps' edges.
+        // Beyond the width that counts as smooth there is no jump, but a blur, whose noise is at
+        // the lamps' edges.
         double previous = 0.0;
         for (const float alpha : {1.01e-3f, 1e-2f, 1e-1f})
         {
@@ -128,9 +129,9 @@ TEST_CASE("stability 31: roughness towards 0 tends to the mirror image", "[stabi
 TEST_CASE("stability 31: no single sample of a metal is brighter than what lights it",
           "[stability]")
 {
-    // Both estimators are weighted by the power heuristic: each at most 1 on its own where f <=
-    // pdfW, so a sample of both is less than 2 of the brightest lamp. A firefly would be orders
-    // above.
+    // Both estimators are weighted by the power heuristic. Each is at most 1 by itself if f <=
+    // pdfW, so a sample of both is below 2 times the brightest lamp. A firefly would be orders of
+    // magnitude brighter.
     for (const float alpha : {0.0f, 1.01e-3f, 2e-3f, 1e-2f, 0.1f, 0.5f, 1.0f})
     {
         float largest = 0.0f;
@@ -151,7 +152,8 @@ TEST_CASE("stability 31: no single sample of a metal is brighter than what light
 
 TEST_CASE("stability 32: rough metal in a white room", "[stability][statistics]")
 {
-    // The table of single scattering, seen head-on: the same by chance hits and by light samples.
+    // The table is that of single scattering, seen head-on: chance hits and light samples must both
+    // give it.
     const struct
     {
         float alpha;
@@ -184,8 +186,9 @@ TEST_CASE("stability 32: rough metal in a white room", "[stability][statistics]"
 
 TEST_CASE("stability 33: a body of index 1, or nearly 1, is invisible", "[stability]")
 {
-    // Six walls of different radiance: every ray has to go straight on. Only pixels whose ray meets
-    // an edge of the room may differ, as the way through the body moves it by error bounds.
+    // The room has six walls of different radiance, and every ray has to go straight on. Only
+    // pixels whose ray meets an edge of the room may differ, because the way through the body moves
+    // the ray by error bounds.
     const auto room = [](const Material* material, bool box)
     {
         SceneBuilder builder;
@@ -236,7 +239,8 @@ TEST_CASE("stability 33: a body of index 1, or nearly 1, is invisible", "[stabil
 
 TEST_CASE("stability 33: a body of index 1 casts no shadow and no caustic", "[stability]")
 {
-    // Nothing of it is traced, so pictures are equal bit by bit; with a tint it is there again.
+    // The body is not traced at all, so the pictures are equal bit by bit; a body with a tint is
+    // traced.
     const auto room = [](const Material* material, LightKind lamps)
     {
         SceneBuilder builder;
@@ -282,8 +286,8 @@ TEST_CASE("stability 33: a body of index 1 casts no shadow and no caustic", "[st
 
 TEST_CASE("stability 34: total reflection begins within 1e-5 degrees", "[stability]")
 {
-    // Against the formula in double, for the cosines and the index as floats have them: they are
-    // 2e-6 degrees apart.
+    // The reference is the formula in double, for the cosines and the index as they are in float:
+    // these are 2e-6 degrees apart.
     const float eta = 1.0f / 1.5f;
     const double critical = std::asin(double(eta)) * 180.0 / M_PI;
     CHECK(critical == Approx(41.810315).margin(2e-5));
@@ -303,7 +307,7 @@ TEST_CASE("stability 35: grazing incidence on every surface", "[stability][stati
 {
     CHECK(fresnelDielectric(static_cast<float>(std::sin(1e-4 * M_PI / 180.0)), 1.5f) ==
           Approx(1.0).margin(1e-3));
-    // A camera 1e-4 degrees above the plane of a floor in a white room.
+    // The camera is 1e-4 degrees above the plane of a floor in a white room.
     const double rise = 1e-4 * M_PI / 180.0;
     const View view = perspectiveView({-40, 0, 40 * rise}, {0, 0, 0}, {0, 0, 1}, 1e-9, 8, 8);
     Material plastic = lambert(Vec3(0.8f));
@@ -336,8 +340,8 @@ TEST_CASE("stability 35: grazing incidence on every surface", "[stability][stati
 
 TEST_CASE("stability 36: stacks of clear panes", "[stability][statistics]")
 {
-    // 2 n surfaces of reflectance R = 0.04 pass (1 - R) / (1 + (2 n - 1) R), all bounces between
-    // them.
+    // Together, 2 n surfaces of reflectance R = 0.04 pass (1 - R) / (1 + (2 n - 1) R), with all
+    // bounces between them.
     for (const int count : {1, 8, 32})
     {
         const double expected = 0.96 / (1.0 + (2 * count - 1) * 0.04);
@@ -351,8 +355,8 @@ TEST_CASE("stability 36: stacks of clear panes", "[stability][statistics]")
 
 TEST_CASE("stability 36: clear panes with Whitted's rays", "[stability]")
 {
-    // Rays of less than 1/1024 outside of glass end: in one pane the fourth bounce within it, of
-    // 2.4e-6 of the light. In stacks they become many.
+    // Rays below 1/1024 that are outside of glass end: in one pane this is the fourth bounce within
+    // it, of 2.4e-6 of the light. In stacks these rays become many.
     const auto lightThrough = [](int count)
     {
         const RenderOptions options = optionsOf(IntegratorKind::Whitted, 256);
@@ -364,7 +368,7 @@ TEST_CASE("stability 36: clear panes with Whitted's rays", "[stability]")
 
 TEST_CASE("stability 36: a stack deeper than maxBounces shows nothing behind it", "[stability]")
 {
-    // The depth limit: each pane costs two of maxBounces, so the default of 8 sees through four.
+    // Each pane costs two of maxBounces, so the default of 8 sees through four panes.
     for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
     {
         CAPTURE(int(kind));
@@ -376,8 +380,8 @@ TEST_CASE("stability 36: a stack deeper than maxBounces shows nothing behind it"
 TEST_CASE("stability 36: no sample through clear glass is brighter than what is behind it",
           "[stability]")
 {
-    // Throughput is 1/2.25 within the panes: roulette must not take that for a loss, or the paths
-    // that it spares come out with 2.25.
+    // The throughput is 1/2.25 within the panes: roulette must not take that for a loss, or the
+    // paths that survive it would arrive with 2.25.
     float largest = 0.0f;
     for (uint32_t seed = 0; seed < 64; ++seed)
         largest =

@@ -1,4 +1,4 @@
-// TerminatorTest.cpp - where light ends on coarse smooth-shaded bodies. Layer: tests.
+// TerminatorTest.cpp - the terminator on coarse smooth-shaded bodies. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
@@ -10,7 +10,7 @@ namespace
 
 constexpr int kPixels = 256;
 
-/// A sphere of radius 1 with the normals of a sphere.
+/// Returns a faceted sphere of radius 1 with the normals of a sphere.
 std::shared_ptr<Mesh> smoothSphere(int rows)
 {
     auto mesh = sphereMesh(Vec3(0.0f), 1.0f, rows);
@@ -27,7 +27,8 @@ Light sun(Vec3 direction)
     return light;
 }
 
-/// The fixed-function material of lambert(1), which has its own way through Whitted's tracer.
+/// Returns the fixed-function counterpart of lambert(1), for which the Whitted integrator has code
+/// of its own.
 Material fixedFunctionWhite()
 {
     Material material;
@@ -36,7 +37,7 @@ Material fixedFunctionWhite()
     return material;
 }
 
-/// Seen along a ray parallel to none of its edges, lit from the side.
+/// Returns a picture of the sphere along a ray parallel to none of its edges, lit from the side.
 Picture pictureOf(int rows, const Material& material, const RenderOptions& options)
 {
     SceneBuilder builder;
@@ -47,15 +48,16 @@ Picture pictureOf(int rows, const Material& material, const RenderOptions& optio
                   options, 4);
 }
 
-/// The part of the picture that a body of the radius 0.85 covers: far from any silhouette.
+/// Returns whether the pixel is in the part of the picture that a body of the radius 0.85 covers,
+/// far from any silhouette.
 bool isInside(int x, int y)
 {
     const double c = 0.5 * (kPixels - 1);
     return std::hypot(x - c, y - c) < 0.85 * 0.5 * kPixels;
 }
 
-/// Largest step from a pixel to the next one, and largest difference from the fine sphere, of the
-/// peak.
+/// The largest step from a pixel to the next one, and the largest difference from the fine sphere,
+/// both over the peak.
 struct Steps
 {
     double step = 0.0, difference = 0.0;
@@ -102,7 +104,7 @@ TEST_CASE("stability 53: no step where light ends on a coarse smooth sphere", "[
             CAPTURE(on.step, on.difference, off.step, off.difference);
             CHECK(on.step < 0.02);
             CHECK(on.difference < 0.02);
-            CHECK(off.step > 0.1); // what there is to correct
+            CHECK(off.step > 0.1); // the step that is corrected
         }
     }
 }
@@ -112,9 +114,9 @@ namespace
 
 constexpr int kSmall = 32, kTile = 8, kTiles = kSmall / kTile;
 
-/// A coarse smooth ball above a floor below a lamp, half of whose light comes in below the horizon
-/// of the facets that it grazes. sampled: the lamp is in the light table, else only bounces find
-/// it.
+/// Returns a coarse smooth ball above a floor below a lamp, half of whose light comes in below the
+/// horizon of the facets that it grazes. If sampled is true, the lamp is in the light table;
+/// otherwise only bounces find it.
 std::shared_ptr<const TracedScene> ballBelowLamp(const Material& material, bool sampled)
 {
     SceneBuilder builder;
@@ -156,9 +158,9 @@ struct Difference
     int compared = 0, different = 0;
 };
 
-/// Tiles that are more than 5 standard errors (Welch) apart, of those known to 5 %: where only few
-/// samples find light, errors are not normal. A tile is by chance with a probability of 2e-5 (30
-/// degrees of freedom), one of the whole test with 2e-3.
+/// Counts the tiles that are more than 5 standard errors (Welch) apart, among those that are known
+/// to 5 %: if only few samples find light, errors are not normal. By chance a tile is so with a
+/// probability of 2e-5 (30 degrees of freedom), and one of the whole test with 2e-3.
 Difference differenceOf(const std::vector<Estimate>& a, const std::vector<Estimate>& b)
 {
     Difference difference;
@@ -212,13 +214,13 @@ TEST_CASE("stability 53: integrators agree with the correction, and without it",
 
 TEST_CASE("stability 53: a coarse smooth ball in a white room gives back its albedo", "[stability]")
 {
-    // No facet keeps light from another: the ball is convex as its normals mean it.
+    // No facet hides light from another: by its normals the ball is convex.
     SceneBuilder builder;
     builder.add(boxMesh(Vec3(-9.0f), Vec3(9.0f)), lamp(Vec3(1.0f)));
     builder.add(smoothSphere(12), lambert(Vec3(0.8f)));
     const auto traced = builder.build();
     const Vec3d n = glm::normalize(Vec3d(0.2, -0.9, 0.3));
-    const View view = patchView(n, n, 1.2, 32); // from 2.2 on
+    const View view = patchView(n, n, 1.2, 32); // from a distance of 2.2
     const Estimate on = measure(traced, view, optionsWith(IntegratorKind::Path, true), 16);
     const Estimate off = measure(traced, view, optionsWith(IntegratorKind::Path, false), 16);
     CAPTURE(on.mean(), on.standardError(), off.mean(), off.standardError());
@@ -292,7 +294,7 @@ TEST_CASE("stability 53: flat facets, hollow sides, glass and averaged edges sta
 TEST_CASE("stability 53: light reaches no side that looks away from it, nor through the body",
           "[stability]")
 {
-    // Seen from behind: what the shading normals see of the light is all there may be.
+    // The sphere is seen from behind: only light that the shading normals see may be visible.
     for (const Material& material : {lambert(Vec3(1.0f)), fixedFunctionWhite()})
     {
         for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})

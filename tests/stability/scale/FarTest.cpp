@@ -13,7 +13,7 @@ namespace
 
 const osg::Vec3d kOnEquator(6378137.0, 0.0, 0.0), kDiagonal(4.51e6, 4.51e6, 0.0);
 
-/// Direct light only: no bounce.
+/// These recipes compute direct light only, without a bounce.
 const Recipe kWhittedDirect{RayTraceSettings::WHITTED, 0, 4};
 const Recipe kPathDirect{RayTraceSettings::PATH, 0, 4};
 
@@ -23,7 +23,7 @@ uint64_t farVertices(const Picture& picture)
     return found == picture.statistics.conversion.end() ? 0 : found->second;
 }
 
-/// Where the line of a pixel's centre meets the floor, which is z = 0: its length.
+/// Returns the distance at which the line through a pixel's centre meets the floor, which is z = 0.
 double distanceToFloor(int x, int y)
 {
     osg::Vec3d forward = kTarget - kEye;
@@ -39,7 +39,8 @@ double distanceToFloor(int x, int y)
     return -kEye.z() / direction.z();
 }
 
-/// Largest error of distances to the floor, the first instance, and how many pixels show it.
+/// The largest error of distances to the floor, which is the first instance, and the number of
+/// pixels that show it.
 struct FloorError
 {
     double largest = 0.0;
@@ -104,7 +105,8 @@ TEST_CASE("stability 2: world coordinates baked into floats are named", "[stabil
                 CHECK(picture.statistics.ok);
                 CHECK(picture.statistics.droppedSamples == 0);
                 CHECK(allFinite(picture.rgba));
-                // Floor and ball, and the panel of one of the two; the boxes have transforms.
+                // The floor, the ball and the panel of the physical scene are counted; the boxes
+                // have transforms.
                 CHECK(farVertices(picture) == (makeScene == physicalScene ? 3 : 2));
             }
         }

@@ -22,10 +22,10 @@ struct Comparison
     double relativeMse = HUGE_VAL;
     double depth = HUGE_VAL;    ///< largest difference of window depths
     double distance = HUGE_VAL; ///< largest relative difference of distances
-    double position = HUGE_VAL; ///< largest difference of positions before they were placed
+    double position = HUGE_VAL; ///< largest difference of positions before placement
 };
 
-/// Distances are checked to be neither 0 nor infinite where the reference hits something.
+/// Compares the pictures, and checks that distances are finite if the reference hits something.
 Comparison compare(const Picture& picture, const Picture& reference, double scale)
 {
     Comparison c;
@@ -104,7 +104,7 @@ TEST_CASE("stability 3: area lights, metal and glass look the same at any scale"
 
 TEST_CASE("stability 4: scales of 1e-20 and 1e18 look the same", "[stability]")
 {
-    // The coefficients of attenuation are floats, and 1e40 is none.
+    // The coefficients of attenuation are floats, and 1e40 is not a float.
     checkScales(classicScene, kWhitted, false, {1e-20, 1e18});
     checkScales(physicalScene, kPath, false, {1e-20, 1e18});
 }
@@ -125,8 +125,8 @@ TEST_CASE("stability 4: at the end of the floats a picture is right or refused",
             CHECK(picture.statistics.droppedSamples == 0);
             const bool same = relativeMse(picture, reference) <= 1e-8;
             const bool refused = !picture.statistics.ok && !picture.statistics.message.empty();
-            // An area light is floats, and so are the vertices of Storage::Float: beyond 1e38 they
-            // are not what the test wrote.
+            // An area light consists of floats, and so do the vertices of Storage::Float: beyond
+            // 1e38 they are not what the test wrote.
             const bool storable = storage == Storage::Local || (scale > 1e-38 && scale < 1e38);
             CHECK((same || refused || (!storable && skippedThings(picture) > 0)));
         }
@@ -135,8 +135,8 @@ TEST_CASE("stability 4: at the end of the floats a picture is right or refused",
 
 TEST_CASE("stability 4: a light that is far from a small scene lights it evenly", "[stability]")
 {
-    // The sun as a point light at 1.5e11 from a scene of 1e-12: as the same direction without a
-    // place.
+    // The sun is a point light at 1.5e11 from a scene of 1e-12: it must look like a light of the
+    // same direction without a place.
     Placement small;
     small.scale = 1e-12;
     const auto litBy = [&](const osg::Vec4& position)

@@ -47,7 +47,7 @@ public:
         return _placement.storage == Storage::Local ? p : vector(p) + _placement.offset;
     }
 
-    /// Quads of four corners each, with a normal for each corner.
+    /// Returns quads of four corners each, with a normal for each corner.
     osg::ref_ptr<osg::Geometry> quads(const std::vector<osg::Vec3d>& corners,
                                       const std::vector<osg::Vec3d>& normals, bool placed) const
     {
@@ -82,7 +82,7 @@ public:
                      std::vector<osg::Vec3d>(4, normal), true);
     }
 
-    /// Edges of 1 around its own origin; not placed.
+    /// Returns a box with edges of 1 around its own origin, which is not placed.
     osg::ref_ptr<osg::Geometry> box() const
     {
         std::vector<osg::Vec3d> corners, normals;
@@ -124,7 +124,8 @@ public:
         return quads(corners, normals, true);
     }
 
-    /// A child with a transform of its own; the first of its matrix is about the child's origin.
+    /// Adds a child with a transform of its own: the first factor of its matrix rotates about the
+    /// child's origin.
     void addTurned(osg::Node* child, double degrees, const osg::Vec3d& position)
     {
         const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(
@@ -149,7 +150,7 @@ public:
         return light;
     }
 
-    /// 1 / (c + l d + q d^2) for distances d before they are placed.
+    /// Sets the attenuation 1 / (c + l d + q d^2) for distances d before placement.
     void attenuate(osg::Light& light, double c, double l, double q) const
     {
         light.setConstantAttenuation(static_cast<float>(c));

@@ -12,31 +12,31 @@
 namespace osgRayTrace::test
 {
 
-/// What the vertices are stored as.
+/// How the vertices are stored.
 enum class Storage
 {
     Local,  ///< floats of about 1 below one transform that has scale and offset
     Float,  ///< scale and offset are in the vertices
-    Double, ///< the same, in double arrays
+    Double, ///< scale and offset are in the vertices, in double arrays
 };
 
-/// p becomes scale * p + offset. Attenuation, camera and clipping planes go with it.
+/// A point p becomes scale * p + offset. Attenuation, camera and clipping planes are changed alike.
 struct Placement
 {
     double scale = 1.0;
     osg::Vec3d offset;
     Storage storage = Storage::Local;
-    bool attenuated = true; ///< else lights without attenuation: its coefficients are floats in OSG
+    bool attenuated = true; ///< OSG's coefficients of attenuation are floats
 };
 
-/// A floor, two turned boxes that share a geometry and a smooth ball, lit by the sun, a point
-/// light, a spot and a point light in eye space: OpenGL's materials.
+/// Returns a floor, two turned boxes that share a geometry, and a smooth ball, all of OpenGL's
+/// materials, lit by the sun, a point light, a spot and a point light in eye space.
 osg::ref_ptr<osg::Group> classicScene(const Placement& placement);
 
-/// The same bodies of white, metal and glass, with an area light and an emitting panel.
+/// Returns the same bodies of white, metal and glass, with an area light and an emitting panel.
 osg::ref_ptr<osg::Group> physicalScene(const Placement& placement);
 
-/// Where the camera is before it is placed.
+/// The place of the camera before placement.
 extern const osg::Vec3d kEye, kTarget;
 constexpr int kWidth = 60, kHeight = 40;
 constexpr double kFovyDegrees = 45.0;
@@ -55,13 +55,13 @@ struct Recipe
     int passes = 8;
 };
 
-/// Null images stay empty: see statistics.
+/// Renders the scene. Channels of a failed render stay empty, as the statistics tell.
 Picture pictureOf(osg::Node& scene, const Placement& placement, const Recipe& recipe);
 
-/// mean((x - r)^2 / (r^2 + 0.01)) over the pixels' RGB.
+/// Returns mean((x - r)^2 / (r^2 + 0.01)) over the pixels' RGB.
 double relativeMse(const Picture& picture, const Picture& reference);
 
-/// Largest |x - r| / max(r, 0.01) of the pixels' RGB.
+/// Returns the largest |x - r| / max(r, 0.01) of the pixels' RGB.
 double largestDifference(const Picture& picture, const Picture& reference);
 
 bool allFinite(const std::vector<float>& values);
