@@ -80,16 +80,14 @@ inline osg::ref_ptr<osg::MatrixTransform> placed(const osg::Matrixd& matrix, osg
 }
 
 /// Draws both, writes what differs, and wants them alike: traced in the main and covered alike.
-inline Statistics checkMatch(const std::string& name, osg::Node* model,
-                             const MatchSetup& setup = {})
+inline bool matches(const std::string& name, osg::Node* model, const MatchSetup& setup = {},
+                    Statistics* statistics = nullptr)
 {
-    Statistics statistics;
-    const Comparison comparison = match(name, model, setup, &statistics);
-    INFO(name);
-    CHECK(comparison.difference < kMostDifference);
-    CHECK(comparison.both > 500);
-    CHECK(comparison.both > 0.9 * comparison.either);
-    return statistics;
+    const Comparison comparison = match(name, model, setup, statistics);
+    UNSCOPED_INFO(name << ": mean difference " << comparison.difference << " where both cover, "
+                       << comparison.both << " pixels of " << comparison.either);
+    return comparison.difference < kMostDifference && comparison.both > 500 &&
+           comparison.both > 0.9 * comparison.either;
 }
 
 } // namespace osgRayTrace::test
