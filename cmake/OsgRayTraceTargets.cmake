@@ -40,6 +40,29 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/bin")
 # OSG looks for plugins in <library path>/osgPlugins-<version>.
 set(OSGRAYTRACE_PLUGIN_DIR "osgPlugins-${OPENSCENEGRAPH_VERSION}")
 
+# These headers cost a compiler more than the files that include them. Each is read once for all targets that share
+# it. Each file still includes what it uses: CMAKE_DISABLE_PRECOMPILE_HEADERS=ON compiles without these.
+set(OSGRAYTRACE_PRECOMPILED_ENGINE
+    <algorithm> <cmath> <functional> <map> <memory> <optional> <random> <string> <unordered_map> <vector>
+    <glm/gtc/matrix_transform.hpp>)
+set(OSGRAYTRACE_PRECOMPILED_OSG
+    <osg/Billboard> <osg/CullStack> <osg/Geometry> <osg/LightSource> <osg/Material> <osg/MatrixTransform>
+    <osg/Texture2D>)
+set(OSGRAYTRACE_PRECOMPILED_VIEWER <osg/ShapeDrawable> <osgUtil/CullVisitor> <osgViewer/Viewer>)
+
+# osgraytrace_precompile(<target> [AS <owner>] [HEADERS ...]) gives a target precompiled headers: its own, or
+# those of an owner whose compile flags are the same.
+function(osgraytrace_precompile target)
+    cmake_parse_arguments(PRECOMPILED "" "AS" "HEADERS" ${ARGN})
+    if(PRECOMPILED_AS)
+        target_precompile_headers(${target} REUSE_FROM ${PRECOMPILED_AS})
+    else()
+        target_precompile_headers(${target} PRIVATE ${PRECOMPILED_HEADERS})
+    endif()
+    # The flag lets ccache know the headers of a preprocessed file.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()
+
 # osgraytrace_add_plugin(<target> SOURCES ... LIBRARIES ...) adds a module that OSG finds by its
 # name.
 function(osgraytrace_add_plugin target)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/EngineScenes.h"
 
+#include "data/generator/CornellBoxTable.h"
+
 #include <cmath>
 
 namespace osgRayTrace::engine::test
@@ -183,7 +185,7 @@ SceneBuilder cornellBox(Vec3 offset)
         box.add(newMesh({a + offset, b + offset, c + offset, d + offset}, {{0, 1, 2}, {0, 2, 3}}),
                 lambert(albedo));
     };
-    const auto block = [&](const std::vector<Vec3>& base, float height, Vec3 albedo)
+    const auto block = [&](const Vec3(&base)[4], float height, Vec3 albedo)
     {
         const Vec3 up(0.0f, height, 0.0f);
         quad(base[0] + up, base[1] + up, base[2] + up, base[3] + up, albedo);
@@ -193,15 +195,9 @@ SceneBuilder cornellBox(Vec3 offset)
             quad(a, b, b + up, a + up, albedo);
         }
     };
-    const Vec3 white(0.73f), red(0.65f, 0.05f, 0.05f), green(0.12f, 0.45f, 0.15f);
-    quad({552.8f, 0, 0}, {0, 0, 0}, {0, 0, 559.2f}, {549.6f, 0, 559.2f}, white);
-    quad({556, 548.8f, 0}, {556, 548.8f, 559.2f}, {0, 548.8f, 559.2f}, {0, 548.8f, 0}, white);
-    quad({549.6f, 0, 559.2f}, {0, 0, 559.2f}, {0, 548.8f, 559.2f}, {556, 548.8f, 559.2f}, white);
-    quad({0, 0, 559.2f}, {0, 0, 0}, {0, 548.8f, 0}, {0, 548.8f, 559.2f}, green);
-    quad({552.8f, 0, 0}, {549.6f, 0, 559.2f}, {556, 548.8f, 559.2f}, {556, 548.8f, 0}, red);
-    block({{130, 0, 65}, {82, 0, 225}, {240, 0, 272}, {290, 0, 114}}, 165.0f, white);
-    block({{423, 0, 247}, {265, 0, 296}, {314, 0, 456}, {472, 0, 406}}, 330.0f, white);
-    box.addQuadLight(Vec3(343, 548.7f, 227) + offset, {0, 0, 105}, {-130, 0, 0}, {17, 12, 4});
+    const auto light = [&](Vec3 corner, Vec3 edgeU, Vec3 edgeV, Vec3 radiance)
+    { box.addQuadLight(corner + offset, edgeU, edgeV, radiance); };
+    data::cornell::build<Vec3>(quad, block, light);
     return box;
 }
 

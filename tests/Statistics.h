@@ -12,6 +12,27 @@
 namespace osgRayTrace::engine::test
 {
 
+/// Normal numbers by Box and Muller's method. Those of std::normal_distribution differ from one
+/// standard library to the next.
+class NormalNumbers
+{
+public:
+    explicit NormalNumbers(double mean = 0.0, double deviation = 1.0)
+        : _mean(mean), _deviation(deviation)
+    {
+    }
+
+    double operator()(std::mt19937& random) const
+    {
+        const double u = (double(random()) + 0.5) / 4294967296.0,
+                     v = double(random()) / 4294967296.0;
+        return _mean + _deviation * std::sqrt(-2.0 * std::log(u)) * std::cos(6.283185307179586 * v);
+    }
+
+private:
+    double _mean, _deviation;
+};
+
 /// Mean of independent values and the standard error of it.
 class Estimate
 {

@@ -21,7 +21,9 @@
 
 #include <cstdio>
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace osgRayTrace;
@@ -62,170 +64,210 @@ int runRows(const std::function<void(Rows&)>& measure, const std::string& json,
     return app::kDone;
 }
 
-/// Holds the modes of the command line.
-struct CommandLine
+/// Runs a mode once its options are read, which the function owns.
+using Run = std::function<int()>;
+
+std::shared_ptr<std::string> addJson(CLI::App& mode)
 {
+    auto json = std::make_shared<std::string>();
+    mode.add_option("--json", *json, "write the rows to this file as well");
+    return json;
+}
+
+/// A mode without options of its own.
+template <void (*measure)(Rows&)> Run addRows(CLI::App& mode)
+{
+    return [json = addJson(mode)] { return runRows(measure, *json); };
+}
+
+Run addLimit(CLI::App& mode)
+{
+    const auto json = addJson(mode);
+    const auto only = std::make_shared<std::string>();
+    mode.add_option("--only", *only,
+                    "parts whose name holds this: box 1920x1080, sphere 640x360, 1 M triangles, "
+                    "...");
+    return [=] { return runRows([&](Rows& rows) { measureLimit(*only, rows); }, *json); };
+}
+
+Run addPhotons(CLI::App& mode)
+{
+    const auto json = addJson(mode);
+    const auto options = std::make_shared<PhotonsOptions>();
+    mode.add_option("--width", options->width,
+                    "width and height of the pictures [pixels]; 0: none are made")
+        ->check(CLI::Range(0, 4096))
+        ->capture_default_str();
+    mode.add_option("--longest", options->longest, "longest budget of a picture [s]")
+        ->check(CLI::Range(0.125, 86400.0))
+        ->capture_default_str();
+    mode.add_option("--seeds", options->seeds, "pictures of each method")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str();
+    mode.add_option("--reference-seconds", options->referenceSeconds,
+                    "time for each reference that is rendered [s]")
+        ->check(CLI::Range(1.0, 86400.0))
+        ->capture_default_str();
+    mode.add_option("--reference-a", options->referenceA,
+                    "linear picture of the diffuse box; rendered if not given");
+    mode.add_option("--reference-b", options->referenceB, "of the box with a mirror");
+    mode.add_option("--reference-c", options->referenceC, "of the box with a glass sphere");
+    mode.add_option("--runs", options->runs, "timings of each rate, of which the median counts")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    mode.add_option("--photons", options->photons, "photons of look-ups")
+        ->check(CLI::Range(1000, 10000000))
+        ->capture_default_str();
+    mode.add_option("--only", options->only, "parts whose name holds this: lookup, tracing, error");
+    return [=] { return runRows([&](Rows& rows) { measurePhotons(*options, rows); }, *json); };
+}
+
+Run addUpsample(CLI::App& mode)
+{
+    const auto json = addJson(mode);
+    const auto pictures = std::make_shared<std::string>();
+    const auto models = std::make_shared<std::vector<std::string>>();
+    mode.add_option("--pictures", *pictures, "write the pictures to this folder as well");
+    mode.add_option("MODEL", *models, "measure these files, too");
+    return [=]
+    {
+        app::addPluginPath();
+        return runRows([&](Rows& rows) { measureUpsampling(*models, *pictures, rows); }, *json,
+                       *pictures);
+    };
+}
+
+Run addInteractive(CLI::App& mode)
+{
+    const auto json = addJson(mode);
+    const auto options = std::make_shared<InteractiveOptions>();
+    mode.add_option("--width", options->width, "width of the view [pixels]")
+        ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
+    mode.add_option("--height", options->height, "height of the view [pixels]")
+        ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
+    mode.add_option("--threads", options->threads, "threads to trace with; 0: all of the machine")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    mode.add_flag("--cpu-clock", options->cpuClock,
+                  "time by what the process takes of its cores, over its threads: as on a machine "
+                  "of its own");
+    mode.add_option("--only", options->only,
+                    "scenes whose name holds this: Cornell box, triangles, instances");
+    return [=] { return runRows([&](Rows& rows) { measureInteractive(*options, rows); }, *json); };
+}
+
+Run addReproject(CLI::App& mode)
+{
+    const auto json = addJson(mode);
+    const auto options = std::make_shared<ReprojectOptions>();
+    mode.add_option("--width", options->width,
+                    "width of the pictures whose error is measured [pixels]")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str();
+    mode.add_option("--references", options->references,
+                    "passes of the pictures that they are compared with")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    mode.add_option("--pictures", options->pictures, "write the last frames to this folder");
+    mode.add_flag("!--no-costs", options->costs, "leave the frames of 1920 x 1080 out");
+    return [=]
+    {
+        return runRows([&](Rows& rows) { measureReprojection(*options, rows); }, *json,
+                       options->pictures);
+    };
+}
+
+Run addReport(CLI::App& mode)
+{
+    const auto options = std::make_shared<ReportOptions>();
+    mode.add_option("-o,--output", options->folder, "folder of report.html, .csv and .json")
+        ->capture_default_str();
+    mode.add_flag("--quick", options->quick,
+                  "count passes, not seconds, and check what came out: minutes; ends with 5 if a "
+                  "check fails");
+    mode.add_option("--longest", options->longest, "longest budget of a picture [s]")
+        ->check(CLI::Range(0.125, 86400.0))
+        ->capture_default_str();
+    mode.add_option("--width", options->width, "width of the pictures [pixels]; 0: 128, quick 32")
+        ->check(CLI::Range(0, 4096));
+    mode.add_option("--only", options->only,
+                    "scenes whose name holds this; \"samplers\", \"schedules\" for these alone");
+    mode.add_option("--expectations", options->expectations,
+                    "check a quick report against this file, not the built-in one");
+    mode.add_option("MODEL", options->models, "measure these files, together one scene");
+    return [=]
+    {
+        app::addPluginPath();
+        return runReport(*options);
+    };
+}
+
+Run addCompare(CLI::App& mode)
+{
+    struct Options
+    {
+        std::string before, after;
+        double falseAlarmRate = 0.01;
+    };
+    const auto options = std::make_shared<Options>();
+    mode.add_option("BEFORE", options->before, "report.json")->required();
+    mode.add_option("AFTER", options->after, "report.json")->required();
+    mode.add_option("--false-alarms", options->falseAlarmRate,
+                    "probability that chance alone makes a change")
+        ->check(CLI::Range(1e-9, 0.5))
+        ->capture_default_str();
+    mode.footer("Ends with 0 if no row changed by more than its noise, 1 if one did, 2 if the "
+                "files cannot be compared.");
+    return [=] { return runCompare(options->before, options->after, options->falseAlarmRate); };
+}
+
+/// The modes of the command line.
+class CommandLine
+{
+public:
     CommandLine()
     {
-        for (CLI::App* rows : {&limit, &features, &photons, &update, &pick, &interactive, &denoise,
-                               &reproject, &upsample})
-            rows->add_option("--json", json, "write the rows to this file as well");
-
-        limit.add_option(
-            "--only", limitOnly,
-            "parts whose name holds this: box 1920x1080, sphere 640x360, 1 M triangles, ...");
-        photons
-            .add_option("--width", photonsOptions.width,
-                        "width and height of the pictures [pixels]; 0: none are made")
-            ->check(CLI::Range(0, 4096))
-            ->capture_default_str();
-        photons.add_option("--longest", photonsOptions.longest, "longest budget of a picture [s]")
-            ->check(CLI::Range(0.125, 86400.0))
-            ->capture_default_str();
-        photons.add_option("--seeds", photonsOptions.seeds, "pictures of each method")
-            ->check(CLI::Range(1, 64))
-            ->capture_default_str();
-        photons
-            .add_option("--reference-seconds", photonsOptions.referenceSeconds,
-                        "time for each reference that is rendered [s]")
-            ->check(CLI::Range(1.0, 86400.0))
-            ->capture_default_str();
-        photons.add_option("--reference-a", photonsOptions.referenceA,
-                           "linear picture of the diffuse box; rendered if not given");
-        photons.add_option("--reference-b", photonsOptions.referenceB, "of the box with a mirror");
-        photons.add_option("--reference-c", photonsOptions.referenceC,
-                           "of the box with a glass sphere");
-        photons
-            .add_option("--runs", photonsOptions.runs,
-                        "timings of each rate, of which the median counts")
-            ->check(CLI::Range(1, 1000))
-            ->capture_default_str();
-        photons.add_option("--photons", photonsOptions.photons, "photons of look-ups")
-            ->check(CLI::Range(1000, 10000000))
-            ->capture_default_str();
-        photons.add_option("--only", photonsOptions.only,
-                           "parts whose name holds this: lookup, tracing, error");
-
-        upsample.add_option("--pictures", pictures, "write the pictures to this folder as well");
-        upsample.add_option("MODEL", models, "measure these files, too");
-        interactive.add_option("--width", interactiveOptions.width, "width of the view [pixels]")
-            ->check(CLI::Range(16, 8192))
-            ->capture_default_str();
-        interactive
-            .add_option("--height", interactiveOptions.height, "height of the view [pixels]")
-            ->check(CLI::Range(16, 8192))
-            ->capture_default_str();
-        interactive
-            .add_option("--threads", interactiveOptions.threads,
-                        "threads to trace with; 0: all of the machine")
-            ->check(CLI::Range(0, 1024))
-            ->capture_default_str();
-        interactive.add_flag("--cpu-clock", interactiveOptions.cpuClock,
-                             "time by what the process takes of its cores, over its threads: as "
-                             "on a machine of its own");
-        interactive.add_option("--only", interactiveOptions.only,
-                               "scenes whose name holds this: Cornell box, triangles, instances");
-        reproject
-            .add_option("--width", reprojectOptions.width,
-                        "width of the pictures whose error is measured [pixels]")
-            ->check(CLI::Range(16, 4096))
-            ->capture_default_str();
-        reproject
-            .add_option("--references", reprojectOptions.references,
-                        "passes of the pictures that they are compared with")
-            ->check(CLI::Range(1, 1 << 20))
-            ->capture_default_str();
-        reproject.add_option("--pictures", reprojectOptions.pictures,
-                             "write the last frames to this folder");
-        reproject.add_flag("!--no-costs", reprojectOptions.costs,
-                           "leave the frames of 1920 x 1080 out");
-
-        report.add_option("-o,--output", options.folder, "folder of report.html, .csv and .json")
-            ->capture_default_str();
-        report.add_flag(
-            "--quick", options.quick,
-            "count passes, not seconds, and check what came out: minutes; ends with 5 if a "
-            "check fails");
-        report.add_option("--longest", options.longest, "longest budget of a picture [s]")
-            ->check(CLI::Range(0.125, 86400.0))
-            ->capture_default_str();
-        report
-            .add_option("--width", options.width,
-                        "width of the pictures [pixels]; 0: 128, quick 32")
-            ->check(CLI::Range(0, 4096));
-        report.add_option(
-            "--only", options.only,
-            "scenes whose name holds this; \"samplers\", \"schedules\" for these alone");
-        report.add_option("--expectations", options.expectations,
-                          "check a quick report against this file, not the built-in one");
-        report.add_option("MODEL", options.models, "measure these files, together one scene");
-
-        compare.add_option("BEFORE", before, "report.json")->required();
-        compare.add_option("AFTER", after, "report.json")->required();
-        compare
-            .add_option("--false-alarms", falseAlarmRate,
-                        "probability that chance alone makes a change")
-            ->check(CLI::Range(1e-9, 0.5))
-            ->capture_default_str();
-        compare.footer("Ends with 0 if no row changed by more than its noise, 1 if one did, 2 if "
-                       "the files cannot "
-                       "be compared.");
+        add("limit", "a whole frame, a path traced one and a build against Embree alone", addLimit);
+        add("features", "what features cost a scene that does not use them",
+            addRows<measureFeatures>);
+        add("photons", "photon maps against a plain grid and Embree alone; error against time",
+            addPhotons);
+        add("update", "what edits of a large live scene cost, against Embree alone",
+            addRows<measureUpdate>);
+        add("pick", "what a pick costs, against osgUtil's own and one ray", addRows<measurePicks>);
+        add("upsample", "what images of fewer pixels lose, and what it costs to show them",
+            addUpsample);
+        add("interactive", "whether the frames of a moving camera keep to their budgets",
+            addInteractive);
+        add("denoise",
+            "how much error the denoiser takes from one and four passes, and how long it takes",
+            addRows<measureDenoise>);
+        add("reproject", "what a moving view gains from its earlier frames, and what they cost",
+            addReproject);
+        add("report", "error against time, of all methods on many scenes", addReport);
+        add("compare", "which rows of two reports differ by more than their noise", addCompare);
         application.require_subcommand(1);
     }
 
-    int run()
+    int run() const
     {
-        if (limit) return runRows([&](Rows& rows) { measureLimit(limitOnly, rows); }, json);
-        if (features) return runRows(measureFeatures, json);
-        if (pick) return runRows(measurePicks, json);
-        if (interactive)
-            return runRows([&](Rows& rows) { measureInteractive(interactiveOptions, rows); }, json);
-        if (denoise) return runRows(measureDenoise, json);
-        if (update) return runRows(measureUpdate, json);
-        if (photons)
-            return runRows([&](Rows& rows) { measurePhotons(photonsOptions, rows); }, json);
-        if (reproject)
-            return runRows([&](Rows& rows) { measureReprojection(reprojectOptions, rows); }, json,
-                           reprojectOptions.pictures);
-        if (compare) return runCompare(before, after, falseAlarmRate);
-        app::addPluginPath();
-        if (upsample)
-            return runRows([&](Rows& rows) { measureUpsampling(models, pictures, rows); }, json,
-                           pictures);
-        return runReport(options);
+        for (const auto& [mode, run] : modes)
+            if (*mode) return run();
+        return app::kUsage;
     }
 
     CLI::App application{"Speed and error of osgRayTrace."};
-    CLI::App& limit = *application.add_subcommand(
-        "limit", "a whole frame, a path traced one and a build against Embree alone");
-    CLI::App& features = *application.add_subcommand(
-        "features", "what features cost a scene that does not use them");
-    CLI::App& photons = *application.add_subcommand(
-        "photons", "photon maps against a plain grid and Embree alone; error against time");
-    CLI::App& update = *application.add_subcommand(
-        "update", "what edits of a large live scene cost, against Embree alone");
-    CLI::App& pick =
-        *application.add_subcommand("pick", "what a pick costs, against osgUtil's own and one ray");
-    CLI::App& upsample = *application.add_subcommand(
-        "upsample", "what images of fewer pixels lose, and what it costs to show them");
-    CLI::App& interactive = *application.add_subcommand(
-        "interactive", "whether the frames of a moving camera keep to their budgets");
-    CLI::App& denoise = *application.add_subcommand(
-        "denoise",
-        "how much error the denoiser takes from one and four passes, and how long it takes");
-    CLI::App& reproject = *application.add_subcommand(
-        "reproject", "what a moving view gains from its earlier frames, and what they cost");
-    CLI::App& report =
-        *application.add_subcommand("report", "error against time, of all methods on many scenes");
-    CLI::App& compare = *application.add_subcommand(
-        "compare", "which rows of two reports differ by more than their noise");
-    std::string json, limitOnly, before, after, pictures;
-    std::vector<std::string> models;
-    double falseAlarmRate = 0.01;
-    ReportOptions options;
-    PhotonsOptions photonsOptions;
-    InteractiveOptions interactiveOptions;
-    ReprojectOptions reprojectOptions;
+
+private:
+    void add(const std::string& name, const std::string& description, Run (*addOptions)(CLI::App&))
+    {
+        CLI::App& mode = *application.add_subcommand(name, description);
+        modes.emplace_back(&mode, addOptions(mode));
+    }
+
+    std::vector<std::pair<CLI::App*, Run>> modes;
 };
 
 } // namespace

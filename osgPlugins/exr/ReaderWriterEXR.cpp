@@ -1,10 +1,9 @@
 // ReaderWriterEXR.cpp - osgdb_exr: OpenEXR images for every OSG program. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
+#include "osgPlugins/ImageReader.h"
 #include "osgPlugins/exr/ExrImage.h"
 #include "osgPlugins/exr/ImageConversion.h"
 
-#include <osgDB/FileNameUtils>
-#include <osgDB/FileUtils>
 #include <osgDB/Registry>
 
 #include <sstream>
@@ -49,10 +48,10 @@ private:
     }
 };
 
-class ReaderWriterEXR : public osgDB::ReaderWriter
+class ReaderWriterEXR : public ImageReader
 {
 public:
-    ReaderWriterEXR()
+    ReaderWriterEXR() : ImageReader("OpenEXR")
     {
         supportsExtension("exr", "OpenEXR image format");
         supportsOption("half", "Reading: the image has half values. Writing: the file has");
@@ -63,41 +62,6 @@ public:
     }
 
     const char* className() const override { return "OpenEXR Image Reader/Writer"; }
-
-    ReadResult readObject(std::istream& stream, const Options* options) const override
-    {
-        return readImage(stream, options);
-    }
-
-    ReadResult readObject(const std::string& file, const Options* options) const override
-    {
-        return readImage(file, options);
-    }
-
-    ReadResult readImage(std::istream& stream, const Options* options) const override
-    {
-        ExrImage image;
-        osg::ref_ptr<osg::Image> result;
-        std::string problem = readExr(stream, image, exrColorChannels());
-        if (problem.empty()) problem = toOsgImage(image, ExrOptions(options).readType, result);
-        if (!problem.empty()) return ReadResult("OpenEXR: " + problem);
-        return result.get();
-    }
-
-    ReadResult readImage(const std::string& file, const Options* options) const override
-    {
-        if (!acceptsExtension(osgDB::getLowerCaseFileExtension(file)))
-            return ReadResult::FILE_NOT_HANDLED;
-        const std::string path = osgDB::findDataFile(file, options);
-        if (path.empty()) return ReadResult::FILE_NOT_FOUND;
-
-        osgDB::ifstream stream(path.c_str(), std::ios::in | std::ios::binary);
-        if (!stream) return ReadResult("OpenEXR: '" + path + "' cannot be opened");
-        ReadResult result = readImage(stream, options);
-        if (!result.success()) return ReadResult("'" + path + "': " + result.message());
-        result.getImage()->setFileName(file);
-        return result;
-    }
 
     WriteResult writeImage(const osg::Image& image, std::ostream& stream,
                            const Options* options) const override
@@ -110,8 +74,7 @@ public:
     WriteResult writeImage(const osg::Image& image, const std::string& file,
                            const Options* options) const override
     {
-        if (!acceptsExtension(osgDB::getLowerCaseFileExtension(file)))
-            return WriteResult::FILE_NOT_HANDLED;
+        if (!handles(file)) return WriteResult::FILE_NOT_HANDLED;
         WriteResult result = write(image, options,
                                    [&](const ExrImage& exr, ExrCompression compression)
                                    { return writeExr(file, exr, compression); });
@@ -120,9 +83,17 @@ public:
     }
 
 private:
+    std::string decode(std::istream& stream, const Options* options,
+                       osg::ref_ptr<osg::Image>& image) const override
+    {
+        ExrImage exr;
+        const std::string problem = readExr(stream, exr, exrColorChannels());
+        return problem.empty() ? toOsgImage(exr, ExrOptions(options).readType, image) : problem;
+    }
+
     template <class WriteFunction>
-    static WriteResult write(const osg::Image& image, const Options* options,
-                             WriteFunction writeFunction)
+    WriteResult write(const osg::Image& image, const Options* options,
+                      WriteFunction writeFunction) const
     {
         const ExrOptions exrOptions(options);
         const bool half =
@@ -131,8 +102,7 @@ private:
         std::string problem = exrOptions.problem;
         if (problem.empty()) problem = toExrImage(image, half, exr);
         if (problem.empty()) problem = writeFunction(exr, exrOptions.compression);
-        if (!problem.empty()) return WriteResult("OpenEXR: " + problem);
-        return WriteResult::FILE_SAVED;
+        return written(problem);
     }
 };
 

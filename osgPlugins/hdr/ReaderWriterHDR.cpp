@@ -1,9 +1,8 @@
 // ReaderWriterHDR.cpp - osgdb_hdr: Radiance's pictures for every OSG program. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
+#include "osgPlugins/ImageReader.h"
 #include "osgPlugins/hdr/RgbeConversion.h"
 
-#include <osgDB/FileNameUtils>
-#include <osgDB/FileUtils>
 #include <osgDB/Registry>
 
 #include <algorithm>
@@ -38,10 +37,10 @@ struct HdrOptions
     }
 };
 
-class ReaderWriterHDR : public osgDB::ReaderWriter
+class ReaderWriterHDR : public ImageReader
 {
 public:
-    ReaderWriterHDR()
+    ReaderWriterHDR() : ImageReader("Radiance picture")
     {
         supportsExtension("hdr", "Radiance picture format");
         supportsOption("RGB8", "Reading: the image has bytes, linear, cut off at 1");
@@ -52,44 +51,6 @@ public:
     }
 
     const char* className() const override { return "Radiance Image Reader/Writer"; }
-
-    ReadResult readObject(std::istream& stream, const Options* options) const override
-    {
-        return readImage(stream, options);
-    }
-
-    ReadResult readObject(const std::string& file, const Options* options) const override
-    {
-        return readImage(file, options);
-    }
-
-    ReadResult readImage(std::istream& stream, const Options* options) const override
-    {
-        const HdrOptions hdrOptions(options);
-        RgbeImage image;
-        osg::ref_ptr<osg::Image> result;
-        std::string problem = readRgbe(stream, image);
-        if (problem.empty())
-            problem = toOsgImage(image, hdrOptions.kind, hdrOptions.factor, result);
-        if (!problem.empty()) return ReadResult("Radiance picture: " + problem);
-        if (hdrOptions.flipped) result->flipVertical();
-        return result.get();
-    }
-
-    ReadResult readImage(const std::string& file, const Options* options) const override
-    {
-        if (!acceptsExtension(osgDB::getLowerCaseFileExtension(file)))
-            return ReadResult::FILE_NOT_HANDLED;
-        const std::string path = osgDB::findDataFile(file, options);
-        if (path.empty()) return ReadResult::FILE_NOT_FOUND;
-
-        osgDB::ifstream stream(path.c_str(), std::ios::in | std::ios::binary);
-        if (!stream) return ReadResult("Radiance picture: '" + path + "' cannot be opened");
-        ReadResult result = readImage(stream, options);
-        if (!result.success()) return ReadResult("'" + path + "': " + result.message());
-        result.getImage()->setFileName(file);
-        return result;
-    }
 
     WriteResult writeImage(const osg::Image& image, std::ostream& stream,
                            const Options* options) const override
@@ -103,8 +64,7 @@ public:
     WriteResult writeImage(const osg::Image& image, const std::string& file,
                            const Options* options) const override
     {
-        if (!acceptsExtension(osgDB::getLowerCaseFileExtension(file)))
-            return WriteResult::FILE_NOT_HANDLED;
+        if (!handles(file)) return WriteResult::FILE_NOT_HANDLED;
         RgbeImage rgbe;
         std::string problem = encode(image, options, rgbe);
         if (problem.empty())
@@ -119,6 +79,17 @@ public:
     }
 
 private:
+    std::string decode(std::istream& stream, const Options* options,
+                       osg::ref_ptr<osg::Image>& image) const override
+    {
+        const HdrOptions hdrOptions(options);
+        RgbeImage rgbe;
+        std::string problem = readRgbe(stream, rgbe);
+        if (problem.empty()) problem = toOsgImage(rgbe, hdrOptions.kind, hdrOptions.factor, image);
+        if (problem.empty() && hdrOptions.flipped) image->flipVertical();
+        return problem;
+    }
+
     static std::string encode(const osg::Image& image, const Options* options, RgbeImage& rgbe)
     {
         const HdrOptions hdrOptions(options);
@@ -131,12 +102,6 @@ private:
                              rgbe.pixels.end() - static_cast<std::ptrdiff_t>(y + 1) * rgbe.width);
         }
         return problem;
-    }
-
-    static WriteResult written(const std::string& problem)
-    {
-        if (problem.empty()) return WriteResult::FILE_SAVED;
-        return WriteResult("Radiance picture: " + problem);
     }
 };
 

@@ -2,6 +2,7 @@
 // data. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/Statistics.h"
 #include "tests/api/Picks.h"
 
 #include <osgDB/FileUtils>
@@ -37,8 +38,10 @@ public:
 private:
     osg::Vec3d direction()
     {
-        std::normal_distribution<double> normal;
-        osg::Vec3d d(normal(_random), normal(_random), normal(_random));
+        const engine::test::NormalNumbers normal;
+        // One after the other: the order in which arguments are evaluated is the compiler's.
+        const double x = normal(_random), y = normal(_random), z = normal(_random);
+        osg::Vec3d d(x, y, z);
         d.normalize();
         return d;
     }

@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <optional>
 #include <thread>
 
 using Catch::Matchers::Contains;
@@ -37,6 +38,32 @@ struct Signal
     int number;
     const char* name;
     int exitCode;
+};
+
+/// A program that writes a picture into a pipe that nobody reads, so that writing never ends.
+class StuckWriter
+{
+public:
+    StuckWriter()
+    {
+        std::filesystem::create_directory(_folder / "tmp");
+        REQUIRE(mkfifo((_folder / "pipe.png").c_str(), 0600) == 0);
+        program.emplace(_folder / ".",
+                        renderOfBox({"--size", "8", "8", "--passes", "1", "-o", "pipe.png"}),
+                        std::vector<std::string>{"TMPDIR=" + _folder / "tmp"});
+        // The temporary file shows that writing has begun.
+        for (int i = 0; i < 600 && !hasRemnants(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        CHECK(hasRemnants());
+    }
+
+    bool hasRemnants() const { return !std::filesystem::is_empty(_folder / "tmp"); }
+
+private:
+    TemporaryFolder _folder;
+
+public:
+    std::optional<RunningProgram> program; ///< ends before its folder goes
 };
 
 } // namespace
@@ -107,38 +134,18 @@ TEST_CASE("osgraytrace: a signal in the first pass leaves the tiles there are", 
 
 TEST_CASE("osgraytrace: a second signal ends it at once, without remnants", "[apps]")
 {
-    const TemporaryFolder folder;
-    std::filesystem::create_directory(folder / "tmp");
-    // Nobody reads the pipe, so that writing never ends; the temporary file shows that it has
-    // begun.
-    REQUIRE(mkfifo((folder / "pipe.png").c_str(), 0600) == 0);
-    RunningProgram program(folder / ".",
-                           renderOfBox({"--size", "8", "8", "--passes", "1", "-o", "pipe.png"}),
-                           {"TMPDIR=" + folder / "tmp"});
-    const auto isEmpty = [&] { return std::filesystem::is_empty(folder / "tmp"); };
-    for (int i = 0; i < 600 && isEmpty(); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    CHECK_FALSE(isEmpty());
-    program.signal(SIGTERM);
+    StuckWriter writer;
+    writer.program->signal(SIGTERM);
     std::this_thread::sleep_for(std::chrono::milliseconds(100)); // two at once would be one
-    program.signal(SIGTERM);
-    CHECK(program.wait() == 143);
-    CHECK(isEmpty());
+    writer.program->signal(SIGTERM);
+    CHECK(writer.program->wait() == 143);
+    CHECK_FALSE(writer.hasRemnants());
 }
 
 TEST_CASE("osgraytrace: a crash leaves no remnants", "[apps]")
 {
-    const TemporaryFolder folder;
-    std::filesystem::create_directory(folder / "tmp");
-    REQUIRE(mkfifo((folder / "pipe.png").c_str(), 0600) == 0);
-    RunningProgram program(folder / ".",
-                           renderOfBox({"--size", "8", "8", "--passes", "1", "-o", "pipe.png"}),
-                           {"TMPDIR=" + folder / "tmp"});
-    const auto isEmpty = [&] { return std::filesystem::is_empty(folder / "tmp"); };
-    for (int i = 0; i < 600 && isEmpty(); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    CHECK_FALSE(isEmpty());
-    program.signal(SIGABRT);
-    CHECK(program.wait() == -SIGABRT);
-    CHECK(isEmpty());
+    StuckWriter writer;
+    writer.program->signal(SIGABRT);
+    CHECK(writer.program->wait() == -SIGABRT);
+    CHECK_FALSE(writer.hasRemnants());
 }

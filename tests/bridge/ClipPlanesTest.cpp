@@ -15,13 +15,6 @@ using namespace osgRayTrace::engine;
 namespace
 {
 
-osg::ref_ptr<osg::MatrixTransform> placed(const osg::Matrixd& matrix, osg::Node* child)
-{
-    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrix);
-    transform->addChild(child);
-    return transform;
-}
-
 osg::ref_ptr<osg::ClipNode> clipped(const osg::Vec4d& plane, osg::Node* child)
 {
     osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;

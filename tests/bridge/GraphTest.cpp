@@ -29,13 +29,6 @@ using namespace osgRayTrace::engine;
 namespace
 {
 
-osg::ref_ptr<osg::MatrixTransform> placed(const osg::Matrixd& matrix, osg::Node* child)
-{
-    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrix);
-    transform->addChild(child);
-    return transform;
-}
-
 /// Returns a triangle whose first corner is (x, 0, 0).
 osg::ref_ptr<osg::Node> triangleAt(double x)
 {

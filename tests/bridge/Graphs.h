@@ -85,4 +85,11 @@ inline Vec3 firstCorner(const Scene& scene, std::size_t instance)
     return use.placed ? transformPoint(use.engineFromLocal, p) : p;
 }
 
+inline osg::ref_ptr<osg::MatrixTransform> placed(const osg::Matrixd& matrix, osg::Node* child)
+{
+    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrix);
+    transform->addChild(child);
+    return transform;
+}
+
 } // namespace osgRayTrace::engine

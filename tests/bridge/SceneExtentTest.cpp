@@ -18,13 +18,6 @@ namespace
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-osg::ref_ptr<osg::MatrixTransform> placed(const osg::Matrixd& matrix, osg::Node* child)
-{
-    const osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform(matrix);
-    node->addChild(child);
-    return node;
-}
-
 osg::ref_ptr<osg::Group> scaledTriangle(double scale)
 {
     return placed(osg::Matrixd::scale(scale, scale, scale), triangleGeometry());

@@ -46,8 +46,8 @@ TEST_CASE("match: straight alpha, several panes over each other and over the bac
     const auto root = groupOf({floorSquare(), pane({0.1f, 0.2f, 0.9f, 0.5f}, 3.0f, 0.0f),
                                pane({0.9f, 0.1f, 0.1f, 0.3f}, 2.0f, 0.5f),
                                pane({0.0f, 0.9f, 0.1f, 0.8f}, 1.0f, 1.0f)});
-    checkMatch("blend-panes", root);
-    checkMatch("blend-over-background", groupOf({pane({0.1f, 0.2f, 0.9f, 0.5f}, 3.0f, 0.0f)}));
+    CHECK(matches("blend-panes", root));
+    CHECK(matches("blend-over-background", groupOf({pane({0.1f, 0.2f, 0.9f, 0.5f}, 3.0f, 0.0f)})));
 }
 
 TEST_CASE("match: alpha of the vertices and of the texture", "[gl][coverage]")
@@ -57,9 +57,9 @@ TEST_CASE("match: alpha of the vertices and of the texture", "[gl][coverage]")
     for (const float alpha : {0.0f, 0.3f, 0.7f, 1.0f})
         colors->push_back(osg::Vec4(0.9f, 0.2f, 0.5f, alpha));
     front->setColorArray(colors, osg::Array::BIND_PER_VERTEX);
-    checkMatch("blend-vertices", groupOf({floorSquare(), front}));
+    CHECK(matches("blend-vertices", groupOf({floorSquare(), front})));
     front->getStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8)));
-    checkMatch("blend-texture", groupOf({floorSquare(), front}));
+    CHECK(matches("blend-texture", groupOf({floorSquare(), front})));
 }
 
 TEST_CASE("match: all functions of the alpha test", "[gl][coverage]")
@@ -82,7 +82,7 @@ TEST_CASE("match: all functions of the alpha test", "[gl][coverage]")
                 ? 1.0f
                 : 0.5f;
         state.setAttributeAndModes(new osg::AlphaFunc(function, reference));
-        checkMatch(std::string("alpha-test-") + name, groupOf({floorSquare(), front}));
+        CHECK(matches(std::string("alpha-test-") + name, groupOf({floorSquare(), front})));
     }
 }
 
@@ -112,12 +112,12 @@ TEST_CASE("match: culled faces, turned winding and mirrored transforms", "[gl][c
             auto root = groupOf({placed(matrix, thing)});
             if (shared) // instances of one mesh are handled in another way than a mesh of its own
                 root->addChild(placed(matrix * osg::Matrixd::translate(2.0, 1.0, -3.0), thing));
-            checkMatch(std::string("cull-") + c.name + (shared ? "-shared" : ""), root);
+            CHECK(matches(std::string("cull-") + c.name + (shared ? "-shared" : ""), root));
         }
     const auto sides = box();
     sides->getOrCreateStateSet()->setAttributeAndModes(
         new osg::CullFace(osg::CullFace::FRONT_AND_BACK));
-    checkMatch("cull-both", groupOf({floorSquare(), sides}));
+    CHECK(matches("cull-both", groupOf({floorSquare(), sides})));
 }
 
 TEST_CASE("match: polygon offset puts decals before what they lie on", "[gl][coverage]")
@@ -136,16 +136,16 @@ TEST_CASE("match: polygon offset puts decals before what they lie on", "[gl][cov
     const auto layers = groupOf({decal(1.0f, {0.1f, 0.1f, 0.9f, 1.0f}, -2.0f),
                                  decal(3.0f, {0.8f, 0.8f, 0.8f, 1.0f}, 0.0f),
                                  decal(2.0f, {0.9f, 0.1f, 0.1f, 1.0f}, -1.0f)});
-    checkMatch("polygon-offset-front", layers, setup);
+    CHECK(matches("polygon-offset-front", layers, setup));
     const auto base = groupOf(
         {decal(2.0f, {0.9f, 0.1f, 0.1f, 1.0f}, 0.0f), decal(3.0f, {0.8f, 0.8f, 0.8f, 1.0f}, 1.0f)});
-    checkMatch("polygon-offset-back", base, setup);
+    CHECK(matches("polygon-offset-back", base, setup));
     // The geometry is shared, so that it becomes instances: one of its two uses has the offset.
     const auto shared = unlit(square(1.0f, {0.1f, 0.9f, 0.1f, 1.0f}));
     const auto raised = placed(osg::Matrixd::translate(1.0, 0.5, 0.0), shared);
     raised->getOrCreateStateSet()->setAttributeAndModes(new osg::PolygonOffset(-1.0f, -1.0f));
-    checkMatch("polygon-offset-shared",
-               groupOf({decal(3.0f, {0.8f, 0.8f, 0.8f, 1.0f}, 0.0f), raised,
-                        placed(osg::Matrixd::translate(-1.0, -0.5, 0.5), shared)}),
-               setup);
+    CHECK(matches("polygon-offset-shared",
+                  groupOf({decal(3.0f, {0.8f, 0.8f, 0.8f, 1.0f}, 0.0f), raised,
+                           placed(osg::Matrixd::translate(-1.0, -0.5, 0.5), shared)}),
+                  setup));
 }

@@ -25,9 +25,9 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-PicturePair checkSame(const std::string& name, const SceneMaker& makeScene, int frames = 3)
+PicturePair pairOf(const std::string& name, const SceneMaker& makeScene, int frames = 3)
 {
-    return test::checkSame(name, makeScene, lookDown, frames);
+    return picturePair(name, makeScene, lookDown, frames);
 }
 
 /// Returns a tube of rings along z, posed by two bones.
@@ -167,39 +167,43 @@ private:
 
 TEST_CASE("pairs: a rig whose transform is left to the hardware", "[gl]")
 {
-    bool software = true; // the rasterized scene is made first
-    checkSame("rig",
-              [&]
-              {
-                  osg::ref_ptr<osgAnimation::RigTransformHardware> hardware =
-                      new osgAnimation::RigTransformHardware;
-                  hardware->setShader(noShader());
-                  const auto scene = software ? bentTube(new osgAnimation::RigTransformSoftware)
-                                              : bentTube(hardware);
-                  software = false;
-                  return scene;
-              });
+    bool software = true; // the rasterized one comes first
+    const PicturePair pair =
+        pairOf("rig",
+               [&]
+               {
+                   osg::ref_ptr<osgAnimation::RigTransformHardware> hardware =
+                       new osgAnimation::RigTransformHardware;
+                   hardware->setShader(noShader());
+                   const auto scene = software ? bentTube(new osgAnimation::RigTransformSoftware)
+                                               : bentTube(hardware);
+                   software = false;
+                   return scene;
+               });
+    CHECK(agree(pair));
 }
 
 TEST_CASE("pairs: a morph whose transform is left to the hardware", "[gl]")
 {
     bool software = true;
-    checkSame("morph",
-              [&]
-              {
-                  osg::ref_ptr<osgAnimation::MorphTransformHardware> hardware =
-                      new osgAnimation::MorphTransformHardware;
-                  hardware->setShader(noShader());
-                  const auto scene = software ? fattened(new osgAnimation::MorphTransformSoftware)
-                                              : fattened(hardware);
-                  software = false;
-                  return scene;
-              });
+    const PicturePair pair =
+        pairOf("morph",
+               [&]
+               {
+                   osg::ref_ptr<osgAnimation::MorphTransformHardware> hardware =
+                       new osgAnimation::MorphTransformHardware;
+                   hardware->setShader(noShader());
+                   const auto scene = software ? fattened(new osgAnimation::MorphTransformSoftware)
+                                               : fattened(hardware);
+                   software = false;
+                   return scene;
+               });
+    CHECK(agree(pair));
 }
 
 TEST_CASE("pairs: a video shows the picture of the frame", "[gl]")
 {
-    checkSame(
+    const PicturePair pair = pairOf(
         "video",
         []
         {
@@ -212,4 +216,5 @@ TEST_CASE("pairs: a video shows the picture of the frame", "[gl]")
             return square;
         },
         4);
+    CHECK(agree(pair));
 }

@@ -349,7 +349,7 @@ TEST_CASE("projections: edges and depths of twenty kinds are those of the raster
         scene->getSettings()->setPassesPerFrame(64);
         const Shot traced = shot(scene.get(), p, viewFromWorld, target);
         REQUIRE(scene->getDrawable()->getStatistics().passes == 64);
-        if (const char* folder = std::getenv("OSGRAYTRACE_TEST_PICTURES"))
+        if (const char* folder = std::getenv("OSGRAYTRACE_PICTURES"))
         {
             const std::string name = std::string(folder) + "/projection-" + std::to_string(index) +
                                      (tilted ? "-tilted-" : "-facing-") + target.name[0];

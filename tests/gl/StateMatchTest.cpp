@@ -62,7 +62,7 @@ TEST_CASE("match: shapes in the colours that ShapeDrawable gives them", "[gl][co
          at(2.5, 1.2, shapeOf(new osg::Cylinder({}, 0.8f, 1.4f), {0.2f, 0.3f, 0.9f, 1.0f})),
          at(-2.5, -1.2, shapeOf(new osg::Box({}, 1.4f), {0.8f, 0.8f, 0.2f, 1.0f})),
          at(0.0, -1.2, shapeOf(new osg::Capsule({}, 0.5f, 0.9f), {0.8f, 0.4f, 0.8f, 1.0f}))});
-    checkMatch("shapes", root);
+    CHECK(matches("shapes", root));
 }
 
 TEST_CASE("match: without materials and colours, alone and beside a material", "[gl][coverage]")
@@ -77,7 +77,7 @@ TEST_CASE("match: without materials and colours, alone and beside a material", "
     bright->setAmbientIntensity({0.3f, 0.3f, 0.3f, 1.0f});
     const osg::ref_ptr<osg::Group> alone = groupOf({plain(-1.8f), plain(1.8f)});
     alone->getOrCreateStateSet()->setAttribute(bright);
-    checkMatch("no-material", alone);
+    CHECK(matches("no-material", alone));
 
     const osg::ref_ptr<osg::MatrixTransform> other = plain(1.8f);
     osg::ref_ptr<osg::Material> material = new osg::Material;
@@ -85,7 +85,7 @@ TEST_CASE("match: without materials and colours, alone and beside a material", "
     other->getOrCreateStateSet()->setAttribute(material);
     const osg::ref_ptr<osg::Group> beside = groupOf({plain(-1.8f), other});
     beside->getOrCreateStateSet()->setAttribute(bright);
-    checkMatch("no-material-beside-one", beside);
+    CHECK(matches("no-material-beside-one", beside));
 }
 
 TEST_CASE("match: a pyramid with colours and normals of its own, as osgshape has", "[gl][coverage]")
@@ -114,7 +114,7 @@ TEST_CASE("match: a pyramid with colours and normals of its own, as osgshape has
     pyramid->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 12));
     const auto turned = placed(osg::Matrixd::rotate(-1.0, osg::Vec3d(1, 0.3, 0)), pyramid);
     pyramid->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
-    checkMatch("pyramid-normals", turned);
+    CHECK(matches("pyramid-normals", turned));
 }
 
 TEST_CASE("match: osgshape's hull, textured and without coordinates", "[gl][coverage]")
@@ -126,8 +126,8 @@ TEST_CASE("match: osgshape's hull, textured and without coordinates", "[gl][cove
     hull->setIndices(new osg::UByteArray(12, indices));
     const osg::ref_ptr<osg::ShapeDrawable> pyramid = new osg::ShapeDrawable(hull);
     pyramid->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
-    checkMatch("osgshape-pyramid",
-               placed(osg::Matrixd::rotate(-osg::PI_2, osg::Vec3d(1, 0, 0)), pyramid));
+    CHECK(matches("osgshape-pyramid",
+                  placed(osg::Matrixd::rotate(-osg::PI_2, osg::Vec3d(1, 0, 0)), pyramid)));
 }
 
 TEST_CASE("match: Material with every color mode, lit and not", "[gl][coverage]")
@@ -148,7 +148,7 @@ TEST_CASE("match: Material with every color mode, lit and not", "[gl][coverage]"
             osg::StateSet& state = *ball->getOrCreateStateSet();
             state.setAttribute(material);
             if (!lit) state.setMode(GL_LIGHTING, kOff);
-            checkMatch(std::string("color-mode-") + name + (lit ? "" : "-unlit"), ball);
+            CHECK(matches(std::string("color-mode-") + name + (lit ? "" : "-unlit"), ball));
         }
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("match: LightModel with two sides, a local viewer, separate highlights
     state.setAttribute(model);
     state.setAttribute(material);
     if (kind == 3) state.setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
-    checkMatch(std::string("light-model-") + names[kind], thing);
+    CHECK(matches(std::string("light-model-") + names[kind], thing));
 }
 
 TEST_CASE("match: lights of the graph: positions, attenuation, spots, numbers, places",
@@ -203,7 +203,7 @@ TEST_CASE("match: lights of the graph: positions, attenuation, spots, numbers, p
     root->addChild(sun);
     for (const unsigned int number : {1u, 2u, 3u})
         state.setMode(GL_LIGHT0 + number, kOn);
-    checkMatch("lights", root);
+    CHECK(matches("lights", root));
 }
 
 TEST_CASE("match: states with OVERRIDE and PROTECTED", "[gl][coverage]")
@@ -224,5 +224,5 @@ TEST_CASE("match: states with OVERRIDE and PROTECTED", "[gl][coverage]")
     inner->getStateSet()->setMode(GL_LIGHTING, kOn | osg::StateAttribute::OVERRIDE);
     const auto root = groupOf(
         {inner, ballWith(-1.2, -1.2, kOn), ballWith(1.2, -1.2, osg::StateAttribute::INHERIT)});
-    checkMatch("inheritance", root);
+    CHECK(matches("inheritance", root));
 }

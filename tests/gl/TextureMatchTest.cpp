@@ -115,9 +115,9 @@ TEST_CASE("match: wrap modes, with border colour", "[gl][coverage]")
             const auto texture = textureOf(patchwork(4, GL_RGB), mode, filter);
             texture->setBorderColor(osg::Vec4d(0.1, 0.9, 0.3, 1.0));
             geometry->getStateSet()->setTextureAttributeAndModes(0, texture);
-            checkMatch(std::string("wrap-") + name +
-                           (filter == osg::Texture::NEAREST ? "-nearest" : ""),
-                       geometry);
+            CHECK(matches(std::string("wrap-") + name +
+                              (filter == osg::Texture::NEAREST ? "-nearest" : ""),
+                          geometry));
         }
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("match: texture matrix, also a projective one", "[gl][coverage]")
     // too.
     geometry->getStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
     geometry->getStateSet()->setTextureAttribute(0, new osg::TexMat(matrix));
-    checkMatch(projective ? "texture-matrix-projective" : "texture-matrix", geometry);
+    CHECK(matches(projective ? "texture-matrix-projective" : "texture-matrix", geometry));
 }
 
 TEST_CASE("match: object and eye linear texture generation", "[gl][coverage]")
@@ -148,8 +148,8 @@ TEST_CASE("match: object and eye linear texture generation", "[gl][coverage]")
                ball);
     // OpenGL would light with the length that the scale gives to normals; tracing never does.
     root->getOrCreateStateSet()->setMode(GL_NORMALIZE, kOn);
-    checkMatch(mode == osg::TexGen::OBJECT_LINEAR ? "texgen-object-linear" : "texgen-eye-linear",
-               root, obliquely());
+    CHECK(matches(mode == osg::TexGen::OBJECT_LINEAR ? "texgen-object-linear" : "texgen-eye-linear",
+                  root, obliquely()));
 }
 
 TEST_CASE("match: a TexGenNode places eye linear coordinates in the scene", "[gl][coverage]")
@@ -164,7 +164,7 @@ TEST_CASE("match: a TexGenNode places eye linear coordinates in the scene", "[gl
         {placed(osg::Matrixd::rotate(1.0, osg::Vec3d(0, 0, 1)) * osg::Matrixd::translate(1, 0, 0),
                 node),
          placed(osg::Matrixd::translate(-1.0, 0.5, 0.0), ball)});
-    checkMatch("texgen-node", root, obliquely());
+    CHECK(matches("texgen-node", root, obliquely()));
 }
 
 TEST_CASE("match: sphere, reflection and normal maps follow the view", "[gl][coverage]")
@@ -176,8 +176,8 @@ TEST_CASE("match: sphere, reflection and normal maps follow the view", "[gl][cov
         const auto ball = fineSphere();
         ball->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
         generate(*ball, 0, texGenOf(mode), mode != osg::TexGen::SPHERE_MAP);
-        checkMatch(name + view, placed(osg::Matrixd::rotate(0.7, osg::Vec3d(0, 1, 0)), ball),
-                   setup);
+        CHECK(matches(name + view, placed(osg::Matrixd::rotate(0.7, osg::Vec3d(0, 1, 0)), ball),
+                      setup));
     };
     traced("texgen-sphere-map", osg::TexGen::SPHERE_MAP, textureOf(environmentPicture(64)));
     traced("texgen-reflection-map", osg::TexGen::REFLECTION_MAP, cubeMap(32));
@@ -201,7 +201,7 @@ TEST_CASE("match: texture environments of two units", "[gl][coverage]")
             if (unit == 1) state.setTextureAttributeAndModes(0, textureOf(environmentPicture(32)));
             state.setTextureAttributeAndModes(unit, textureOf(patchwork(8)));
             state.setTextureAttribute(unit, environment);
-            checkMatch(std::string("texenv-") + name + (unit ? "-unit1" : "-unit0"), geometry);
+            CHECK(matches(std::string("texenv-") + name + (unit ? "-unit1" : "-unit0"), geometry));
         }
 }
 
@@ -215,7 +215,7 @@ TEST_CASE("match: textured things without coordinates show the corner of the tex
     const auto root = groupOf({placed(osg::Matrixd::translate(1.6, 0.0, 0.0), without),
                                placed(osg::Matrixd::translate(-1.6, 0.0, 0.0), with)});
     root->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
-    checkMatch("no-coordinates", root);
+    CHECK(matches("no-coordinates", root));
 }
 
 TEST_CASE("match: one-dimensional and rectangle textures", "[gl][coverage]")
@@ -229,12 +229,12 @@ TEST_CASE("match: one-dimensional and rectangle textures", "[gl][coverage]")
     one->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
     const auto stripes = unlit(square(3.0f, {1, 1, 1, 1}, 2.0f));
     stripes->getStateSet()->setTextureAttributeAndModes(0, one);
-    checkMatch("texture-1d", stripes);
+    CHECK(matches("texture-1d", stripes));
 
     const auto rectangle = unlit(square(3.0f, {1, 1, 1, 1}, 12.0f));
     rectangle->getStateSet()->setTextureAttributeAndModes(
         0, new osg::TextureRectangle(patchwork(12, GL_RGB)));
-    checkMatch("texture-rectangle", rectangle);
+    CHECK(matches("texture-rectangle", rectangle));
 }
 
 namespace
@@ -306,7 +306,7 @@ TEST_CASE("match: pixel formats, packed, wide and compressed", "[gl][coverage]")
         state.setMode(GL_BLEND, kOn);
         state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
         const auto root = groupOf({unlit(square(3.5f, osg::Vec4(0.2f, 0.5f, 0.8f, 1.0f))), front});
-        checkMatch(std::string("format-") + format.name, root);
+        CHECK(matches(std::string("format-") + format.name, root));
     }
 }
 
@@ -347,7 +347,7 @@ TEST_CASE("match: textures that OpenGL compresses", "[gl]")
         state.setMode(GL_BLEND, kOn);
         state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
         const auto root = groupOf({unlit(square(3.5f, osg::Vec4(0.2f, 0.5f, 0.8f, 1.0f))), front});
-        checkMatch(std::string("compressed-") + mode.name, root);
+        CHECK(matches(std::string("compressed-") + mode.name, root));
     }
 }
 
@@ -394,9 +394,9 @@ TEST_CASE("match: 3-D textures, with three coordinates", "[gl][coverage]")
                     osg::Vec3(c.x() * 1.3f - 0.1f, c.y(), c.x() + c.y() * 1.7f - 0.6f));
             geometry->setTexCoordArray(0, coordinates);
             geometry->getStateSet()->setTextureAttributeAndModes(0, volume(mode, filter));
-            checkMatch(std::string("texture-3d-") + name +
-                           (filter == osg::Texture::NEAREST ? "-nearest" : ""),
-                       geometry);
+            CHECK(matches(std::string("texture-3d-") + name +
+                              (filter == osg::Texture::NEAREST ? "-nearest" : ""),
+                          geometry));
         }
 }
 
@@ -412,17 +412,18 @@ TEST_CASE("match: some coordinates generated, the others of the mesh", "[gl][cov
     {
         state.setTextureAttributeAndModes(0, volume(osg::Texture::REPEAT, osg::Texture::LINEAR));
         state.setTextureMode(0, GL_TEXTURE_GEN_R, kOn);
-        checkMatch("texgen-r", geometry);
+        CHECK(matches("texgen-r", geometry));
         state.setTextureAttribute(0,
                                   new osg::TexMat(osg::Matrixd::rotate(0.4, osg::Vec3d(1, 2, 0)) *
                                                   osg::Matrixd::translate(0.1, 0.2, 0.3)));
-        checkMatch("texgen-r-matrix", geometry);
+        CHECK(matches("texgen-r-matrix", geometry));
     }
     SECTION("S of a 2-D texture, in a place of its own")
     {
         state.setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
         state.setTextureMode(0, GL_TEXTURE_GEN_S, kOn);
-        checkMatch("texgen-s", placed(osg::Matrixd::rotate(0.3, osg::Vec3d(0, 0, 1)), geometry));
+        CHECK(
+            matches("texgen-s", placed(osg::Matrixd::rotate(0.3, osg::Vec3d(0, 0, 1)), geometry)));
     }
     SECTION("S of a sphere map")
     {
@@ -431,7 +432,7 @@ TEST_CASE("match: some coordinates generated, the others of the mesh", "[gl][cov
         ofBall.setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
         ofBall.setTextureAttribute(0, texGenOf(osg::TexGen::SPHERE_MAP));
         ofBall.setTextureMode(0, GL_TEXTURE_GEN_S, kOn);
-        checkMatch("texgen-s-sphere-map", ball, obliquely());
+        CHECK(matches("texgen-s-sphere-map", ball, obliquely()));
     }
 }
 
@@ -443,5 +444,5 @@ TEST_CASE("match: a cube map with coordinates of the mesh", "[gl][coverage]")
         coordinates->push_back(osg::Vec3(c.x() * 2 - 1, c.y() * 2 - 1, 1.2f - c.x()));
     geometry->setTexCoordArray(0, coordinates);
     geometry->getStateSet()->setTextureAttributeAndModes(0, cubeMap(16));
-    checkMatch("cube-map-own-coordinates", geometry);
+    CHECK(matches("cube-map-own-coordinates", geometry));
 }

@@ -65,7 +65,7 @@ Statistics statistics(const RayTracedScene& scene)
 
 void keep(const std::string& name, const osg::Image& image)
 {
-    if (const char* folder = std::getenv("OSGRAYTRACE_TEST_PICTURES"))
+    if (const char* folder = std::getenv("OSGRAYTRACE_PICTURES"))
         osgDB::writeImageFile(image, std::string(folder) + "/" + name + ".png");
 }
 

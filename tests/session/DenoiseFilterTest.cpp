@@ -4,6 +4,7 @@
 
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
+#include "tests/Statistics.h"
 
 #include <cmath>
 #include <cstring>
@@ -54,7 +55,7 @@ struct TestImage
     void addNoise(double sigma, bool withErrors, unsigned seed)
     {
         std::mt19937 random(seed);
-        std::normal_distribution<double> normal;
+        const NormalNumbers normal;
         if (withErrors) image.error.assign(image.radiance.size() / 4 * 3, 0.0f);
         for (std::size_t i = 0; i < image.radiance.size() / 4; ++i)
         {

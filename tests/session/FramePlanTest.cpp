@@ -2,6 +2,7 @@
 // clock.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/Statistics.h"
 
 #include "osgRayTrace/film/TileOrder.h"
 #include "osgRayTrace/session/view/FramePlan.h"
@@ -35,7 +36,7 @@ struct Machine
 
     double tile(int divider)
     {
-        std::normal_distribution<double> normal(1.0, noise);
+        const test::NormalNumbers normal(1.0, noise);
         const double seconds = passSeconds / tilesAt(1) * (divider > 1 ? reducedPenalty : 1.0);
         return seconds * std::clamp(normal(random), 0.5, 1.5);
     }

@@ -1,11 +1,13 @@
 // FresnelTest.cpp - reflectances compared with known values and with a reference in double.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/ExactFresnel.h"
 
 #include "osgRayTrace/shading/Bsdf.h"
 #include "osgRayTrace/shading/Fresnel.h"
 
 using namespace osgRayTrace::engine;
+using osgRayTrace::engine::test::exactReflectance;
 
 namespace
 {
@@ -18,17 +20,6 @@ double radians(double degrees)
 float reflectance(double degrees, float eta)
 {
     return fresnelDielectric(static_cast<float>(std::cos(radians(degrees))), eta);
-}
-
-/// Returns the textbook form, by the two polarisations.
-double exact(double cosI, double eta)
-{
-    const double sin2T = (1.0 - cosI * cosI) / (eta * eta);
-    if (sin2T >= 1.0) return 1.0;
-    const double cosT = std::sqrt(1.0 - sin2T);
-    const double s = (cosI - eta * cosT) / (cosI + eta * cosT);
-    const double p = (eta * cosI - cosT) / (eta * cosI + cosT);
-    return 0.5 * (s * s + p * p);
 }
 
 } // namespace
@@ -55,7 +46,7 @@ TEST_CASE("fresnel: the formula of the two polarisations for all angles and indi
             const float cosine = static_cast<float>(i) / 1000.0f;
             CAPTURE(eta, cosine);
             REQUIRE(fresnelDielectric(cosine, eta) ==
-                    Approx(exact(cosine, eta)).margin(2e-6).epsilon(2e-4));
+                    Approx(exactReflectance(cosine, eta)).margin(2e-6).epsilon(2e-4));
         }
     }
 }
@@ -69,9 +60,9 @@ TEST_CASE("fresnel: total reflection begins at the critical angle", "[shading]")
     // The reflectance falls as the root of the distance: float cosines are 6e-8 apart, which is
     // 2e-3 at 1e-5 degrees and below 1e-4 from 1e-3 degrees on.
     CHECK(reflectance(critical - 1e-5, eta) ==
-          Approx(exact(std::cos(radians(critical - 1e-5)), 1.0 / 1.5)).margin(3e-3));
+          Approx(exactReflectance(std::cos(radians(critical - 1e-5)), 1.0 / 1.5)).margin(3e-3));
     CHECK(reflectance(critical - 1e-2, eta) ==
-          Approx(exact(std::cos(radians(critical - 1e-2)), 1.0 / 1.5)).margin(1e-4));
+          Approx(exactReflectance(std::cos(radians(critical - 1e-2)), 1.0 / 1.5)).margin(1e-4));
     CHECK_FALSE(
         refract(Vec3(std::sin(radians(41.82)), 0, std::cos(radians(41.82))), Vec3(0, 0, 1), eta));
     CHECK(refract(Vec3(std::sin(radians(41.80)), 0, std::cos(radians(41.80))), Vec3(0, 0, 1), eta));

@@ -70,9 +70,15 @@ struct Coverage
 
     void add(const Interval& interval, const Interval& truth)
     {
-        const double z =
-            (interval.mean - truth.mean) / std::sqrt(interval.variance + truth.variance);
-        const double p = studentTail(z, interval.degrees());
+        add((interval.mean - truth.mean) / std::sqrt(interval.variance + truth.variance),
+            interval.degrees());
+    }
+
+    /// z: the distance from the truth in standard errors, which are estimated with these degrees
+    /// of freedom.
+    void add(double z, double degrees)
+    {
+        const double p = studentTail(z, degrees);
         ++trials;
         in68 += p > 1.0 - 0.6827;
         in95 += p > 0.05;
@@ -91,27 +97,51 @@ void checkShare(double share, double claimed, int trials)
     CHECK(std::abs(share - claimed) < 3.9 * spread);
 }
 
-void checkCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
-                   RenderOptions options, int passes)
+void checkShares(const Coverage& coverage)
 {
-    RenderSession session(std::make_shared<Workers>());
-    session.setScene(traced);
-    session.setView(view);
-    const auto rendered = [&](uint32_t seed, int count)
+    checkShare(coverage.share68(), 0.6827, coverage.trials);
+    checkShare(coverage.share95(), 0.95, coverage.trials);
+}
+
+/// A session that renders the same view with one seed after the other.
+class SeededSession
+{
+public:
+    SeededSession(const std::shared_ptr<const TracedScene>& traced, const View& view,
+                  const RenderOptions& options)
+        : _options(options)
     {
-        options.seed = seed;
-        session.setOptions(options);
+        _session.setScene(traced);
+        _session.setView(view);
+    }
+
+    const RenderSession& render(uint32_t seed, int passes)
+    {
+        _options.seed = seed;
+        _session.setOptions(_options);
         StopRule rule;
-        rule.passes = count;
-        REQUIRE(session.render(rule).passes == count);
-        return tileIntervals(session);
-    };
-    const std::vector<Interval> truth = rendered(99999, 128 * passes);
+        rule.passes = passes;
+        REQUIRE(_session.render(rule).passes == passes);
+        return _session;
+    }
+
+private:
+    RenderSession _session{std::make_shared<Workers>()};
+    RenderOptions _options;
+};
+
+constexpr uint32_t kTrueSeed = 99999;
+
+void checkCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
+                   const RenderOptions& options, int passes)
+{
+    SeededSession session(traced, view, options);
+    const std::vector<Interval> truth = tileIntervals(session.render(kTrueSeed, 128 * passes));
 
     Coverage tiles, whole;
     for (uint32_t seed = 0; seed < kSeeds; ++seed)
     {
-        const std::vector<Interval> intervals = rendered(seed, passes);
+        const std::vector<Interval> intervals = tileIntervals(session.render(seed, passes));
         for (std::size_t i = 0; i < intervals.size(); ++i)
             if (intervals[i].variance > 0.0) tiles.add(intervals[i], truth[i]);
         whole.add(wholeOf(intervals), wholeOf(truth));
@@ -119,10 +149,8 @@ void checkCoverage(const std::shared_ptr<const TracedScene>& traced, const View&
     CAPTURE(passes, int(options.integrator), int(options.lightSampling), tiles.trials,
             tiles.share68(), tiles.share95(), whole.share68(), whole.share95());
     CHECK(tiles.trials > kSeeds * kTiles);
-    checkShare(tiles.share68(), 0.6827, tiles.trials);
-    checkShare(tiles.share95(), 0.95, tiles.trials);
-    checkShare(whole.share68(), 0.6827, whole.trials);
-    checkShare(whole.share95(), 0.95, whole.trials);
+    checkShares(tiles);
+    checkShares(whole);
 }
 
 /// The green of one pixel of each tile: pixels of different tiles have camera paths of their own,
@@ -148,74 +176,45 @@ std::vector<PixelEstimate> pixelEstimates(const RenderSession& session)
 
 /// Checks the intervals of single pixels: the two halves of a pixel give one degree of freedom.
 void checkPixelCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
-                        RenderOptions options, int passes)
+                        const RenderOptions& options, int passes)
 {
-    RenderSession session(std::make_shared<Workers>());
-    session.setScene(traced);
-    session.setView(view);
-    const auto rendered = [&](uint32_t seed, int count)
-    {
-        options.seed = seed;
-        session.setOptions(options);
-        StopRule rule;
-        rule.passes = count;
-        REQUIRE(session.render(rule).passes == count);
-        return pixelEstimates(session);
-    };
-    const std::vector<PixelEstimate> truth = rendered(99999, 128 * passes);
+    SeededSession session(traced, view, options);
+    const std::vector<PixelEstimate> truth =
+        pixelEstimates(session.render(kTrueSeed, 128 * passes));
 
-    int trials = 0, in68 = 0, in95 = 0;
+    Coverage coverage;
     for (uint32_t seed = 0; seed < kSeeds; ++seed)
     {
-        const std::vector<PixelEstimate> pixels = rendered(seed, passes);
+        const std::vector<PixelEstimate> pixels = pixelEstimates(session.render(seed, passes));
         for (std::size_t i = 0; i < pixels.size(); ++i)
-        {
-            const double p = studentTail((pixels[i].mean - truth[i].mean) / pixels[i].error, 1.0);
-            ++trials;
-            in68 += p > 1.0 - 0.6827;
-            in95 += p > 0.05;
-        }
+            coverage.add((pixels[i].mean - truth[i].mean) / pixels[i].error, 1.0);
     }
-    CAPTURE(passes, int(options.integrator), trials);
-    checkShare(double(in68) / trials, 0.6827, trials);
-    checkShare(double(in95) / trials, 0.95, trials);
+    CAPTURE(passes, int(options.integrator), coverage.trials);
+    checkShares(coverage);
 }
 
 /// Checks integrators with photons: the truth is the expectation of the image after this many
 /// passes, taken as the mean over all seeds. The halves of an image cannot tell how far it is from
 /// the light itself, because photons are looked up in discs.
 void checkPhotonCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
-                         RenderOptions options, int passes)
+                         const RenderOptions& options, int passes)
 {
-    RenderSession session(std::make_shared<Workers>());
-    session.setScene(traced);
-    session.setView(view);
-    StopRule rule;
-    rule.passes = passes;
+    SeededSession session(traced, view, options);
     std::vector<std::vector<PixelEstimate>> seeds;
     std::vector<double> truth(kTiles * kTiles, 0.0);
     for (uint32_t seed = 0; seed < kSeeds; ++seed)
     {
-        options.seed = seed;
-        session.setOptions(options);
-        REQUIRE(session.render(rule).passes == passes);
-        seeds.push_back(pixelEstimates(session));
+        seeds.push_back(pixelEstimates(session.render(seed, passes)));
         for (std::size_t i = 0; i < truth.size(); ++i)
             truth[i] += seeds.back()[i].mean / kSeeds;
     }
 
-    int trials = 0, in68 = 0, in95 = 0;
+    Coverage coverage;
     for (const std::vector<PixelEstimate>& pixels : seeds)
         for (std::size_t i = 0; i < truth.size(); ++i)
-        {
-            const double p = studentTail((pixels[i].mean - truth[i]) / pixels[i].error, 1.0);
-            ++trials;
-            in68 += p > 1.0 - 0.6827;
-            in95 += p > 0.05;
-        }
-    CAPTURE(passes, int(options.integrator), trials);
-    checkShare(double(in68) / trials, 0.6827, trials);
-    checkShare(double(in95) / trials, 0.95, trials);
+            coverage.add((pixels[i].mean - truth[i]) / pixels[i].error, 1.0);
+    CAPTURE(passes, int(options.integrator), coverage.trials);
+    checkShares(coverage);
 }
 
 View withoutLight()

@@ -171,6 +171,87 @@ double milliseconds(const std::function<void()>& body)
     return 1e3 * median(seconds);
 }
 
+/// An image of fewer pixels, and the session that made it.
+struct SmallImage
+{
+    SmallImage(const std::shared_ptr<Workers>& workers, const Subject& subject, int part)
+        : session(workers), name(subject.name + ", 1/" + std::to_string(part)), divider(part)
+    {
+        renderTo(session, subject, part, 1);
+        image = session.resolvedImage();
+    }
+    const std::vector<SurfaceSample>& samples() const { return session.surfaceSamples(); }
+    /// The name of a picture's file.
+    std::string pictureOf(const std::string& way) const
+    {
+        return name.substr(0, name.size() - 2) + " " + way + " " + name.back();
+    }
+
+    RenderSession session;
+    std::string name;
+    int divider;
+    ResolvedImage image;
+};
+
+/// What the image loses, made into one of the full size in several ways.
+void measureErrors(Rows& rows, const SmallImage& small, const ResolvedImage& reference,
+                   const std::string& pictures)
+{
+    const std::string& name = small.name;
+    ResolvedImage result;
+    const UpsampleCounts counts =
+        small.session.upsample(small.image, small.samples(), kWidth, kHeight, result);
+    const ResolvedImage blocks = enlarged(small.image, false), linear = enlarged(small.image, true);
+    writePicture(blocks, pictures, small.pictureOf("blocks"));
+    writePicture(linear, pictures, small.pictureOf("linear"));
+    writePicture(result, pictures, small.pictureOf("edges"));
+    const double blockError = errorOf(blocks, reference), linearError = errorOf(linear, reference),
+                 error = errorOf(result, reference);
+    rows.push_back({name + ": relMSE of blocks", blockError, ""});
+    rows.push_back({name + ": relMSE linear", linearError, ""});
+    rows.push_back({name + ": relMSE along edges", error, ""});
+    rows.push_back({name + ": blocks / along edges", blockError / error, "times"});
+    rows.push_back({name + ": linear / along edges", linearError / error, "times"});
+    ResolvedImage limited;
+    small.session.upsample(small.image, small.samples(), kWidth, kHeight, limited, kMostTraced);
+    writePicture(limited, pictures, small.pictureOf("limited"));
+    rows.push_back({name + ": relMSE along edges, limited", errorOf(limited, reference), ""});
+    const double pixels = double(kWidth) * kHeight;
+    rows.push_back({name + ": pixels traced", 100.0 * double(counts.traced) / pixels, "%"});
+    rows.push_back(
+        {name + ": of them without a like", 100.0 * double(counts.unlike) / pixels, "%"});
+}
+
+/// What it costs to trace and to show the image.
+void measureCosts(Rows& rows, const SmallImage& small, const Subject& subject,
+                  const std::shared_ptr<Workers>& one)
+{
+    const std::string& name = small.name;
+    const RenderSession& session = small.session;
+    std::vector<uint8_t> rgba(4 * std::size_t(kWidth) * kHeight);
+    std::vector<float> depth(std::size_t(kWidth) * kHeight);
+    const DisplayTarget display{{}, rgba.data(), depth.data()};
+    ResolvedImage result;
+    const auto addMilliseconds = [&](const char* what, const std::function<void()>& body) {
+        rows.push_back({name + ": " + what, milliseconds(body), "ms"});
+    };
+    addMilliseconds("shownImage", [&] { session.resolvedImage(); });
+    addMilliseconds("a pass of the small image", [&] { renderOnce(one, subject, small.divider); });
+    addMilliseconds(
+        "showUpsampled",
+        [&] { session.presentUpsampled(small.image, small.samples(), kWidth, kHeight, display); });
+    addMilliseconds("upsample alone", [&]
+                    { session.upsample(small.image, small.samples(), kWidth, kHeight, result); });
+    addMilliseconds("showUpsampled, limited",
+                    [&] {
+                        session.presentUpsampled(small.image, small.samples(), kWidth, kHeight,
+                                                 display, kMostTraced);
+                    });
+    addMilliseconds("a whole pass of the full size", [&] { renderOnce(one, subject, 1); });
+    addMilliseconds("showImage of the full size",
+                    [&] { presentImage(result, {}, *one, rgba.data(), depth.data()); });
+}
+
 void measure(Rows& rows, const Subject& subject, const std::string& pictures)
 {
     const auto one = std::make_shared<Workers>(1);
@@ -180,59 +261,9 @@ void measure(Rows& rows, const Subject& subject, const std::string& pictures)
     writePicture(reference, pictures, subject.name + " full");
     for (const int divider : {2, 4})
     {
-        RenderSession session(one);
-        renderTo(session, subject, divider, 1);
-        const std::string name = subject.name + ", 1/" + std::to_string(divider);
-        const ResolvedImage small = session.resolvedImage();
-        const std::vector<SurfaceSample>& samples = session.surfaceSamples();
-        ResolvedImage result;
-        const UpsampleCounts counts = session.upsample(small, samples, kWidth, kHeight, result);
-        const ResolvedImage blocks = enlarged(small, false), linear = enlarged(small, true);
-        writePicture(blocks, pictures, name.substr(0, name.size() - 2) + " blocks " + name.back());
-        writePicture(linear, pictures, name.substr(0, name.size() - 2) + " linear " + name.back());
-        writePicture(result, pictures, name.substr(0, name.size() - 2) + " edges " + name.back());
-        const double blockError = errorOf(blocks, reference),
-                     linearError = errorOf(linear, reference), error = errorOf(result, reference);
-        rows.push_back({name + ": relMSE of blocks", blockError, ""});
-        rows.push_back({name + ": relMSE linear", linearError, ""});
-        rows.push_back({name + ": relMSE along edges", error, ""});
-        rows.push_back({name + ": blocks / along edges", blockError / error, "times"});
-        rows.push_back({name + ": linear / along edges", linearError / error, "times"});
-        ResolvedImage limited;
-        session.upsample(small, samples, kWidth, kHeight, limited, kMostTraced);
-        writePicture(limited, pictures,
-                     name.substr(0, name.size() - 2) + " limited " + name.back());
-        rows.push_back({name + ": relMSE along edges, limited", errorOf(limited, reference), ""});
-        const double pixels = double(kWidth) * kHeight;
-        rows.push_back({name + ": pixels traced", 100.0 * double(counts.traced) / pixels, "%"});
-        rows.push_back(
-            {name + ": of them without a like", 100.0 * double(counts.unlike) / pixels, "%"});
-
-        std::vector<uint8_t> rgba(4 * std::size_t(kWidth) * kHeight);
-        std::vector<float> depth(std::size_t(kWidth) * kHeight);
-        const DisplayTarget display{{}, rgba.data(), depth.data()};
-        rows.push_back(
-            {name + ": shownImage", milliseconds([&] { session.resolvedImage(); }), "ms"});
-        rows.push_back({name + ": a pass of the small image",
-                        milliseconds([&] { renderOnce(one, subject, divider); }), "ms"});
-        rows.push_back(
-            {name + ": showUpsampled",
-             milliseconds([&]
-                          { session.presentUpsampled(small, samples, kWidth, kHeight, display); }),
-             "ms"});
-        rows.push_back(
-            {name + ": upsample alone",
-             milliseconds([&] { session.upsample(small, samples, kWidth, kHeight, result); }),
-             "ms"});
-        const auto limitedRun = [&]
-        { session.presentUpsampled(small, samples, kWidth, kHeight, display, kMostTraced); };
-        rows.push_back({name + ": showUpsampled, limited", milliseconds(limitedRun), "ms"});
-        rows.push_back({name + ": a whole pass of the full size",
-                        milliseconds([&] { renderOnce(one, subject, 1); }), "ms"});
-        rows.push_back(
-            {name + ": showImage of the full size",
-             milliseconds([&] { presentImage(result, {}, *one, rgba.data(), depth.data()); }),
-             "ms"});
+        const SmallImage small(one, subject, divider);
+        measureErrors(rows, small, reference, pictures);
+        measureCosts(rows, small, subject, one);
     }
 }
 

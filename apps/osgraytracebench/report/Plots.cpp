@@ -83,50 +83,49 @@ struct Range
     double top() const { return std::pow(10.0, std::ceil(std::log10(high) + 0.05)); }
 };
 
-std::string plot(const std::vector<Curve>& curves, const std::vector<Guide>& guides,
-                 const std::string& xLabel, const std::string& yLabel)
+struct Axes
 {
     Range xs, ys;
-    for (const Curve& curve : curves)
-        for (const Point& point : curve.points)
-        {
-            xs.add(point.x);
-            ys.add(point.y);
-        }
-    if (ys.high <= 0.0) return {};
+    std::string xLabel, yLabel;
+};
 
+void writeAxes(std::ostream& script, const Axes& axes)
+{
     static int number = 0;
-    std::ostringstream script;
-    script.imbue(std::locale::classic());
     script << "set terminal svg size 800,440 font 'sans-serif,13' name 'plot" << ++number << "'\n"
            << "set logscale xy\nset format x '10^{%T}'\nset format y '10^{%T}'\nset grid lc rgb "
               "'#dddddd'\n"
            << "set key outside right top reverse Left samplen 2\nset style fill transparent solid "
               "0.2 noborder\n"
-           << "set xlabel '" << xLabel << "'\nset ylabel '" << yLabel << "'\n"
-           << "set xrange [" << 0.8 * xs.low << ':' << 1.25 * xs.high << "]\n"
-           << "set yrange [" << ys.bottom() << ':' << ys.top() << "]\n";
-    for (std::size_t c = 0; c < curves.size(); ++c)
+           << "set xlabel '" << axes.xLabel << "'\nset ylabel '" << axes.yLabel << "'\n"
+           << "set xrange [" << 0.8 * axes.xs.low << ':' << 1.25 * axes.xs.high << "]\n"
+           << "set yrange [" << axes.ys.bottom() << ':' << axes.ys.top() << "]\n";
+}
+
+/// The points of curve c and their error bars, as a block of data.
+void writeData(std::ostream& script, const Curve& curve, std::size_t c)
+{
+    script << "$curve" << c << " << EOD\n";
+    for (const Point& point : curve.points)
     {
-        script << "$curve" << c << " << EOD\n";
-        for (const Point& point : curves[c].points)
-        {
-            if (!(point.y > 0.0)) continue;
-            const double error = std::isfinite(point.error) ? point.error : 0.0;
-            script << point.x << ' ' << point.y << ' ' << std::max(point.y - error, 1e-3 * point.y)
-                   << ' ' << point.y + error << '\n';
-        }
-        script << "EOD\n";
+        if (!(point.y > 0.0)) continue;
+        const double error = std::isfinite(point.error) ? point.error : 0.0;
+        script << point.x << ' ' << point.y << ' ' << std::max(point.y - error, 1e-3 * point.y)
+               << ' ' << point.y + error << '\n';
     }
-    script << "plot ";
-    for (const Guide& guide : guides)
-        script << ys.high << "*(x/" << xs.low << ")**(" << guide.slope << ") with lines lw 1 dt "
-               << (guide.slope < -2.5    ? 4
-                   : guide.slope < -1.75 ? 3
-                   : guide.slope < -1.25 ? 2
-                   : guide.slope < -0.8  ? 5
-                                         : 6)
-               << " lc rgb '#888888' title 'slope " << guide.name << "', ";
+    script << "EOD\n";
+}
+
+int dashesOf(double slope)
+{
+    if (slope < -2.5) return 4;
+    if (slope < -1.75) return 3;
+    if (slope < -1.25) return 2;
+    return slope < -0.8 ? 5 : 6;
+}
+
+void writeCurves(std::ostream& script, const std::vector<Curve>& curves)
+{
     std::size_t coloured = 0;
     for (std::size_t c = 0; c < curves.size(); ++c)
     {
@@ -144,6 +143,31 @@ std::string plot(const std::vector<Curve>& curves, const std::vector<Guide>& gui
                << " pt 7 ps 0.5 lc rgb '" << colour << "' title '" << curves[c].name
                << "' noenhanced" << (c + 1 < curves.size() ? ", " : "\n");
     }
+}
+
+std::string plot(const std::vector<Curve>& curves, const std::vector<Guide>& guides,
+                 const std::string& xLabel, const std::string& yLabel)
+{
+    Axes axes{{}, {}, xLabel, yLabel};
+    for (const Curve& curve : curves)
+        for (const Point& point : curve.points)
+        {
+            axes.xs.add(point.x);
+            axes.ys.add(point.y);
+        }
+    if (axes.ys.high <= 0.0) return {};
+
+    std::ostringstream script;
+    script.imbue(std::locale::classic());
+    writeAxes(script, axes);
+    for (std::size_t c = 0; c < curves.size(); ++c)
+        writeData(script, curves[c], c);
+    script << "plot ";
+    for (const Guide& guide : guides)
+        script << axes.ys.high << "*(x/" << axes.xs.low << ")**(" << guide.slope
+               << ") with lines lw 1 dt " << dashesOf(guide.slope)
+               << " lc rgb '#888888' title 'slope " << guide.name << "', ";
+    writeCurves(script, curves);
     return svgPart(gnuplot(script.str()));
 }
 

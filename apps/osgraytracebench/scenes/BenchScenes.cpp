@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/scenes/BenchScenes.h"
 
+#include "data/generator/CornellBoxTable.h"
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <osg/Array>
@@ -88,21 +90,18 @@ BenchScene cornellBox(int width, int height)
 {
     auto scene = std::make_shared<Scene>();
     scene->displayReferred = false;
-    const uint32_t white = addDiffuse(*scene, Vec3(0.73f));
-    const uint32_t red = addDiffuse(*scene, {0.65f, 0.05f, 0.05f});
-    const uint32_t green = addDiffuse(*scene, {0.12f, 0.45f, 0.15f});
-    addQuad(*scene, {552.8f, 0, 0}, {0, 0, 0}, {0, 0, 559.2f}, {549.6f, 0, 559.2f}, white);
-    addQuad(*scene, {556, 548.8f, 0}, {556, 548.8f, 559.2f}, {0, 548.8f, 559.2f}, {0, 548.8f, 0},
-            white);
-    addQuad(*scene, {549.6f, 0, 559.2f}, {0, 0, 559.2f}, {0, 548.8f, 559.2f}, {556, 548.8f, 559.2f},
-            white);
-    addQuad(*scene, {0, 0, 559.2f}, {0, 0, 0}, {0, 548.8f, 0}, {0, 548.8f, 559.2f}, green);
-    addQuad(*scene, {552.8f, 0, 0}, {549.6f, 0, 559.2f}, {556, 548.8f, 559.2f}, {556, 548.8f, 0},
-            red);
-    addBlock(*scene, {{130, 0, 65}, {82, 0, 225}, {240, 0, 272}, {290, 0, 114}}, 165.0f, white);
-    addBlock(*scene, {{423, 0, 247}, {265, 0, 296}, {314, 0, 456}, {472, 0, 406}}, 330.0f, white);
-    addLight(*scene, {343, 548.7f, 227}, {0, 0, 105}, {-130, 0, 0},
-             {17, 12, 4}); // the light looks down
+    const uint32_t white = addDiffuse(*scene, data::cornell::kWhite.as<Vec3>());
+    const uint32_t red = addDiffuse(*scene, data::cornell::kRed.as<Vec3>());
+    const uint32_t green = addDiffuse(*scene, data::cornell::kGreen.as<Vec3>());
+    const auto materialOf = [&](Vec3 albedo) {
+        return albedo.x == albedo.y ? white : albedo.x > albedo.y ? red : green;
+    };
+    data::cornell::build<Vec3>([&](Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 albedo)
+                               { addQuad(*scene, a, b, c, d, materialOf(albedo)); },
+                               [&](const Vec3(&base)[4], float blockHeight, Vec3 albedo)
+                               { addBlock(*scene, base, blockHeight, materialOf(albedo)); },
+                               [&](Vec3 corner, Vec3 edgeU, Vec3 edgeV, Vec3 radiance)
+                               { addLight(*scene, corner, edgeU, edgeV, radiance); });
     // The published view is square; a view from inside the box fills a wide frame as well.
     return {scene, viewOf({278, 278, 20}, {278, 250, 559}, {0, 1, 0}, 50.0, width, height)};
 }

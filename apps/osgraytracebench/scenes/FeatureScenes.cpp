@@ -116,11 +116,10 @@ void placeAll(Scene& scene, Hidden&)
         instance.placed = true;
 }
 
-} // namespace
-
-std::vector<ScenePair> unusedFeatures(int size)
+/// Features that the hidden triangle of a scene can have.
+std::vector<std::pair<const char*, Change>> hiddenFeatures()
 {
-    const std::pair<const char*, Change> features[] = {
+    return {
         {"smoothNormals",
          [](Scene&, Hidden& h) { h.mesh.normals = std::vector<Vec3>(3, Vec3(0, 1, 0)); }},
         {"textures",
@@ -173,10 +172,16 @@ std::vector<ScenePair> unusedFeatures(int size)
          }},
         {"environment", [](Scene& s, Hidden&) { s.lights.push_back(blackEnvironment()); }},
     };
+}
+
+} // namespace
+
+std::vector<ScenePair> unusedFeatures(int size)
+{
     const BenchScene plain = boxWith(size, [](Scene&, Hidden&) {});
     // The first pair tells what the method itself gives for two scenes that are one.
     std::vector<ScenePair> pairs{{"nothing", plain, boxWith(size, [](Scene&, Hidden&) {})}};
-    for (const auto& [name, change] : features)
+    for (const auto& [name, change] : hiddenFeatures())
         pairs.push_back({name, plain, boxWith(size, change)});
     return pairs;
 }

@@ -1,5 +1,6 @@
 // SpecularTest.cpp - microfacets, glass and mirrors at the ends of their ranges. Layer: tests.
 // SPDX-License-Identifier: MIT
+#include "tests/ExactFresnel.h"
 #include "tests/integrators/Measure.h"
 
 #include "osgRayTrace/shading/Fresnel.h"
@@ -61,17 +62,6 @@ std::shared_ptr<const TracedScene> floorBelowLamps(float alpha, bool sampled)
 View floorView()
 {
     return perspectiveView({0, -3, 1.5}, {0, -0.6, -1}, {0, 0, 1}, 60.0, 32, 32);
-}
-
-/// Returns the reflectance by the two polarisations, in double.
-double exactReflectance(double cosI, double eta)
-{
-    const double sin2T = (1.0 - cosI * cosI) / (eta * eta);
-    if (sin2T >= 1.0) return 1.0;
-    const double cosT = std::sqrt(1.0 - sin2T);
-    const double s = (cosI - eta * cosT) / (cosI + eta * cosT);
-    const double p = (eta * cosI - cosT) / (eta * cosI + cosT);
-    return 0.5 * (s * s + p * p);
 }
 
 /// Returns count panes of glass of thickness 0.1, which are 0.1 apart, above a wide lamp of
