@@ -1,21 +1,17 @@
-// RayTraceDrawable.cpp - traces the view of a pass and shows it. Layer: public API.
+// RayTraceDrawable.cpp - the drawable in the traversals of OSG. Layer: public API.
 // SPDX-License-Identifier: MIT
 #include <osgRayTrace/RayTraceDrawable>
 
 #include <osgRayTrace/RayIntersector>
 
 #include "osgRayTrace/DrawPass.h"
-#include "osgRayTrace/ViewPresenter.h"
+#include "osgRayTrace/RayTraceDrawableState.h"
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
 #include "osgRayTrace/bridge/common/WarnOnce.h"
 #include "osgRayTrace/bridge/graph/PathBudget.h"
 #include "osgRayTrace/bridge/pick/RasterizedPicker.h"
 #include "osgRayTrace/bridge/pick/ScenePicker.h"
 #include "osgRayTrace/bridge/update/PageRequests.h"
-#include "osgRayTrace/bridge/update/SceneUpdater.h"
-#include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
-#include "osgRayTrace/session/view/DepthSlices.h"
-#include "osgRayTrace/session/view/ViewRegistry.h"
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/LOD>
@@ -76,85 +72,6 @@ private:
 };
 
 } // namespace
-
-struct RayTraceDrawable::Implementation
-{
-    engine::SceneUpdater scene;
-    engine::ViewRegistry<ViewPresenter> views;
-    std::shared_ptr<engine::FrameAgreement> agreement = std::make_shared<engine::FrameAgreement>();
-    std::atomic<bool> paused{false};
-
-    mutable std::mutex mutex;   // draw threads write, any thread reads
-    engine::TraceReport report; ///< report of the view drawn last
-    std::shared_ptr<ViewPresenter> lastView;
-    std::weak_ptr<const engine::TracedScene> untraceable; ///< failed before it gave any image
-
-    void draw(osg::RenderInfo& renderInfo);
-    void recordProgress(const std::shared_ptr<ViewPresenter>& view,
-                        const engine::SceneVersion& version);
-    void fail(engine::StatusCode code, const char* message) noexcept;
-    void failToDraw(engine::StatusCode code, const char* message) noexcept;
-};
-
-void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
-{
-    const osg::State& state = *renderInfo.getState();
-    const Rectangle viewport = currentViewport(state);
-    if (viewport.width <= 0 || viewport.height <= 0) return;
-    const engine::SceneVersion version = scene.version();
-    if (!version.inputs.scene) return;
-
-    const auto makeView = [] { return std::make_shared<ViewPresenter>(); };
-    const engine::PassIdentity pass = passIdentity(renderInfo, viewport);
-    const engine::ViewRegistry<ViewPresenter>::Pass found = views.acquire(pass, makeView);
-    ViewPresenter& view = *found.state;
-    engine::FrameBudget budget =
-        frameBudget(renderInfo.getCurrentCamera(), *version.settings, agreement);
-    budget.frameNumber = pass.frameNumber;
-    budget.again = found.shared;
-    view.update({version, pass.view, found.slices, found.shared, budget, paused});
-    scene.recordDrawn(renderInfo.getCurrentCamera(),
-                      osg::Matrixd::inverse(state.getModelViewMatrix()).getTrans(),
-                      nearDistance(state.getProjectionMatrix()));
-    const bool drawn = view.draw(renderInfo, pass.view);
-    recordProgress(found.state, version);
-    if (!drawn)
-        fail(engine::StatusCode::DeviceFailure, "OpenGL cannot compile the display's shaders");
-}
-
-void RayTraceDrawable::Implementation::recordProgress(const std::shared_ptr<ViewPresenter>& view,
-                                                      const engine::SceneVersion& version)
-{
-    engine::TraceReport result = view->report(version);
-    const engine::Status& status = result.progress.status;
-    if (!status.ok() && status.code != engine::StatusCode::EmptyScene)
-        engine::warnOnce(status.message);
-    const bool failed = status.code == engine::StatusCode::OutOfMemory ||
-                        status.code == engine::StatusCode::DeviceFailure;
-
-    std::lock_guard<std::mutex> lock(mutex);
-    if (failed && result.fresh && result.progress.passes == 0) untraceable = result.scene;
-    report = std::move(result);
-    lastView = view;
-}
-
-void RayTraceDrawable::Implementation::fail(engine::StatusCode code, const char* message) noexcept
-{
-    std::lock_guard<std::mutex> lock(mutex);
-    engine::Status& status = report.progress.status;
-    status = engine::failure(code, message);
-    engine::warnOnce(status.message);
-}
-
-/// Sets a status of a pass that drew nothing: the children take its place.
-void RayTraceDrawable::Implementation::failToDraw(engine::StatusCode code,
-                                                  const char* message) noexcept
-{
-    fail(code, message);
-    const engine::SceneVersion version = scene.version();
-    std::lock_guard<std::mutex> lock(mutex);
-    untraceable = version.inputs.scene;
-}
 
 RayTraceDrawable::RayTraceDrawable()
     : _settings(new RayTraceSettings), _implementation(std::make_unique<Implementation>())

@@ -1,0 +1,158 @@
+// RendererState.cpp - scene graph to images: convert, build, accumulate. Layer: public API, private.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/RendererState.h"
+
+#include "osgRayTrace/bridge/common/HomeView.h"
+#include "osgRayTrace/bridge/common/ViewFromMatrices.h"
+#include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
+
+#include <osg/Light>
+
+#include <chrono>
+#include <cmath>
+
+namespace osgRayTrace
+{
+
+using engine::EngineError;
+using engine::StatusCode;
+
+namespace
+{
+
+constexpr int64_t kMostPixels = int64_t(1) << 28;
+
+/// Returns the mutex for graphs: osg::Node computes its bound when it is asked for it, and
+/// renderers may share a graph.
+std::mutex& graphMutex()
+{
+    static std::mutex mutex;
+    return mutex;
+}
+
+/// Returns the light of osgViewer's HEADLIGHT mode: osg::Light's default position is (0, 0, 1, 0).
+osg::ref_ptr<const osg::Light> viewerHeadlight()
+{
+    osg::ref_ptr<osg::Light> light = new osg::Light(0);
+    light->setAmbient(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    light->setDiffuse(osg::Vec4(0.8f, 0.8f, 0.8f, 1.0f));
+    light->setSpecular(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f));
+    return light;
+}
+
+} // namespace
+
+void Renderer::Implementation::render(engine::StopRule rule, double seconds,
+                                      const std::function<bool(const Statistics&)>& progress)
+{
+    if (!scene) throw EngineError(StatusCode::EmptyScene, "there is no scene to render");
+    if (width <= 0 || height <= 0)
+        throw EngineError(StatusCode::InvalidView, "the image has no pixels");
+    if (int64_t(width) * height > kMostPixels)
+        throw EngineError(StatusCode::InvalidView, "the image has more than 2^28 pixels");
+
+    placeHomeView();
+    prepareSession();
+    convertScene();
+    session->setView(engine::viewFromMatrices(viewMatrix, projectionMatrix, width, height));
+    session->setOptions(engine::renderOptionsFromSettings(*settings));
+    // The session would forget the cancellation at its first pass.
+    if (cancelled) throw EngineError(StatusCode::Cancelled, "the render was cancelled");
+
+    engine::setDenoiseStatistics(statistics, engine::DenoiseReport(), 0.0);
+    const auto begin = std::chrono::steady_clock::now();
+    // The render traces a tile at least, so that it comes to an end, however short the time is.
+    if (seconds > 0.0)
+        rule.shouldStop = [begin, seconds](int tiles, double ahead)
+        {
+            const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+            return tiles > 0 && spent.count() + ahead >= seconds;
+        };
+    const auto keepGoing = [this, &progress](const engine::RenderProgress& result)
+    {
+        if (cancelled) return false;
+        if (!progress) return true;
+        engine::setImageStatistics(statistics, result);
+        return progress(statistics);
+    };
+    engine::setImageStatistics(statistics, session->render(rule, keepGoing));
+}
+
+/// Returns the denoised image and records how long the denoiser took.
+engine::ResolvedImage Renderer::Implementation::denoisedImage()
+{
+    engine::ResolvedImage image = session->resolvedImage();
+    const auto begin = std::chrono::steady_clock::now();
+    denoiser.forgetSurfaces();
+    const auto surfaces = [this]() -> const std::vector<engine::SurfaceSample>&
+    { return session->surfaceSamples(); };
+    denoiser.denoise(image, engine::denoiseKind(*settings), surfaces, *workers);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+    engine::setDenoiseStatistics(statistics, denoiser.report(), time.count());
+    return image;
+}
+
+/// Sets both matrices to the home view; does nothing if matrices were set, or if there is nothing
+/// to look at yet.
+void Renderer::Implementation::placeHomeView()
+{
+    if (!homeFovyDegrees || !scene || width <= 0 || height <= 0) return;
+    const std::lock_guard<std::mutex> lock(graphMutex());
+    const engine::HomeView home =
+        engine::homeView(*scene, *homeFovyDegrees, double(width) / double(height));
+    viewMatrix = home.view;
+    projectionMatrix = home.projection;
+}
+
+void Renderer::Implementation::prepareSession()
+{
+    if (session && threads == settings->getThreads()) return;
+    threads = settings->getThreads();
+    workers = std::make_shared<engine::Workers>(threads);
+    auto fresh = std::make_unique<engine::RenderSession>(workers);
+    if (traced) fresh->setScene(traced);
+
+    const std::lock_guard<std::mutex> lock(sessionMutex);
+    session = std::move(fresh);
+}
+
+/// Brings traced up to date. The eye counts: levels of detail and the engine's origin depend on it.
+void Renderer::Implementation::convertScene()
+{
+    osg::Matrixd worldFromView;
+    const bool inverted = worldFromView.invert(viewMatrix);
+    const osg::Vec3d eye = worldFromView.getTrans();
+    if (!inverted || !std::isfinite(eye.x()) || !std::isfinite(eye.y()) || !std::isfinite(eye.z()))
+        throw EngineError(StatusCode::InvalidView, "the view matrix cannot be inverted");
+
+    const engine::ReferenceView view{viewMatrix, projectionMatrix, double(width), double(height)};
+    const auto materials = materialFile.materials(settings->getMaterials(), sceneDirty);
+    const ConversionKey key{eye, view, clearColor, headlight,
+                            engine::conversionSettings(*settings, materials)};
+    if (traced && !sceneDirty && key == convertedFor) return;
+
+    const std::lock_guard<std::mutex> lock(graphMutex());
+    if (sceneDirty) converter.forget();
+    engine::releaseHostArrays();
+    const engine::ConversionResult conversion = converter.convert(conversionInput(key));
+    traced = engine::TracedScene::build(conversion.scene, workers, traced);
+    session->setScene(traced);
+    convertedFor = key;
+    sceneDirty = false;
+    engine::setSceneStatistics(statistics, conversion, *traced);
+}
+
+engine::ConversionInput Renderer::Implementation::conversionInput(const ConversionKey& key) const
+{
+    engine::ConversionInput input;
+    static_cast<engine::ConversionSettings&>(input) = key.settings;
+    input.root = scene.get();
+    input.eye = key.eye;
+    input.view = key.view;
+    input.origin = key.eye;
+    if (key.headlight) input.viewLight = viewerHeadlight();
+    input.clearColor = key.clearColor;
+    return input;
+}
+
+} // namespace osgRayTrace

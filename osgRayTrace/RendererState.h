@@ -1,0 +1,85 @@
+// RendererState.h - what a Renderer is made of. Layer: public API, private.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgRayTrace/Renderer>
+
+#include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/bridge/convert/SceneConverter.h"
+#include "osgRayTrace/bridge/geometry/HostArrays.h"
+#include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
+#include "osgRayTrace/session/RenderSession.h"
+#include "osgRayTrace/session/denoise/Denoiser.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace osgRayTrace
+{
+
+/// Holds all that a conversion depends on beside the graph.
+struct ConversionKey
+{
+    osg::Vec3d eye;
+    engine::ReferenceView view;
+    osg::Vec4 clearColor;
+    bool headlight = true;
+    engine::ConversionSettings settings;
+
+    bool operator==(const ConversionKey& other) const
+    {
+        return eye == other.eye && view == other.view && clearColor == other.clearColor &&
+               headlight == other.headlight && settings == other.settings;
+    }
+};
+
+struct Renderer::Implementation
+{
+    osg::ref_ptr<osg::Node> scene;
+    bool sceneDirty = true;
+    osg::Matrixd viewMatrix;
+    osg::Matrixd projectionMatrix;
+    std::optional<double> homeFovyDegrees; ///< if set, both matrices come from the scene's bound
+    int width = 0;
+    int height = 0;
+    osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f};
+    bool headlight = true;
+    osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+
+    Statistics statistics;
+    int threads = -1; ///< threads for which the session was made
+    std::shared_ptr<engine::Workers> workers;
+    engine::HostArraysRelease release; // destroyed after all members that hold arrays
+    engine::SceneConverter converter;
+    engine::MaterialLibraryFile materialFile;
+    ConversionKey convertedFor;
+    std::shared_ptr<const engine::TracedScene> traced;
+    std::unique_ptr<engine::RenderSession> session;
+    engine::Denoiser denoiser;
+
+    /// Guards the session between cancel(), on any thread, and render(), which replaces the
+    /// session.
+    std::mutex sessionMutex;
+    std::atomic<bool> cancelled{false};
+
+    void render(engine::StopRule rule, double seconds, const std::function<bool(const Statistics&)>& progress);
+    void placeHomeView();
+    void prepareSession();
+    void convertScene();
+    engine::ConversionInput conversionInput(const ConversionKey& key) const;
+    bool hasImage() const { return session && session->progress().imageShare > 0.0; }
+    /// Returns whether images are denoised. An image with missing tiles is not: single tiles cannot
+    /// be denoised.
+    bool denoises() const
+    {
+        return session->progress().passes > 0 &&
+               engine::denoiseKind(*settings) != engine::DenoiseKind::Off;
+    }
+    engine::ResolvedImage denoisedImage();
+};
+
+} // namespace osgRayTrace
