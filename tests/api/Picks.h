@@ -45,7 +45,7 @@ picksByRay(osg::Node& root, const Line& line,
     return picksOf(root, *ray);
 }
 
-/// How our nearest hit of a ray compares with all hits that osgUtil finds.
+/// Tells how our nearest hit of a ray compares with all hits that osgUtil finds.
 enum class Relation
 {
     Same, ///< osgUtil's nearest hit is the same one, or neither has a hit

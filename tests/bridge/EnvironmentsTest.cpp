@@ -61,7 +61,7 @@ osg::ref_ptr<osg::Image> marked()
 
 const Vec3 kMark = glm::normalize(Vec3(0.1f, 1.0f, 0.1f)); ///< direction of the marked pixel
 
-/// A triangle and an environment below a transform.
+/// Holds a triangle and an environment below a transform.
 struct SkyScene
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;

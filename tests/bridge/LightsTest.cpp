@@ -19,7 +19,7 @@ namespace
 
 constexpr auto kOn = osg::StateAttribute::ON;
 
-/// A triangle and lights; the given light numbers are enabled for the whole scene.
+/// Holds a triangle and lights; the given light numbers are enabled for the whole scene.
 struct LitScene
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;

@@ -17,8 +17,7 @@
 namespace osgRayTrace::test
 {
 
-/// A graph of bumpy tiles side by side, each below a transform, with materials, one texture and a
-/// light.
+/// Holds bumpy tiles side by side, each below a transform, with materials, one texture and a light.
 struct LiveGraph
 {
     static constexpr int kObjects = 6;

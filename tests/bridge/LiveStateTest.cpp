@@ -44,7 +44,7 @@ osg::ref_ptr<osg::Image> pattern()
     return image;
 }
 
-/// The live graph with all kinds of traced state on its first tile, whose values have little
+/// Extends the live graph by all kinds of traced state on its first tile, whose values have little
 /// effect.
 struct StateGraph : LiveGraph
 {

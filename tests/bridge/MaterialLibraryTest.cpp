@@ -42,7 +42,7 @@ ConversionInput inputWith(osg::Node* root, const std::string& text)
     return input;
 }
 
-/// A group "house" with a geometry "roof" of the material "tiles" and the texture
+/// Holds a group "house" with a geometry "roof" of the material "tiles" and the texture
 /// "pictures/red.png".
 struct House
 {

@@ -31,7 +31,7 @@ public:
 /// Returns how many allocations of operator new have not been deleted yet.
 int64_t liveAllocations();
 
-/// The largest single allocation since the last call [bytes], and the largest sum of living
+/// Holds the largest single allocation since the last call [bytes], and the largest sum of living
 /// allocations since then.
 struct MemoryPeak
 {

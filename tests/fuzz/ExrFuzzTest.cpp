@@ -21,8 +21,8 @@ namespace
 
 constexpr int kFiles = 20000; ///< seeds
 
-/// The plugin's limit for pictures that a file of a few KiB claims to hold, times the number of
-/// channels and formats.
+/// This is the plugin's limit for pictures that a file of a few KiB claims to hold, times the
+/// number of channels and formats.
 constexpr std::size_t kMostBytes = std::size_t(700) << 20;
 
 osgDB::ReaderWriter* exrPlugin()

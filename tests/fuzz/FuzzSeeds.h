@@ -39,7 +39,7 @@ private:
     std::mt19937 _engine;
 };
 
-/// The number of ways to damage a file.
+/// There are this many ways to damage a file.
 constexpr int kDamages = 5;
 
 /// Cuts the file off, changes bytes or one bit of it, removes bytes, or puts zeros in. The file

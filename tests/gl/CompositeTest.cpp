@@ -31,7 +31,7 @@ osg::ref_ptr<osg::Node> rasterizedSphere(const osg::Vec3& center, float radius)
     return drawable;
 }
 
-/// The ray through the point (x, y) of the picture, from the near to the far plane.
+/// Holds the ray through the point (x, y) of the picture, from the near to the far plane.
 struct PixelRay
 {
     PixelRay(const osg::Camera& camera, double x, double y)

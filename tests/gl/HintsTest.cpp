@@ -37,7 +37,7 @@ void addShader(osg::Node& node)
     node.getOrCreateStateSet()->setAttributeAndModes(program.get());
 }
 
-/// Two red balls below one group, with the green shader.
+/// Holds two red balls below one group, with the green shader.
 struct Balls
 {
     Balls() : group(new osg::Group)

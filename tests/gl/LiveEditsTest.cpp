@@ -64,7 +64,7 @@ osg::ref_ptr<osgViewer::View> newView(int number, osg::ref_ptr<FrameCapture>& ca
     return view;
 }
 
-/// The scene in several views, each in a context of its own.
+/// Shows the scene in several views, each in a context of its own.
 struct Viewers
 {
     explicit Viewers(int count) : captures(static_cast<std::size_t>(count))
@@ -101,7 +101,7 @@ int differentPixels(const osg::Image& a, const osg::Image& b)
     return count;
 }
 
-/// The most pixels in which rounding decides which side of an edge a ray passes.
+/// In at most this many pixels rounding decides which side of an edge a ray passes.
 constexpr int kRoundedPixels = 5;
 
 /// Edits a graph between the frames of a viewer; now and then the viewer's pictures must be those

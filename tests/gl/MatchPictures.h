@@ -19,7 +19,7 @@
 namespace osgRayTrace::test
 {
 
-/// Colour and coverage of a picture.
+/// Holds the colour and the coverage of a picture.
 struct Picture
 {
     osg::ref_ptr<osg::Image> color;

@@ -36,7 +36,8 @@ const CreateFunction kCreateFunctions[] = {createOSMesaContext, createEGLContext
 const osg::Vec4 kClearColor(0.2f, 0.4f, 0.6f, 1.0f);
 const osg::Vec4 kQuadColor(1.0f, 0.6f, 0.0f, 1.0f);
 
-/// A quad in the middle half of the view, a quarter of the way from the near to the far plane.
+/// Returns a quad in the middle half of the view, a quarter of the way from the near to the far
+/// plane.
 osg::ref_ptr<osg::Geometry> makeQuad(const osg::Vec4& color = kQuadColor)
 {
     osg::ref_ptr<osg::Geometry> quad = osg::createTexturedQuadGeometry(
@@ -71,7 +72,7 @@ void setUpCamera(osg::Camera& camera, osg::GraphicsContext* context)
     camera.setClearColor(kClearColor);
 }
 
-/// A viewer of a scene in a context, and what it draws.
+/// Holds a viewer of a scene in a context, and its pictures.
 struct View
 {
     explicit View(osg::GraphicsContext* context, osg::Node* scene = makeQuad().get(),

@@ -229,7 +229,7 @@ double depthAt(const Shot& shot, int x, int y, const Target& target)
     return std::round(depth / target.unit) * target.unit;
 }
 
-/// The window depth, in double, of a triangle in the middle of a pixel.
+/// Holds the window depth, in double, of a triangle in the middle of a pixel.
 struct ExactDepth
 {
     double depth;
@@ -274,7 +274,7 @@ struct Agreement
     int inner = 0;      ///< pixels whose depth can be compared
     double shift = 0.0; ///< mean signed displacement of edges [pixels]
     double nearestInner = 0.0, nearestEdge = 0.0; ///< largest 1 - depth, or depth if reversed
-    // The largest differences of depth [units].
+    // These are the largest differences of depth [units].
     double units = 0.0;
     double lessFloats = 0.0;                    ///< reduced by the effect of floats
     double tracedError = 0.0, drawnError = 0.0; ///< from the exact depth, reduced likewise

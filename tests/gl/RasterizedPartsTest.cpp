@@ -66,7 +66,7 @@ osg::ref_ptr<osg::Camera> headUpDisplay()
     return camera;
 }
 
-/// A drawable without a geometry that could be read: it draws one of its own, and counts how often.
+/// Has no geometry that could be read: the drawable draws one of its own, and counts how often.
 class CustomDrawable : public osg::Drawable
 {
 public:
@@ -126,7 +126,8 @@ osg::ref_ptr<osg::Image> picture(osg::Node* content, bool enabled)
     return viewer.frames(2);
 }
 
-/// Mean differences, 0 to 255, over the pixels that the nodes change in the rasterized picture.
+/// Holds mean differences, 0 to 255, over the pixels that the nodes change in the rasterized
+/// picture.
 struct Compared
 {
     double difference; ///< of the ray traced picture from the rasterized one

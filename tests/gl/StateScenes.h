@@ -13,7 +13,7 @@ namespace osgRayTrace::test
 constexpr auto kOn = osg::StateAttribute::ON;
 constexpr auto kOff = osg::StateAttribute::OFF;
 
-/// The largest mean difference over the pixels that both pictures cover.
+/// This is the largest mean difference that is allowed over the pixels that both pictures cover.
 constexpr double kMostDifference = 2.0; ///< of 255
 
 /// Returns a square in the plane z = 0 of one colour, with normals +z and texture coordinates from

@@ -24,8 +24,8 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-/// A viewer with one thread, without a manipulator, with fixed near and far planes unless a test
-/// changes them, and with a black background.
+/// Holds a viewer with one thread, without a manipulator, with fixed near and far planes unless a
+/// test changes them, and with a black background.
 struct TestViewer
 {
     TestViewer(int width, int height, osg::Node* scene,

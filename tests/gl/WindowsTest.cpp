@@ -109,7 +109,7 @@ private:
     std::chrono::steady_clock::time_point _start = std::chrono::steady_clock::now();
 };
 
-/// The number of OpenGL's objects in contexts that share them.
+/// Counts OpenGL's objects in contexts that share them.
 struct GlObjects
 {
     int textures = 0, buffers = 0, programs = 0, shaders = 0;

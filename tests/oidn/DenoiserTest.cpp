@@ -20,7 +20,7 @@ namespace
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// A noisy picture of a wall of albedo 1/2 that faces the eye.
+/// Holds a noisy picture of a wall of albedo 1/2 that faces the eye.
 struct NoisyWall
 {
     NoisyWall(int width, int height)

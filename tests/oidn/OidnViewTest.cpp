@@ -17,7 +17,7 @@ namespace
 
 constexpr int kSize = 32;
 
-/// A viewer of the Cornell box without OpenGL.
+/// Views the Cornell box without OpenGL.
 struct Screen
 {
     Screen()

@@ -41,7 +41,7 @@ inline EmissionPoint randomPoint(Uniform& uniform)
     return point;
 }
 
-/// A ball that serves as a target.
+/// The ball serves as a target.
 const Vec3 kBall(0.5f, 0.2f, 0.6f);
 constexpr float kBallRadius = 0.4f;
 

@@ -73,7 +73,7 @@ Known nephroidPatch()
             [](double, double) { return 1.0; }};
 }
 
-/// The means, over the pixels, of the error over the true value and of its square at each of
+/// Holds the means, over the pixels, of the error over the true value and of its square at each of
 /// kCounts, with one value a run.
 struct Errors
 {

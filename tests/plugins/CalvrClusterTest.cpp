@@ -33,7 +33,7 @@ namespace
 
 const FrameWork kOffer{3, 6, 1000, 2};
 
-/// Bytes on their way from one node to another. A reader waits for its bytes for 20 s at most.
+/// Carries bytes from one node to another. A reader waits for its bytes for 20 s at most.
 class Wire
 {
 public:

@@ -22,7 +22,8 @@ using osgRayTrace::Statistics;
 namespace
 {
 
-/// The part of CalVR's graph that matters here: room > [transform > scale > objects, menu, light].
+/// Holds the part of CalVR's graph that matters here: room > [transform > scale > objects, menu,
+/// light].
 struct Room
 {
     Room()

@@ -23,7 +23,7 @@ using Result = osgDB::ReaderWriter::ReadResult;
 namespace
 {
 
-/// A folder with a model, which exists while the object lives.
+/// Holds a folder with a model, which exists while the object lives.
 class Folder
 {
 public:

@@ -53,7 +53,7 @@ View viewWithoutLight(int size)
     return perspectiveView({278, 400, 20}, {278, 100, 559}, {0, 1, 0}, 45.0, size, size);
 }
 
-/// Returns a view close to the lamp: half of the picture's error is at the lamp's edges.
+/// Returns a view close to the lamp: half of the picture is edges of the lamp.
 View viewOfLight(int size)
 {
     return perspectiveView({278, 273, -800}, {200, 548, 279}, {0, 1, 0}, 12.0, size, size);

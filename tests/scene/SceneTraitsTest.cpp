@@ -93,7 +93,7 @@ TEST_CASE("integrator: automatic takes the cheapest that is right for the scene"
     physical.physical = true;
     CHECK(chooseIntegrator(IntegratorKind::Automatic, fixed) == IntegratorKind::Whitted);
     CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::Path);
-    physical.specular = true; // no light passes through its surface
+    physical.specular = true; // surfaces reflect, and transmit no light
     CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::Path);
     physical.areaLights = true;
     CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::PhotonCaustics);

@@ -249,8 +249,8 @@ TEST_CASE(
     CHECK(done.passes == 5);
     CHECK(desk.tracer->report(desk.frame).age == 0);
 
-    // The same view is asked for again but for a difference as by OSG's rounding: the worker does
-    // not even look at its clock.
+    // The view that is asked for again differs by OSG's rounding at most: the worker does not even
+    // look at its clock.
     const long looks = desk.gate->looks();
     View same = viewAt(0.0);
     same.clipFromView[2][2] *= 1.0 + 1e-15;

@@ -337,7 +337,7 @@ TEST_CASE("denoise: any size, and an image of another size is left alone", "[ses
 namespace
 {
 
-/// Passes of the box before and after filtering.
+/// Holds passes of the box before and after filtering.
 struct Filtered
 {
     std::vector<float> before, after;

@@ -38,7 +38,7 @@ double windowDepth(const View& view, double distance)
 
 constexpr double kNear = 0.01, kFar = 10000.0;
 
-/// The planes of three slices that follow each other.
+/// These are the planes of three slices that follow each other.
 constexpr double kPlanes[] = {kNear, 1.0, 100.0, kFar};
 
 } // namespace

@@ -34,7 +34,7 @@ View viewOf(int wall, double x)
                            kWidth, kHeight);
 }
 
-/// The state of a wall's picture after a frame.
+/// Tells the state of a wall's picture after a frame.
 struct WallPicture
 {
     int divider = 0, passes = 0, width = 0;
@@ -44,7 +44,7 @@ struct WallPicture
     }
 };
 
-/// A scene on several walls. Each traced tile moves the clock on by the cost of its wall.
+/// Shows a scene on several walls. Each traced tile moves the clock on by the cost of its wall.
 struct Cave
 {
     explicit Cave(const std::vector<double>& costs) : agreement(std::make_shared<FrameAgreement>())

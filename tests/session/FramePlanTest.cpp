@@ -24,7 +24,7 @@ int tilesAt(int divider)
     return tilesOf(reducedSize(kWidth, divider), reducedSize(kHeight, divider));
 }
 
-/// Frames of a machine whose costs only the test knows.
+/// Simulates frames of a machine whose costs only the test knows.
 struct Machine
 {
     double passSeconds = 0.2;     ///< of full resolution

@@ -36,7 +36,7 @@ void renderReduced(RenderSession& session, const View& view)
     REQUIRE(session.render(rule).status.ok());
 }
 
-/// A reduced image, and stages whose clock says that upsampling took a given time.
+/// Holds a reduced image, and stages whose clock says that upsampling took a given time.
 struct Enlarged
 {
     Enlarged()

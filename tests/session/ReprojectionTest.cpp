@@ -18,7 +18,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// A part of a plane, relative to the point of the world that a test chooses.
+/// Describes a part of a plane, relative to the point of the world that a test chooses.
 struct Plane
 {
     Vec3d point, normal;
@@ -33,7 +33,7 @@ struct Seen
     uint32_t object = 0;
 };
 
-/// What the pixels of a view see of some planes, computed in double.
+/// Holds the surfaces that the pixels of a view see, computed in double.
 struct Sight
 {
     View view;

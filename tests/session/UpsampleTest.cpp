@@ -12,7 +12,7 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// A reduced image of the full-size view, and the upsampled image.
+/// Holds a reduced image of the full-size view, and the upsampled image.
 struct Upsampled
 {
     ResolvedImage small, image;

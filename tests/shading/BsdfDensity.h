@@ -7,7 +7,7 @@
 namespace osgRayTrace::engine::test
 {
 
-/// The results for one surface and direction.
+/// Holds the results for one surface and direction.
 struct DensityResult
 {
     double fit = 1.0;            ///< probability of the chi-square test

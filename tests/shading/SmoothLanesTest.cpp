@@ -45,7 +45,7 @@ float number(uint32_t i)
     return static_cast<float>(hash(i) >> 8) * 0x1p-24f;
 }
 
-/// Sixteen rays, each at a surface of its own.
+/// Holds sixteen rays, each at a surface of its own.
 struct Block
 {
     const Bsdf* bsdfs[kLanes];

@@ -53,7 +53,7 @@ Vec3 towards(double degrees)
     return Vec3(std::sin(angle), 0.0, std::cos(angle));
 }
 
-/// Sectors of azimuth around an axis.
+/// Divides the azimuth around an axis into sectors.
 struct Sectors
 {
     explicit Sectors(Vec3 axis)

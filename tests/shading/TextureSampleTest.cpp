@@ -133,7 +133,7 @@ TEST_CASE("texture: 3-D images, between slices and beyond them", "[shading]")
     CHECK(sampleTexture(texture, Vec4(0.5f, 0.25f, 0.5f, 1.0f)).x == Approx(0.15));
     texture.wrapR = TextureWrap::Repeat;
     CHECK(blue(1.5f) == Approx(0.6));
-    CHECK(blue(0.0f) == Approx(0.6)); // between the last and the first layer
+    CHECK(blue(0.0f) == Approx(0.6)); // between the last and the first slice
     texture.wrapR = TextureWrap::Mirror;
     CHECK(blue(1.0f + 0.5f / 3) == Approx(0.7));
     texture.wrapR = TextureWrap::ClampToBorder;

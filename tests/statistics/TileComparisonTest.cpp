@@ -62,7 +62,7 @@ TileMeans referenced(const ComparedScene& scene, int maxBounces, int paths)
     return means;
 }
 
-/// The p-values of a family of comparisons.
+/// Collects the p-values of a family of comparisons.
 class Family
 {
 public:

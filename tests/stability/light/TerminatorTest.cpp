@@ -56,8 +56,8 @@ bool isInside(int x, int y)
     return std::hypot(x - c, y - c) < 0.85 * 0.5 * kPixels;
 }
 
-/// The largest step from a pixel to the next one, and the largest difference from the fine sphere,
-/// both over the peak.
+/// Holds the largest step from a pixel to the next one, and the largest difference from the fine
+/// sphere, both over the peak.
 struct Steps
 {
     double step = 0.0, difference = 0.0;

@@ -36,7 +36,7 @@ osg::ref_ptr<osg::Group> classicScene(const Placement& placement);
 /// Returns the same bodies of white, metal and glass, with an area light and an emitting panel.
 osg::ref_ptr<osg::Group> physicalScene(const Placement& placement);
 
-/// The place of the camera before placement.
+/// These are the places of the camera and its target before placement.
 extern const osg::Vec3d kEye, kTarget;
 constexpr int kWidth = 60, kHeight = 40;
 constexpr double kFovyDegrees = 45.0;
