@@ -1,4 +1,5 @@
-// RendererState.cpp - scene graph to images: convert, build, accumulate. Layer: public API, private.
+// RendererState.cpp - scene graph to images: convert, build, accumulate. Layer: public API,
+// private.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/RendererState.h"
 

@@ -66,7 +66,8 @@ struct Renderer::Implementation
     std::mutex sessionMutex;
     std::atomic<bool> cancelled{false};
 
-    void render(engine::StopRule rule, double seconds, const std::function<bool(const Statistics&)>& progress);
+    void render(engine::StopRule rule, double seconds,
+                const std::function<bool(const Statistics&)>& progress);
     void placeHomeView();
     void prepareSession();
     void convertScene();
