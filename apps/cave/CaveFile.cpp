@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/cave/CaveFile.h"
 
+#include "apps/cave/PathStep.h"
 #include "apps/common/Failure.h"
 #include "osgRayTrace/base/NumberText.h"
 #include "osgRayTrace/base/TextFile.h"
@@ -89,21 +90,6 @@ std::string includedFile(const CaveElement& include)
     if (folder && std::filesystem::exists(other)) return other.string();
     failAt(include, ": there is no file " + name);
 }
-
-/// Holds a step of a path: "Name" or "Name:suffix", which asks for name="suffix".
-struct Step
-{
-    explicit Step(const std::string& text)
-        : element(text.substr(0, text.find(':'))),
-          hasName(element.size() < text.size()),
-          name(hasName ? text.substr(element.size() + 1) : "")
-    {
-    }
-
-    std::string element;
-    bool hasName;
-    std::string name;
-};
 
 bool matches(const CaveElement& element, const Step& step)
 {

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/Math.h"
 #include "osgRayTrace/scene/Mesh.h"
+#include "osgRayTrace/scene/TextureMapping.h"
 
 #include <cstdint>
 #include <string>
@@ -38,31 +39,6 @@ enum class TextureEnvironment : uint8_t
     Decal,
     Blend,
     Add,
-};
-
-/// Tells from what a unit's texture coordinates are made [OpenGL21, sect. 2.11.4].
-enum class TextureCoordinates : uint8_t
-{
-    Uv0,           ///< (u, v, r, 1) of Mesh::uvs and rs
-    Uv1,           ///< (u, v, r, 1) of Mesh::uvs1 and rs1
-    Position,      ///< (p, 1) in engine space; the converter puts object and eye linear into matrix
-    SphereMap,     ///< (s, t, 0, 1); depends on the eye, as the next two do: see textureCoordinates
-    ReflectionMap, ///< (r, 1)
-    NormalMap,     ///< (n, 1)
-};
-
-/// Tells how a unit finds its place in the texture: (s, t, r, q) = matrix * the vector that
-/// coordinates names.
-struct TextureMapping
-{
-    TextureCoordinates coordinates = TextureCoordinates::Uv0;
-    bool transformed = false; ///< false: matrix is the identity and is not read
-    Mat4 matrix{1.0f};
-    /// True if some coordinates are generated and others are the mesh's: ownMatrix * the vector
-    /// that own names is then added.
-    bool partly = false;
-    TextureCoordinates own = TextureCoordinates::Uv0;
-    Mat4 ownMatrix{0.0f};
 };
 
 /// Holds texture unit 1, which is applied to the result of unit 0.

@@ -1,5 +1,4 @@
-// ViewHistory.cpp - the samples of earlier views that go on counting in a session's image. Layer:
-// session.
+// ViewHistory.cpp - samples of earlier views that still count in an image. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/history/ViewHistory.h"
 

@@ -4,8 +4,8 @@
 #include "osgRayTrace/session/upsample/UpsampleEdges.h"
 
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
-#include "osgRayTrace/integrators/shared/EnvironmentLanes.h"
 #include "osgRayTrace/integrators/shared/FirstHit.h"
+#include "osgRayTrace/session/upsample/UpsampleLanes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,58 +17,15 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Albedos are increased by this before they are divided: see Upsample.h.
-constexpr float kLeastAlbedo = 0.001f;
-/// Light on a surface that reflects this many times more than its neighbours is not known from
-/// them.
-constexpr float kLargestRatio = 4.0f;
 /// Least sum of the four weights, which is 1 on a smooth surface: pixels below it are not alike.
 constexpr float kLeastWeight = 0.05f;
 /// Added to each bilinear weight, so that one alike pixel of the four is enough wherever the lane
 /// is.
 constexpr float kLeastShare = 0.05f;
-/// Weight of a neighbour of another object in the same plane.
-constexpr float kOtherObject = 0.02f;
-/// Distance from the plane, in widths of a pixel of the image, from which a neighbour belongs to
-/// another surface.
-constexpr float kPlane = 1.0f;
 
 constexpr int kSampleFloats = sizeof(SurfaceSample) / sizeof(float);
 static_assert(sizeof(SurfaceSample) % sizeof(float) == 0 && offsetof(SurfaceSample, albedo) == 16,
               "samples are read as arrays of floats");
-
-/// Tells which pixels of the image the lanes are between.
-struct LanePlaces
-{
-    Lanes<int> column, row;    ///< pixel below on the left
-    FloatLanes shareX, shareY; ///< shares of the other pixels
-};
-
-/// Holds the surfaces that the lanes themselves see.
-struct LaneSurfaces
-{
-    const Vec3Lanes& geometric;
-    const Vec3Lanes& normal;
-    const Vec3Lanes& albedo;
-    Vec3Lanes position;      ///< place in engine space
-    FloatLanes inverseWidth; ///< inverse width of a pixel of the image at the hit [1/length]
-    UintLanes object;        ///< object, as in SurfaceSample
-};
-
-OSGRAYTRACE_INLINE float planeWeight(float offsetInPixels)
-{
-    const float x = offsetInPixels * (1.0f / kPlane);
-    const float f = 1.0f - x * x;
-    const float inside = select(f > 0.0f, f, 0.0f);
-    return inside * inside * inside;
-}
-
-OSGRAYTRACE_INLINE float normalWeight(float cosine)
-{
-    const float c = select(cosine > 0.0f, cosine, 0.0f);
-    const float c2 = c * c, c4 = c2 * c2;
-    return c4 * c4;
-}
 
 /// Sums means whose weights come one after the other, which are exact if all values are the same.
 struct LaneMeans
@@ -194,85 +151,6 @@ LaneMask modulate(const LaneMeans& means, const Vec3Lanes& albedo, RgbaLanes& rg
         alone |= bitOfLane(maskOf(means.weight[i] < kLeastWeight), i);
     unlike = alone;
     return poor;
-}
-
-/// Returns the background as the image has it: linear.
-Vec3 behind(const PassContext& context, const RayBlock& ray, int i)
-{
-    const Vec3 radiance = radianceBehind(context, ray, i);
-    if (!context.traced->scene().displayReferred) return radiance;
-    return Vec3(linearFromSrgb(radiance.x), linearFromSrgb(radiance.y), linearFromSrgb(radiance.z));
-}
-
-/// Returns how much the surface that a pixel of the image sees is like that of lane i; never 0, so
-/// that no lane is black.
-float likeness(const UpsampleSource& source, const LaneSurfaces& at, int i,
-               const SurfaceSample& sample, int column, int row)
-{
-    if (at.object[i] == 0 && sample.object == 0) return 1.0f;
-    if (at.object[i] == 0 || sample.object == 0) return 1e-12f;
-    const CameraRays& c = source.full.camera;
-    const auto unit = static_cast<float>(source.full.traced->scene().unit);
-    const float x = (static_cast<float>(column) + 0.5f) * source.x.scale;
-    const float y = (static_cast<float>(row) + 0.5f) * source.y.scale;
-    const Vec3 direction = c.direction + x * c.directionDx + y * c.directionDy;
-    const Vec3 start = c.origin + x * c.originDx + y * c.originDy;
-    const Vec3 hit = start + sample.distance / unit * glm::normalize(direction);
-    const float offset =
-        glm::dot(hit - laneOf(at.position, i), laneOf(at.geometric, i)) * at.inverseWidth[i];
-    const float own = sample.object == at.object[i] ? 1.0f : kOtherObject;
-    const float cosine = glm::dot(sample.normal, laneOf(at.normal, i));
-    const float alike = 1e-9f + own * (1e-6f + planeWeight(offset) * normalWeight(cosine));
-    // White parts tell more about the light than black parts.
-    return alike * (kLeastAlbedo + std::max({sample.albedo.x, sample.albedo.y, sample.albedo.z}));
-}
-
-/// Computes one lane from pixels farther away, however unlike: the most alike pixels count most,
-/// then the nearest.
-void lookFarther(const UpsampleSource& source, const LanePlaces& place, const LaneSurfaces& at,
-                 const RayBlock& ray, int i, RgbaLanes& rgba)
-{
-    constexpr int kReach = 2;
-    const ResolvedImage& image = source.image;
-    const Vec3 albedo = laneOf(at.albedo, i);
-    Vec4 mean(0.0f);
-    Vec3 meanAlbedo(0.0f);
-    float sum = 1e-30f;
-    for (int row = std::max(0, place.row[i] - kReach);
-         row <= std::min(image.height - 1, place.row[i] + 1 + kReach); ++row)
-    {
-        for (int column = std::max(0, place.column[i] - kReach);
-             column <= std::min(image.width - 1, place.column[i] + 1 + kReach); ++column)
-        {
-            const auto pixel =
-                static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
-                static_cast<std::size_t>(column);
-            const SurfaceSample& sample = source.samples[pixel];
-            const float dx = static_cast<float>(column - place.column[i]) - place.shareX[i];
-            const float dy = static_cast<float>(row - place.row[i]) - place.shareY[i];
-            const float alike = likeness(source, at, i, sample, column, row);
-            const float d2 = dx * dx + dy * dy;
-            const float weight = alike / ((1.0f + d2) * (1.0f + d2));
-            sum += weight;
-            const float f = weight / sum;
-            const float* in = &image.radiance[4 * pixel];
-            mean += f * (Vec4(in[0], in[1], in[2], in[3]) - mean);
-            meanAlbedo += f * (sample.albedo - meanAlbedo);
-        }
-    }
-    if (at.object[i] == 0 && sum < 1e-6f) // this is a gap that no pixel of the image looks through
-    {
-        const bool seen = visibleEnvironment(source.full) != nullptr;
-        mean = seen ? Vec4(behind(source.full, ray, i), 1.0f) : Vec4(0.0f);
-    }
-    Vec3 ratio(1.0f);
-    if (at.object[i] != 0)
-        ratio = glm::min((albedo + kLeastAlbedo) / (meanAlbedo + kLeastAlbedo),
-                         Vec3(2.0f * kLargestRatio));
-    rgba.r[i] = mean.x * ratio.x;
-    rgba.g[i] = mean.y * ratio.y;
-    rgba.b[i] = mean.z * ratio.z;
-    rgba.a[i] = mean.w;
 }
 
 LanePlaces placesOf(const UpsampleSource& source, int left, int bottom)

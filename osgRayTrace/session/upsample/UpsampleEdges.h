@@ -3,21 +3,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/integrators/shared/Integrator.h"
-#include "osgRayTrace/session/image/ResolvedImage.h"
-#include "osgRayTrace/session/upsample/UpsampleCells.h"
+#include "osgRayTrace/session/upsample/UpsampleSource.h"
 
 namespace osgRayTrace::engine
 {
-
-/// Holds the inputs of all blocks of an image.
-struct UpsampleSource
-{
-    const ResolvedImage& image;
-    const SurfaceSample* samples;
-    const PassContext& full;
-    UpsampleAxis x, y;
-};
 
 /// Holds a block of the full size, with lanes as in laneX and laneY.
 struct UpsampledBlock

@@ -4,6 +4,8 @@
 #include "osgRayTrace/bridge/appearance/materials/MaterialLibrary.h"
 
 #include "osgRayTrace/base/TextFile.h"
+#include "osgRayTrace/bridge/appearance/materials/MaterialParameters.h"
+#include "osgRayTrace/bridge/common/LineIterator.h"
 #include "osgRayTrace/bridge/common/WarnOnce.h"
 
 #include <nlohmann/json.hpp>
@@ -11,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace osgRayTrace::engine
 {
@@ -22,80 +23,6 @@ namespace
 using Json = nlohmann::json;
 
 constexpr std::size_t kMostBytes = std::size_t(16) << 20;
-constexpr double kMostEmission = 1e30;
-
-/// Counts the lines that a parser has read.
-struct LineIterator
-{
-    using iterator_category = std::input_iterator_tag;
-    using value_type = char;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const char*;
-    using reference = const char&;
-
-    reference operator*() const { return *at; }
-    LineIterator& operator++()
-    {
-        if (*at == '\n') ++*line;
-        ++at;
-        return *this;
-    }
-    bool operator==(const LineIterator& other) const { return at == other.at; }
-    bool operator!=(const LineIterator& other) const { return at != other.at; }
-
-    const char* at;
-    int* line;
-};
-
-/// Describes one parameter: a number, or three for a colour.
-struct Parameter
-{
-    const char* name;
-    std::size_t count;
-    double lowest, highest;
-    void (*set)(PhysicalMaterial&, const std::vector<double>&);
-};
-
-osg::Vec3 colorOf(const std::vector<double>& v)
-{
-    return osg::Vec3(osg::Vec3d(v[0], v[1], v[2]));
-}
-
-float numberOf(const std::vector<double>& v)
-{
-    return static_cast<float>(v[0]);
-}
-
-using Values = std::vector<double>;
-
-const Parameter kParameters[] = {
-    {"baseColor", 3, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setBaseColor(colorOf(v)); }},
-    {"metallic", 1, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setMetallic(numberOf(v)); }},
-    {"roughness", 1, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setRoughness(numberOf(v)); }},
-    {"transmission", 1, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setTransmission(numberOf(v)); }},
-    {"ior", 1, 1.0, 4.0, [](PhysicalMaterial& m, const Values& v) { m.setIor(numberOf(v)); }},
-    {"emission", 3, 0.0, kMostEmission,
-     [](PhysicalMaterial& m, const Values& v) { m.setEmission(colorOf(v)); }},
-};
-
-const Parameter* findParameter(const std::string& name)
-{
-    for (const Parameter& parameter : kParameters)
-        if (name == parameter.name) return &parameter;
-    return nullptr;
-}
-
-std::string parameterNames()
-{
-    std::string names;
-    for (const Parameter& parameter : kParameters)
-        names += (names.empty() ? "" : ", ") + std::string(parameter.name);
-    return names;
-}
 
 std::string shortNumber(double value)
 {
@@ -264,50 +191,6 @@ private:
 };
 
 } // namespace
-
-bool matchesPattern(const std::string& pattern, const std::string& name)
-{
-    // The search is greedy with one point to return to: the last star can always take more.
-    std::size_t p = 0, n = 0, star = std::string::npos, taken = 0;
-    while (n < name.size())
-    {
-        if (p < pattern.size() && pattern[p] == '*')
-        {
-            star = p++;
-            taken = n;
-        }
-        else if (p < pattern.size() && pattern[p] == name[n])
-        {
-            ++p;
-            ++n;
-        }
-        else if (star != std::string::npos)
-        {
-            p = star + 1;
-            n = ++taken;
-        }
-        else
-            return false;
-    }
-    return pattern.find_first_not_of('*', p) == std::string::npos;
-}
-
-MaterialRule* MaterialRuleList::add(MaterialRule rule)
-{
-    if (!_byName.try_emplace(rule.pattern, _rules.size()).second) return nullptr;
-    if (rule.pattern.find('*') != std::string::npos) _patterns.push_back(_rules.size());
-    return &_rules.emplace_back(std::move(rule));
-}
-
-const MaterialRule* MaterialRuleList::find(const std::string& name) const
-{
-    if (name.empty() || _rules.empty()) return nullptr;
-    if (const auto named = _byName.find(name); named != _byName.end())
-        return &_rules[named->second];
-    for (const std::size_t pattern : _patterns)
-        if (matchesPattern(_rules[pattern].pattern, name)) return &_rules[pattern];
-    return nullptr;
-}
 
 MaterialLibraryResult parseMaterialLibrary(const std::string& text, const std::string& fileName)
 {

@@ -1,0 +1,54 @@
+// MaterialParameters.cpp - the table of parameters of material files. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/appearance/materials/MaterialParameters.h"
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr double kMostEmission = 1e30;
+
+osg::Vec3 colorOf(const std::vector<double>& v)
+{
+    return osg::Vec3(osg::Vec3d(v[0], v[1], v[2]));
+}
+
+float numberOf(const std::vector<double>& v)
+{
+    return static_cast<float>(v[0]);
+}
+
+const Parameter kParameters[] = {
+    {"baseColor", 3, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setBaseColor(colorOf(v)); }},
+    {"metallic", 1, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setMetallic(numberOf(v)); }},
+    {"roughness", 1, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setRoughness(numberOf(v)); }},
+    {"transmission", 1, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setTransmission(numberOf(v)); }},
+    {"ior", 1, 1.0, 4.0, [](PhysicalMaterial& m, const Values& v) { m.setIor(numberOf(v)); }},
+    {"emission", 3, 0.0, kMostEmission,
+     [](PhysicalMaterial& m, const Values& v) { m.setEmission(colorOf(v)); }},
+};
+
+} // namespace
+
+const Parameter* findParameter(const std::string& name)
+{
+    for (const Parameter& parameter : kParameters)
+        if (name == parameter.name) return &parameter;
+    return nullptr;
+}
+
+std::string parameterNames()
+{
+    std::string names;
+    for (const Parameter& parameter : kParameters)
+        names += (names.empty() ? "" : ", ") + std::string(parameter.name);
+    return names;
+}
+
+} // namespace osgRayTrace::engine
