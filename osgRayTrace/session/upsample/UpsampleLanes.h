@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/accel/RayBlock.h"
 #include "osgRayTrace/session/upsample/UpsampleSource.h"
 
 namespace osgRayTrace::engine
