@@ -13,8 +13,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Samples an environment in engine space, where directions are unit vectors. The class is thread
-/// safe.
+/// Samples an environment in engine space by unit directions. Any thread may use the object.
 class PlacedEnvironment
 {
 public:
