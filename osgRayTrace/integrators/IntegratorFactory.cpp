@@ -1,4 +1,4 @@
-// IntegratorFactory.cpp - the table of integrators. Layer: integrators.
+// IntegratorFactory.cpp - makes the integrator of each kind. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/IntegratorFactory.h"
 

@@ -1,4 +1,4 @@
-// IntegratorFactory.h - the table of integrators. Layer: integrators.
+// IntegratorFactory.h - makes the integrator of each kind. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace osgRayTrace::engine
 {
 
-/// kind is not Automatic.
+/// Returns an integrator of the kind. Callers choose a kind before: kind is not Automatic.
 std::unique_ptr<Integrator> newIntegrator(IntegratorKind kind);
 
 } // namespace osgRayTrace::engine

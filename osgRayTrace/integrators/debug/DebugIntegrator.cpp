@@ -62,7 +62,8 @@ Vec3 channelColor(const PassContext& context, const RayHitBlock& rays, const Sur
 
 } // namespace
 
-/// Renders with the automatic integrator and shows what it counted.
+/// Renders with the integrator that AUTOMATIC chooses and shows the rays or dropped samples that it
+/// counted.
 void DebugIntegrator::showDiagnostics(const PassContext& context, int left, int bottom,
                                       TileResult& result) const
 {

@@ -9,13 +9,14 @@
 namespace osgRayTrace::engine
 {
 
-/// The debug channel as colours: normals as (n + 1)/2, texture coordinates modulo 1, ids as hashed
-/// colours, albedo, window depth; dropped samples as white pixels and cost as rays / 64, both of
-/// the integrator that AUTOMATIC chooses.
+/// A DebugIntegrator shows the debug channel as colours: normals as (n + 1)/2, texture coordinates
+/// modulo 1, ids as hashed colours, albedo with emission, or window depth. Dropped samples are
+/// shown as white pixels and cost is shown as rays / 64, both of the integrator that AUTOMATIC
+/// chooses.
 class DebugIntegrator : public Integrator
 {
 public:
-    /// Makes an integrator of a kind: the debug integrator shows counts of another one.
+    /// A Factory makes the integrator whose counts the debug integrator shows.
     using Factory = std::unique_ptr<Integrator> (*)(IntegratorKind);
 
     explicit DebugIntegrator(Factory newIntegrator) : _newIntegrator(newIntegrator) {}

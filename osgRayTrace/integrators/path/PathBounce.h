@@ -1,5 +1,4 @@
-// PathBounce.h - what the parts of the path tracer share: a tile at work, one bounce of a block.
-// Layer: integrators.
+// PathBounce.h - a tile at work and one bounce of a block of paths. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -21,13 +20,14 @@ namespace osgRayTrace::engine
 
 OSGRAYTRACE_INLINE float powerHeuristic(float a, float b)
 {
-    const float ratio = b / a; // no overflow of a^2, and 1 for a = infinity
+    const float ratio = b / a; // avoids an overflow of a^2, and gives 1 for a = infinity
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-constexpr int kRouletteBounce = 3; ///< paths are not ended by chance before this bounce
+constexpr int kRouletteBounce = 3; ///< first bounce at which roulette may end paths
 
-/// Sums of the tile, pixel by pixel; after them those of reused paths. See PathFlags::sum.
+/// PixelSums holds the radiance sums of the tile's pixels, followed by the sums of reused paths.
+/// PathFlags::sum is the index.
 struct PixelSums
 {
     float r[2 * kTilePixels] = {};
@@ -43,7 +43,7 @@ struct PixelSums
         b[sum] += radiance.z;
     }
 
-    /// The light that the reused path of a pixel has found from its second surface on.
+    /// Returns the radiance that the pixel's reused path has found from its second surface on.
     Vec3 reused(PathFlags path) const
     {
         const uint32_t sum = path.reused().sum();
@@ -72,86 +72,90 @@ struct Tile
     TileResult& result;
     TileCounts& counts;
     DebugOutputs* debug;
-    SampledLights deltaLights; ///< of the pass
+    SampledLights deltaLights; ///< delta lights of the pass
     int left, bottom;
     PixelSums sums;
     PathQueue paths;
     ReuseGroups reuse;
-    Bsdf bsdfs[kLanes];          ///< of the block at work
-    GatherScratch gatherScratch; ///< of all photon look-ups
+    Bsdf bsdfs[kLanes];          ///< BSDFs of the block at work
+    GatherScratch gatherScratch; ///< scratch of all photon look-ups
 };
 
-/// What one bounce of a block knows.
+/// A Bounce holds the surfaces that the rays of a block met, and the sets of lanes by what they do.
 struct Bounce
 {
     int number = 0;
     SurfaceLanes surface;
-    Vec3Lanes normal;          ///< shading, on the side of the ray
-    Vec3Lanes albedo;          ///< of diffuse lanes
+    Vec3Lanes normal;          ///< shading normals on the side of the ray
+    Vec3Lanes albedo;          ///< albedos of diffuse lanes
     LaneMask diffuse = 0;      ///< plain Lambert lanes
-    LaneMask general = 0;      ///< all other hits that scatter
-    LaneMask smooth = 0;       ///< of these, those with mirror-like lobes only
+    LaneMask general = 0;      ///< all other lanes that scatter
+    LaneMask smooth = 0;       ///< general lanes with mirror-like lobes only
     LaneMask transmissive = 0; ///< general lanes that transmit
     LaneMask gathering = 0;    ///< lanes that look up photons
-    LaneMask rough = 0;        ///< of these, those that look up all photons
-    LaneMask terminating = 0;  ///< of these, those that go on by mirror-like lobes only
-    Bsdf* bsdfs = nullptr;     ///< of general lanes
+    LaneMask rough = 0;        ///< gathering lanes that look up all photons
+    LaneMask terminating = 0;  ///< gathering lanes that go on by mirror-like lobes only
+    Bsdf* bsdfs = nullptr;     ///< BSDFs of general lanes
 };
 
+/// Counts a ray of each of the lanes in the debug outputs, if the tile has them.
 void countRays(Tile& tile, const PathBlock& block, LaneMask lanes);
 
-/// Two Sobol numbers of a dimension for each lane.
+/// Sets u and v to the two Sobol numbers of a dimension for each lane.
 void dimensionPoints(const UintLanes& seeds, uint32_t passIndex, uint32_t dimension, FloatLanes& u,
                      FloatLanes& v);
 
-/// Emission that the path met by chance, weighted against light samples; without that which photons
-/// carry.
+/// Adds the emission that the paths met by chance, weighted against light samples. The emission
+/// that photons carry is left out.
 void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface, PhotonUse use);
 
-/// What rays that left the scene bring: the environment, weighted against samples of it, without
-/// that which photons carry; to the eye and to mirrors it is seen, or else the background. number:
-/// of the bounce.
+/// Adds the light of rays that left the scene in the bounce of this number. The eye and mirrors see
+/// the environment or else the background. Scattered paths get the environment, weighted against
+/// its samples and without the light that photons carry.
 void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int number, PhotonUse use);
 
-/// Adds what the visible lanes get from one light sample. Lanes of withoutMis have no other chance
-/// to meet this light: it has its full weight.
+/// Adds the radiance that the visible lanes get from one light sample. The sample has its full
+/// weight for lanes of withoutMis, which have no other chance to meet this light.
 void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
               LaneMask visible, LaneMask withoutMis);
 
-/// Samples of the environment; none without it. seeds: of light samples.
+/// Adds samples of the environment if it shines. seeds are the seeds of light samples.
 void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds);
 
-/// One sample of the area lights, of the environment and one of each light without area.
+/// Adds one sample of the area lights, the samples of the environment and one sample of each delta
+/// light of the pass.
 void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce);
 
-/// Sets the ray of each lane that goes on; the others leave block.active.
+/// Sets the ray of each lane that goes on, and removes the other lanes from block.active.
 void scatter(Tile& tile, PathBlock& block, const Bounce& bounce);
 
-/// Makes groups of the tile's pixels. No path is reused with photons of the local schedule, which
-/// are counted pixel by pixel.
+/// Sets the reuse groups of the tile. No path is reused with PhotonUse::Indirect or with photons of
+/// the local schedule, which are counted pixel by pixel.
 void beginReuse(Tile& tile, PhotonUse use);
 
-/// Remembers where the camera rays of block b met diffuse surfaces.
+/// Records the diffuse surfaces that the camera rays of block b met.
 void recordFirstSurfaces(Tile& tile, int b, const Bounce& bounce);
 
-/// Marks for reuse the paths whose second surface is diffuse: what they find from here on is for
-/// all pixels of the group that see it.
+/// Marks for reuse the paths whose second surface is diffuse: all pixels of the group that see this
+/// surface get the light that the path finds from here on.
 void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce);
 
 /// Connects the pixels of a group to the second surfaces of its reused paths.
 void connectPaths(Tile& tile);
 
-/// Which lanes look up photons, and which of them end here but for their mirror-like lobes.
+/// Sets bounce.gathering, bounce.rough and bounce.terminating: the lanes that look up photons, and
+/// those that go on by mirror-like lobes only.
 void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use);
 
-/// Adds what the photons around the lanes' points send back along their rays.
+/// Adds the radiance that the photons around the lanes' points send back along the lanes' rays.
 void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce);
 
-/// Appends the lanes of a bounce to the tile's hit points: what addPhotons and sampleLights read of
-/// them.
+/// Appends the lanes of a bounce to the tile's hit points, with all that addPhotons and
+/// sampleLights read of a lane.
 void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits);
 
-/// Photons and light samples at hit points that were kept: what bounces add where nothing is kept.
+/// Adds photons and light samples at the kept hit points. Bounces add the same light themselves if
+/// no hit points are kept.
 void gatherAtHitPoints(Tile& tile, const HitPoints& hits);
 
 } // namespace osgRayTrace::engine

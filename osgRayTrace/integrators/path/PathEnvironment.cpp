@@ -1,14 +1,12 @@
-// PathEnvironment.cpp - light that paths get from the environment, by chance and by sampling it.
-// Layer: integrators.
+// PathEnvironment.cpp - adds light of the environment to paths. Layer: integrators.
 // SPDX-License-Identifier: MIT
 //
-// Importance, Uniform:  one direction a bounce and the ray that the surface sent on, by multiple
-// importance
-//                       sampling with the power heuristic [Veach97, sect. 9.2].
-// Structured:           the sum over all strata where the camera ray ends, one of them by chance
-// further on;
-//                       rays that a rough surface sent on bring nothing, mirror-like ones what is
-//                       there.
+// Importance and Uniform sampling combine one direction a bounce with the ray that the surface sent
+// on, by multiple importance sampling with the power heuristic [Veach97, sect. 9.2].
+//
+// Structured sampling takes the sum over all strata at the end of the camera ray, and one stratum
+// by chance at later surfaces. Rays that a rough surface sent on then add no light of the
+// environment; mirror-like rays add the radiance that they meet.
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/EnvironmentLanes.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
@@ -19,9 +17,11 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Apart from the dimensions of all bounces: scenes without an environment keep their sequences.
+/// The environment's dimensions lie apart from those of all bounces, so that scenes without an
+/// environment keep their sequences.
 constexpr uint32_t kEnvironmentDimension = 0x10000u;
 
+/// Traces the shadow rays of samples and adds the light of the visible lanes.
 void addSamples(Tile& tile, PathBlock& block, const Bounce& bounce, LightLanes& samples,
                 LaneMask withoutMis)
 {
@@ -30,7 +30,8 @@ void addSamples(Tile& tile, PathBlock& block, const Bounce& bounce, LightLanes& 
     addLight(tile, block, bounce, samples, visible, withoutMis);
 }
 
-/// One of the strata for each lane, all alike: each stands for about the same share of the light.
+/// Adds a sample of one stratum for each lane. All strata are equally likely, as each stratum
+/// stands for about the same share of the light.
 void sampleOneStratum(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMask lanes,
                       const FloatLanes& u)
 {
@@ -85,7 +86,7 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
 {
     const PlacedEnvironment* environment = tile.context.traced->lights().shiningEnvironment();
     if (number == 0 && !visibleEnvironment(tile.context))
-        return; // the clear colour is not ours to add
+        return; // integrators do not add the clear colour
     for (const int i : lanesIn(missed))
     {
         const PathFlags path = block.flagsOf(i);
@@ -96,10 +97,10 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
             tile.sums.add(path, throughput * radianceBehind(tile.context, block.rays.ray, i));
             continue;
         }
-        if (!environment) continue; // a backdrop is no light
-        if (use == PhotonUse::Caustics && path.isOnCausticChain()) continue; // of photons
+        if (!environment) continue; // a backdrop gives no light
+        if (use == PhotonUse::Caustics && path.isOnCausticChain()) continue; // photons carry it
         const bool sampled = block.pdfW[i] < kInfinity;
-        if (sampled && tile.context.strata) continue; // they hold all of it
+        if (sampled && tile.context.strata) continue; // strata hold all of its light
         const Vec3 direction = directionOf(block.rays.ray, i);
         const float weight =
             sampled ? powerHeuristic(block.pdfW[i],

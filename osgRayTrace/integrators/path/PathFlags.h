@@ -1,5 +1,4 @@
-// PathFlags.h - the word that each path carries: its pixel, and what has happened to it. Layer:
-// integrators.
+// PathFlags.h - the word with the pixel and the history of a path. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,15 +9,16 @@
 namespace osgRayTrace::engine
 {
 
-/// A pixel of the tile and four facts about a path. The facts are bits of one word because vector
-/// code writes them for sixteen paths at once; all other code reads them by name.
+/// PathFlags names a pixel of the tile and facts about a path. The facts are bits of one word
+/// because vector code writes the words of sixteen paths at once; all other code reads facts by
+/// name.
 class PathFlags
 {
 public:
     PathFlags() = default;
     explicit PathFlags(uint32_t word) : _word(word) {}
 
-    /// A camera ray of a pixel of the tile: block * kLanes + lane.
+    /// Returns the flags of a camera ray. pixel is block * kLanes + lane, below kTilePixels.
     static PathFlags ofPixel(uint32_t pixel)
     {
         OSGRAYTRACE_ASSERT(pixel < kTilePixels);
@@ -27,35 +27,39 @@ public:
 
     uint32_t word() const { return _word; }
 
-    /// The pixel of the tile, below kTilePixels.
+    /// Returns the pixel of the tile, below kTilePixels.
     uint32_t pixel() const { return _word & (kTilePixels - 1); }
 
-    /// Where the path's light is added up, see PixelSums: light of reused paths is kept apart.
+    /// Returns the index in PixelSums at which the path's light is added. Reused paths have sums of
+    /// their own.
     uint32_t sum() const { return _word & (kReused | (kTilePixels - 1)); }
 
-    /// The path has met its second surface, and other pixels get the light that it finds from there
-    /// on, too. A reused path has taken photons if photons are used, and so looks up no more of
-    /// them: the radii of lookups belong to pixels, not to sums.
+    /// Returns whether the path has met its second surface and gives the light that it finds from
+    /// there on to other pixels, too. A reused path has taken photons if photons are used, and so
+    /// looks up no more photons: the radii of look-ups belong to pixels, not to sums.
     bool isReused() const { return (_word & kReused) != 0; }
 
-    /// The path has left a surface that is not a mirror. From then on it does not see the
-    /// background, which is a backdrop and not a light, and it sees the environment as the light
-    /// that it is, not interpolated.
+    /// Returns whether the path has left a surface that is not a mirror. Such a path does not see
+    /// the background, which is a backdrop and not a light, and it sees the environment as a light,
+    /// not interpolated.
     bool isScattered() const { return (_word & kScattered) != 0; }
 
-    /// Photons were looked up on a rough surface. PhotonUse::Caustics.
+    /// Returns whether the path has looked up photons on a rough surface. The fact matters with
+    /// PhotonUse::Caustics.
     bool hasTaken() const { return (_word & kTaken) != 0; }
 
-    /// The last surface that scattered the path is one that photons know (the rough one where they
-    /// were looked up, any after it, or a glossy one where the direct ones were looked up), and the
-    /// path has met mirror-like surfaces since: the light that it meets now is that of photons.
-    /// PhotonUse::Caustics.
+    /// Returns whether photons already carry the light that the path meets now. The last surface
+    /// that scattered the path is then one that photons know: the rough surface of the look-up, any
+    /// surface after it, or a glossy surface where direct photons were looked up. The path has
+    /// met mirror-like surfaces since. The fact matters with PhotonUse::Caustics.
     bool isOnCausticChain() const { return (_word & kCausticChain) != 0; }
 
+    /// Returns the flags of the same path, marked as reused.
     PathFlags reused() const { return PathFlags(_word | kReused); }
 
-    /// The word after a surface, for loops over lanes. Each other argument is all bits or none:
-    /// photons were looked up, on a rough surface, and the path goes on by a mirror-like lobe.
+    /// Returns the word after a surface, for loops over lanes. Each of the other arguments is all
+    /// bits or none: gathering if photons were looked up, rough if photons were looked up on a
+    /// rough surface, mirrored if the path goes on by a mirror-like lobe.
     OSGRAYTRACE_INLINE static uint32_t afterSurface(uint32_t word, uint32_t gathering,
                                                     uint32_t rough, uint32_t mirrored)
     {
@@ -68,7 +72,7 @@ public:
     }
 
 private:
-    static constexpr uint32_t kReused = kTilePixels; // sum() is an index
+    static constexpr uint32_t kReused = kTilePixels; // the bit above the pixel: sum() is an index
     static constexpr uint32_t kScattered = 0x10000u;
     static constexpr uint32_t kCausticChain = 0x20000u;
     /// The last surface that scattered the path is one that photons know.

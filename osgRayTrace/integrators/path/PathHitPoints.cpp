@@ -1,5 +1,4 @@
-// PathHitPoints.cpp - hit points of camera paths: written when paths are followed, and gathered at.
-// Layer: integrators.
+// PathHitPoints.cpp - keeps hit points of camera paths and gathers at them. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
@@ -10,13 +9,13 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Bit to if bit from is set.
+/// Returns a mask with bit to if bit from of the mask is set.
 constexpr LaneMask moved(LaneMask mask, int from, int to)
 {
     return ((mask >> from) & 1u) << to;
 }
 
-/// The state in which a bounce stood at a block's points.
+/// Sets block and bounce to the state in which the bounce stood at the points.
 void restore(const HitPoints& hits, const HitPointBlock& points, PathBlock& block, Bounce& bounce)
 {
     const LaneMask all = (1u << points.count) - 1u;
@@ -48,7 +47,7 @@ void restore(const HitPoints& hits, const HitPointBlock& points, PathBlock& bloc
         bounce.bsdfs[i] = hits.bsdfs[points.bsdf[i]];
 }
 
-/// A block with room for a point after so many bounces.
+/// Returns a block of hits that has room for a point of the bounce with this number.
 HitPointBlock& blockFor(int number, HitPoints& hits)
 {
     if (hits.blocks.empty() || hits.blocks.back().number != number ||
@@ -60,7 +59,7 @@ HitPointBlock& blockFor(int number, HitPoints& hits)
     return hits.blocks.back();
 }
 
-/// Lane i of a bounce to lane to.
+/// Copies lane i of a bounce to lane to of the points.
 void keepLane(HitPointBlock& points, int to, const PathBlock& block, const Bounce& bounce, int i,
               uint32_t bsdf)
 {
@@ -100,7 +99,7 @@ void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits
         }
         HitPointBlock& points = blockFor(bounce.number, hits);
         const int at = points.count++;
-        // Vector code reads lanes out of use as well.
+        // Vector code reads unused lanes as well: the first point of a block fills all lanes.
         for (int to = at; to < (at == 0 ? kLanes : at + 1); ++to)
             keepLane(points, to, block, bounce, i, kept);
         points.diffuse |= moved(bounce.diffuse, i, at);

@@ -1,20 +1,22 @@
-// PathIntegrator.cpp - unidirectional path tracing, the reference for everything else. Layer:
-// integrators.
+// PathIntegrator.cpp - follows the paths of a tile, bounce by bounce. Layer: integrators.
 // SPDX-License-Identifier: MIT
 //
-// Estimator of the radiance along a camera ray [Kajiya86; Veach97, ch. 8 and 9]:
+// Unidirectional path tracing is the reference for everything else. The radiance along a camera ray
+// has this estimator [Kajiya86; Veach97, ch. 8 and 9]:
 //
 //   L = sum over bounces k of beta_k * ( w_bsdf Le(x_k) + w_light f cos Le(y) V / (pmf pdfW)
 //                                        + sum over delta lights of f cos pi I V )
 //   beta_{k+1} = beta_k f cos / pdfW / q
 //
-// with the power heuristic w = p_a^2 / (p_a^2 + p_b^2), y sampled on one area light chosen by
-// power, and q the survival probability of Russian roulette: 1 while beta, as it would be outside
-// of all glass, is above a bound, and beta over this bound from there on, so that beta stays where
-// it is. A q that is capped below 1 would let beta grow along paths that lose less than it does,
-// and their variance with it; beta in glass is 1/eta^2 of what comes out again. Sixteen paths are
-// followed together; those that end are replaced by closing the ranks of the tile after each
-// bounce. What a path finds from its second surface on is shared with other pixels: PathReuse.cpp.
+// The weights w = p_a^2 / (p_a^2 + p_b^2) are those of the power heuristic, y is sampled on one
+// area light that is chosen by power, and q is the survival probability of Russian roulette.
+// The probability q is 1 while beta is above a bound, and is beta over this bound below the bound,
+// so that beta stays at the bound. For q, beta is taken as it would be outside of all glass,
+// because beta in glass is 1/eta^2 of the beta that comes out again. A q that is capped below 1
+// would let beta, and with beta the variance, grow along paths that lose less than q takes. Sixteen
+// paths are followed together; after each bounce the tile's remaining paths move up into the lanes
+// of those that ended. The light that a path finds from its second surface on is shared with other
+// pixels, see PathReuse.cpp.
 #include "osgRayTrace/integrators/path/PathIntegrator.h"
 
 #include "osgRayTrace/accel/Intersector.h"
@@ -32,6 +34,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
+/// Sets the normals of a bounce, its BSDFs and albedos, and the sets of lanes by kind of surface.
 void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
 {
     facingNormalLanes(block.rays.ray, bounce.surface, bounce.normal);
@@ -59,10 +62,10 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
         bounce.transmissive |= static_cast<LaneMask>(bounce.bsdfs[i].transmits()) << i;
     }
     dropTerminatorOffset(bounce.surface,
-                         bounce.transmissive); // refraction depends on where the facet is
+                         bounce.transmissive); // refraction needs the facet's own place
 }
 
-/// Follows the paths of a block over one bounce.
+/// Traces the paths of a block over one bounce.
 void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
 {
     PathBlock& block = tile.paths.blocks[b];
@@ -164,8 +167,8 @@ void readSums(const RgbaLanes* rgba, Tile& tile)
     }
 }
 
-/// The passes of [Hachisuka08, sect. 4]: camera paths once, then photons and light at what they
-/// found, until the pass has other paths.
+/// Renders a pass of [Hachisuka08, sect. 4]: camera paths are traced once, and photons and light
+/// are gathered at the kept hit points until the pass has other paths.
 void gatherOnly(Tile& tile, PhotonUse use)
 {
     HitPoints& hits = *tile.result.photons.hitPoints;

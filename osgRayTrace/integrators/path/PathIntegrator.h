@@ -7,33 +7,35 @@
 namespace osgRayTrace::engine
 {
 
-/// Path tracing with light sampling, multiple importance sampling and Russian roulette: unbiased up
-/// to maxBounces. With photons it leaves them a part of the paths, so that each is counted once.
-/// With D a surface that is not mirror-like (or the part of one), S a mirror-like reflection or
-/// refraction, G the first rough surface that the path meets from the eye:
+/// A PathIntegrator traces paths with light sampling, multiple importance sampling and Russian
+/// roulette, and is unbiased up to maxBounces. Photons take over a part of the paths, so that each
+/// path is counted once. The letter D stands for a surface, or the part of a surface, that is not
+/// mirror-like, S for a mirror-like reflection or refraction, and G for the first rough surface
+/// that the path meets from the eye.
 ///
-/// PhotonUse::None: all paths.
+/// PhotonUse::None: the integrator traces all paths.
 ///
-/// PhotonUse::Caustics: photons are those that began light S+. All of them are looked up at G; at
-/// glossy surfaces before it only those that met nothing but S. Theirs are so all paths light S+ D
-/// ... eye; traced are the others, light D ... and light S* eye. Light that left glass or a mirror
-/// also lights the room from there on: a path would have to find the bright spot by chance.
+/// PhotonUse::Caustics: photons are stored if their paths began with light S+. All photons are
+/// looked up at G; glossy surfaces before G look up only photons that met nothing but S. Photons so
+/// make up all paths light S+ D ... eye, and the integrator traces the paths light D ... eye and
+/// light S* eye. Light that left glass or a mirror also lights the room by way of photons: a path
+/// would have to find the bright spot by chance.
 ///
-/// PhotonUse::Indirect: photons are all that met a surface before, looked up at G. Traced are
-/// light sampling there, and all up to there: light (S|glossy)* eye.
+/// PhotonUse::Indirect: photons are stored if they met a surface before, and are looked up at G.
+/// The integrator samples lights at G and traces all paths up to G: light (S|glossy)* eye.
 ///
-/// A path from light to eye has at most maxBounces edges beside the camera ray, whoever makes it:
-/// photons are stored with the number of theirs, and a lookup admits those that the camera path
-/// leaves room for.
+/// A path from light to eye has at most maxBounces edges beside the camera ray, with photons as
+/// well as without them: a photon is stored with the number of its edges, and a look-up admits the
+/// photons for which the camera path leaves enough edges.
 ///
-/// A surface is rough if it has a GGX width from kGatherAlpha on or a Lambert base; its mirror-like
-/// part is followed further. Rough glass gathers on both sides: photons carry flux, which an
-/// interface does not squeeze into smaller angles, so they are followed with Transport::Importance
-/// and looked up with the radiance's f [Veach97, ch. 5].
+/// A surface is rough if its GGX width is kGatherAlpha or more or if it has a Lambert base; paths
+/// go on by the mirror-like part of a rough surface. Rough glass gathers on both sides: photons
+/// carry flux, which an interface does not squeeze into smaller angles, so photons are followed
+/// with Transport::Importance and looked up with the radiance's f [Veach97, ch. 5].
 ///
-/// Pixels of a tile share paths (PathReuse.h), so their errors depend on each other: the
-/// error of a pixel is estimated rightly by the film, that of a mean over a tile is greater than if
-/// they were independent. Tiles are independent.
+/// Pixels of a tile share paths (PathReuse.h), so the errors of these pixels depend on each other.
+/// The film estimates the error of a pixel rightly, but the error of a mean over a tile is greater
+/// than that of independent pixels. Tiles are independent.
 class PathIntegrator : public Integrator
 {
 public:

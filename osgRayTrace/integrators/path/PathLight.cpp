@@ -1,4 +1,4 @@
-// PathLight.cpp - light that a path meets by chance and by sampling lights. Layer: integrators.
+// PathLight.cpp - adds light that paths meet by chance or by light samples. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/path/PathBounce.h"
@@ -43,7 +43,7 @@ void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface
         if (light != kInvalid && traced.lights().areaLightPmf(light) > 0.0f)
         {
             if (use == PhotonUse::Caustics && block.flagsOf(i).isOnCausticChain())
-                continue; // of photons
+                continue; // photons carry it
             const Vec3 direction = directionOf(block.rays.ray, i);
             const float cosThetaL =
                 std::fabs(glm::dot(direction, laneOf(surface.geometricNormal, i)));
@@ -59,7 +59,7 @@ void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface
 namespace
 {
 
-/// A light sample for each lane of a diffuse block: vector code.
+/// Sets the radiance that each lane of a diffuse block gets from its light sample, in vector code.
 OSGRAYTRACE_KERNEL
 void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLanes& light,
                   LaneMask visible, const Vec3Lanes& throughput, bool withoutMis,
@@ -114,6 +114,7 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
 namespace
 {
 
+/// Adds a sample of one area light, which was chosen with probability pmf, for each of the lanes.
 void sampleOneLight(Tile& tile, PathBlock& block, const Bounce& bounce, uint32_t light, float pmf,
                     LaneMask lanes, const FloatLanes& u, const FloatLanes& v)
 {
@@ -125,7 +126,8 @@ void sampleOneLight(Tile& tile, PathBlock& block, const Bounce& bounce, uint32_t
     addLight(tile, block, bounce, samples, visible, bounce.terminating);
 }
 
-/// All soft lights are sampled, each at points of its own.
+/// Returns the lanes' seeds for one soft light: all soft lights are sampled, each at its own
+/// points.
 UintLanes seedsOfLight(const UintLanes& seeds, uint32_t light)
 {
     UintLanes own;

@@ -1,5 +1,4 @@
-// PathPhotons.cpp - which surfaces of a path look up photons, and what paths get from them. Layer:
-// integrators.
+// PathPhotons.cpp - chooses the surfaces that look up photons, and adds them. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
@@ -13,13 +12,15 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr float kGatherAlpha = 0.25f; ///< GGX width from which photons replace further bounces
+constexpr float kGatherAlpha = 0.25f; ///< GGX width from which on a surface is rough
 
-/// Look-ups with more photons are not recorded: no guiding is needed to find photons there.
+/// Look-ups with more photons than this are not recorded: no guiding is needed to find photons
+/// there.
 constexpr uint32_t kMostRecordedPhotons = 2048;
 
-/// Records the photons of a look-up and what each of them added to its radiance. The shares go by
-/// power alone, as the BSDF's values for their directions do not matter for guiding.
+/// Records the photons of a look-up and the share of its radiance that each photon added. The
+/// shares go by power alone, as the BSDF's values for the photons' directions do not matter for
+/// guiding.
 void recordSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
                 std::vector<uint32_t>& found, std::vector<SeenPhoton>& seen)
 {
@@ -37,8 +38,8 @@ void recordSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
     }
 }
 
-/// Returns the discs of the lanes that gather, and chooses the first radii of their pixels if those
-/// have none yet.
+/// Returns the discs of the lanes that gather, and chooses the first radius of each pixel that has
+/// none yet.
 PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bounce)
 {
     const auto edgesLeft = static_cast<uint32_t>(tile.context.options.maxBounces - bounce.number);
@@ -51,7 +52,8 @@ PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bou
     for (const int i : lanesIn(bounce.gathering))
     {
         const PathFlags path = block.flagsOf(i);
-        OSGRAYTRACE_ASSERT(!path.isReused()); // it has taken photons: chooseGathering left it out
+        // A reused path has taken photons, so chooseGathering left such a path out.
+        OSGRAYTRACE_ASSERT(!path.isReused());
         float& radius = tile.result.photons.gathered->radius[path.pixel()];
         if (radius == 0.0f)
             radius =
@@ -62,7 +64,7 @@ PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bou
     return queries;
 }
 
-/// Sums f times power over the photons in the discs of all lanes that gather.
+/// Sets sums to f times power, summed over the photons in the discs of all lanes that gather.
 void gatherLanes(Tile& tile, PhotonQueryLanes queries, const PathBlock& block, const Bounce& bounce,
                  PhotonSumLanes& sums)
 {
@@ -87,8 +89,8 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
         const Bsdf& bsdf = bounce.bsdfs[i];
         const bool rough = bsdf.diffuse != Vec3(0.0f) || bsdf.alpha >= kGatherAlpha;
         if (rough) bounce.rough |= 1u << i;
-        // In narrow lobes there are few photons. Paths go on there, and only caustics, which paths
-        // cannot find, are looked up.
+        // Narrow lobes hold few photons. Paths go on in narrow lobes, and look up only caustics,
+        // which paths cannot find.
         if (rough || (use == PhotonUse::Caustics && !bsdf.isSmooth())) bounce.gathering |= 1u << i;
     }
     bounce.terminating = use == PhotonUse::Indirect ? bounce.rough : 0u;

@@ -1,4 +1,4 @@
-// PathQueue.cpp - the paths of a tile, sixteen to a block. Layer: integrators.
+// PathQueue.cpp - moves the paths of a tile that go on into full blocks. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/path/PathQueue.h"
 
@@ -10,6 +10,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
+/// Copies the path in lane i of from to lane k of to; tFar is left as it is.
 void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
 {
     to.rays.ray.originX[k] = from.rays.ray.originX[i];

@@ -9,15 +9,15 @@
 namespace osgRayTrace::engine
 {
 
-/// Sixteen paths.
+/// A PathBlock holds sixteen paths.
 struct PathBlock
 {
     RayHitBlock rays;
     Vec3Lanes throughput; ///< beta
-    FloatLanes pdfW;      ///< of the direction of the ray; infinite: no light sample could find it
+    FloatLanes pdfW;      ///< density of the direction; infinite: no light sample could find it
     FloatLanes etaScale;  ///< throughput outside of glass over throughput
-    UintLanes seed;       ///< of the pixel
-    UintLanes flags;      ///< PathFlags
+    UintLanes seed;       ///< seed of the pixel
+    UintLanes flags;      ///< words of PathFlags
     LaneMask active = 0;
 
     PathFlags flagsOf(int lane) const { return PathFlags(flags[lane]); }
@@ -26,10 +26,11 @@ struct PathBlock
 struct PathQueue
 {
     PathBlock blocks[kTileBlocks];
-    int count = kTileBlocks; ///< of blocks in use
+    int count = kTileBlocks; ///< number of blocks in use
 };
 
-/// Moves the paths that go on into as few blocks as possible, in order, and readies their rays.
+/// Moves the paths that go on into as few blocks as possible, in order, and sets the tFar of all
+/// their rays to infinity.
 void compactPaths(PathQueue& paths);
 
 } // namespace osgRayTrace::engine

@@ -1,18 +1,19 @@
-// PathReuse.cpp - paths that neighbouring pixels share. Layer: integrators.
+// PathReuse.cpp - shares paths among the pixels of a group. Layer: integrators.
 // SPDX-License-Identifier: MIT
 //
 // A path that left a diffuse surface x_j and met a diffuse surface at y_j finds there the radiance
-// L(y_j), which is the same towards all sides. It is a sample for each pixel of the group whose own
-// diffuse surface x_i sees y_j [Bekaert02, sect. 3]. With the densities p_k(y) per area at y with
-// which each of the pixels would have found it, and weights of the balance heuristic [Veach97,
-// eq. 9.8]:
+// L(y_j), which is the same towards all sides. This radiance is a sample for each pixel of the
+// group whose own diffuse surface x_i sees y_j [Bekaert02, sect. 3]. The density p_k(y) is the
+// density per area with which pixel k would have found y, and the weights are those of the balance
+// heuristic [Veach97, eq. 9.8]:
 //
 //   L_i += sum over paths j of albedo_i L(y_j) p_i(y_j) / sum_k p_k(y_j)
 //   p_k(y) = cosTheta_k cosTheta_y V(x_k, y) / (pi r^2)
 //
-// since f_i cosTheta_i cosTheta_y V / r^2 = albedo_i p_i for a diffuse surface. One shadow ray a
-// pair of pixels is what it costs, a path is some ten times that. Which y are reused depends on y
-// alone, so that all p_k speak of the same samples; others are for their own pixel.
+// The sum holds because f_i cosTheta_i cosTheta_y V / r^2 = albedo_i p_i for a diffuse surface. A
+// connection costs one shadow ray for each pair of pixels, and a path costs some ten times as much.
+// The choice of reused y depends on y alone, so that all p_k belong to the same samples; paths with
+// any other y are for their own pixel.
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
@@ -26,13 +27,14 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr float kFlat = 1.0f - 1e-6f; ///< cosine between normals that are the same but for rounding
+constexpr float kFlat = 1.0f - 1e-6f; ///< least cosine between normals that differ by rounding only
 constexpr float kLargestDensity = 1e30f;
 
-// A path is reused with throughput 1 from its second surface on: nothing may have been divided out.
+// A path is reused with throughput 1 from its second surface on: roulette must not have divided the
+// throughput before.
 static_assert(kRouletteBounce > 1, "paths reach their second surface without roulette");
 
-/// Lane i of densitiesOf. Returns all bits if the density is not 0.
+/// Sets lane i of densitiesOf. Returns all bits if the density is not 0, and else none.
 OSGRAYTRACE_INLINE uint32_t densityOf(const FirstSurfaces& x, const SecondSurface& y, int i,
                                       FloatLanes& density, RayBlock& shadow)
 {
@@ -55,8 +57,8 @@ OSGRAYTRACE_INLINE uint32_t densityOf(const FirstSurfaces& x, const SecondSurfac
            maskOf(perArea > 0.0f) & maskOf(perArea < kLargestDensity);
 }
 
-/// Densities, times pi, with which the lanes would have found y if they see it, and rays that find
-/// out. Returns the lanes where it is not 0.
+/// Sets the densities, times pi, with which the lanes would have found the second surface if they
+/// see it, and the shadow rays that ask whether they do. Returns the lanes whose density is not 0.
 OSGRAYTRACE_KERNEL
 LaneMask densitiesOf(const FirstSurfaces& x, const SecondSurface& second, FloatLanes& density,
                      RayBlock& shadow)
@@ -69,7 +71,7 @@ LaneMask densitiesOf(const FirstSurfaces& x, const SecondSurface& second, FloatL
     return facing & x.lanes;
 }
 
-/// Densities of 0 in all lanes but those of seen.
+/// Sets the densities of all lanes to 0, except those of seen.
 OSGRAYTRACE_KERNEL
 void hide(LaneMask seen, FloatLanes& density)
 {
@@ -78,6 +80,7 @@ void hide(LaneMask seen, FloatLanes& density)
         density[i] = select(laneBit(seen, i), density[i], 0.0f);
 }
 
+/// Returns the sum over all lanes.
 float sumOf(const FloatLanes& values)
 {
     float sum = 0.0f;
@@ -86,6 +89,7 @@ float sumOf(const FloatLanes& values)
     return sum;
 }
 
+/// Adds to each lane's share its albedo times density times radiance.
 OSGRAYTRACE_KERNEL
 void shareOut(const FirstSurfaces& x, const FloatLanes& density, Vec3 radiance, Vec3Lanes& shares)
 {
@@ -93,7 +97,7 @@ void shareOut(const FirstSurfaces& x, const FloatLanes& density, Vec3 radiance, 
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
-        // Albedos of members that are not diffuse are not set.
+        // The albedos of members that are not diffuse are not set.
         const uint32_t use = maskOf(density[i] > 0.0f);
         shares.x[i] += select(use, x.albedo.x[i] * (l.x * density[i]), 0.0f);
         shares.y[i] += select(use, x.albedo.y[i] * (l.y * density[i]), 0.0f);
@@ -101,7 +105,8 @@ void shareOut(const FirstSurfaces& x, const FloatLanes& density, Vec3 radiance, 
     }
 }
 
-/// The members that see y, without asking for the one that found it.
+/// Returns the members that see the second surface. No shadow ray is traced for the member own,
+/// whose path found this surface.
 LaneMask seeingMembers(Tile& tile, int group, LaneMask facing, int own, RayBlock& shadow)
 {
     const LaneMask asked = facing & ~(1u << own);
@@ -117,7 +122,7 @@ LaneMask seeingMembers(Tile& tile, int group, LaneMask facing, int own, RayBlock
     return seeing;
 }
 
-/// Gives the members their shares of what the path of one of them has found.
+/// Adds to shares the members' parts of the radiance that the path of the member own has found.
 void connectPath(Tile& tile, int group, int own, Vec3 radiance, Vec3Lanes& shares)
 {
     const FirstSurfaces& x = tile.reuse.first[group];
@@ -129,10 +134,11 @@ void connectPath(Tile& tile, int group, int own, Vec3 radiance, Vec3Lanes& share
     const float sum = sumOf(density);
     if (sum > 0.0f)
         shareOut(x, density, radiance / sum, shares);
-    else // rounding: the path exists
+    else // rounding took the density of a path that exists
         tile.sums.add(PathFlags::ofPixel(pixel), laneOf(x.albedo, own) * radiance);
 }
 
+/// Adds the light of a group's reused paths to the sums of its pixels.
 void connectGroup(Tile& tile, int group)
 {
     Vec3Lanes shares = {};
@@ -143,7 +149,7 @@ void connectGroup(Tile& tile, int group)
         if (radiance == Vec3(0.0f)) continue;
         if (isFinite(radiance))
             connectPath(tile, group, own, radiance, shares);
-        else // dropped and counted, alone
+        else // only the path's own pixel is dropped and counted
             tile.sums.add(path, radiance);
     }
     for (int i = 0; i < kTileBlocks; ++i)
@@ -194,7 +200,7 @@ void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce)
         tile.reuse.reused[group] |= 1u << own;
         block.flags[i] = block.flagsOf(i).reused().word();
         OSGRAYTRACE_ASSERT(block.flagsOf(i).hasTaken() || !tile.looksUpPhotons());
-        // Roulette goes on as if the path were still its own pixel's alone.
+        // Roulette goes on as if the path still belonged to its own pixel alone.
         const Vec3 throughput = laneOf(block.throughput, i);
         block.etaScale[i] *= std::max(throughput.x, std::max(throughput.y, throughput.z));
         setLane(block.throughput, i, Vec3(1.0f));

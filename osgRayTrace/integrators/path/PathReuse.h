@@ -8,14 +8,14 @@
 namespace osgRayTrace::engine
 {
 
-/// Pixels share paths in groups, one pixel of each of the tile's blocks: pixels that
-/// share samples share their error, and next to each other they would look like a coarser picture.
-/// Which pixel of a block is in which group is random, but the same in all passes of a half: the
+/// Pixels share paths in groups of one pixel from each of the tile's blocks: pixels that share
+/// samples share their error, and neighbours with the same error would look like a coarser picture.
+/// Pixels of a block fall into groups at random, but the groups stay in all passes of a half: the
 /// Sobol points of a group are then as well spread as those of a pixel.
 constexpr int kReuseGroups = kLanes;
 static_assert(kTileBlocks == kLanes, "a lane for each block");
 
-/// Where the camera rays of a group met diffuse surfaces.
+/// FirstSurfaces holds the points at which the camera rays of a group met diffuse surfaces.
 struct FirstSurfaces
 {
     Vec3Lanes position, geometricNormal, normal, albedo;
@@ -23,7 +23,7 @@ struct FirstSurfaces
     LaneMask lanes = 0;
 };
 
-/// A second surface, seen from the side that the path came from.
+/// A SecondSurface is the point of a path's second surface, on the side that the path came from.
 struct SecondSurface
 {
     Vec3 position, normal;
@@ -42,10 +42,10 @@ struct ReuseGroups
     }
 
     bool active = false;
-    uint32_t turn[kTileBlocks];         ///< below kLanes
-    FirstSurfaces first[kReuseGroups];  ///< lane: block of the pixel
-    SecondSurface second[kTilePixels];  ///< of reused paths, pixel by pixel
-    LaneMask reused[kReuseGroups] = {}; ///< blocks of their pixels
+    uint32_t turn[kTileBlocks];         ///< exclusive-or of lane and group, below kLanes
+    FirstSurfaces first[kReuseGroups];  ///< a lane for each block
+    SecondSurface second[kTilePixels];  ///< second surface of each pixel's reused path
+    LaneMask reused[kReuseGroups] = {}; ///< blocks of the pixels with reused paths
 };
 
 } // namespace osgRayTrace::engine

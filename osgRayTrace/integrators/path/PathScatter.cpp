@@ -1,4 +1,4 @@
-// PathScatter.cpp - where paths go next, and which end. Layer: integrators.
+// PathScatter.cpp - sends paths on from surfaces, or ends them. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
@@ -13,19 +13,21 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Throughput from which on paths are ended by chance. Light that comes after many bounces adds
-/// most of the noise where this is 1, and costs more than it is worth below 0.3: measured on the
-/// Cornell box, where 0.33 to 0.5 are equally good.
+/// Paths with a throughput below this bound may be ended by chance. Light that comes after many
+/// bounces adds most of the noise with a bound of 1, and costs more than it is worth with a bound
+/// below 0.3: measurements on the Cornell box find bounds of 0.33 to 0.5 equally good.
 constexpr float kRouletteThroughput = 0.4f;
 
-/// The ray of each lane that goes on.
+/// NextRays holds the next ray of each lane.
 struct NextRays
 {
     Vec3Lanes wi, origin;
     FloatLanes tNear, pdfW;
-    Vec3Lanes weight; ///< times the throughput is that of the next ray
+    Vec3Lanes weight; ///< factor of the next ray's throughput
 };
 
+/// Sets lane i of diffuseDirections. Returns all bits if light comes from the direction, and else
+/// none.
 OSGRAYTRACE_INLINE uint32_t diffuseDirection(const Vec3Lanes& normals, const SurfaceLanes& surface,
                                              int i, float u, float v, NextRays& next)
 {
@@ -43,8 +45,8 @@ OSGRAYTRACE_INLINE uint32_t diffuseDirection(const Vec3Lanes& normals, const Sur
     return leaves & maskOf(local.z > 0.0f);
 }
 
-/// Next directions of diffuse lanes: vector code. pdfW = cos/pi. Returns the lanes whose direction
-/// is one that light comes from: see isAbove.
+/// Sets the next rays of diffuse lanes, with pdfW = cos/pi, in vector code. Returns the lanes whose
+/// direction is one that light comes from, see isAbove.
 OSGRAYTRACE_KERNEL
 LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface,
                            const FloatLanes& u, const FloatLanes& v, NextRays& next)
@@ -56,7 +58,7 @@ LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface,
     return alive;
 }
 
-/// The lanes at smooth interfaces; returns those that go on.
+/// Sets the next rays of the lanes at smooth interfaces. Returns the lanes that go on.
 LaneMask mirror(PathBlock& block, const Bounce& bounce, const FloatLanes& lobe, NextRays& next)
 {
     if (!bounce.smooth) return 0;
@@ -83,8 +85,8 @@ LaneMask mirror(PathBlock& block, const Bounce& bounce, const FloatLanes& lobe, 
     return alive;
 }
 
-/// Throughput of the next ray, and the probability that there is one. Returns the lanes where it is
-/// not 0.
+/// Sets the throughput of the next rays, and the probability with which the paths survive roulette.
+/// Returns the lanes whose throughput is not 0.
 OSGRAYTRACE_KERNEL
 LaneMask weigh(const PathBlock& block, const Vec3Lanes& weight, Vec3Lanes& throughput,
                FloatLanes& survival)
@@ -108,6 +110,7 @@ LaneMask weigh(const PathBlock& block, const Vec3Lanes& weight, Vec3Lanes& throu
     return positive;
 }
 
+/// Returns the lanes that roulette may end.
 OSGRAYTRACE_KERNEL
 LaneMask lanesBelowOne(const FloatLanes& survival)
 {
@@ -118,7 +121,7 @@ LaneMask lanesBelowOne(const FloatLanes& survival)
     return below;
 }
 
-/// The lanes that go on.
+/// Divides the throughput by the probability of survival. Returns the lanes that go on.
 OSGRAYTRACE_KERNEL
 LaneMask playRoulette(const FloatLanes& roulette, const FloatLanes& survival, Vec3Lanes& throughput)
 {
