@@ -30,8 +30,8 @@ SceneHandle newScene(RTCDevice device)
     return scene;
 }
 
-/// Throws EngineError if this or anything before it failed. Embree would build a geometry that
-/// lacks a buffer, for want of memory, and read from nowhere.
+/// Commits the scene. Throws EngineError if the commit or anything before it failed: Embree would
+/// build a geometry that lacks a buffer for want of memory, and would read from an invalid address.
 void commit(EmbreeDevice& device, RTCScene scene, BuildCounts& counts)
 {
     device.checkErrors();
@@ -63,7 +63,7 @@ std::unique_ptr<MeshBvh> BvhPool::build(const std::shared_ptr<const Mesh>& mesh,
     const GeometryHandle triangles = newTriangles(_device->handle(), *mesh, filtered);
     if (mesh->deforms)
     {
-        // Embree refits in these alone. The first build is of the usual quality.
+        // Embree refits only scenes with these settings. The first build has the usual quality.
         rtcSetSceneFlags(built->scene.get(),
                          RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
         rtcSetSceneBuildQuality(built->scene.get(), RTC_BUILD_QUALITY_LOW);
@@ -80,7 +80,7 @@ std::unique_ptr<MeshBvh> BvhPool::build(const std::shared_ptr<const Mesh>& mesh,
     return built;
 }
 
-/// False if it must be built.
+/// Refits the spare BVH to the mesh. Returns false if the BVH must be built instead.
 bool BvhPool::refit(MeshBvh& spare, const std::shared_ptr<const Mesh>& mesh, bool filtered,
                     BuildCounts& counts)
 {
@@ -168,8 +168,8 @@ std::shared_ptr<const TopLevelBvh> BvhPool::topLevel(const std::vector<Placement
         topLevel->device = _device;
         topLevel->placed = std::make_unique<PlacedScenes>(_device->handle());
         topLevel->scene = newScene(_device->handle());
-        // Narrow nodes: a third of the top level's memory less. Packets go through them faster, by
-        // a tenth at best, single rays slower by some percent.
+        // Narrow nodes take a third less memory for the top level. Packets go through narrow nodes
+        // faster, by a tenth at best, and single rays go slower by some percent.
         if (_device->nativeWidth() == 16)
             rtcSetSceneFlags(topLevel->scene.get(),
                              RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
@@ -184,7 +184,7 @@ std::shared_ptr<const TopLevelBvh> BvhPool::topLevel(const std::vector<Placement
 
 void BvhPool::keepOnly(const std::unordered_set<const UVec3*>& triangles)
 {
-    std::vector<std::unique_ptr<MeshBvh>> gone; // freed after the lock
+    std::vector<std::unique_ptr<MeshBvh>> gone; // parts to free after the lock
     std::vector<std::unique_ptr<TopLevelBvh>> roots;
     std::lock_guard<std::mutex> lock(_mutex);
     _wanted = triangles;

@@ -1,5 +1,4 @@
-// BvhPool.h - the BVHs that a TracedScene is made of, and who may change them. Layer: accel;
-// private to it.
+// BvhPool.h - the BVHs of a TracedScene, and who may change them. Layer: accel; private to it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -26,7 +25,7 @@ struct SceneRelease
 };
 using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease>;
 
-/// Counted while a scene is built, by several threads.
+/// Counts of the work done while a scene is built, by several threads.
 struct BuildCounts
 {
     std::atomic<std::size_t> built{0}, refit{0}, staticBuilds{0}, commits{0};
@@ -35,18 +34,18 @@ struct BuildCounts
 /// A mesh with a BVH of its own, for instances of it.
 struct MeshBvh
 {
-    std::shared_ptr<EmbreeDevice> device; // first: destroyed last
-    std::shared_ptr<const Mesh> mesh;     ///< owns the buffers that Embree reads
-    bool filtered = false;                ///< rays may pass what they meet: see HitFilter
+    std::shared_ptr<EmbreeDevice> device; // first member: destroyed last
+    std::shared_ptr<const Mesh> mesh;     ///< the owner of the buffers that Embree reads
+    bool filtered = false;                ///< whether rays may pass what they meet: see HitFilter
     SceneHandle scene;
-    std::optional<Outline> outline;    ///< null: it deforms
-    RTCGeometry triangles = nullptr;   ///< the scene's own; set if it can be refitted
-    std::optional<BvhQuality> quality; ///< likewise
-    uint64_t serial = 0;               ///< a new one for each build and refit
-    bool sound = true;                 ///< false while it is changed
+    std::optional<Outline> outline;    ///< null: the mesh deforms
+    RTCGeometry triangles = nullptr;   ///< the scene's own; set if the BVH can be refitted
+    std::optional<BvhQuality> quality; ///< set if the BVH can be refitted
+    uint64_t serial = 0;               ///< a new number for each build and refit
+    bool sound = true;                 ///< false during a change
 };
 
-/// All that has never moved: one BVH over all meshes, attached by the indices of their instances.
+/// The BVH of all meshes that have never moved, attached by the indices of their instances.
 struct StaticBvh
 {
     struct Member
@@ -71,13 +70,13 @@ struct TopLevelBvh
     std::unique_ptr<PlacedScenes> placed;
     SceneHandle scene;
     uint64_t generation = 0;
-    bool sound = true; ///< false while it is changed
+    bool sound = true; ///< false during a change
 };
 
-/// Keeps parts that no version uses any more, so that the next version can be made by changing
-/// them: a draw thread may still trace the last version, so there are two of each part that
-/// changes, in turn. A part in a version is never changed. Spare parts are taken by the thread that
-/// builds, and given back by whoever lets a version go.
+/// Keeps parts that no version of the scene uses any more, so that the next version can be made by
+/// changing these parts. A draw thread may still trace the last version, so there are two of each
+/// part that changes, in turn. A part in a version is never changed. The thread that builds takes
+/// spare parts, and whoever lets a version go gives parts back.
 class BvhPool : public std::enable_shared_from_this<BvhPool>
 {
 public:
@@ -85,8 +84,8 @@ public:
 
     const std::shared_ptr<EmbreeDevice>& device() const { return _device; }
 
-    /// Refitted if there is a spare one with the same triangles that does not suffer by it, else
-    /// built.
+    /// Returns a BVH of the mesh: a refitted one if there is a spare BVH with the same triangles
+    /// that does not suffer by the refit, else a new one.
     std::shared_ptr<const MeshBvh> meshBvh(const std::shared_ptr<const Mesh>& mesh, bool filtered,
                                            BuildCounts& counts);
 
@@ -94,15 +93,16 @@ public:
                                                std::vector<std::shared_ptr<const Mesh>> owners,
                                                BuildCounts& counts);
 
-    /// A top level with these placements; a spare one is changed where it differs.
+    /// Returns a top level with these placements; a spare top level is changed only in places that
+    /// differ.
     std::shared_ptr<const TopLevelBvh> topLevel(const std::vector<Placement>& placements,
                                                 BuildCounts& counts);
 
-    /// Something was removed. Forgets spare BVHs of other meshes than those with these
-    /// triangles, and all top levels that exist, spare or not: they have room for what is gone.
+    /// Forgets, after something was removed, spare BVHs of meshes with other triangles than these,
+    /// and all top levels that exist, spare or not: the top levels have room for what is gone.
     void keepOnly(const std::unordered_set<const UVec3*>& triangles);
 
-    /// Takes a part back, or deletes it. Any thread.
+    /// Takes a part back, or deletes the part. Any thread may call giveBack.
     void giveBack(std::unique_ptr<MeshBvh> meshBvh);
     void giveBack(std::unique_ptr<TopLevelBvh> topLevel);
 
@@ -117,8 +117,8 @@ private:
     std::shared_ptr<EmbreeDevice> _device;
     std::atomic<uint64_t> _serial{0};
 
-    std::mutex _mutex; // all below: the thread that builds, and those that let versions go
-    std::unordered_set<const UVec3*> _wanted; ///< triangles of meshes that may be refitted
+    std::mutex _mutex; // guards all below: the thread that builds and those that let versions go
+    std::unordered_set<const UVec3*> _wanted; ///< the triangles of meshes that may be refitted
     std::unordered_multimap<const UVec3*, std::unique_ptr<MeshBvh>> _meshBvhs;
     std::vector<std::unique_ptr<TopLevelBvh>> _topLevels;
     uint64_t _generation = 0;

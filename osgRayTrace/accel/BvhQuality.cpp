@@ -37,7 +37,7 @@ void add(Box& box, const Mesh& mesh, uint32_t triangle)
         box.add(mesh.positions[t[corner]]);
 }
 
-/// The ten bits of v with two free ones after each.
+/// Returns the lowest ten bits of v with two free bits after each.
 uint32_t spread(uint32_t v)
 {
     v = (v | v << 16) & 0x030000ffu;

@@ -1,5 +1,4 @@
-// BvhQuality.h - how much a refitted BVH has suffered from the deformation of its mesh. Layer:
-// accel; private to it.
+// BvhQuality.h - how much a refitted BVH has degraded. Layer: accel; private to it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,28 +9,30 @@
 namespace osgRayTrace::engine
 {
 
-/// Embree shows nobody its BVH. This stands for it: the triangles in the order of a space-filling
-/// curve through the mesh as it was when its BVH was built, in groups of a few. Boxes around the
-/// groups grow as those of the BVH do when triangles that were neighbours part [Lauterbach06, sect.
-/// 4].
+/// A stand-in for the BVH of a mesh, which Embree shows nobody: the triangles in the order of a
+/// space-filling curve through the mesh at the time of the build, in groups of a few. When
+/// triangles that were neighbours part, the boxes around the groups grow as those of the BVH do
+/// [Lauterbach06, sect. 4].
 class BvhQuality
 {
 public:
     explicit BvhQuality(const Mesh& mesh);
 
-    /// Area of the groups' boxes by that of the mesh's box, relative to what it was: 1 for a mesh
-    /// that only moved, turned by right angles or was scaled; infinity for one that was a point or
-    /// a line, whose order says nothing, and is no more. mesh has the same triangles.
+    /// Returns the area of the groups' boxes divided by the area of the mesh's box, relative to
+    /// that quotient at the time of the build. The result is 1 for a mesh that only moved, turned
+    /// by right angles or was scaled. The result is infinity for a mesh that was a point or a line,
+    /// whose order says nothing, and is a point or a line no more. mesh must have the same
+    /// triangles as the mesh of the build.
     double degradation(const Mesh& mesh) const;
 
 private:
     double groupArea(const Mesh& mesh) const;
 
-    std::vector<uint32_t> _order; ///< of triangles
+    std::vector<uint32_t> _order; ///< the indices of triangles along the curve
     double _areaWhenBuilt = 0.0;
 };
 
-/// From here on a build pays: rays then cost about that much more.
+/// The degradation from which on a build pays: rays then cost about that much more.
 constexpr double kDegraded = 1.6;
 
 } // namespace osgRayTrace::engine

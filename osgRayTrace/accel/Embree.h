@@ -33,7 +33,7 @@ using RayQueryContext = RTCRayQueryContext;
 using RayQueryContext = RTCIntersectContext;
 #endif
 
-/// What the filters of a query are handed.
+/// The context of a query, which its filters are handed.
 struct FilterContext : RayQueryContext
 {
     const HitFilter* filter = nullptr;
@@ -41,8 +41,8 @@ struct FilterContext : RayQueryContext
     bool coherent = false;
 };
 
-/// Traces a part of the scene within a callback that was asked to: the query goes on with the rays
-/// as they are now.
+/// Traces the rays of a callback through a part of the scene, coherently if the query is coherent.
+/// The query goes on with the rays as they then are.
 template <int N> void tracePart(const RTCIntersectFunctionNArguments* args, RTCScene scene)
 {
     void* const rays = args->rayhit;
@@ -67,7 +67,8 @@ template <int N> void tracePart(const RTCIntersectFunctionNArguments* args, RTCS
 #endif
 }
 
-/// The same for occlusion, which has no coherent queries.
+/// Traces the rays of an occlusion callback through a part of the scene; occlusion has no coherent
+/// queries.
 template <int N> void tracePart(const RTCOccludedFunctionNArguments* args, RTCScene scene)
 {
     void* const rays = args->ray;
@@ -88,7 +89,7 @@ template <int N> void tracePart(const RTCOccludedFunctionNArguments* args, RTCSc
 #endif
 }
 
-/// The per-query arguments of either version, with the coherence flag.
+/// The per-query arguments of either version of Embree, with the coherence flag.
 class QueryArguments
 {
 public:

@@ -1,4 +1,4 @@
-// EmbreeDevice.cpp - an Embree device with its errors and its memory counted. Layer: accel.
+// EmbreeDevice.cpp - an Embree device that counts errors and memory. Layer: accel.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/EmbreeDevice.h"
 
@@ -12,7 +12,7 @@ namespace osgRayTrace::engine
 
 EmbreeDevice::EmbreeDevice()
 {
-    // Without "threads" Embree leaves TBB's own settings alone, and so the host's.
+    // Without "threads" Embree leaves TBB's own settings alone, and so the host's settings.
     _device = rtcNewDevice(nullptr);
     if (!_device) throw EngineError(StatusCode::DeviceFailure, "Embree could not be initialized");
     rtcSetDeviceErrorFunction(_device, &EmbreeDevice::onError, this);
@@ -41,13 +41,13 @@ void EmbreeDevice::checkErrors()
     throw error;
 }
 
-/// Called from within Embree, through which no exception may pass.
+/// Keeps the first error. Embree calls onError, and no exception may pass through Embree.
 void EmbreeDevice::onError(void* self, RTCError code, const char* text) noexcept
 {
     auto* device = static_cast<EmbreeDevice*>(self);
     std::lock_guard<std::mutex> lock(device->_mutex);
     device->_outOfMemory |= code == RTC_ERROR_OUT_OF_MEMORY;
-    if (*device->_error) return; // those that follow from it say less
+    if (*device->_error) return; // later errors follow from the first and say less
     std::snprintf(device->_error, sizeof(device->_error), "%s",
                   text && *text ? text : "unknown error");
 }

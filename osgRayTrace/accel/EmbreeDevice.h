@@ -1,5 +1,4 @@
-// EmbreeDevice.h - an Embree device with its errors and its memory counted. Layer: accel; private
-// to it.
+// EmbreeDevice.h - an Embree device that counts errors and memory. Layer: accel; private to it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,11 +12,12 @@
 namespace osgRayTrace::engine
 {
 
-/// Owned by the scenes that it built. Thread safe.
+/// An Embree device that is owned by the scenes that the device built. The class is thread
+/// safe.
 class EmbreeDevice
 {
 public:
-    /// Throws EngineError(DeviceFailure).
+    /// Creates the device. Throws EngineError(DeviceFailure).
     EmbreeDevice();
     ~EmbreeDevice();
     EmbreeDevice(const EmbreeDevice&) = delete;
@@ -25,7 +25,7 @@ public:
 
     RTCDevice handle() const { return _device; }
 
-    /// Widest packet that the CPU traces natively: 16, 8, 4 or 1.
+    /// Returns the width of the widest packet that the CPU traces natively: 16, 8, 4 or 1.
     int nativeWidth() const { return _nativeWidth; }
 
     uint64_t bytes() const { return _bytes.load(); }
@@ -40,9 +40,8 @@ private:
     RTCDevice _device = nullptr;
     int _nativeWidth = 1;
     std::atomic<int64_t> _bytes{0};
-    std::mutex _mutex; // what follows: any thread that calls Embree
-    char _error[128] =
-        ""; ///< the first one; no std::string, which may need the memory that is gone
+    std::mutex _mutex;     // guards the members below, for any thread that calls Embree
+    char _error[128] = ""; ///< the first error; a std::string may need the memory that is gone
     bool _outOfMemory = false;
 };
 

@@ -14,7 +14,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Less than this cannot be seen in 8 bits.
+/// The opacity below which a surface cannot be seen in 8 bits.
 constexpr float kSmallestOpacity = 1.0f / 512.0f;
 
 float chance(const HitFilter::Candidate& c)
@@ -28,7 +28,7 @@ float chance(const HitFilter::Candidate& c)
     return unitFloat(key);
 }
 
-/// Whether the ray meets a side of the face that is culled for it.
+/// Returns whether the ray meets a side of the face that is culled for the ray.
 bool passesFace(const Material& material, bool front, HitRule rule)
 {
     if (!rule.culls && !material.cullsAllRays) return false;

@@ -10,15 +10,15 @@
 namespace osgRayTrace::engine
 {
 
-/// Asked by Embree for each hit on a mesh that a partial material is on, for rays of every kind:
-/// camera, shadow, mirror, bounce and photon. A surface of opacity a stops a ray with probability
-/// a, so what gets through is 1 - a of the light in the mean. The chance is a hash of the ray and
-/// the triangle: the same ray meets the same surfaces whatever thread traces it, and surfaces
+/// Decides which hits stop their rays. Embree asks for each hit on a mesh that a partial material
+/// is on, for rays of every kind: camera, shadow, mirror, bounce and photon. A surface of opacity a
+/// stops a ray with probability a, so in the mean 1 - a of the light gets through. The chance is a
+/// hash of the ray and the triangle: a ray meets the same surfaces on any thread, and surfaces
 /// behind each other are independent.
 class HitFilter
 {
 public:
-    /// Both are kept.
+    /// Keeps references to both tables.
     HitFilter(const SurfaceTable& surfaces, const MaterialTable& materials)
         : _surfaces(surfaces), _materials(materials)
     {
@@ -29,7 +29,7 @@ public:
         uint32_t instance, primitive;
         float u, v;
         Vec3 origin, direction; ///< in the space of the mesh
-        bool front;             ///< on the counter-clockwise side, in the space of the mesh
+        bool front;             ///< counter-clockwise side hit, in the space of the mesh
     };
 
     bool stops(const Candidate& candidate, HitRule rule) const;
@@ -39,7 +39,7 @@ private:
     const MaterialTable& _materials;
 };
 
-/// Has HitFilter asked for hits on the geometry, an RTCGeometry.
+/// Sets HitFilter as the filter of hits on the geometry, an RTCGeometry.
 void setHitFilter(void* geometry);
 
 } // namespace osgRayTrace::engine

@@ -5,14 +5,14 @@
 namespace osgRayTrace::engine
 {
 
-/// Which partial surfaces a ray meets: see HitFilter.
+/// The rule that says which partial surfaces a ray meets: see HitFilter.
 struct HitRule
 {
-    bool culls = false;        ///< a camera ray: culled faces are not there
+    bool culls = false;        ///< camera rays: culled faces are not there
     bool keepsBlended = false; ///< blended surfaces are hit whatever their alpha; else by chance
     bool fromLight =
-        false; ///< goes the way that light does: it meets faces of which one side is culled
-    bool solid = false; ///< every surface is hit, wherever it is transparent or culled
+        false;          ///< the ray goes as light does: it meets faces of which one side is culled
+    bool solid = false; ///< every surface is hit, even if it is transparent or culled
 };
 constexpr HitRule kCameraRays{true, false, false, false};
 constexpr HitRule kPhotonRays{false, false, true, false};

@@ -1,5 +1,4 @@
-// InstancePlaces.cpp - transforms of instances: whether Embree can use them, and whether two are
-// the same. Layer: accel.
+// InstancePlaces.cpp - checks and hashes of instances' transforms. Layer: accel.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/InstancePlaces.h"
 
@@ -19,12 +18,13 @@ double reachOf(const Affine& m)
             largest = std::max(largest, std::fabs(double(m.linear[column][row])));
         columnProduct *= glm::length(glm::dvec3(m.linear[column]));
     }
-    // A flatter parallelepiped of columns has a determinant of rounding errors. NaN fails, too.
+    // The determinant of a flatter parallelepiped of columns consists of rounding errors. NaN
+    // fails, too.
     const double determinant = glm::determinant(glm::dmat3(m.linear));
     if (!(largest < 1e12) || !(std::fabs(determinant) > 1e-6 * columnProduct)) return 0.0;
 
     const glm::dmat3 localFromEngine = glm::inverse(glm::dmat3(m.linear));
-    double enlargement = 1.0; // largest sum of a row
+    double enlargement = 1.0; // the largest sum of a row
     for (int row = 0; row < 3; ++row)
         enlargement = std::max(enlargement, std::fabs(localFromEngine[0][row]) +
                                                 std::fabs(localFromEngine[1][row]) +

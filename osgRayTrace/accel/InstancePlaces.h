@@ -1,5 +1,4 @@
-// InstancePlaces.h - transforms of instances: whether Embree can use them, and whether two are the
-// same. Layer: accel; private to it.
+// InstancePlaces.h - checks and hashes of instances' transforms. Layer: accel; private to it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,14 +8,15 @@
 namespace osgRayTrace::engine
 {
 
-/// Embree's coordinates must stay below 1.8e18, also those of rays in the local space of instances.
+/// The largest coordinate that rays may reach, also in the local space of instances: Embree's
+/// coordinates must stay below 1.8e18.
 constexpr double kLargestCoordinate = 1e18;
 
-/// How far from the engine's origin a ray may start so that Embree can take it to the instance's
-/// local space; 0 if Embree, which does so in float, cannot use the transform.
+/// Returns how far from the engine's origin a ray may start so that Embree can take the ray to the
+/// instance's local space. Returns 0 if Embree, which works in float, cannot use the transform.
 double reachOf(const Affine& m);
 
-/// A hash of a placement: two that are alike are hardly ever different ones.
+/// Returns a hash of a placement: different placements hardly ever have the same hash.
 uint64_t hashOf(uint64_t serial, uint32_t instance, const Affine& m);
 
 bool samePlace(const Instance& a, const Instance& b);

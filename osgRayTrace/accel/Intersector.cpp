@@ -13,25 +13,28 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Embree's distances are products of three lengths: beyond these they overflow or vanish. The
-/// engine's directions of length 1 are far inside.
+/// The largest length of a direction. Embree's distances are products of three lengths, which
+/// overflow or vanish beyond these limits. The engine's directions of length 1 are far inside the
+/// limits.
 constexpr float kLargestDirection = 1e6f;
 constexpr float kSmallestDirection = 1e-6f;
 
-/// Of so many rays or fewer a packet does not pay on incoherent rays.
+/// The largest number of incoherent rays for which a packet does not pay.
 constexpr int kFewRays = 2;
 
 OSGRAYTRACE_INLINE bool traceable(float reach, PlainVec3 origin, PlainVec3 direction, float tNear,
                                   float tFar)
 {
-    // Comparisons with NaN are false, so each of them refuses it. No branches: this runs on lanes.
+    // Comparisons with NaN are false, so each comparison refuses NaN. There are no branches, since
+    // this function runs on lanes.
     const float distance = std::fabs(origin.x) + std::fabs(origin.y) + std::fabs(origin.z);
     const float length = std::fabs(direction.x) + std::fabs(direction.y) + std::fabs(direction.z);
     return (distance < reach) & (length > kSmallestDirection) & (length < kLargestDirection) &
            (tNear >= 0.0f) & (tNear <= tFar);
 }
 
-/// Embree's "valid" array: -1 for lanes that are active and traceable. Returns the active others.
+/// Sets Embree's "valid" array: -1 for lanes that are active and traceable, else 0. Returns the
+/// other active lanes.
 OSGRAYTRACE_KERNEL
 LaneMask checkRays(const RayBlock& ray, float reach, LaneMask active, Lanes<int>& valid)
 {
@@ -55,7 +58,7 @@ bool areFew(LaneMask rays)
     return rays == 0;
 }
 
-/// Embree's packets that are narrower than a block.
+/// The types of Embree's packets that are narrower than a block.
 template <int Width> struct PacketTypes;
 template <> struct PacketTypes<4>
 {
@@ -68,7 +71,7 @@ template <> struct PacketTypes<8>
     using RayHit = RTCRayHit8;
 };
 
-/// Rays first..first+Width-1 of a block as a packet, and back.
+/// Copies rays first..first+Width-1 of a block into a packet, and back.
 template <int Width>
 void loadRays(const RayBlock& block, int first, typename PacketTypes<Width>::Ray& packet)
 {
@@ -99,7 +102,7 @@ void storeHits(const typename PacketTypes<Width>::RayHit& packet, int first, Ray
     std::memcpy(&block.instance[first], packet.hit.instID[0], bytes);
 }
 
-/// Closest hits of a block, packet by packet.
+/// Finds the closest hits of a block, packet by packet.
 template <int Width>
 void intersectPackets(QueryArguments& arguments, RTCScene scene, const Lanes<int>& valid,
                       RayHitBlock& block)
@@ -117,7 +120,7 @@ void intersectPackets(QueryArguments& arguments, RTCScene scene, const Lanes<int
     }
 }
 
-/// Occlusion of a block, packet by packet.
+/// Finds the occlusion of a block, packet by packet.
 template <int Width>
 void occludePackets(QueryArguments& arguments, RTCScene scene, const Lanes<int>& valid,
                     RayBlock& block)
@@ -212,11 +215,11 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
     Lanes<int> valid;
     const LaneMask refused = checkRays(block, _reach, active, valid);
 
-    // Never the coherent flag here: it makes occlusion packets slower, and with instances
-    // Embree 3.13.5 may not return at all.
+    // The coherent flag is never set here: the flag makes occlusion packets slower, and with
+    // instances Embree 3.13.5 may not return at all.
     QueryArguments query(false, _filter);
-    // Four shadow rays go different ways as soon as two do: like other incoherent rays, they are
-    // traced one by one on CPUs of that width.
+    // Four shadow rays go different ways as soon as two do: on CPUs of that width shadow rays are
+    // traced one by one, like other incoherent rays.
     if (_nativeWidth == 16 && !areFew(active))
         query.occluded(valid.v, scene, reinterpret_cast<RTCRay16*>(&block));
     else if (_nativeWidth == 8 && !areFew(active))

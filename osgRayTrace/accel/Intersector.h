@@ -1,4 +1,4 @@
-// Intersector.h - finds what rays hit. Layer: accel. Hides Embree, packet width and ISA.
+// Intersector.h - finds what rays hit; hides Embree, packet width and ISA. Layer: accel.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,7 +14,7 @@ namespace osgRayTrace::engine
 
 enum class Coherence
 {
-    Coherent,   ///< camera rays: neighbours take the same way through the BVH
+    Coherent,   ///< camera rays, whose neighbours take the same way through the BVH
     Incoherent, ///< bounces
 };
 
@@ -28,22 +28,24 @@ struct Hit
     float t = kInfinity;
 };
 
-/// Thread safe. A ray that is not finite, has a zero or huge direction, or tNear > tFar or NaN is
-/// not traced: it hits nothing, and is counted by the caller through the returned mask.
+/// Traces blocks of rays. The class is thread safe. A ray is not traced if the ray is not finite,
+/// has a zero or huge direction, or has tNear > tFar or NaN. Such a ray hits nothing, and the
+/// caller counts the ray by the returned mask.
 class Intersector
 {
 public:
-    /// Opaque handle of an RTCScene; used by TracedScene. Rays whose origin is farther than reach
-    /// from the scene's are refused. filter is kept; null: no geometry asks it.
+    /// Takes an opaque handle of an RTCScene, which TracedScene has. Rays whose origin is farther
+    /// than reach from the scene's origin are refused. filter is kept; null: no geometry asks the
+    /// filter.
     Intersector(void* embreeScene, int nativeWidth, float reach, const HitFilter* filter = nullptr);
 
-    /// Closest hits of the active lanes; geometry is kInvalid in the others. Returns the lanes
-    /// whose ray was refused (geometry is kInvalid there, too).
+    /// Finds the closest hits of the active lanes; geometry is kInvalid in the other lanes. Returns
+    /// the lanes whose ray was refused (their geometry is kInvalid, too).
     LaneMask closestHits(RayHitBlock& block, LaneMask active, Coherence coherence,
                          HitRule rule = {}) const;
 
-    /// Sets tFar to -infinity in the active lanes that are occluded. Refused rays count as
-    /// occluded.
+    /// Sets tFar to -infinity in the active lanes that are occluded. Returns the lanes whose ray
+    /// was refused; refused rays count as occluded.
     LaneMask occlusion(RayBlock& block, LaneMask active) const;
 
     std::optional<Hit> closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar,

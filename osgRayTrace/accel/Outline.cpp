@@ -15,10 +15,12 @@ namespace
 constexpr std::size_t kMostAlongAxis = 4;
 constexpr std::size_t kTrianglesPerCell = 16;
 
-/// Vertices that no triangle has are looked at, too: a mesh may be a small part of large arrays.
-constexpr std::size_t kMostVertices = 3; ///< for each triangle
+/// The limit above which a mesh is not parted: vertices that no triangle has are looked at, too,
+/// and a mesh may be a small part of large arrays.
+constexpr std::size_t kMostVertices = 3; ///< [vertices per triangle]
 
-/// Of the magnitudes that are added up for a bound; four of their last bits.
+/// The rounding error of a bound, relative to the magnitudes that are added up: four of their last
+/// bits.
 constexpr float kRounding = 0x1p-22f;
 
 std::size_t cellsAlongAxis(const Mesh& mesh)
@@ -37,8 +39,9 @@ bool contains(const Box& box, const Vec3& p)
            p.y <= box.high.y && p.z <= box.high.z;
 }
 
-/// A triangle is in the hull of the boxes of its vertices. All of these are in bounds: what is not
-/// belongs to no triangle.
+/// Returns boxes whose hulls hold the triangles: a triangle is in the hull of the boxes of its
+/// vertices. The vertices of triangles are all in bounds, and a vertex outside belongs to no
+/// triangle.
 std::vector<Box> boxesOf(const Mesh& mesh, const Box& bounds)
 {
     const std::size_t n = cellsAlongAxis(mesh);
@@ -69,7 +72,8 @@ std::vector<Box> boxesOf(const Mesh& mesh, const Box& bounds)
     return boxes;
 }
 
-/// Along axes, mirrored or not: parts are then not bounded more closely than the whole.
+/// Returns whether the transform keeps axes along axes, mirrored or not: parts are then not bounded
+/// more closely than the whole mesh.
 bool keepsAxes(const Mat3& linear)
 {
     for (int row = 0; row < 3; ++row)
@@ -104,7 +108,7 @@ Outline::Outline(const Mesh& mesh, const Box& bounds) : _whole(bounds)
 
 Outline::Outline(const Box& bounds) : _whole(bounds) {}
 
-/// Lane by lane: what low to high held, and the placed parts.
+/// Extends low to high lane by lane by the placed parts.
 OSGRAYTRACE_KERNEL
 void Outline::extend(const std::vector<Boxes>& parts, const Affine& m, Vec3Lanes& low,
                      Vec3Lanes& high)

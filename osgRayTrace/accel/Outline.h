@@ -1,5 +1,4 @@
-// Outline.h - boxes around the parts of a mesh, and how far it reaches where it is placed. Layer:
-// accel; private to it.
+// Outline.h - boxes around the parts of a mesh, and bounds at a place. Layer: accel; private to it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,19 +15,19 @@ struct Box
     Vec3 low{kInfinity}, high{-kInfinity};
 };
 
-/// Boxes that together hold all triangles of a mesh. A ball that is turned reaches no farther than
-/// before, but the box around it does, by up to the root of three: rays would enter instances that
-/// they pass by. The more triangles, the more boxes, up to 64.
+/// Boxes that together hold all triangles of a mesh. A turned ball reaches no farther than before,
+/// but the box around the ball does, by up to the root of three: rays would enter instances that
+/// they pass by. The number of boxes grows with the number of triangles, up to 64.
 class Outline
 {
 public:
-    /// bounds: of the triangles.
+    /// Parts the mesh into boxes; bounds are the bounds of the triangles.
     Outline(const Mesh& mesh, const Box& bounds);
 
-    /// One box.
+    /// Makes an outline of one box.
     explicit Outline(const Box& bounds);
 
-    /// What holds the mesh where the transform puts it, rounding errors included.
+    /// Returns a box that holds the mesh at the place of the transform, rounding errors included.
     Box placedBounds(const Affine& engineFromLocal) const;
 
 private:
@@ -41,7 +40,7 @@ private:
                        Vec3Lanes& high);
 
     Box _whole;
-    std::vector<Boxes> _parts; ///< the last lanes may repeat one; empty: there is the whole alone
+    std::vector<Boxes> _parts; ///< the parts; the last lanes may repeat one; empty: the whole alone
 };
 
 } // namespace osgRayTrace::engine

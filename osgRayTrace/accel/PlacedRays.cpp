@@ -8,15 +8,16 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Of N rays, as Embree has them: each coordinate an array of N, tNear between origins and
-/// directions.
+/// The origins and directions of N rays in Embree's layout: each coordinate is an array of N.
+/// Embree has tNear between origins and directions.
 template <int N> struct alignas(64) Ends
 {
     float origin[3 * N];
     float direction[3 * N];
 };
 
-/// Their distances stay the same: directions are not made unit.
+/// Takes the rays into the placed scene's space. Distances stay the same: directions are not made
+/// unit.
 template <int N>
 OSGRAYTRACE_INLINE void takeIn(const PlacedScene& placed, float* rays, Ends<N>& outside)
 {
@@ -62,7 +63,7 @@ float* raysOf(const RTCOccludedFunctionNArguments* args)
     return reinterpret_cast<float*>(args->ray);
 }
 
-/// The rays stay as they are.
+/// Traces the rays as they are.
 struct InPlace
 {
     template <int N, class Arguments>
@@ -72,7 +73,7 @@ struct InPlace
     }
 };
 
-/// The rays are taken into the scene's space and back.
+/// Traces the rays in the scene's space and takes them back.
 struct InSpaceOfScene
 {
     template <int N, class Arguments>
@@ -86,7 +87,7 @@ struct InSpaceOfScene
     }
 };
 
-/// Way::trace for as many rays as Embree has sent.
+/// Calls Way::trace for as many rays as Embree has sent.
 template <class Way, class Arguments>
 OSGRAYTRACE_INLINE void traceWidth(const Arguments* args, const PlacedScene& placed)
 {

@@ -44,7 +44,7 @@ PlacedScenes::PlacedScenes(RTCDevice device)
     rtcSetGeometryUserData(_geometry.get(), this);
     rtcSetGeometryBoundsFunction(_geometry.get(), giveBounds, nullptr);
     setPlacedQueries(_geometry.get());
-    rtcCommitGeometry(_geometry.get()); // there may never be any
+    rtcCommitGeometry(_geometry.get()); // there may never be any placements
 }
 
 bool PlacedScenes::holds(const std::vector<Placement>& placements) const
@@ -61,7 +61,7 @@ bool PlacedScenes::set(const std::vector<Placement>& placements)
     bool changed = before != count;
     if (changed)
     {
-        _scenes.reserve(count); // no more than that
+        _scenes.reserve(count); // the exact size, without room to grow
         _scenes.resize(count);
         _hashes.reserve(count);
         _hashes.resize(count);

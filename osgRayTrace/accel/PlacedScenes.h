@@ -21,23 +21,23 @@ using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Geome
 struct Placement
 {
     RTCScene scene = nullptr;
-    uint64_t hash = 0;                       ///< of all the rest: two alike hardly ever differ
+    uint64_t hash = 0;                       ///< hash of all the rest: two alike hardly ever differ
     const Outline* outline = nullptr;        ///< null: the scene's bounds
     const Affine* engineFromLocal = nullptr; ///< null: in place
-    uint32_t instance = kInvalid;            ///< that its hits are on; used if there is a transform
+    uint32_t instance = kInvalid; ///< instance that its hits are on; used with a transform
 };
 
-/// What a ray needs of a placement, one cache line.
+/// The part of a placement that a ray needs, in one cache line.
 struct alignas(64) PlacedScene
 {
-    float localFromEngine[12]; ///< columns
+    float localFromEngine[12]; ///< the columns of the transform
     RTCScene scene;
-    uint32_t instance; ///< kInvalid: in place, its geometries are known by their own indices
+    uint32_t instance; ///< kInvalid: in place; its geometries are known by their own indices
 };
 
-/// Embree's own instances take 300 bytes more each, and their bounds are wider: see Outline. Here
-/// each is a primitive of one user geometry, whose callbacks take rays into its space and on to
-/// its scene. The scenes are not kept alive.
+/// All placements of a scene as primitives of one user geometry, whose callbacks take rays into the
+/// space of a placement and on to its scene. Embree's own instances take 300 bytes more each, and
+/// have wider bounds: see Outline. The scenes are not kept alive.
 class PlacedScenes
 {
 public:
@@ -49,13 +49,13 @@ public:
 
     bool holds(const std::vector<Placement>& placements) const;
 
-    /// Redoes what differs and commits the geometry, unless nothing differs: then false. The
-    /// placements are read once more when the scene is committed that has the geometry.
+    /// Sets the placements that differ and commits the geometry; returns false if nothing differs.
+    /// The placements are read once more when the scene that has the geometry is committed.
     bool set(const std::vector<Placement>& placements);
 
     const PlacedScene& operator[](std::size_t i) const { return _scenes[i]; }
 
-    /// While placements are there.
+    /// Returns the bounds of a placement, as long as the placements exist.
     Box bounds(std::size_t i) const;
 
 private:
@@ -63,18 +63,19 @@ private:
 
     GeometryHandle _geometry;
     const Placement* _placements = nullptr;
-    // By primitive:
+    // The members below are indexed by primitive.
     std::vector<PlacedScene> _scenes;
     std::vector<uint64_t> _hashes;
 };
 
-/// Of a scene that is committed.
+/// Returns the bounds of a committed scene.
 Box boundsOf(RTCScene scene);
 
-/// Inverse, in double until it is rounded.
+/// Returns the inverse, in double until the result is rounded.
 Affine inverse(const Affine& m);
 
-/// Has the geometry, of which user data are PlacedScenes, traced: see PlacedRays.cpp.
+/// Sets the callbacks that trace the geometry, whose user data are PlacedScenes: see
+/// PlacedRays.cpp.
 void setPlacedQueries(RTCGeometry geometry);
 
 } // namespace osgRayTrace::engine

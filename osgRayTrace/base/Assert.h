@@ -1,4 +1,4 @@
-// Assert.h - checks of what only a mistake in this library could break. Layer: base.
+// Assert.h - checks of conditions that only a mistake in this library can break. Layer: base.
 // SPDX-License-Identifier: MIT
 #pragma once
 

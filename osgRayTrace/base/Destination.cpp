@@ -13,9 +13,9 @@ namespace fs = std::filesystem;
 namespace
 {
 
-constexpr int kMostLinks = 40; ///< of a chain, as Linux has it
+constexpr int kMostLinks = 40; ///< the longest chain of links, as in Linux
 
-/// The last of a chain of links, of which the file need not exist.
+/// Returns the path at the end of a chain of links; no file needs to exist there.
 fs::path endOfLinks(fs::path path)
 {
     std::error_code error;

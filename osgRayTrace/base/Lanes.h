@@ -1,5 +1,4 @@
-// Lanes.h - plain arrays of sixteen values, and how loops over them become vector code. Layer:
-// base.
+// Lanes.h - plain arrays of sixteen values, whose loops become vector code. Layer: base.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,19 +8,20 @@
 #include <cstdint>
 #include <cstring>
 
-/// Before a loop over lanes whose turns do not depend on each other.
+/// OSGRAYTRACE_SIMD stands before a loop over lanes whose turns do not depend on each other.
 #if defined(__GNUC__)
 #define OSGRAYTRACE_PRAGMA(text) _Pragma(#text)
 #define OSGRAYTRACE_SIMD OSGRAYTRACE_PRAGMA(omp simd)
-/// The same for loops that also or something into the variable mask.
+/// OSGRAYTRACE_SIMD_OR stands before such a loop that also joins bits into the variable mask by |=.
 #define OSGRAYTRACE_SIMD_OR(mask) OSGRAYTRACE_PRAGMA(omp simd reduction(| : mask))
 #else
 #define OSGRAYTRACE_SIMD
 #define OSGRAYTRACE_SIMD_OR(mask)
 #endif
 
-/// Before a function whose loops are worth a version for each vector width; the loader picks one
-/// for the CPU at hand, so a build for distribution uses AVX-512 or AVX2 where there is.
+/// OSGRAYTRACE_KERNEL stands before a function whose loops are worth a version for each vector
+/// width. The loader picks the version for the CPU at hand, so a build for distribution uses
+/// AVX-512 or AVX2 if the CPU has them.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) &&    \
     !defined(OSGRAYTRACE_NO_CLONES)
 #define OSGRAYTRACE_KERNEL                                                                         \
@@ -30,7 +30,8 @@
 #define OSGRAYTRACE_KERNEL
 #endif
 
-/// A small function that must become part of the kernel that calls it, and so of its vector width.
+/// OSGRAYTRACE_INLINE stands before a small function that must become part of the kernel that calls
+/// it, and so use the kernel's vector width.
 #if defined(__GNUC__)
 #define OSGRAYTRACE_INLINE inline __attribute__((always_inline))
 #else
@@ -43,7 +44,7 @@ namespace osgRayTrace::engine
 /// Rays are traced and shaded sixteen at a time.
 constexpr int kLanes = 16;
 
-/// Bit i: lane i is in use.
+/// A set of lanes; bit i is set if lane i is in use.
 using LaneMask = uint32_t;
 constexpr LaneMask kAllLanes = 0xffffu;
 
@@ -61,9 +62,10 @@ OSGRAYTRACE_INLINE int countLanes(LaneMask mask)
     return __builtin_popcount(mask);
 }
 
-/// The lanes of a mask in ascending order: `for (const int i : lanesIn(mask))`. A range, and no
-/// function that takes a lambda: GCC compiles a lambda for the oldest CPU although it stands in a
-/// kernel of OSGRAYTRACE_KERNEL, and a range leaves the loop its `continue`, `break` and `return`.
+/// The lanes of a mask in ascending order: `for (const int i : lanesIn(mask))`. LanesIn is a range
+/// instead of a function that takes a lambda: GCC compiles a lambda for the oldest CPU although the
+/// lambda stands in a kernel of OSGRAYTRACE_KERNEL, and a range leaves the loop its `continue`,
+/// `break` and `return`.
 class LanesIn
 {
 public:
@@ -111,27 +113,27 @@ template <class T> struct alignas(64) Lanes
 using FloatLanes = Lanes<float>;
 using UintLanes = Lanes<uint32_t>;
 
-/// All bits set where the condition holds. Conditions are joined by & and | of these: compilers do
-/// not vectorize a mix of conditions on floats and on integers.
+/// Returns all bits set if the condition holds, else 0. Conditions are joined by & and | of such
+/// masks: compilers do not vectorize a mix of conditions on floats and on integers.
 OSGRAYTRACE_INLINE uint32_t maskOf(bool condition)
 {
     return 0u - static_cast<uint32_t>(condition);
 }
 
-/// maskOf(lane i is in lanes)
+/// Returns maskOf(lane i is in lanes).
 OSGRAYTRACE_INLINE uint32_t laneBit(LaneMask lanes, int i)
 {
     return 0u - ((lanes >> i) & 1u);
 }
 
-/// Bit i if mask is set in lane i.
+/// Returns bit i if mask is set, else 0.
 OSGRAYTRACE_INLINE LaneMask bitOfLane(uint32_t mask, int i)
 {
     return mask & (1u << i);
 }
 
-/// a where the mask is set, else b, without a branch that the compiler could move the making of a
-/// or b into: that would keep the loop around it from being vectorized.
+/// Returns a if the mask is set, else b. There is no branch that the compiler could move the
+/// computation of a or b into: a branch would keep the loop around it from being vectorized.
 OSGRAYTRACE_INLINE float select(uint32_t mask, float a, float b)
 {
     uint32_t bitsA, bitsB;
@@ -148,14 +150,14 @@ OSGRAYTRACE_INLINE float select(bool condition, float a, float b)
     return select(maskOf(condition), a, b);
 }
 
-/// luminance() of colours in lanes.
+/// Returns luminance() of a colour, for loops over lanes.
 OSGRAYTRACE_INLINE float luminanceOf(float red, float green, float blue)
 {
     return 0.2126f * red + 0.7152f * green + 0.0722f * blue;
 }
 
-/// A vector for loops over lanes: a vector of GLM that is made in such a loop keeps the loop from
-/// being vectorized. The functions keep to the order of their terms, on which the last bit depends.
+/// A vector for loops over lanes: a GLM vector that is made in such a loop keeps the loop from
+/// being vectorized. The functions keep the order of their terms, on which the last bit depends.
 struct PlainVec3
 {
     float x, y, z;
@@ -186,7 +188,7 @@ OSGRAYTRACE_INLINE PlainVec3 operator*(PlainVec3 v, float s)
     return {v.x * s, v.y * s, v.z * s};
 }
 
-/// Component by component.
+/// Returns the product component by component.
 OSGRAYTRACE_INLINE PlainVec3 operator*(PlainVec3 a, PlainVec3 b)
 {
     return {a.x * b.x, a.y * b.y, a.z * b.z};
@@ -213,13 +215,13 @@ OSGRAYTRACE_INLINE PlainVec3 select(uint32_t mask, PlainVec3 a, PlainVec3 b)
     return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
 }
 
-/// luminance() of a colour.
+/// Returns luminance() of a colour.
 OSGRAYTRACE_INLINE float luminanceOf(PlainVec3 c)
 {
     return luminanceOf(c.x, c.y, c.z);
 }
 
-/// A vector for each lane, structure of arrays.
+/// A vector for each lane, as a structure of arrays.
 struct Vec3Lanes
 {
     FloatLanes x, y, z;

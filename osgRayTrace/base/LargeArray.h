@@ -17,8 +17,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Zeros in values, size of them, on huge pages where the system has some to spare: a frame writes
-/// each tile's part at once, and with small pages each would miss the translation buffer. Throws
+/// Sets values to size zeros, on huge pages if the system has some to spare. A frame writes a part
+/// of each tile at once, and with small pages each part would miss the translation buffer. Throws
 /// std::bad_alloc.
 template <class T> void allocateLarge(std::vector<T>& values, std::size_t size)
 {
@@ -28,15 +28,16 @@ template <class T> void allocateLarge(std::vector<T>& values, std::size_t size)
     constexpr uintptr_t kPage = 4096;
     const uintptr_t begin = (reinterpret_cast<uintptr_t>(values.data()) + kPage - 1) & ~(kPage - 1);
     const uintptr_t end = reinterpret_cast<uintptr_t>(values.data() + size) & ~(kPage - 1);
-    // Only a hint: where it is refused the pages are small.
+    // The call is only a hint: if the system refuses, the pages are small.
     if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 #endif
     values.resize(size);
 }
 
-/// A big array of plain values that begins as whatever was there: what writes all of it on several
-/// threads would wait for one that clears it, and the first touch of its pages is work that they
-/// share. On huge pages where the system has some to spare. Throws std::bad_alloc.
+/// A big array of plain values that begins uninitialised. Threads that write all of the array
+/// would have to wait for one that clears it, and the first touch of the pages is work that the
+/// threads share. The array is on huge pages if the system has some to spare. Throws
+/// std::bad_alloc.
 template <class T> class UnclearedArray
 {
     static_assert(std::is_trivial_v<T>, "nothing is constructed");

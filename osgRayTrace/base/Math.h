@@ -23,10 +23,11 @@ using UVec3 = glm::uvec3;
 constexpr float kPi = 3.14159265358979323846f;
 constexpr float kInvPi = 0.31830988618379067154f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kOneMinusEpsilon = 0x1.fffffep-1f; ///< largest float below 1
-constexpr uint32_t kInvalid = 0xffffffffu;         ///< "none" for indices
+constexpr float kOneMinusEpsilon = 0x1.fffffep-1f; ///< the largest float below 1
+constexpr uint32_t kInvalid = 0xffffffffu;         ///< the index that means "none"
 
-/// Affine map of points, columns x, y, z and a translation; half the memory of a Mat4's traffic.
+/// An affine map of points: columns x, y, z and a translation. It has half the memory traffic of a
+/// Mat4.
 struct Affine
 {
     Mat3 linear{1.0f};
@@ -38,14 +39,15 @@ inline Vec3 transformPoint(const Affine& m, Vec3 p)
     return m.linear * p + m.translation;
 }
 
-/// Takes normals where linear takes points: its inverse transpose. In double, since shears and
-/// uneven scales cancel. Not normalised.
+/// Returns the matrix that takes normals to the space to which linear takes points: the inverse
+/// transpose of linear, not normalised. It is computed in double, since shears and uneven scales
+/// cancel.
 inline Mat3 normalMatrix(const Mat3& linear)
 {
     return Mat3(glm::transpose(glm::inverse(glm::dmat3(linear))));
 }
 
-/// Rec. 709 luminance of a linear RGB radiance.
+/// Returns the Rec. 709 luminance of a linear RGB radiance.
 inline float luminance(Vec3 c)
 {
     return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;

@@ -1,4 +1,4 @@
-// NeverDestroyed.h - static objects that threads may use to the process's very end. Layer: base.
+// NeverDestroyed.h - static objects that threads may use to the end of the process. Layer: base.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,10 +8,10 @@
 namespace osgRayTrace::engine
 {
 
-/// A T that is constructed where it stands and never destroyed: what every static object must be
-/// that has a destructor. exit() destroys static objects while other threads go on: a viewer's main
-/// thread may draw while another one ends the process. Takes no memory of its own, and what the T
-/// owns stays reachable for leak checkers.
+/// A T that is constructed in place and never destroyed. Every static object that has a destructor
+/// must be a NeverDestroyed: exit() destroys static objects while other threads go on, and a
+/// viewer's main thread may draw while another thread ends the process. A NeverDestroyed takes no
+/// memory beside the T, and leak checkers can still reach what the T owns.
 ///
 ///     static const NeverDestroyed<std::vector<Row>> rows(std::vector<Row>{...});
 template <typename T> class NeverDestroyed

@@ -1,4 +1,4 @@
-// NumberText.h - numbers from text, in any locale alike. Layer: base.
+// NumberText.h - reads numbers from text, alike in any locale. Layer: base.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,8 +9,9 @@
 namespace osgRayTrace::engine
 {
 
-/// The number that all of the text is, with a point and a sign or none; "inf" and "nan" are numbers
-/// of floating point. The process's locale, which may want a comma, has no part in it.
+/// Returns the number that the whole text is; nothing if it is none. A number may have a decimal
+/// point and a sign; "inf" and "nan" are floating-point numbers. The process's locale, which may
+/// want a comma, has no influence.
 template <typename T> std::optional<T> parseNumber(std::string_view text)
 {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);

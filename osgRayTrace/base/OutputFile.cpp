@@ -1,4 +1,4 @@
-// OutputFile.cpp - temporary files beside their destinations, renamed or copied. Layer: base.
+// OutputFile.cpp - writes temporary files beside their destinations. Layer: base.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/base/OutputFile.h"
 
@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// Standard output or standard error, if the destination is what it goes to: written through
-/// another descriptor, the file would hold one over the other. -1: neither.
+/// Returns the descriptor of standard output or standard error if that goes to the destination,
+/// else -1. Text and contents written through two descriptors would overwrite each other.
 int standardDescriptor(const struct stat& destination)
 {
     for (const int number : {STDOUT_FILENO, STDERR_FILENO})
@@ -60,8 +60,8 @@ void copyAll(int from, int to)
     }
 }
 
-/// Into a file that stays what it is. Its space is reserved first, so that a full disk leaves it
-/// alone.
+/// Copies the contents into an existing file, which keeps its attributes. Space for the contents is
+/// reserved first, so that a full disk leaves the file alone.
 void copyIntoFile(int from, const std::string& path)
 {
     Descriptor to(open(path.c_str(), O_WRONLY | O_CLOEXEC));
@@ -70,7 +70,7 @@ void copyIntoFile(int from, const std::string& path)
     if (source.st_size > 0)
     {
         const int error = posix_fallocate(*to, 0, source.st_size);
-        const bool unknown = error == EOPNOTSUPP || error == EINVAL; // to this file system
+        const bool unknown = error == EOPNOTSUPP || error == EINVAL; // unknown to this file system
         if (error != 0 && !unknown)
         {
             if (ftruncate(*to, before.st_size) != 0) fail(errno);
@@ -84,7 +84,7 @@ void copyIntoFile(int from, const std::string& path)
 
 void copyIntoSpecial(int from, const std::string& path, int standard)
 {
-    std::fflush(nullptr); // what was printed before comes before
+    std::fflush(nullptr); // earlier printed text comes first
     if (standard >= 0) return copyAll(from, standard);
     Descriptor to(open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
     if (*to < 0) fail(errno);
@@ -92,22 +92,23 @@ void copyIntoSpecial(int from, const std::string& path, int standard)
     to.finish();
 }
 
-/// Gives the temporary file the owner, group and mode of the one that it shall replace. False if it
-/// cannot have them, or if a rename would lose something else.
+/// Gives the temporary file the owner, group and mode of the file that it shall replace. Returns
+/// false if the temporary file cannot have them, or if a rename would lose something else.
 bool becomeAlike(int temporary, const fs::path& file, const struct stat& wanted)
 {
     struct stat now, named;
     const bool isName = stat(file.c_str(), &named) == 0 && isSame(named, wanted);
     if (!isName || wanted.st_nlink != 1) return false;
-    if (listxattr(file.c_str(), nullptr, 0) > 0) return false; // with access control lists
+    if (listxattr(file.c_str(), nullptr, 0) > 0) return false; // access control lists or others
     if (fstat(temporary, &now) != 0) return false;
     const bool owned = now.st_uid == wanted.st_uid && now.st_gid == wanted.st_gid;
     if (!owned && fchown(temporary, wanted.st_uid, wanted.st_gid) != 0) return false;
     return fchmod(temporary, wanted.st_mode & 07777) == 0;
 }
 
-/// Beside the destination, where a rename can reach it; else with other temporary files, if it can
-/// be copied from there.
+/// Returns a temporary file beside the destination, where a rename can reach the destination. If
+/// the destination is no regular file, or if it exists and its folder takes no new file, the
+/// temporary file is in the folder for temporary files, and is copied from there.
 std::unique_ptr<TemporaryFile> newTemporaryFile(const Destination& destination)
 {
     if (destination.found && !destination.isRegular())

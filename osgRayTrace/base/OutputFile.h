@@ -1,4 +1,4 @@
-// OutputFile.h - writes files whole, and keeps what else there is to a file. Layer: base.
+// OutputFile.h - writes files whole and keeps their other properties. Layer: base.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,24 +8,25 @@
 namespace osgRayTrace::engine
 {
 
-/// Why nothing can be written to path, as one sentence; empty if it can. Asked before long work,
-/// whose result would be lost.
+/// Returns why nothing can be written to path, as one sentence; empty if path can be written to.
+/// The question is asked before long work, whose result would be lost.
 std::string whyNotWritable(const std::string& path);
 
-/// Whether both paths lead to one regular file, or would create one: by links, too. Devices and
-/// pipes may be written to by several.
+/// Returns whether both paths lead to one regular file, or would create one, also by links. Devices
+/// and pipes do not count: several writers may write to them.
 bool isSameFile(const std::string& a, const std::string& b);
 
-/// Lets write fill a temporary file, of the path that it is given, and puts the contents to path
-/// then. If write throws, or if there is no room, what was at path stays and the exception is
+/// Lets write fill a temporary file, whose path write is given, and then puts the contents to path.
+/// If write throws, or if there is no room, the file at path stays as it was and the exception is
 /// passed on.
 ///
-/// A file that does not exist yet, or that has one name, comes by a rename: nobody sees half of it.
-/// Its mode, owner and group stay. A rename would part hard links, lose access control lists and
-/// other attributes, and fail on what is mounted or in a folder that is not ours: there the
-/// contents are copied into the file, after its space was reserved. Links are followed, also those
-/// to a file that is still to be created. Into what is no regular file (devices, pipes), and into
-/// what standard output or standard error goes to, the contents are copied straight.
+/// A file that does not exist yet, or that has one name, is put in place by a rename, so nobody
+/// sees half of the file. Mode, owner and group stay. A rename would part hard links, lose access
+/// control lists and other attributes, and fail on mounted files or in a folder of another user: in
+/// these cases the contents are copied into the file, after space for them was reserved. Links are
+/// followed, also links to a file that is still to be created. The contents are copied straight
+/// into a destination that is no regular file (a device or a pipe), or that standard output or
+/// standard error goes to.
 void writeFileWhole(const std::string& path,
                     const std::function<void(const std::string& temporary)>& write);
 

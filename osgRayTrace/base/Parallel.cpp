@@ -24,7 +24,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Flushes denormals while it lives: Embree wants it, and they cost time and bring nothing.
+/// Flushes denormals during its lifetime: Embree wants that, and denormals cost time and bring
+/// nothing.
 class FlushDenormals
 {
 public:
@@ -43,9 +44,10 @@ private:
 #endif
 };
 
-/// Tells ThreadSanitizer what it cannot see in a TBB that is not sanitized: all before a loop (or a
-/// run, whose body another thread of a busy arena may take over) happens before its bodies, and
-/// those before all after it; between bodies there is no order.
+/// Tells ThreadSanitizer an order that it cannot see in a TBB that is not sanitized. Everything
+/// before a loop happens before the bodies of the loop, and the bodies happen before everything
+/// after the loop; between bodies there is no order. The order holds for
+/// run(), too, whose body another thread of a busy arena may take over.
 class LoopOrder
 {
 public:
@@ -75,7 +77,7 @@ private:
 #endif
 };
 
-/// A body of a loop while it lives, whether it ends or throws.
+/// Marks a body of a loop for its lifetime, whether the body returns or throws.
 class OrderedBody
 {
 public:
@@ -86,9 +88,9 @@ private:
     LoopOrder& _order;
 };
 
-/// Threads that may be inside at once beside those that it has. Who finds no place would have to
-/// wait for the loops of others: a scene could not be updated while a view is traced in the
-/// background.
+/// The number of callers that may be in the arena at once beside its own threads. A caller without
+/// a place would have to wait for the loops of others: a scene could not be updated while a view is
+/// traced in the background.
 constexpr int kCallers = 8;
 
 } // namespace
@@ -118,7 +120,8 @@ int Workers::threads() const
 
 void Workers::forEach(std::size_t count, const std::function<void(std::size_t)>& body) const
 {
-    // Ranges short enough that no thread waits long for the last one, long enough to cost nothing.
+    // Ranges are short enough that no thread waits long for the last one, and long enough to cost
+    // nothing.
     constexpr std::size_t kRangesPerThread = 128;
     const std::size_t grain =
         std::max<std::size_t>(1, count / (kRangesPerThread * static_cast<std::size_t>(threads())));

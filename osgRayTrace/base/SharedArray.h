@@ -1,4 +1,4 @@
-// SharedArray.h - an immutable array together with whatever keeps it alive. Layer: base.
+// SharedArray.h - an immutable array together with the owner of its storage. Layer: base.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,8 +10,8 @@
 namespace osgRayTrace::engine
 {
 
-/// A view of contiguous elements that shares ownership of their storage: a vector of the engine,
-/// or an array of the host's scene graph, which is then not copied. Copying a SharedArray is cheap.
+/// A view of contiguous elements that shares ownership of their storage: a vector of the engine, or
+/// an array of the host's scene graph, which is then not copied. Copies of a SharedArray are cheap.
 template <class T> class SharedArray
 {
 public:
@@ -26,7 +26,7 @@ public:
         _owner = std::move(owner);
     }
 
-    /// Borrows size elements at data for as long as owner lives; nobody may write to them.
+    /// Borrows size elements at data for the lifetime of owner; nobody may write to the elements.
     SharedArray(const T* data, std::size_t size, std::shared_ptr<const void> owner)
         : _data(data), _size(size), _owner(std::move(owner))
     {

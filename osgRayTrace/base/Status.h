@@ -1,5 +1,4 @@
-// Status.h - the outcome of an operation on a resource, and the exception inside the engine. Layer:
-// base.
+// Status.h - the outcome of an operation on a resource, and the engine's exception. Layer: base.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,11 +12,11 @@ namespace osgRayTrace::engine
 enum class StatusCode
 {
     Ok,
-    Cancelled,     ///< somebody asked to stop
+    Cancelled,     ///< a request to stop
     EmptyScene,    ///< nothing to trace; the picture is the background
-    InvalidView,   ///< zero size, too large, or matrices that cannot be inverted
-    OutOfMemory,   ///< an allocation failed, or a resource cap was reached
-    DeviceFailure, ///< Embree reported an error
+    InvalidView,   ///< a size of zero, too large, or matrices that cannot be inverted
+    OutOfMemory,   ///< a failed allocation, or a resource cap that was reached
+    DeviceFailure, ///< an error that Embree reported
 };
 
 struct Status
@@ -28,8 +27,8 @@ struct Status
     bool ok() const { return code == StatusCode::Ok; }
 };
 
-/// The message as text. Memory may be what is missing: then the text is one that fits into a string
-/// as it is.
+/// Returns the message as a string. If memory is short, the string is a text that fits into a
+/// std::string without an allocation.
 inline std::string failureText(const char* message) noexcept
 {
     try
@@ -42,13 +41,13 @@ inline std::string failureText(const char* message) noexcept
     }
 }
 
-/// The outcome of what has failed; for places that must not throw.
+/// Returns the outcome of a failed operation, for places that must not throw.
 inline Status failure(StatusCode code, const char* message) noexcept
 {
     return {code, failureText(message)};
 }
 
-/// Thrown inside the engine only; RenderSession and the public API turn it into a Status.
+/// An exception inside the engine; RenderSession and the public API turn it into a Status.
 class EngineError : public std::runtime_error
 {
 public:

@@ -16,13 +16,13 @@ namespace osgRayTrace::engine
 
 namespace fs = std::filesystem;
 
-/// Names of temporary files, for signal handlers: memory that is always there and never moves.
+/// The name of a temporary file, for signal handlers: its memory is always there and never moves.
 struct TemporaryName
 {
     enum State
     {
         Free,
-        Changing, ///< path is being written
+        Changing, ///< while path is written
         Used,
     };
     std::atomic<int> state{Free};
@@ -34,7 +34,8 @@ namespace
 
 std::array<TemporaryName, 16> temporaryNames;
 
-/// Null if there are too many, or if the path is too long: such a file would stay after a signal.
+/// Returns the entry of a new name; null if there are too many names, or if the path is too long. A
+/// file without an entry would stay after a signal.
 TemporaryName* registerTemporary(const std::string& path)
 {
     if (path.size() >= PATH_MAX) return nullptr;

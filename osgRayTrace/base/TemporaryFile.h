@@ -1,4 +1,4 @@
-// TemporaryFile.h - files of this process alone, which a signal handler can remove. Layer: base.
+// TemporaryFile.h - private files of this process, which a signal handler can remove. Layer: base.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -30,7 +30,8 @@ public:
 
     int operator*() const { return _number; }
 
-    /// Says what only closing finds out, on file systems over a network.
+    /// Closes the descriptor and throws errors that only closing finds, on file systems over a
+    /// network.
     void finish()
     {
         const int number = _number;
@@ -42,13 +43,14 @@ private:
     int _number;
 };
 
-struct TemporaryName; // in a list for signal handlers
+struct TemporaryName; // an entry of a list for signal handlers
 
-/// A file of this process alone. The file is removed with the object, unless it was renamed.
+/// A private file of this process. The file is removed with the object, unless it was renamed.
 class TemporaryFile
 {
 public:
-    /// Its name is short: that of the destination may be as long as names can be.
+    /// Creates a file in the folder. Its name is short: the destination's name may be as long as
+    /// names can be.
     TemporaryFile(const std::filesystem::path& folder, mode_t mode);
     ~TemporaryFile();
     TemporaryFile(const TemporaryFile&) = delete;
@@ -70,8 +72,8 @@ private:
     bool _renamed = false;
 };
 
-/// Removes the temporary files of all calls at work. Async-signal-safe: for a process that is about
-/// to end.
+/// Removes the temporary files of all calls at work, for a process that is about to end.
+/// The function is async-signal-safe.
 void removeTemporaryFiles() noexcept;
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// TextFile.h - the text of a file that somebody names: never without an end. Layer: base.
+// TextFile.h - reads text files that a user names, which may have no end. Layer: base.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,10 +13,10 @@ namespace osgRayTrace::engine
 struct FileText
 {
     std::string text;
-    std::string error; ///< "is a directory", to be said after the file's name; empty: none
+    std::string error; ///< such as "is a directory", to be said after the file's name; empty: none
 };
 
-/// Why a file cannot be read as one with an end; empty: it can. Links are followed.
+/// Returns why a file cannot be read as one that has an end; empty if it can. Links are followed.
 inline std::string irregularityOf(const std::string& file)
 {
     std::error_code error;
@@ -40,7 +40,7 @@ inline std::string irregularityOf(const std::string& file)
     }
 }
 
-/// All of a regular file, or a link to one, of at most so many bytes.
+/// Returns the contents of a regular file, or of a link to one, of at most so many bytes.
 inline FileText readTextFile(const std::string& file, std::size_t most)
 {
     const std::string irregularity = irregularityOf(file);

@@ -1,4 +1,4 @@
-// ThreadSeam.h - asserts that one thread at a time is in what is not thread safe. Layer: base.
+// ThreadSeam.h - asserts that one thread at a time uses what is not thread safe. Layer: base.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,8 +10,8 @@
 namespace osgRayTrace::engine
 {
 
-/// A member of what one thread at a time may use. The thread that is inside may enter once more.
-/// Empty if assertions are off.
+/// A member of a class that one thread at a time may use. The thread that is inside may enter once
+/// more. The class is empty if assertions are off.
 template <bool kChecks> class BasicThreadSeam
 {
 public:
@@ -39,7 +39,7 @@ public:
 
 private:
     std::atomic<std::thread::id> _inside{};
-    int _depth = 0; ///< of the thread inside
+    int _depth = 0; ///< number of entries of the thread inside
 };
 
 template <> class BasicThreadSeam<false>
