@@ -8,8 +8,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Rays of occlusion queries: origin + t*direction for t in [tNear, tFar], direction of length
-/// about 1. After the query tFar is -infinity where something is in the way.
+/// The rays of occlusion queries: origin + t*direction for t in [tNear, tFar]. The directions have
+/// a length of about 1. After the query tFar is -infinity in every lane whose ray is blocked.
 struct RayBlock
 {
     FloatLanes originX, originY, originZ;
@@ -20,17 +20,19 @@ struct RayBlock
     UintLanes mask, id, flags;
 };
 
+/// Returns the origin of lane i.
 OSGRAYTRACE_INLINE PlainVec3 plainOrigin(const RayBlock& ray, int i)
 {
     return {ray.originX[i], ray.originY[i], ray.originZ[i]};
 }
 
+/// Returns the direction of lane i.
 OSGRAYTRACE_INLINE PlainVec3 plainDirection(const RayBlock& ray, int i)
 {
     return {ray.directionX[i], ray.directionY[i], ray.directionZ[i]};
 }
 
-/// Sets all of lane i.
+/// Sets all fields of lane i.
 OSGRAYTRACE_INLINE void setRay(RayBlock& ray, int i, PlainVec3 origin, PlainVec3 direction,
                                float tNear, float tFar)
 {
@@ -48,20 +50,21 @@ OSGRAYTRACE_INLINE void setRay(RayBlock& ray, int i, PlainVec3 origin, PlainVec3
     ray.flags[i] = 0;
 }
 
-/// Rays of closest-hit queries with their hits. primitive, geometry and instance are Embree's; use
-/// hitInstance(). geometry == kInvalid: no hit.
+/// The rays of closest-hit queries with their hits. The fields primitive, geometry and instance are
+/// Embree's; hitInstance() turns them into an index of the scene. A lane whose geometry is kInvalid
+/// has no hit.
 struct RayHitBlock
 {
     RayBlock ray;
-    FloatLanes normalX, normalY, normalZ; ///< Embree's, not unit: not used
+    FloatLanes normalX, normalY, normalZ; ///< Embree's normal, not unit; not used
     FloatLanes u, v;                      ///< barycentric weights of vertices 1 and 2
     UintLanes primitive;                  ///< triangle index within its mesh
     UintLanes geometry;
     UintLanes instance;
 };
 
-/// Index into Scene::instances of the surface hit: instances are attached by their own index, those
-/// that are placed by a transform as instances.
+/// Returns the index into Scene::instances of the surface that was hit. Every instance is attached
+/// under its own index: as an Embree instance if a transform places it, as a geometry otherwise.
 OSGRAYTRACE_INLINE uint32_t hitInstance(uint32_t embreeGeometry, uint32_t embreeInstance)
 {
     return embreeInstance != kInvalid ? embreeInstance : embreeGeometry;

@@ -1,4 +1,4 @@
-// SmoothSurface.cpp - what vertex normals make of the surface points of a block. Layer: accel.
+// SmoothSurface.cpp - applies vertex normals to the surface points of a block. Layer: accel.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/SmoothSurface.h"
 
@@ -11,10 +11,10 @@ namespace
 {
 
 constexpr float kSmallestTerminatorOffset = 4.0f; ///< [error bounds]
-constexpr float kShortestNormal2 = 1e-12f;        ///< squared length below which a normal is none
-/// Squared cosine of 40 degrees. A facet that a vertex normal leaves by more is no piece of a
-/// smooth surface, but a side of a body whose edges were averaged: two sides of a box make 45
-/// degrees.
+constexpr float kShortestNormal2 = 1e-12f;        ///< squared length of normals that do not count
+/// kLargestTurn2 is the squared cosine of 40 degrees. A facet whose vertex normals deviate by more
+/// is no piece of a smooth surface, but a side of a body whose normals were averaged at the edges:
+/// at the edge of two sides of a box the deviation is 45 degrees.
 constexpr float kLargestTurn2 = 0.5868f;
 
 OSGRAYTRACE_INLINE PlainTriangle normalsOf(const TriangleLanes& lanes, int i)
@@ -22,15 +22,16 @@ OSGRAYTRACE_INLINE PlainTriangle normalsOf(const TriangleLanes& lanes, int i)
     return {plainOf(lanes.na, i), plainOf(lanes.nb, i), plainOf(lanes.nc, i)};
 }
 
-/// The terms of the terminator offset that one vertex adds to: how far the point is below the
-/// vertex's tangent plane, along its normal n of any length, on the side of the sign.
+/// The share of one vertex in the terminator offset: how far the point is below the tangent plane
+/// of the vertex, along the vertex normal n, whose length is arbitrary.
 struct TerminatorOffset
 {
-    float scale;     ///< times n is the way to the tangent plane; 0 if the point is above it
-    uint32_t usable; ///< n is about that of the facet
+    float scale;     ///< factor of n for the way to the tangent plane; 0 if the point is above it
+    uint32_t usable; ///< mask: n is within 40 degrees of the facet's normal
 };
 
-/// facet: the facet's normal, on the side of the ray.
+/// Returns the share of a vertex with normal n. The normal `facet` of the facet is on the ray's
+/// side.
 OSGRAYTRACE_INLINE TerminatorOffset terminatorOffset(PlainVec3 point, PlainVec3 vertex, PlainVec3 n,
                                                      PlainVec3 facet)
 {
@@ -38,8 +39,8 @@ OSGRAYTRACE_INLINE TerminatorOffset terminatorOffset(PlainVec3 point, PlainVec3 
     const float cosine = dot(n, facet);
     const float height = dot(point - vertex, n);
     TerminatorOffset result;
-    // Both signs change with n: the terminator offset is to the ray's side, where the facet's
-    // normal is, whichever way n looks.
+    // The signs of height and cosine both change with the sign of n, so the terminator offset
+    // points to the side of the ray and of the facet's normal for either sign.
     const float below = select(height * cosine < 0.0f, -height, 0.0f);
     result.usable =
         maskOf(length2 > kShortestNormal2) & maskOf(cosine * cosine > kLargestTurn2 * length2);
@@ -47,6 +48,7 @@ OSGRAYTRACE_INLINE TerminatorOffset terminatorOffset(PlainVec3 point, PlainVec3 
     return result;
 }
 
+/// Sets the shading normal of lane i if the lane is smooth.
 OSGRAYTRACE_INLINE void interpolateNormal(const RayHitBlock& block, const TriangleLanes& t, int i,
                                           LaneMask smooth, SurfaceLanes& s)
 {
@@ -54,12 +56,12 @@ OSGRAYTRACE_INLINE void interpolateNormal(const RayHitBlock& block, const Triang
     const PlainVec3 n = interpolated(normalsOf(t, i), w, u, v);
     const float length2 = dot(n, n);
     const float inverse = 1.0f / std::sqrt(length2);
-    // Opposite normals can cancel: then, and without normals, the geometric one stays.
+    // Opposite normals can cancel; then, and in lanes without normals, the geometric normal stays.
     const uint32_t use = maskOf(length2 > 1e-12f) & laneBit(smooth, i);
     setLane(s.shadingNormal, i, select(use, n * inverse, plainOf(s.shadingNormal, i)));
 }
 
-/// Returns all bits if the point has a terminator offset.
+/// Moves the point of lane i by its terminator offset. Returns all bits if the point has one.
 OSGRAYTRACE_INLINE uint32_t offsetPoint(const RayHitBlock& block, const TriangleLanes& t, int i,
                                         LaneMask smooth, SurfaceLanes& s)
 {
@@ -70,7 +72,7 @@ OSGRAYTRACE_INLINE uint32_t offsetPoint(const RayHitBlock& block, const Triangle
     const TerminatorOffset b = terminatorOffset(p, vertices.b, normals.b, facet);
     const TerminatorOffset c = terminatorOffset(p, vertices.c, normals.c, facet);
     const PlainVec3 offset = interpolated(normals, w * a.scale, u * b.scale, v * c.scale);
-    // Less than a few error bounds is rounding, as on flat facets.
+    // An offset of less than a few error bounds is rounding, as on flat facets.
     const uint32_t clear = maskOf(dot(offset, facet) > kSmallestTerminatorOffset * s.offset[i]);
     const uint32_t use = clear & a.usable & b.usable & c.usable & laneBit(smooth, i);
     setLane(s.onTriangle, i, p);

@@ -1,5 +1,4 @@
-// SmoothSurface.h - what vertex normals make of the surface points of a block. Layer: accel;
-// private to it.
+// SmoothSurface.h - applies vertex normals to surface points. Layer: accel; private to it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,10 +13,10 @@ namespace osgRayTrace::engine
 void interpolateNormals(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth,
                         SurfaceLanes& s);
 
-/// Moves points, from where rays start, onto the tangent planes of the vertices, weighted as the
-/// vertices are [Hanika21]. On a sphere this is as far above the sphere as the facet is below it,
-/// enough for every ray above the plane of the shading normal to clear the facets around. On hollow
-/// sides nothing moves.
+/// Moves the points at which rays start onto the tangent planes of the vertices, weighted by the
+/// barycentric weights of the vertices [Hanika21]. On a sphere the moved point is as far above the
+/// sphere as the facet is below it, which is enough for every ray above the plane of the shading
+/// normal to clear the facets around. Points on hollow sides do not move.
 void offsetTerminator(const RayHitBlock& block, const TriangleLanes& t, LaneMask smooth,
                       SurfaceLanes& s);
 

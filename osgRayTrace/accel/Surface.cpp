@@ -14,12 +14,13 @@ namespace osgRayTrace::engine
 namespace
 {
 
+/// Returns the largest magnitude of the coordinates.
 float largestOf(Vec3 v)
 {
     return std::max(std::fabs(v.x), std::max(std::fabs(v.y), std::fabs(v.z)));
 }
 
-/// The magnitude of what is added up when a transform places the vertices.
+/// Returns the magnitude of the terms that are added up when a transform places the vertices.
 float transformMagnitude(const Affine& m, Vec3 a, Vec3 b, Vec3 c)
 {
     const float vertex = std::max(largestOf(a), std::max(largestOf(b), largestOf(c)));
@@ -27,7 +28,7 @@ float transformMagnitude(const Affine& m, Vec3 a, Vec3 b, Vec3 c)
     return vertex * row + largestOf(m.translation);
 }
 
-/// Reads a triangle into lane i. Returns whether it has vertex normals.
+/// Reads a triangle into lane i. Returns true if the triangle has vertex normals.
 OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primitive, int i,
                                      TriangleLanes& lanes)
 {
@@ -55,8 +56,7 @@ OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primi
     if (record.placed)
     {
         const Mat3 normalFromLocal = normalMatrix(record.placed->engineFromLocal.linear);
-        // Interpolation comes after normalisation in OpenGL, so vertex normals keep equal weights
-        // here.
+        // OpenGL normalises before it interpolates, so the vertex normals get equal weights here.
         na = glm::normalize(normalFromLocal * na);
         nb = glm::normalize(normalFromLocal * nb);
         nc = glm::normalize(normalFromLocal * nc);
@@ -67,6 +67,7 @@ OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primi
     return true;
 }
 
+/// Sets the vertices of lane i to zero.
 void clearLane(TriangleLanes& lanes, int i)
 {
     setLane(lanes.a, i, Vec3(0.0f));
@@ -75,8 +76,8 @@ void clearLane(TriangleLanes& lanes, int i)
     lanes.transformBound[i] = 0.0f;
 }
 
-/// Sets lane i of a surface, all but its interpolated normal. Returns all bits if the ray comes
-/// from the front.
+/// Sets position, normals, offset and minCosine of lane i; the shading normal becomes the plane's.
+/// Returns all bits if the ray comes from the front.
 OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, const PlainTriangle& t,
                                        const TrianglePlane& plane, SurfaceLanes& s)
 {
@@ -91,7 +92,8 @@ OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i, const Pl
     return maskOf(cosine <= 0.0f);
 }
 
-/// The same for the triangle of lane i.
+/// Sets lane i of a surface from the triangle of that lane. Returns all bits if the ray comes from
+/// the front.
 OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i,
                                        const TriangleLanes& triangles, SurfaceLanes& s)
 {
@@ -99,6 +101,7 @@ OSGRAYTRACE_INLINE uint32_t setSurface(const RayHitBlock& block, int i,
     return setSurface(block, i, t, planeOf(t, triangles.transformBound[i]), s);
 }
 
+/// Sets the geometry of all lanes, with one triangle a lane.
 OSGRAYTRACE_KERNEL
 void geometry(const RayHitBlock& block, const TriangleLanes& triangles, SurfaceLanes& s)
 {
@@ -109,7 +112,7 @@ void geometry(const RayHitBlock& block, const TriangleLanes& triangles, SurfaceL
     s.front = front;
 }
 
-/// The same where all hits are on one triangle: one plane for all.
+/// Sets the geometry of all lanes if all hits are on one triangle, whose plane all lanes share.
 OSGRAYTRACE_KERNEL
 void geometryOfOne(const RayHitBlock& block, const LastTriangle& last, SurfaceLanes& s)
 {
@@ -122,7 +125,8 @@ void geometryOfOne(const RayHitBlock& block, const LastTriangle& last, SurfaceLa
     s.front = front;
 }
 
-/// True if all hits are on one triangle: the rule where triangles are larger than pixels.
+/// Returns true if all hits are on one triangle, as they mostly are if triangles are larger than
+/// pixels.
 OSGRAYTRACE_KERNEL
 bool isOneTriangle(const RayHitBlock& block, LaneMask hits, int first)
 {
@@ -137,6 +141,7 @@ bool isOneTriangle(const RayHitBlock& block, LaneMask hits, int first)
     return differs == 0;
 }
 
+/// Returns the active lanes that have a hit.
 OSGRAYTRACE_KERNEL
 LaneMask hitLanes(const RayHitBlock& block, LaneMask active)
 {
@@ -147,7 +152,8 @@ LaneMask hitLanes(const RayHitBlock& block, LaneMask active)
     return hits & active;
 }
 
-/// Vertices or their normals of the first lane in all lanes, stored as wide as they will be loaded.
+/// Copies the vertices, or the vertex normals, of the first lane to all lanes. The stores are as
+/// wide as the later loads.
 OSGRAYTRACE_KERNEL
 void broadcast(Vec3Lanes& a, Vec3Lanes& b, Vec3Lanes& c)
 {
@@ -169,7 +175,8 @@ bool isMirrored(const SurfaceRecord& record)
     return record.placed && record.placed->mirrored;
 }
 
-/// The outside of a body stays its outside under a transform that reverses the winding.
+/// Turns the shading normals and the fronts of lanes whose transform reverses the winding, so that
+/// the outside of a body stays its outside.
 void turnMirrored(LaneMask lanes, SurfaceLanes& s)
 {
     s.front ^= lanes;
@@ -177,10 +184,10 @@ void turnMirrored(LaneMask lanes, SurfaceLanes& s)
         setLane(s.shadingNormal, i, -plainOf(s.shadingNormal, i));
 }
 
-/// Sets last to the triangle that a lane of a block is on.
+/// Sets last to the triangle that the hit of a lane is on.
 void setLast(const SurfaceTable& table, const RayHitBlock& block, int lane, LastTriangle& last)
 {
-    last.geometry = kInvalid; // until it is whole
+    last.geometry = kInvalid; // valid only once all fields are set
     last.instance = block.instance[lane];
     last.primitive = block.primitive[lane];
     last.sceneInstance = hitInstance(block.geometry[lane], block.instance[lane]);
@@ -198,13 +205,15 @@ void setLast(const SurfaceTable& table, const RayHitBlock& block, int lane, Last
     last.geometry = block.geometry[lane];
 }
 
+/// Returns true if the hit of a lane is on the last triangle.
 bool isOn(const LastTriangle& last, const RayHitBlock& block, int lane)
 {
     return block.geometry[lane] == last.geometry && block.primitive[lane] == last.primitive &&
            block.instance[lane] == last.instance;
 }
 
-/// Adds the interpolated normals, on the outside of the body.
+/// Turns the normals of mirrored lanes to the outside of the body and interpolates those of smooth
+/// lanes. Adds the terminator offsets if start is RayStart::Smooth.
 void finishNormals(const RayHitBlock& block, const TriangleLanes& triangles, LaneMask smooth,
                    LaneMask mirrored, RayStart start, SurfaceLanes& surface)
 {
@@ -214,7 +223,7 @@ void finishNormals(const RayHitBlock& block, const TriangleLanes& triangles, Lan
     if (start == RayStart::Smooth) offsetTerminator(block, triangles, smooth, surface);
 }
 
-/// surfacesOf where all hits are on one triangle.
+/// Sets the surfaces of a block whose hits are all on one triangle.
 void surfacesOfOne(const RayHitBlock& block, const LastTriangle& triangle, RayStart start,
                    SurfaceLanes& surface)
 {
@@ -265,6 +274,7 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
     finishNormals(block, triangles, smooth, mirrored, start, surface);
 }
 
+/// Returns the normal that facingNormalLanes sets in lane i.
 static OSGRAYTRACE_INLINE PlainVec3 facingNormal(const RayBlock& ray, const SurfaceLanes& surface,
                                                  int i)
 {

@@ -1,4 +1,4 @@
-// SurfaceAttributes.cpp - interpolates what meshes have at their vertices. Layer: accel.
+// SurfaceAttributes.cpp - interpolates the vertex attributes of meshes. Layer: accel.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/SurfaceAttributes.h"
 
@@ -8,7 +8,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// values: one a position; null: the mesh has none.
+/// Returns the interpolated value of a triangle. `values` holds one value a position; if it is
+/// null, the mesh has none and the function returns `otherwise`.
 template <class Value>
 Value interpolate(const SurfaceRecord& record, const Value* values, uint32_t primitive, float u,
                   float v, Value otherwise)
@@ -18,7 +19,7 @@ Value interpolate(const SurfaceRecord& record, const Value* values, uint32_t pri
     return values[t.x] * (1.0f - u - v) + values[t.y] * u + values[t.z] * v;
 }
 
-/// Position and normal in engine space, as texture generation needs them.
+/// Sets position and normal in engine space, as texture generation needs them.
 void setGenerated(const SurfaceRecord& record, uint32_t primitive, float u, float v,
                   MaterialPoint& point)
 {

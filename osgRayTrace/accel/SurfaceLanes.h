@@ -1,4 +1,4 @@
-// SurfaceLanes.h - surface points of sixteen rays as columns. Layer: accel.
+// SurfaceLanes.h - the surface points of sixteen rays as columns. Layer: accel.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,23 +7,23 @@
 namespace osgRayTrace::engine
 {
 
-/// Hit points rebuilt from barycentric coordinates, with the bound of their rounding error.
+/// The hit points, rebuilt from barycentric coordinates, with the bound of their rounding error.
 struct SurfaceLanes
 {
-    Vec3Lanes position;        ///< on the triangle, but for terminatorLanes: where their rays start
+    Vec3Lanes position;        ///< point on the triangle; in terminatorLanes the start of rays
     Vec3Lanes geometricNormal; ///< unit, on the side that the ray comes from
-    Vec3Lanes shadingNormal;   ///< unit; as the mesh has it: not turned to either side
+    Vec3Lanes shadingNormal;   ///< unit; the mesh's own, not turned to either side
     FloatLanes offset;         ///< distance along geometricNormal that clears the error of position
-    FloatLanes minCosine;      ///< cosine above which rays may begin at position itself: see leave
+    FloatLanes minCosine;      ///< cosine above which rays may begin at position itself: leave()
     UintLanes instance;        ///< index into Scene::instances; undefined outside of hits
     UintLanes material;        ///< index into Scene::materials
     LaneMask hits = 0;
-    LaneMask front = 0;           ///< the ray comes from the mesh's counter-clockwise side
+    LaneMask front = 0;           ///< lanes whose ray meets the mesh's counter-clockwise side
     LaneMask terminatorLanes = 0; ///< hits whose position is above their triangle: see RayStart
-    Vec3Lanes onTriangle;         ///< position without terminator offset; unset if no lane is
+    Vec3Lanes onTriangle;         ///< point without offset; unset without terminatorLanes
 };
 
-/// The points on the triangles, with a terminator offset or not.
+/// Returns the points on the triangles, which are without terminator offsets.
 inline const Vec3Lanes& trianglePoints(const SurfaceLanes& surface)
 {
     return surface.terminatorLanes ? surface.onTriangle : surface.position;

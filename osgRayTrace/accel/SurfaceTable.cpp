@@ -1,4 +1,4 @@
-// SurfaceTable.cpp - pointers to the arrays of meshes. Layer: accel.
+// SurfaceTable.cpp - collects pointers to the arrays of meshes. Layer: accel.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/SurfaceTable.h"
 
@@ -8,6 +8,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
+/// Returns a pointer to the data of an array, null if the array is empty.
 template <class T> const T* dataOf(const SharedArray<T>& array)
 {
     return array.empty() ? nullptr : array.data();

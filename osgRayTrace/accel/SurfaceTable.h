@@ -1,4 +1,4 @@
-// SurfaceTable.h - what shading needs of each instance, and nothing twice. Layer: accel.
+// SurfaceTable.h - the data of each instance that shading needs, none of them twice. Layer: accel.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Pointers into a mesh; null where it lacks the attribute.
+/// Pointers to the arrays of a mesh. A pointer is null if the mesh lacks the attribute.
 struct MeshArrays
 {
     const UVec3* triangles = nullptr;
@@ -23,22 +23,23 @@ struct MeshArrays
     const Vec4* colors = nullptr;
 };
 
-/// The mesh of an instance, and what the instance makes of it.
+/// The mesh of an instance with the transform, the material and the light of the instance.
 struct SurfaceRecord : MeshArrays
 {
-    const Instance* placed = nullptr; ///< its transform; null: positions are in engine space
+    const Instance* placed = nullptr; ///< owner of the transform; null: already in engine space
     uint32_t material = 0;
     uint32_t light = kInvalid;
 };
 
-/// Indexed by instance. Put together when asked for: instances of one mesh are many.
+/// A table indexed by instance. operator[] puts a record together on request, because many
+/// instances can share one mesh.
 class SurfaceTable
 {
 public:
     SurfaceTable() = default;
 
-    /// The scene is kept by pointers into it. Takes over from a previous table, of the previous
-    /// scene, if there is one.
+    /// Keeps pointers into the scene, which must outlive the table. If there is a previous scene,
+    /// the table takes the pointers of unchanged meshes from the table of that scene.
     SurfaceTable(const Scene& scene, const SurfaceTable* previous, const Scene* previousScene);
 
     std::size_t size() const { return _size; }

@@ -1,4 +1,4 @@
-// TracedScene.cpp - a Scene's BVHs, those that did not change taken over. Layer: accel.
+// TracedScene.cpp - builds the BVHs of a Scene and reuses unchanged ones. Layer: accel.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/TracedScene.h"
 
@@ -20,7 +20,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Both scenes have time stamps, and no part of the new one is younger than the old scene.
+/// Returns true if the old scene has a stamp, both lists are equally long, and no part of the new
+/// list is younger than the old scene.
 template <class Part>
 bool sameParts(const std::vector<Part>& now, const std::vector<Part>& before, Stamp stamp)
 {
@@ -29,7 +30,8 @@ bool sameParts(const std::vector<Part>& now, const std::vector<Part>& before, St
                        [stamp](const Part& part) { return part.changed <= stamp; });
 }
 
-/// With what it points to, and nothing else of the scene that it was made for.
+/// The material table with a copy of the parts of the scene that the table points to. It keeps no
+/// other part of the scene alive.
 struct MaterialPart
 {
     explicit MaterialPart(const Scene& scene) : copy{partOf(scene)}, table(copy) {}
@@ -46,8 +48,8 @@ struct MaterialPart
     MaterialTable table;
 };
 
-/// Whether a static BVH of these members does for the others, too: what asks the filter in vain
-/// does no harm.
+/// Returns true if a static BVH of the members `has` serves for the members `wanted`, too. A member
+/// that calls the filter without need does no harm.
 bool serves(const StaticBvh::Members& has, const StaticBvh::Members& wanted)
 {
     return std::equal(has.begin(), has.end(), wanted.begin(), wanted.end(),
@@ -64,23 +66,23 @@ struct TracedScene::Implementation
     std::shared_ptr<BvhPool> pool;
     std::shared_ptr<const Scene> scene;
     using MeshBvhs = std::vector<std::shared_ptr<const MeshBvh>>;
-    std::shared_ptr<const MeshBvhs> meshBvhs; ///< by mesh; null: not needed
+    std::shared_ptr<const MeshBvhs> meshBvhs; ///< by mesh; null elements: not needed
     std::size_t meshBvhCount = 0;
-    std::shared_ptr<const StaticBvh> staticBvh;  ///< null: there is none
+    std::shared_ptr<const StaticBvh> staticBvh;  ///< null: the scene has none
     std::shared_ptr<const TopLevelBvh> topLevel; ///< null: the static BVH is all
-    std::vector<float> reaches;                  ///< by instance: of reachOf(), if it is placed
+    std::vector<float> reaches;                  ///< by instance: reachOf() if placed, else 0
     std::unique_ptr<Intersector> intersector;
     SurfaceTable surfaces;
     std::shared_ptr<const MaterialPart> materials;
     std::unique_ptr<LightTable> lights;
     SceneTraits traits;
     std::unique_ptr<HitFilter> filter;
-    std::vector<bool> filtered; ///< by mesh: a partial material is on it
-    std::vector<bool> attached; ///< by instance: Embree gets it
+    std::vector<bool> filtered; ///< by mesh: some instance has a partial material
+    std::vector<bool> attached; ///< by instance: part of Embree's scenes
     BuildStatistics statistics;
 
-    bool sameMeshes = false; ///< as in the previous one, with the same instances of them
-    bool samePlaces = false; ///< and these where they were
+    bool sameMeshes = false; ///< same instances of the same meshes as before
+    bool samePlaces = false; ///< same instances at the same places as before
     bool sameMaterials = false;
 
     void compareInstances(const Implementation* old);
@@ -95,7 +97,8 @@ struct TracedScene::Implementation
     float reach() const;
 };
 
-/// Reaches are those of the previous scene where places are the same.
+/// Compares the instances with those of the previous scene. Instances at unchanged places keep
+/// their reaches.
 void TracedScene::Implementation::compareInstances(const Implementation* old)
 {
     surfaces =
@@ -120,7 +123,8 @@ void TracedScene::Implementation::compareInstances(const Implementation* old)
     }
 }
 
-/// Which instances Embree gets.
+/// Finds the instances that Embree gets: those with triangles, a visible material and a valid
+/// transform.
 void TracedScene::Implementation::findAttached()
 {
     std::vector<bool> invisible(scene->materials.size());
@@ -137,8 +141,8 @@ void TracedScene::Implementation::findAttached()
     }
 }
 
-/// All BVHs of the previous scene, if they do as they are: edits of materials and lights get away
-/// with less than a look at each instance. What asks the filter in vain does no harm.
+/// Takes all BVHs of the previous scene if they serve unchanged, as after edits of materials and
+/// lights. Returns true if they do. A mesh that calls the filter without need does no harm.
 bool TracedScene::Implementation::takeStructures(const Implementation* old)
 {
     if (!samePlaces || attached != old->attached) return false;
@@ -152,6 +156,7 @@ bool TracedScene::Implementation::takeStructures(const Implementation* old)
     return true;
 }
 
+/// Makes or reuses the BVH of each mesh that a placed instance has.
 void TracedScene::Implementation::makeMeshBvhs(const Implementation* old, const Workers& workers,
                                                BuildCounts& counts)
 {
@@ -160,10 +165,11 @@ void TracedScene::Implementation::makeMeshBvhs(const Implementation* old, const 
     for (std::size_t i = 0; i < attached.size(); ++i)
         if (attached[i] && scene->instances[i].placed) needed[scene->instances[i].mesh] = true;
 
-    // Most are where they were. What has only deformed is not looked for: it is refitted.
+    // Most meshes have the index that they had before. A mesh that has only deformed is not looked
+    // up in the map, because its BVH is refitted.
     std::unordered_map<const Mesh*, const std::shared_ptr<const MeshBvh>*> known;
     std::size_t kept = 0, deformed = 0;
-    // One that asks the filter in vain does no harm.
+    // A BVH that calls the filter without need does no harm.
     const auto fits = [&](const MeshBvh& meshBvh, std::size_t i)
     { return meshBvh.mesh == meshes[i] && (meshBvh.filtered || !filtered[i]); };
     const auto knownMeshBvh = [&](std::size_t i) -> std::shared_ptr<const MeshBvh>
@@ -201,14 +207,15 @@ void TracedScene::Implementation::makeMeshBvhs(const Implementation* old, const 
     const auto make = [&](std::size_t i)
     { (*result)[missing[i]] = pool->meshBvh(meshes[missing[i]], filtered[missing[i]], counts); };
     if (missing.size() == 1)
-        workers.run([&] { make(0); }); // Embree's own threads for a large one
+        workers.run([&] { make(0); }); // Embree itself splits a large mesh among threads
     else
         workers.forEach(missing.size(), make);
     meshBvhs = result;
     if (old && kept + deformed < old->meshBvhCount) forgetGone();
 }
 
-/// What the previous scene had and this one has not is not kept for later ones.
+/// Makes the pool forget the spare BVHs of meshes that are gone, and all top levels, which have
+/// room for those meshes.
 void TracedScene::Implementation::forgetGone()
 {
     std::unordered_set<const UVec3*> refittable;
@@ -217,6 +224,7 @@ void TracedScene::Implementation::forgetGone()
     pool->keepOnly(refittable);
 }
 
+/// Makes or reuses the static BVH over all instances without a transform.
 void TracedScene::Implementation::makeFlat(const Implementation* old, BuildCounts& counts)
 {
     StaticBvh::Members members;
@@ -239,6 +247,7 @@ void TracedScene::Implementation::makeFlat(const Implementation* old, BuildCount
     staticBvh = pool->staticBvh(std::move(members), std::move(owners), counts);
 }
 
+/// Makes or reuses the top level, of which the static BVH is one instance.
 void TracedScene::Implementation::makeTopLevel(const Implementation* old, BuildCounts& counts)
 {
     std::vector<Placement> placements;
@@ -268,7 +277,8 @@ void TracedScene::Implementation::makeTopLevel(const Implementation* old, BuildC
                    : pool->topLevel(placements, counts);
 }
 
-/// Shared with the previous one where nothing that they are made of has changed.
+/// Makes the tables of materials and lights and the traits. Materials and traits are shared with
+/// the previous scene if their sources have not changed.
 void TracedScene::Implementation::makeTables(const Implementation* old)
 {
     const Stamp stamp = old ? old->scene->changed : 0;
@@ -282,6 +292,7 @@ void TracedScene::Implementation::makeTables(const Implementation* old)
     traits = sameTraits ? old->traits : sceneTraits(*scene, sameMeshes ? &old->traits : nullptr);
 }
 
+/// Returns the smallest reach of all attached placed instances.
 float TracedScene::Implementation::reach() const
 {
     float reach = static_cast<float>(kLargestCoordinate);
@@ -290,6 +301,7 @@ float TracedScene::Implementation::reach() const
     return reach;
 }
 
+/// Finds the meshes whose hits Embree must pass to the filter.
 void TracedScene::Implementation::findFiltered()
 {
     filtered.resize(scene->meshes.size());

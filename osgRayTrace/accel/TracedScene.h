@@ -22,20 +22,22 @@ class Workers;
 struct BuildStatistics
 {
     double seconds = 0.0;
-    uint64_t embreeBytes = 0;    ///< as embreeBytes() was then
-    size_t builtMeshes = 0;      ///< built now; the rest was taken from the previous one
-    size_t refitMeshes = 0;      ///< BVHs that were adapted to other positions
-    size_t staticBuilds = 0;     ///< of the one BVH over all meshes that are not placed: 0 or 1
-    size_t commits = 0;          ///< rtcCommitScene, of meshes and of the top level
+    uint64_t embreeBytes = 0;    ///< value of embreeBytes() after the build
+    size_t builtMeshes = 0;      ///< meshes built into a BVH now; others: reused or refitted
+    size_t refitMeshes = 0;      ///< mesh BVHs adapted to other positions
+    size_t staticBuilds = 0;     ///< builds of the static BVH: 0 or 1
+    size_t commits = 0;          ///< calls of rtcCommitScene, for meshes and top level
     size_t invalidInstances = 0; ///< left out: transform singular, not finite, or out of range
 };
 
-/// Immutable once built; sessions share it. Reuses from previous what did not change (may be null),
-/// and changes what neither previous nor anybody else uses any more. Meshes that are not placed are
-/// in one static BVH; where there are others, it is one of the instances of the top level.
+/// A snapshot prepared for rays. It is immutable once built, and sessions share it. Meshes that no
+/// transform places are in one static BVH. If there are placed meshes as well, the static BVH is
+/// one of the instances of the top level.
 class TracedScene
 {
 public:
+    /// Returns the scene prepared for rays. Reuses the unchanged parts of `previous`, which may be
+    /// null, and modifies structures that neither `previous` nor any other scene uses any more.
     /// Throws EngineError (OutOfMemory, DeviceFailure).
     static std::shared_ptr<const TracedScene>
     build(std::shared_ptr<const Scene> scene, std::shared_ptr<Workers> workers,
@@ -50,8 +52,9 @@ public:
     const LightTable& lights() const;
     const BuildStatistics& statistics() const;
 
-    /// What the device holds now, as Embree reports it: for this scene, for others made from it or
-    /// that it was made from, and spare parts for the next ones. Any thread.
+    /// Returns the bytes that the device holds now, as Embree reports them: those of this scene, of
+    /// scenes made from it, of scenes that it was made from, and of spare parts for later scenes.
+    /// Any thread may call this function.
     uint64_t embreeBytes() const;
 
 private:

@@ -1,5 +1,4 @@
-// TrianglePlane.h - the plane of a triangle and the error bound of points on it. Layer: accel;
-// private to it.
+// TrianglePlane.h - a triangle's plane with its error bound. Layer: accel; private to it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,24 +10,24 @@
 namespace osgRayTrace::engine
 {
 
-constexpr float kOffsetScale = 32.0f * 0x1p-24f;
-constexpr float kEdgeScale = 8.0f * 0x1p-24f;
+constexpr float kOffsetScale = 32.0f * 0x1p-24f; ///< k * 2^-24 of surfacesOf
+constexpr float kEdgeScale = 8.0f * 0x1p-24f;    ///< Embree's error as a share of the longest edge
 
 /// Rays whose cosine is above kMinCosine begin on their very point if the offset is no more than
-/// this share of the triangle's edges: the way that they skip, four offsets at most, then hides
-/// nothing.
+/// the share kFineOffset of the triangle's edges. Such a ray skips four offsets of its way at most,
+/// and so short a way hides nothing.
 constexpr float kFineOffset = 1e-4f;
 constexpr float kMinCosine = 0.25f;
-constexpr float kNever = 2.0f;
+constexpr float kNever = 2.0f; ///< cosine that no ray has
 
-/// The largest magnitude of three numbers.
+/// Returns the largest magnitude of three numbers.
 OSGRAYTRACE_INLINE float largestMagnitude(float a, float b, float c)
 {
     const float ab = std::fabs(a) > std::fabs(b) ? std::fabs(a) : std::fabs(b);
     return ab > std::fabs(c) ? ab : std::fabs(c);
 }
 
-/// 2^-n for x in [2^n, 2^(n+1)), 2^127 for 0.
+/// Returns 2^-n for x in [2^n, 2^(n+1)), and 2^127 for 0.
 OSGRAYTRACE_INLINE float inversePowerOfTwo(float x)
 {
     uint32_t bits;
@@ -39,12 +38,14 @@ OSGRAYTRACE_INLINE float inversePowerOfTwo(float x)
     return result;
 }
 
-/// transformBound: see TriangleLanes.
+/// Returns the plane of a triangle with the error bound of its points; surfacesOf says how the
+/// bound is made. TriangleLanes defines transformBound, which is 0 for a triangle that is not
+/// placed.
 OSGRAYTRACE_INLINE TrianglePlane planeOf(const PlainTriangle& t, float transformBound)
 {
     const PlainVec3 e1 = t.b - t.a, e2 = t.c - t.a;
-    // Edges are scaled to about 1 first, by a power of two: the product of micrometre edges would
-    // be denormal.
+    // The edges are scaled to about 1 by a power of two first, because length2 grows with the
+    // fourth power of the edges: it would be denormal for edges below 3e-10 and infinite above 4e9.
     const float edge1 = largestMagnitude(e1.x, e1.y, e1.z),
                 edge2 = largestMagnitude(e2.x, e2.y, e2.z);
     const float edge = edge1 > edge2 ? edge1 : edge2;
