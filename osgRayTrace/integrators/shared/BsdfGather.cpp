@@ -1,5 +1,4 @@
-// BsdfGather.cpp - the light that surfaces of any kind reflect and transmit of the photons around
-// sixteen points. Layer: integrators.
+// BsdfGather.cpp - the light that surfaces of any kind scatter from photons. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/PhotonGather.h"
@@ -11,7 +10,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Adds the light of one photon that the surfaces of lanes reflect.
+/// Adds the light of one photon that the surfaces of the given lanes reflect.
 OSGRAYTRACE_KERNEL
 void addPhoton(const Photon& photon, const Vec3Lanes& wi, const Vec3Lanes& fCos,
                const Vec3Lanes& geometricNormal, LaneMask lanes, Vec3Lanes& power)
@@ -28,7 +27,7 @@ void addPhoton(const Photon& photon, const Vec3Lanes& wi, const Vec3Lanes& fCos,
     }
 }
 
-/// Returns f cosTheta of one point for light from wi; 0 if wi is not on the side of wo.
+/// Returns f cosTheta of one point for light from wi, or 0 if wi is not on the side of wo.
 Vec3 evalAlone(const GatherLanes& points, int i, Vec3 wi)
 {
     const Vec3 normal = laneOf(points.queries.shadingNormal, i);
@@ -36,8 +35,8 @@ Vec3 evalAlone(const GatherLanes& points, int i, Vec3 wi)
     return evalInWorld(points.bsdfs[i], normal, laneOf(points.wo, i), wi).fCos;
 }
 
-/// Adds light from the side of wo. As for light samples, light must come from above the shading
-/// normal as well.
+/// Adds light from the side of wo. Like light samples, photons must also come from above the
+/// shading normal.
 void addReflected(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes& sums,
                   std::vector<FoundPhoton>& found)
 {

@@ -40,7 +40,8 @@ void pixelCentres(int left, int bottom, FloatLanes& x, FloatLanes& y)
     }
 }
 
-/// Where the ray through a point of the image begins, and its direction, not unit.
+/// Returns the point at which the ray through a point of the image begins. directionAt returns the
+/// direction of that ray, which is not unit.
 OSGRAYTRACE_INLINE PlainVec3 originAt(const CameraRays& c, float x, float y)
 {
     return mad(plainOf(c.originDy), y, mad(plainOf(c.originDx), x, plainOf(c.origin)));
@@ -68,7 +69,7 @@ void raysThrough(const CameraRays& camera, const FloatLanes& x, const FloatLanes
         setRayThrough(c, x[i], y[i], i, ray);
 }
 
-/// Where the ray through a point of the image meets the plane of lane i's surface.
+/// Returns s of the ray through a point of the image at the plane of lane i's surface.
 OSGRAYTRACE_INLINE float planeDistance(const CameraRays& c, float x, float y,
                                        const SurfaceLanes& surface, int i)
 {
@@ -76,8 +77,8 @@ OSGRAYTRACE_INLINE float planeDistance(const CameraRays& c, float x, float y,
     const PlainVec3 n = plainOf(surface.geometricNormal, i);
     const PlainVec3 way = plainOf(surface.position, i) - o;
     const float s = dot(n, way) / dot(n, d);
-    // If the plane is seen edge-on the centre may miss it by far: then it is the sample's own
-    // depth.
+    // If the plane is seen edge-on, the centre's ray may meet the plane far away: then the depth of
+    // the sample itself is used.
     const float sHit = dot(way, d) / dot(d, d);
     const bool usable = (s > 0.5f * sHit) & (s < 2.0f * sHit);
     return select(usable, s, sHit);

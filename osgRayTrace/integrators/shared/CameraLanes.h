@@ -8,17 +8,17 @@
 namespace osgRayTrace::engine
 {
 
-/// Rays through one point of each pixel of a block of a tile, and the seeds of these pixels. The
-/// points are those of the pass, or the pixel centres.
+/// Sets rays through one point of each pixel of a block of a tile, and the seeds of these pixels.
+/// The points are the pixel centres if centres is true, else those of the pass.
 void cameraRayLanes(const CameraRays& camera, const PassKey& key, int left, int bottom, int block,
                     bool centres, RayHitBlock& rays, UintLanes& seeds);
 
-/// The same through the pixel centres, for what needs no random numbers.
+/// Sets rays through the pixel centres of a block, for work that needs no random numbers.
 void centreRayLanes(const CameraRays& camera, int left, int bottom, int block, RayHitBlock& rays);
 
-/// Of the surfaces at the pixel centres, where the centre's ray meets the plane of the triangle
-/// that the sample hit: along, s of the camera's rays there, infinity where nothing was hit; and
-/// the window depth in [0,1], 1 where nothing was.
+/// Sets, for each pixel centre of a block, where the centre's ray meets the plane of the triangle
+/// that the sample hit. along is s of the camera's rays there, or infinity if nothing was hit.
+/// depth is the window depth in [0,1], or 1 if nothing was hit.
 void depthLanes(const CameraRays& camera, int left, int bottom, int block,
                 const SurfaceLanes& surface, FloatLanes& along, float* depth);
 

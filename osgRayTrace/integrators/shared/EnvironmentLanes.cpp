@@ -12,7 +12,8 @@ namespace
 
 constexpr float kUniformPdfW = 0.25f * kInvPi; // [1/sr]
 
-/// Uniform on the sphere: neighbouring points of the square give neighbouring directions.
+/// Returns a uniform sample of the sphere. Neighbouring points of the square give neighbouring
+/// directions.
 EnvironmentSample uniformSample(const PlacedEnvironment& environment, float u, float v)
 {
     EnvironmentSample sample;
@@ -26,7 +27,7 @@ EnvironmentSample uniformSample(const PlacedEnvironment& environment, float u, f
     return sample;
 }
 
-/// False if the surface gets no light from there.
+/// Sets the sample of lane i. Returns false if the surface gets no light from direction wi.
 bool setLane(const SurfaceLanes& surface, int i, Vec3 wi, bool transmissive, Vec3 radiance,
              float weight, LightLanes& samples)
 {

@@ -7,25 +7,27 @@
 namespace osgRayTrace::engine
 {
 
-/// A direction towards the environment for the lanes of active, by Importance or Uniform. Lanes are
-/// left out as in areaLightLanes.
+/// Sets a sample of the environment for the lanes of active, by Importance or Uniform sampling.
+/// Lanes are left out as areaLightLanes leaves them out.
 void environmentLanes(const PassContext& context, const SurfaceLanes& surface, LaneMask active,
                       LaneMask throughSurface, const FloatLanes& u, const FloatLanes& v,
                       LightLanes& samples);
 
-/// The same towards one stratum; inversePmf: over the probability with which the lanes chose it.
+/// Sets samples as environmentLanes does, towards one stratum. inversePmf is 1 over the probability
+/// with which the lanes chose the stratum.
 void stratumLanes(const EnvironmentStratum& stratum, float inversePmf, const SurfaceLanes& surface,
                   LaneMask active, LaneMask throughSurface, LightLanes& samples);
 
-/// [1/sr] with which environmentLanes finds a direction.
+/// Returns the density [1/sr] with which environmentLanes finds a direction.
 float environmentPdfW(const PassContext& context, const PlacedEnvironment& environment,
                       Vec3 direction);
 
-/// What a ray sees that missed everything and came from the eye by mirrors and glass alone. The
-/// background if there is no environment.
+/// Returns the radiance that a ray sees if it missed everything and came from the eye by mirrors
+/// and glass alone. Without an environment this is the background.
 Vec3 radianceBehind(const PassContext& context, const RayBlock& ray, int i);
 
-/// The environment that camera rays see if they miss everything; null: they see the clear colour.
+/// Returns the environment that camera rays see if they miss everything, or null if they see the
+/// clear colour.
 const PlacedEnvironment* visibleEnvironment(const PassContext& context);
 
 } // namespace osgRayTrace::engine

@@ -14,15 +14,17 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// GGX of width alpha falls to a quarter at tan(angle) = alpha [Walter07, eq. 33].
+/// Returns the width of the lobe [radians]: GGX of width alpha falls to a quarter at tan(angle) =
+/// alpha [Walter07, eq. 33].
 float lobeWidth(const MaterialRecord& record, const Bsdf& bsdf)
 {
-    if (record.material->blended) return 0.0f; // what is behind moves otherwise
+    if (record.material->blended) return 0.0f; // the surface behind moves otherwise
     if (bsdf.isDiffuse()) return kInfinity;
     return bsdf.isSmooth() ? 0.0f : bsdf.alpha;
 }
 
-/// linearFromSrgb within 0.002 for [0,1], for less: there is one for each pixel of each frame.
+/// Returns linearFromSrgb within 0.002 for [0,1]. The approximation is cheaper, and it runs for
+/// each pixel of each frame.
 OSGRAYTRACE_INLINE float nearlyLinear(float encoded)
 {
     return encoded * (encoded * (encoded * 0.305306f + 0.682171f) + 0.012523f);
@@ -41,7 +43,7 @@ Bsdf seenBsdf(const PassContext& context, const RayHitBlock& rays, const Surface
                                             materialPoint(context, rays, surface, i));
 }
 
-/// What its material tells.
+/// Returns a sample with the members that the material of lane i decides on.
 SurfaceSample seenMaterial(const PassContext& context, const RayHitBlock& rays,
                            const SurfaceLanes& surface, int i)
 {
@@ -55,8 +57,9 @@ SurfaceSample seenMaterial(const PassContext& context, const RayHitBlock& rays,
     return sample;
 }
 
-/// take(lane, value) for all lanes that hit something. value(lane): by material and side if
-/// isConstant(record): blocks see few materials, most of which are the same wherever they are seen.
+/// Calls take(lane, value) for all lanes that hit something. If isConstant(record), value(lane) is
+/// computed once for a material and side: blocks see few materials, and most materials are the same
+/// everywhere.
 template <class IsConstant, class ValueOf, class Take>
 void forEachMaterial(const PassContext& context, const SurfaceLanes& surface,
                      const IsConstant& isConstant, const ValueOf& valueOf, const Take& take)
@@ -115,7 +118,7 @@ void setObjects(const SurfaceLanes& surface, SurfaceBlock& seen)
     }
 }
 
-/// All but the albedo.
+/// Traces the rays through the pixel centres and sets all of hits but the albedo.
 void traceCentres(const PassContext& context, int left, int bottom, int block, HitRule rule,
                   FirstHitLanes& hits)
 {
@@ -213,7 +216,8 @@ void setSurfaces(const PassContext& context, const RayHitBlock& rays, const Surf
 
 } // namespace
 
-/// Not inlined: most passes do not want them, and shall not pay for its stack.
+/// Records the samples of a block. The function is not inlined, because most passes want no samples
+/// and shall not pay for its stack.
 [[gnu::noinline]] static void recordSamples(const PassContext& context, int block,
                                             const RayHitBlock& rays, const SurfaceLanes& surface,
                                             FirstHitOutputs& outputs)

@@ -9,44 +9,44 @@
 namespace osgRayTrace::engine
 {
 
-/// What a ray through one pixel centre met first.
+/// The surface that a ray through one pixel centre met first.
 struct FirstHit
 {
     bool hit = false;
     float distance = kInfinity; ///< from the start of the ray's line: the eye, or the near plane
-    Vec3 normal{0.0f};          ///< shading, unit, towards the viewer
+    Vec3 normal{0.0f};          ///< unit shading normal, towards the viewer
     Vec3 albedo{0.0f};
-    Vec3 position{0.0f}; ///< engine space
+    Vec3 position{0.0f}; ///< point in engine space
     uint32_t instance = kInvalid;
 };
 
-/// What the rays through the pixel centres of a block met first. Normals and albedos are 0 where
-/// nothing. Albedos are linear, as in SurfaceSample.
+/// The surfaces that the rays through the pixel centres of a block met first. Normals and albedos
+/// are 0 in lanes that met nothing. Albedos are linear, as in SurfaceSample.
 struct FirstHitLanes
 {
     RayHitBlock rays;
     SurfaceLanes surface;
-    Vec3Lanes normal; ///< shading, unit, towards the viewer
+    Vec3Lanes normal; ///< unit shading normals, towards the viewer
     Vec3Lanes albedo;
 };
 
-/// Of a block of a tile. Blended surfaces are met as the integrator's own camera rays meet them:
-/// always, or by chance.
+/// Traces the pixel centres of a block of a tile. The rays meet blended surfaces as the
+/// integrator's own camera rays meet them: always, or by chance.
 void firstHitLanes(const PassContext& context, int left, int bottom, int block,
                    FirstHitLanes& hits);
 
-/// First hits of a tile, index block * kLanes + lane.
+/// Sets the first hits of a tile. The index of a hit is block * kLanes + lane.
 void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels]);
 
-/// The same with what is done with images in mind.
+/// Sets the first hits of a tile as samples for the stages that work on images.
 void firstSamples(const PassContext& context, int left, int bottom,
                   SurfaceSample (&samples)[kTilePixels]);
 
-/// The same as recordFirstHits has it.
+/// Sets the first hits of a block as recordFirstHits records them.
 void firstSurfaces(const PassContext& context, int left, int bottom, int block, SurfaceBlock& seen);
 
-/// What camera rays of a pass tell about their first hits, as far as it is wanted: of block's rays,
-/// through whatever points of the pixels.
+/// Records the first hits of the camera rays of a block, as far as the pass wants them. The rays
+/// may pass through any points of their pixels.
 void recordFirstHits(const PassContext& context, int left, int bottom, int block,
                      const RayHitBlock& rays, const SurfaceLanes& surface,
                      FirstHitOutputs& outputs);

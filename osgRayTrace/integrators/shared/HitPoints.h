@@ -1,5 +1,4 @@
-// HitPoints.h - where the camera paths of a tile gather light, kept from pass to pass. Layer:
-// integrators.
+// HitPoints.h - points of a tile at which camera paths gather light. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,55 +12,55 @@
 namespace osgRayTrace::engine
 {
 
-/// Points at which camera paths take light samples and, if gathering, look up photons: the hit
-/// points of progressive photon mapping [Hachisuka08, sect. 4.1]. Sixteen of the same number of
-/// bounces; lanes beyond count hold the first one.
+/// Points at which camera paths take light samples and, in lanes of gathering, look up photons: the
+/// hit points of progressive photon mapping [Hachisuka08, sect. 4.1]. A block holds sixteen points
+/// of the same number of bounces. Lanes beyond count hold a copy of the first point.
 struct HitPointBlock
 {
-    Vec3Lanes position; ///< on the triangle
+    Vec3Lanes position; ///< point on the triangle
     Vec3Lanes
-        start; ///< of shadow rays: position but for points with a terminator offset, see RayStart
-    Vec3Lanes geometricNormal; ///< unit, on the side of the ray
-    Vec3Lanes normal;          ///< shading, on that side
-    Vec3Lanes direction;       ///< of the ray that came here, unit
+        start; ///< start of shadow rays: position unless there is a terminator offset, see RayStart
+    Vec3Lanes geometricNormal; ///< unit normal of the triangle, on the side of the ray
+    Vec3Lanes normal;          ///< shading normal, on the side of the ray
+    Vec3Lanes direction;       ///< unit direction of the ray that met the point
     Vec3Lanes throughput;
-    Vec3Lanes albedo;             ///< if diffuse
+    Vec3Lanes albedo;             ///< albedo of diffuse lanes
     FloatLanes offset, minCosine; ///< see SurfaceLanes
     UintLanes material, instance;
-    UintLanes seed;  ///< of the pixel
-    UintLanes flags; ///< of the path
+    UintLanes seed;  ///< seed of the pixel
+    UintLanes flags; ///< flags of the path
     UintLanes bsdf;  ///< index into HitPoints::bsdfs unless diffuse
-    int number = 0;  ///< of bounces before
+    int number = 0;  ///< number of bounces before the point
     int count = 0;
     LaneMask diffuse = 0, transmissive = 0, terminatorLanes = 0, gathering = 0,
              terminating = 0; ///< see Bounce, SurfaceLanes
 };
 
-/// Passes of one half of the film that gather at the hit points of the same camera paths. The noise
-/// of paths, of where they are in the pixel and of what glossy surfaces make of them, falls with
-/// the number of such groups alone, and to follow a path takes no more than a tenth of a pass:
-/// longer groups cost more than they save.
+/// The number of passes of one half of the film that gather at the hit points of the same camera
+/// paths. The noise of paths (of their places in the pixel and of their directions at glossy
+/// surfaces) falls with the number of such groups alone. To follow a path takes no more than a
+/// tenth of a pass, so longer groups cost more than they save.
 constexpr int kPathPasses = 2;
 
-/// Number of the camera paths of a pass: that of the pass which has them where each has its own.
-/// Paths of a half are numbered one after the other, as their points fill the pixel evenly in that
-/// order, and halves of the film have paths of their own, so that the difference between their
-/// means shows the noise of paths, too.
+/// Returns the number of the camera paths of a pass: the index of the pass that would trace these
+/// paths if each pass had its own. The paths of a half are numbered one after the other, because
+/// their points fill the pixel evenly in that order. Halves of the film have paths of their own, so
+/// that the difference between the halves' means shows the noise of paths, too.
 inline int sharedPaths(int pass)
 {
     const int half = pass & 1;
     return pass / (2 * kPathPasses) * 2 + half;
 }
 
-/// Hit points of one tile for one half of the film, kept for the passes that share them.
+/// The hit points of one tile for one half of the film, kept for the passes that share them.
 struct HitPoints
 {
-    uint32_t paths = kInvalid; ///< PassKey::index of the camera paths; kInvalid: there are none
-    std::vector<HitPointBlock> blocks; ///< by number of bounces
+    uint32_t paths = kInvalid;         ///< PassKey::index of the camera paths; kInvalid: none
+    std::vector<HitPointBlock> blocks; ///< blocks in order of the number of bounces
     std::vector<Bsdf> bsdfs;
-    std::vector<RgbaLanes> seen; ///< kTileBlocks of the light that the paths met by themselves
+    std::vector<RgbaLanes> seen; ///< light that the paths met by themselves, kTileBlocks
 
-    /// Leaves the memory for the next paths.
+    /// Removes the paths and keeps the memory for the next paths.
     void clear()
     {
         paths = kInvalid;

@@ -52,7 +52,7 @@ Vec3 emissionTowardsRay(const PassContext& context, const RayHitBlock& rays,
     return materials.emission(material, materialPoint(context, rays, surface, i));
 }
 
-/// Sums of more than this could overflow: taken for infinite.
+/// Radiances from this on count as infinite, because their sums could overflow.
 constexpr float kLargestRadiance = 1e30f;
 
 OSGRAYTRACE_KERNEL

@@ -1,5 +1,4 @@
-// HitShading.h - material, frame and emission of single hits, as both integrators need them.
-// Layer: integrators.
+// HitShading.h - material, frame and emission of single hits. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,7 +15,7 @@ inline Vec3 directionOf(const RayBlock& ray, int i)
     return Vec3(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
 }
 
-/// Orthonormal frame around a shading normal.
+/// The orthonormal frame around a shading normal.
 struct ShadingFrame
 {
     explicit ShadingFrame(Vec3 unitNormal) : normal(unitNormal)
@@ -32,20 +31,20 @@ struct ShadingFrame
     Vec3 normal, tangent, bitangent;
 };
 
-/// evalBsdf around a shading normal, all in the world.
+/// Returns evalBsdf around a shading normal, with all directions in world space.
 inline BsdfValue evalInWorld(const Bsdf& bsdf, Vec3 normal, Vec3 wo, Vec3 wi)
 {
     const ShadingFrame frame(normal);
     return evalBsdf(bsdf, frame.toLocal(wo), frame.toLocal(wi));
 }
 
-/// What the options want of rays that leave smooth-shaded facets.
+/// Returns the start that the options ask for, for rays that leave smooth-shaded facets.
 inline RayStart rayStart(const RenderOptions& options)
 {
     return options.terminatorCorrection ? RayStart::Smooth : RayStart::Triangle;
 }
 
-/// Where a ray begins: at distance tNear from origin.
+/// The begin of a ray: the point at distance tNear from origin.
 struct RayBegin
 {
     Vec3 origin;
@@ -57,9 +56,9 @@ inline void setRay(RayBlock& ray, int i, const RayBegin& begin, Vec3 direction, 
     setRay(ray, i, plainOf(begin.origin), plainOf(direction), begin.tNear, tFar);
 }
 
-/// Of a ray that leaves the surface towards wi: of the point itself, from where it is clear of the
-/// surface, if it is steep; else of the point above. Off a large plane that one sees 0.002 % more
-/// of a light.
+/// Returns the begin of a ray that leaves the surface towards wi. A steep ray starts from the point
+/// itself, at the distance at which the ray is clear of the surface. Any other ray starts from the
+/// point above the surface; off a large plane such a ray sees 0.002 % more of a light.
 inline RayBegin leave(const SurfaceLanes& surface, int i, Vec3 wi, const Vec3Lanes& points)
 {
     const Vec3 n = laneOf(surface.geometricNormal, i);
@@ -74,17 +73,17 @@ inline RayBegin leave(const SurfaceLanes& surface, int i, Vec3 wi)
     return leave(surface, i, wi, surface.position);
 }
 
-/// True if the direction is on the ray's side of the surface as light goes: of the facet, or for
-/// terminatorLanes of the shading normal alone, on whose side it must be in both cases.
+/// Returns true if the direction is on the ray's side of the surface for light: on that side of the
+/// facet, or for terminatorLanes on that side of the shading normal alone. The caller must check
+/// the side of the shading normal in both cases.
 inline bool isAbove(const SurfaceLanes& surface, int i, Vec3 wi)
 {
     return ((surface.terminatorLanes >> i) & 1u) ||
            glm::dot(wi, laneOf(surface.geometricNormal, i)) > 0.0f;
 }
 
-/// As leave and isAbove, but of the facet in any case: for mirror-like lobes. There is no
-/// terminator in them, and what they would see from above the facet no photon could bring the other
-/// way.
+/// Returns the begin as leave does, but always from the facet, for mirror-like lobes. These lobes
+/// have no terminator, and no photon could take the way back to a point above the facet.
 inline RayBegin leaveFacet(const SurfaceLanes& surface, int i, Vec3 wi)
 {
     return leave(surface, i, wi, trianglePoints(surface));
@@ -95,14 +94,15 @@ inline bool isAboveFacet(const SurfaceLanes& surface, int i, Vec3 wi)
     return glm::dot(wi, laneOf(surface.geometricNormal, i)) > 0.0f;
 }
 
-/// Where on its material hit lane i of the block is.
+/// Returns the point on its material that lane i of the block hit.
 MaterialPoint materialPoint(const PassContext& context, const RayHitBlock& rays,
                             const SurfaceLanes& surface, int i);
 
-/// As of facingNormalLanes.
+/// Returns the normal of lane i as facingNormalLanes sets it.
 Vec3 facingNormal(const RayHitBlock& rays, const SurfaceLanes& surface, int i);
 
-/// Radiance that the surface sends back along the ray by itself: 0 from the dark side of a light.
+/// Returns the radiance that the surface itself sends back along the ray. The dark side of a light
+/// sends 0.
 Vec3 emissionTowardsRay(const PassContext& context, const RayHitBlock& rays,
                         const SurfaceLanes& surface, int i);
 

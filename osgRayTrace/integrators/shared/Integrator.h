@@ -1,5 +1,4 @@
-// Integrator.h - the seam between a session and the algorithms that make pictures. Layer:
-// integrators.
+// Integrator.h - the interface of the estimators of radiance. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,14 +8,15 @@
 namespace osgRayTrace::engine
 {
 
-/// One pass for one tile of one view. Stateless: any thread may call it for any tile.
+/// The estimator of one pass for one tile of one view. An integrator has no state: any thread may
+/// call it for any tile.
 class Integrator
 {
 public:
     virtual ~Integrator() = default;
 
-    /// left, bottom: the tile's first pixel. Every pixel of the tile gets one sample, also those
-    /// outside of the image.
+    /// Traces one sample of every pixel of the tile, also of pixels outside of the image. (left,
+    /// bottom) is the tile's first pixel.
     virtual void renderTile(const PassContext& context, int left, int bottom,
                             TileResult& result) const = 0;
 };

@@ -1,5 +1,4 @@
-// IntegratorChoice.h - the integrator that a scene needs, and the photons that an integrator needs.
-// Layer: integrators.
+// IntegratorChoice.h - a scene's integrator, and an integrator's photons. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,12 +9,13 @@
 namespace osgRayTrace::engine
 {
 
-/// Photons that the integrator looks up.
+/// Returns the use of the photons that the integrator looks up.
 PhotonUse photonUse(IntegratorKind kind);
 
-/// Replaces Automatic by the cheapest integrator that is right for the scene: Whitted for scenes of
-/// fixed-function materials, path tracing as soon as a material is physical, with photons for the
-/// caustics if something is mirror-like or transmits.
+/// Returns wanted, or in place of Automatic the cheapest integrator that is right for the scene.
+/// Scenes of fixed-function materials get Whitted. Scenes with a physical material get path
+/// tracing, with photons for the caustics if there are lights and something is mirror-like or
+/// transmits.
 IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits);
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// LightBsdfs.cpp - what surfaces of any kind send back of light samples. Layer: integrators.
+// LightBsdfs.cpp - the light samples that surfaces of any kind scatter. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/LightBsdfs.h"
 

@@ -1,4 +1,4 @@
-// LightBsdfs.h - what surfaces of any kind send back of light samples. Layer: integrators.
+// LightBsdfs.h - the light samples that surfaces of any kind scatter. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,8 +9,9 @@
 namespace osgRayTrace::engine
 {
 
-/// evalBsdf for rays that met surfaces and light from wi, lane by lane. 0 in other lanes, and where
-/// light and shading normal do not agree on the side: there it would leak through smooth surfaces.
+/// Sets fCos and pdfW to those of evalBsdf for rays that met surfaces and for light from wi, lane
+/// by lane. Both are 0 in other lanes, and in lanes for which isAbove and the shading normal do not
+/// agree on the side of the light: there light would leak through smooth surfaces.
 void evalTowardsLight(const RayBlock& rays, const SurfaceLanes& surface, const Vec3Lanes& normal,
                       const Bsdf* bsdfs, const Vec3Lanes& wi, LaneMask lanes, Vec3Lanes& fCos,
                       FloatLanes& pdfW);

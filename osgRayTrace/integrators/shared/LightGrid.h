@@ -10,22 +10,25 @@ namespace osgRayTrace::engine
 struct LightGridLayout
 {
     LightSampling strategy;
-    uint32_t samples; ///< that a hit takes of each light in the pass
-    uint32_t side;    ///< of the square of cells
+    uint32_t samples; ///< samples that a hit takes of each light in the pass
+    uint32_t side;    ///< side of the square of cells
     uint32_t passIndex;
 };
 
-/// Points by the strategy of the options, samples of them for each hit and light.
+/// The sample points on lights by the strategy of the options: samples() points for each hit and
+/// light.
 class LightGrid
 {
 public:
-    /// lights: that share the samples of a point, see samplesOfEach.
+    /// Sets the layout of the points. lights is the number of lights that share the samples of a
+    /// point: see samplesOfEach.
     LightGrid(const PassContext& context, std::size_t lights);
 
-    /// Samples that a hit takes of each light in the pass.
+    /// Returns the number of samples that a hit takes of each light in the pass.
     uint32_t samples() const { return _layout.samples; }
 
-    /// Points number j, below samples(), on the light-th area light, for pixels with these seeds.
+    /// Sets the points of number j, below samples(), on area light number light, for pixels with
+    /// these seeds.
     void draw(std::size_t light, uint32_t j, const UintLanes& seeds, FloatLanes& u,
               FloatLanes& v) const;
 

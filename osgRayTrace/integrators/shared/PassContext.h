@@ -1,4 +1,4 @@
-// PassContext.h - what a pass over the image of one view works with. Layer: integrators.
+// PassContext.h - the input of a pass over the image of one view. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,27 +15,27 @@ namespace osgRayTrace::engine
 
 class PhotonMap;
 
-/// What a pass over the image of one view works with. Shared by all threads, not changed by them.
+/// The input of a pass over the image of one view. All threads share it, and none changes it.
 struct PassContext
 {
     const TracedScene* traced = nullptr;
-    const std::vector<Light>* lights = nullptr; ///< the scene's, eye-space ones placed for the view
+    const std::vector<Light>* lights = nullptr; ///< scene lights, placed for the view if eye-space
     CameraRays camera;
-    int width = 0, height = 0;            ///< of the image [pixels]
+    int width = 0, height = 0;            ///< size of the image [pixels]
     Vec3 towardsViewer{0.0f, 0.0f, 1.0f}; ///< the view's +z axis, unit, engine space
     Mat3 eyeFromEngine{1.0f};             ///< rotation into the view's axes
-    RenderOptions options;                ///< integrator is the chosen one, never Automatic
+    RenderOptions options;                ///< options with the chosen integrator, never Automatic
     PassKey key;
-    PassKey pathKey;             ///< of camera paths; for PPM that of sharedPaths()
-    bool wantsDepth = true;      ///< of the first pass
-    bool throughCentres = false; ///< camera rays are those of firstHits
+    PassKey pathKey;             ///< key of camera paths; for PPM that of sharedPaths()
+    bool wantsDepth = true;      ///< true in the first pass: first hits are recorded
+    bool throughCentres = false; ///< true: camera rays are those of firstHits
 
     PhotonUse photonUse = PhotonUse::None;
-    /// The environment's, if options.environmentSampling is Structured; null: none.
+    /// The environment's strata, if options.environmentSampling is Structured; null: none.
     const std::vector<EnvironmentStratum>* strata = nullptr;
 
-    const PhotonMap* photons = nullptr; ///< of the pass; if photonUse
-    float leastPhotonRadius = 0.0f;     ///< range of the radii of lookups in this pass [length]
+    const PhotonMap* photons = nullptr; ///< photons of the pass, if photonUse is not None
+    float leastPhotonRadius = 0.0f;     ///< least radius of look-ups in this pass [length]
     float largestPhotonRadius = 0.0f;
 };
 

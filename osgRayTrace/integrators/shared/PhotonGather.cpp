@@ -1,5 +1,4 @@
-// PhotonGather.cpp - first radii, and the light that plain Lambert surfaces reflect of the photons
-// around points. Layer: integrators.
+// PhotonGather.cpp - first radii, and gathering by Lambert surfaces. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/PhotonGather.h"
 

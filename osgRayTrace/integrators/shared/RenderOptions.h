@@ -1,5 +1,5 @@
 // RenderOptions.h - the settings of the engine as plain data. Layer: integrators.
-// The public RayTraceSettings documents them, with ranges and environment variables.
+// The public RayTraceSettings documents the settings, with ranges and environment variables.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,20 +11,20 @@ namespace osgRayTrace::engine
 
 enum class IntegratorKind : uint8_t
 {
-    Automatic, ///< the cheapest that is right for the scene: see chooseIntegrator
+    Automatic, ///< the cheapest integrator that is right for the scene: see chooseIntegrator
     Whitted,
     Path,
     Ppm,            ///< photons for all indirect light, fixed hit points
-    Sppm,           ///< the same, new hit points in each pass
+    Sppm,           ///< photons for all indirect light, new hit points in each pass
     PhotonCaustics, ///< path tracing, photons for light that came by mirrors and glass
     Debug,
 };
 
-/// How the radius of photon lookups shrinks.
+/// The way in which the radius of photon look-ups shrinks.
 enum class RadiusSchedule : uint8_t
 {
-    Global, ///< by the number of the pass alone
-    Local,  ///< by the photons that each pixel has seen; Ppm and Sppm only
+    Global, ///< shrinks by the number of the pass alone
+    Local,  ///< shrinks by the photons that each pixel has seen; Ppm and Sppm only
 };
 
 enum class LightSampling : uint8_t
@@ -37,8 +37,8 @@ enum class LightSampling : uint8_t
 
 enum class EnvironmentSampling : uint8_t
 {
-    Importance, ///< in proportion to radiance, weighted against chance hits
-    Structured, ///< as a few distant lights
+    Importance, ///< directions in proportion to radiance, weighted against chance hits
+    Structured, ///< directions of a few distant lights
     Uniform,    ///< all directions alike, weighted against chance hits
 };
 
@@ -58,25 +58,25 @@ struct RenderOptions
     IntegratorKind integrator = IntegratorKind::Automatic;
     LightSampling lightSampling = LightSampling::Sobol;
     DebugChannel debugChannel = DebugChannel::Normal;
-    int lightSamples = 4; ///< a hit and light; rounded up to a square for the n x n strategies
+    int lightSamples = 4; ///< samples of a hit and light; a square for n x n strategies, rounded up
     EnvironmentSampling environmentSampling = EnvironmentSampling::Importance;
     int environmentSamples = 300; ///< lights that Structured makes of the environment, at most
     int maxBounces = 8;           ///< edges of a path after the camera ray
     bool shadows = true;
     bool terminatorCorrection =
-        true; ///< rays of smooth-shaded facets start as RayStart::Smooth says
-    /// The first pass looks through the middles of the pixels, where first hits are sampled: for
-    /// images that are filtered or upsampled by what is seen there.
+        true; ///< true: rays of smooth-shaded facets start as RayStart::Smooth says
+    /// True: the first pass looks through the middles of the pixels, at which first hits are
+    /// sampled. Images that are filtered or upsampled by their first hits need this.
     bool centredFirstPass = false;
     uint32_t seed = 0;
-    int photons = 1 << 16;     ///< emitted a pass
-    float photonRadius = 0.0f; ///< of the first pass [length]; 0: from the density of the photons
+    int photons = 1 << 16;     ///< photons emitted in a pass
+    float photonRadius = 0.0f; ///< radius in the first pass [length]; 0: from the photons' density
     float photonAlpha = 2.0f / 3.0f; ///< share of the photons of a pass that are kept
     RadiusSchedule radiusSchedule = RadiusSchedule::Global;
     bool photonGuiding =
-        true; ///< photons are guided to what views see, not only at what makes caustics
+        true; ///< true: photons go to what views see, not only to what makes caustics
 
-    /// The options that decide on an accumulated image: all of them.
+    /// Returns the options that decide on an accumulated image: all of them.
     auto restarting() const
     {
         return std::tie(integrator, lightSampling, debugChannel, lightSamples, environmentSampling,
@@ -85,14 +85,15 @@ struct RenderOptions
                         photonGuiding);
     }
 
-    /// True if an accumulated image made with previous cannot be continued with *this.
+    /// Returns true if an accumulated image made with previous cannot be continued with *this.
     bool needsRestart(const RenderOptions& previous) const
     {
         return restarting() != previous.restarting();
     }
 };
 
-/// Samples that a hit takes of an area light: whole squares where the strategy has cells.
+/// Returns the number of samples that a hit takes of an area light: a square number if the strategy
+/// has cells.
 inline int lightSampleCount(const RenderOptions& options)
 {
     const bool cells = options.lightSampling == LightSampling::UniformJitter ||

@@ -1,4 +1,4 @@
-// SampledLights.cpp - which lights a pass samples, where there are many. Layer: integrators.
+// SampledLights.cpp - the choice of the lights that a pass samples. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/SampledLights.h"
 
@@ -16,14 +16,15 @@ namespace
 
 constexpr double kGoldenSection = 0.6180339887498949;
 
-/// Where the evenly spaced points of a pass begin, in units of their distance.
+/// Returns the begin of the evenly spaced points of a pass, in units of their distance.
 double offsetOf(const PassKey& key)
 {
     const double begin = hash(key.seed, 0x11647u) * 0x1p-32 + key.index * kGoldenSection;
     return begin - std::floor(begin);
 }
 
-/// choose(u): one of the lights in proportion to power, and its probability.
+/// Returns the lights that a pass samples: no more than most. choose(u) returns one of the lights,
+/// chosen in proportion to power, and its probability.
 template <class Choose>
 SampledLights sampledLights(const std::vector<uint32_t>& lights, std::size_t most,
                             const PassKey& key, const Choose& choose)
@@ -89,7 +90,8 @@ SampledLightCounts sampledLightCounts(const PassContext& context)
     if (context.options.integrator == IntegratorKind::Debug) return counts;
     counts.deltaLights = table.deltaLights().size();
     counts.sampledDeltaLights = std::min(counts.deltaLights, kMostDeltaLights);
-    if (context.options.integrator != IntegratorKind::Whitted) return counts; // others choose one
+    // Integrators other than Whitted choose one area light for each sample.
+    if (context.options.integrator != IntegratorKind::Whitted) return counts;
     counts.areaLights = table.areaLights().size();
     counts.sampledAreaLights = std::min(counts.areaLights, mostAreaLights(context.options));
     counts.samplesOfEach = samplesOfEach(context.options, counts.areaLights);

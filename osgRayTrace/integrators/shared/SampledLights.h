@@ -1,5 +1,4 @@
-// SampledLights.h - which lights a pass samples at each surface point, where there are many. Layer:
-// integrators.
+// SampledLights.h - the choice of the lights that a pass samples. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,25 +14,25 @@ namespace osgRayTrace::engine
 
 struct PassContext;
 
-/// Area lights of which each gets RenderOptions::lightSamples samples at a point. More of them
-/// share what so many would get: fewer samples each, down to one, and beyond that some of the
-/// lights in each pass.
+/// The largest number of area lights of which each gets RenderOptions::lightSamples samples at a
+/// point. A larger number of lights shares the samples that so many lights would get: each light
+/// gets fewer samples, down to one, and if one is still too many, each pass samples some of the
+/// lights.
 constexpr std::size_t kMostAreaLights = 64;
 
-/// Point, spot and directional lights that a pass takes light from. With a size they share samples
-/// as area lights do.
+/// The largest number of point, spot and directional lights that a pass takes light from. Those
+/// with a size share samples as area lights do.
 constexpr std::size_t kMostDeltaLights = 256;
 
-/// A light of which samples are taken, and what they are multiplied with: 1 if all lights are
-/// sampled.
+/// A light that is sampled, and the factor of its samples: 1 if all lights are sampled.
 struct SampledLight
 {
     uint32_t light = kInvalid;
     float weight = 1.0f;
 };
 
-/// The lights that a pass takes samples of: all of a table's list, for which no memory is needed,
-/// or some of them. The list must outlive this.
+/// The lights that a pass samples: all lights of a list of the table, without memory of their own,
+/// or some of them. The list must outlive the SampledLights.
 class SampledLights
 {
 public:
@@ -52,23 +51,24 @@ private:
     std::vector<SampledLight> _some;
 };
 
-/// Samples that a point takes in a pass of each of so many area lights: whole squares where the
-/// strategy has cells.
+/// Returns the number of samples that a point takes in a pass of each of so many area lights: a
+/// square number if the strategy has cells.
 int samplesOfEach(const RenderOptions& options, std::size_t lights);
 
-/// The lights of a pass. All, or else about as many as a pass may sample, chosen by power: by
-/// points that are evenly spaced in the sum of all powers, and moved from pass to pass by the
-/// golden section, so that the expected light is that of all, and successive passes choose others
-/// [systematic sampling: Cochran77, ch. 8]. The same for all points of a pass.
+/// Returns the lights that a pass samples: all, or else about as many as a pass may sample, chosen
+/// by power. The choice takes points that are evenly spaced in the sum of all powers and that the
+/// golden section moves from pass to pass. So the expected light is that of all lights, and
+/// successive passes choose others [systematic sampling: Cochran77, ch. 8]. All points of a pass
+/// share the choice.
 SampledLights sampledAreaLights(const PassContext& context);
 SampledLights sampledDeltaLights(const PassContext& context);
 
-/// How many lights of a scene a pass samples.
+/// The numbers of lights of a scene, and of those that a pass samples.
 struct SampledLightCounts
 {
     std::size_t areaLights = 0,
                 sampledAreaLights = 0;       ///< 0 unless the integrator samples all that it may
-    int samplesOfEach = 0, wantedOfEach = 0; ///< of area lights
+    int samplesOfEach = 0, wantedOfEach = 0; ///< samples of each area light, taken and wanted
     std::size_t deltaLights = 0, sampledDeltaLights = 0;
 };
 SampledLightCounts sampledLightCounts(const PassContext& context);

@@ -1,5 +1,4 @@
-// ShadowLanes.cpp - light samples of a block of surface points and their shadow rays. Layer:
-// integrators.
+// ShadowLanes.cpp - light samples of surface points, and shadow rays. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/ShadowLanes.h"
 
@@ -15,16 +14,16 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// From here on no terminator offset changes the direction to a light, and squares of distances are
-/// no floats.
+/// From this distance on no terminator offset changes the direction to a light, and squares of
+/// distances do not fit into floats.
 constexpr float kFarLight = 1e18f;
 
-/// A parallelogram with what all lanes share.
+/// A parallelogram light with the values that all lanes share.
 struct Quad
 {
     Vec3 corner, edgeU, edgeV, normal;
     float area;
-    float offset; ///< error bound of a point on it
+    float offset; ///< error bound of a point on the light
     bool twoSided;
     Vec3 radiance;
 };
@@ -36,14 +35,15 @@ Quad quadOf(const Light& light, const LightTable& table, uint32_t index)
             light.twoSided,      light.radiance};
 }
 
-/// The sample of lane i. Returns all bits if the light can reach the surface.
+/// Sets the sample of lane i. Returns all bits if the light can reach the surface.
 OSGRAYTRACE_INLINE uint32_t quadLane(const Quad& q, float inversePmf, const SurfaceLanes& surface,
                                      int i, uint32_t transmissive, PlainVec3 l, LightLanes& samples)
 {
     const PlainVec3 p = plainOf(surface.position, i), n = plainOf(surface.geometricNormal, i);
     const PlainVec3 lightNormal = plainOf(q.normal);
 
-    // Which side of the light the point is on, and which side of the surface the light is on.
+    // The signs of height and above tell the side of the light that the point is on, and the side
+    // of the surface that the light is on.
     const PlainVec3 towards = p - l;
     const float height = dot(towards, lightNormal);
     const float lightSide = select(height >= 0.0f, q.offset, -q.offset);
@@ -56,7 +56,7 @@ OSGRAYTRACE_INLINE uint32_t quadLane(const Quad& q, float inversePmf, const Surf
     const float distance = std::sqrt(dot(d, d));
     const float perDistance = 1.0f / distance;
 
-    // The shadow ray is moved off both surfaces; the geometry term is not, or the light of large
+    // The shadow ray is moved off both surfaces. The geometry term is not, or the light of large
     // surfaces would be wrong by their error bound.
     const float inverse = 1.0f / std::sqrt(dot(towards, towards));
     const PlainVec3 wi = -towards * inverse;
@@ -97,7 +97,8 @@ LaneMask quadLanes(const Quad& quad, float pmf, const LightReceivers& receivers,
     return lit & receivers.active;
 }
 
-/// A lane whose light sample is on an emissive mesh.
+/// Sets the sample of lane i on an emissive mesh. Returns false if the light cannot reach the
+/// surface.
 bool meshLane(const PassContext& context, uint32_t light, float pmf,
               const LightReceivers& receivers, int i, LightLanes& samples)
 {
@@ -111,9 +112,9 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf,
     const Vec3 n = laneOf(surface.geometricNormal, i);
     if (!transmissive && glm::dot(n, sample->wi) <= 0.0f) return false;
 
-    // Measured from where the ray starts, as the path tracer does when it meets the light by
-    // chance: far from the origin that is not where the surface is, and densities that disagree
-    // would weight light twice.
+    // The distance is measured from the start of the ray, as the path tracer measures it when a
+    // path meets the light by chance. Far from the origin of space the start is not at the surface,
+    // and densities that disagree would weight light twice.
     const RayBegin begin = leave(surface, i, sample->wi);
     const Vec3 d = sample->point - begin.origin;
     const float distance = glm::length(d);
@@ -176,7 +177,8 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const LightRece
         float distance = sample.distance;
         if (((surface.terminatorLanes >> i) & 1u) && distance < kFarLight)
         {
-            // The terminator offset is no small thing: to the light itself, not past it.
+            // The terminator offset is not small: the ray must end at the light itself, not past
+            // it.
             towards = point + sample.wi * distance - begin.origin;
             distance = glm::length(towards);
             if (!(distance > 0.0f)) continue;

@@ -1,5 +1,4 @@
-// ShadowLanes.h - light samples of a block of surface points and their shadow rays. Layer:
-// integrators.
+// ShadowLanes.h - light samples of surface points, and shadow rays. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,13 +11,13 @@ namespace osgRayTrace::engine
 /// One light sample for each lane.
 struct LightLanes
 {
-    Vec3Lanes wi;           ///< unit, towards the light
+    Vec3Lanes wi;           ///< unit direction towards the light
     FloatLanes radiance[3]; ///< towards the surface; of a delta light pi * colour * attenuation
-    FloatLanes weight; ///< multiplies f cos: 1 / (pmf of the light's choice * pdfW); 1 for delta
+    FloatLanes weight; ///< factor of f cos: 1 / (pmf of the light's choice * pdfW); 1 for delta
                        ///< lights without a size
-    FloatLanes attenuation; ///< of delta lights, a part of radiance
-    LaneMask lit = 0;       ///< lanes that can get light from it; others are undefined
-    RayBlock shadow; ///< from the surface to the light, both ends clear of their own geometry
+    FloatLanes attenuation; ///< attenuation of delta lights, already in radiance
+    LaneMask lit = 0;       ///< lanes that can get light; other lanes are undefined
+    RayBlock shadow; ///< ray from the surface to the light, both ends clear of their own geometry
 };
 
 inline void setSample(LightLanes& samples, int i, Vec3 wi, Vec3 radiance, float weight)
@@ -38,20 +37,22 @@ struct LightReceivers
     const FloatLanes &u, &v; ///< the point on the light
 };
 
-/// Point (u, v) of area light number light for the active receivers. Lanes whose geometric normal
-/// faces away from the light are left out unless throughSurface has them. pmf: probability with
-/// which each lane chose this light.
+/// Sets samples at point (u, v) of area light number light for the active receivers. Lanes whose
+/// geometric normal faces away from the light are left out unless throughSurface has them. pmf is
+/// the probability with which each lane chose this light.
 void areaLightLanes(const PassContext& context, uint32_t light, float pmf,
                     const LightReceivers& receivers, LightLanes& samples);
 
-/// The same for a directional, point or spot light. u, v: not read if the light has no size.
+/// Sets samples as areaLightLanes does, of a directional, point or spot light. u and v are not read
+/// if the light has no size.
 void deltaLightLanes(const PassContext& context, uint32_t light, const LightReceivers& receivers,
                      LightLanes& samples);
 
-/// The lanes of samples.lit that see the light. Counts the rays.
+/// Returns the lanes of samples.lit that see the light, and counts their shadow rays.
 LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts);
 
-/// The same for samples of a directional, point or spot light. No rays if it casts no shadows.
+/// Returns the lanes that see a directional, point or spot light. No rays are traced if the light
+/// casts no shadows.
 LaneMask visibleLanes(const PassContext& context, const Light& light, LightLanes& samples,
                       TileCounts& counts);
 

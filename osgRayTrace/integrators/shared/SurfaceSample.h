@@ -1,5 +1,4 @@
-// SurfaceSample.h - what is seen in the middle of a pixel, for what is done with images. Layer:
-// integrators.
+// SurfaceSample.h - the surface in the middle of a pixel, for work on images. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,24 +9,24 @@
 namespace osgRayTrace::engine
 {
 
-/// What of the light that is seen in a pixel its surface tells about.
+/// The origin of the light that a surface sends to a pixel.
 enum class SurfaceKind : uint32_t
 {
     Scattering,
-    Smooth,   ///< a mirror or clear glass and nothing else: one sees other surfaces in it
-    Emitting, ///< a lamp, or unlit
+    Smooth,   ///< a mirror or clear glass alone, which shows other surfaces
+    Emitting, ///< a lamp, or an unlit surface
 };
 
-/// What the camera ray through the middle of a pixel meets first.
+/// The surface that the camera ray through the middle of a pixel meets first.
 struct SurfaceSample
 {
-    Vec3 normal;     ///< world space, unit, towards the viewer; 0 where nothing is hit
-    float distance;  ///< along the ray [length]; infinity: nothing is hit
-    Vec3 albedo;     ///< linear
-    uint32_t object; ///< instance + 1; 0 where nothing is hit
-    /// By about so much may the viewer move around the point before it looks otherwise [radians].
-    /// Infinity: it looks the same from everywhere; 0: a mirror, glass, or a layer that others are
-    /// seen through.
+    Vec3 normal;     ///< unit normal in world space, towards the viewer; 0: nothing is hit
+    float distance;  ///< distance along the ray [length]; infinity: nothing is hit
+    Vec3 albedo;     ///< linear albedo
+    uint32_t object; ///< instance + 1; 0: nothing is hit
+    /// The angle by which the viewer may move around the point before the point looks otherwise,
+    /// roughly [radians]. Infinity: the point looks the same from everywhere; 0: a mirror, glass,
+    /// or a layer that others are seen through.
     float lobe = kInfinity;
     SurfaceKind kind = SurfaceKind::Scattering;
 };

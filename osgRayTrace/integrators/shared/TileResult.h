@@ -1,4 +1,4 @@
-// TileResult.h - what a pass returns for a tile. Layer: integrators.
+// TileResult.h - the result of a pass for a tile. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace osgRayTrace::engine
 {
 
-/// For one tile and pass.
+/// The counts of one tile and pass.
 struct TileCounts
 {
     uint64_t cameraRays = 0;
@@ -21,34 +21,35 @@ struct TileCounts
     uint64_t droppedSamples = 0;
 };
 
-/// What the debug channels show, by pixel of the tile: block * kLanes + lane.
+/// The values that the debug channels show, by pixel of the tile: block * kLanes + lane.
 struct DebugOutputs
 {
     float rays[kTilePixels] = {};
     float dropped[kTilePixels] = {};
 };
 
-/// What a photon that was guided to a bin of PhotonGuide added to the radiance of a pixel.
+/// The radiance that a photon guided to a bin of PhotonGuide added to a pixel.
 struct SeenPhoton
 {
     uint32_t bin = kInvalid;
-    float radiance = 0.0f; ///< its luminance
+    float radiance = 0.0f; ///< luminance of that radiance
 };
 
-/// Photon lookups of each pixel's camera path.
+/// The photon look-ups of each pixel's camera path.
 struct GatheredPhotons
 {
-    /// [length] In: radius for this pass, 0 if it is not known yet; then out: the one that was
-    /// chosen.
+    /// The radius [length]. On input it is that for this pass, or 0 if none is known yet; on output
+    /// it is the one that was chosen.
     float radius[kTilePixels] = {};
 
-    // For the local radius schedule, out: what was found, which is then not part of the image.
+    // If separate is set (for the local radius schedule), the photons that were found come out in
+    // count and flux, and are not part of the image.
     bool separate = false;
     uint32_t count[kTilePixels] = {};
-    Vec3 flux[kTilePixels] = {}; ///< times the path's throughput [W/sr]
+    Vec3 flux[kTilePixels] = {}; ///< flux times the path's throughput [W/sr]
 
-    /// Photons of the pixels that, and seenFirst, are a multiple of seenStride; 0: they are not
-    /// wanted.
+    /// The photons that were found by the pixels whose number plus seenFirst is a multiple of
+    /// seenStride. If seenStride is 0, no photons are wanted.
     std::vector<SeenPhoton> seen;
     uint32_t seenFirst = 0, seenStride = 0;
 };
@@ -56,31 +57,33 @@ struct GatheredPhotons
 struct HitPoints;
 struct SurfaceSample;
 
-/// What the camera rays of a block met first. Where that is nothing, normals and objects are 0.
+/// The surfaces that the camera rays of a block met first. Normals and objects are 0 in lanes that
+/// met nothing.
 struct SurfaceBlock
 {
-    Vec3Lanes normal; ///< shading, unit, towards the viewer
+    Vec3Lanes normal; ///< unit shading normals, towards the viewer
     FloatLanes
-        along;       ///< s of CameraRays where the pixel's middle sees its plane; infinity: nothing
-    FloatLanes lobe; ///< width of its narrowest lobe [radians]; see SurfaceSample
+        along; ///< s of CameraRays at the surface's plane in the pixel's middle; infinity: nothing
+    FloatLanes lobe;  ///< width of the narrowest lobe [radians]; see SurfaceSample
     UintLanes object; ///< instance + 1
 };
 
-/// What the camera rays of a pass tell about what they met first. Written if
+/// The records of the first hits of the camera rays of a pass. They are written if
 /// PassContext::wantsDepth.
 struct FirstHitOutputs
 {
     float depth[kTilePixels];         ///< window depth at pixel centres
-    SurfaceBlock* surfaces = nullptr; ///< kTileBlocks; null: nobody wants them
-    SurfaceSample* samples = nullptr; ///< kTilePixels; null: nobody wants them
+    SurfaceBlock* surfaces = nullptr; ///< kTileBlocks surfaces; null: not wanted
+    SurfaceSample* samples = nullptr; ///< kTilePixels samples; null: not wanted
 };
 
-/// What lookups of photons read and write. Needed if PassContext::photonUse is not None.
+/// The data that look-ups of photons read and write. They are needed if PassContext::photonUse is
+/// not None.
 struct PhotonOutputs
 {
     GatheredPhotons* gathered = nullptr;
-    /// Of passes that share camera paths: the paths are followed anew if pathKey is another. Null:
-    /// no passes share them.
+    /// The hit points of passes that share camera paths. The paths are followed anew if pathKey is
+    /// another. Null: no passes share paths.
     HitPoints* hitPoints = nullptr;
 };
 
@@ -90,7 +93,7 @@ struct TileResult
     TileCounts counts;
     FirstHitOutputs firstHits;
     PhotonOutputs photons;
-    DebugOutputs* debug = nullptr; ///< null: nobody wants them
+    DebugOutputs* debug = nullptr; ///< null: not wanted
 };
 
 } // namespace osgRayTrace::engine

@@ -1,14 +1,16 @@
 // WhittedIntegrator.cpp - direct light, shadows, mirrors and glass. Layer: integrators.
 // SPDX-License-Identifier: MIT
 //
-//   L(ray) = emission + direct light                         all surfaces
-//          + reflection L(mirror ray) + refraction L(refracted ray)   smooth ones
+// The radiance L along a ray is
 //
-// and a L(surface) + (1 - a) L(the ray that goes on) where a surface of opacity a is blended,
-// where direct light is the mean of f cos L V / pdfW over the samples of each area light and of the
-// environment (or the sum over its strata) plus the
-// fixed-function or physical response to each directional, point and spot light. Rays of the second
-// line go to a stack, and sixteen at a time are taken from its top.
+//   L(ray) = emission + direct light                                  all surfaces
+//          + reflection L(mirror ray) + refraction L(refracted ray)   smooth surfaces
+//
+// If a surface of opacity a is blended, the radiance is a L(surface) + (1 - a) L(the ray that goes
+// on). Direct light is the mean of f cos L V / pdfW over the samples of each area light and of the
+// environment (or the sum over the strata of the environment), plus the fixed-function or physical
+// response to each directional, point and spot light. Mirror rays, refracted rays and rays that go
+// on are pushed on a stack, and up to sixteen at a time are taken from its top.
 #include "osgRayTrace/integrators/whitted/WhittedIntegrator.h"
 
 #include "osgRayTrace/accel/Intersector.h"
@@ -25,8 +27,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// A mirror or refracted ray weighing less than this cannot be seen in 8 bits. What counts is its
-/// weight outside of all glass: in it weights are 1/eta^2 of what comes out again.
+/// Mirror and refracted rays of a smaller weight than this cannot be seen in 8 bits. The weight
+/// outside of all glass counts, because weights inside glass are 1/eta^2 of the weights after the
+/// ray has left the glass.
 constexpr float kSmallestWeight = 1.0f / 1024.0f;
 
 OSGRAYTRACE_KERNEL
@@ -52,7 +55,7 @@ void fill(Vec3 value, Vec3Lanes& lanes)
     }
 }
 
-/// Fixed-function surfaces need a Bsdf for these lights.
+/// Returns true if the scene has lights for which fixed-function surfaces need a Bsdf.
 bool lightsArea(const PassContext& context)
 {
     return context.traced->traits().areaLights || context.traced->traits().environment;
@@ -90,12 +93,13 @@ void classify(WhittedTile& tile, ShadingBlock& block)
         m.emissive |= static_cast<LaneMask>(record.emits || record.fixedFunction) << i;
         if (record.fixedFunction)
         {
-            if (!record.material->lit) continue; // all of it is emission
+            if (!record.material->lit) continue; // all of its light is emission
             const MaterialPoint point = materialPoint(tile.context, block.rays, block.surface, i);
             m.points[i] = fixedFunctionPoint(tile.context, block.rays, block.surface, i, point);
             if (lightsArea(tile.context)) m.bsdfs[i] = materials.bsdf(material, point);
             m.fixedFunction |= 1u << i;
-            // OpenGL lights by the vertex normal alone, which may look the other way than the face.
+            // OpenGL lights by the vertex normal alone, which may point away from the side of the
+            // face.
             m.transmissive |= 1u << i;
             if (!(glm::dot(m.points[i].normal, laneOf(block.surface.geometricNormal, i)) > 0.0f))
                 dropTerminatorOffset(block.surface, 1u << i);
@@ -151,12 +155,13 @@ void spawn(WhittedTile& tile, const ShadingBlock& block)
     }
 }
 
-/// Behind this many blended surfaces the next one is taken as opaque. Where coordinates are so
-/// large that no offset clears a surface, a ray would meet the same one without end.
+/// The number of blended surfaces behind which the next one is taken as opaque. Without this limit,
+/// a ray would meet the same surface without end if coordinates are so large that no offset clears
+/// the surface.
 constexpr int kMostLayers = 256;
 
-/// Sends the rays of blended lanes on with what the surfaces let through, and leaves them the rest.
-/// Returns the lanes that are left less than they were.
+/// Pushes rays that go on behind blended lanes, with the weight that the surfaces let through, and
+/// leaves the lanes the rest. Returns the lanes whose weight has become less.
 LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
 {
     const MaterialTable& materials = tile.context.traced->materials();
@@ -183,7 +188,7 @@ LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
         const Vec3 behind = weight * (1.0f - opacity);
         const float largest = std::max(behind.x, std::max(behind.y, behind.z));
         const bool fromCamera = (block.fromCamera >> i) & 1u;
-        // What is left out of a camera ray would be missing in the coverage.
+        // A camera ray is never left out, because its share would be missing in the coverage.
         if (!fromCamera && !(largest * block.etaScale[i] >= kSmallestWeight)) continue;
         tile.stack.push_back({{origin, 0.0f},
                               direction,
@@ -198,7 +203,8 @@ LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
     return passed;
 }
 
-/// Adds what surfaces send by themselves, and the finished colour of fixed-function ones.
+/// Adds the light that surfaces send by themselves, and the finished colour of fixed-function
+/// surfaces.
 void addOwnLight(const WhittedTile& tile, ShadingBlock& block)
 {
     const LaneMaterials& m = block.materials;
@@ -212,8 +218,8 @@ void addOwnLight(const WhittedTile& tile, ShadingBlock& block)
     }
 }
 
-/// Sets the radiance of all hits of some blocks of the group, anything elsewhere; pushes the rays
-/// that go on.
+/// Sets the radiance of all hits of some blocks of the group (lanes without a hit are undefined),
+/// and pushes the rays that go on.
 void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
 {
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
@@ -237,7 +243,8 @@ void traceSecondary(WhittedTile& tile)
     ShadingBlock& block = tile.group[0];
     LaneMask active = 0;
     block.fromCamera = 0;
-    // Rays from the camera and others are not taken together: they meet other surfaces.
+    // Rays from the camera are not taken together with other rays, because the two kinds meet
+    // different surfaces.
     const bool fromCamera = tile.stack.back().fromCamera;
     const bool seen = visibleEnvironment(tile.context) != nullptr;
     for (int i = 0; i < kLanes && !tile.stack.empty() && tile.stack.back().fromCamera == fromCamera;
@@ -301,7 +308,8 @@ void setPixels(const Vec3Lanes& radiance, LaneMask hits, RgbaLanes& rgba)
     }
 }
 
-/// What camera rays count for, whose pixels are those from firstPixel on.
+/// Sets the weights and pixels of the camera rays of a block, whose pixels are those from
+/// firstPixel on.
 OSGRAYTRACE_KERNEL
 void startCamera(uint32_t firstPixel, ShadingBlock& block)
 {
@@ -316,7 +324,7 @@ void startCamera(uint32_t firstPixel, ShadingBlock& block)
     block.fromCamera = kAllLanes;
 }
 
-/// Camera rays of blocks first to first + kGroup - 1, stage by stage.
+/// Traces the camera rays of blocks first to first + kGroup - 1, stage by stage.
 void traceCamera(WhittedTile& tile, int left, int bottom, int first)
 {
     const PassContext& context = tile.context;

@@ -7,10 +7,11 @@
 namespace osgRayTrace::engine
 {
 
-/// The recursive ray tracer of [Whitted80] and of [McCarthy17]: fixed-function surfaces are lit by
-/// OpenGL's equations with shadows; area lights by lightSamples shadow rays; smooth physical
-/// surfaces reflect and refract, along both ways, to maxBounces. Light that diffuse surfaces send
-/// each other is left out, and so are reflections of things in rough surfaces.
+/// The recursive ray tracer of [Whitted80] and of [McCarthy17]. OpenGL's equations with shadows
+/// light fixed-function surfaces, and lightSamples shadow rays sample each area light. Smooth
+/// physical surfaces reflect and refract; both rays are followed, up to maxBounces. The integrator
+/// leaves out the light that diffuse surfaces send each other, and the reflections of things in
+/// rough surfaces.
 class WhittedIntegrator : public Integrator
 {
 public:

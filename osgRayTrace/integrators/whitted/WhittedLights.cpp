@@ -1,5 +1,4 @@
-// WhittedLights.cpp - light that surfaces get from lights of all kinds, sample by sample. Layer:
-// integrators.
+// WhittedLights.cpp - light from lights of all kinds, sample by sample. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/EnvironmentLanes.h"
 #include "osgRayTrace/integrators/shared/LightBsdfs.h"
@@ -24,7 +23,7 @@ void drawFirstPoints(const WhittedTile& tile, ShadingBlock& block)
 namespace
 {
 
-/// Adds f cos L V / pdfW of Lambert lanes: vector code.
+/// Adds f cos L V / pdfW of Lambert lanes in vector code.
 OSGRAYTRACE_KERNEL
 void addDiffuse(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLanes& light,
                 LaneMask visible, float scale, Vec3Lanes& sum)
@@ -34,8 +33,8 @@ void addDiffuse(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLan
     {
         const float cosine = dot(plainOf(normal, i), plainOf(light.wi, i));
         const uint32_t use = laneBit(visible, i) & maskOf(cosine > 0.0f);
-        // Lanes that are not used may hold anything: selected last, so that nothing of it gets
-        // through.
+        // Lanes that are not used may hold anything. The selection comes last, so that nothing of
+        // such a lane gets through.
         const float weight = cosine * light.weight[i] * (scale * kInvPi);
         const float r = albedo.x[i] * light.radiance[0][i] * weight;
         const float g = albedo.y[i] * light.radiance[1][i] * weight;
@@ -46,7 +45,7 @@ void addDiffuse(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLan
     }
 }
 
-/// The same for lanes with any other Bsdf.
+/// Adds f cos L V / pdfW of lanes with any other Bsdf.
 void addGeneral(ShadingBlock& block, LaneMask visible, float scale)
 {
     const LightLanes& light = block.light;
@@ -87,7 +86,7 @@ void addSample(WhittedTile& tile, ShadingBlock* blocks, int count, float scale, 
     }
 }
 
-/// Direct light from the area lights of the pass, sample by sample.
+/// Adds direct light from the area lights of the pass, sample by sample.
 void addAreaLights(WhittedTile& tile, ShadingBlock* blocks, int count)
 {
     const PassContext& context = tile.context;
@@ -111,7 +110,8 @@ void addAreaLights(WhittedTile& tile, ShadingBlock* blocks, int count)
     }
 }
 
-/// Direct light from the environment: samples as many as of an area light, or one of each stratum.
+/// Adds direct light from the environment: as many samples as an area light gets, or one sample of
+/// each stratum.
 void addEnvironment(WhittedTile& tile, ShadingBlock* blocks, int count)
 {
     const PassContext& context = tile.context;
@@ -138,7 +138,7 @@ void addEnvironment(WhittedTile& tile, ShadingBlock* blocks, int count)
                   });
 }
 
-/// One sample of one of them. share: what it counts for.
+/// Adds one sample of one delta light. share is the factor of the sample.
 void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float share,
                    const FloatLanes& u, const FloatLanes& v)
 {
@@ -149,7 +149,8 @@ void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float
     deltaLightLanes(context, index,
                     {block.surface, m.diffuse | m.physical | m.fixedFunction, m.transmissive, u, v},
                     samples);
-    // Fixed-function lanes that face away get the light's ambient term only: no ray for them.
+    // Fixed-function lanes that face away get only the light's ambient term, and no shadow ray is
+    // traced for them.
     const LaneMask reached = samples.lit;
     for (const int i : lanesIn(samples.lit & m.fixedFunction))
         if (glm::dot(m.points[i].normal, laneOf(samples.wi, i)) <= 0.0f) samples.lit &= ~(1u << i);
@@ -165,8 +166,8 @@ void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float
     if (visible & m.physical) addGeneral(block, visible & m.physical, share);
 }
 
-/// Lights with a size take as many samples as area lights do; their points follow on those and the
-/// environment's.
+/// Adds the light of the delta lights of the pass. Lights with a size take as many samples as area
+/// lights do; the numbers of their points follow those of the area lights and of the environment.
 void addDeltaLights(WhittedTile& tile, ShadingBlock& block)
 {
     const LightTable& table = tile.context.traced->lights();

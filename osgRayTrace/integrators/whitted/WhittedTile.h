@@ -1,5 +1,4 @@
-// WhittedTile.h - what the parts of Whitted's integrator share: a tile at work, blocks of rays.
-// Layer: integrators.
+// WhittedTile.h - the data that the parts of Whitted's integrator share. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -23,29 +22,30 @@ struct SecondaryRay
     uint32_t pixel;
     uint32_t seed;
     int depth;
-    bool fromCamera = false; ///< a camera ray that goes on behind blended surfaces
-    int layers = 0;          ///< blended surfaces that it has passed one after the other
+    bool fromCamera = false; ///< true: a camera ray that goes on behind blended surfaces
+    int layers = 0;          ///< number of blended surfaces passed one after the other
 };
 
-/// Blocks of camera rays that are taken through the stages together: independent work for the CPU
-/// to overlap, small enough for the first-level cache.
+/// The number of blocks of camera rays that go through the stages together. The CPU overlaps the
+/// independent work of the blocks, and the blocks fit into the first-level cache.
 constexpr int kGroup = 4;
 
-/// What the lanes of a block are made of.
+/// The materials of the lanes of a block.
 struct LaneMaterials
 {
-    LaneMask diffuse = 0;       ///< physical, constant, Lambert only
-    LaneMask fixedFunction = 0; ///< lit by OpenGL's equations
-    LaneMask physical = 0;      ///< the other ones that scatter
-    LaneMask transmissive = 0;  ///< lit from behind as well
-    LaneMask emissive = 0;      ///< with a colour of their own: emission, fixed-function lanes
-    Vec3Lanes normal;           ///< shading, towards the ray
-    Vec3Lanes albedo;           ///< of diffuse lanes
-    Bsdf* bsdfs = nullptr;      ///< of physical lanes, and of fixed-function ones below area lights
-    FixedFunctionPoint* points = nullptr; ///< of fixed-function lanes
+    LaneMask diffuse = 0;       ///< physical, constant lanes of Lambert surfaces alone
+    LaneMask fixedFunction = 0; ///< lanes that OpenGL's equations light
+    LaneMask physical = 0;      ///< other lanes that scatter
+    LaneMask transmissive = 0;  ///< lanes lit from behind as well
+    LaneMask emissive = 0;      ///< lanes of a colour of their own: emission, fixed-function lanes
+    Vec3Lanes normal;           ///< shading normals, towards the ray
+    Vec3Lanes albedo;           ///< albedos of diffuse lanes
+    Bsdf* bsdfs = nullptr; ///< Bsdfs of physical lanes; also of fixed-function lanes if area lights
+                           ///< or an environment shine
+    FixedFunctionPoint* points = nullptr; ///< points of fixed-function lanes
 };
 
-/// Sixteen rays to be shaded, with what they count for in which pixel.
+/// Sixteen rays to be shaded, with their pixels and their weights there.
 struct ShadingBlock
 {
     RayHitBlock rays;
@@ -53,17 +53,17 @@ struct ShadingBlock
     UintLanes seed;
     UintLanes pixel;
     Vec3Lanes weight;
-    FloatLanes etaScale; ///< weight outside of glass over weight
+    FloatLanes etaScale; ///< ratio of the weight outside of all glass to weight
     FloatLanes firstU,
-        firstV; ///< first sample on the first area light: drawn early, see drawFirstPoints
+        firstV; ///< first sample on the first area light, see drawFirstPoints
     int depth[kLanes];
-    int layers[kLanes];      ///< see SecondaryRay
-    LaneMask fromCamera = 0; ///< camera rays, and those that go on
-    LaneMask passed = 0;     ///< a part of the weight has gone on through a blended surface
+    int layers[kLanes];      ///< number of blended surfaces, see SecondaryRay
+    LaneMask fromCamera = 0; ///< lanes of camera rays, and of those that go on
+    LaneMask passed = 0;     ///< lanes whose weight has in part passed a blended surface
 
     LaneMaterials materials;
-    LightLanes light;   ///< the sample at work
-    Vec3Lanes radiance; ///< so far
+    LightLanes light;   ///< light sample at work
+    Vec3Lanes radiance; ///< radiance so far
 };
 
 struct WhittedTile
@@ -79,7 +79,7 @@ struct WhittedTile
     {
     }
 
-    /// Of the delta lights, those with a size.
+    /// Returns the number of delta lights with a size.
     std::size_t softLights() const
     {
         std::size_t count = 0;
@@ -96,7 +96,7 @@ struct WhittedTile
         block.b[pixel % kLanes] += radiance.z;
     }
 
-    /// What is behind shows through by so much.
+    /// Reduces the coverage of a pixel by the share with which the background shows through.
     void uncover(uint32_t pixel, float share)
     {
         float& alpha = result.rgba[pixel / kLanes].a[pixel % kLanes];
@@ -105,24 +105,25 @@ struct WhittedTile
 
     const PassContext& context;
     TileResult& result;
-    SampledLights areaLights, deltaLights; ///< of the pass
+    SampledLights areaLights, deltaLights; ///< lights that the pass samples
     LightGrid areaGrid, environmentGrid, softGrid;
     std::vector<SecondaryRay> stack;
     ShadingBlock group[kGroup];
-    LastTriangle lastTriangle; ///< that a block of camera rays met
+    LastTriangle lastTriangle; ///< last triangle that a block of camera rays met
     std::vector<Bsdf> bsdfs;   ///< kLanes for each block of the group; empty until needed
-    std::vector<FixedFunctionPoint> points; ///< the same
+    std::vector<FixedFunctionPoint> points; ///< kLanes for each block; empty until needed
 };
 
-/// Adds to the count of the lanes' pixels, if it is wanted.
+/// Adds a ray to the count of each lane's pixel, if the counts are wanted.
 void countRays(WhittedTile& tile, const ShadingBlock& block, LaneMask lanes);
 
-/// The first points of a block on area lights, ahead of use: they are a long chain of operations,
-/// which overlaps with those of other blocks here and with nothing where it is needed.
+/// Draws the first points of a block on area lights ahead of use. The points take a long chain of
+/// operations, which overlaps here with the chains of other blocks, but would overlap with nothing
+/// where the points are used.
 void drawFirstPoints(const WhittedTile& tile, ShadingBlock& block);
 
-/// Adds what the lights send to some blocks of the group; fixed-function lanes keep theirs in their
-/// points.
+/// Adds the light of all lights to some blocks of the group. Fixed-function lanes keep this light
+/// in their points.
 void addDirectLight(WhittedTile& tile, ShadingBlock* blocks, int count);
 
 inline void addLane(Vec3Lanes& sum, int i, Vec3 value)
