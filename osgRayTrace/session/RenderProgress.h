@@ -41,7 +41,7 @@ struct StopRule
     int groupedTiles = 1;
 };
 
-/// Why photons have less effect than a user may expect.
+/// The reasons why photons have less effect than a user may expect.
 enum class PhotonNote : uint8_t
 {
     None,

@@ -19,7 +19,7 @@ struct FrameWork
 {
     static constexpr int kWholePass = 4096;
 
-    int divider = FramePlanner::kFirstDivider; ///< of width and height, while the view moves
+    int divider = FramePlanner::kFirstDivider; ///< divider while the view moves
     int passes = 1;            ///< whole passes of a view that moves, at that divider
     int progress = kWholePass; ///< parts of a pass, of a view at rest at full resolution
     int upsampleDivider =
@@ -84,7 +84,8 @@ public:
         return seconds > 0.1 ? 10.0 * seconds : 1.0;
     }
 
-    /// A view's part in the agreement, which ends with the last reference to it.
+    /// A member is a view's part in the agreement, which ends with the last reference to the
+    /// member.
     class Member;
 
     FrameAgreement();

@@ -21,7 +21,7 @@ struct FrameSituation
 
 struct FramePlan
 {
-    int divider = 1; ///< of width and height; 1: full resolution
+    int divider = 1; ///< divider of width and height; 1: full resolution
     int passes = 1;  ///< passes to begin; there may be no time for all of the last one
 };
 

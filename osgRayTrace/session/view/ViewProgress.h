@@ -8,11 +8,11 @@
 namespace osgRayTrace::engine
 {
 
-/// What the stages between accumulation and display did to an image.
+/// The stage report says what the stages between accumulation and display did to an image.
 struct StageReport
 {
-    double denoiseSeconds = 0.0; ///< of the last image that was denoised
-    DenoiseReport denoised;      ///< what the image went through
+    double denoiseSeconds = 0.0; ///< time of the last image that was denoised
+    DenoiseReport denoised;      ///< the denoising that the image went through
     /// Share of the pixels to which earlier views add. reprojectSeconds is the time that carrying
     /// these views into the image took.
     double reprojectedShare = 0.0;
@@ -25,7 +25,7 @@ struct ViewProgress : RenderProgress
     StageReport stages;
 };
 
-/// What the last frame of a view took.
+/// The frame report says what the last frame of a view took.
 struct FrameReport
 {
     /// Divides the width and height of what is shown. While full resolution fills in, this is the
