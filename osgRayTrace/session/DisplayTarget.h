@@ -10,18 +10,19 @@
 namespace osgRayTrace::engine
 {
 
-/// Where display values go while an image is made: see RenderSession::resolveDisplay. For an image
-/// of the size of the session's view.
+/// A display target is where display values of an image of the session's view go while the image is
+/// made: see RenderSession::resolveDisplay. The image has the size of the view.
 struct DisplayTarget
 {
     ToneMap toneMap;
     uint8_t* rgba = nullptr;
-    float* depth = nullptr; ///< may be null
-    /// The image as it was before render() is there: only tiles that get a pass are written. Of an
-    /// image without any pass that is whatever shall be seen where there is no tile yet.
+    float* depth = nullptr; ///< window depths; may be null
+    /// True if the target holds the image as it was before render(): only tiles that get a pass are
+    /// written. If that image has no pass, the target holds what shall be seen where there is no
+    /// tile yet.
     bool holdsImage = false;
     ChangedTiles* changed =
-        nullptr; ///< gets a mark for each tile that is written; of that size; may be null
+        nullptr; ///< marks of the written tiles, of the image's size; may be null
 };
 
 } // namespace osgRayTrace::engine

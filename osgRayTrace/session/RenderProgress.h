@@ -16,35 +16,38 @@ namespace osgRayTrace::engine
 /// RenderSession::render returns when the first of these limits is reached.
 struct StopRule
 {
-    /// Accumulated passes, those of earlier calls included.
+    /// Limit of the accumulated passes, which include those of earlier calls.
     int passes = std::numeric_limits<int>::max();
     int newPasses = std::numeric_limits<int>::max(); ///< passes of this call
-    /// Tiles of this call, summed over its passes; the next render() does the rest of a pass. Tiles
-    /// are then taken in an order that is even over the image.
+    /// Limit of the tiles of this call, summed over its passes; the next render() does the rest of
+    /// a pass. Tiles are then taken in an order that is even over the image.
     int newTiles = std::numeric_limits<int>::max();
-    /// Seconds of this call. The clock is read between passes, which stay whole, and one pass at
-    /// least is made. Use shouldStop for a limit that holds within passes.
+    /// Limit of the seconds of this call. The clock is read between passes, which stay whole, and
+    /// one pass at least is made. shouldStop serves a limit that holds within passes.
     double seconds = std::numeric_limits<double>::infinity();
-    /// Estimated error of the accumulated image, see RenderProgress; 0: not used.
+    /// Limit of the estimated error of the accumulated image, see RenderProgress; 0 means that it
+    /// is not used.
     double relativeError = 0.0;
-    /// If set, any thread asks it before each tile, and render() before each pass but the first of
-    /// the call. If it returns true, no more tiles are begun; those that have the pass keep it, and
-    /// the next render() does the rest, as after cancel(). Tiles are then taken in an order that is
-    /// even over the image, so that any part of them tells what all of them cost. tiles: begun by
-    /// this call; seconds: the least time until the next question, known of photons.
+    /// If shouldStop is set, any thread asks it before each tile, and render() asks it before each
+    /// pass but the first of the call. If it returns true, no more tiles are begun; the tiles that
+    /// have the pass keep it, and the next render() does the rest, as after cancel(). Tiles are
+    /// then taken in an order that is even over the image, so that any part of the tiles tells what
+    /// all of them cost. tiles is the number of tiles begun by this call; seconds is the least time
+    /// until the next question, known of photons.
     std::function<bool(int tiles, double seconds)> shouldStop;
-    /// With shouldStop: tiles along a side of the squares whose tiles follow each other, see
-    /// TileOrder. These squares, and not tiles, are then even over the image.
+    /// With shouldStop, groupedTiles is the number of tiles along a side of the squares whose tiles
+    /// follow each other, see TileOrder. These squares, and not tiles, are then even over the
+    /// image.
     int groupedTiles = 1;
 };
 
-/// Why photons have less effect than a user may expect.
+/// The reasons why photons have less effect than a user may expect.
 enum class PhotonNote : uint8_t
 {
     None,
     NoPower,    ///< no light has any power: no photons were emitted
     NoneStored, ///< photons were followed, but met no surface that scatters light
-    /// The radius that was set is below the spacing of floats, or larger than the scene.
+    /// the radius that was set is below the spacing of floats, or larger than the scene
     RadiusLimited,
 };
 
@@ -63,24 +66,25 @@ struct RenderProgress
     Status status;
     IntegratorKind integrator = IntegratorKind::Automatic; ///< the integrator that was chosen
     int passes = 0;                                        ///< complete passes
-    double seconds = 0.0;                                  ///< spent in passes since the restart
-    /// Last estimate of sqrt(mean((x - r)^2 / (R^2 + 0.01))) over pixels and RGB, r the converged
-    /// image and R its mean over the pixel's tile of 16 x 16: an error in terms of the brightness
-    /// around. Infinite below 2 passes. Made after each pass if the rule or keepGoing asks for it.
+    double seconds = 0.0; ///< time spent in passes since the restart
+    /// Last estimate of sqrt(mean((x - r)^2 / (R^2 + 0.01))) over pixels and RGB, where r is the
+    /// converged image and R is the mean of r over the pixel's tile of 16 x 16: an error in terms
+    /// of the brightness around. The estimate is infinite below 2 passes. It is made after each
+    /// pass if the rule or keepGoing asks for it.
     double relativeError = std::numeric_limits<double>::infinity();
     RayCounts rays;
     uint64_t droppedSamples = 0; ///< samples left out: not finite, or above 1e30
-    bool restarted = false;      ///< this call began a new image
-    int newTiles = 0;            ///< of this call, summed over its passes
-    double imageShare = 0.0;     ///< of the tiles: those that have a pass; 1 as soon as passes is
-    SampledLightCounts lights;   ///< of its passes
-    double photonSeconds = 0.0;  ///< that photons took in this call, traced or waited for
-    double firstPhotonSeconds = 0.0;          ///< the part in the first pass of this call
-    float photonRadius = 0.0f;                ///< of the last pass [length]; 0 without photons
-    PhotonNote photonNote = PhotonNote::None; ///< of all passes together
+    bool restarted = false;      ///< whether this call began a new image
+    int newTiles = 0;            ///< tiles of this call, summed over its passes
+    double imageShare = 0.0;     ///< share of the tiles that have a pass; 1 as soon as passes is
+    SampledLightCounts lights;   ///< lights sampled in the image's passes
+    double photonSeconds = 0.0;  ///< time of photons in this call, traced or waited for
+    double firstPhotonSeconds = 0.0; ///< the part of photonSeconds in the first pass of this call
+    float photonRadius = 0.0f;       ///< radius of the last pass [length]; 0 without photons
+    PhotonNote photonNote = PhotonNote::None; ///< the note on all passes together
     uint64_t storedPhotons = 0;               ///< photons in the map of the last pass
     uint64_t photonBytes = 0;                 ///< memory of the maps, which all views share
-    /// Memory that this view keeps for photons: hit points, radii, statistics of pixels.
+    /// Memory that this view keeps for photons: hit points, radii and statistics of pixels.
     uint64_t hitPointBytes = 0;
 };
 

@@ -1,5 +1,4 @@
-// RenderSessionImages.cpp - a session's image as others want it: display values, radiance,
-// channels. Layer: session.
+// RenderSessionImages.cpp - a session's image as others want it: pixels, channels. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/RenderSession.h"
 
@@ -17,7 +16,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Of first hits of the film's view in another size; nothing without an image.
+/// Returns the context of first hits of the film's view in another size; nothing without an image.
 std::optional<PassContext> SessionState::contextOfSize(int width, int height) const
 {
     if (!filmScene || film.passes() < 1) return std::nullopt;
@@ -34,7 +33,7 @@ std::optional<PassContext> SessionState::contextOfSize(int width, int height) co
     return context;
 }
 
-/// Square root of the estimated mean squared relative error.
+/// Returns the square root of the estimated mean squared relative error.
 double SessionState::estimateError() const
 {
     if (film.passes() < 2) return std::numeric_limits<double>::infinity();
@@ -51,7 +50,7 @@ double SessionState::estimateError() const
     return count ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
 }
 
-/// over: tiles without a pass are left as they are.
+/// Writes the image to the display. If over is true, tiles without a pass are left as they are.
 void SessionState::resolve(const DisplayTarget& display, bool over) const
 {
     workers->forEach(static_cast<std::size_t>(film.tileCount()),
@@ -118,7 +117,7 @@ void RenderSession::resolveOver(const ToneMap& toneMap, uint8_t* rgba, float* de
 std::vector<float> RenderSession::resolveChannel(Channel channel) const
 {
     const SessionState& session = *_state;
-    if (!session.filmScene) return {}; // nor was there ever an image
+    if (!session.filmScene) return {}; // there was never an image either
     return channelImage(channel, session.film, session.contextOfPass(0), *session.workers);
 }
 
@@ -147,9 +146,9 @@ const std::vector<SurfaceSample>& RenderSession::surfaceSamples() const
     return session.samples;
 }
 
-/// The first pass's samples are anywhere in their pixels. What is seen in the middle of a pixel
-/// decides what it is taken for, so that a pixel at an edge does not change sides from frame to
-/// frame.
+/// Completes the surfaces of the image. The first pass's samples are anywhere in their pixels. The
+/// surface in the middle of a pixel decides what the pixel is taken for, so that a pixel at an edge
+/// does not change sides from frame to frame.
 void SessionState::finishSurfaces()
 {
     SurfaceMap& map = surfaces;

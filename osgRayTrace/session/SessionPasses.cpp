@@ -26,7 +26,7 @@ double secondsSince(Clock::time_point begin)
 
 } // namespace
 
-/// Adds the next pass of a tile, in the film itself where that is possible.
+/// Adds the next pass of a tile, in the film itself if that is possible.
 TileCounts SessionState::renderTile(const PassContext& context, const Integrator& integrator,
                                     int tile)
 {
@@ -85,7 +85,8 @@ void SessionState::preparePhotons(PassContext& context, int pass)
     photonsCounted = pass + 1;
 }
 
-/// Adds one pass to every tile that does not have it yet, and shows it. False if some still do not.
+/// Adds one pass to every tile that does not have it yet, and shows the pass. Returns false if some
+/// tiles still lack the pass.
 bool SessionState::renderPass(const PassContext& context, const Integrator& integrator,
                               const StopRule& rule, const DisplayTarget* display)
 {
@@ -103,7 +104,7 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
     const bool partial = rule.shouldStop || rule.newTiles < std::numeric_limits<int>::max();
     const auto renderOne = [&](std::size_t index)
     {
-        // Workers begin at several places at once; an order has to be kept by all of them together.
+        // Workers begin at several places at once; all of them together have to keep an order.
         if (partial) index = order.tile(next.fetch_add(1, std::memory_order_relaxed));
         if (index == tiles) return;
         const int tile = static_cast<int>(index);
@@ -116,7 +117,7 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
             renders = false;
             over = true;
         }
-        // Not one more, however many threads come here at once.
+        // No more tiles are begun than the rule allows, however many threads come here at once.
         if (renders && begun.fetch_add(1, std::memory_order_relaxed) >= rule.newTiles)
         {
             begun.fetch_sub(1, std::memory_order_relaxed);
@@ -134,7 +135,7 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
     }
     catch (...)
     {
-        addTileCounts(); // those tiles keep the pass
+        addTileCounts(); // the tiles that were rendered keep the pass
         throw;
     }
     addTileCounts();

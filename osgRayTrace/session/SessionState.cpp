@@ -1,5 +1,4 @@
-// SessionState.cpp - whether an image restarts or continues, and what its passes are made from.
-// Layer: session.
+// SessionState.cpp - whether an image restarts, and what its passes are made from. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/SessionState.h"
 
@@ -14,8 +13,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// The scene's lights with those of eye space placed for the view. Empty if there are none of
-/// these: there may be millions of the others, and they are good as they are.
+/// Returns the scene's lights, with those of eye space placed for the view. Empty if the scene has
+/// none of eye space: there may be millions of other lights, which are good as they are.
 std::vector<Light> placedLights(const Scene& scene, const View& view)
 {
     const auto isEyeSpace = [](const Light& light) { return light.eyeSpace; };
@@ -36,7 +35,7 @@ std::vector<Light> placedLights(const Scene& scene, const View& view)
     return lights;
 }
 
-/// The rotation alone: its axes are of length 1, whatever scale the view has.
+/// Returns the rotation alone: the axes are of length 1, whatever scale the view has.
 Mat3 eyeFromEngine(const View& view)
 {
     glm::dmat3 axes = glm::transpose(glm::dmat3(view.viewFromWorld));
@@ -47,13 +46,13 @@ Mat3 eyeFromEngine(const View& view)
 
 } // namespace
 
-/// Decides whether the image restarts or continues; nothing else does. True if there is something
-/// to render.
+/// Decides whether the image restarts or continues; nothing else does. Returns true if there is
+/// something to render.
 bool SessionState::begin()
 {
     const bool sameScene = scene == filmScene;
     const bool sameSize =
-        view.width == film.width() && view.height == film.height(); // not after a failure
+        view.width == film.width() && view.height == film.height(); // false after a failure
     const bool restart =
         !sameScene || !sameSize || view != filmView || options.needsRestart(filmOptions);
     progress.restarted = restart;
@@ -73,8 +72,8 @@ bool SessionState::begin()
                            "the view has no size, or matrices that cannot be inverted"};
         return false;
     }
-    std::vector<Light> placed =
-        engine::placedLights(scene->scene(), view); // before the film changes, as this may throw
+    std::vector<Light> placed = engine::placedLights(
+        scene->scene(), view); // placed before the film changes, as placing may throw
     std::vector<EnvironmentStratum> newStrata;
     const PlacedEnvironment* environment = scene->lights().shiningEnvironment();
     if (environment && options.environmentSampling == EnvironmentSampling::Structured)
@@ -86,7 +85,8 @@ bool SessionState::begin()
     filmScene = scene;
     filmView = view;
     filmOptions = options;
-    filmSeed = sequence == 0 ? options.seed : hash(options.seed, sequence + 1); // 0 and 1: halves
+    filmSeed =
+        sequence == 0 ? options.seed : hash(options.seed, sequence + 1); // halves have 0 and 1
     placedLights = std::move(placed);
     strata = std::move(newStrata);
     progress = RenderProgress();

@@ -43,35 +43,34 @@ struct SessionState
 
     std::shared_ptr<Workers> workers;
 
-    // Wanted next.
+    // These values are wanted next.
     std::shared_ptr<const TracedScene> scene;
     View view;
     RenderOptions options;
     uint32_t sequence = 0;
     bool keepsSurfaces = false;
 
-    // What the film holds.
+    // These values describe what the film holds.
     std::shared_ptr<const TracedScene> filmScene;
     View filmView;
     RenderOptions filmOptions;
-    uint32_t filmSeed = 0; // of the options and the sequence
+    uint32_t filmSeed = 0; // seed of the options and the sequence
     CameraRays camera;
-    std::vector<Light> placedLights; // empty: those of the scene
+    std::vector<Light> placedLights; // the lights, placed; empty: those of the scene
     std::vector<EnvironmentStratum> strata;
     Film film;
-    std::vector<SurfaceSample> samples; // of its pixels, if it has them
-    bool hasSamples = false;            // or will, with its first pass
+    std::vector<SurfaceSample> samples; // samples of the film's pixels, if it has them
+    bool hasSamples = false;            // whether the film has samples, or will with its first pass
     SurfaceMap surfaces, lastSurfaces;
     PhotonState photons;
     RenderProgress progress;
-    std::vector<TileCounts> tileCounts; // of the pass that is rendered
+    std::vector<TileCounts> tileCounts; // counts of the pass that is rendered
     std::vector<uint8_t> dirtyTiles;    // tiles with passes of this call that the display lacks
     int photonsCounted = 0;             // passes whose photon rays are in progress
 
-    ThreadSeam seam; ///< the functions of RenderSession that change it, but for cancel()
+    ThreadSeam seam; ///< checks the functions of RenderSession that change it, but for cancel()
 
-    std::atomic<bool> cancelled{
-        false}; // cancel(): any thread; render(): the session's and the workers
+    std::atomic<bool> cancelled{false}; // any thread sets it, render() clears it, workers read it
 };
 
 } // namespace osgRayTrace::engine

@@ -1,5 +1,4 @@
-// BackgroundThreads.cpp - threads of the library, none of which outlives the process's orderly end.
-// Layer: session.
+// BackgroundThreads.cpp - threads that end before the process does in order. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/view/BackgroundThreads.h"
 

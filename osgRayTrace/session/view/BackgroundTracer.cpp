@@ -1,5 +1,5 @@
-// BackgroundTracer.cpp - traces a view on a thread of its own, for draw to take the newest image.
-// Layer: session.
+// BackgroundTracer.cpp - traces a view on a thread, for draw to take the newest image. Layer:
+// session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/view/BackgroundTracer.h"
 
@@ -17,7 +17,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// True if the image of one is as good for the other.
+/// Returns true if the image of one request is as good for the other.
 bool same(const TraceRequest& a, const TraceRequest& b)
 {
     return sameImage(a.inputs, b.inputs) && sameButForRounding(a.view, b.view) &&
@@ -28,7 +28,7 @@ bool same(const TraceRequest& a, const TraceRequest& b)
 void makeRoom(TracedImage& image, int width, int height)
 {
     if (image.pixels && image.pixels->width == width && image.pixels->height == height) return;
-    image = TracedImage(); // the old pixels are freed before there are others
+    image = TracedImage(); // the old pixels are freed before new ones are made
     image.pixels = std::make_shared<TracedPixels>(width, height);
 }
 
@@ -37,7 +37,7 @@ struct Outcome
 {
     ViewProgress progress;
     FrameReport frame;
-    bool done = true; ///< nothing is left to do for its request, or nothing can be done
+    bool done = true; ///< nothing is left to do for the request, or nothing can be done
 };
 
 Outcome failedOutcome(StatusCode code, const char* message) noexcept
@@ -68,28 +68,29 @@ struct BackgroundTracer::Worker
     bool mayStep() const { return due && guests == 0 && unasked < kMostUnasked; }
 
     std::mutex
-        tracing; // held by whoever traces or reads: worker, frame-locked draw, request for radiance
+        tracing; // held while tracing or reading: by the worker, by draw, by a request for radiance
     ViewTracer tracer;
-    bool stepping = false; ///< the worker traces, and no one else
+    bool stepping = false; ///< whether the worker traces
     TracedImage result;    ///< the image that the worker writes
 
-    std::mutex mutex;             // draw, the worker and leases; guards all members below
-    std::condition_variable wake; ///< the worker
-    std::shared_ptr<const TraceRequest> wanted; ///< null: nothing was asked for yet
-    uint64_t number = 0;  ///< of wanted; it grows with each request that differs or is tried again
-    uint64_t askedAt = 0; ///< the last frame that asked
-    bool due = false;     ///< there is something to do, or may be
-    bool failed = false;  ///< the last step did; nobody has asked since
-    int unasked = 0;      ///< steps since a frame asked
-    int guests = 0;       ///< leases, and those who wait for one
-    bool running = false; ///< there is a thread
-    bool stops = false;   ///< the thread shall end, unless somebody asks before it does
-    bool ended = false;   ///< the process ends: the thread shall end whoever asks
-    bool working = false; ///< the thread is in a step
-    uint64_t taken = 0;   ///< number of the request that the worker is at
-    bool handedOver = false;           ///< an image of the taken request was handed over
-    std::atomic<bool> outdated{false}; ///< the step is to be given up; read without the mutex
-    TracedImage newest;                ///< the newest image if fresh; otherwise a used one
+    std::mutex mutex; // draw, the worker and leases lock it; it guards all members below
+    std::condition_variable wake;               ///< wakes the worker
+    std::shared_ptr<const TraceRequest> wanted; ///< the request; null: nothing was asked for yet
+    uint64_t number = 0;     ///< counts the requests that differ or are tried again
+    uint64_t askedAt = 0;    ///< the last frame that asked
+    bool due = false;        ///< whether there is something to do, or may be
+    bool failed = false;     ///< whether the last step failed and nobody has asked since
+    int unasked = 0;         ///< steps since a frame asked
+    int guests = 0;          ///< leases, and those who wait for one
+    bool running = false;    ///< whether there is a thread
+    bool stops = false;      ///< whether the thread shall end, unless somebody asks before it does
+    bool ended = false;      ///< whether the process ends: the thread shall end whoever asks
+    bool working = false;    ///< whether the thread is in a step
+    uint64_t taken = 0;      ///< number of the request that the worker is at
+    bool handedOver = false; ///< whether an image of the taken request was handed over
+    std::atomic<bool> outdated{
+        false};         ///< whether the step is to be given up; read without the mutex
+    TracedImage newest; ///< the newest image if fresh; otherwise a used one
     bool fresh = false;
     TraceReport report;
     uint64_t reportOf = 0;   ///< number of the request that report is about
@@ -98,7 +99,7 @@ struct BackgroundTracer::Worker
     uint64_t reportedAt = 0; ///< the last frame that had asked for it when its step began
 };
 
-/// True if a thread has to be started.
+/// Takes the request. Returns true if a thread has to be started.
 bool BackgroundTracer::Worker::ask(const TraceRequest& request, uint64_t frame)
 {
     std::shared_ptr<const TraceRequest> old; // freed without the lock
@@ -132,7 +133,8 @@ void BackgroundTracer::Worker::stop()
     wake.notify_one();
 }
 
-/// Called when the process ends: other threads may draw, and so ask, until its very end.
+/// Ends the worker for good when the process ends: until its very end other threads may draw, and
+/// so ask.
 void BackgroundTracer::Worker::end()
 {
     {
@@ -142,7 +144,7 @@ void BackgroundTracer::Worker::end()
     stop();
 }
 
-/// Runs on the worker's thread.
+/// Works until the worker is to end. The worker's thread runs it.
 void BackgroundTracer::Worker::run() noexcept
 {
     std::unique_lock<std::mutex> lock(mutex);
@@ -161,7 +163,7 @@ void BackgroundTracer::Worker::run() noexcept
         lock.unlock();
         Outcome outcome = step(*request);
         const std::weak_ptr<const TracedScene> scene = request->inputs.scene;
-        request.reset(); // it may be the last to hold its scene
+        request.reset(); // the request may be the last to hold its scene
         lock.lock();
 
         working = false;
@@ -186,7 +188,7 @@ Outcome BackgroundTracer::Worker::step(const TraceRequest& request) noexcept
     return outcome;
 }
 
-/// Catches what RayTraceDrawable catches of draw.
+/// Traces a step of the request, and catches what RayTraceDrawable catches of draw.
 Outcome BackgroundTracer::Worker::tryToTrace(const TraceRequest& request) noexcept
 {
     try
@@ -213,7 +215,8 @@ Outcome BackgroundTracer::Worker::tryToTrace(const TraceRequest& request) noexce
 Outcome BackgroundTracer::Worker::traceAndResolve(const TraceRequest& request)
 {
     if (request.traces) tracer.trace(request.inputs, request.view, request.budget);
-    // A pass that was given up need not be shown: its request has an image, and another is wanted.
+    // A pass that was given up need not be shown: the pass's request has an image, and another is
+    // wanted.
     if (tracer.needsResolve(request.inputs) && !outdated)
     {
         makeRoom(result, tracer.displayWidth(), tracer.displayHeight());
@@ -233,7 +236,7 @@ void BackgroundTracer::Worker::handOver()
     if (stops) return tracer.forgetDisplay();
     std::swap(result, newest);
     fresh = handedOver = true;
-    // If another request came meanwhile, it need not wait for more passes of this one.
+    // If another request came meanwhile, that request need not wait for more passes of this one.
     outdated = number != taken;
 }
 

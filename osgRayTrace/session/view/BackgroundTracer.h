@@ -18,14 +18,14 @@ namespace osgRayTrace::engine
 /// The image that a frame wants to show.
 struct TraceRequest
 {
-    ViewInputs inputs; ///< with a scene
+    ViewInputs inputs; ///< inputs that have a scene
     View view;
     std::vector<View> slices; ///< the views of the passes that the traced view is for
     FrameBudget budget;
     bool traces = true; ///< false: the image gets no samples, and may be shown differently
 };
 
-/// Pixels for the display, as ViewTracer::resolve() writes them: rows from the bottom.
+/// Pixels for the display, as ViewTracer::resolve() writes them: the rows begin at the bottom.
 struct TracedPixels
 {
     TracedPixels(int w, int h);
@@ -35,12 +35,13 @@ struct TracedPixels
     UnclearedArray<float> depth;  ///< width * height values
 };
 
-/// An image for the display, all of which is of one view.
+/// An image for the display. All its pixels are of one view.
 struct TracedImage
 {
-    /// Null: there is none yet. Whoever shows the pixels may keep them longer than the image.
+    /// The pixels, null if there is no image yet. Whoever shows the pixels may keep them longer
+    /// than the image.
     std::shared_ptr<TracedPixels> pixels;
-    std::vector<View> slices; ///< those of its request
+    std::vector<View> slices; ///< the slices of the image's request
 };
 
 /// The outcome of the last step of the worker.
@@ -49,32 +50,34 @@ struct TraceReport
     ViewProgress progress;
     FrameReport frame;
     std::weak_ptr<const TracedScene> scene;
-    bool fresh = false; ///< there was a step since the report before
-    /// Frames since the view of the newest image was asked for; 0: that view is the present one.
+    bool fresh = false; ///< whether a step was made since the report before
+    /// Frames since the view of the newest image was asked for. The age is 0 if that view is the
+    /// present one.
     int age = 0;
 };
 
-/// A ViewTracer and the thread that works with it while images are asked for.
+/// A ViewTracer and the thread that works with the tracer while images are asked for.
 ///
-/// The worker takes the newest request, traces what its budget has time for, hands the image over,
-/// and so on until the image is done; then it sleeps until another request comes. A request that
-/// differs makes the worker give up the pass at work, unless it has not handed over any image of
-/// its present request yet. So a view that moves in every frame has images all the same, each of
-/// one view and complete. If nobody asks any more, the worker rests after kMostUnasked steps.
+/// The worker takes the newest request, traces what the request's budget has time for, hands the
+/// image over, and so on until the image is done; then the worker sleeps until another request
+/// comes. A request that differs makes the worker give up the pass at work, unless no image of the
+/// present request has been handed over yet. So a view that moves in every frame has images all the
+/// same, each of one view and complete. If nobody asks any more, the worker rests after
+/// kMostUnasked steps.
 ///
-/// Locks: Worker::mutex guards requests and the image that is handed over, and is held for moments
-/// only. Worker::tracing guards the tracer, and is held while it traces: by the worker, or by
-/// whoever has a Lease. Whoever wants both takes tracing first. Of the three images the worker
-/// writes one, draw shows another, and the third changes hands under mutex. The destructor does not
-/// wait for the worker, which gives up within a tile (or when the photons of its pass are traced)
-/// and keeps what it needs until then alive.
+/// Worker::mutex guards requests and the image that is handed over, and is held for moments only.
+/// Worker::tracing guards the tracer, and is held while the tracer works: by the worker, or by
+/// whoever has a Lease. Whoever wants both locks takes Worker::tracing first. Of the three images
+/// the worker writes one, draw shows another, and the third changes hands under Worker::mutex. The
+/// destructor does not wait for the worker, which gives up within a tile (or when the photons of
+/// its pass are traced) and keeps what it needs until then alive.
 class BackgroundTracer
 {
 public:
     static constexpr int kMostUnasked = 64;
 
-    /// now: a clock [s], for tests. prepareThread: called by each thread that works for the view
-    /// before it does so.
+    /// Makes a tracer without a thread. now is a clock [s], which tests replace. Each thread that
+    /// works for the view calls prepareThread first.
     explicit BackgroundTracer(std::function<double()> now = {},
                               std::function<void()> prepareThread = {});
     ~BackgroundTracer();
@@ -82,24 +85,26 @@ public:
     BackgroundTracer& operator=(const BackgroundTracer&) = delete;
 
     /// Asks for images of the request from now on; frame is a number that grows from frame to
-    /// frame. Starts the worker if there is none, and never waits for it. Draw thread of the view.
+    /// frame. Starts the worker if none runs, and never waits for the worker. The view's draw
+    /// thread calls it.
     void ask(const TraceRequest& request, uint64_t frame);
 
-    /// Exchanges shown, whose pixels the caller reads no more, for a newer image. False if there is
-    /// none. Never waits. Draw thread of the view.
+    /// Exchanges shown, whose pixels the caller reads no more, for a newer image. Returns false if
+    /// there is no newer image. Never waits. The view's draw thread calls it.
     bool takeNewest(TracedImage& shown);
 
-    /// The report of the worker's last step. Never waits. Draw thread of the view.
+    /// Returns the report of the worker's last step. Never waits. The view's draw thread calls it.
     TraceReport report(uint64_t frame);
 
-    /// Reports of requests until now are not fresh: what failed is to be tried again. Any thread.
+    /// Makes reports of requests until now count as not fresh, so that what failed is tried again.
+    /// Any thread may call it.
     void forgetFailures();
 
-    /// Makes the worker give up what it does, and end; images that were not taken are dropped. Does
-    /// not wait.
+    /// Makes the worker give up its work and end; images that were not taken are dropped. Does not
+    /// wait.
     void stop();
 
-    /// True unless the worker sleeps or has ended. Any thread.
+    /// Returns true unless the worker sleeps or has ended. Any thread may call it.
     bool isWorking() const;
 
 private:
@@ -121,7 +126,7 @@ public:
         Worker& _worker;
     };
 
-    /// Waits until the worker ends its step. Any thread.
+    /// Returns a lease as soon as the worker has ended its step. Any thread may call it.
     Lease lease() const { return Lease(*_worker); }
 
 private:

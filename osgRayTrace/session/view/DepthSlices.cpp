@@ -14,7 +14,7 @@ namespace
 
 constexpr int kDepthRow = 2;
 
-/// The last depths that pass a test against the background: one unit of 24 bits.
+/// The last depth that passes a test against the background is one unit of 24 bits below 1.
 constexpr float kBeforeOne = 0.99999994f;
 constexpr float kAfterZero = 5.9604645e-8f;
 
@@ -77,7 +77,7 @@ View withDepthOf(View view, const View& other)
 
 std::optional<DepthPlanes> depthPlanes(const View& view)
 {
-    // Clip z = a z + b; w = -c z, or c if orthographic; and z = -v.
+    // Clip z is a z + b, clip w is -c z (c if orthographic), and z is -v.
     const Mat4d& m = view.clipFromView;
     if (m[0][2] != 0.0 || m[1][2] != 0.0 || m[0][3] != 0.0 || m[1][3] != 0.0) return std::nullopt;
     if (m[2][3] != 0.0 && m[3][3] != 0.0) return std::nullopt;
@@ -133,7 +133,7 @@ DepthMap depthMap(const View& pass, const std::vector<View>& slices)
     const std::vector<DepthPlanes> all = planesOf(slices);
     const double near = nearest(all), far = farthest(all);
     const DepthPlanes planes = depthPlanes(pass).value_or(DepthPlanes());
-    // Orthographic, v = near + (far - near) depth; else 1 / v = depth / near.
+    // Orthographic views have v = near + (far - near) depth; others have 1 / v = depth / near.
     const double scale = planes.orthographic ? planes.factor * (far - near) : planes.factor / near;
     const double constant =
         planes.orthographic ? planes.constant + planes.factor * near : planes.constant;

@@ -10,21 +10,22 @@
 namespace osgRayTrace::engine
 {
 
-/// Large scenes are drawn in slices: cameras with the same rays and their own near and far planes,
-/// the last one first, so that a depth buffer's steps suffice. One picture is right for all of
-/// them.
+/// Large scenes are drawn in slices: cameras with the same rays and with near and far planes of
+/// their own, the last slice first, so that a depth buffer's steps suffice. One picture is right
+/// for all slices.
 
-/// True if all pixels have the same rays: views that differ in how depth is written, if at all.
+/// Returns true if all pixels have the same rays: such views differ in how depth is written, if at
+/// all.
 bool sameRays(const View& a, const View& b);
 
-/// True if depth is written the same way, too.
+/// Returns true if both views write depth the same way and have the same rays.
 bool sameDepth(const View& a, const View& b);
 
-/// The view with the depth rows of another one.
+/// Returns the view with the depth rows of another one.
 View withDepthOf(View view, const View& other);
 
-/// The planes of a view whose depth depends on the distance v along -z alone, as it does but for
-/// oblique near planes: depth from -1 to 1 is constant + factor / v, for orthographic views
+/// The planes of a view whose depth depends on the distance v along -z alone, which is so unless
+/// the near plane is oblique. Depth from -1 to 1 is constant + factor / v, for orthographic views
 /// constant + factor * v.
 struct DepthPlanes
 {
@@ -32,18 +33,19 @@ struct DepthPlanes
     double constant = 0.0;
     double factor = 0.0;
     double near = 0.0;
-    double far = 0.0; ///< may be infinite
+    double far = 0.0; ///< the far distance, which may be infinite
 
     bool reversed() const { return orthographic ? factor < 0.0 : factor > 0.0; }
 };
 
-/// The planes of the view. Nothing for views of other kinds, whose pictures are not shared.
+/// Returns the planes of the view, or nothing for views of other kinds, whose pictures are not
+/// shared.
 std::optional<DepthPlanes> depthPlanes(const View& view);
 
-/// The view that is traced for slices: the rays begin at the nearest plane, and depth has the
-/// relative precision of floats up to infinity, the nearest plane at 1; orthographic, from the
-/// nearest plane at 0 to the last one at 1. slices: all of the same rays, with depthPlanes, not
-/// empty.
+/// Returns the view that is traced for slices: the rays begin at the nearest plane. Depth has the
+/// relative precision of floats up to infinity, with 1 at the nearest plane; orthographic depth
+/// grows from 0 at the nearest plane to 1 at the last one. slices is not empty, and all slices have
+/// the same rays and depthPlanes.
 View viewOfSlices(const std::vector<View>& slices);
 
 /// Depths of the traced view become those of a pass by scale * depth + offset. Results that are not
@@ -52,14 +54,15 @@ struct DepthMap
 {
     float scale = 1.0f;
     float offset = 0.0f;
-    /// Depth of pixels that have none, right in front of the background; < 0: they are not drawn.
+    /// Depth of pixels that have none, right in front of the background. If it is below 0, such
+    /// pixels are not drawn.
     float background = 0.0f;
 };
 
-/// The map for a pass that is the traced view itself.
+/// Returns the map for a pass that is the traced view itself.
 DepthMap depthMap(const View& pass);
 
-/// The map for a pass that is one of the slices.
+/// Returns the map for a pass that is one of the slices.
 DepthMap depthMap(const View& pass, const std::vector<View>& slices);
 
 } // namespace osgRayTrace::engine

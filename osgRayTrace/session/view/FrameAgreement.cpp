@@ -1,5 +1,4 @@
-// FrameAgreement.cpp - what all views cost together, and what they may therefore trace. Layer:
-// session.
+// FrameAgreement.cpp - what all views cost together, and what they may trace. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/view/FrameAgreement.h"
 
@@ -12,15 +11,18 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr double kFilled = 0.95; ///< of the time that is given away: costs vary from frame to frame
-constexpr double kLeastShare = 0.2; ///< of a frame that is traced in, whatever is done after it
-constexpr int kMostPasses = 1024;   ///< of a frame
-constexpr int kLeastProgress = FrameWork::kWholePass / 256; ///< so that there is an end
-constexpr std::size_t kKeptFrames = 4; ///< of several viewers, or whose draws overlap
-constexpr double kCopySeconds = 2e-9;  ///< that the display takes for a pixel, until it is known
+constexpr double kFilled =
+    0.95; ///< share of the time that is given away: costs vary from frame to frame
+constexpr double kLeastShare = 0.2; ///< share of a frame that is traced in, whatever comes after
+constexpr int kMostPasses = 1024;   ///< passes of a frame
+constexpr int kLeastProgress =
+    FrameWork::kWholePass / 256; ///< progress of a frame at least, so that an image is completed
+constexpr std::size_t kKeptFrames = 4; ///< frames of several viewers, or whose draws overlap
+constexpr double kCopySeconds =
+    2e-9; ///< time that the display takes for a pixel, until it is known
 
-/// What the display takes is often disturbed for a frame, more so the more views there are: none of
-/// these is believed at once.
+/// Moves what is known towards what was seen. The time of the display is often disturbed for a
+/// frame, more so the more views there are: no such time is believed at once.
 void learn(double& known, double seen)
 {
     known = known > 0.0 ? known + 0.25 * (seen - known) : seen;
@@ -34,33 +36,33 @@ class FrameAgreement::Member
 
     int width = 0, height = 0;
     TileCosts costs;
-    double photonSeconds = 0.0;                ///< of its last frame in which it moved
-    double afterMoved = 0.0, afterStill = 0.0; ///< that a frame takes beside tracing
-    /// Of its last frames at rest at full resolution, each a tenth less than the next: so few tiles
-    /// as are traced in a frame may each seem dear by chance.
+    double photonSeconds = 0.0;                ///< time of the view's last frame in which it moved
+    double afterMoved = 0.0, afterStill = 0.0; ///< time that a frame takes beside tracing
+    /// Sums over the view's last frames at rest at full resolution, each of which weighs a tenth
+    /// less than the next: so few tiles as are traced in a frame may each seem dear by chance.
     double stillTiles = 0.0, stillSeconds = 0.0;
     int upsampleDivider = 1;
-    uint64_t frame = 0; ///< its last one, as _frameCount had it
+    uint64_t frame = 0; ///< number of the view's last frame, as _frameCount had it
 
-    // The frame that it is at
+    // The view's present frame.
     bool tracing = false;
     bool moved = false;
     double begun = 0.0;
-    double charged = 0.0; ///< of the clock since
+    double charged = 0.0; ///< seconds charged since
 };
 
 struct FrameAgreement::Frame
 {
-    uint64_t number = 0; ///< the viewer's
+    uint64_t number = 0; ///< the viewer's number
     uint64_t count = 0;
     double seconds = 0.0;
     FrameWork work;
-    bool known = false; ///< what some view costs
-    bool moved = false; ///< some view did
+    bool known = false; ///< whether it is known what some view costs
+    bool moved = false; ///< whether some view moved
     std::size_t views = 1;
-    double photonSeconds = 0.0; ///< of all views at rest
-    int photonPasses = 0;       ///< that any of them has begun
-    int progress = 0;           ///< of the views at rest, when they ended
+    double photonSeconds = 0.0; ///< time of all views at rest
+    int photonPasses = 0;       ///< photon passes that any of them has begun
+    int progress = 0;           ///< progress of the views at rest when they ended
 };
 
 FrameAgreement::FrameAgreement() = default;
@@ -76,7 +78,7 @@ std::shared_ptr<FrameAgreement::Member> FrameAgreement::join()
     return member;
 }
 
-/// Each of the views at work has had an equal share of the time since the last charge.
+/// Charges each of the views at work an equal share of the time since the last charge.
 void FrameAgreement::charge(double now)
 {
     std::vector<std::shared_ptr<Member>> tracing;
@@ -98,7 +100,7 @@ std::vector<std::shared_ptr<FrameAgreement::Member>> FrameAgreement::activeMembe
     return active;
 }
 
-/// One that has been decided, or a new one.
+/// Returns the frame as it has been decided, or a new one.
 FrameAgreement::Frame& FrameAgreement::frameFor(Member& member, const AgreedFrame& frame)
 {
     for (auto decided = _frames.rbegin(); decided != _frames.rend(); ++decided)
@@ -148,7 +150,7 @@ FrameAgreement::Part FrameAgreement::begin(Member& member, const AgreedFrame& fr
     return part;
 }
 
-/// Null if it is long ago.
+/// Returns the member's frame, or null if that frame is long ago.
 FrameAgreement::Frame* FrameAgreement::frameOf(const Member& member)
 {
     const auto isIts = [&](const Frame& frame) { return frame.count == member.frame; };
@@ -267,8 +269,8 @@ FrameWork FrameAgreement::plan(double seconds, bool degrade)
     return work;
 }
 
-/// Views at rest go on where they ended in the last frame. Photons of a pass are traced once,
-/// before any of its tiles.
+/// Returns the progress that the views at rest reach. They go on from the progress at which they
+/// ended in the last frame. Photons of a pass are traced once, before any of the pass's tiles.
 int FrameAgreement::progressWithin(double seconds, double passSeconds) const
 {
     constexpr double kWhole = FrameWork::kWholePass;

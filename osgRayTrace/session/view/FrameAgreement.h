@@ -13,76 +13,79 @@
 namespace osgRayTrace::engine
 {
 
-/// What each view of a scene traces in a frame. The defaults are those of a frame before which no
-/// view has been traced.
+/// The work that each view of a scene traces in a frame. The defaults are those of a frame before
+/// which no view has been traced.
 struct FrameWork
 {
     static constexpr int kWholePass = 4096;
 
-    int divider = FramePlanner::kFirstDivider; ///< of width and height while the view moves
-    int passes = 1;                            ///< whole ones of a view that moves, at that divider
-    int progress = kWholePass; ///< of a view at rest, at full resolution, in parts of a pass
+    int divider = FramePlanner::kFirstDivider; ///< divider while the view moves
+    int passes = 1;            ///< whole passes of a view that moves, at that divider
+    int progress = kWholePass; ///< parts of a pass, of a view at rest at full resolution
     int upsampleDivider =
-        FramePlanner::kFirstDivider; ///< of the size that reduced images are upsampled to
+        FramePlanner::kFirstDivider; ///< divider of the size that reduced images are upsampled to
 };
 
 /// A frame that a view is about to trace.
 struct AgreedFrame
 {
-    uint64_t number = 0;  ///< of the viewer; 0: it counts none
-    bool again = false;   ///< the view has traced in this frame, and adds to it
-    double seconds = 0.0; ///< that all views together may take to be traced and shown
-    bool degrade = true;  ///< the resolution may be reduced while views move
+    uint64_t number = 0;  ///< number of the viewer's frame; 0: the viewer counts none
+    bool again = false;   ///< whether the view has traced in this frame already, and adds to it
+    double seconds = 0.0; ///< time that all views together may take to be traced and shown
+    bool degrade = true;  ///< whether the resolution may be reduced while views move
 };
 
-/// What a view has traced in a frame.
+/// The part of a frame that a view has traced.
 struct TracedPart
 {
     struct Passes
     {
         int tiles = 0;
-        double seconds = 0.0; ///< without photons
+        double seconds = 0.0; ///< time without photons
     };
-    Passes full, reduced;       ///< of full resolution, and of reduced
-    double photonSeconds = 0.0; ///< traced, or waited for
-    int photonPasses = 0;       ///< that were begun
-    double lostSeconds = 0.0;   ///< in what was given up
-    /// Of a view at rest at full resolution: what it has of the pass that it is at, in parts of it.
+    Passes full, reduced;       ///< passes of full resolution, and of reduced
+    double photonSeconds = 0.0; ///< time in which photons were traced or waited for
+    int photonPasses = 0;       ///< photon passes that were begun
+    double lostSeconds = 0.0;   ///< time in what was given up
+    /// Progress of a view at rest at full resolution: the parts that the view has of the pass at
+    /// work.
     std::optional<int> progress;
-    int upsampleDivider = 1; ///< the least for which the view's share of the time suffices
+    int upsampleDivider = 1; ///< the least divider for which the view's share of the time suffices
 };
 
 /// All views of a scene take the same passes and the same resolution in a frame, so that no edge
-/// shows where the walls of a CAVE meet: the most that fits all of them together into the frame's
-/// time.
+/// shows at a place where two walls of a CAVE meet: the most that fits all views together into the
+/// frame's time.
 ///
-/// What they take is decided when the first of them is traced in a frame, from what each has cost
-/// in earlier ones, and then holds for the frame, whatever the clock says. The plan has a part for
-/// views that move and one for those at rest, and each fits all views: so any mixture of both does.
-/// The first image of a view that came when others were there already is of the first divider or
-/// coarser, as nobody knows what it costs.
+/// The agreement decides what the views take when the first of them is traced in a frame, from what
+/// each view has cost in earlier frames; the decision then holds for the frame, whatever the clock
+/// says. The plan has a part for views that move and one for those at rest, and each part fits all
+/// views: so any mixture of both does. If a view comes when others are there already, its first
+/// image is of the first divider or coarser, as nobody knows what the view costs.
 ///
-/// A view whose tracing has taken farTooLong() is given up, or ends with the
-/// passes that it has: it, and those that are traced after it in this frame, take less. That frame
-/// alone is not alike in all views.
+/// A view whose tracing has taken farTooLong() is given up, or ends with the passes that it has:
+/// this view, and those that are traced after it in this frame, take less. That frame alone is not
+/// alike in all views.
 ///
-/// Of views that are traced at the same time by several threads, each is charged its share of the
-/// clock, as they share the threads that trace. Views that have not been traced in the last kForget
-/// frames do not count. Knows no clock: all times are told. Thread safe; its lock is held for
-/// moments.
+/// If several threads trace views at the same time, each view is charged its share of the clock, as
+/// the views share the threads that trace. Views that have not been traced in the last kForget
+/// frames do not count. The agreement knows no clock: all times are told. It is thread safe; its
+/// lock is held for moments.
 class FrameAgreement
 {
 public:
     static constexpr int kForget = 8;
 
-    /// After which tracing is given up, if all have so many seconds. Not less: other programs may
-    /// stop one view for long, and all are to be alike.
+    /// Returns the time after which tracing is given up, if all views have so many seconds. The
+    /// time is not shorter because other programs may stop one view for long, and all views are to
+    /// be alike.
     static constexpr double farTooLong(double seconds)
     {
         return seconds > 0.1 ? 10.0 * seconds : 1.0;
     }
 
-    /// A view's part in the agreement, which ends with the last reference to it.
+    /// A member is a view's part in the agreement, which ends with the last reference to the
+    /// member.
     class Member;
 
     FrameAgreement();
@@ -92,29 +95,32 @@ public:
 
     std::shared_ptr<Member> join();
 
-    /// What the view of width x height traces in the frame. moved: its image is a new one. now [s]
+    /// Returns the part of the view of width x height in the frame. moved says that the view's
+    /// image is a new one; now is a time [s].
     struct Part
     {
         FrameWork work;
-        double share = 1.0; ///< of the time, for what each view does with its image by itself
+        double share = 1.0; ///< share of the time for what each view does with its image by itself
     };
     Part begin(Member& member, const AgreedFrame& frame, int width, int height, bool moved,
                double now);
 
-    /// The view is given up, after so much of it: what it traces instead.
+    /// Records that the view is given up after tracing this part. Returns what the view traces
+    /// instead.
     FrameWork giveUp(Member& member, const TracedPart& traced);
 
-    /// The view ended with so many passes.
+    /// Records that the view ended with so many passes.
     void cutShort(Member& member, int passes);
 
-    /// The view's image is on its way to the display.
+    /// Records that the view's image is on its way to the display.
     void end(Member& member, const TracedPart& traced, double now);
 
-    /// What the next frame would take if it had so many seconds; nothing if no view is traced.
-    /// Once a frame, by who decides for it with impose().
+    /// Returns what the next frame would take if it had so many seconds; nothing if no view is
+    /// traced. Whoever decides for the frame with impose() calls it once a frame.
     std::optional<FrameWork> offer(double seconds, bool degrade);
 
-    /// All frames take this from now on, decided by somebody else; nothing: the agreement decides.
+    /// Sets what all frames take from now on, decided by somebody else; with nothing the agreement
+    /// decides.
     void impose(const std::optional<FrameWork>& work);
 
 private:
@@ -127,14 +133,14 @@ private:
     FrameWork plan(double seconds, bool degrade);
     int progressWithin(double seconds, double passSeconds) const;
 
-    std::mutex _mutex; // draw threads, and who decides; all below
+    std::mutex _mutex; // draw threads and whoever decides lock it; it guards all members below
     std::vector<std::weak_ptr<Member>> _members;
-    std::vector<Frame> _frames; ///< the last ones, the newest at the end
+    std::vector<Frame> _frames; ///< the last frames, the newest at the end
     uint64_t _frameCount = 0;
     std::optional<FrameWork> _imposed;
     HeldDivider _divider;
-    double _photonPassSeconds = 0.0; ///< of a pass of photons at rest
-    double _charged = 0.0;           ///< until when the clock has been charged
+    double _photonPassSeconds = 0.0; ///< time of a pass of photons at rest
+    double _charged = 0.0;           ///< the time until which the clock has been charged
 };
 
 } // namespace osgRayTrace::engine

@@ -13,9 +13,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr double kNewWeight = 0.25; ///< of the last frame's costs in what is known
-constexpr double kSurprise = 1.5;   ///< costs so much larger are believed at once
-constexpr double kGiveUp = 1.2;     ///< of the frame: a pass that would take more is given up
+constexpr double kNewWeight = 0.25; ///< weight of the last frame's costs in what is known
+constexpr double kSurprise = 1.5;   ///< factor by which costs are larger that are believed at once
+constexpr double kGiveUp = 1.2;     ///< share of the frame; a pass that would take more is given up
 constexpr int kMostPasses = 1 << 20;
 
 void learn(double& known, double seen)
@@ -55,7 +55,7 @@ void TileCosts::record(int divider, int tiles, double seconds)
     }
     if (!_fullIsNewer && _reduced > 0.0)
     {
-        _full = seen; // the last is of another image
+        _full = seen; // the last cost is of another image
         _ratio = std::clamp(_reduced / seen, 1.0, 2.0);
     }
     learn(_full, seen);
@@ -71,7 +71,8 @@ double TileCosts::tileSeconds(int divider) const
 double TileCosts::passSeconds(int width, int height, int divider) const
 {
     const int tiles = tilesOf(reducedSize(width, divider), reducedSize(height, divider));
-    // While coarse images are made, what is known of fine ones grows old: they cost no more a tile.
+    // While coarse images are made, what is known of fine ones grows old: fine images cost no more
+    // a tile.
     const double seconds =
         divider == 1 && !_fullIsNewer && _reduced > 0.0 ? _reduced : tileSeconds(divider);
     return tiles * seconds;
@@ -112,7 +113,7 @@ HeldDivider::PassSeconds FramePlanner::passSeconds(const FrameSituation& frame) 
     { return _costs.passSeconds(frame.width, frame.height, divider); };
 }
 
-/// So many as the seconds will do, and what is begun of one more.
+/// Returns the number of passes that the seconds suffice for, or suffice to begin.
 int FramePlanner::passes(const FrameSituation& frame, int divider, int tilesLeft) const
 {
     const double seconds = tileSeconds(divider);
@@ -160,7 +161,7 @@ bool FramePlanner::givesUp(const FrameSituation& frame, int divider, int tiles,
     const int all = tilesOf(reducedSize(frame.width, divider), reducedSize(frame.height, divider));
     if (!frame.degrade || divider >= kLargestDivider) return false;
     if (tiles < std::max(16, all / 16) || tiles > all / 2)
-        return false; // too few to tell, too many to lose
+        return false; // so few tiles do not tell; so many are too many to lose
     const double room = frame.seconds - _photonSeconds;
     return std::max(0.0, seconds - _photonSeconds) * all / tiles > kGiveUp * room;
 }

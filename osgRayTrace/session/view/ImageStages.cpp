@@ -1,5 +1,4 @@
-// ImageStages.cpp - what is done to a view's images between accumulation and display. Layer:
-// session.
+// ImageStages.cpp - stages of images between accumulation and display. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/view/ImageStages.h"
 
@@ -14,17 +13,18 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Guesses of the time that one thread takes to upsample a pixel, and that a pixel in a cell at an
-/// edge takes on top, until they are known [s].
+/// The guesses of the time that one thread takes to upsample a pixel, and of the time that a pixel
+/// in a cell at an edge takes on top, serve until the times are known [s].
 constexpr double kUpsampleSeconds = 12e-9, kEdgeSeconds = 400e-9;
 /// A smaller share of edges does not tell what edges cost.
 constexpr double kToldBy = 0.05;
-/// While nothing is upsampled, its known time shrinks by this factor: it will be tried again.
+/// While nothing is upsampled, the known time of upsampling shrinks by this factor, so that
+/// upsampling will be tried again.
 constexpr double kForgets = 0.995;
-/// Weight of a new measurement that is less than the known value.
+/// A new measurement that is less than the known value has this weight.
 constexpr double kNewWeight = 0.25;
 
-/// Share of the cells that upsampling with this limit takes for edges.
+/// Returns the share of the cells that upsampling with this limit takes for edges.
 double edgesWithin(const UpsampleCounts& counts, double mostTraced)
 {
     if (counts.around <= mostTraced) return counts.around;
@@ -105,7 +105,7 @@ void ImageStages::show(const RenderSession& session, const ToneMap& toneMap, uin
         session.resolveDisplay(toneMap, rgba, depth);
 }
 
-/// Shrinks the known time of edges, down to the guess: images without edges do not tell it.
+/// Shrinks the known time of edges, down to the guess: images without edges do not tell that time.
 void ImageStages::forgetEdges()
 {
     const double guess = kEdgeSeconds / _workers->threads();

@@ -1,4 +1,4 @@
-// ImageStages.h - what is done to a view's images between accumulation and display. Layer: session.
+// ImageStages.h - stages of a view's images between accumulation and display. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,7 +15,7 @@
 namespace osgRayTrace::engine
 {
 
-/// What an image shows, and how it is traced.
+/// The inputs are what an image shows, and how the image is traced.
 struct ImageInputs
 {
     std::shared_ptr<const TracedScene> scene;
@@ -23,12 +23,12 @@ struct ImageInputs
     RenderOptions options;
 };
 
-/// The history of earlier views, the denoiser and upsampling, in this order, for one session. One
-/// thread at a time.
+/// ImageStages applies the history of earlier views, the denoiser and upsampling, in this order,
+/// for one session. One thread at a time may use it.
 class ImageStages
 {
 public:
-    /// now: a clock [s].
+    /// Makes stages without images. now is a clock [s].
     explicit ImageStages(std::function<double()> now) : _now(std::move(now)) {}
 
     /// Forgets all images: the session is another one, and so are the threads.
@@ -39,39 +39,41 @@ public:
     DenoiseKind denoise() const { return _denoise; }
     bool denoises() const { return _denoise != DenoiseKind::Off; }
 
-    /// Before and after session.render(): takes what its image is worth to the next one, if nothing
-    /// but the view changes.
+    /// These functions are called before and after session.render(): they take what the session's
+    /// image is worth to the next image, if nothing but the view changes.
     void leaveView(RenderSession& session, const ImageInputs& next);
     void enterView(RenderSession& session, const ImageInputs& next, const RenderProgress& result);
 
-    /// changes: true if what is shown is not the session's image as it is. willChange: true if that
-    /// will be so as soon as the image has a whole pass.
+    /// changes() returns true if the image that is shown is not the session's image as it is.
+    /// willChange() returns true if that will be so as soon as the image has a whole pass.
     bool changes(const RenderSession& session) const
     {
         return denoises() || historyCounts(session);
     }
     bool willChange() const { return denoises() || _history.leaving(); }
 
-    /// The session's image as it is shown: radiance() returns linear RGBA; show() writes display
-    /// values and window depths, of the image's size.
+    /// These functions give the session's image as it is shown: radiance() returns linear RGBA;
+    /// show() writes display values and window depths, of the image's size.
     std::vector<float> radiance(const RenderSession& session);
     void show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba, float* depth);
 
-    /// Writes the image at a larger size, which is that of the target. It is made along the edges
-    /// of what is seen as far as the seconds go, by the times that earlier images took.
+    /// Writes the image at a larger size, which is that of the target. The larger image is made
+    /// along the edges of what is seen as far as the seconds go, by the times that earlier images
+    /// took.
     void presentUpsampled(const RenderSession& session, int width, int height,
                           const DisplayTarget& display, double seconds);
 
     /// Share of the pixels of a reduced image that may be traced to upsample it.
     static constexpr double kMostTraced = 0.25;
 
-    /// Time that upsampling with all edges that are worth it takes, by earlier times [s].
+    /// Returns the time that upsampling with all edges that are worth it takes, by earlier times
+    /// [s].
     double upsampleSeconds(int width, int height) const
     {
         return _upsampleSeconds * width * height;
     }
 
-    /// Report of what the stages did to the session's image.
+    /// Returns what the stages did to the session's image.
     StageReport report(const RenderSession& session) const;
 
 private:
@@ -86,12 +88,13 @@ private:
     std::function<double()> _now;
     std::shared_ptr<Workers> _workers;
 
-    // What the session's image shows, and what is left of its earlier views.
+    // The session's image shows the following; the history is what is left of the image's earlier
+    // views.
     bool _reprojects = false;
     std::weak_ptr<const TracedScene> _imageScene;
     View _imageView;
     RenderOptions _imageOptions;
-    uint32_t _sequence = 0; ///< of random numbers: each view that is left gets another one
+    uint32_t _sequence = 0; ///< sequence of random numbers: each view that is left gets another one
     ViewDependence _viewDependence;
     ViewHistory _history;
 
@@ -99,8 +102,8 @@ private:
     Denoiser _denoiser;
     double _denoiseSeconds = 0.0;
 
-    double _upsampleSeconds = 0.0; ///< for a pixel
-    double _edgeSeconds = 0.0;     ///< on top, for a pixel in a cell at an edge
+    double _upsampleSeconds = 0.0; ///< time for a pixel
+    double _edgeSeconds = 0.0;     ///< time on top, for a pixel in a cell at an edge
 };
 
 } // namespace osgRayTrace::engine

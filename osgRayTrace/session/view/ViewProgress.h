@@ -1,5 +1,4 @@
-// ViewProgress.h - how far the image of a view has come, and what its last frame took. Layer:
-// session.
+// ViewProgress.h - how far a view's image has come, and what a frame took. Layer: session.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,31 +8,31 @@
 namespace osgRayTrace::engine
 {
 
-/// What the stages between accumulation and display did to an image.
+/// The stage report says what the stages between accumulation and display did to an image.
 struct StageReport
 {
-    double denoiseSeconds = 0.0; ///< of the last image that was denoised
-    DenoiseReport denoised;      ///< what the image went through
-    /// Share of the pixels to which earlier views add, and what it took to carry them into this
-    /// one.
+    double denoiseSeconds = 0.0; ///< time of the last image that was denoised
+    DenoiseReport denoised;      ///< the denoising that the image went through
+    /// Share of the pixels to which earlier views add. reprojectSeconds is the time that carrying
+    /// these views into the image took.
     double reprojectedShare = 0.0;
     double reprojectSeconds = 0.0;
 };
 
-/// A session's progress and what the view adds to it.
+/// A session's progress, and what the view adds to that progress.
 struct ViewProgress : RenderProgress
 {
     StageReport stages;
 };
 
-/// What the last frame of a view took.
+/// The frame report says what the last frame of a view took.
 struct FrameReport
 {
-    /// Divides the width and height of what is shown. While full resolution fills in, it is that of
-    /// the reduced image, which is seen where tiles are still missing.
+    /// Divides the width and height of what is shown. While full resolution fills in, this is the
+    /// divider of the reduced image, which is seen where tiles are still missing.
     int divider = 1;
     double seconds = 0.0;      ///< from trace() to recordPresented()
-    double traceSeconds = 0.0; ///< of these, in passes and photons
+    double traceSeconds = 0.0; ///< the part of seconds in passes and photons
 };
 
 } // namespace osgRayTrace::engine

@@ -15,26 +15,26 @@
 namespace osgRayTrace::engine
 {
 
-/// Name of an object of the host: two names are equal if they are of one object. The object's
-/// address would not do, as a later object may get that of a deleted one; a name keeps its value in
-/// use.
+/// A host name names an object of the host: two names are equal if they are of one object. The
+/// object's address would not do, as a later object may get the address of a deleted one; a name
+/// keeps its value in use.
 using HostName = std::shared_ptr<const void>;
 
 /// One pass over a scene.
 struct PassIdentity
 {
     HostName camera;
-    HostName renderStage; ///< one for each eye; viewers may alternate two sets
+    HostName renderStage; ///< one stage for each eye; viewers may alternate two sets
     unsigned int contextId = 0;
-    uint64_t frameNumber = 0;      ///< of the camera's viewer; 0: the viewer counts none
+    uint64_t frameNumber = 0;      ///< the viewer's frame number; 0: the viewer counts none
     std::array<int, 4> viewport{}; ///< x, y, width, height
     View view;
 };
 
-/// The states of all views, found again frame after frame.
+/// The states of all views are found again frame after frame.
 ///
-/// A view is a camera, a context and an eye, and the viewport where one pass draws several. The eye
-/// is the place of the render stage among those that draw for the camera in this frame: neither
+/// A view is a camera, a context and an eye, and the viewport if one pass draws several. The eye is
+/// the place of the render stage among those that draw for the camera in this frame: neither
 /// matrices nor traversal masks nor cull visitors tell eyes apart in all of OSG's and its
 /// frameworks' stereo modes. If one of the stages does not draw in a frame, a view at rest is known
 /// by its matrices. A pass that draws the scene several times has a view for each time. A view
@@ -46,7 +46,8 @@ struct PassIdentity
 /// the second time. Of the views that drew once only the last kMostSingles are kept: a program that
 /// makes a camera for each picture never ends a round.
 ///
-/// Thread safe; the states are shared, and may outlive their entry while a draw thread uses them.
+/// The registry is thread safe; the states are shared, and may outlive their entry while a draw
+/// thread uses them.
 template <class State> class ViewRegistry
 {
 public:
@@ -57,12 +58,13 @@ public:
     struct Pass
     {
         std::shared_ptr<State> state;
-        /// Another slice of this frame has drawn: its picture is that of this pass, too.
+        /// Whether another slice of this frame has drawn, so that its picture is that of this pass,
+        /// too.
         bool shared = false;
-        std::vector<View> slices; ///< of this frame or the last; one: there are no others
+        std::vector<View> slices; ///< slices of this frame or the last; one: there are no others
     };
 
-    /// Records that the pass will be drawn. Cull threads.
+    /// Records that the pass will be drawn. Cull threads call it.
     void record(const PassIdentity& pass)
     {
         if (!depthPlanes(pass.view)) return;
@@ -78,7 +80,7 @@ public:
         if (_recorded.size() > kMostRecorded) _recorded.erase(_recorded.begin());
     }
 
-    /// Returns the state of the pass; for a new view make() makes it. Draw threads.
+    /// Returns the state of the pass; for a new view make() makes the state. Draw threads call it.
     template <class Make> Pass acquire(const PassIdentity& pass, Make make)
     {
         std::lock_guard<std::mutex> lock(_mutex);
@@ -109,11 +111,11 @@ public:
         return found;
     }
 
-    /// Forgets the views of the context, whose objects are to go, as before it is closed. Any
-    /// thread.
+    /// Forgets the views of a context whose objects are to go, for example before the context is
+    /// closed. Any thread may call it.
     void forgetContext(unsigned int contextId)
     {
-        std::vector<Entry> gone; // destroyed without the lock
+        std::vector<Entry> gone; // the entries are destroyed without the lock
         std::lock_guard<std::mutex> lock(_mutex);
         const auto others =
             std::partition(_entries.begin(), _entries.end(),
@@ -127,7 +129,7 @@ public:
                         _recorded.end());
     }
 
-    /// Returns all states. Any thread.
+    /// Returns all states. Any thread may call it.
     std::vector<std::shared_ptr<State>> states() const
     {
         std::lock_guard<std::mutex> lock(_mutex);
@@ -142,14 +144,14 @@ private:
 
     struct Entry
     {
-        PassIdentity pass; ///< the last pass; of slices the first
+        PassIdentity pass; ///< the last pass; of slices the first one
         std::size_t eye;
         std::size_t time; ///< how often the pass had drawn the scene before
         uint64_t round;
         std::shared_ptr<State> state;
-        std::vector<View> slices;     ///< those that drew since the first did so
-        std::vector<View> lastSlices; ///< those of the frame before
-        bool again = false;           ///< the view has drawn more than once
+        std::vector<View> slices;     ///< the slices that drew since the first did so
+        std::vector<View> lastSlices; ///< the slices of the frame before
+        bool again = false;           ///< whether the view has drawn more than once
     };
 
     /// The stages that drew for a camera in its frame, in order.
@@ -221,7 +223,7 @@ private:
                 add(recorded.view);
         if (entry.lastSlices.size() <= slices.size()) return slices;
         for (const View& last : entry.lastSlices)
-            add(withDepthOf(pass.view, last)); // the picture may have moved since
+            add(withDepthOf(pass.view, last)); // the picture may have moved since the last frame
         return slices;
     }
 
@@ -231,7 +233,7 @@ private:
                entry.pass.viewport == pass.viewport;
     }
 
-    /// Counts how often the view has drawn the scene in this frame, each time from elsewhere.
+    /// Counts how often the view has drawn the scene in this frame, each time from another place.
     std::size_t timesDrawn(const PassIdentity& pass, std::size_t eye) const
     {
         std::size_t times = 0;
@@ -263,8 +265,8 @@ private:
         return atRest ? atRest : moved;
     }
 
-    /// Called before a new view is made: of the views of its context that drew once, the last
-    /// kMostSingles - 1 stay.
+    /// Makes room before a new view is made: of the views of the new view's context that drew once,
+    /// the last kMostSingles - 1 stay.
     void forgetSingles(const PassIdentity& pass)
     {
         const auto single = [&](const Entry& entry)
@@ -289,7 +291,7 @@ private:
     }
 
     mutable std::mutex
-        _mutex; // for draw, cull and releaseGLObjects, on any thread; guards all below
+        _mutex; // draw, cull and releaseGLObjects lock it, on any thread; it guards all below
     std::vector<Entry> _entries;
     std::vector<CameraFrame> _frames;
     std::vector<PassIdentity> _recorded; ///< the last pass of each stage

@@ -38,7 +38,8 @@ ViewTracer::ViewTracer(std::function<double()> now)
 {
 }
 
-/// True if the image of the last frame is not the one that is wanted now.
+/// Takes over the inputs. Returns true if the image of the last frame is not the one that is wanted
+/// now.
 bool ViewTracer::takeInputs(const ViewInputs& inputs, const View& pass)
 {
     bool moved = false;
@@ -81,7 +82,7 @@ bool ViewTracer::trace(const ViewInputs& inputs, const View& pass, const FrameBu
     const bool moved = takeInputs(inputs, pass);
     _stillFrames = moved ? 0 : _stillFrames + 1;
     setDenoise(inputs.denoise);
-    if (denoises()) rgba = nullptr; // that takes the whole image: resolve() does it
+    if (denoises()) rgba = nullptr; // denoising takes the whole image: resolve() does it
     _holdsFull = _holdsFull && rgba && !moved;
     // The first pass of a tile writes its depths.
     const bool holdsDepth = _holdsFull && _displayState == DisplayState::Whole;
@@ -127,7 +128,7 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     session.setScene(_scene);
     session.setView(inputs.view);
     RenderOptions options = _options;
-    options.centredFirstPass = divider > 1; // what is upsampled has to be what first hits tell of
+    options.centredFirstPass = divider > 1; // upsampled images have to show what first hits tell of
     session.setOptions(options);
     rule.passes = _maxPasses;
     if (_interrupt)
@@ -137,7 +138,7 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     ImageStages& stages = stagesOf(session);
     stages.leaveView(session, inputs);
     // While full resolution fills in, tiles are shown as they are; otherwise the whole image is
-    // shown, as soon as it is there.
+    // shown as soon as it is complete.
     const bool writes = display && display->rgba && !stages.changes(session) &&
                         (display->holdsImage || !stages.willChange());
     const RenderProgress result = session.render(rule, {}, writes ? display : nullptr);
@@ -158,8 +159,8 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     }
     if (result.newTiles == 0) return result;
 
-    // A pass that was cut short may have left tiles of two images in the display, which is not
-    // shown then.
+    // A pass that was cut short may have left tiles of two images in the display, and the display
+    // is not shown then.
     const bool lacksDepth = result.restarted && display && !display->depth;
     const bool complete = result.status.ok() && !lacksDepth &&
                           (result.passes > 0 || (display && display->holdsImage));
@@ -167,7 +168,7 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     _holdsFull = _written;
     if (_written)
         _imageChanged = false;
-    else if (result.passes > 0 || !denoises()) // single tiles cannot be denoised: they are not seen
+    else if (result.passes > 0 || !denoises()) // single tiles cannot be denoised, and are not seen
         _imageChanged = true;
     if (_written)
     {

@@ -20,77 +20,81 @@
 namespace osgRayTrace::engine
 {
 
-/// True if two views are the same but for rounding of depths. OSG's culling clamps the planes of
-/// last frame's projection matrix again, so that the third column of a view at rest wanders by its
-/// last digits; an image must go on nevertheless.
+/// Returns true if two views are the same but for rounding of depths. OSG's culling clamps the
+/// planes of last frame's projection matrix again, so that the third column of a view at rest
+/// wanders by its last digits; an image must go on nevertheless.
 bool sameButForRounding(const View& a, const View& b);
 
 /// How long a frame of a view may take, from trace() to recordPresented().
 struct FrameBudget
 {
-    double seconds = 0.0; ///< 0: as long as the inputs' passes per frame take
-    bool degrade = true;  ///< the resolution may be reduced while the view moves
-    /// Reduced images are upsampled along edges, to the largest size for which that takes no more
-    /// than this of the seconds; OpenGL enlarges the rest of the way.
+    double seconds = 0.0; ///< seconds of a frame; 0: as long as the inputs' passes per frame take
+    bool degrade = true;  ///< whether the resolution may be reduced while the view moves
+    /// Share of the seconds that upsampling may take. Reduced images are upsampled along edges, to
+    /// the largest size for which the share suffices; OpenGL enlarges the rest of the way.
     double upsampleShare = 0.15;
-    /// If not null, the agreement says what this view traces, like all other views, and the seconds
-    /// are for all of them.
+    /// If the agreement is not null, it says what this view traces, like all other views, and the
+    /// seconds are for all of these views.
     std::shared_ptr<FrameAgreement> agreement = nullptr;
-    uint64_t frameNumber = 0; ///< for the agreement; see AgreedFrame
+    uint64_t frameNumber = 0; ///< frame number for the agreement, see AgreedFrame
     bool again = false;
 };
 
-/// The sessions of a view that is drawn frame after frame: the tracer takes a frame's matrices and
-/// inputs, and knows when there is something new to show. One thread at a time.
+/// A view tracer has the sessions of a view that is drawn frame after frame: the tracer takes a
+/// frame's matrices and inputs, and knows when there is something new to show. One thread at a time
+/// may use it.
 ///
 /// With a budget there are two sessions. While the view moves, and no whole pass of full resolution
-/// fits into a frame, one makes images of reduced resolution. When the view rests the other adds
-/// tiles of full resolution, as many in each frame as there is time for, which are shown over the
-/// enlarged last image; then passes.
+/// fits into a frame, one session makes images of reduced resolution. When the view rests, the
+/// other session adds tiles of full resolution, as many in each frame as there is time for, which
+/// are shown over the enlarged last image; then it adds passes.
 ///
-/// With an agreement it does the same, but how much is told, and no clock ends it.
+/// With an agreement the tracer does the same, but the agreement tells how much is traced, and no
+/// clock ends the tracing.
 class ViewTracer
 {
 public:
-    /// now: a clock [s], for tests.
+    /// Makes a tracer without an image. now is a clock [s], which tests replace.
     explicit ViewTracer(std::function<double()> now = {});
 
-    /// Any thread asks interrupt before each tile. If it returns true, trace() makes no more tiles;
-    /// parts of passes are kept, and the next trace() does the rest.
+    /// Sets the function that any thread asks before each tile. If interrupt returns true, trace()
+    /// makes no more tiles; parts of passes are kept, and the next trace() does the rest.
     void setInterrupt(std::function<bool()> interrupt) { _interrupt = std::move(interrupt); }
 
     /// Traces what a frame has time for, if the image needs any. The inputs have a scene. Failures
-    /// are in progress(), the image stays. Throws std::bad_alloc only.
-    /// If rgba is not null, rgba and depth are what the last frame was shown from, of the pass's
-    /// size: they may take a new image as resolve() would write it, for less. True if they did:
-    /// changed() tells where.
+    /// are in progress(), and the image stays. Throws std::bad_alloc only. If rgba is not null,
+    /// rgba and depth hold what the last frame was shown from, of the pass's size: they may take a
+    /// new image as resolve() would write it, for less. Returns true if they did so: changed()
+    /// tells which tiles were written.
     bool trace(const ViewInputs& inputs, const View& pass, const FrameBudget& budget = {},
                uint8_t* rgba = nullptr, float* depth = nullptr);
 
-    /// What the last trace() wrote to the display.
+    /// Returns what the last trace() wrote to the display.
     const ChangedTiles& changed() const { return _changed; }
 
-    /// Takes over tone map and denoiser. True if the image, or one of the two, differs from what
-    /// was resolved last. False if there is no image.
+    /// Takes over tone map and denoiser. Returns true if the image, or one of the two, differs from
+    /// what was resolved last, and false if there is no image.
     bool needsResolve(const ViewInputs& inputs);
 
     /// Writes display values and window depths of displayWidth() * displayHeight() pixels.
     void resolve(uint8_t* rgba, float* depth);
 
-    /// The display no longer holds what was resolved last: the image has to be resolved again.
+    /// Records that the display no longer holds what was resolved last: the image has to be
+    /// resolved again.
     void forgetDisplay();
 
-    /// The frame that trace() began is on its way to the display.
+    /// Records that the frame that trace() began is on its way to the display.
     void recordPresented();
 
-    /// True if another trace() of the same inputs and view would do nothing.
+    /// Returns true if another trace() of the same inputs and view would do nothing.
     bool isDone() const
     {
         return _session && _status.ok() && _displayState == DisplayState::Whole &&
                _session->progress().passes >= _maxPasses;
     }
 
-    /// Size of what resolve() writes: less than the pass's while the resolution is reduced.
+    /// These functions return the size of what resolve() writes: less than the pass's size while
+    /// the resolution is reduced.
     int displayWidth() const
     {
         return upsamples() ? reducedSize(_view.width, displayDivider()) : image().width();
@@ -105,13 +109,13 @@ public:
         return _session && image().width() > 0 && image().progress().passes > 0;
     }
 
-    /// Linear RGBA of the last whole image as it is shown, width() * height() pixels.
+    /// Returns linear RGBA of the last whole image as it is shown, width() * height() pixels.
     std::vector<float> radiance();
     int width() const { return image().width(); }
     int height() const { return image().height(); }
 
-    /// Progress of that image. The error estimate is renewed when the passes have grown by an
-    /// eighth: it costs as much as a resolve.
+    /// Returns the progress of the last whole image. The error estimate is renewed when the passes
+    /// have grown by an eighth: an estimate costs as much as a resolve.
     ViewProgress progress() const;
     const FrameReport& frame() const { return _frame; }
 
@@ -124,7 +128,7 @@ private:
         Mixed, ///< tiles of full resolution over the enlarged reduced image
     };
 
-    /// The work that comes after tracing, by what it costs.
+    /// The kinds of work that comes after tracing, by what the work costs.
     enum class PresentCost
     {
         Whole,      ///< the image of full resolution
@@ -135,7 +139,7 @@ private:
     };
     static constexpr int kPresentCosts = 5;
 
-    /// Still frames before full resolution is begun: a hand that moves the view does not do so in
+    /// Still frames before full resolution is begun: a hand that moves the view does not move it in
     /// every frame.
     static constexpr int kSettling = 2;
 
@@ -169,12 +173,12 @@ private:
         return &session == _session.get() ? _stages : _reducedStages;
     }
 
-    /// Cost of presenting a reduced image of this divider.
+    /// Returns the cost of presenting a reduced image of this divider.
     PresentCost presentCostOf(int divider) const
     {
         return _upsampleDivider < divider ? PresentCost::Upsampled : PresentCost::Reduced;
     }
-    /// Divides the width and height of what resolve() writes.
+    /// Returns the divider of the width and height of what resolve() writes.
     int displayDivider() const
     {
         return _displayState == DisplayState::Reduced ? std::min(_upsampleDivider, _divider) : 1;
@@ -192,55 +196,57 @@ private:
     std::function<bool()> _interrupt;
     std::shared_ptr<Workers> _workers;
     std::unique_ptr<RenderSession> _session; ///< full resolution
-    std::unique_ptr<RenderSession> _reduced; ///< has no image until one is needed
+    std::unique_ptr<RenderSession>
+        _reduced; ///< reduced resolution; has no image until one is needed
     DisplayState _displayState = DisplayState::Whole;
-    int _divider = 1; ///< of the reduced image
+    int _divider = 1; ///< divider of the reduced image
 
-    // The inputs of the last frame.
+    // The following are the inputs of the last frame.
     View _view;
     std::shared_ptr<const TracedScene> _scene;
     RenderOptions _options;
     int _maxPasses = 1;
-    int _stillFrames = 0; ///< since any of these changed
+    int _stillFrames = 0; ///< frames since any of these changed
     Status _status;
 
     double _relativeError = std::numeric_limits<double>::infinity();
-    int _nextEstimate = 2; ///< passes
+    int _nextEstimate = 2; ///< passes at which the next estimate is made
     double _estimateSeconds = 0.0;
 
-    // The time of the frame.
+    // The following describe the time of the frame.
     FramePlanner _planner;
     FrameReport _frame;
     double _begin = 0.0;
-    double _deadline = 0.0; ///< for tracing, from _begin on
+    double _deadline = 0.0; ///< end of tracing, from _begin on
     double _traceEnd = 0.0;
     int _newTiles = 0;
     PresentCost _presentCost = PresentCost::Whole;
     double _afterSeconds[kPresentCosts] =
-        {}; ///< by _presentCost: from _traceEnd to recordPresented()
+        {}; ///< by _presentCost: time from _traceEnd to recordPresented()
 
-    // The agreement of all views.
-    std::shared_ptr<FrameAgreement> _agreement; ///< of this frame; null: none
+    // The following belong to the agreement of all views.
+    std::shared_ptr<FrameAgreement> _agreement; ///< agreement of this frame; null: none
     std::shared_ptr<FrameAgreement::Member> _member;
-    TracedPart _part; ///< of this frame
-    /// What the image at rest shall have of full resolution, in parts of a pass; none before the
-    /// view has moved under the agreement.
+    TracedPart _part; ///< the part of this frame
+    /// The full resolution that the image at rest shall have, in parts of a pass; there is none
+    /// before the view has moved under the agreement.
     std::optional<int64_t> _agreedProgress;
 
-    // The contents of the display.
+    // The following describe the contents of the display.
     ToneMap _toneMap;
-    DisplayTarget _display;     ///< of this frame; rgba is null if it cannot be used
-    bool _written = false;      ///< the image of the frame is in _display
-    ChangedTiles _changed;      ///< the tiles that this frame wrote
-    bool _holdsFull = false;    ///< the display has the image in full size: tiles may be added
-    bool _imageChanged = false; ///< the image has changed since it was resolved
+    DisplayTarget _display; ///< target of this frame; rgba is null if it cannot be used
+    bool _written = false;  ///< whether the image of the frame is in _display
+    ChangedTiles _changed;  ///< the tiles that this frame wrote
+    bool _holdsFull =
+        false; ///< whether the display has the image in full size, so that tiles may be added
+    bool _imageChanged = false; ///< whether the image has changed since it was resolved
     std::optional<ToneMap> _resolved;
 
-    // The stages between sessions and display.
-    ImageStages _stages, _reducedStages; ///< of _session, of _reduced
+    // The following are the stages between the sessions and the display.
+    ImageStages _stages, _reducedStages; ///< stages of _session and of _reduced
     double _upsampleBudget = 0.0;        ///< [s]
-    int _upsampleDivider = 1;            ///< of the size that reduced images are upsampled to
-    int _ownUpsampleDivider = 1;         ///< of the finest one for which there is time
+    int _upsampleDivider = 1;    ///< divider of the size that reduced images are upsampled to
+    int _ownUpsampleDivider = 1; ///< divider of the finest size for which there is time
     DenoiseKind _resolvedDenoise = DenoiseKind::Off;
 };
 

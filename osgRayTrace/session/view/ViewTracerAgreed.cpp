@@ -52,15 +52,16 @@ void ViewTracer::traceAgreed(bool moved, FrameWork work, double budget)
     }
 }
 
-/// Traces as many passes as all views, at the resolution of all. False if the image was given up or
-/// failed. budget: of all views [s]; 0: the image is not given up.
+/// Traces as many passes as all views, at the resolution of all. Returns false if the image was
+/// given up or failed. budget is the time of all views [s]; if it is 0, the image is not given up.
 bool ViewTracer::traceAgreedImage(const FrameWork& work, double budget)
 {
     const int whole =
         tilesOf(reducedSize(_view.width, work.divider), reducedSize(_view.height, work.divider));
     StopRule rule;
     rule.newPasses = work.passes;
-    // Photons, which no other resolution makes fewer, do not count: it is asked after them first.
+    // Photons, which no other resolution makes fewer, do not count: the first question comes after
+    // them.
     std::atomic<double> start{-std::numeric_limits<double>::infinity()};
     if (budget > 0.0)
         rule.shouldStop = [&](int tiles, double)
@@ -74,8 +75,8 @@ bool ViewTracer::traceAgreedImage(const FrameWork& work, double budget)
     return renderImage(work.divider, rule);
 }
 
-/// All views at rest have the same share of their tiles in full resolution, so that they complete
-/// their passes in the same frames.
+/// Traces the agreed share of the tiles in full resolution: all views at rest have the same share,
+/// so that they complete their passes in the same frames.
 void ViewTracer::traceAgreedProgress(const FrameWork& work)
 {
     constexpr int64_t kWhole = FrameWork::kWholePass;

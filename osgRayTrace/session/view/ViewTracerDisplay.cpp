@@ -28,7 +28,7 @@ void ViewTracer::resolve(uint8_t* rgba, float* depth)
         presentReduced(displayDivider(), rgba, depth);
         break;
     case DisplayState::Mixed:
-        // Single tiles cannot be denoised: those of full resolution wait for all of them then.
+        // Single tiles cannot be denoised: tiles of full resolution then wait until all are there.
         enlargeReduced(rgba, depth);
         if (!denoises()) _session->resolveOver(_toneMap, rgba, depth);
         break;
@@ -56,8 +56,8 @@ void ViewTracer::presentReduced(int divider, uint8_t* rgba, float* depth)
                                         _upsampleBudget);
 }
 
-/// Writes the reduced image at full resolution: upsampled along edges as far as there is time, then
-/// enlarged from nothing but its pixels.
+/// Writes the reduced image at full resolution: the image is upsampled along edges as far as there
+/// is time, then enlarged from nothing but its pixels.
 void ViewTracer::enlargeReduced(uint8_t* rgba, float* depth)
 {
     const int divider = std::min(_upsampleDivider, _divider);

@@ -12,17 +12,18 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Share of a frame that is traced in even if all that comes after it takes longer than the budget.
+/// This share of a frame is traced in even if all that comes after tracing takes longer than the
+/// budget.
 constexpr double kLeastShare = 0.2;
 
-/// A view at rest gets its tiles in squares of kGroup tiles a side: what lies together is copied to
-/// the display in one go. This is done only if a frame has time for kFewGroups squares, as these
-/// shall tell the costs of all.
+/// A view at rest gets its tiles in squares of kGroup tiles a side: tiles that lie together are
+/// copied to the display in one go. Squares are used only if a frame has time for kFewGroups of
+/// them, as these squares shall tell the costs of all.
 constexpr int kGroup = 4;
 constexpr int kFewGroups = 16;
 
-/// Guesses of the time that the display takes to copy a pixel, and to enlarge it first into new
-/// memory [s].
+/// These are guesses of the time that the display takes to copy a pixel, and to enlarge a pixel
+/// first into new memory [s].
 constexpr double kCopySeconds = 2e-9, kEnlargeSeconds = 6e-9;
 
 double pixelsOf(const View& view)
@@ -32,8 +33,8 @@ double pixelsOf(const View& view)
 
 } // namespace
 
-/// Keeps the divider while it fits, so that a moving view does not change its sharpness in each
-/// frame.
+/// Chooses the divider of upsampling, and keeps it while it fits, so that a moving view does not
+/// change its sharpness in each frame.
 void ViewTracer::chooseUpsampling(double seconds)
 {
     constexpr double kSpare = 0.7;
@@ -49,7 +50,8 @@ void ViewTracer::chooseUpsampling(double seconds)
     if (finest < held || takes(held) > seconds) held = finest;
 }
 
-/// A view that moves is taken to have the resolution that it had when it moved last.
+/// Returns the cost of presenting the frame. A view that moves is taken to have the resolution that
+/// it had when it moved last.
 ViewTracer::PresentCost ViewTracer::expectedPresentCost(bool moved) const
 {
     if (moved && !_planner.knowsCosts()) return presentCostOf(FramePlanner::kFirstDivider);
@@ -61,7 +63,7 @@ ViewTracer::PresentCost ViewTracer::expectedPresentCost(bool moved) const
                                                             : PresentCost::Whole;
 }
 
-/// Cost of presenting what was traced in this frame.
+/// Returns the cost of presenting what was traced in this frame.
 ViewTracer::PresentCost ViewTracer::presentCostOfFrame() const
 {
     if (_displayState == DisplayState::Reduced) return presentCostOf(_divider);
@@ -69,7 +71,7 @@ ViewTracer::PresentCost ViewTracer::presentCostOfFrame() const
     return _displayState == DisplayState::Mixed ? PresentCost::FirstMixed : PresentCost::Whole;
 }
 
-/// Expects that the work after tracing takes as long as it did last.
+/// Sets the deadline of tracing. The work after tracing is expected to take as long as it did last.
 void ViewTracer::setDeadline(double budget, bool moved, PresentCost presentCost)
 {
     const bool upsampled = presentCost == PresentCost::Upsampled;
@@ -83,7 +85,7 @@ void ViewTracer::setDeadline(double budget, bool moved, PresentCost presentCost)
         if (upsampled) after += _reducedStages.upsampleSeconds(shown.width, shown.height);
     }
     double seconds = budget - after;
-    // Each thread ends the tile that it is at.
+    // Each thread ends the tile at work.
     seconds -= _planner.tileSeconds(upsampled || presentCost == PresentCost::Reduced ? 2 : 1) *
                _workers->threads();
     const int passes = _session->progress().passes;
@@ -141,8 +143,8 @@ void ViewTracer::traceMoved(FrameSituation frame, double budget)
     if (finer.divider <= plan.divider / 2) traceImage(finer, frame, false);
 }
 
-/// Traces a whole pass of a new image, and more if there is time. False if the pass was given up or
-/// failed.
+/// Traces a whole pass of a new image, and more if there is time. Returns false if the pass was
+/// given up or failed.
 bool ViewTracer::traceImage(const FramePlan& plan, const FrameSituation& frame, bool mayGiveUp)
 {
     const bool reduced = plan.divider > 1;
@@ -150,7 +152,7 @@ bool ViewTracer::traceImage(const FramePlan& plan, const FrameSituation& frame, 
         tilesOf(reducedSize(_view.width, plan.divider), reducedSize(_view.height, plan.divider));
     const double start = _now();
     StopRule rule;
-    if (!reduced) rule.newPasses = plan.passes; // in the last of which tiles go to the display
+    if (!reduced) rule.newPasses = plan.passes; // in the last pass tiles go to the display
     rule.shouldStop = [&, start](int tiles, double ahead)
     {
         const double spent = _now() - start;
@@ -160,7 +162,7 @@ bool ViewTracer::traceImage(const FramePlan& plan, const FrameSituation& frame, 
     return renderImage(plan.divider, rule);
 }
 
-/// False if the image has no whole pass.
+/// Makes the image at the divider. Returns false if the image has no whole pass.
 bool ViewTracer::renderImage(int divider, StopRule& rule)
 {
     const bool reduced = divider > 1;
@@ -170,7 +172,7 @@ bool ViewTracer::renderImage(int divider, StopRule& rule)
     if (!result.status.ok() || result.passes < 1) return false;
     _displayState = reduced ? DisplayState::Reduced : DisplayState::Whole;
     _divider = divider;
-    _imageChanged |= result.newTiles == 0; // of an image that was there before
+    _imageChanged |= result.newTiles == 0; // the image was there before
     return true;
 }
 
@@ -179,7 +181,7 @@ void ViewTracer::traceStill(FrameSituation frame)
 {
     const double start = _now();
     StopRule rule;
-    // A tile at least, so that there is an end, however short the budget.
+    // A tile at least is made, however short the budget, so that the image is completed.
     rule.shouldStop = [&, start](int tiles, double ahead)
     { return tiles > 0 && _now() - start + ahead >= frame.seconds; };
     if (_displayState == DisplayState::Reduced && _stillFrames < kSettling)
@@ -194,10 +196,10 @@ void ViewTracer::traceStill(FrameSituation frame)
     addToImage(rule);
 }
 
-/// Adds tiles and passes of full resolution, of a view at rest.
+/// Adds tiles and passes of full resolution to the image of a view at rest.
 void ViewTracer::addToImage(StopRule& rule)
 {
-    // The display may lack whatever it did not hold before: then it is resolved.
+    // The display may lack tiles that it did not hold before: then the image is resolved.
     const bool addsToDisplay = _holdsFull && _resolved && _display.toneMap == *_resolved;
     _display.holdsImage = true;
     const RenderProgress result = render(*_session, 1, rule, addsToDisplay ? &_display : nullptr);
