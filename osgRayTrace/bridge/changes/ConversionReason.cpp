@@ -17,7 +17,7 @@ struct CauseText
     const char* text;
 };
 
-/// In the order of the enumerators.
+/// The texts stand in the order of the enumerators.
 constexpr CauseText kTexts[] = {
     {ConversionCause::None, ""},
     {ConversionCause::Dirty, "dirtyScene() was called"},

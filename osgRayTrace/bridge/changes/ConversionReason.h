@@ -10,11 +10,11 @@
 namespace osgRayTrace::engine
 {
 
-/// Each has its words in textOf().
+/// Each cause has its words in textOf().
 enum class ConversionCause : uint8_t
 {
-    None, ///< an edit was redone alone, or there was no scene before
-    // Of the whole scene, by SceneUpdater and SceneConverter:
+    None, ///< only the edit was redone, or the first conversion
+    // SceneUpdater and SceneConverter find these causes, which concern the whole scene:
     Dirty,
     Picking,
     OtherRoot,
@@ -24,7 +24,7 @@ enum class ConversionCause : uint8_t
     FailedBefore,
     NotPatchable,
     NoStaticBvh,
-    // Found by GraphWatch:
+    // GraphWatch finds these causes:
     NotWatched,
     FirstNode,
     InheritedState,
@@ -40,7 +40,7 @@ enum class ConversionCause : uint8_t
     DrawingMode,
     VertexAttributes,
     MovedSpecial,
-    // Found by ScenePatcher and PlacePatcher:
+    // ScenePatcher and PlacePatcher find these causes:
     MaterialFile,
     OtherPaths,
     NotAlone,
@@ -66,15 +66,16 @@ enum class ConversionCause : uint8_t
 
 constexpr ConversionCause kLastCause = ConversionCause::LinesOrPoints;
 
-/// One clause: "children of a node are in another order". Of None: an empty one.
+/// Returns one clause, such as "children of a node are in another order"; it is empty for None.
 const char* textOf(ConversionCause cause);
 
-/// Plain data: no text is made but the path, and that only if the graph is converted.
+/// A reason is plain data: its only text is the path, which is made only if the graph is converted.
 struct ConversionReason
 {
     ConversionCause cause = ConversionCause::None;
-    std::string path; ///< of the node that was edited; empty: see geometry
-    /// Instead of a path, which GraphWatch::pathOf() finds. Null: the reason is no single node's.
+    std::string path; ///< path of the edited node; empty: see geometry
+    /// This geometry stands for the path, which GraphWatch::pathOf() finds. If it is null, the
+    /// reason concerns no single node.
     const osg::Geometry* geometry = nullptr;
     uint32_t use = 0; ///< number of the path to geometry, see ChangedUse
 };

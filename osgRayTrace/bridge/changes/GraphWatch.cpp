@@ -18,7 +18,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// What stands for the decorator has it below itself without being its parent.
+/// Returns the node that an active traversal meets directly below the given one. SceneRoot, which
+/// stands for the decorator, has the decorator below itself without being its parent.
 osg::Node* soleNodeBelow(osg::Node& node, unsigned int traversalMask)
 {
     struct Finder : osg::NodeVisitor
@@ -53,7 +54,9 @@ void GraphWatch::forget()
     *this = GraphWatch();
 }
 
-/// What stands for the decorator is looked through: it is no parent that would know of its end.
+/// Returns the first watched node, or null if nothing is visible. The watch looks through
+/// SceneRoot, which stands for the decorator: SceneRoot is no parent that would know of the
+/// decorator's end.
 osg::Node* GraphWatch::firstNode(osg::Node& root) const
 {
     if (!_graph.isVisible(root)) return nullptr;
@@ -62,7 +65,7 @@ osg::Node* GraphWatch::firstNode(osg::Node& root) const
 
 void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
 {
-    WatchedGraph before = std::move(_graph); // keeps its nodes alive until the end
+    WatchedGraph before = std::move(_graph); // this copy keeps its nodes alive until the end
     *this = GraphWatch();
     _graph.traversalMask = conditions.traversalMask;
     _plain = conditions;
@@ -85,7 +88,7 @@ void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
     _recorded = true;
 }
 
-/// What is known of the contents of nodes that were there before.
+/// Takes over the known contents of the untracked nodes that were in the graph before.
 void GraphWatch::takeVersions(WatchedGraph& before)
 {
     std::unordered_map<const osg::Node*, UntrackedNode*> known;
@@ -115,7 +118,7 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
         notComparable = ConversionCause::OtherConditions;
     else if (ObjectName(firstNode(root)) != _first)
         notComparable = ConversionCause::FirstNode;
-    _recorded = false; // until everything is seen
+    _recorded = false; // this holds until everything is seen
     _plain.eye = conditions.eye;
     _plain.view = conditions.view;
     _anyMoved = _anyStateChanged = false;
@@ -141,15 +144,15 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
         _inheritedKept = std::move(kept);
     }
     if (_anyMoved || _anyStateChanged) findChanged(changes);
-    // Nodes that the watch has not seen may be among those that came up.
+    // Nodes that the watch has not seen may be among those that have moved up.
     if (_graph.truncated && !changes.none())
         mustRecord(changes, ConversionCause::TooManyNodes, kNowhere);
     _recorded = true;
     return changes;
 }
 
-/// The graph is converted for what has changed at a node; kNowhere: at none of them. The first
-/// reason stays.
+/// Has the graph converted for a change at a node; kNowhere stands for a change at no single node.
+/// The first reason stays.
 void GraphWatch::mustConvert(GraphChanges& changes, ConversionCause cause, uint32_t node) const
 {
     if (changes.reason.cause == ConversionCause::None)
@@ -157,21 +160,21 @@ void GraphWatch::mustConvert(GraphChanges& changes, ConversionCause cause, uint3
     changes.convert = true;
 }
 
-/// And what is watched is recorded again.
+/// Has the graph converted, and has what is watched recorded again.
 void GraphWatch::mustRecord(GraphChanges& changes, ConversionCause cause, uint32_t node) const
 {
     mustConvert(changes, cause, node);
     changes.record = true;
 }
 
-/// False, for a look that cannot go on.
+/// Calls mustRecord() and returns false, for a look that cannot go on.
 bool GraphWatch::giveUp(GraphChanges& changes, ConversionCause cause, uint32_t node) const
 {
     mustRecord(changes, cause, node);
     return false;
 }
 
-/// From the root.
+/// Returns the text of the path from the root to a node.
 std::string GraphWatch::pathTo(uint32_t node) const
 {
     osg::NodePath path = _graph.pathTo(node);
@@ -190,7 +193,8 @@ std::string GraphWatch::pathOf(const osg::Geometry& geometry, uint32_t use) cons
     return geometry.getName().empty() ? geometry.className() : geometry.getName();
 }
 
-/// Matrices apart.
+/// Returns whether a node is unchanged apart from its matrix; a changed matrix marks the node's
+/// place as moved.
 bool GraphWatch::isAsItWas(WatchedNode& node)
 {
     if (isTransform(node.kind))
@@ -207,7 +211,8 @@ bool GraphWatch::isAsItWas(WatchedNode& node)
     return node.repeated || nodeHash(node.kind, *node.node) == node.hash;
 }
 
-/// Where only modified counts differ the values of arrays decide.
+/// Returns whether an untracked node is unchanged. If only modified counts differ, the values of
+/// the arrays decide.
 bool GraphWatch::isUntrackedAsItWas(WatchedNode& node)
 {
     UntrackedNode& untracked = _graph.untrackedNodes[node.item];
@@ -224,7 +229,7 @@ bool GraphWatch::isUntrackedAsItWas(WatchedNode& node)
     return same;
 }
 
-/// False if the nodes that follow may be gone, and it cannot be said which.
+/// Returns false if the nodes that follow may be gone, and the watch cannot tell which.
 bool GraphWatch::lookAtNodes(GraphChanges& changes)
 {
     std::vector<WatchedNode>& nodes = _graph.nodes;
@@ -236,7 +241,7 @@ bool GraphWatch::lookAtNodes(GraphChanges& changes)
         if (!_graph.isVisible(*node.node))
         {
             if (!hide(i, changes)) return false;
-            continue; // another one is here now
+            continue; // another node is at this index now
         }
         if (node.kind == NodeKind::Geometry)
         {

@@ -10,10 +10,11 @@
 namespace osgRayTrace::engine
 {
 
-/// A graph as it was seen last: see WatchedGraph. A look compares its nodes one after the other,
-/// without a traversal. Nodes of the plain classes are known one by one; of any other node (level
-/// of detail, billboard, a class of the application's own) only whether anything in it and below it
-/// has changed: see graphHash, also for what goes unseen. Bounds are not looked at.
+/// Holds a graph as it was seen last (see WatchedGraph). A look compares the nodes of the graph one
+/// after the other, without a traversal. The watch knows nodes of the plain classes one by one; of
+/// any other node (level of detail, billboard, a class of the application's own) it knows only
+/// whether anything in the node and below it has changed. graphHash documents that, and which
+/// changes go unseen. The watch does not look at bounds.
 class GraphWatch
 {
 public:
@@ -21,18 +22,19 @@ public:
     GraphWatch(GraphWatch&&) = default;
     GraphWatch& operator=(GraphWatch&&) = default;
 
-    /// Remembers the graph as it is.
+    /// Records the graph as it is.
     void record(osg::Node& root, const ViewingConditions& conditions);
 
-    /// The next look finds everything changed; nothing of the graph is kept alive until then.
+    /// Forgets the graph: the next look finds everything changed, and nothing of the graph is kept
+    /// alive until then.
     void forget();
 
-    /// What has changed in the graph below the same root since the last look or record(), under the
-    /// same conditions but for the eye and the inherited state.
+    /// Returns what has changed in the graph below the same root since the last look or record(),
+    /// under conditions that differ at most in the eye, the view and the inherited state.
     GraphChanges look(osg::Node& root, const ViewingConditions& conditions);
 
-    /// The path to a geometry as of the last look, for messages. use: see ChangedUse. The name of
-    /// the geometry alone if there is no such path.
+    /// Returns the path that the geometry had at the last look, for messages, or the name of the
+    /// geometry alone if there is no such path. ChangedUse documents the parameter use.
     std::string pathOf(const osg::Geometry& geometry, uint32_t use) const;
 
 private:
@@ -59,14 +61,14 @@ private:
     uint32_t usesBefore(uint32_t geometry, uint32_t node) const;
 
     bool _recorded = false;
-    ObjectName _first;        ///< of the nodes; of none: nothing is visible
-    ViewingConditions _plain; ///< of the last look, without inherited state
+    ObjectName _first;        ///< first watched node; none: nothing is visible
+    ViewingConditions _plain; ///< conditions of the last look without inherited state
     uint64_t _inheritedHash = 0;
-    KeptObjects _inheritedKept; ///< of the hash
+    KeptObjects _inheritedKept; ///< objects that the hash refers to
     WatchedGraph _graph;
     uint64_t _looks = 0;
 
-    // Of a look while it runs:
+    // These members serve a look while it runs:
     osg::Node* _root = nullptr;
     bool _anyMoved = false, _anyStateChanged = false;
     std::vector<uint32_t> _exchanged; ///< geometries that have other arrays

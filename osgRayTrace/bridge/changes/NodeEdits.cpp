@@ -11,10 +11,12 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Each takes a walk over all that is watched: more than these take longer than a conversion.
+/// Each splice takes a walk over all watched nodes: more splices than this take longer than a
+/// conversion.
 constexpr std::size_t kMostSplices = 256;
 
-/// Converts the graph where it comes or goes, and what is around it is watched in another way.
+/// Returns whether the graph must be converted if the node comes or goes; the nodes around such a
+/// node are watched in another way.
 bool isOfTheWhole(const WatchedNode& node)
 {
     return node.kind == NodeKind::Untracked || isLight(node.kind) || node.hint != 0;
@@ -22,7 +24,7 @@ bool isOfTheWhole(const WatchedNode& node)
 
 } // namespace
 
-/// Finds out what differs in a node of a known class.
+/// Finds out what differs in a node of a known class. Returns false if the look cannot go on.
 bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
 {
     WatchedNode& node = _graph.nodes[index];
@@ -46,7 +48,8 @@ bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
     return known || giveUp(changes, ConversionCause::ReferenceFrame, index);
 }
 
-/// Compares its children with those that it had, and takes out and puts in what differs.
+/// Compares the children of a node with its former ones, and takes out and puts in those that
+/// differ. Returns false if the look cannot go on.
 bool GraphWatch::redoChildren(uint32_t index, GraphChanges& changes)
 {
     const NodeKind kind = _graph.nodes[index].kind;
@@ -57,7 +60,7 @@ bool GraphWatch::redoChildren(uint32_t index, GraphChanges& changes)
         had.insert(_graph.nodes[i].node);
     for (unsigned int i = 0; i < children.size(); ++i)
         if (children[i] && isOn(kind, group, i)) has.insert(children[i].get());
-    auto& hidden = _graph.hidden; // all of its own are found again
+    auto& hidden = _graph.hidden; // the node's hidden children are all found again
     hidden.erase(std::remove_if(hidden.begin(), hidden.end(),
                                 [index](const HiddenNode& node) { return node.parent == index; }),
                  hidden.end());
@@ -74,7 +77,7 @@ bool GraphWatch::redoChildren(uint32_t index, GraphChanges& changes)
         if (!isThere() && had.count(child))
             return giveUp(changes, ConversionCause::ChildOrder, index);
         if (!isThere() && !add(at, *child, index, changes)) return false;
-        if (isThere()) at = _graph.nodes[at].end; // not if it is hidden
+        if (isThere()) at = _graph.nodes[at].end; // a hidden child is not there
     }
     while (at < _graph.nodes[index].end)
         if (!remove(at, changes)) return false;
@@ -131,7 +134,7 @@ bool GraphWatch::add(uint32_t at, osg::Node& node, uint32_t parent, GraphChanges
     return true;
 }
 
-/// A mask has hidden a node.
+/// Takes out a node that a mask has hidden. Returns false if the look cannot go on.
 bool GraphWatch::hide(uint32_t index, GraphChanges& changes)
 {
     HiddenNode gone{keep(_graph.nodes[index].node), _graph.nodes[index].parent};
@@ -149,7 +152,7 @@ bool GraphWatch::lookAtHidden(GraphChanges& changes)
         const HiddenNode& node = _graph.hidden[i++];
         if (!_graph.isVisible(*node.node)) continue;
         if (!redoChildren(node.parent, changes)) return false;
-        i = 0; // they are others now
+        i = 0; // the list holds other nodes now
     }
     return true;
 }

@@ -10,7 +10,8 @@
 namespace osgRayTrace::engine
 {
 
-/// False if it is to be treated in another way.
+/// Looks at a geometry's state and arrays. Returns false if the geometry must be converted in
+/// another way.
 bool GraphWatch::lookAtGeometry(uint32_t index, GraphChanges& changes)
 {
     WatchedGeometry& watched = _graph.geometries[index];
@@ -43,7 +44,7 @@ void GraphWatch::lookAtBuffers(GraphChanges& changes)
         buffer.hash = hash;
         if (!buffer.contents.change(*buffer.data)) continue;
         const osg::Geometry* geometry = _graph.geometries[buffer.geometry].geometry;
-        if (!buffer.shape && !changes.convert) // it may be a part of the material
+        if (!buffer.shape && !changes.convert) // the buffer may be a part of the material
         {
             changes.convert = true;
             changes.reason = {ConversionCause::VertexAttributes, pathOf(*geometry, 0), nullptr, 0};
@@ -93,17 +94,17 @@ void GraphWatch::lookAtLights(GraphChanges& changes)
     }
 }
 
-/// Follows what has changed down to the geometry below it.
+/// Follows changed places and states down to the geometries below them.
 void GraphWatch::findChanged(GraphChanges& changes)
 {
-    for (WatchedPlace& place : _graph.places) // the outer ones come first
+    for (WatchedPlace& place : _graph.places) // outer places come first
     {
         if (place.node == kNowhere) continue;
         place.moved |= place.outer != kOutermost && _graph.places[place.outer].moved;
         if (place.moved && place.fixed)
             mustRecord(changes, ConversionCause::MovedSpecial, place.node);
     }
-    std::unordered_map<uint32_t, osg::Matrixd> matrices; // few move
+    std::unordered_map<uint32_t, osg::Matrixd> matrices; // the map is small, since few places move
     const auto matrixOf = [&](uint32_t place) -> const osg::Matrixd&
     {
         const auto [known, isNew] = matrices.try_emplace(place);

@@ -1,19 +1,18 @@
-// ReportReasons.h - every key of the conversion's report, with its class and its words. Layer:
-// bridge.
+// ReportReasons.h - lists the keys of the conversion's report with their words. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 namespace osgRayTrace::engine
 {
 
-/// The part of a key before the point, and its heading in the report.
+/// A class is the part of a key up to the point, with its heading in the report.
 struct ReportClass
 {
     const char* prefix;
     const char* title;
 };
 
-/// In the order of the report.
+/// The classes stand in the order of the report.
 constexpr ReportClass kReportClasses[] = {
     {"converted.", "Ray traced"},
     {"rasterized.", "Has triangles, but is left to OSG to draw"},
@@ -29,13 +28,14 @@ constexpr ReportClass kReportClasses[] = {
 struct ReportReason
 {
     const char* key;     ///< "<class>.<reason>"
-    const char* meaning; ///< what is counted under it, as docs/coverage.md says
-    /// What warnAboutGeometry says for each geometry after the number; null: nothing.
+    const char* meaning; ///< meaning of the key as in docs/coverage.md
+    /// warnAboutGeometry says this after the number for each geometry; null: it says nothing.
     const char* warning = nullptr;
 };
 
-/// The one list of the keys of Statistics::conversion. A new key is a row here and in the table of
-/// docs/coverage.md; a test compares both with the sources. Warnings are given in this order.
+/// This is the one list of the keys of Statistics::conversion. A new key takes a row here and in
+/// the table of docs/coverage.md; a test compares both with the sources. Warnings follow this
+/// order.
 constexpr ReportReason kReportReasons[] = {
     {"converted.geometry", "drawables"},
     {"converted.instance", "uses of meshes, each with its place and its material"},
@@ -107,7 +107,7 @@ constexpr ReportReason kReportReasons[] = {
 
     {"unused.light-replaced", "lights whose number another one takes later"},
 
-    // The first three classes of geometry, in the order of their warnings.
+    // The next eight rows concern geometry and stand in the order of their warnings.
     {"skipped.index-out-of-range", "triangles with an index beyond the vertex array",
      "triangles with an index beyond the vertex array, skipped"},
     {"skipped.not-finite", "triangles with a vertex that is NaN, infinite or out of range",

@@ -1,5 +1,4 @@
-// GraphLengths.cpp - the lengths of what was collected, and the unit that they are put into. Layer:
-// bridge.
+// GraphLengths.cpp - finds the lengths of a collected graph and applies its unit. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
 

@@ -1,5 +1,4 @@
-// GraphLengths.h - the lengths of what was collected, and the unit that they are put into. Layer:
-// bridge.
+// GraphLengths.h - finds the lengths of a collected graph and applies its unit. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,11 +8,11 @@
 namespace osgRayTrace::engine
 {
 
-/// The lengths of all that is traced, as long as the graph is in units of the world.
+/// Returns the lengths of all that is traced, as long as the graph is in units of the world.
 LengthCounts lengthsOf(const CollectedGraph& graph);
 
-/// The collector knows the origin of engine space, but not its unit yet: it leaves lengths as they
-/// are in the world. This puts all matrices into units of Scene::unit.
+/// Puts all matrices into units of Scene::unit. The collector knows the origin of engine space, but
+/// not its unit yet: it leaves lengths as they are in the world.
 void applyUnit(double unit, CollectedGraph& graph);
 
 } // namespace osgRayTrace::engine

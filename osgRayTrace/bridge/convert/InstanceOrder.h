@@ -1,4 +1,4 @@
-// InstanceOrder.h - instances of the static BVH before those that are placed. Layer: bridge.
+// InstanceOrder.h - puts instances of the static BVH before placed instances. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,8 +12,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Puts the instances that are not placed first, so that their indices, which the static BVH has,
-/// do not depend on those that are. Returns the new index of each.
+/// Puts the instances that are not placed first, so that their indices, which the static BVH holds,
+/// do not depend on the placed instances. Returns the new index of each instance.
 inline std::vector<uint32_t> putFlatFirst(std::vector<Instance>& instances)
 {
     std::vector<uint32_t> order(instances.size()), now(instances.size());

@@ -14,27 +14,31 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Volume of the axes made unit. More than GraphCollector asks for: what is nearly flat goes its
-/// way.
+/// This is the smallest volume that the unit axes of a transform may span. It is more than
+/// GraphCollector asks for: a nearly flat transform takes a conversion of the whole graph.
 constexpr double kSmallestVolume = 1e-6;
 
-/// A mesh keeps its frame while its centre is not so many radii from its origin.
+/// A mesh keeps its frame while its centre is at most this many times its largest coordinate away
+/// from its origin.
 constexpr double kFarFromOrigin = 128.0;
 
-/// Its coordinates are generated from places in the scene: the matrix has where the surface is.
+/// Returns whether texture coordinates are generated from places in the scene: their matrix then
+/// depends on the place of the surface.
 bool isPlaceBound(const Material& material)
 {
     return material.mapping.coordinates == TextureCoordinates::Position ||
            material.second.mapping.coordinates == TextureCoordinates::Position;
 }
 
-/// OpenGL's front is on the other side where a transform mirrors.
+/// Returns whether the look depends on which side is OpenGL's front: a mirroring transform swaps
+/// the sides.
 bool dependsOnWinding(const Material& material)
 {
     return material.culling != FaceCulling::None || material.twoSidedLighting;
 }
 
-/// OpenGL draws nothing of it: then it has no parts that are copied for that.
+/// Returns whether a geometry has neither lines nor points: OpenGL then draws nothing of the
+/// geometry, and no parts of the geometry are copied for OpenGL.
 bool hasTrianglesAlone(const osg::Geometry& geometry)
 {
     for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
@@ -42,7 +46,7 @@ bool hasTrianglesAlone(const osg::Geometry& geometry)
     return true;
 }
 
-/// Of a mesh that stays in its frame.
+/// Returns whether a mesh with these bounds can stay in its frame.
 bool fitsFrame(const VertexBounds& bounds, const osg::Matrixd& meshFromLocal)
 {
     if (bounds.count == 0 || areCoarseInFloat(bounds)) return false;
@@ -88,7 +92,7 @@ bool PlacePatcher::place(const osg::Geometry& geometry, uint32_t index,
     Instance& instance = _scene.instances[index];
     const bool winding = dependsOnWinding(_scene.materials[instance.material]);
     if (winding && !instance.placed)
-        return refuse(ConversionCause::Winding); // whether it was mirrored is not known
+        return refuse(ConversionCause::Winding); // it is unknown whether the instance was mirrored
     osg::Matrixd localFromMesh;
     if (instance.placed)
     {
@@ -122,8 +126,8 @@ bool PlacePatcher::place(const osg::Geometry& geometry, uint32_t index,
     return true;
 }
 
-/// From the arrays as they are. False if it counts other bad data than it did: the report would
-/// change.
+/// Makes a mesh from the arrays as they are. Returns false if the count of bad data differs from
+/// the last one, because the report would change.
 bool PlacePatcher::makeMesh(const osg::Geometry& geometry, const MeshRequest& request,
                             uint32_t meshIndex)
 {
@@ -169,7 +173,7 @@ bool PlacePatcher::deform(const osg::Geometry& geometry)
     const uint32_t meshIndex = _scene.instances[uses.front().instance].mesh;
     const std::shared_ptr<const Mesh> before = _scene.meshes[meshIndex];
     if (!makeMesh(geometry, request, meshIndex)) return false;
-    if (_scene.meshes[meshIndex] == before) return true; // made when it was moved
+    if (_scene.meshes[meshIndex] == before) return true; // move() has made the mesh
     for (const TracedUse& use : uses)
     {
         const Instance& instance = _scene.instances[use.instance];

@@ -1,4 +1,4 @@
-// PlacePatcher.h - other places and shapes in a Scene that is as it was else. Layer: bridge.
+// PlacePatcher.h - changes only places and shapes in a Scene. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,35 +10,37 @@
 namespace osgRayTrace::engine
 {
 
-/// Redoes the instances that moved and the meshes that deformed, and nothing else. What does so for
-/// the first time gets a mesh in its own coordinates, and so leaves the static BVH.
+/// Redoes the instances that moved and the meshes that deformed, and nothing else. A geometry that
+/// moves or deforms for the first time gets a mesh in its own coordinates, and so leaves the static
+/// BVH.
 class PlacePatcher
 {
 public:
-    /// scene: in units of 1, and of ordinary lengths (see SceneExtent).
+    /// The scene must be in units of 1 and have ordinary lengths (see SceneExtent).
     PlacePatcher(Scene& scene, const SceneIndex& index, GeometryCache& geometries, Stamp now)
         : _scene(scene), _index(index), _geometries(geometries), _now(now)
     {
     }
 
-    /// False if the graph must be converted again, by cause(): something looks different from what
-    /// it did before in more than its place and its shape.
+    /// Returns false if the graph must be converted again for cause(): more than the place and the
+    /// shape of something looks different.
     bool move(const MovedUse& use);
     bool deform(const osg::Geometry& geometry);
 
     ConversionCause cause() const { return _cause; }
 
-    /// Something has changed.
+    /// Returns whether something has changed.
     bool changed() const { return _changed; }
 
-    /// Some mesh left the static BVH.
+    /// Returns whether some mesh left the static BVH.
     bool leftStatic() const { return _leftStatic; }
 
 private:
     bool place(const osg::Geometry& geometry, uint32_t index, const osg::Matrixd& engineFromLocal);
     bool makeMesh(const osg::Geometry& geometry, const MeshRequest& request, uint32_t meshIndex);
     void touch(uint32_t index);
-    bool refuse(ConversionCause cause) ///< false
+    /// Records the cause and returns false.
+    bool refuse(ConversionCause cause)
     {
         _cause = cause;
         return false;

@@ -1,4 +1,4 @@
-// SceneBuilder.cpp - meshes, instances and materials of what was collected. Layer: bridge.
+// SceneBuilder.cpp - makes meshes, instances and materials of what was collected. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 
@@ -21,7 +21,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Above the scene: osgUtil::SceneView's light model, or OpenGL's where osgViewer sets none.
+/// These ambient lights hold above the scene: the first is that of osgUtil::SceneView's light
+/// model, the second OpenGL's, which holds if osgViewer sets no light model.
 constexpr float kViewerAmbient = 0.1f;
 constexpr float kOpenGLAmbient = 0.2f;
 
@@ -127,7 +128,8 @@ uint32_t SceneBuilder::appendInstance(const Instance& instance)
     return index;
 }
 
-/// The error was made before the graph came here: it can only be named.
+/// Warns if the vertices of a geometry are coarse in float. The error was made before the graph
+/// came here, so the warning can only name it.
 void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
 {
     if (!areCoarseInFloat(*geometry.bounds)) return;
@@ -137,8 +139,8 @@ void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
                  "coordinates below a transform");
 }
 
-/// What comes into a scene gets BVHs of its own, unless it is so much that the flat one may as well
-/// be built again.
+/// Records whether new geometries join the static BVH. They get BVHs of their own, unless they have
+/// so many vertices that the static BVH may as well be built again.
 void SceneBuilder::recordNew()
 {
     uint64_t vertices = 0;
@@ -147,14 +149,15 @@ void SceneBuilder::recordNew()
     _newJoinStatic = vertices >= _caches.staticVertices;
 }
 
-/// Used more often than once, or not still: what has moved or deformed since it came will do so
-/// again.
+/// Returns whether a geometry is used more often than once or is not still: a geometry that has
+/// moved or deformed since it came is expected to do so again.
 bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
 {
     const osg::Geometry& geometry = *collected.geometry;
     GeometryCache& cache = _caches.geometries;
     const MeshRequest* last = cache.lastRequest(geometry);
-    // One that is here twice, under other primitive restart, has the last request of the other.
+    // A geometry that was collected twice, under different primitive restart, may find the other
+    // one's last request here.
     const bool own = last && last->restart == collected.restart;
     const bool once = collected.uses.size() == 1;
     if (_rules.comparable && last && !cache.hasSameArrays(geometry))
@@ -184,7 +187,8 @@ void SceneBuilder::putFlatFirst()
         renumber(quad.instance);
 }
 
-/// Puts the planes that cross the geometry into the request, which is for engine space.
+/// Puts the planes that cross the geometry into the request, which is for engine space. Returns how
+/// much of the geometry the planes clip.
 Clipping SceneBuilder::clipBy(const CollectedGeometry& geometry, const GeometryUse& use,
                               MeshRequest& request)
 {
@@ -199,14 +203,15 @@ Clipping SceneBuilder::clipBy(const CollectedGeometry& geometry, const GeometryU
     return clipping;
 }
 
-/// Used once: positions in engine space, made in double. Used more often: one mesh, several
-/// instances.
+/// Adds a geometry. A still geometry that is used once gets positions in engine space, which are
+/// made in double; a geometry that is used more often gets one mesh and several instances.
 void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 {
     const uint64_t remarks = _report.remarks();
     warnIfCoarse(geometry);
     TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
-    // One that is here twice has other primitive restart: only one of both is in the index.
+    // A geometry that was collected twice has different primitive restart: the index holds only one
+    // of the two.
     traced.patchable = traced.uses.empty() && geometry.watched;
     _convertedGraph.index.removeUses(traced);
     traced.uses.reserve(geometry.uses.size());
@@ -261,7 +266,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
             addNothing(geometry, use);
         return;
     }
-    uint32_t meshIndex = kInvalid; // in the scene once an instance has it
+    uint32_t meshIndex = kInvalid; // the mesh enters the scene with its first instance
     uint32_t variant = kOwnVariant;
     for (const GeometryUse& use : geometry.uses)
     {
@@ -279,7 +284,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
             !placeInstance(instance, frame.localFromMesh * use.engineFromLocal))
         {
             _convertedGraph.index.at(*geometry.geometry).patchable =
-                false; // not by the shared mesh
+                false; // the shared mesh does not hold this use
             addBaked(
                 geometry, use,
                 _caches.geometries.mesh(*geometry.geometry, variant, own, geometry.path, _report));
@@ -350,7 +355,8 @@ uint32_t SceneBuilder::effects(uint32_t state, const ConversionCounts& counts)
     return _convertedGraph.index.effects(wanted);
 }
 
-/// One light model for all: OpenGL has one for each drawable, but scenes do not.
+/// Sets the ambient light from the first light model met. OpenGL has a light model for each
+/// drawable, but a scene has only one.
 void SceneBuilder::setAmbient(const GraphState& state)
 {
     const auto* model = state.attribute<osg::LightModel>(kLightModelSlot);
@@ -366,7 +372,8 @@ void SceneBuilder::setAmbient(const GraphState& state)
     if (isFinite(ambient)) _scene.ambient = ambient;
 }
 
-/// quad is that of the last snapshot, if any, and stays if the light has not moved.
+/// Adds an area light. quad is the light's quad of the last snapshot, if there is one, and its mesh
+/// stays if the light has not moved.
 void SceneBuilder::addAreaLight(const CollectedAreaLight& source, ConversionCaches::Quad& quad)
 {
     auto converted = convertAreaLight(*source.light, source.engineFromLocal);

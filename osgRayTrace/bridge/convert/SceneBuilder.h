@@ -10,18 +10,18 @@
 namespace osgRayTrace::engine
 {
 
-/// How a Scene is made from what was collected.
+/// The rules say how a Scene is made from what was collected.
 struct BuildRules
 {
     double unit = 1.0;
     bool linear = false;
     bool setsColor = false;  ///< see MaterialRules
-    bool comparable = false; ///< with the last snapshot: what differs has changed
+    bool comparable = false; ///< comparable with the last snapshot: differences are changes
     Stamp now = 0;
 };
 
-/// Adds what was collected to a Scene: of the whole graph to a new one, or of what came later to a
-/// copy of the last one.
+/// Adds what was collected to a Scene: the whole graph to a new Scene, or later additions to a copy
+/// of the last Scene.
 class SceneBuilder
 {
 public:
@@ -29,18 +29,18 @@ public:
                  ConversionCaches& caches, ConvertedGraph& convertedGraph, Scene& scene,
                  ConversionReport& report);
 
-    /// A new scene, all of it.
+    /// Builds a whole new scene.
     void build();
 
-    /// Of all uses of the graph's geometries in turn, kInvalid for what is not traced. After
-    /// build().
+    /// Returns the instances of all uses of the graph's geometries in turn, with kInvalid for a use
+    /// that is not traced. The list is complete after build().
     const std::vector<uint32_t>& instances() const { return _instances; }
 
-    /// One more geometry, which gets a BVH of its own.
+    /// Adds one more geometry, which gets a BVH of its own.
     void add(const CollectedGeometry& geometry);
 
-    /// Of one that is there and placed: one more path, before the use of this number. False: it
-    /// cannot be placed.
+    /// Adds one more path to a geometry that is there and placed, before the use with the number
+    /// before. Returns false if the path cannot be placed.
     bool addUse(const CollectedGeometry& geometry, const GeometryUse& use, uint32_t before);
 
 private:
@@ -76,9 +76,9 @@ private:
     ConversionReport& _report;
     ConversionReport _materialReport;
     MaterialConverter _materials;
-    std::vector<std::optional<StateEffects>> _effects; ///< by state
+    std::vector<std::optional<StateEffects>> _effects; ///< effects by state
     std::vector<uint32_t> _instances;
-    const osg::LightModel* _lightModel = nullptr; // the first one met
+    const osg::LightModel* _lightModel = nullptr; // first light model met
 };
 
 } // namespace osgRayTrace::engine

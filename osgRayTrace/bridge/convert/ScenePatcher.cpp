@@ -1,4 +1,4 @@
-// ScenePatcher.cpp - edits of state and of lights. Layer: bridge.
+// ScenePatcher.cpp - patches a scene for edits of state and of lights. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
 
@@ -45,7 +45,8 @@ osg::NodePath ScenePatcher::fromRoot(const osg::NodePath& path) const
     return whole;
 }
 
-/// False. path: from the first node that was found; empty: of no single node.
+/// Records the cause and returns false. path begins at the first node that was found; an empty path
+/// means that no single node is the cause.
 bool ScenePatcher::refuse(ConversionCause cause, const osg::NodePath& path)
 {
     _reason.cause = cause;
@@ -59,7 +60,7 @@ bool ScenePatcher::refuse(ConversionCause cause, const osg::Geometry& geometry, 
     return false;
 }
 
-/// path: as the collector gives it.
+/// Records that a lamp is the cause and returns false. path is the collector's text.
 bool ScenePatcher::refuseLamp(const std::string& path)
 {
     _reason = {ConversionCause::LampShape, path, nullptr, 0};
@@ -97,11 +98,12 @@ bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
     return true;
 }
 
-/// Where equal materials become one, or one becomes two, indices of others stay what they are.
+/// Gives instances the materials of their changed states. If equal materials become one, or one
+/// becomes two, the indices of the other materials stay what they are.
 bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
 {
     if (uses.empty()) return true;
-    if (_input.materials) // rules look at names
+    if (_input.materials) // its rules look at names
         return refuse(ConversionCause::MaterialFile, uses.front().path);
     StateStack states = statesAbove(_input);
     ConversionReport report;
@@ -111,7 +113,7 @@ bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
     for (const StateChange& use : uses)
         if (!changeState(use, states, converter, report)) return false;
     const bool setsColor = _convertedGraph.index.colorUses() > 0; // see MaterialRules
-    if (_recolors && setsColor != _convertedGraph.setsColor)      // a rule of all materials
+    if (_recolors && setsColor != _convertedGraph.setsColor) // this rule holds for all materials
         return refuse(ConversionCause::CurrentColor, uses.front().path);
     for (const auto& [instance, material] : _newMaterials)
         _convertedGraph.materials.release(_scene->instances[instance].material);
@@ -174,7 +176,8 @@ bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
     return true;
 }
 
-/// Of area lights; their places and shapes are a matter of the whole graph.
+/// Sets the radiance of area lights anew. Returns false if the place or the shape of an area light
+/// has changed, which takes a conversion of the whole graph.
 bool ScenePatcher::relightLamps()
 {
     for (std::size_t i = 0; i < _convertedGraph.lights.areaLights.size(); ++i)
@@ -199,7 +202,7 @@ bool ScenePatcher::relightLamps()
     return true;
 }
 
-/// Those that have changed, and their textures.
+/// Copies the changed materials and their textures into the scene.
 void ScenePatcher::takeMaterials()
 {
     const std::vector<uint32_t> exchanged = _convertedGraph.materials.takeChanged();

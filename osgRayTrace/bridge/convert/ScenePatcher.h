@@ -1,5 +1,4 @@
-// ScenePatcher.h - a new Scene from the last one, with nothing redone but what has changed. Layer:
-// bridge.
+// ScenePatcher.h - makes a new Scene from the last one, redoing only what changed. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -14,30 +13,31 @@
 namespace osgRayTrace::engine
 {
 
-/// For one patch. What it does to convertedGraph and caches belongs to the scene that patch()
-/// returns; if that is none, to no scene: then the graph must be converted again.
+/// Makes one patch. The patcher's changes to convertedGraph and caches belong to the scene that
+/// patch() returns. If patch() returns no scene, the changes belong to none, and the graph must be
+/// converted again.
 class ScenePatcher
 {
 public:
-    /// last: in units of 1, and of ordinary lengths (see SceneExtent).
+    /// The scene last must be in units of 1 and have ordinary lengths (see SceneExtent).
     ScenePatcher(const Scene& last, const ConversionInput& input, ConversionCaches& caches,
                  ConvertedGraph& convertedGraph, Stamp now);
 
-    /// Null if there is more to do than this knows: see reason().
+    /// Returns the new scene, or null if the changes take more than a patch: see reason().
     std::shared_ptr<Scene> patch(const GraphChanges& changes);
 
     const ConversionReason& reason() const { return _reason; }
 
-    /// patch() has changed something.
+    /// Returns whether patch() has changed something.
     bool changed() const { return _changed; }
 
-    /// Instances came or went.
+    /// Returns whether instances came or went.
     bool spliced() const { return _spliced; }
 
-    /// Some mesh left the static BVH.
+    /// Returns whether some mesh left the static BVH.
     bool leftStatic() const { return _leftStatic; }
 
-    /// What is converted now, beyond what was or less.
+    /// Returns how many more geometries are converted now than before; fewer make it negative.
     int64_t geometriesMore() const { return _geometries; }
     int64_t instancesMore() const { return _instances; }
 

@@ -1,4 +1,4 @@
-// SplicePatch.cpp - edits of which nodes there are. Layer: bridge.
+// SplicePatch.cpp - patches a scene for nodes that came or went. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
@@ -12,7 +12,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// None: a geometry can be patched that is on so many paths now.
+/// Returns None if a geometry that is on so many paths now can be patched, otherwise the cause
+/// against it.
 ConversionCause causeToKeep(const TracedGeometry& traced, uint32_t uses)
 {
     if (!traced.patchable) return ConversionCause::NotAlone;
@@ -30,7 +31,7 @@ bool ScenePatcher::splice(const GraphSplice& splice)
 
 bool ScenePatcher::remove(const GraphSplice& splice)
 {
-    // Before any goes: those that follow shorten the lists.
+    // All uses are checked before any is removed, because a removal shortens the lists.
     for (const ChangedUse& gone : splice.removed)
     {
         const auto found = _convertedGraph.index.geometries.find(gone.geometry);
@@ -40,7 +41,8 @@ bool ScenePatcher::remove(const GraphSplice& splice)
         const ConversionCause cause = causeToKeep(traced, gone.uses);
         if (cause != ConversionCause::None) return refuse(cause, splice.removedFrom);
     }
-    // The last of each first: those before it keep their numbers.
+    // The last use of each geometry is removed first, so that the uses before it keep their
+    // numbers.
     for (auto gone = splice.removed.rbegin(); gone != splice.removed.rend(); ++gone)
     {
         const auto found = _convertedGraph.index.geometries.find(gone->geometry);
@@ -54,7 +56,7 @@ bool ScenePatcher::remove(const GraphSplice& splice)
     return true;
 }
 
-/// None: it was removed.
+/// Returns None if the use was removed, otherwise the cause against it.
 ConversionCause ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
 {
     const TracedUse gone = traced.uses[use];
@@ -64,7 +66,7 @@ ConversionCause ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
     if (traced.uses.size() > 1 && !instance.placed) return ConversionCause::NotAnInstance;
     const StateEffects& effects = _convertedGraph.index.stateEffects[gone.effects];
     _convertedGraph.index.removeUse(traced, use);
-    if (!effects.counts.empty()) return ConversionCause::Reported; // paths may be named
+    if (!effects.counts.empty()) return ConversionCause::Reported; // the report may name paths
     if ((effects.hasAmbient || effects.physical || effects.setsColor) && isLastOf(gone.effects))
         return ConversionCause::LastOfState;
 
@@ -83,8 +85,8 @@ ConversionCause ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
     return ConversionCause::None;
 }
 
-/// Whether no other use has these effects: what it alone decides for all of the scene would
-/// change.
+/// Returns whether no traced use has these effects any more: the effects on the whole scene would
+/// then change.
 bool ScenePatcher::isLastOf(uint32_t effects) const
 {
     for (const auto& [geometry, traced] : _convertedGraph.index.geometries)
@@ -105,7 +107,7 @@ uint32_t ScenePatcher::emptyMeshIndex()
 
 bool ScenePatcher::add(const GraphSplice& splice)
 {
-    if (_input.materials) // rules look at names
+    if (_input.materials) // its rules look at names
         return refuse(ConversionCause::MaterialFile, splice.added);
     ConversionReport report;
     GraphCollector collector(_input, _caches.vertices, _caches.textures, report);
@@ -124,7 +126,7 @@ bool ScenePatcher::add(const GraphSplice& splice)
         geometry.bounds = &_caches.geometries.bounds(*geometry.geometry);
         vertices += geometry.bounds->count;
     }
-    // So much shall be flat.
+    // A subgraph of so many vertices belongs in the static BVH.
     if (vertices > kSmallStatic && vertices >= _caches.staticVertices)
         return refuse(ConversionCause::LargeSubgraph, splice.added);
     if (!graph.geometries.empty() && !lengthsOf(graph).areOrdinary())
@@ -140,7 +142,8 @@ bool ScenePatcher::add(const GraphSplice& splice)
     return true;
 }
 
-/// None: state of another kind than the scene has is not among it.
+/// Returns None if the geometry has no state of a kind that the scene lacks, otherwise the cause
+/// against it.
 ConversionCause ScenePatcher::stateCause(const CollectedGraph& graph,
                                          const CollectedGeometry& geometry) const
 {
@@ -158,7 +161,7 @@ ConversionCause ScenePatcher::stateCause(const CollectedGraph& graph,
     return ConversionCause::None;
 }
 
-/// None: it was added.
+/// Returns None if the geometry was added, otherwise the cause against it.
 ConversionCause ScenePatcher::addGeometry(const CollectedGraph& graph,
                                           const CollectedGeometry& geometry,
                                           const GraphSplice& splice)
@@ -203,7 +206,7 @@ ConversionCause ScenePatcher::addGeometry(const CollectedGraph& graph,
     return report.remarks() == 0 ? ConversionCause::None : ConversionCause::Reported;
 }
 
-/// What came back in another place is kept.
+/// Drops removed geometries from the cache, but keeps those that came back in another place.
 void ScenePatcher::dropRemoved()
 {
     for (const osg::ref_ptr<const osg::Geometry>& geometry : _removed)

@@ -1,4 +1,4 @@
-// GraphCollector.cpp - traversal of the scene graph with its transforms and states. Layer: bridge.
+// GraphCollector.cpp - traverses the scene graph with its transforms and states. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 
@@ -30,7 +30,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Of the axes made unit: less is singular.
+/// The unit axes of a transform span at least this volume; a transform with less is singular.
 constexpr double kSmallestVolume = 1e-12;
 
 } // namespace
@@ -86,7 +86,7 @@ void GraphCollector::apply(osg::Transform& node)
 {
     const bool pushed = pushState(node);
     if (node.getReferenceFrame() != osg::Transform::RELATIVE_RF && !_input.view)
-        _report.count("approximated.absolute-transform"); // eye space in OpenGL, world space here
+        _report.count("approximated.absolute-transform"); // OpenGL has eye space, this world space
     traverseBelow(worldFromLocal(node, _worldFromLocal.back(), *this, _input.view), node);
     if (pushed) _states.pop();
 }
@@ -95,8 +95,7 @@ void GraphCollector::apply(osg::Camera& node)
 {
     if (&node == _input.root)
     {
-        apply(
-            static_cast<osg::Node&>(node)); // the viewer's own: its matrices are those of the view
+        apply(static_cast<osg::Node&>(node)); // the viewer's camera has the matrices of the view
         return;
     }
     if (const char* reason = untracedCamera(node))
@@ -128,7 +127,7 @@ void GraphCollector::apply(osg::LightSource& node)
     apply(static_cast<osg::Node&>(node));
 }
 
-/// Where OSG draws the background, mirrors show the same.
+/// Keeps the clear colour if OSG draws the background, so that mirrors show the same background.
 void GraphCollector::apply(osg::ClearNode& node)
 {
     if (_input.rasterizesRest && node.getRequiresClear()) _graph.clearColor = node.getClearColor();
@@ -165,7 +164,7 @@ void GraphCollector::apply(osg::TexGenNode& node)
 {
     const bool inScene = node.getReferenceFrame() == osg::TexGenNode::RELATIVE_RF;
     if (!inScene)
-        _report.count("approximated.absolute-texgen"); // eye space in OpenGL, world space here
+        _report.count("approximated.absolute-texgen"); // OpenGL has eye space, this world space
     if (node.getTexGen() && node.getTextureUnit() < kUnits)
         _graph.texGens[node.getTextureUnit()] = {node.getTexGen(),
                                                  inScene ? engineFromLocal()
@@ -186,12 +185,12 @@ void GraphCollector::apply(osg::Billboard& node)
         return;
     }
     if (node.getMode() == osg::Billboard::POINT_ROT_EYE && !_input.view)
-        _report.count("approximated.billboard"); // upright in the world, not in the view
+        _report.count("approximated.billboard"); // it is upright in the world, not in the view
     const osg::Vec3 eye = getEyePoint();
     const osg::Matrixd worldFromView = worldFromEye();
     const osg::Matrixd viewFromLocal =
         _worldFromLocal.back() * osg::Matrixd::inverse(worldFromView);
-    // Since OSG 3.6 any child can be added, and one that is no drawable has no position.
+    // Since OSG 3.6 any child can be added, and a child that is no drawable has no position.
     const std::size_t positions = node.getPositionList().size();
     ++_untracked;
     for (unsigned int i = 0; i < node.getNumDrawables(); ++i)
@@ -230,7 +229,7 @@ void GraphCollector::apply(osg::Geometry& geometry)
     if (!_input.rasterizesRest && hintOf(getNodePath()) == DrawHint::Rasterize)
         _report.count("approximated.rasterize-hint"); // there is no rasterizer
     if (!isPosed && SoftwareVertices::isPosedByProgram(geometry))
-        _report.count("approximated.hardware-pose"); // as it was bound
+        _report.count("approximated.hardware-pose"); // it is traced as it was bound
     if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
     const bool pushed = pushState(geometry);
     const uint32_t state = _materials.stateOf(getNodePath(), _states);
@@ -275,7 +274,8 @@ void GraphCollector::traverseChildren(osg::Node& node)
     _untracked -= untracked;
 }
 
-/// True, counted and named if there is anything below it that is too deep.
+/// Returns true if the node is so deep that its children are skipped; a node with children is then
+/// counted and named.
 bool GraphCollector::isTooDeep(const osg::Node& node)
 {
     if (getNodePath().size() < kDeepestPath) return false;
@@ -287,8 +287,8 @@ bool GraphCollector::isTooDeep(const osg::Node& node)
     return true;
 }
 
-/// True, counted and named if the paths that are taken are so many already. OSG draws the node,
-/// unless its own traversal would not end either.
+/// Returns true if too many paths have been taken already; the node is then counted and named. OSG
+/// draws the node, unless OSG's own traversal would not end either.
 bool GraphCollector::isTooMuch(osg::Node& node)
 {
     if (_visits.take()) return false;
@@ -314,7 +314,7 @@ bool GraphCollector::pushState(osg::Node& node)
     return stateSet != nullptr;
 }
 
-/// False, counted and named if nothing can be placed by this matrix.
+/// Returns false if nothing can be placed by this matrix; the transform is then counted and named.
 bool GraphCollector::pushMatrix(const osg::Matrixd& worldFromLocal)
 {
     if (const char* fault = matrixFault(worldFromLocal, kSmallestVolume))
@@ -334,7 +334,8 @@ void GraphCollector::traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node
     _worldFromLocal.pop_back();
 }
 
-/// True if the node is a leaf of ours or of another kit that has no children to visit.
+/// Returns true if the node is a leaf of osgRayTrace or of another kit and has no children to
+/// visit.
 bool GraphCollector::collectLeaf(osg::Node& node)
 {
     if (const auto* light = dynamic_cast<const AreaLight*>(&node))
@@ -353,11 +354,12 @@ bool GraphCollector::collectLeaf(osg::Node& node)
         _report.count(reason);
         warnIfForced(node.className());
     }
-    rasterize(); // also what is not seen, but works in the cull traversal
+    rasterize(); // leaves that only work in the cull traversal are kept, too
     return true;
 }
 
-/// Without a view the eye looks along the world's axes.
+/// Returns the transform from eye to world space. Without a view the eye looks along the world's
+/// axes.
 osg::Matrixd GraphCollector::worldFromEye() const
 {
     return _input.view ? osg::Matrixd::inverse(_input.view->viewFromWorld)

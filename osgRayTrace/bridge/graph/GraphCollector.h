@@ -31,27 +31,27 @@
 namespace osgRayTrace::engine
 {
 
-/// Nodes on a path from the root; what is deeper is skipped. Traversals are recursive, in OSG as
-/// here: a transform takes about 400 bytes of stack, more in debug builds, and threads may have
-/// little.
+/// A path from the root has at most this many nodes; deeper nodes are skipped. Traversals are
+/// recursive in OSG and here: a transform takes about 400 bytes of stack, more in debug builds, and
+/// threads may have little stack.
 constexpr std::size_t kDeepestPath = 5000;
 
-/// One path to a drawable.
+/// A use is one path to a geometry.
 struct GeometryUse
 {
     osg::Matrixd engineFromLocal;    ///< affine, finite, invertible; see applyUnit
     uint32_t state = 0;              ///< index into CollectedGraph::states
-    uint32_t path = NodeTree::kNone; ///< in CollectedGraph::paths, if ConversionInput::picks
+    uint32_t path = NodeTree::kNone; ///< index into CollectedGraph::paths; kNone: no picks
 };
 
 struct CollectedGeometry
 {
     osg::ref_ptr<const osg::Geometry> geometry;
-    std::string path; ///< of the first use: "root/child/geometry"
+    std::string path; ///< path of the first use: "root/child/geometry"
     std::vector<GeometryUse> uses;
-    PrimitiveRestart restart; ///< of all uses
+    PrimitiveRestart restart; ///< primitive restart of all uses
     bool watched = true;      ///< no path is below a node that GraphWatch does not look into
-    const VertexBounds* bounds = nullptr; ///< not the collector's: see SceneConverter
+    const VertexBounds* bounds = nullptr; ///< bounds that SceneConverter sets
 };
 
 struct CollectedLight
@@ -67,7 +67,7 @@ struct CollectedAreaLight
     osg::ref_ptr<const AreaLight> light;
     osg::Matrixd engineFromLocal;
     std::string path;
-    uint32_t pickPath = NodeTree::kNone; ///< as GeometryUse::path
+    uint32_t pickPath = NodeTree::kNone; ///< index like GeometryUse::path
 };
 
 struct CollectedEnvironment
@@ -77,7 +77,7 @@ struct CollectedEnvironment
     std::string path;
 };
 
-/// In the order of the traversal.
+/// The lights stand in the order of the traversal.
 struct LightSources
 {
     std::vector<CollectedLight> lights;
@@ -85,42 +85,45 @@ struct LightSources
     std::vector<CollectedEnvironment> environments;
 };
 
-/// The attributes of states belong to the collector's state sets: valid as long as it lives. All
-/// else is kept alive, also if a node of the application's changes the graph while it is traversed.
+/// The attributes of states belong to the collector's state sets and are valid as long as the
+/// collector lives. The collected graph keeps all else alive, even if a node of the application's
+/// changes the scene graph during the traversal.
 struct CollectedGraph
 {
-    std::vector<CollectedGeometry> geometries; ///< in order of their first use
+    std::vector<CollectedGeometry> geometries; ///< geometries in the order of their first use
     LightSources lights;
     std::vector<GraphState> states;
-    PlacedTexGens texGens; ///< the last of each unit, as OpenGL keeps them
+    PlacedTexGens texGens; ///< last generation of each unit, as OpenGL keeps it
     ClipPlanes clipPlanes;
     std::optional<osg::Vec4>
-        clearColor;             ///< of the last osg::ClearNode, if ConversionInput::rasterizesRest
-    bool paged = false;         ///< see ConversionResult
-    RasterizedParts rasterized; ///< if ConversionInput::rasterizesRest
-    NodeTree paths;             ///< if ConversionInput::picks
-    std::vector<uint32_t> rasterizedPaths; ///< of rasterized, likewise
+        clearColor;     ///< colour of the last osg::ClearNode, if ConversionInput::rasterizesRest
+    bool paged = false; ///< see ConversionResult
+    RasterizedParts rasterized;            ///< parts for OSG, if ConversionInput::rasterizesRest
+    NodeTree paths;                        ///< paths to pick, if ConversionInput::picks
+    std::vector<uint32_t> rasterizedPaths; ///< paths of rasterized, if ConversionInput::picks
 };
 
 /// Visits active children only (masks, switches, levels of detail for the eye point), multiplies
-/// transforms in double and accumulates state. Counts what is not a part of the traced scene.
+/// transforms in double and accumulates state. The collector counts what is not a part of the
+/// traced scene.
 class GraphCollector : public osg::NodeVisitor
 {
 public:
-    /// textures: what was converted before.
+    /// textures holds the images that were converted before.
     GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
                    const TextureConverter& textures, ConversionReport& report);
 
-    /// Visits the last node of a path from the root, in the place and the state that it has there.
-    /// The others are of the plain classes that GraphWatch knows. False: it cannot be placed.
+    /// Visits the last node of a path from the root, in the place and the state that the node has
+    /// there. The other nodes of the path are of the plain classes that GraphWatch knows. Returns
+    /// false if the node cannot be placed.
     bool collectAt(const osg::NodePath& path);
 
-    /// What was found; call once, after the traversal.
+    /// Returns what was found. The caller may call this only once, after the traversal.
     CollectedGraph take();
 
-    // What is watched node by node is known to kindOf() in NodeKind.h, too: a class that gets an
-    // apply() of its own here is of the kind Untracked there, or its values are hashed in
-    // NodeHashes.cpp.
+    // kindOf() in NodeKind.h knows the classes that are watched node by node: a class that gets an
+    // apply() of its own here must be of the kind Untracked there, or NodeHashes.cpp must hash the
+    // values of the class.
     using osg::NodeVisitor::apply;
     void apply(osg::Node& node) override;
     void apply(osg::Transform& node) override;
@@ -136,7 +139,8 @@ public:
     void apply(osg::Drawable& drawable) override;
     void apply(osg::Geometry& geometry) override;
 
-    // In the local coordinates of the node that asks: levels of detail and what turns to the view.
+    // Levels of detail and nodes that turn to the view ask for the following values, which are in
+    // the local coordinates of the asking node.
     osg::CullStack* asCullStack() override { return _cullStack.at(_worldFromLocal.back()); }
     const osg::CullStack* asCullStack() const override
     {
@@ -171,16 +175,16 @@ private:
     SoftwareVertices& _vertices;
     const TextureConverter& _textures;
     ConversionReport& _report;
-    std::vector<osg::Matrixd> _worldFromLocal; // the stack of transforms, never empty
+    std::vector<osg::Matrixd> _worldFromLocal; // stack of transforms, never empty
     ReferenceCullStack _cullStack;
     PathBudget _visits;
-    PathBudget _rasterizedVisits; // that OSG makes in each frame for what is left out
+    PathBudget _rasterizedVisits; // budget of OSG's visits in each frame to parts left to it
     PathCounts _counts;
-    int _untracked = 0; // nodes around that GraphWatch does not look into
+    int _untracked = 0; // number of enclosing nodes that GraphWatch does not look into
     StateStack _states;
-    MaterialAssignment _materials; ///< keeps what it adds to the states
+    MaterialAssignment _materials; ///< assignment that keeps its additions to the states
     CollectedGraph _graph;
-    std::map<std::pair<const osg::Geometry*, uint64_t>, std::size_t> _indexOf; // by restart, too
+    std::map<std::pair<const osg::Geometry*, uint64_t>, std::size_t> _indexOf; // key with restart
 };
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// StatesAbove.cpp - the state that a scene graph inherits. Layer: bridge.
+// StatesAbove.cpp - collects the state that a scene graph inherits. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/StatesAbove.h"
 

@@ -1,4 +1,4 @@
-// StatesAbove.h - the state that a scene graph inherits. Layer: bridge.
+// StatesAbove.h - collects the state that a scene graph inherits. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,7 +8,8 @@
 namespace osgRayTrace::engine
 {
 
-/// State above the scene graph, as osgViewer and osgUtil::SceneView set it, and what is inherited.
+/// Returns the state above the scene graph: the state that osgViewer and osgUtil::SceneView set,
+/// and the inherited state of the input.
 StateStack statesAbove(const ConversionInput& input);
 
 } // namespace osgRayTrace::engine

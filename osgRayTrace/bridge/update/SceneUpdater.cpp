@@ -18,7 +18,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// So many passes of other cameras without one of the reference make another camera the reference.
+/// If this many passes of other cameras come without one of the reference camera, another camera
+/// becomes the reference.
 constexpr unsigned int kReferenceExpiry = 500;
 
 unsigned int frameNumberOf(const osg::FrameStamp* frameStamp)
@@ -26,7 +27,7 @@ unsigned int frameNumberOf(const osg::FrameStamp* frameStamp)
     return frameStamp ? frameStamp->getFrameNumber() : 0;
 }
 
-/// The point, or zero if a singular view matrix gave no finite one.
+/// Returns the point, or zero if a singular view matrix gave no finite point.
 osg::Vec3d finiteOrZero(const osg::Vec3d& point)
 {
     return std::isfinite(point.length2()) ? point : osg::Vec3d();
@@ -42,7 +43,7 @@ void SceneUpdater::recordView(const ObjectName& camera, const osg::FrameStamp* f
     if (_recorded.conditions && _recorded.camera != camera &&
         ++_recorded.othersSince < kReferenceExpiry)
         return;
-    // The second pass of a camera in one frame is its other eye.
+    // The second pass of a camera in one frame is for its other eye.
     const bool again =
         frameStamp && _recorded.camera == camera && _recorded.frameNumber == frameNumber;
     _recorded.othersSince = 0;
@@ -91,7 +92,7 @@ SceneVersion SceneUpdater::versionToPick(osg::Node* root, const RayTraceSettings
                                          const osg::Vec3d& start)
 {
     SceneVersion now = version();
-    const bool viewed = isViewed(); // then frames keep it up to date
+    const bool viewed = isViewed(); // frames keep a viewed scene up to date
     if (viewed && now.pickIndex) return now;
     _picks = true;
     {
@@ -159,7 +160,7 @@ std::optional<ViewingConditions> SceneUpdater::takeRecorded()
 
 void SceneUpdater::takeSettings(const RayTraceSettings& settings)
 {
-    // The settings last: they are there only if all else is.
+    // The settings are set last: they are there only if all else is.
     if (!_settings || _settings->getThreads() != settings.getThreads())
         _workers = std::make_shared<Workers>(settings.getThreads());
     if (_settingsOf != &settings || _settingsCount != settings.getModifiedCount())
@@ -228,8 +229,8 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const ViewingConditions& co
     build(*patch.conversion);
 }
 
-/// Why the whole graph is converted, whatever has changed in it. None: for no reason but changes in
-/// the graph, or for the first time.
+/// Returns why the whole graph is converted, whatever has changed in it. None means that only
+/// changes in the graph can be a reason, or that the conversion is the first one.
 ConversionCause SceneUpdater::causeToConvert(bool sameRoot, const ViewingConditions& conditions,
                                              const ConversionSettings& settings) const
 {
@@ -240,7 +241,7 @@ ConversionCause SceneUpdater::causeToConvert(bool sameRoot, const ViewingConditi
     return _asked.origin ? ConversionCause::OtherOrigin : ConversionCause::None;
 }
 
-/// The first conversion of all has none.
+/// Counts a conversion and records its reason; the very first conversion has no reason.
 void SceneUpdater::recordReason(const ConversionReason& reason)
 {
     const bool first = _done.conversions++ == 0;
@@ -260,7 +261,7 @@ GraphChanges SceneUpdater::look(osg::Node& root, bool same, bool sameRoot,
     changes.record = !sameRoot;
     if (sameRoot)
     {
-        // The watch looks under other conditions, too: then all changes are known, and the next
+        // The watch looks even if the conditions differ: all changes are then known, and the next
         // look finds none of them.
         GraphChanges found = _watch.look(root, conditions);
         const bool record = found.record;

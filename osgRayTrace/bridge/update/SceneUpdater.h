@@ -25,68 +25,71 @@
 namespace osgRayTrace::engine
 {
 
-/// Update converts the scene, and draw takes the version that there is. Cull records which cameras
-/// look at the scene: the first of them, as long as it looks, is the reference for what all views
-/// share (levels of detail, the light that osgViewer adds, the background colour).
+/// Keeps the traced scene up to date: the update traversal converts the scene, and draw threads
+/// take the current version. The cull traversal records which cameras look at the scene: the first
+/// camera, as long as it looks, is the reference for what all views share (levels of detail, the
+/// light that osgViewer adds, the background colour).
 class SceneUpdater
 {
 public:
-    /// A camera is about to draw the scene. Cull threads.
+    /// Records that a camera is about to draw the scene. Cull threads may call this.
     void recordView(const ObjectName& camera, const osg::FrameStamp* frameStamp,
                     const ViewingConditions& conditions);
 
-    /// True once a view was recorded. Any thread.
+    /// Returns true once a view was recorded. Any thread may call this.
     bool isViewed() const;
 
-    /// Records that the camera has drawn from eye with its near plane at a distance. One engine
-    /// origin has to serve near things and far ones, see kOriginDistance. Draw threads.
+    /// Records that the camera has drawn from eye with its near plane at nearDistance. One engine
+    /// origin has to serve near things and far ones, see kOriginDistance. Draw threads may call
+    /// this.
     void recordDrawn(const ObjectName& camera, const osg::Vec3d& eye, double nearDistance);
 
     /// Takes the settings over and redoes what changed in the graph, in the settings or in the
     /// recorded conditions. The graph is looked at once for a frame number, unless the conditions
-    /// changed. Null root: there is no scene. Does not throw: a failure leaves the last version and
-    /// is in the statistics. Update and cull threads.
+    /// changed. A null root means that there is no scene. The function does not throw: a failure
+    /// leaves the last version and is in the statistics. Update and cull threads may call this.
     void update(osg::Node* root, const RayTraceSettings& settings,
                 const osg::FrameStamp* frameStamp);
 
-    /// Keeps no node of the graph alive until the next update, which converts. This is for times
-    /// when there may be no update. Threads that may change the graph.
+    /// Releases all nodes of the graph until the next update, which converts. This is for times
+    /// when there may be no update. Threads that may change the graph may call this.
     void releaseGraph();
 
     /// Makes the next update convert, whatever it sees, and read all arrays and images again. Any
-    /// thread.
+    /// thread may call this.
     void setDirty();
 
-    /// Returns the version of the last frame with its pickIndex, which is made from now on; if no
-    /// view was recorded, the graph as it is now. start: where the ray begins, in the scene.
-    /// Threads that may look at the graph.
+    /// Returns the version of the last frame with its pickIndex, which is made from now on. If no
+    /// view was recorded, this returns a version of the graph as it is now. The ray begins at the
+    /// point start of the scene. Threads that may look at the graph may call this.
     SceneVersion versionToPick(osg::Node* root, const RayTraceSettings& settings,
                                const osg::Vec3d& start);
 
-    /// Any thread.
+    /// Returns the current version. Any thread may call this.
     SceneVersion version() const;
 
-    /// Returns the scene's part; ok and message are those of the last conversion. Any thread.
+    /// Returns the scene's part of the statistics; ok and message are those of the last conversion.
+    /// Any thread may call this.
     Statistics statistics() const;
 
 private:
     /// Beyond this many near distances from the eye, float coordinates are coarser than a pixel.
     static constexpr double kOriginDistance = 2048.0;
 
-    /// Requests to the next update.
+    /// The requests go to the next update.
     struct Requests
     {
-        bool dirty = false;  ///< it shall convert, whatever it sees
-        bool forget = false; ///< it shall take nothing for unchanged
+        bool dirty = false;  ///< request to convert, whatever the update sees
+        bool forget = false; ///< request to take nothing for unchanged
         std::optional<osg::Vec3d> origin;
-        ConversionCause cause = ConversionCause::None; ///< why dirty is set; None: at the beginning
+        ConversionCause cause = ConversionCause::None; ///< cause of dirty; None: first conversion
     };
 
     struct Recorded
     {
-        ObjectName camera;            ///< the reference camera
-        unsigned int frameNumber = 0; ///< the frame in which it was last seen
-        unsigned int othersSince = 0; ///< passes of other cameras since then
+        ObjectName camera;            ///< reference camera
+        unsigned int frameNumber = 0; ///< frame in which the camera was last seen
+        unsigned int othersSince = 0; ///< passes of other cameras since the last of this one
         std::optional<ViewingConditions> conditions;
         Requests asked{true, false, {}, ConversionCause::None};
     };
@@ -106,34 +109,34 @@ private:
                  const Statistics& statistics);
     void fail(const char* message) noexcept;
 
-    HostArraysRelease _release;        // destroyed after all that holds arrays
-    mutable std::mutex _recordedMutex; // cull and draw threads write, update reads
+    HostArraysRelease _release;        // last member to be destroyed: the others hold arrays
+    mutable std::mutex _recordedMutex; // lock of what cull and draw threads write and update reads
     Recorded _recorded;
 
-    mutable std::mutex _versionMutex; // update and cull threads write, draw reads
+    mutable std::mutex _versionMutex; // lock of what update and cull threads write and draw reads
     SceneVersion _version;
     Statistics _statistics;
 
-    std::atomic<bool> _picks{false}; ///< somebody has picked; never taken back
+    std::atomic<bool> _picks{false}; ///< whether anybody has ever picked
 
-    std::mutex _updateMutex; // guards all below: one update or cull thread at a time
+    std::mutex _updateMutex; // lock of all below: one update or cull thread at a time
     SceneConverter _converter;
-    Requests _asked; ///< requests that are not served yet: what comes before may throw
-    /// A copy of the settings of the last update: the same copy until they change.
+    Requests _asked; ///< requests not served yet, since earlier steps may throw
+    /// This copy of the last update's settings stays the same until the settings change.
     osg::ref_ptr<const RayTraceSettings> _settings;
-    osg::ref_ptr<const RayTraceSettings> _settingsOf; ///< the settings that were copied
-    unsigned int _settingsCount = 0;                  ///< count of their changes at that time
+    osg::ref_ptr<const RayTraceSettings> _settingsOf; ///< settings that were copied
+    unsigned int _settingsCount = 0;                  ///< count of the settings' changes then
     std::shared_ptr<Workers> _workers;
-    std::optional<unsigned int> _frameNumber; ///< last looked at
-    // What the last look and the last conversion, successful or not, were for:
+    std::optional<unsigned int> _frameNumber; ///< frame of the last look
+    // The last look and the last conversion, successful or not, were for these:
     std::optional<ViewingConditions> _conditions;
     ConversionSettings _conversionSettings;
     MaterialLibraryFile _materialFile;
     ObjectName _root;
     GraphWatch _watch;
     bool _released = true; ///< see releaseGraph()
-    Statistics _done;      ///< the totals alone
-    bool _stale = false;   ///< the last conversion failed: the converter has not seen all changes
+    Statistics _done;      ///< totals alone
+    bool _stale = false;   ///< whether the last conversion failed and missed changes
     std::optional<osg::Vec3d> _origin;
 };
 

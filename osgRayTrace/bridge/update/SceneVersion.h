@@ -1,5 +1,4 @@
-// SceneVersion.h - what update publishes and draw takes: a scene's inputs of views, and the OSG
-// part. Layer: bridge.
+// SceneVersion.h - holds what update publishes and draw takes of a scene. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -18,14 +17,15 @@ namespace osgRayTrace::engine
 class PickIndex;
 struct RasterizedPart; // see RasterizedParts.h
 
-/// What a draw thread needs to draw a view. Immutable: it stays what it is while update goes on.
+/// Holds what a draw thread needs to draw a view: the scene's inputs of views and the parts that
+/// OSG draws. A published version is immutable: it stays what it is while update goes on.
 struct SceneVersion
 {
-    ViewInputs inputs; ///< of all views
+    ViewInputs inputs; ///< inputs of all views
     osg::ref_ptr<const RayTraceSettings> settings;
-    /// What OSG draws itself. Null: there is no scene, or none that can be traced.
+    /// OSG draws these parts itself. Null means that there is no scene, or none that can be traced.
     std::shared_ptr<const std::vector<RasterizedPart>> rasterized;
-    /// Null: nobody has picked since something came or went.
+    /// Null means that nobody has picked since something came or went.
     std::shared_ptr<const PickIndex> pickIndex;
     bool paged = false; ///< see ConversionResult
 };

@@ -1,4 +1,4 @@
-// MaterialConverter.cpp - what OpenGL's state says about a surface. Layer: bridge.
+// MaterialConverter.cpp - converts OpenGL's state of a surface to a material. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
 
@@ -43,7 +43,7 @@ Vec3 rgb(const osg::Vec3& color)
     return {color.x(), color.y(), color.z()};
 }
 
-/// Those whose modes are on.
+/// Enables the lights whose modes are on.
 void enableLights(Material& material, const GraphState& state)
 {
     material.lightMask = static_cast<uint32_t>(state.modesOn);
@@ -51,7 +51,7 @@ void enableLights(Material& material, const GraphState& state)
     for (const auto& [number, value] : *state.moreLights)
     {
         if (!(value & osg::StateAttribute::ON)) continue;
-        const std::size_t word = number / 32 - 1; // numbers rise
+        const std::size_t word = number / 32 - 1; // the numbers rise
         material.moreLights.resize(word + 1);
         material.moreLights[word] |= 1u << number % 32;
     }
@@ -81,7 +81,7 @@ VertexColorUse vertexColorUse(osg::Material::ColorMode mode)
     }
 }
 
-/// What osg::Material::apply makes OpenGL's current colour.
+/// Returns the colour that osg::Material::apply makes OpenGL's current colour.
 const osg::Vec4& currentColorOf(const osg::Material& source)
 {
     switch (source.getColorMode())
@@ -112,7 +112,7 @@ FaceColors faceColors(const osg::Material& source, osg::Material::Face face)
     return colors;
 }
 
-/// Does to all of a face what a vertex colour would do.
+/// Replaces the colours of a whole face as a vertex colour would do.
 void replaceColor(FaceColors& face, VertexColorUse use, const Vec4& color)
 {
     const Vec3 value(color);
@@ -225,7 +225,7 @@ Material lampMaterial(const Vec3& radiance)
     material.baseColor = Vec3(0.0f);
     material.ior = 1.0f;
     material.emission = radiance;
-    material.lightMask = 0; // black: no light of OpenGL changes it
+    material.lightMask = 0; // no light of OpenGL changes a black surface
     return material;
 }
 
@@ -271,15 +271,16 @@ Material MaterialConverter::fixedFunction(const GraphState& state,
     return material;
 }
 
-/// Without any osg::Material there is the one that osgViewer sets above the scene: OpenGL's default
-/// with AMBIENT_AND_DIFFUSE [OSG 3.6.5, StateSet::setGlobalDefaults]. osg::Material::apply makes
-/// its diffuse colour the current one, which colours geometry without a colour array.
+/// Sets the colours. A state without any osg::Material has the one that osgViewer sets above the
+/// scene: OpenGL's default with AMBIENT_AND_DIFFUSE [OSG 3.6.5, StateSet::setGlobalDefaults].
+/// osg::Material::apply makes the diffuse colour the current one, which colours geometry without a
+/// colour array.
 ///
-/// At the end of a frame osg::State applies a default material that has no colour mode, of the
-/// diffuse colour 0.8 and the ambient colour 0.2, and with the next frame the viewer's. Where no
-/// other material was between them, the current colour is 0.8 all along, and from the second frame
-/// on Mesa (22.3) leaves the ambient colour at 0.2. That is what osgviewer shows, and what we do;
-/// OpenGL's specification would have 0.8.
+/// At the end of a frame osg::State applies a default material that has no colour mode, with the
+/// diffuse colour 0.8 and the ambient colour 0.2, and at the next frame the viewer's material. If
+/// no other material came between the two, the current colour is 0.8 all along, and from the second
+/// frame on Mesa (22.3) leaves the ambient colour at 0.2. osgviewer shows 0.2, and so does this
+/// code; OpenGL's specification would have 0.8.
 void MaterialConverter::applyColor(Material& material, const GraphState& state,
                                    const SurfaceInputs& inputs) const
 {
@@ -309,7 +310,8 @@ void MaterialConverter::applyColor(Material& material, const GraphState& state,
         material.ambient = material.diffuse;
 }
 
-/// Alpha that is neither blended nor tested is written by OpenGL, but nothing shows through.
+/// Sets alpha, blending and alpha test. OpenGL writes alpha that is neither blended nor tested, but
+/// nothing shows through.
 void MaterialConverter::applyOpacity(Material& material, const GraphState& state) const
 {
     material.blended = blendingOf(state) != Blending::Opaque;
@@ -323,8 +325,8 @@ void MaterialConverter::applyOpacity(Material& material, const GraphState& state
         material.alpha = material.back.alpha = 1.0f;
 }
 
-/// A transform that mirrors turns the winding that OpenGL sees, and not what is outside for the
-/// mesh.
+/// Sets culling and winding. A mirroring transform turns the winding that OpenGL sees, but not the
+/// outside of the mesh.
 void MaterialConverter::applyFaces(Material& material, const GraphState& state,
                                    const SurfacePlacement& placement) const
 {
@@ -333,7 +335,7 @@ void MaterialConverter::applyFaces(Material& material, const GraphState& state,
     const auto* front = state.attribute<osg::FrontFace>(kFrontFaceSlot);
     const bool clockwise = front && front->getMode() == osg::FrontFace::CLOCKWISE;
     material.clockwise = clockwise != isMirrored(placement.engineFromLocal);
-    // Lamps are sampled on both sides: rays that meet them by chance must find both, too.
+    // Lamps are sampled on both sides: rays that meet a lamp by chance must find both sides, too.
     const bool isLamp =
         material.model == MaterialModel::Physical && material.emission != Vec3(0.0f);
     material.cullsAllRays = _rules.cullAllRays && material.culling != FaceCulling::None && !isLamp;

@@ -1,4 +1,4 @@
-// MaterialConverter.h - from inherited OpenGL state to materials. Layer: bridge.
+// MaterialConverter.h - converts inherited OpenGL state to materials. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,42 +11,42 @@
 namespace osgRayTrace::engine
 {
 
-/// What of a geometry decides on its material.
+/// The inputs are the parts of a geometry that decide on its material.
 struct SurfaceInputs
 {
-    bool hasVertexColors = false;       ///< colours that vary over it
-    bool hasOverallColor = false;       ///< one colour for all of it
-    Vec4 overallColor{1.0f};            ///< as OpenGL gets it, not decoded
-    bool hasTextureCoordinates = false; ///< of unit 0
+    bool hasVertexColors = false;       ///< colours that vary over the geometry
+    bool hasOverallColor = false;       ///< one colour for the whole geometry
+    Vec4 overallColor{1.0f};            ///< colour as OpenGL gets it, not decoded
+    bool hasTextureCoordinates = false; ///< coordinates of unit 0
 };
 
 SurfaceInputs surfaceInputs(const osg::Geometry& geometry);
 
-/// What all materials of a scene have in common.
+/// The rules hold for all materials of a scene.
 struct MaterialRules
 {
-    bool linear = false;      ///< fixed-function colours are decoded from sRGB
+    bool linear = false;      ///< fixed-function colours decoded from sRGB
     bool cullAllRays = false; ///< see RayTraceSettings
-    bool setsColor = false;   ///< see setsCurrentColor: some material of the scene does
+    bool setsColor = false;   ///< setsCurrentColor of any state of the scene
 };
 
-/// Whether the osg::Material of a state makes another colour current than OSG's default material.
-/// Where none of a scene does, colour materials of that colour keep the default ambient colour: see
-/// applyColor.
+/// Returns whether the osg::Material of a state makes another colour current than OSG's default
+/// material. If no state of a scene does, colour materials of the default colour keep the default
+/// ambient colour: see applyColor.
 bool setsCurrentColor(const GraphState& state);
 
-/// From state to materials.
+/// Converts state to materials.
 class MaterialConverter
 {
 public:
-    /// textures has begun its snapshot.
+    /// textures must have begun its snapshot.
     MaterialConverter(const MaterialRules& rules, TextureConverter& textures,
                       ConversionReport& report)
         : _rules(rules), _textures(textures), _report(report)
     {
     }
 
-    /// Counts what of the state is only approximated, for each call.
+    /// Returns the material of a state. Each call counts what of the state is only approximated.
     Material material(const GraphState& state, const SurfaceInputs& inputs,
                       const SurfacePlacement& placement = {});
 
@@ -64,10 +64,10 @@ private:
     ConversionReport& _report;
 };
 
-/// A lamp that reflects nothing, for an area light.
+/// Returns the material of a lamp that reflects nothing, for an area light.
 Material lampMaterial(const Vec3& radiance);
 
-/// A visible one, for a scene without any.
+/// Returns a visible material, for a scene without any.
 Material fallbackMaterial();
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// SurfaceState.cpp - what OpenGL's state does to the pixels of a surface. Layer: bridge.
+// SurfaceState.cpp - tells what OpenGL's state does to a surface's pixels. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
 
@@ -23,7 +23,7 @@ Blending blendingOf(const GraphState& state)
 {
     if (!state.isOn(kBlendBit)) return Blending::Opaque;
     const auto* blend = state.attribute<osg::BlendFunc>(kBlendFuncSlot);
-    if (!blend) return Blending::Straight; // osgViewer's default function
+    if (!blend) return Blending::Straight; // this is osgViewer's default function
     const GLenum source = blend->getSourceRGB(), destination = blend->getDestinationRGB();
     if (destination == GL_ZERO && source == GL_ONE) return Blending::Opaque;
     if (destination == GL_ONE) return Blending::Additive;
@@ -98,7 +98,7 @@ void countApproximations(const GraphState& state, ConversionReport& report)
     const FaceCulling culling = cullingOf(state);
     const bool backIsSeen = culling == FaceCulling::None || culling == FaceCulling::Front;
     if (depthBias(state) != 0.0f && backIsSeen)
-        report.count("approximated.polygon-offset"); // right from the front only
+        report.count("approximated.polygon-offset"); // the bias is right from the front only
 }
 
 } // namespace osgRayTrace::engine

@@ -1,4 +1,4 @@
-// SurfaceState.h - what OpenGL's state does to the pixels of a surface. Layer: bridge.
+// SurfaceState.h - tells what OpenGL's state does to a surface's pixels. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,33 +9,34 @@
 namespace osgRayTrace::engine
 {
 
-/// What GL_BLEND and the blend function do to what is behind.
+/// The kinds of blending say what GL_BLEND and the blend function do to what is behind.
 enum class Blending
 {
     Opaque,
     Straight, ///< source alpha and one minus it, also if no function is set
-    Additive, ///< adds to what is behind
+    Additive, ///< addition to what is behind
     Other,
 };
 Blending blendingOf(const GraphState& state);
 
-/// The program that draws instead of OpenGL's fixed function; null: none does. Also one of a class
-/// of its own, as virtual programs are, and a vertex or fragment program of ARB's.
+/// Returns the program that draws instead of OpenGL's fixed function, or null if none does. The
+/// program may be of a class of its own, as virtual programs are, or a vertex or fragment program
+/// of ARB's.
 const osg::StateAttribute* programOf(const GraphState& state);
 
-/// A colour mask that leaves out a channel.
+/// Returns whether a colour mask leaves out a channel.
 bool masksColor(const GraphState& state);
 
-/// A stencil test: it compares, or it writes what others are compared with.
+/// Returns whether a stencil test compares, or writes what others are compared with.
 bool usesStencil(const GraphState& state);
 
-/// Layers that glPolygonOffset lifts the faces by, towards the viewer. 0: none. The offset's units
-/// count, or its factor if it has none.
+/// Returns the number of layers by which glPolygonOffset lifts the faces towards the viewer, or 0
+/// if it lifts none. The offset's units count, or its factor if its units are 0.
 float depthBias(const GraphState& state);
 
 FaceCulling cullingOf(const GraphState& state);
 
-/// Counts what of the state is only approximated, for each call.
+/// Counts what of the state is only approximated; each call counts anew.
 void countApproximations(const GraphState& state, ConversionReport& report);
 
 } // namespace osgRayTrace::engine
