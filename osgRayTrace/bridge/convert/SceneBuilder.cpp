@@ -128,8 +128,7 @@ uint32_t SceneBuilder::appendInstance(const Instance& instance)
     return index;
 }
 
-/// Warns if the vertices of a geometry are coarse in float. The error was made before the graph
-/// came here, so the warning can only name it.
+/// Warns if the vertices of a geometry are coarse in float, an error made before the graph came.
 void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
 {
     if (!areCoarseInFloat(*geometry.bounds)) return;
@@ -156,8 +155,7 @@ bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
     const osg::Geometry& geometry = *collected.geometry;
     GeometryCache& cache = _caches.geometries;
     const MeshRequest* last = cache.lastRequest(geometry);
-    // A geometry that was collected twice, under different primitive restart, may find the other
-    // one's last request here.
+    // A geometry that was collected twice may find the request of its other primitive restart.
     const bool own = last && last->restart == collected.restart;
     const bool once = collected.uses.size() == 1;
     if (_rules.comparable && last && !cache.hasSameArrays(geometry))
@@ -210,8 +208,7 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
     const uint64_t remarks = _report.remarks();
     warnIfCoarse(geometry);
     TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
-    // A geometry that was collected twice has different primitive restart: the index holds only one
-    // of the two.
+    // The index holds only one of a geometry that was collected for two primitive restarts.
     traced.patchable = traced.uses.empty() && geometry.watched;
     _convertedGraph.index.removeUses(traced);
     traced.uses.reserve(geometry.uses.size());
@@ -355,8 +352,7 @@ uint32_t SceneBuilder::effects(uint32_t state, const ConversionCounts& counts)
     return _convertedGraph.index.effects(wanted);
 }
 
-/// Sets the ambient light from the first light model met. OpenGL has a light model for each
-/// drawable, but a scene has only one.
+/// Sets the scene's one ambient light from the first light model; OpenGL has one a drawable.
 void SceneBuilder::setAmbient(const GraphState& state)
 {
     const auto* model = state.attribute<osg::LightModel>(kLightModelSlot);
