@@ -261,7 +261,7 @@ TEST_CASE("surface: rays of a smooth facet start on the tangent planes of its ve
     }
 }
 
-TEST_CASE("surface: lifts are the same in blocks of one triangle and of several, "
+TEST_CASE("surface: terminator offsets are the same in blocks of one triangle and of several, "
           "placed or not",
           "[accel]")
 {
