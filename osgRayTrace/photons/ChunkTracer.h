@@ -26,7 +26,7 @@ enum PhotonDimension : uint32_t
     BounceFirst = 3, ///< then for each bounce: direction; lobe and roulette
 };
 
-/// What all chunks of a pass read.
+/// Holds what all chunks of a pass read.
 struct ChunkInputs
 {
     const TracedScene& traced;
@@ -39,7 +39,7 @@ struct ChunkInputs
     bool shadowless; ///< there are lights without shadows
 };
 
-/// What was traced of a chunk.
+/// Holds the photons of a chunk and what tracing them counted.
 struct PhotonChunk
 {
     std::vector<Photon> photons;

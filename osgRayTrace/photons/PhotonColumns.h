@@ -41,8 +41,8 @@ OSGRAYTRACE_INLINE int32_t edgesOf(uint32_t packed)
     return static_cast<int32_t>((packed >> 24) & kMostEdges);
 }
 
-/// What a loop over a block of photons reads. The loop's index counts from the block's first photon
-/// and is signed, as vector loads need.
+/// Holds what a loop over a block of photons reads. The loop's index counts from the block's first
+/// photon and is signed, as vector loads need.
 struct PhotonColumns
 {
     const float *x, *y, *z, *wiX, *wiY, *wiZ, *r, *g, *b;

@@ -48,7 +48,7 @@ void secondPhotonPoints(const UintLanes& photons, uint32_t seed, FloatLanes& v);
 void readyRays(RayHitBlock& rays);
 void loadRays(const PhotonPathBlock& block, RayHitBlock& rays);
 
-/// Where photons go from the surfaces that they have met, as sampled by the surface models.
+/// Holds where photons go from the surfaces that they have met, as the surface models sample it.
 struct Scattered
 {
     Vec3Lanes wi;       ///< unit
