@@ -16,7 +16,7 @@ constexpr uint32_t kDirectBit = 1u << 31;
 
 inline uint32_t packNormal(Vec3 n)
 {
-    // Rounds to the nearest, and halves away from zero.
+    // The addition rounds to the nearest, and halves away from zero.
     const auto byte = [](float v)
     {
         const float scaled = v * 127.0f;
@@ -54,7 +54,7 @@ struct PhotonColumns
     }
 };
 
-/// A disc of a look-up as loops over photons or lanes take it: see PhotonQuery.
+/// Holds a disc of a look-up as loops over photons or lanes take it: see PhotonQuery.
 struct PlainDisc
 {
     PlainVec3 position, normal;
@@ -63,7 +63,7 @@ struct PlainDisc
     int32_t mostEdges;
 };
 
-/// Whether a photon is in a disc, and where.
+/// Tells whether a photon is in a disc, and where.
 struct DiscTest
 {
     uint32_t in;     ///< all bits or none

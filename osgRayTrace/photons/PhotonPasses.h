@@ -32,7 +32,7 @@ enum class ViewId : uint64_t
 {
 };
 
-/// The photons of one pass. Immutable.
+/// Holds the photons of one pass, which never change.
 struct PhotonPass
 {
     PhotonMap map;

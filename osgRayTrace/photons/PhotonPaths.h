@@ -8,7 +8,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Sixteen photons.
+/// Holds sixteen photons.
 struct PhotonPathBlock
 {
     Vec3Lanes origin, direction, power;
@@ -17,8 +17,8 @@ struct PhotonPathBlock
     UintLanes direct; ///< 1: the path has met nothing but mirror-like surfaces yet
 };
 
-/// Photons in as few blocks as possible, in order. Photons that go on may be appended while the
-/// blocks of the last bounce are being read: the place of a block that has been copied is free.
+/// Holds photons in as few blocks as possible, in order. Photons that go on may be appended while
+/// the blocks of the last bounce are being read: the place of a block that has been copied is free.
 class PhotonPathQueue
 {
 public:
