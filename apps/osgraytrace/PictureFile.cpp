@@ -24,9 +24,7 @@ void appendChannels(engine::ExrImage& exr, const osg::Image& image,
         channel.name = names[c];
         channel.values.resize(pixels);
         for (size_t i = 0; i < pixels; ++i)
-        {
             channel.values[i] = values[i * step + c];
-        }
         exr.channels.push_back(std::move(channel));
     }
 }
@@ -50,9 +48,7 @@ engine::ExrImage exrImageOf(const Picture& picture)
     exr.height = picture.radiance->t();
     appendChannels(exr, *picture.radiance, {"R", "G", "B", "A"});
     for (const auto& [name, image] : picture.channels)
-    {
         appendChannels(exr, *image, exrNames(name, image->getPixelFormat() == GL_RGB));
-    }
     return exr;
 }
 

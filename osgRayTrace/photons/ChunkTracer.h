@@ -14,10 +14,10 @@
 namespace osgRayTrace::engine
 {
 
-/// Number of photons that are followed together.
+/// This is the number of photons that are followed together.
 constexpr uint32_t kPhotonChunk = 2048;
 
-/// Dimensions of a photon's sequence.
+/// These are the dimensions of a photon's sequence.
 enum PhotonDimension : uint32_t
 {
     EmissionChoice = 0, ///< light, choice
@@ -26,7 +26,7 @@ enum PhotonDimension : uint32_t
     BounceFirst = 3, ///< then for each bounce: direction; lobe and roulette
 };
 
-/// What all chunks of a pass read.
+/// Holds what all chunks of a pass read.
 struct ChunkInputs
 {
     const TracedScene& traced;
@@ -39,7 +39,7 @@ struct ChunkInputs
     bool shadowless; ///< there are lights without shadows
 };
 
-/// What was traced of a chunk.
+/// Holds the photons of a chunk and what tracing them counted.
 struct PhotonChunk
 {
     std::vector<Photon> photons;
@@ -65,7 +65,8 @@ private:
         return BounceFirst + 2 * static_cast<uint32_t>(bounce);
     }
 
-    /// True if photons are wanted only from paths whose surface at this bounce is mirror-like.
+    /// Returns whether photons are wanted only from paths whose surface at this bounce is
+    /// mirror-like.
     bool mustReflect(int bounce) const
     {
         return bounce == 0 && _inputs.options.use == PhotonUse::Caustics;
@@ -88,7 +89,7 @@ private:
     PhotonChunk& _chunk;
     uint32_t _first = 0; ///< number of the chunk's first photon within the pass
     PhotonPathQueue _paths{kPhotonChunk};
-    // The block at work.
+    // These members describe the block at work.
     RayHitBlock _rays;
     FloatLanes _u, _v, _lobe, _roulette; ///< random numbers of the block's bounce
     Vec3Lanes _normal;                   ///< shading, on the side of the ray

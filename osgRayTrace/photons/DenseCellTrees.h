@@ -24,11 +24,11 @@ constexpr uint32_t kDenseCell = 2048;
 /// keep their order.
 void sortDenseCell(const std::vector<Photon>& photons, std::vector<uint32_t>& denseCell);
 
-/// Trees of boxes over sorted dense cells. Immutable once built; thread safe.
+/// Holds trees of boxes over sorted dense cells. The trees are immutable once built; thread safe.
 class DenseCellTrees
 {
 public:
-    /// A range of photons as they lie in their columns.
+    /// Names a range of photons as they lie in their columns.
     struct Range
     {
         uint32_t begin, end;
@@ -43,7 +43,8 @@ public:
     bool empty() const { return _denseCells.empty(); }
     std::size_t bytes() const;
 
-    /// The photons that a look-up has yet to read, and the sums of those that it need not read.
+    /// Holds the photons that a look-up has yet to read, and the sums of those that it need not
+    /// read.
     struct Visit
     {
         std::vector<Range> read;
@@ -57,7 +58,7 @@ public:
     void visit(const PhotonQuery& query, Range range, bool sums, Visit& visit) const;
 
 private:
-    /// A box over up to kLeaf photons, or over up to kFan boxes of the level below.
+    /// Holds a box over up to kLeaf photons, or over up to kFan boxes of the level below.
     struct Node
     {
         Vec3 low, high;

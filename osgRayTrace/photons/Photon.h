@@ -10,7 +10,7 @@
 namespace osgRayTrace::engine
 {
 
-/// A flux that has arrived at a surface.
+/// Holds a flux that has arrived at a surface.
 struct Photon
 {
     Vec3 position{0.0f};
@@ -26,7 +26,7 @@ struct Photon
 /// long.
 constexpr uint32_t kMostEdges = 127;
 
-/// A disc on a surface that photons are looked for in.
+/// Holds a disc on a surface that photons are looked for in.
 struct PhotonQuery
 {
     Vec3 position{0.0f};
@@ -43,7 +43,7 @@ struct PhotonSum
     uint32_t count = 0;
 };
 
-/// Sixteen discs. Discs near each other read the photons around them once.
+/// Holds sixteen discs. Discs near each other read the photons around them once.
 struct PhotonQueryLanes
 {
     Vec3Lanes position, normal, shadingNormal; ///< see PhotonQuery
@@ -60,7 +60,7 @@ struct PhotonSumLanes
     UintLanes count; ///< 0 in lanes that are not in use
 };
 
-/// A photon by its index, and the lanes whose discs hold it.
+/// Names a photon by its index, and the lanes whose discs hold it.
 struct FoundPhoton
 {
     uint32_t photon;

@@ -16,7 +16,7 @@ constexpr uint32_t kDirectBit = 1u << 31;
 
 inline uint32_t packNormal(Vec3 n)
 {
-    // Rounds to the nearest, and halves away from zero.
+    // The addition rounds to the nearest, and halves away from zero.
     const auto byte = [](float v)
     {
         const float scaled = v * 127.0f;
@@ -41,8 +41,8 @@ OSGRAYTRACE_INLINE int32_t edgesOf(uint32_t packed)
     return static_cast<int32_t>((packed >> 24) & kMostEdges);
 }
 
-/// What a loop over a block of photons reads. The loop's index counts from the block's first photon
-/// and is signed, as vector loads need.
+/// Holds what a loop over a block of photons reads. The loop's index counts from the block's first
+/// photon and is signed, as vector loads need.
 struct PhotonColumns
 {
     const float *x, *y, *z, *wiX, *wiY, *wiZ, *r, *g, *b;
@@ -54,7 +54,7 @@ struct PhotonColumns
     }
 };
 
-/// A disc of a look-up as loops over photons or lanes take it: see PhotonQuery.
+/// Holds a disc of a look-up as loops over photons or lanes take it: see PhotonQuery.
 struct PlainDisc
 {
     PlainVec3 position, normal;
@@ -63,7 +63,7 @@ struct PlainDisc
     int32_t mostEdges;
 };
 
-/// Whether a photon is in a disc, and where.
+/// Tells whether a photon is in a disc, and where.
 struct DiscTest
 {
     uint32_t in;     ///< all bits or none

@@ -14,7 +14,7 @@
 namespace osgRayTrace::engine
 {
 
-/// A photon on its way from a light.
+/// Holds a photon on its way from a light.
 struct PhotonStart
 {
     Vec3 origin{0.0f};    ///< clear of the light's own surface
@@ -24,7 +24,7 @@ struct PhotonStart
     uint32_t bin = kInvalid; ///< the bin of PhotonGuide that the photon was guided to, if any
 };
 
-/// The random numbers in [0,1) that an emission takes.
+/// Holds the random numbers in [0,1) that an emission takes.
 struct EmissionPoint
 {
     float light = 0.0f;
@@ -33,7 +33,7 @@ struct EmissionPoint
     Vec2 direction{0.0f};
 };
 
-/// The random numbers of sixteen emissions: see EmissionPoint.
+/// Holds the random numbers of sixteen emissions: see EmissionPoint.
 struct EmissionLanes
 {
     FloatLanes light, choice, positionU, positionV, directionU, directionV;
@@ -83,7 +83,7 @@ public:
     /// distance. distance: to the light's centre, or the light's radius if that is more.
     float falloff(uint32_t light, float distance) const;
 
-    /// Largest number of targets.
+    /// This is the largest number of targets.
     static constexpr std::size_t kMaxTargets = 32;
 
     /// Returns a sphere that holds all geometry.
@@ -92,7 +92,7 @@ public:
 private:
     struct Cones;
     struct Discs;
-    /// The guide of an emission, or null, and the light as the guide numbers it.
+    /// Holds the guide of an emission, or null, and the light as the guide numbers it.
     struct LightGuide
     {
         const PhotonGuide* photonGuide;

@@ -43,15 +43,16 @@ inline uint32_t guideBinAt(float x, float y, float v)
     return guideBinOf(0.0f, v) + 2u * quarter + (steep ^ (quarter & 1u));
 }
 
-/// Weights of the bins of each light and target, learnt from what views saw of photons that were
-/// sent there before. The number of photons of a bin should be in proportion to the root mean
-/// square of what one of them adds to the pictures: then the variance of a sum over the bins is
-/// least [Veach97, ch. 2]. A part of the weight is the same for all bins, so that light which no
-/// view has seen yet stays within a known factor. Immutable.
+/// Holds the weights of the bins of each light and target, learnt from what views saw of photons
+/// that were sent there before. The number of photons of a bin should be in proportion to the root
+/// mean square of what one of them adds to the pictures: then the variance of a sum over the bins
+/// is least [Veach97, ch. 2]. A part of the weight is the same for all bins, so that light which no
+/// view has seen yet stays within a known factor. A guide never changes.
 class PhotonGuide
 {
 public:
-    /// A bin of the target of a light (or group of lights): all lists below are indexed by it.
+    /// Names a bin of the target of a light (or group of lights): all lists below are indexed by
+    /// it.
     static uint32_t index(uint32_t light, uint32_t target, uint32_t targets, uint32_t bin)
     {
         return (light * targets + target) * kGuideBins + bin;
@@ -94,8 +95,8 @@ public:
     const std::vector<float>& cumulative() const { return _cumulative; }
 
 private:
-    /// Photons that were guided for a light, and the use of them: their number, weighted by how
-    /// much more of them are wanted in their bins.
+    /// Counts photons that were guided for a light, and the use of them: their number, weighted by
+    /// how much more of them are wanted in their bins.
     struct LightUse
     {
         double sent = 0.0, useful = 0.0;

@@ -16,7 +16,7 @@ namespace osgRayTrace::engine
 
 class Workers;
 
-/// How large a disc around one place has to be to hold each of the photons there.
+/// Tells how large a disc around one place has to be to hold each of the photons there.
 class NeighbourDistances
 {
 public:
@@ -31,9 +31,9 @@ private:
     std::vector<float> _radius2; ///< square of the least radius whose look-up finds the photon
 };
 
-/// A grid over hashed cells with its photons in cell order: photons of neighbouring cells along x
-/// lie one after the other [Teschner03, spatial hashing; but only y and z are hashed, and x is
-/// added]. Immutable once built; thread safe.
+/// Holds a grid over hashed cells with its photons in cell order: photons of neighbouring cells
+/// along x lie one after the other [Teschner03, spatial hashing; but only y and z are hashed, and x
+/// is added]. Immutable once built; thread safe.
 class PhotonMap
 {
 public:
@@ -81,7 +81,7 @@ private:
     using Range = DenseCellTrees::Range;
     static constexpr int kMaxRanges = 512;
 
-    /// The values that are stored of a photon beside its normal.
+    /// Holds the values that are stored of a photon beside its normal.
     enum Column
     {
         X,
@@ -101,7 +101,7 @@ private:
 
     PhotonColumns columns() const;
 
-    // The sort by cell, and its steps: PhotonMapBuild.cpp.
+    // These functions are the sort by cell and its steps, in PhotonMapBuild.cpp.
     struct Sorting;
     void sort(const std::vector<Photon>& photons, const Workers& workers, bool keepBins);
     void findBuckets(Sorting& s, const Workers& workers) const;
@@ -109,7 +109,8 @@ private:
     std::vector<Range> sortPart(Sorting& s, std::size_t part);
     void store(const Photon& p, uint32_t to);
 
-    // The ranges of photons that a look-up reads: PhotonMap.cpp, PhotonMapLanes.cpp.
+    // These functions find the ranges of photons that a look-up reads, in PhotonMap.cpp and
+    // PhotonMapLanes.cpp.
     struct BucketLine;
     int rangesOf(const PhotonQuery& query, Range* ranges) const;
     int rangesOf(const PhotonQueryLanes& queries, LaneMask group, Range* ranges) const;

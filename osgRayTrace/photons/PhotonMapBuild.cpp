@@ -122,7 +122,7 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const W
     sort(photons, workers, keepBins);
 }
 
-/// What the steps of the sort hand on.
+/// Holds what each step of the sort hands to the next.
 struct PhotonMap::Sorting
 {
     Sorting(const std::vector<Photon>& p, std::size_t bucketCount)

@@ -21,8 +21,8 @@ constexpr float kNear = 4.0f;
 constexpr int kLeastGroup = 4;
 constexpr uint32_t kMostTogether = 512;
 
-/// What loops over the discs of a group read beside the queries. Discs that are not in the group
-/// have a negative radius2.
+/// Holds what loops over the discs of a group read beside the queries. Discs that are not in the
+/// group have a negative radius2.
 struct Discs
 {
     FloatLanes radius2, plane;

@@ -14,8 +14,8 @@
 namespace osgRayTrace::engine
 {
 
-/// What photons are traced for: a scene, its lights as a view places them, and the options. Passes
-/// belong to one of these at a time, and views that agree on it share them.
+/// Holds what photons are traced for: a scene, its lights as a view places them, and the options.
+/// Passes belong to one PhotonScene at a time, and views with equal ones share the passes.
 struct PhotonScene
 {
     std::shared_ptr<const TracedScene> traced;
@@ -32,7 +32,7 @@ enum class ViewId : uint64_t
 {
 };
 
-/// The photons of one pass. Immutable.
+/// Holds the photons of one pass, which never change.
 struct PhotonPass
 {
     PhotonMap map;
@@ -43,7 +43,7 @@ struct PhotonPass
 
 constexpr int kDensityPhotons = 16;
 
-/// What the radii of look-ups are chosen by [length].
+/// Holds the lengths by which the radii of look-ups are chosen.
 struct PhotonDensity
 {
     float radius = 0.0f; ///< holds kDensityPhotons photons of a pass around a photon, in the median

@@ -8,7 +8,7 @@
 namespace osgRayTrace::engine
 {
 
-/// Sixteen photons.
+/// Holds sixteen photons.
 struct PhotonPathBlock
 {
     Vec3Lanes origin, direction, power;
@@ -17,8 +17,8 @@ struct PhotonPathBlock
     UintLanes direct; ///< 1: the path has met nothing but mirror-like surfaces yet
 };
 
-/// Photons in as few blocks as possible, in order. Photons that go on may be appended while the
-/// blocks of the last bounce are being read: the place of a block that has been copied is free.
+/// Holds photons in as few blocks as possible, in order. Photons that go on may be appended while
+/// the blocks of the last bounce are being read: the place of a block that has been copied is free.
 class PhotonPathQueue
 {
 public:
@@ -48,7 +48,7 @@ void secondPhotonPoints(const UintLanes& photons, uint32_t seed, FloatLanes& v);
 void readyRays(RayHitBlock& rays);
 void loadRays(const PhotonPathBlock& block, RayHitBlock& rays);
 
-/// Where photons go from the surfaces that they have met, as sampled by the surface models.
+/// Holds where photons go from the surfaces that they have met, as the surface models sample it.
 struct Scattered
 {
     Vec3Lanes wi;       ///< unit

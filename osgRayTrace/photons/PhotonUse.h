@@ -7,8 +7,8 @@
 namespace osgRayTrace::engine
 {
 
-/// Which photons a pass stores. Direct light is never among them: it is sampled from the eye's
-/// side.
+/// Tells which photons a pass stores. Direct light is never among them: it is sampled from the
+/// eye's side.
 enum class PhotonUse : uint8_t
 {
     None,

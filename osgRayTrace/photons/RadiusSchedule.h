@@ -25,9 +25,9 @@ inline double globalRadiusSquared(int pass, double alpha)
     return std::exp(logGamma(n + alpha) - logGamma(1.0 + alpha) - logGamma(n + 1.0));
 }
 
-/// Statistics of a pixel that shrinks its radius by the photons that it has seen: radius reduction
-/// and flux correction [Hachisuka08, sect. 4], with statistics that all hit points of the pixel
-/// share [Hachisuka09, sect. 4].
+/// Holds the statistics of a pixel that shrinks its radius by the photons that it has seen: radius
+/// reduction and flux correction [Hachisuka08, sect. 4], with statistics that all hit points of the
+/// pixel share [Hachisuka09, sect. 4].
 struct LocalStatistics
 {
     float photons = 0.0f; ///< N

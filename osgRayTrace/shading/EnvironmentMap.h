@@ -30,8 +30,7 @@ public:
 
     const std::shared_ptr<const EnvironmentImage>& image() const { return _image; }
 
-    /// Returns the integral of radiance over the sphere; luminanceIntegral returns that of
-    /// luminance.
+    /// Returns the integral over the sphere, of radiance and of luminance.
     const Vec3d& integral() const { return _integral; }
     double luminanceIntegral() const { return _luminanceIntegral; }
     bool isBlack() const { return !(_luminanceIntegral > 0.0); }
@@ -45,9 +44,8 @@ public:
     /// Returns the radiance of the pixel, which is the one that lights surfaces.
     Vec3 radiance(Vec3 direction) const { return _image->radiance[pixelOf(direction)]; }
 
-    /// Returns the radiance interpolated between the middles of pixels, for directions that are
-    /// looked at. Light is not computed with the interpolated radiance, because sample has another
-    /// density.
+    /// Returns the radiance interpolated between the middles of pixels: for directions that are
+    /// looked at, not for light, because sample has another density.
     Vec3 interpolatedRadiance(Vec3 direction) const;
 
     /// Returns the solid angle [sr] of a pixel in a row.

@@ -165,6 +165,23 @@ TEST_CASE("reasons: edits of geometry and of places", "[bridge]")
                      ConversionCause::LinesOrPoints, "root/group/object4/tile");
 }
 
+TEST_CASE("reasons: vertices that leave the frame of their mesh get another frame", "[bridge]")
+{
+    Reasons reasons;
+    osg::Geometry& tile = reasons.graph.geometry(0);
+    const auto shift = [&](float radii)
+    {
+        auto& vertices = static_cast<osg::Vec3Array&>(*tile.getVertexArray());
+        for (osg::Vec3& v : vertices)
+            v.x() += 0.57f * radii;
+        vertices.dirty();
+    };
+    reasons.isPatched([&] { shift(1.0f); });
+    reasons.isPatched([&] { shift(100.0f); });
+    reasons.converts([&] { shift(100.0f); }, ConversionCause::Lengths, "root/group/object0/tile");
+    reasons.isPatched([&] { shift(100.0f); });
+}
+
 TEST_CASE("reasons: the path is that of the one use that could not be redone", "[bridge]")
 {
     Reasons reasons;

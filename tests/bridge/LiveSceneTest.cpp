@@ -16,7 +16,8 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-/// What an update did: one walk, unless more is said.
+/// Counts what an update did: one walk and nothing else, unless a function says more. Whole counts
+/// are compared, because an edit must not make anything else be redone.
 struct Done
 {
     uint64_t walks = 1, conversions = 0, patches = 0, meshes = 0, built = 0, refit = 0, flat = 0,

@@ -2,6 +2,7 @@
 # and one that breaks none.
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
+include("${CMAKE_CURRENT_LIST_DIR}/../FindsOffences.cmake")
 
 # check(<page> <text> <expected message or empty>) checks a tree of good pages in which this page
 # has this text.
@@ -19,15 +20,7 @@ function(check page text expected)
     else()
         file(APPEND "${WORK}/${page}" "${text}\n")
     endif()
-    execute_process(COMMAND "${CMAKE_COMMAND}" -D "ROOT=${WORK}" -P "${CHECK}"
-        RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    if(expected STREQUAL "")
-        if(NOT result EQUAL 0)
-            message(SEND_ERROR "${page}: '${text}' is allowed, but: ${output}")
-        endif()
-    elseif(result EQUAL 0 OR NOT output MATCHES "${expected}")
-        message(SEND_ERROR "${page}: '${text}' was not found to be wrong: ${output}")
-    endif()
+    expect_outcome("${CHECK}" "${page}: '${text}'" "${expected}")
 endfunction()
 
 string(REPEAT "a line\n" 148 most)

@@ -2,21 +2,14 @@
 # and one that breaks none.
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
+include("${CMAKE_CURRENT_LIST_DIR}/../FindsOffences.cmake")
 
 # check(<file> <text> <expected message or empty>) checks a tree of one good file and this one.
 function(check file text expected)
     file(REMOVE_RECURSE "${WORK}")
     file(WRITE "${WORK}/osgRayTrace/scene/Good.h" "#include \"osgRayTrace/base/Math.h\"\n")
     file(WRITE "${WORK}/${file}" "${text}\n")
-    execute_process(COMMAND "${CMAKE_COMMAND}" -D "ROOT=${WORK}" -P "${CHECK}"
-        RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    if(expected STREQUAL "")
-        if(NOT result EQUAL 0)
-            message(SEND_ERROR "${file}: '${text}' is allowed, but: ${output}")
-        endif()
-    elseif(result EQUAL 0 OR NOT output MATCHES "${expected}")
-        message(SEND_ERROR "${file}: '${text}' was not found to be wrong: ${output}")
-    endif()
+    expect_outcome("${CHECK}" "${file}: '${text}'" "${expected}")
 endfunction()
 
 check(osgRayTrace/film/A.cpp "#include \"osgRayTrace/sampling/B.h\"" "")

@@ -28,6 +28,17 @@ std::shared_ptr<const TracedScene> litPlane(bool displayReferred)
     return builder.build();
 }
 
+/// Traces one pass of the plane.
+void traceLitPlane(RenderSession& session, bool displayReferred)
+{
+    session.setScene(litPlane(displayReferred));
+    session.setView(perspectiveView({0, 0, 6}, {0, 0, 0}, {0, 1, 0}, 50.0, kWidth, kHeight));
+    session.setOptions(optionsOf(IntegratorKind::Whitted));
+    StopRule rule;
+    rule.passes = 1;
+    REQUIRE(session.render(rule).status.ok());
+}
+
 } // namespace
 
 TEST_CASE("resolved image: display values and depths are those of resolveDisplay", "[session]")
@@ -72,12 +83,7 @@ TEST_CASE("resolved image: display values and depths are those of resolveDisplay
 TEST_CASE("resolved image: samples of surfaces are the channels of the first hit", "[session]")
 {
     RenderSession session(std::make_shared<Workers>(2));
-    session.setScene(litPlane(false));
-    session.setView(perspectiveView({0, 0, 6}, {0, 0, 0}, {0, 1, 0}, 50.0, kWidth, kHeight));
-    session.setOptions(optionsOf(IntegratorKind::Whitted));
-    StopRule rule;
-    rule.passes = 1;
-    REQUIRE(session.render(rule).status.ok());
+    traceLitPlane(session, false);
     const std::vector<SurfaceSample> samples = session.surfaceSamples();
     const std::vector<float> normal = session.resolveChannel(Channel::Normal);
     const std::vector<float> albedo = session.resolveChannel(Channel::Albedo);
@@ -103,12 +109,7 @@ TEST_CASE("resolved image: samples of surfaces are the channels of the first hit
 TEST_CASE("resolved image: surfaces' albedo is linear where the film is not", "[session]")
 {
     RenderSession session(std::make_shared<Workers>(2));
-    session.setScene(litPlane(true));
-    session.setView(perspectiveView({0, 0, 6}, {0, 0, 0}, {0, 1, 0}, 50.0, kWidth, kHeight));
-    session.setOptions(optionsOf(IntegratorKind::Whitted));
-    StopRule rule;
-    rule.passes = 1;
-    REQUIRE(session.render(rule).status.ok());
+    traceLitPlane(session, true);
     int hits = 0;
     for (const SurfaceSample& sample : session.surfaceSamples())
     {

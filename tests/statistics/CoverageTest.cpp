@@ -223,7 +223,7 @@ View withoutLight()
 }
 
 /// Returns a box whose colours could change from point to point, so that no paths are reused.
-SceneBuilder boxWithoutLoans()
+SceneBuilder boxWithoutReuse()
 {
     SceneBuilder box = cornellBox();
     for (Material& material : box.scene->materials)
@@ -250,7 +250,7 @@ TEST_CASE("coverage: path tracing with Sobol points", "[statistics]")
 TEST_CASE("coverage: path tracing whose pixels share nothing", "[statistics]")
 {
     for (const int passes : {4, 5, 16})
-        checkCoverage(boxWithoutLoans().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),
+        checkCoverage(boxWithoutReuse().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),
                       passes);
 }
 
@@ -295,7 +295,7 @@ TEST_CASE("coverage: with the light's edges in view", "[statistics]")
 {
     // The few pixels along the edges make the error of their tile. Whitted's ray tracer has no
     // other noise there, so it takes more passes until this error is normally distributed.
-    checkCoverage(boxWithoutLoans().build(), cornellView(kSize, kSize),
+    checkCoverage(boxWithoutReuse().build(), cornellView(kSize, kSize),
                   optionsOf(IntegratorKind::Path, 4), 16);
     checkCoverage(cornellBox().build(), cornellView(kSize, kSize),
                   optionsOf(IntegratorKind::Whitted), 64);

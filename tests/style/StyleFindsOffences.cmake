@@ -2,6 +2,7 @@
 # and one tree that breaks none.
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
+include("${CMAKE_CURRENT_LIST_DIR}/../FindsOffences.cmake")
 
 set(licence "// SPDX-License-Identifier: MIT\n")
 
@@ -13,17 +14,7 @@ function(check script file text expected)
     file(WRITE "${WORK}/osgRayTrace/base/Good.h" "// Good.h - is good.\n${licence}#pragma once\n")
     file(WRITE "${WORK}/build/Bad.cpp" "int   generated ;")
     file(WRITE "${WORK}/${file}" "${text}")
-    execute_process(COMMAND "${CMAKE_COMMAND}" -D "ROOT=${WORK}" -P "${SOURCE}/cmake/${script}.cmake"
-        RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    if(output MATCHES "(skipped: [^\n]*)")
-        set(skipped "${CMAKE_MATCH_1}" PARENT_SCOPE)
-    elseif(expected STREQUAL "")
-        if(NOT result EQUAL 0)
-            message(SEND_ERROR "${script}: '${text}' in ${file} is allowed, but: ${output}")
-        endif()
-    elseif(result EQUAL 0 OR NOT output MATCHES "${expected}")
-        message(SEND_ERROR "${script}: '${text}' in ${file} was not found to be wrong: ${output}")
-    endif()
+    expect_outcome("${SOURCE}/cmake/${script}.cmake" "${script}: '${text}' in ${file}" "${expected}")
 endfunction()
 
 check(CheckLicences apps/a/A.cpp "${licence}" "")
@@ -47,6 +38,7 @@ check(CheckFormatting osgRayTrace/offscreen/FrameCapture "int a ;\n" "FrameCaptu
 check(CheckFormatting tests/base/A.cpp "void f()\n{\n  g();\n}\n" "A\\.cpp:2:")
 
 file(REMOVE_RECURSE "${WORK}")
+get_property(skipped GLOBAL PROPERTY skipped_check)
 if(skipped)
     message(NOTICE "${skipped}")
 endif()

@@ -193,7 +193,7 @@ struct SmallImage
     ResolvedImage image;
 };
 
-/// What the image loses, made into one of the full size in several ways.
+/// Measures what the image loses when it is made into one of the full size in several ways.
 void measureErrors(Rows& rows, const SmallImage& small, const ResolvedImage& reference,
                    const std::string& pictures)
 {
@@ -222,7 +222,7 @@ void measureErrors(Rows& rows, const SmallImage& small, const ResolvedImage& ref
         {name + ": of them without a like", 100.0 * double(counts.unlike) / pixels, "%"});
 }
 
-/// What it costs to trace and to show the image.
+/// Measures what it costs to trace and to present the image.
 void measureCosts(Rows& rows, const SmallImage& small, const Subject& subject,
                   const std::shared_ptr<Workers>& one)
 {

@@ -9,7 +9,7 @@
 namespace osgRayTrace::engine
 {
 
-/// What is wrong with a matrix, as a key of the report (see ReportReasons.h); null: nothing. A
+/// Returns what is wrong with a matrix, as a key of the report (see ReportReasons.h), or null. A
 /// matrix is singular if its axes, made unit, span no more than smallestVolume: so a tiny or a flat
 /// scale is fine.
 inline const char* matrixFault(const osg::Matrixd& m, double smallestVolume)

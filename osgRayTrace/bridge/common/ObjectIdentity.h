@@ -47,7 +47,8 @@ public:
     bool operator==(const ObjectName& other) const { return _observers == other._observers; }
     bool operator!=(const ObjectName& other) const { return !(*this == other); }
 
-    /// The same name without OSG, for the engine: equal if the names are. Null for no object.
+    /// Returns the name without OSG, for the engine: equal if the names are, and null for no
+    /// object.
     std::shared_ptr<const void> hostName() const
     {
         if (!_observers) return nullptr;

@@ -18,8 +18,8 @@ namespace
 /// GraphCollector asks for: a nearly flat transform takes a conversion of the whole graph.
 constexpr double kSmallestVolume = 1e-6;
 
-/// A mesh keeps its frame while its centre is at most this many times its largest coordinate away
-/// from its origin.
+/// A mesh keeps its frame while its centre is at most this many radii away from the frame's origin;
+/// meshFrame chooses a new origin at half of that.
 constexpr double kFarFromOrigin = 128.0;
 
 /// Returns whether texture coordinates are generated from places in the scene: their matrix then
@@ -46,14 +46,16 @@ bool hasTrianglesAlone(const osg::Geometry& geometry)
     return true;
 }
 
-/// Returns whether a mesh with these bounds can stay in its frame.
+/// Returns whether a mesh with these bounds can stay in its frame, a translation and a uniform
+/// scale.
 bool fitsFrame(const VertexBounds& bounds, const osg::Matrixd& meshFromLocal)
 {
     if (bounds.count == 0 || areCoarseInFloat(bounds)) return false;
     const osg::Vec3d centre =
         osg::Vec3d(bounds.centre().x, bounds.centre().y, bounds.centre().z) * meshFromLocal;
-    const double largest = largestCoordinate(bounds, meshFromLocal);
-    return isOrdinaryLength(largest) && centre.length() <= kFarFromOrigin * largest;
+    const double radius = bounds.radius() * std::fabs(meshFromLocal(0, 0));
+    return isOrdinaryLength(largestCoordinate(bounds, meshFromLocal)) &&
+           (radius == 0.0 || centre.length() <= kFarFromOrigin * radius);
 }
 
 } // namespace

@@ -19,13 +19,6 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-osg::ref_ptr<osg::Node> placedNode(const osg::Matrixd& matrix, osg::Node* child)
-{
-    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrix);
-    transform->addChild(child);
-    return transform;
-}
-
 /// Returns a smooth ball of radius 1 around the origin, whose vertices are moved by the matrix
 /// beforehand.
 osg::ref_ptr<osg::Geometry> ball(const osg::Matrixd& matrix = osg::Matrixd(), int rows = 24)
@@ -67,8 +60,8 @@ std::shared_ptr<const TracedScene> tracedOf(osg::Node* root)
 osg::ref_ptr<osg::Group> shared(const osg::Matrixd& matrix, osg::Node* child)
 {
     osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->addChild(placedNode(matrix, child));
-    group->addChild(placedNode(matrix * osg::Matrixd::translate(0.0, 0.0, 1e6), child));
+    group->addChild(placed(matrix, child));
+    group->addChild(placed(matrix * osg::Matrixd::translate(0.0, 0.0, 1e6), child));
     return group;
 }
 
@@ -118,7 +111,7 @@ TEST_CASE("stability 15: transforms that nothing can be placed by leave the rest
           Case{infinite, "skipped.not-finite-transform"}})
     {
         const ConversionResult converted =
-            convertGraph(lit({placedNode(c.matrix, ball()), shared(c.matrix, ball()), ball()}));
+            convertGraph(lit({placed(c.matrix, ball()), shared(c.matrix, ball()), ball()}));
         CHECK(converted.scene->instances.size() == 1);
         CHECK(countOf(converted, c.count) == 3);
         const Picture picture = pictureOf(converted, IntegratorKind::Path);
@@ -135,15 +128,14 @@ TEST_CASE("stability 15: a model under a scale of 1e-20 is kept, too small to be
     for (const osg::Matrixd& matrix : {tiny * osg::Matrixd::translate(0.0, 0.0, 2.0), tiny})
     {
         const ConversionResult converted =
-            convertGraph(lit({ball(), placedNode(matrix, ball()), shared(matrix, ball())}));
+            convertGraph(lit({ball(), placed(matrix, ball()), shared(matrix, ball())}));
         const Picture picture = pictureOf(converted, IntegratorKind::Path);
         CHECK(picture.progress.droppedSamples == 0);
         CHECK(differing(picture, alone) == 0);
     }
     osg::ref_ptr<osg::Geometry> huge = ball(osg::Matrixd::scale(1e17, 1e17, 1e17));
     const osg::Matrixd back = osg::Matrixd::scale(1e-17, 1e-17, 1e-17);
-    const Picture same =
-        pictureOf(convertGraph(lit({placedNode(back, huge)})), IntegratorKind::Path);
+    const Picture same = pictureOf(convertGraph(lit({placed(back, huge)})), IntegratorKind::Path);
     int different = 0; // a vertex may round the other way
     for (std::size_t i = 0; i < same.rgba.size(); ++i)
         different += std::abs(same.rgba[i] - alone.rgba[i]) > 1e-3f;
@@ -161,7 +153,7 @@ TEST_CASE("stability 16: mirrored and uneven scales give the normals of the move
           osg::Matrixd::scale(-1.0, -1.0, -1.0) * turn, osg::Matrixd::scale(1.0, 1e-4, 1e4),
           osg::Matrixd::scale(1.0, -1e-4, 1e4)})
     {
-        const auto moved = tracedOf(ball(matrix)), baked = tracedOf(placedNode(matrix, ball())),
+        const auto moved = tracedOf(ball(matrix)), baked = tracedOf(placed(matrix, ball())),
                    instance = tracedOf(shared(matrix, ball()));
         const osg::Matrixd inverse = osg::Matrixd::inverse(matrix);
         const auto local = [&](const Vec3d& p)
@@ -237,7 +229,7 @@ TEST_CASE("stability 16: a mirrored ball of glass refracts as one that was made 
     {
         const Picture other =
             pictured(instanced ? osg::ref_ptr<osg::Node>(shared(matrix, ball(osg::Matrixd(), 96)))
-                               : placedNode(matrix, ball(osg::Matrixd(), 96)));
+                               : osg::ref_ptr<osg::Node>(placed(matrix, ball(osg::Matrixd(), 96))));
         // A last bit may send a path to the other side of an edge: a few pixels change, but not
         // their mean.
         int different = 0;
@@ -272,7 +264,7 @@ TEST_CASE("stability 17: 64 nested transforms place as their product in long dou
                 for (int column = 0; column < 4; ++column)
                     m[row][column] = static_cast<long double>(matrix(row, column));
             worldFromLocal = m * worldFromLocal; // each transform is above those before
-            node = placedNode(matrix, node);
+            node = placed(matrix, node);
         }
         const auto world = [&](const Vec3& p)
         { return worldFromLocal * Vector(p.x, p.y, p.z, 1.0L); };
