@@ -70,7 +70,8 @@ public:
         for (size_t i = 0; i < _pixels; ++i)
         {
             for (int c = 0; c < 4; ++c)
-                _display[4 * i + c] = static_cast<uint16_t>(_display[4 * i + c] + values[4 * i + c]);
+                _display[4 * i + c] =
+                    static_cast<uint16_t>(_display[4 * i + c] + values[4 * i + c]);
             if (!isDrawn(color, depth, i)) continue;
             ++_drawn[i];
             for (int c = 0; c < 3; ++c)

@@ -82,7 +82,9 @@ void addSettings(CLI::App& app, Options& options)
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
     {
         const bool passes = option.name == "max-passes";
-        const std::string name = passes ? "--passes,--max-passes" : "--" + option.name;
+        const std::string name = passes                          ? "--passes,--max-passes"
+                                 : option.name == "point-radius" ? "--points,--point-radius"
+                                                                 : "--" + option.name;
         const std::string help =
             passes ? "Stop after so many passes (64, unless --time or --error is given)"
                    : option.help;

@@ -139,9 +139,7 @@ float difference(const osg::Vec4& a, const osg::Vec4& b)
 bool isFlat(const osg::Image& picture, int x, int y)
 {
     const auto at = [&picture](int column, int row)
-    {
-        return picture.getColor(static_cast<unsigned int>(column), static_cast<unsigned int>(row));
-    };
+    { return picture.getColor(static_cast<unsigned int>(column), static_cast<unsigned int>(row)); };
     for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx)
             if (difference(at(x + dx, y + dy), at(x, y)) > 0.0f) return false;
@@ -330,6 +328,22 @@ TEST_CASE("osgraytrace without a context: one line and the statistics say what i
     CHECK(nothing.exitCode == 3);
     CHECK_THAT(nothing.errors, Contains("no triangles") && Contains("primitive sets of lines (1)"));
     CHECK(osgraytrace(folder, run + "--context egl").exitCode == 0);
+}
+
+TEST_CASE("osgraytrace without a context: --points traces lines", "[apps][gl]")
+{
+    const TemporaryFolder folder;
+    const osg::ref_ptr<osg::Group> scene = drawnScene();
+    const auto redAt = [](const Drawn& drawn, int x, int y)
+    { return drawn.value("R", x, y) > 0.2f && drawn.value("G", x, y) < 0.01f; };
+    CHECK_FALSE(redAt(draw(folder, *scene, ""), 100, 72));
+    const Drawn traced = draw(folder, *scene, "--points 0.1 --aov position,id");
+    CHECK(redAt(traced, 60, 72));
+    CHECK(redAt(traced, 100, 72));
+    CHECK(traced.value("id.I", 100, 72) > 0.0f);
+    CHECK(traced.value("position.Y", 100, 72) == Approx(-1.1f).margin(0.03));
+    CHECK_THAT(osgraytrace(folder, "scene.osgt -o x.png --passes 1 --points 0.1").output,
+               Contains("without OpenGL: osgText's texts (1);"));
 }
 
 TEST_CASE("osgraytrace in a context: a size that no context has ends with 3 and the reason",
