@@ -74,17 +74,20 @@ public:
 };
 
 /// Particles are emitted in the frames before a picture, as they are in a viewer. Frames are drawn
-/// for five seconds before time 0, at which all scenes are shown. 0.03 does not divide 1: -1 means
-/// "no time yet" to osgParticle.
+/// for five seconds before time 0, at which all scenes are shown; they are small, as nobody sees
+/// them. 0.03 does not divide 1: -1 means "no time yet" to osgParticle.
 constexpr double kParticleStep = 0.03; ///< [s]
 constexpr int kParticleFrames = 167;
 
-void emitParticles(osgViewer::Viewer& viewer, RayTraceDrawable& drawable, uint32_t seed)
+void emitParticles(osgViewer::Viewer& viewer, RayTraceDrawable& drawable, const Options& options)
 {
-    std::srand(seed); // osgParticle draws its random numbers from std::rand
+    std::srand(options.settings->getSeed()); // osgParticle takes its random numbers from std::rand
     drawable.setPaused(true);
+    osg::Camera& camera = *viewer.getCamera();
+    camera.setViewport(0, 0, (options.width + 15) / 16, (options.height + 15) / 16);
     for (int frame = -kParticleFrames; frame < 0 && !isInterrupted(); ++frame)
         drawFrame(viewer, frame * kParticleStep);
+    camera.setViewport(0, 0, options.width, options.height);
     drawable.setPaused(false);
 }
 
@@ -141,7 +144,7 @@ Picture renderInContext(const Options& options, osg::Node& scene, const Camera& 
 
     ParticleFinder particles;
     scene.accept(particles);
-    if (particles.found) emitParticles(viewer, drawable, options.settings->getSeed());
+    if (particles.found) emitParticles(viewer, drawable, options);
     Picture picture;
     picture.statistics = accumulate(options, viewer, drawable, progress);
     picture.radiance = drawable.getColorImage();
