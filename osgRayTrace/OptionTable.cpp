@@ -166,6 +166,9 @@ const std::vector<OptionRow>& optionTable()
                   "No step where light ends on smooth-shaded facets"),
         switchRow("cull-all-rays", &S::getCullAllRays, &S::setCullAllRays,
                   "All rays pass faces that they meet on the culled side; else camera rays alone"),
+        numberRow("point-radius", kPointRadiusRange, &S::getPointRadius, &S::setPointRadius,
+                  "Radius of points and lines, traced as spheres and capsules [length]; 0: OSG "
+                  "draws them"),
         numberRow("max-bounces", kMaxBouncesRange, &S::getMaxBounces, &S::setMaxBounces,
                   "Edges of a path after the camera ray"),
         numberRow("max-passes", kMaxPassesRange, &S::getMaxPasses, &S::setMaxPasses,

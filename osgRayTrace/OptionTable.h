@@ -28,6 +28,7 @@ constexpr Range<int> kLightSamplesRange{1, 4096};
 constexpr Range<int> kEnvironmentSamplesRange{1, 4096};
 constexpr Range<float> kLightRadiusRange{0.0f, 1e30f};
 constexpr Range<float> kLightAngleRange{0.0f, 180.0f};
+constexpr Range<float> kPointRadiusRange{0.0f, 1e30f};
 constexpr Range<int> kMaxBouncesRange{0, 1024};
 constexpr Range<int> kMaxPassesRange{1, 1 << 24};
 constexpr Range<float> kFrameBudgetRange{0.0f, 60000.0f};

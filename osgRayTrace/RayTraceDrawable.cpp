@@ -147,21 +147,16 @@ Statistics RayTraceDrawable::getStatistics() const
 
 osg::ref_ptr<osg::Image> RayTraceDrawable::getColorImage() const
 {
-    std::shared_ptr<ViewPresenter> view;
-    {
-        std::lock_guard<std::mutex> lock(_implementation->mutex);
-        view = _implementation->lastView;
-    }
-    if (!view) return nullptr;
-    try
-    {
-        return view->radiance();
-    }
-    catch (const std::exception& error)
-    {
-        engine::warnOnce(std::string("the view's image could not be made: ") + error.what());
-        return nullptr;
-    }
+    return _implementation->imageOfLastView([](const ViewPresenter& view)
+                                            { return view.radiance(); });
+}
+
+osg::ref_ptr<osg::Image> RayTraceDrawable::getChannelImage(const std::string& channel) const
+{
+    const std::optional<engine::Channel> known = engine::channelOf(channel);
+    if (!known) return nullptr;
+    return _implementation->imageOfLastView([&known](const ViewPresenter& view)
+                                            { return view.channel(*known); });
 }
 
 void RayTraceDrawable::setPaused(bool paused)

@@ -153,6 +153,11 @@ void RayTraceSettings::setCullAllRays(bool value)
     change(_values.cullAllRays, value, _modifiedCount);
 }
 
+void RayTraceSettings::setPointRadius(float value)
+{
+    changeNumber("point-radius", kPointRadiusRange, _values.pointRadius, value, _modifiedCount);
+}
+
 void RayTraceSettings::setMaxBounces(int value)
 {
     changeNumber("max-bounces", kMaxBouncesRange, _values.maxBounces, value, _modifiedCount);

@@ -20,28 +20,6 @@ namespace
 
 using Progress = std::function<bool(const Statistics&)>;
 
-struct ChannelName
-{
-    const char* name;
-    engine::Channel channel;
-};
-
-constexpr ChannelName kChannels[] = {
-    {"depth", engine::Channel::Depth},       {"distance", engine::Channel::Distance},
-    {"normal", engine::Channel::Normal},     {"albedo", engine::Channel::Albedo},
-    {"position", engine::Channel::Position}, {"id", engine::Channel::Id},
-    {"error", engine::Channel::Error},
-};
-
-std::optional<engine::Channel> channelOf(const std::string& name)
-{
-    for (const ChannelName& known : kChannels)
-    {
-        if (name == known.name) return known.channel;
-    }
-    return std::nullopt;
-}
-
 /// Returns the function's image; null, with a warning, if the function runs out of memory.
 template <typename Resolve> osg::ref_ptr<osg::Image> withinMemory(const Resolve& resolve)
 {
@@ -208,7 +186,7 @@ osg::ref_ptr<osg::Image> Renderer::getDisplayImage() const
 osg::ref_ptr<osg::Image> Renderer::getChannelImage(const std::string& channel) const
 {
     const Implementation& self = *_implementation;
-    const std::optional<engine::Channel> known = channelOf(channel);
+    const std::optional<engine::Channel> known = engine::channelOf(channel);
     if (!known || !self.hasImage()) return nullptr;
     return withinMemory(
         [&self, &known]

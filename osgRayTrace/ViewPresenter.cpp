@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/ViewPresenter.h"
 
+#include "osgRayTrace/bridge/common/PixelImage.h"
+
 #include <OpenThreads/Thread>
 
 #include <algorithm>
@@ -152,6 +154,14 @@ osg::ref_ptr<osg::Image> ViewPresenter::radiance() const
     image->allocateImage(tracer->width(), tracer->height(), 1, GL_RGBA, GL_FLOAT);
     std::copy(radiance.begin(), radiance.end(), reinterpret_cast<float*>(image->data()));
     return image;
+}
+
+osg::ref_ptr<osg::Image> ViewPresenter::channel(engine::Channel channel) const
+{
+    const auto tracer = _tracer.lease();
+    if (!tracer->hasImage()) return nullptr;
+    const GLenum format = engine::channelSize(channel) == 1 ? GL_LUMINANCE : GL_RGB;
+    return engine::pixelImage(tracer->channel(channel), tracer->width(), tracer->height(), format);
 }
 
 } // namespace osgRayTrace

@@ -56,6 +56,10 @@ public:
     /// whoever traces.
     osg::ref_ptr<osg::Image> radiance() const;
 
+    /// Returns a channel of that image, in the format of Renderer::getChannelImage; null if there
+    /// is none. Threads as above.
+    osg::ref_ptr<osg::Image> channel(engine::Channel channel) const;
+
     /// Releases OpenGL's objects in any thread that OSG calls it from; null: of all contexts.
     void releaseGLObjects(osg::State* state) const { _display.releaseGLObjects(state); }
     void resizeGLObjectBuffers(unsigned int maxSize) { _display.resizeGLObjectBuffers(maxSize); }

@@ -82,7 +82,9 @@ void addSettings(CLI::App& app, Options& options)
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
     {
         const bool passes = option.name == "max-passes";
-        const std::string name = passes ? "--passes,--max-passes" : "--" + option.name;
+        const std::string name = passes                          ? "--passes,--max-passes"
+                                 : option.name == "point-radius" ? "--points,--point-radius"
+                                                                 : "--" + option.name;
         const std::string help =
             passes ? "Stop after so many passes (64, unless --time or --error is given)"
                    : option.help;
@@ -152,8 +154,9 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
         ->option_text("FILE.json");
     app.add_flag("--report", options.report,
                  "Prints what was ray traced, approximated and left out, and where; needs no -o");
-    app.add_option("--context", raw.context,
-                   "none, osmesa, egl; other than none: through RayTraceDrawable in it")
+    app.add_option(
+           "--context", raw.context,
+           "none, osmesa, egl; with OpenGL, OSG draws what rays do not: text, lines, shaders")
         ->option_text("NAME")
         ->check(oneOf("none|osmesa|egl"));
     app.add_flag("--list-options", options.listOptions,
@@ -212,10 +215,6 @@ void check(const Options& options)
         exr = exr || *format == Format::Exr;
     }
     if (!options.channels.empty() && !exr) throw Failure(kUsage, "--aov needs an -o FILE.exr");
-    if (!options.channels.empty() && options.context != Context::None)
-    {
-        throw Failure(kUsage, "--aov needs --context none");
-    }
 }
 
 } // namespace

@@ -1,7 +1,9 @@
 // RenderInContext.cpp - renders like an application with a viewer. Layer: apps.
 // SPDX-License-Identifier: MIT
+#include "DrawnLayer.h"
 #include "Picture.h"
 
+#include "apps/common/DrawnParts.h"
 #include "apps/common/Failure.h"
 #include "apps/common/Interruption.h"
 
@@ -12,6 +14,9 @@
 #include <osg/Viewport>
 #include <osgViewer/Viewer>
 
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <string>
 
 namespace osgRayTrace::app
@@ -29,7 +34,8 @@ osg::ref_ptr<osg::GraphicsContext> createContext(const Options& options)
     if (context) return context;
     throw Failure(kCannotRender, std::string("no ") + (osMesa ? "OSMesa" : "EGL") + " context of " +
                                      std::to_string(options.width) + "x" +
-                                     std::to_string(options.height));
+                                     std::to_string(options.height) +
+                                     "; --context none needs none");
 }
 
 /// Returns whether the picture is done. A signal ends the picture with the pass at work: a
@@ -42,6 +48,87 @@ bool finished(const Options& options, const Statistics& statistics)
     return enoughPasses || enoughTime || statistics.relativeError <= options.relativeError;
 }
 
+/// Draws a frame at a time of the simulation [s]. The clock counts for nothing, so that pictures do
+/// not depend on how long they take.
+void drawFrame(osgViewer::Viewer& viewer, double time)
+{
+    viewer.advance(time);
+    viewer.getFrameStamp()->setReferenceTime(time);
+    viewer.updateTraversal();
+    viewer.renderingTraversals();
+}
+
+/// Looks for anything of osgParticle.
+class ParticleFinder : public osg::NodeVisitor
+{
+public:
+    ParticleFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Node& node) override
+    {
+        found = found || std::strcmp(node.libraryName(), "osgParticle") == 0;
+        if (!found) traverse(node);
+    }
+
+    bool found = false;
+};
+
+/// Particles are emitted in the frames before a picture, as they are in a viewer. Frames are drawn
+/// for five seconds before time 0, at which all scenes are shown; they are small, as nobody sees
+/// them. 0.03 does not divide 1: -1 means "no time yet" to osgParticle.
+constexpr double kParticleStep = 0.03; ///< [s]
+constexpr int kParticleFrames = 167;
+
+void emitParticles(osgViewer::Viewer& viewer, RayTraceDrawable& drawable, const Options& options)
+{
+    std::srand(options.settings->getSeed()); // osgParticle takes its random numbers from std::rand
+    drawable.setPaused(true);
+    osg::Camera& camera = *viewer.getCamera();
+    camera.setViewport(0, 0, (options.width + 15) / 16, (options.height + 15) / 16);
+    for (int frame = -kParticleFrames; frame < 0 && !isInterrupted(); ++frame)
+        drawFrame(viewer, frame * kParticleStep);
+    camera.setViewport(0, 0, options.width, options.height);
+    drawable.setPaused(false);
+}
+
+/// Draws frames until the picture is done, and returns its statistics.
+Statistics accumulate(const Options& options, osgViewer::Viewer& viewer,
+                      const RayTraceDrawable& drawable, Progress& progress)
+{
+    Statistics statistics;
+    int passes = -1;
+    do
+    {
+        drawFrame(viewer, 0.0);
+        statistics = drawable.getStatistics();
+        if (!statistics.ok) throw Failure(kCannotRender, statistics.message);
+        if (statistics.passes == passes)
+        {
+            throw Failure(kCannotRender,
+                          "the context renders no further than pass " + std::to_string(passes));
+        }
+        passes = statistics.passes;
+        progress.show(statistics);
+    } while (!finished(options, statistics));
+    return statistics;
+}
+
+void setUp(osgViewer::Viewer& viewer, const Options& options, RayTracedScene& traced,
+           const Camera& camera)
+{
+    viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
+    viewer.setSceneData(&traced);
+    osg::Camera* master = viewer.getCamera();
+    master->setGraphicsContext(createContext(options).get());
+    master->setViewport(0, 0, options.width, options.height);
+    master->setClearColor(camera.clearColor);
+    // The matrices stay as they are: the rays are those of a render without a context.
+    master->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
+    master->setViewMatrix(camera.view);
+    master->setProjectionMatrix(camera.projection);
+    viewer.realize();
+}
+
 } // namespace
 
 Picture renderInContext(const Options& options, osg::Node& scene, const Camera& camera,
@@ -51,41 +138,30 @@ Picture renderInContext(const Options& options, osg::Node& scene, const Camera& 
     traced->setSettings(options.settings.get());
     options.settings->setFrameBudget(0.0f); // nobody waits for a frame
     traced->addChild(&scene);
-
+    RayTraceDrawable& drawable = *traced->getDrawable();
     osgViewer::Viewer viewer;
-    viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
-    viewer.setSceneData(traced.get());
-    osg::ref_ptr<FrameCapture> capture = new FrameCapture;
-    osg::Camera* master = viewer.getCamera();
-    master->setGraphicsContext(createContext(options).get());
-    master->setViewport(0, 0, options.width, options.height);
-    master->setClearColor(camera.clearColor);
-    // The matrices stay as they are: the rays are those of a render without a context.
-    master->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
-    master->setViewMatrix(camera.view);
-    master->setProjectionMatrix(camera.projection);
-    master->setFinalDrawCallback(capture.get());
-    viewer.realize();
+    setUp(viewer, options, *traced, camera);
 
+    ParticleFinder particles;
+    scene.accept(particles);
+    if (particles.found) emitParticles(viewer, drawable, options);
     Picture picture;
-    int passes = -1;
-    do
-    {
-        viewer.frame();
-        picture.statistics = traced->getDrawable()->getStatistics();
-        if (!picture.statistics.ok) throw Failure(kCannotRender, picture.statistics.message);
-        if (picture.statistics.passes == passes)
-        {
-            throw Failure(kCannotRender,
-                          "the context renders no further than pass " + std::to_string(passes));
-        }
-        passes = picture.statistics.passes;
-        progress.show(picture.statistics);
-    } while (!finished(options, picture.statistics));
+    picture.statistics = accumulate(options, viewer, drawable, progress);
+    picture.radiance = drawable.getColorImage();
+    for (const std::string& channel : options.channels)
+        picture.channels[channel] = drawable.getChannelImage(channel);
 
-    picture.radiance = traced->getDrawable()->getColorImage();
-    picture.display = capture->getColorImage();
-    if (!picture.radiance) throw Failure(kCannotRender, "nothing was drawn in the context");
+    osg::ref_ptr<FrameCapture> capture = new FrameCapture;
+    viewer.getCamera()->setFinalDrawCallback(capture.get());
+    drawable.setPaused(true);
+    const auto draw = [&viewer] { drawFrame(viewer, 0.0); };
+    draw();
+    if (!picture.radiance || !capture->getColorImage()->data())
+        throw Failure(kCannotRender, "nothing was drawn in the context");
+    picture.display = new osg::Image(*capture->getColorImage(), osg::CopyOp::DEEP_COPY_ALL);
+    if (partsDrawnByOsg(picture.statistics) > 0)
+        compositeDrawnParts({viewer, *traced, scene, *capture, draw}, camera, *options.settings,
+                            picture);
     return picture;
 }
 

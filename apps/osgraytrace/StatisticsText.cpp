@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "StatisticsText.h"
 
+#include "apps/common/DrawnParts.h"
 #include "apps/common/ErrorText.h"
 #include "apps/common/Interruption.h"
 
@@ -81,6 +82,7 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
         json["denoiseNote"] = statistics.denoiseNote;
     }
     json["droppedSamples"] = statistics.droppedSamples;
+    json[options.context == Context::None ? "leftOut" : "drawnByOpenGL"] = drawnParts(statistics);
     json["conversion"] = statistics.conversion;
     json["conversionPaths"] = statistics.conversionPaths;
     if (!statistics.lastConversionReason.empty())

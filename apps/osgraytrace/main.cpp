@@ -33,6 +33,16 @@ namespace
 
 constexpr const char* kProgram = "osgraytrace";
 
+/// Returns one sentence that names what the picture lacks without OpenGL; empty if it lacks
+/// nothing.
+std::string missingParts(const Options& options, const Statistics& statistics)
+{
+    if (options.context != Context::None) return {};
+    const std::string parts = inWords(drawnParts(statistics));
+    return parts.empty() ? parts
+                         : "left out without OpenGL: " + parts + "; --context egl draws them";
+}
+
 Picture render(const Options& options, osg::Node& scene)
 {
     const Camera camera = cameraOf(options, scene);
@@ -44,7 +54,11 @@ Picture render(const Options& options, osg::Node& scene)
     const bool drawnByOsg =
         options.context != Context::None && partsDrawnByOsg(picture.statistics) > 0;
     if (picture.statistics.triangles == 0 && !drawnByOsg)
-        throw Failure(kCannotRender, "the scene holds no triangles to render");
+    {
+        const std::string missing = missingParts(options, picture.statistics);
+        throw Failure(kCannotRender, "the scene holds no triangles to render" +
+                                         (missing.empty() ? missing : "; " + missing));
+    }
     return picture;
 }
 
@@ -79,17 +93,6 @@ void takeSettingsOf(osg::Node& scene, Options& options)
     takeStoredSettings(*stored->getSettings(), options);
     const std::string error = options.settings->getMaterialsError();
     if (!error.empty()) throw Failure(kCannotLoad, "materials of the scene: " + error);
-}
-
-/// Warns of parts that are missing: radiance is that of the ray traced parts alone.
-void warnOfMissingParts(const std::string& output, const Options& options,
-                        const Statistics& statistics)
-{
-    const uint64_t parts = partsDrawnByOsg(statistics);
-    if (options.context == Context::None || parts == 0 || formatOf(output) != Format::Exr) return;
-    std::cerr << "osgraytrace: " << output << " lacks " << parts
-              << " parts of the scene that OpenGL draws: they are in .png and .jpg alone; --report "
-                 "names them\n";
 }
 
 void printMeasures(const ErrorMeasures& measures)
@@ -146,12 +149,7 @@ int writeAll(const Options& options, const std::vector<std::string>& outputs,
     };
     for (const std::string& output : outputs)
     {
-        attempt(
-            [&]
-            {
-                writePicture(output, picture);
-                warnOfMissingParts(output, options, picture.statistics);
-            });
+        attempt([&] { writePicture(output, picture); });
     }
     if (!options.statistics.empty())
     {
@@ -191,6 +189,8 @@ int run(Options options)
     const int written = writeAll(options, outputs, picture, measures);
     std::puts(statisticsLine(options, picture.statistics, *picture.radiance).c_str());
     if (measures) printMeasures(*measures);
+    const std::string missing = missingParts(options, picture.statistics);
+    if (!missing.empty()) std::puts(missing.c_str());
     if (isInterrupted()) reportInterruption(options, picture.statistics);
     return written != kDone ? written : code;
 }

@@ -63,6 +63,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getEnvironmentSampling() == RayTraceSettings::IMPORTANCE);
     CHECK(settings->getEnvironmentSamples() == 300);
     CHECK_FALSE(settings->getCullAllRays());
+    CHECK(settings->getPointRadius() == 0.0f);
     CHECK(settings->getMaxBounces() == 8);
     CHECK(settings->getShadows());
     CHECK_FALSE(settings->getHeadlightShadows());

@@ -87,7 +87,6 @@ TEST_CASE("osgraytrace: wrong usage ends with 1", "[apps]")
     refuses(1, kBox + " -o x.png --fovy 180", "--fovy");
     refuses(1, kBox + " -o x.exr --aov depth,smell", "'smell'");
     refuses(1, kBox + " -o x.png --aov depth", "-o FILE.exr");
-    refuses(1, kBox + " -o x.exr --aov depth --context osmesa", "--context none");
     refuses(1, kBox + " -o x.png --context glx", "none, osmesa, egl");
 }
 

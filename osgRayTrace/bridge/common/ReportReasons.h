@@ -39,6 +39,8 @@ struct ReportReason
 constexpr ReportReason kReportReasons[] = {
     {"converted.geometry", "drawables"},
     {"converted.instance", "uses of meshes, each with its place and its material"},
+    {"converted.point", "points, traced as spheres"},
+    {"converted.line", "line segments, traced as capsules"},
     {"converted.light", "lights of the scene"},
     {"converted.area-light", "area lights among them"},
     {"converted.environment-light", "the environment light"},
@@ -112,6 +114,8 @@ constexpr ReportReason kReportReasons[] = {
      "triangles with an index beyond the vertex array, skipped"},
     {"skipped.not-finite", "triangles with a vertex that is NaN, infinite or out of range",
      "triangles with a vertex that is NaN, infinite or out of range, skipped"},
+    {"skipped.point-or-line", "points and lines with a vertex that does not exist or is not finite",
+     "points and lines with a vertex that does not exist or is not finite, skipped"},
     {"skipped.deprecated-data", "drawables with per-primitive bindings or array indices",
      "per-primitive bindings or array indices: call fixDeprecatedData, skipped"},
     {"skipped.vertex-type", "drawables with a vertex array of an unknown type",
@@ -134,6 +138,7 @@ constexpr ReportReason kReportReasons[] = {
     {"warned.far-vertices", "drawables whose vertices are far from their own origin"},
     {"warned.light-size", "names of light-sizes that no light has"},
     {"warned.material-name", "rules of the material file whose name nothing has"},
+    {"warned.too-many-points", "drawables with more than 524,288 points and line segments"},
     {"warned.trace-hint", "nodes that are hinted to be traced, but cannot be"},
 
     {"missing.environment-image", "images of environment lights"},

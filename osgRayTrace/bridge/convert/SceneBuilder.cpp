@@ -25,7 +25,6 @@ namespace
 /// model, the second OpenGL's, which holds if osgViewer sets no light model.
 constexpr float kViewerAmbient = 0.1f;
 constexpr float kOpenGLAmbient = 0.2f;
-
 constexpr uint32_t kOwnVariant = GeometryCache::kOwnVariant;
 
 Vec4 backgroundOf(const osg::Vec4& clearColor, bool linear)
@@ -97,6 +96,7 @@ MeshRequest SceneBuilder::requestFor(const CollectedGeometry& geometry,
 {
     MeshRequest request;
     request.restart = geometry.restart;
+    request.pointRadius = geometry.pointRadius;
     if (!transform.isIdentity()) request.transform = transform;
     request.decodeColors = _rules.linear;
     return request;
@@ -263,8 +263,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
             addNothing(geometry, use);
         return;
     }
-    uint32_t meshIndex = kInvalid; // the mesh enters the scene with its first instance
-    uint32_t variant = kOwnVariant;
+    uint32_t variant = kOwnVariant, meshIndex = kInvalid; // the mesh enters with its first instance
     for (const GeometryUse& use : geometry.uses)
     {
         ++variant;
@@ -335,8 +334,9 @@ TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const Geo
 {
     const GraphState& state = _graph.states[use.state];
     _materialReport = ConversionReport();
-    instance.material = _convertedGraph.materials.add(_materials.material(
-        state, surfaceInputs(*geometry.geometry), {use.engineFromLocal, &_graph.texGens}));
+    instance.material = _convertedGraph.materials.add(
+        _materials.material(state, surfaceInputs(*geometry.geometry, _input.pointRadius),
+                            {use.engineFromLocal, &_graph.texGens}));
     _report.addHere(_materialReport);
     setAmbient(state);
     instance.changed = _rules.now;

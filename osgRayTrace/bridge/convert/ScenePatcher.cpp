@@ -158,7 +158,7 @@ bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
     const Vec3d& origin = _scene->origin;
     report = ConversionReport();
     const Material material = converter.material(
-        state, surfaceInputs(*use.geometry),
+        state, surfaceInputs(*use.geometry, _input.pointRadius),
         {use.worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z),
          &_convertedGraph.texGens});
     effects.counts = report.counts();

@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/geometry/HostArrays.h"
 #include "osgRayTrace/bridge/geometry/MeshClipper.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
+#include "osgRayTrace/bridge/geometry/PointSolids.h"
 #include "osgRayTrace/bridge/geometry/VertexArrays.h"
 
 #include <algorithm>
@@ -283,6 +284,58 @@ VertexMap splitByPrimitiveSet(TriangleList& list, std::size_t vertexCount)
     return map;
 }
 
+namespace
+{
+
+/// Drops the triangles of solids that are so small beside their coordinates that floats leave them
+/// no area.
+void keepAreas(Mesh& mesh, ConversionCounts& counts)
+{
+    const Positions positions{mesh.positions, {}};
+    const TriangleJudge judge(positions);
+    if (mesh.triangles.empty() || judge.allSound(mesh.triangles.data(), mesh.triangles.size()))
+        return;
+    mesh.triangles = soundTriangles(mesh.triangles.data(), mesh.triangles.size(), judge, counts);
+}
+
+/// Reads the triangles of a list, and the arrays at their vertices; the mesh stays empty if no
+/// triangle is sound.
+void readTriangles(TriangleList& list, const osg::Geometry& geometry, const osg::Array& vertices,
+                   const MeshRequest& request, const KeptArrays& kept, Mesh& mesh,
+                   ConversionCounts& counts)
+{
+    VertexMap map;
+    map.vertexCount = vertices.getNumElements();
+    if (hasValuesBySet(geometry)) map = splitByPrimitiveSet(list, map.vertexCount);
+    const VertexReader reader(geometry, request, map);
+    Positions positions = reader.positions(vertices);
+    mesh.triangles = checkedTriangles(list, geometry, positions, request, counts);
+    if (mesh.triangles.empty()) return;
+
+    mesh.positions = std::move(positions.values);
+    const auto fits = [&mesh](const auto& array) { return array.size() == mesh.positions.size(); };
+    if (fits(kept.normals))
+        mesh.normals = kept.normals;
+    else
+    {
+        Normals normals = reader.normals(geometry.getNormalArray());
+        mesh.normals = completed(normals, mesh, counts);
+    }
+    if (const uint64_t opposite = oppositeNormals(mesh))
+        counts["warned.opposite-normals"] += opposite;
+    mesh.uvs =
+        fits(kept.uvs) ? kept.uvs : reader.textureCoordinates(geometry.getTexCoordArray(0), counts);
+    if (geometry.getNumTexCoordArrays() > 1)
+        mesh.uvs1 = fits(kept.uvs1)
+                        ? kept.uvs1
+                        : reader.textureCoordinates(geometry.getTexCoordArray(1), counts);
+    mesh.rs = fits(kept.rs) ? kept.rs : reader.thirdCoordinates(geometry.getTexCoordArray(0));
+    mesh.rs1 = fits(kept.rs1) ? kept.rs1 : reader.thirdCoordinates(geometry.getTexCoordArray(1));
+    mesh.colors = fits(kept.colors) ? kept.colors : reader.colors(geometry.getColorArray(), counts);
+}
+
+} // namespace
+
 ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& request,
                               const KeptArrays& kept)
 {
@@ -297,40 +350,18 @@ ConvertedMesh convertGeometry(const osg::Geometry& geometry, const MeshRequest& 
     if (!vertices || vertices->getNumElements() == 0) return skip("not-traced.no-vertices");
     if (!isReadable(vertices) || vertices->getDataSize() < 2) return skip("skipped.vertex-type");
 
-    TriangleList list = trianglesOf(geometry, vertices->getNumElements(), request.restart);
+    const bool solids = request.pointRadius > 0.0f;
+    TriangleList list =
+        trianglesOf(geometry, vertices->getNumElements(), request.restart, {false, solids});
     addCounts(result.counts, list.counts);
-    VertexMap map;
-    map.vertexCount = vertices->getNumElements();
-    if (hasValuesBySet(geometry)) map = splitByPrimitiveSet(list, map.vertexCount);
-
-    const VertexReader reader(geometry, request, map);
-    Positions positions = reader.positions(*vertices);
     auto mesh = std::make_shared<Mesh>();
-    mesh->triangles = checkedTriangles(list, geometry, positions, request, result.counts);
-    if (mesh->triangles.empty()) return result;
-
-    mesh->positions = std::move(positions.values);
-    const auto fits = [&mesh](const auto& array) { return array.size() == mesh->positions.size(); };
-    if (fits(kept.normals))
-        mesh->normals = kept.normals;
-    else
+    readTriangles(list, geometry, *vertices, request, kept, *mesh, result.counts);
+    if (!list.solids.empty())
     {
-        Normals normals = reader.normals(geometry.getNormalArray());
-        mesh->normals = completed(normals, *mesh, result.counts);
+        appendSolids(list.solids, geometry, request, *mesh, result.counts);
+        keepAreas(*mesh, result.counts);
     }
-    if (const uint64_t opposite = oppositeNormals(*mesh))
-        result.counts["warned.opposite-normals"] += opposite;
-    mesh->uvs = fits(kept.uvs)
-                    ? kept.uvs
-                    : reader.textureCoordinates(geometry.getTexCoordArray(0), result.counts);
-    if (geometry.getNumTexCoordArrays() > 1)
-        mesh->uvs1 = fits(kept.uvs1)
-                         ? kept.uvs1
-                         : reader.textureCoordinates(geometry.getTexCoordArray(1), result.counts);
-    mesh->rs = fits(kept.rs) ? kept.rs : reader.thirdCoordinates(geometry.getTexCoordArray(0));
-    mesh->rs1 = fits(kept.rs1) ? kept.rs1 : reader.thirdCoordinates(geometry.getTexCoordArray(1));
-    mesh->colors =
-        fits(kept.colors) ? kept.colors : reader.colors(geometry.getColorArray(), result.counts);
+    if (mesh->triangles.empty()) return result;
     if (request.depthBias != 0.0f) mesh->positions = biased(*mesh, request.depthBias);
     if (!request.clipPlanes.empty()) clip(*mesh, request.clipPlanes);
     if (mesh->triangles.empty()) return skip("not-traced.clipped-away");

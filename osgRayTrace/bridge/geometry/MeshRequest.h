@@ -25,13 +25,14 @@ struct MeshRequest
     float depthBias = 0.0f;    ///< number of layers by which the faces are raised: see depthBias
     bool copies = false;       ///< true: no arrays are shared, as they will change
     PrimitiveRestart restart;
+    float pointRadius = 0.0f;      ///< radius of points and lines, see PointSolids.h; 0: left out
     std::vector<Vec4d> clipPlanes; ///< planes that cut after the transform; see clip
 
     bool operator==(const MeshRequest& other) const
     {
         return transform == other.transform && decodeColors == other.decodeColors &&
                depthBias == other.depthBias && copies == other.copies && restart == other.restart &&
-               clipPlanes == other.clipPlanes;
+               pointRadius == other.pointRadius && clipPlanes == other.clipPlanes;
     }
 };
 

@@ -73,6 +73,11 @@ void appendTriangles(GLenum mode, std::size_t count, const Index& index, std::ve
     }
 }
 
+inline bool isPointOrLine(GLenum mode)
+{
+    return mode <= GL_LINE_STRIP; // GL_POINTS, GL_LINES, GL_LINE_LOOP, GL_LINE_STRIP
+}
+
 /// Returns why a mode has no triangles; null if it has triangles.
 inline const char* untracedMode(GLenum mode)
 {

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/common/ArrayReader.h"
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
+#include "osgRayTrace/bridge/geometry/PointSolids.h"
 #include "osgRayTrace/bridge/geometry/PolygonTriangles.h"
 #include "osgRayTrace/bridge/geometry/PrimitiveModes.h"
 
@@ -20,18 +21,21 @@ class TriangleCollector
 {
 public:
     TriangleCollector(TriangleList& list, const osg::Geometry& geometry, std::size_t vertexCount,
-                      const PrimitiveRestart& restart, bool numbered)
+                      const PrimitiveRestart& restart, const ListContents& contents)
         : _list(list),
           _geometry(geometry),
           _vertexCount(vertexCount),
           _restart(restart),
-          _numbered(numbered)
+          _numbered(contents.numbered),
+          _solids(contents.solids)
     {
     }
 
-    void append(const osg::PrimitiveSet& set)
+    void append(const osg::PrimitiveSet& set, unsigned int number)
     {
-        if (const char* reason = untracedMode(set.getMode()))
+        _primitiveSet = number;
+        const bool solids = _solids && hasSolids(set);
+        if (const char* reason = solids ? nullptr : untracedMode(set.getMode()))
         {
             ++_list.counts[reason];
             if (_numbered) _primitives += PrimitiveCounter(set).count();
@@ -87,7 +91,10 @@ private:
         const auto end = static_cast<int64_t>(_vertexCount);
         const int64_t wanted = std::max<int64_t>(count, 0);
         const int64_t usable = first < 0 ? 0 : std::clamp<int64_t>(end - first, 0, wanted);
-        if (usable < wanted)
+        if (usable < wanted && isPointOrLine(mode))
+            _list.counts["skipped.point-or-line"] +=
+                PrimitiveCounter::countOf(mode, wanted) - PrimitiveCounter::countOf(mode, usable);
+        else if (usable < wanted)
             _list.counts["skipped.index-out-of-range"] +=
                 triangleCount(mode, wanted) - triangleCount(mode, usable);
         appendPrimitives(mode, usable,
@@ -119,10 +126,26 @@ private:
 
     template <class Index> void appendPrimitives(GLenum mode, std::size_t count, const Index& index)
     {
+        if (isPointOrLine(mode)) return appendSolids(mode, count, index);
         grow(triangleCount(mode, count));
         if (mode != GL_POLYGON || !appendConcave(count, index))
             appendTriangles(mode, count, index, _list.triangles);
         if (_numbered) number(mode, count);
+    }
+
+    /// Appends points and line segments, numbered one by one.
+    template <class Index> void appendSolids(GLenum mode, std::size_t count, const Index& index)
+    {
+        const bool points = mode == GL_POINTS;
+        const std::size_t solids = PrimitiveCounter::countOf(mode, count);
+        const std::size_t step = mode == GL_LINES ? 2 : 1;
+        for (std::size_t i = 0; i < solids; ++i, ++_primitives)
+        {
+            // The last segment of a loop leads back, unless it would be the first one again.
+            const std::size_t from = i * step, to = points ? from : (from + 1) % count;
+            if (mode == GL_LINE_LOOP && (count < 2 || (count == 2 && i == 1))) continue;
+            _list.solids.push_back({index(from), index(to), points, _primitiveSet, _primitives});
+        }
     }
 
     /// Numbers the triangles that were appended last, which are all of count vertices.
@@ -174,6 +197,8 @@ private:
     std::size_t _vertexCount;
     const PrimitiveRestart& _restart;
     const bool _numbered;
+    const bool _solids;
+    unsigned int _primitiveSet = 0;
     uint32_t _primitives = 0;      // number of primitives so far
     std::vector<Vec3d> _positions; // read only if there are polygons
 };
@@ -191,19 +216,19 @@ const osg::DrawElementsUInt* soleTriangleList(const osg::Geometry& geometry,
 } // namespace
 
 TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount,
-                         const PrimitiveRestart& restart, bool numbered)
+                         const PrimitiveRestart& restart, const ListContents& contents)
 {
     TriangleList list;
-    if (!numbered) list.source = soleTriangleList(geometry, restart);
+    if (!contents.numbered) list.source = soleTriangleList(geometry, restart);
     if (list.source)
     {
         list.setEnds = {list.size()};
         return list;
     }
-    TriangleCollector collector(list, geometry, vertexCount, restart, numbered);
+    TriangleCollector collector(list, geometry, vertexCount, restart, contents);
     for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i)
     {
-        if (const osg::PrimitiveSet* set = geometry.getPrimitiveSet(i)) collector.append(*set);
+        if (const osg::PrimitiveSet* set = geometry.getPrimitiveSet(i)) collector.append(*set, i);
         list.setEnds.push_back(list.triangles.size());
     }
     return list;

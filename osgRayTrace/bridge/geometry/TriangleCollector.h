@@ -11,11 +11,17 @@
 namespace osgRayTrace::engine
 {
 
+/// Says what trianglesOf returns beside triangles.
+struct ListContents
+{
+    bool numbered = false; ///< true: the list has the numbers of primitives; source is not set
+    bool solids = false;   ///< true: points and lines are in the list, else they are counted
+};
+
 /// Returns the triangles of triangle lists, strips, fans, quads, quad strips and polygons of
 /// DrawArrays, MultiDrawArrays, DrawArrayLengths and DrawElements. Sets of other kinds are counted.
-/// Concave polygons are cut into triangles; OpenGL leaves their result open and draws fans. If
-/// numbered is true, the list has the numbers of primitives, and source is not set.
+/// Concave polygons are cut into triangles; OpenGL leaves their result open and draws fans.
 TriangleList trianglesOf(const osg::Geometry& geometry, std::size_t vertexCount,
-                         const PrimitiveRestart& restart, bool numbered = false);
+                         const PrimitiveRestart& restart, const ListContents& contents = {});
 
 } // namespace osgRayTrace::engine

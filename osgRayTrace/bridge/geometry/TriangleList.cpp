@@ -22,7 +22,7 @@ PrimitiveRestart restartOf(const GraphState& state)
     return restart;
 }
 
-bool hasTriangles(const osg::PrimitiveSet& set)
+bool hasIndices(const osg::PrimitiveSet& set)
 {
     switch (set.getType())
     {
@@ -32,10 +32,15 @@ bool hasTriangles(const osg::PrimitiveSet& set)
     case osg::PrimitiveSet::DrawElementsUBytePrimitiveType:
     case osg::PrimitiveSet::DrawElementsUShortPrimitiveType:
     case osg::PrimitiveSet::DrawElementsUIntPrimitiveType:
-        return untracedMode(set.getMode()) == nullptr;
+        return true;
     default:
-        return false; // commands that are on the GPU have no triangles here
+        return false; // commands that are on the GPU
     }
+}
+
+bool hasTriangles(const osg::PrimitiveSet& set)
+{
+    return hasIndices(set) && untracedMode(set.getMode()) == nullptr;
 }
 
 const UVec3* TriangleList::data() const

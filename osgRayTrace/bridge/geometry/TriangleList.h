@@ -28,6 +28,15 @@ struct PrimitiveRestart
 
 PrimitiveRestart restartOf(const GraphState& state);
 
+/// A point, which is traced as a sphere, or a line segment, traced as a capsule: see PointSolids.h.
+struct PointOrLine
+{
+    uint32_t from = 0, to = 0; ///< rows of the vertex arrays, not checked; equal for a point
+    bool isPoint = false;
+    uint32_t primitiveSet = 0;
+    uint32_t primitive = 0; ///< as in TriangleList::primitives
+};
+
 /// Holds all triangles in the order in which OpenGL draws them. The indices into the vertex arrays
 /// are not checked.
 struct TriangleList
@@ -40,10 +49,14 @@ struct TriangleList
     ConversionCounts counts;
     /// Primitive of each triangle, numbered as osgUtil's intersectors do; empty unless asked for.
     std::vector<uint32_t> primitives;
+    std::vector<PointOrLine> solids; ///< empty unless asked for
 
     const UVec3* data() const;
     std::size_t size() const;
 };
+
+/// Returns whether it is known here which vertices a set draws.
+bool hasIndices(const osg::PrimitiveSet& set);
 
 /// Returns whether a set has triangles, which are then traced.
 bool hasTriangles(const osg::PrimitiveSet& set);

@@ -28,13 +28,14 @@ struct ConversionSettings
     bool cullAllRays = false;
     bool headlightShadows = false;
     LightSizes lightSizes;
+    float pointRadius = 0.0f;                         ///< see RayTraceSettings
     std::shared_ptr<const MaterialLibrary> materials; ///< null: materials of the graph only
 
     bool operator==(const ConversionSettings& other) const
     {
         return colorRule == other.colorRule && cullAllRays == other.cullAllRays &&
                headlightShadows == other.headlightShadows && lightSizes == other.lightSizes &&
-               materials == other.materials;
+               pointRadius == other.pointRadius && materials == other.materials;
     }
 };
 
@@ -42,7 +43,7 @@ inline ConversionSettings conversionSettings(const RayTraceSettings& settings,
                                              std::shared_ptr<const MaterialLibrary> materials)
 {
     return {settings.getColorRule(), settings.getCullAllRays(), settings.getHeadlightShadows(),
-            lightSizesOf(settings), std::move(materials)};
+            lightSizesOf(settings),  settings.getPointRadius(), std::move(materials)};
 }
 
 /// Holds the graph to convert and the conditions of the conversion.

@@ -237,7 +237,7 @@ void GraphCollector::apply(osg::Geometry& geometry)
     const PrimitiveRestart restart = restartOf(_states.states()[state]);
     const auto [found, isNew] =
         _indexOf.try_emplace({&posed, restart.key()}, _graph.geometries.size());
-    if (isNew) _graph.geometries.push_back({&posed, path(), {}, restart});
+    if (isNew) _graph.geometries.push_back({&posed, path(), {}, restart, pointRadiusOf(geometry)});
     CollectedGeometry& collected = _graph.geometries[found->second];
     collected.watched &= _untracked == 0;
     collected.uses.push_back({engineFromLocal(), state, pickPath()});

@@ -50,6 +50,7 @@ struct CollectedGeometry
     std::string path; ///< path of the first use: "root/child/geometry"
     std::vector<GeometryUse> uses;
     PrimitiveRestart restart; ///< primitive restart of all uses
+    float pointRadius = 0.0f; ///< radius of its points and lines; 0: they are left to OSG
     bool watched = true;      ///< no path is below a node that GraphWatch does not look into
     const VertexBounds* bounds = nullptr; ///< bounds that SceneConverter sets
 };
@@ -165,6 +166,7 @@ private:
     void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);
     const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed);
     bool rasterizes(const osg::Geometry& geometry, bool isPosed);
+    float pointRadiusOf(const osg::Geometry& geometry);
     void warnIfForced(const char* what);
     osg::Matrixd worldFromEye() const;
     osg::Matrixd engineFromLocal() const;

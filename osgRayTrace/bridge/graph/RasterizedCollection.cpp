@@ -1,5 +1,6 @@
 // RasterizedCollection.cpp - collects the parts that GraphCollector leaves to OSG. Layer: bridge.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/geometry/PointSolids.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
@@ -20,7 +21,8 @@ bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
         if (!drawable) continue;
         const osg::Geometry* geometry = drawable->asGeometry();
         pushOntoNodePath(drawable);
-        leaves = !geometry || rasterizedReason(*geometry, false) || withoutTriangles(*geometry);
+        leaves = !geometry || rasterizedReason(*geometry, false) ||
+                 untracedSets(*geometry, _input.pointRadius);
         popFromNodePath();
     }
     return leaves;
@@ -90,12 +92,23 @@ bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
         rasterize();
         return true;
     }
-    const osg::ref_ptr<osg::Geometry> rest = withoutTriangles(geometry);
+    const osg::ref_ptr<osg::Geometry> rest = untracedSets(geometry, _input.pointRadius);
     if (!rest) return false;
     warnIfForced("lines, points or instanced primitives");
     const bool all = rest->getNumPrimitiveSets() == geometry.getNumPrimitiveSets();
     rasterize(RasterizedPart::Draw, all ? nullptr : rest.get());
     return false; // primitive sets without triangles are counted where triangles are made
+}
+
+/// Returns the radius of the geometry's points and lines, and names a geometry that has too many.
+float GraphCollector::pointRadiusOf(const osg::Geometry& geometry)
+{
+    const float radius = solidRadius(geometry, _input.pointRadius);
+    if (radius < _input.pointRadius && solidCount(geometry) > 0)
+        _report.warn("warned.too-many-points", "geometry '" + path() + "'",
+                     "has more than " + std::to_string(kMostSolids) +
+                         " points and lines, which are not traced");
+    return radius;
 }
 
 /// Names a node that is hinted to be traced but cannot be.

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/RasterizedParts.h"
 
-#include "osgRayTrace/bridge/geometry/TriangleList.h"
+#include "osgRayTrace/bridge/geometry/PointSolids.h"
 
 #include <osg/ClearNode>
 #include <osg/ClipNode>
@@ -141,11 +141,12 @@ const osg::StateSet* stateAfterPicture()
 
 } // namespace
 
-osg::ref_ptr<osg::Geometry> withoutTriangles(const osg::Geometry& geometry)
+osg::ref_ptr<osg::Geometry> untracedSets(const osg::Geometry& geometry, float pointRadius)
 {
+    const bool solids = solidRadius(geometry, pointRadius) > 0.0f;
     osg::Geometry::PrimitiveSetList rest;
     for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
-        if (!hasTriangles(*set)) rest.push_back(set);
+        if (!hasTriangles(*set) && !(solids && hasSolids(*set))) rest.push_back(set);
     if (rest.empty()) return nullptr;
     osg::ref_ptr<osg::Geometry> copy = new osg::Geometry(geometry);
     copy->setPrimitiveSetList(rest);

@@ -39,9 +39,9 @@ struct RasterizedPart
 /// Lists parts in the order of the traversal. The list is immutable once it is published.
 using RasterizedParts = std::vector<RasterizedPart>;
 
-/// Returns the rest of a geometry whose triangles are traced: a shallow copy, which shares the
-/// arrays. Null: there is no rest.
-osg::ref_ptr<osg::Geometry> withoutTriangles(const osg::Geometry& geometry);
+/// Returns the rest of a geometry whose triangles are traced, and its points and lines if there is
+/// a radius for them: a shallow copy, which shares the arrays. Null: there is no rest.
+osg::ref_ptr<osg::Geometry> untracedSets(const osg::Geometry& geometry, float pointRadius);
 
 /// Returns a part for the last node of this path, which begins with the node that stands for the
 /// decorator and with the decorator.

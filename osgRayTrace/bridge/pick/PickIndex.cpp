@@ -36,7 +36,7 @@ PickIndex::PickIndex(CollectedGraph& graph, const std::vector<uint32_t>& instanc
     for (const CollectedGeometry& geometry : graph.geometries)
     {
         const auto source = static_cast<uint32_t>(_geometries.size());
-        _geometries.push_back({geometry.geometry, geometry.restart});
+        _geometries.push_back({geometry.geometry, geometry.restart, geometry.pointRadius > 0.0f});
         for (const GeometryUse& placed : geometry.uses)
         {
             const uint32_t instance = instances[use++];
@@ -86,7 +86,8 @@ GeometryTriangle PickIndex::triangle(const Use& use, const Mesh& mesh, uint32_t 
         if (!known || !known->isOf(mesh))
         {
             const Source& source = _geometries[use.geometry];
-            known = std::make_shared<PrimitiveNumbers>(*source.geometry, source.restart, mesh);
+            known = std::make_shared<PrimitiveNumbers>(*source.geometry, source.restart,
+                                                       source.solids, mesh);
         }
         numbers = known;
     }

@@ -61,6 +61,7 @@ private:
     {
         osg::ref_ptr<const osg::Geometry> geometry;
         PrimitiveRestart restart;
+        bool solids; ///< points and lines are traced
     };
 
     void addPart(uint32_t path, osg::Node* inPlace);

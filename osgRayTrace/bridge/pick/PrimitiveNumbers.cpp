@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
 #include "osgRayTrace/bridge/geometry/GeometryConverter.h"
+#include "osgRayTrace/bridge/geometry/PointSolids.h"
 #include "osgRayTrace/bridge/geometry/TriangleCollector.h"
 
 #include <map>
@@ -83,7 +84,7 @@ private:
 } // namespace
 
 PrimitiveNumbers::PrimitiveNumbers(const osg::Geometry& geometry, const PrimitiveRestart& restart,
-                                   const Mesh& mesh)
+                                   bool solids, const Mesh& mesh)
     : _triangles(mesh.triangles)
 {
     const osg::Array* vertices = positionArray(geometry);
@@ -92,7 +93,7 @@ PrimitiveNumbers::PrimitiveNumbers(const osg::Geometry& geometry, const Primitiv
     const bool cut = mesh.positions.size() != _vertexCount;
     if (!cut && isPlainList(geometry, restart, mesh)) return;
 
-    TriangleList list = trianglesOf(geometry, _vertexCount, restart, true);
+    TriangleList list = trianglesOf(geometry, _vertexCount, restart, {true, solids});
     if (hasValuesBySet(geometry))
     {
         VertexMap map = splitByPrimitiveSet(list, _vertexCount);
@@ -103,9 +104,26 @@ PrimitiveNumbers::PrimitiveNumbers(const osg::Geometry& geometry, const Primitiv
     _primitives.reserve(mesh.triangles.size());
     for (const UVec3& t : mesh.triangles)
     {
-        const uint32_t place = finder.find(t);
+        const bool own = t.x < _vertexCount && t.y < _vertexCount && t.z < _vertexCount;
+        const uint32_t place = own ? finder.find(t) : kInvalid;
         _primitives.push_back(place == kInvalid ? kInvalid : list.primitives[place]);
     }
+    if (!list.solids.empty()) numberSolids(list, geometry, mesh);
+}
+
+/// Numbers the triangles of points and lines. Their vertices are the last ones of the mesh, unless
+/// it was cut: triangles of solids then have no number.
+void PrimitiveNumbers::numberSolids(const TriangleList& list, const osg::Geometry& geometry,
+                                    const Mesh& mesh)
+{
+    const SolidNumbers numbers(list.solids, geometry);
+    if (mesh.positions.size() < numbers.vertexCount()) return;
+    const std::size_t first = mesh.positions.size() - numbers.vertexCount();
+    if (first != 0 && first != _vertexCount) return;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        if (mesh.triangles[i].x >= first)
+            _primitives[i] = numbers.primitiveOf(mesh.triangles[i].x - first);
+    _vertexCount = static_cast<uint32_t>(first);
 }
 
 GeometryTriangle PrimitiveNumbers::at(uint32_t triangle) const
@@ -113,8 +131,8 @@ GeometryTriangle PrimitiveNumbers::at(uint32_t triangle) const
     GeometryTriangle result;
     if (triangle >= _triangles.size()) return result;
     const UVec3& t = _triangles[triangle];
-    if (t.x >= _vertexCount || t.y >= _vertexCount || t.z >= _vertexCount) return result;
     result.primitive = _primitives.empty() ? triangle : _primitives[triangle];
+    if (t.x >= _vertexCount || t.y >= _vertexCount || t.z >= _vertexCount) return result;
     result.rows = _rows.empty() ? t : UVec3(_rows[t.x], _rows[t.y], _rows[t.z]);
     return result;
 }

@@ -18,7 +18,7 @@ struct GeometryTriangle
 {
     /// Number of the primitive as osgUtil's intersectors count; kInvalid: cut by a clip plane.
     uint32_t primitive = kInvalid;
-    UVec3 rows{kInvalid}; ///< rows of the vertex arrays
+    UVec3 rows{kInvalid}; ///< rows of the vertex arrays; kInvalid: it is part of a solid, or cut
 };
 
 /// Numbers the primitives of one geometry. The object takes no memory if the primitives are one
@@ -28,8 +28,8 @@ class PrimitiveNumbers
 {
 public:
     /// The mesh must have been made of the geometry, and the geometry's primitive sets must not
-    /// have changed since.
-    PrimitiveNumbers(const osg::Geometry& geometry, const PrimitiveRestart& restart,
+    /// have changed since. solids: the mesh has the geometry's points and lines, too.
+    PrimitiveNumbers(const osg::Geometry& geometry, const PrimitiveRestart& restart, bool solids,
                      const Mesh& mesh);
 
     /// Returns whether the numbers were made for a mesh with these triangles.
@@ -42,6 +42,8 @@ public:
     GeometryTriangle at(uint32_t triangle) const;
 
 private:
+    void numberSolids(const TriangleList& list, const osg::Geometry& geometry, const Mesh& mesh);
+
     /// Triangles of the mesh, kept so that their address stays unique.
     SharedArray<UVec3> _triangles;
     uint32_t _vertexCount = 0; ///< vertices of the geometry, after the split

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 namespace osgRayTrace::engine
 {
@@ -22,5 +25,18 @@ enum class Channel : uint8_t
 
 /// Returns the number of floats for each pixel.
 int channelSize(Channel channel);
+
+/// Returns the channel that users call by this name; nothing if no channel has it.
+inline std::optional<Channel> channelOf(std::string_view name)
+{
+    constexpr std::pair<std::string_view, Channel> kNames[] = {
+        {"depth", Channel::Depth},   {"distance", Channel::Distance}, {"normal", Channel::Normal},
+        {"albedo", Channel::Albedo}, {"position", Channel::Position}, {"id", Channel::Id},
+        {"error", Channel::Error},
+    };
+    for (const auto& [known, channel] : kNames)
+        if (known == name) return channel;
+    return std::nullopt;
+}
 
 } // namespace osgRayTrace::engine

@@ -111,6 +111,9 @@ public:
 
     /// Returns linear RGBA of the last whole image as it is shown, width() * height() pixels.
     std::vector<float> radiance();
+
+    /// Returns a channel of the last whole image, width() * height() pixels; see RenderSession.
+    std::vector<float> channel(Channel channel) const { return image().resolveChannel(channel); }
     int width() const { return image().width(); }
     int height() const { return image().height(); }
 

@@ -7,6 +7,7 @@
 #include "osgRayTrace/bridge/common/ArrayReader.h"
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
+#include "osgRayTrace/bridge/geometry/PointSolids.h"
 #include "osgRayTrace/film/ToneMap.h"
 
 #include <osgRayTrace/PhysicalMaterial>
@@ -183,9 +184,10 @@ bool setsCurrentColor(const GraphState& state)
     return source && rgb(currentColorOf(*source)) != kDefaultColor;
 }
 
-SurfaceInputs surfaceInputs(const osg::Geometry& geometry)
+SurfaceInputs surfaceInputs(const osg::Geometry& geometry, float pointRadius)
 {
     SurfaceInputs inputs;
+    inputs.isOfSolids = hasSolidsAlone(geometry, pointRadius);
     inputs.hasTextureCoordinates = isReadable(geometry.getTexCoordArray(0));
     const osg::Array* colors = geometry.getColorArray();
     const osg::Array::Binding binding = bindingOf(colors);
@@ -267,6 +269,11 @@ Material MaterialConverter::fixedFunction(const GraphState& state,
         applyColor(back, state, inputs);
         material.hasBack = !sameMaterial(material, back);
         material.back = frontOf(back);
+    }
+    if (inputs.isOfSolids && !material.lit)
+    {
+        material.lit = true; // with the colours that OpenGL shows without light
+        enableLights(material, state);
     }
     return material;
 }

@@ -18,9 +18,11 @@ struct SurfaceInputs
     bool hasOverallColor = false;       ///< one colour for the whole geometry
     Vec4 overallColor{1.0f};            ///< colour as OpenGL gets it, not decoded
     bool hasTextureCoordinates = false; ///< coordinates of unit 0
+    bool isOfSolids = false; ///< points and lines alone, traced as solids: lit in any state
 };
 
-SurfaceInputs surfaceInputs(const osg::Geometry& geometry);
+/// pointRadius: that of RayTraceSettings.
+SurfaceInputs surfaceInputs(const osg::Geometry& geometry, float pointRadius);
 
 /// The rules hold for all materials of a scene.
 struct MaterialRules
