@@ -239,7 +239,7 @@ TEST_CASE("nodes: what hides things from a view only hides nothing", "[bridge]")
         void operator()(osg::Node*, osg::NodeVisitor*) override {}
     };
     osg::ref_ptr<osg::Group> culled = new osg::Group;
-    culled->setCullCallback(new CullAll);
+    culled->setCullCallback(new CullAll); // without a viewer it is not run
     culled->addChild(triangleGeometry());
     root->addChild(culled);
     osg::ref_ptr<osgSim::VisibilityGroup> volume = new osgSim::VisibilityGroup;
