@@ -7,8 +7,11 @@
 
 #include <osgRayTrace/RayIntersector>
 
+#include <osg/BlendFunc>
+#include <osg/Depth>
 #include <osg/Light>
 #include <osg/Program>
+#include <osg/Texture2D>
 #include <osgUtil/SceneView>
 #include <osgViewer/Renderer>
 
@@ -86,6 +89,24 @@ void useEffects(TestViewer& viewer)
         renderer.getSceneView(i)->setCullVisitor(new EffectCullVisitor);
 }
 
+/// Returns a camera that fills a texture.
+osg::ref_ptr<osg::Camera> textureCamera(osg::Texture2D& texture)
+{
+    texture.setTextureSize(64, 64);
+    texture.setInternalFormat(GL_RGBA);
+    texture.setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
+    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setRenderOrder(osg::Camera::PRE_RENDER);
+    camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+    camera->attach(osg::Camera::COLOR_BUFFER, &texture);
+    camera->setViewport(0, 0, 64, 64);
+    camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    camera->setProjectionMatrixAsOrtho2D(-1, 1, -1, 1);
+    camera->setClearColor(kRed);
+    camera->addChild(unlitSquare(0.5f, kBlue));
+    return camera;
+}
+
 void addProgram(osg::Node& node)
 {
     osg::ref_ptr<osg::Program> program = new osg::Program;
@@ -135,6 +156,34 @@ TEST_CASE("cull content: drawables that only a cull traversal finds", "[gl][cull
         square->asGroup()->getChild(0)->asGeometry()->setDrawCallback(counted.get());
         view.viewer.frames(2);
         CHECK(counted->draws == 0);
+    }
+    SECTION("a texture that a camera among them renders")
+    {
+        osg::ref_ptr<osg::Group> both = new osg::Group;
+        const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+        both->addChild(textureCamera(*texture).get());
+        const osg::ref_ptr<osg::Geometry> screen = unlitSquare(0.8f, osg::Vec4(1, 1, 1, 1));
+        screen->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture.get());
+        both->addChild(raised(screen.get(), 0.5f));
+        terrain->content = both.get();
+        View view(above.get());
+        checkPicture(view);
+        CHECK(view.count("rasterized.texture-without-image") == 1);
+        CHECK(view.count("rasterized.foreign-node") == 1);
+    }
+    SECTION("a drawable in two passes")
+    {
+        osg::ref_ptr<osg::Group> passes = new osg::Group;
+        osg::ref_ptr<osg::Group> second = new osg::Group;
+        second->getOrCreateStateSet()->setAttributeAndModes(new osg::BlendFunc(GL_ONE, GL_ONE));
+        second->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL));
+        second->addChild(square.get());
+        passes->addChild(square.get());
+        passes->addChild(second.get());
+        terrain->content = passes.get();
+        View view(above.get());
+        checkPicture(view);
+        CHECK(view.count("rasterized.several-passes") == 2);
     }
     SECTION("a hint has OSG draw the group as a whole")
     {

@@ -105,8 +105,8 @@ bool CullWatch::holds(const ConversionInput& input, SoftwareVertices& vertices,
     return true;
 }
 
-bool CullWatch::holds(Watched& watched, const ConversionInput& input,
-                      SoftwareVertices& vertices, const TextureConverter& textures)
+bool CullWatch::holds(Watched& watched, const ConversionInput& input, SoftwareVertices& vertices,
+                      const TextureConverter& textures)
 {
     const CullOutcome& then = watched.outcome;
     if (then.kind == CullOutcome::Left || isInPlain(then)) return true;
@@ -115,7 +115,7 @@ bool CullWatch::holds(Watched& watched, const ConversionInput& input,
     {
         GraphCollector collector(input, vertices, textures, unused);
         const std::optional<uint64_t> signature = collector.cullSignatureAt(then.path);
-        collector.take();
+        unused.setPlace({});
         if (signature == then.signature)
         {
             _plain = &then;
@@ -124,7 +124,7 @@ bool CullWatch::holds(Watched& watched, const ConversionInput& input,
     }
     GraphCollector collector(input, vertices, textures, unused);
     const std::optional<CullOutcome> now = collector.cullOutcomeAt(then.path);
-    collector.take();
+    unused.setPlace({});
     if (!now || !isSame(watched, *now, input.eye.length())) return false;
     watched.outcome.signature = now->signature;
     return true;

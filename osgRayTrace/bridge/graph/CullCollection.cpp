@@ -8,7 +8,7 @@
 #include <osg/Transform>
 
 #include <algorithm>
-#include <map>
+#include <unordered_map>
 
 namespace osgRayTrace::engine
 {
@@ -53,16 +53,17 @@ uint64_t signatureOf(const std::vector<CapturedLeaf>& leaves)
 
 /// Returns whether each leaf has another one of the same drawable in the same place: OpenGL then
 /// draws it in several passes.
-std::vector<bool> inSeveralPasses(const std::vector<CapturedLeaf>& leaves, double eyeDistance)
+std::vector<bool> inSeveralPasses(const std::vector<CapturedLeaf>& leaves)
 {
     std::vector<bool> several(leaves.size());
-    std::map<const osg::Drawable*, std::vector<std::size_t>> leavesOf;
+    std::unordered_map<uint64_t, std::size_t> firstOf;
     for (std::size_t i = 0; i < leaves.size(); ++i)
     {
-        std::vector<std::size_t>& others = leavesOf[leaves[i].drawable.get()];
-        for (const std::size_t other : others)
-            if (sameLeaf(leaves[i], leaves[other], eyeDistance)) several[i] = several[other] = true;
-        others.push_back(i);
+        Hasher hasher;
+        hasher.addData(leaves[i].drawable.get());
+        hasher.addMatrix(leaves[i].worldFromLocal);
+        const auto [first, isFirst] = firstOf.try_emplace(hasher.value(), i);
+        if (!isFirst) several[i] = several[first->second] = true;
     }
     return several;
 }
@@ -165,7 +166,7 @@ CullOutcome GraphCollector::cullOutcome()
     }
     outcome.kind = CullOutcome::Captured;
     outcome.otherStages = culled.otherStages;
-    const std::vector<bool> several = inSeveralPasses(culled.leaves, _input.eye.length());
+    const std::vector<bool> several = inSeveralPasses(culled.leaves);
     for (std::size_t i = 0; i < culled.leaves.size(); ++i)
     {
         CapturedLeaf& leaf = culled.leaves[i];
@@ -228,6 +229,8 @@ bool GraphCollector::collectsInCull(osg::Node& node)
         _graph.cullUnknown = true;
         return false;
     }
+    // A cull traversal of so many paths would not end, with this library or without.
+    if (_counts.of(node, kMostPaths, kDeepestPath) > kMostPaths) return false;
     CullOutcome outcome = cullOutcome();
     const bool collected = outcome.kind != CullOutcome::Plain;
     if (collected) collectCulled(node, outcome, reason);
