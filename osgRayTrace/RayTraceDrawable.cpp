@@ -8,6 +8,7 @@
 #include "osgRayTrace/RayTraceDrawableState.h"
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
 #include "osgRayTrace/bridge/common/WarnOnce.h"
+#include "osgRayTrace/bridge/graph/CullOutcome.h"
 #include "osgRayTrace/bridge/graph/PathBudget.h"
 #include "osgRayTrace/bridge/pick/RasterizedPicker.h"
 #include "osgRayTrace/bridge/pick/ScenePicker.h"
@@ -39,9 +40,14 @@ struct BoundsVisitor : osg::ComputeBoundsVisitor
     BoundsVisitor() : osg::ComputeBoundsVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
     using osg::ComputeBoundsVisitor::apply;
 
+    /// A group without children may draw in cull, and have the bound of what it draws.
     void apply(osg::Group& node) override
     {
-        if (!isTooMuch(node)) traverse(node);
+        if (isTooMuch(node)) return;
+        osg::BoundingBox box;
+        if (node.getNumChildren() == 0 && engine::cullReason(node)) box.expandBy(node.getBound());
+        if (box.valid()) applyBoundingBox(box);
+        traverse(node);
     }
 
     void apply(osg::Transform& node) override
@@ -247,7 +253,7 @@ void RayTraceDrawable::recordView(osgUtil::CullVisitor& visitor)
     {
         _implementation->scene.recordView(stage ? stage->getCamera() : nullptr,
                                           visitor.getFrameStamp(),
-                                          engine::viewingConditions(visitor));
+                                          engine::viewingConditions(visitor), &visitor);
         if (const auto pass = passIdentity(visitor)) _implementation->views.record(*pass);
     }
     catch (const std::exception& error)

@@ -6,6 +6,7 @@
 #include <osgRayTrace/RayIntersector>
 
 #include "osgRayTrace/bridge/common/SceneRoot.h"
+#include "osgRayTrace/bridge/graph/CullCapture.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 
 #include <osg/NodeVisitor>
@@ -146,7 +147,8 @@ std::string RayTracedScene::getConversionReport() const
 
 void RayTracedScene::traverse(osg::NodeVisitor& visitor)
 {
-    osgUtil::CullVisitor* cull = _enabled ? visitor.asCullVisitor() : nullptr;
+    const bool captured = engine::isCapturing(); // below a node of another scene
+    osgUtil::CullVisitor* cull = _enabled && !captured ? visitor.asCullVisitor() : nullptr;
     if (cull)
     {
         // This call converts at once if this is the first view, or if there was no update

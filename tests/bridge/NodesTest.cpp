@@ -239,13 +239,15 @@ TEST_CASE("nodes: what hides things from a view only hides nothing", "[bridge]")
         void operator()(osg::Node*, osg::NodeVisitor*) override {}
     };
     osg::ref_ptr<osg::Group> culled = new osg::Group;
-    culled->setCullCallback(new CullAll);
+    culled->setCullCallback(new CullAll); // without a viewer it is not run
     culled->addChild(triangleGeometry());
     root->addChild(culled);
     osg::ref_ptr<osgSim::VisibilityGroup> volume = new osgSim::VisibilityGroup;
     volume->addChild(triangleGeometry());
     root->addChild(volume);
-    CHECK(convertFrom(viewedFrom(root, {0.0, -50.0, 0.0})).scene->instances.size() == 4);
+    const ConversionResult result = convertFrom(viewedFrom(root, {0.0, -50.0, 0.0}));
+    CHECK(result.scene->instances.size() == 4);
+    CHECK(countOf(result, "approximated.cull-traversal") == 1);
     // The node is behind the eye.
     CHECK(convertFrom(viewedFrom(root, {0.0, 0.0, 9.0}, {0, 1, 0})).scene->instances.size() == 4);
 }

@@ -85,6 +85,8 @@ constexpr CauseText kTexts[] = {
      "coordinates are very large or very small, or far from their own origin"},
     {ConversionCause::NoMesh, "no mesh of a geometry is kept"},
     {ConversionCause::LinesOrPoints, "a geometry has deformed that has lines or points"},
+    {ConversionCause::CullTraversal,
+     "a cull traversal of the application's shows something else, or something came below one"},
 };
 
 constexpr bool isInOrder()

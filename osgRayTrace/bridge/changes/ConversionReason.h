@@ -62,9 +62,10 @@ enum class ConversionCause : uint8_t
     Lengths,
     NoMesh,
     LinesOrPoints,
+    CullTraversal,
 };
 
-constexpr ConversionCause kLastCause = ConversionCause::LinesOrPoints;
+constexpr ConversionCause kLastCause = ConversionCause::CullTraversal;
 
 /// Returns one clause, such as "children of a node are in another order"; it is empty for None.
 const char* textOf(ConversionCause cause);

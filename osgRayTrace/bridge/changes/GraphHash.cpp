@@ -152,6 +152,7 @@ private:
     void enter(osg::Node& node)
     {
         _hasher.addObject(&node);
+        _hasher.addObject(node.getCullCallback());
         _hasher.add(ownHint(node));
         addStateSetOf(node);
         if (getNodePath().size() < kDeepestPath && _budget.take()) traverse(node);

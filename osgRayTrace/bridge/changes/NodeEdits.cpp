@@ -19,7 +19,8 @@ constexpr std::size_t kMostSplices = 256;
 /// node are watched in another way.
 bool isOfTheWhole(const WatchedNode& node)
 {
-    return node.kind == NodeKind::Untracked || isLight(node.kind) || node.hint != 0;
+    return node.kind == NodeKind::Untracked || isLight(node.kind) || node.hint != 0 ||
+           node.node->getCullCallback();
 }
 
 } // namespace

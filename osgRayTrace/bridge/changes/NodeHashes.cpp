@@ -44,7 +44,8 @@ inline uint64_t hashOfDoubles(const double* values, int count)
 
 uint64_t groupHash(const osg::Group& group)
 {
-    uint64_t hash = bitsOf(group.getStateSet()) + hintHash(group);
+    uint64_t hash =
+        bitsOf(group.getStateSet()) + 3 * bitsOf(group.getCullCallback()) + hintHash(group);
     for (const osg::ref_ptr<osg::Node>& child : childrenOf(group))
         hash = fold(hash, bitsOf(child.get()));
     return hash;

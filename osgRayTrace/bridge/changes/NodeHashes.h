@@ -21,8 +21,8 @@ uint64_t matrixHash(NodeKind kind, const osg::Node& node);
 
 /// The addresses in these hashes are those of objects that WatchedGraph keeps alive.
 
-/// Returns a hash of a node's state set, its children, which of them are on, and its frame, for any
-/// kind but Geometry and Untracked.
+/// Returns a hash of a node's state set, its cull callback, its children, which of them are on, and
+/// its frame, for any kind but Geometry and Untracked.
 uint64_t nodeHash(NodeKind kind, const osg::Node& node);
 
 /// Returns a hash of the values of a light except for its frame. kept is as in Hasher.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/common/CullPass.h"
 #include "osgRayTrace/bridge/common/ReferenceView.h"
 
 #include <osg/Light>
@@ -9,6 +10,7 @@
 #include <osg/Vec3d>
 #include <osg/Vec4>
 
+#include <memory>
 #include <vector>
 
 namespace osgUtil
@@ -24,6 +26,7 @@ struct ViewingConditions
 {
     osg::Vec3d eye;
     std::optional<ReferenceView> view; ///< nothing if there is no viewport
+    std::shared_ptr<CullPass> pass;    ///< null: no cull traversal has reached the scene
     unsigned int traversalMask = 0xffffffffu;
 
     /// Copy of the first light that the pass had when it came to the scene; null: none. The light
@@ -37,7 +40,8 @@ struct ViewingConditions
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f};
 };
 
-/// Returns the conditions of the visitor's pass at the visitor's place. Cull thread.
+/// Returns the conditions of the visitor's pass at the visitor's place, without the pass. Cull
+/// thread.
 ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor);
 
 /// Returns whether a scene converted for a need not be converted again for b. The eye, the view and

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/appearance/lights/EnvironmentConverter.h"
 #include "osgRayTrace/bridge/appearance/materials/MaterialList.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
+#include "osgRayTrace/bridge/convert/CullWatch.h"
 #include "osgRayTrace/bridge/convert/SceneIndex.h"
 #include "osgRayTrace/bridge/geometry/GeometryCache.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
@@ -53,6 +54,7 @@ struct ConvertedGraph
     LightSources lights;
     ConversionCounts lightCounts; ///< counts of setLights
     PlacedTexGens texGens;
+    CullWatch cullWatch;
     std::vector<uint32_t> instanceGaps, meshGaps; ///< indices that removed parts left
     uint32_t emptyMesh = kInvalid; ///< index of the mesh that instances in gaps refer to
 };

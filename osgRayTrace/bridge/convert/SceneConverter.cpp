@@ -47,9 +47,12 @@ bool setsColor(const CollectedGraph& graph)
 
 /// Adds geometry that OpenGL draws. Its place is that of its path, so it may move without a
 /// conversion.
-void addUntraced(const RasterizedParts& parts, SceneIndex& index)
+void addUntraced(const RasterizedParts& parts, const std::vector<const osg::Geometry*>& more,
+                 SceneIndex& index)
 {
     std::vector<const osg::Geometry*> untraced;
+    for (const osg::Geometry* geometry : more)
+        if (!index.geometries.count(geometry)) untraced.push_back(geometry);
     for (const RasterizedPart& part : parts)
     {
         const osg::Geometry* geometry =
@@ -108,6 +111,19 @@ void SceneConverter::forget()
     _implementation->caches = ConversionCaches();
 }
 
+bool SceneConverter::holdsInCull(const ViewingConditions& conditions)
+{
+    Implementation& state = *_implementation;
+    CullWatch& watch = state.convertedGraph.cullWatch;
+    if (watch.isEmpty()) return true;
+    ConversionInput input = state.input;
+    input.eye = conditions.eye;
+    input.view = conditions.view;
+    input.pass = conditions.pass;
+    input.inheritedState = conditions.inheritedState;
+    return watch.holds(input, state.caches.vertices, state.caches.textures);
+}
+
 uint64_t SceneConverter::convertedMeshes() const
 {
     return _implementation->forgotten + _implementation->caches.geometries.converted();
@@ -156,7 +172,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.lights = std::move(graph.lights);
     state.convertedGraph.lightCounts = lightReport.counts();
     state.convertedGraph.texGens = graph.texGens;
-    addUntraced(graph.rasterized, state.convertedGraph.index);
+    state.convertedGraph.cullWatch.record(std::move(graph.cullOutcomes), graph.cullUnknown);
+    addUntraced(graph.rasterized, graph.leftGeometries, state.convertedGraph.index);
     state.caches.vertices.end();
 
     result.scene = state.last;
@@ -165,7 +182,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     result.paths = report.paths();
     warnOnceAReason(report, input.rasterizesRest);
     const auto shows = [](const RasterizedPart& part)
-    { return part.kind != RasterizedPart::PlaceState; };
+    { return part.kind == RasterizedPart::Draw || part.kind == RasterizedPart::Clear; };
     if (std::any_of(graph.rasterized.begin(), graph.rasterized.end(), shows))
         result.rasterized = std::make_shared<RasterizedParts>(std::move(graph.rasterized));
     result.seconds =

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/changes/GraphChanges.h"
+#include "osgRayTrace/bridge/common/ViewingConditions.h"
 #include "osgRayTrace/bridge/convert/ConversionResult.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
 
@@ -39,6 +40,10 @@ public:
     /// The graph must have no other changes since the last call of convert() or patch() that did
     /// not throw.
     PatchResult patch(const GraphChanges& changes);
+
+    /// Returns whether the nodes that draw in cull alone show in this view what was converted. Such
+    /// nodes run, and may change the graph. Only bad_alloc is thrown.
+    bool holdsInCull(const ViewingConditions& conditions);
 
     /// Returns the number of meshes that were ever made from arrays.
     uint64_t convertedMeshes() const;

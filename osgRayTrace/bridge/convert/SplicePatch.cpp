@@ -109,6 +109,8 @@ bool ScenePatcher::add(const GraphSplice& splice)
 {
     if (_input.materials) // its rules look at names
         return refuse(ConversionCause::MaterialFile, splice.added);
+    if (_convertedGraph.cullWatch.covers(splice.added))
+        return refuse(ConversionCause::CullTraversal, splice.added);
     ConversionReport report;
     GraphCollector collector(_input, _caches.vertices, _caches.textures, report);
     if (!collector.collectAt(fromRoot(splice.added)))
@@ -117,7 +119,7 @@ bool ScenePatcher::add(const GraphSplice& splice)
     const LightSources& lights = graph.lights;
     const bool plain = lights.lights.empty() && lights.areaLights.empty() &&
                        lights.environments.empty() && graph.rasterized.empty() && !graph.paged &&
-                       report.counts().empty();
+                       graph.cullOutcomes.empty() && report.counts().empty();
     if (!plain) return refuse(ConversionCause::SpecialSubgraph, splice.added);
     graph.texGens = _convertedGraph.texGens;
     uint64_t vertices = 0;

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/appearance/lights/LightSizes.h"
 #include "osgRayTrace/bridge/appearance/materials/MaterialLibrary.h"
+#include "osgRayTrace/bridge/common/CullPass.h"
 #include "osgRayTrace/bridge/common/ReferenceView.h"
 
 #include <osgRayTrace/RayTraceSettings>
@@ -55,6 +56,8 @@ struct ConversionInput : ConversionSettings
     /// it. Without a view, the graph is converted as if looked at from the eye, upright in the
     /// world.
     std::optional<ReferenceView> view;
+    /// Cull visitor of the view, for nodes that draw in cull alone; null: such nodes are not run.
+    std::shared_ptr<CullPass> pass;
     osg::Vec3d origin; ///< origin of the engine's coordinates in world space
     unsigned int traversalMask = 0xffffffffu;
     /// Light that osgViewer adds outside of the graph, in view space (headlight) or world space

@@ -51,7 +51,8 @@ GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& v
     _report.setPlace([this] { return path(); });
 }
 
-bool GraphCollector::collectAt(const osg::NodePath& path)
+/// Moves below all nodes of a path but the last. Returns false if one of them places nothing.
+bool GraphCollector::descendTo(const osg::NodePath& path)
 {
     for (auto node = path.begin(); node + 1 != path.end(); ++node)
     {
@@ -62,6 +63,12 @@ bool GraphCollector::collectAt(const osg::NodePath& path)
             !pushMatrix(worldFromLocal(*transform, _worldFromLocal.back(), *this, _input.view)))
             return false;
     }
+    return true;
+}
+
+bool GraphCollector::collectAt(const osg::NodePath& path)
+{
+    if (!descendTo(path)) return false;
     path.back()->accept(*this);
     return true;
 }
@@ -76,7 +83,7 @@ CollectedGraph GraphCollector::take()
 
 void GraphCollector::apply(osg::Node& node)
 {
-    if (node.asGroup() ? leavesGroup(node) : collectLeaf(node)) return;
+    if (collectsInCull(node) || (node.asGroup() ? leavesGroup(node) : collectLeaf(node))) return;
     const bool pushed = pushState(node);
     traverseChildren(node);
     if (pushed) _states.pop();
@@ -84,6 +91,7 @@ void GraphCollector::apply(osg::Node& node)
 
 void GraphCollector::apply(osg::Transform& node)
 {
+    if (collectsInCull(node)) return;
     const bool pushed = pushState(node);
     if (node.getReferenceFrame() != osg::Transform::RELATIVE_RF && !_input.view)
         _report.count("approximated.absolute-transform"); // OpenGL has eye space, this world space
@@ -100,6 +108,7 @@ void GraphCollector::apply(osg::Camera& node)
     }
     if (const char* reason = untracedCamera(node))
     {
+        if (_lightsOnly) return;
         _report.count(reason);
         warnIfForced("a camera of its own");
         rasterize();
@@ -110,6 +119,7 @@ void GraphCollector::apply(osg::Camera& node)
 
 void GraphCollector::apply(osg::Projection&)
 {
+    if (_lightsOnly) return;
     _report.count("not-traced.projection");
     warnIfForced("a projection of its own");
     rasterize();
@@ -175,6 +185,7 @@ void GraphCollector::apply(osg::TexGenNode& node)
 
 void GraphCollector::apply(osg::Billboard& node)
 {
+    if (_lightsOnly) return;
     const bool pushed = pushState(node);
     if (_input.rasterizesRest && leavesDrawable(node))
     {
@@ -213,7 +224,7 @@ void GraphCollector::apply(osg::Billboard& node)
 
 void GraphCollector::apply(osg::Drawable& drawable)
 {
-    const char* reason = untracedDrawable(drawable);
+    const char* reason = _lightsOnly ? nullptr : untracedDrawable(drawable);
     if (!reason) return;
     _report.count(reason);
     warnIfForced(drawable.className());
@@ -222,7 +233,7 @@ void GraphCollector::apply(osg::Drawable& drawable)
 
 void GraphCollector::apply(osg::Geometry& geometry)
 {
-    if (isTooMuch(geometry)) return;
+    if (_lightsOnly || isTooMuch(geometry)) return;
     const osg::Geometry& posed = _vertices.posed(geometry, getNodePath());
     const bool isPosed = &posed != &geometry;
     if (_input.rasterizesRest && rasterizes(geometry, isPosed)) return;
@@ -349,6 +360,7 @@ bool GraphCollector::collectLeaf(osg::Node& node)
         return true;
     }
     if (isFrom(&node, "osg")) return false;
+    if (_lightsOnly) return true;
     if (const char* reason = untracedLeaf(node))
     {
         _report.count(reason);
@@ -373,7 +385,7 @@ osg::Matrixd GraphCollector::engineFromLocal() const
 
 uint32_t GraphCollector::pickPath()
 {
-    return _input.picks ? _graph.paths.add(getNodePath()) : NodeTree::kNone;
+    return _input.picks && !_isCaptured ? _graph.paths.add(getNodePath()) : NodeTree::kNone;
 }
 
 std::string GraphCollector::path() const

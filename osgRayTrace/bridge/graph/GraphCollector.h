@@ -9,6 +9,7 @@
 #include "osgRayTrace/bridge/common/StateStack.h"
 #include "osgRayTrace/bridge/geometry/TriangleList.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
+#include "osgRayTrace/bridge/graph/CullOutcome.h"
 #include "osgRayTrace/bridge/graph/NodeTree.h"
 #include "osgRayTrace/bridge/graph/PathBudget.h"
 #include "osgRayTrace/bridge/graph/RasterizedParts.h"
@@ -23,6 +24,7 @@
 #include <osg/NodeVisitor>
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -102,6 +104,9 @@ struct CollectedGraph
     RasterizedParts rasterized;            ///< parts for OSG, if ConversionInput::rasterizesRest
     NodeTree paths;                        ///< paths to pick, if ConversionInput::picks
     std::vector<uint32_t> rasterizedPaths; ///< paths of rasterized, if ConversionInput::picks
+    std::vector<CullOutcome> cullOutcomes; ///< decisions on subtrees that may draw in cull alone
+    bool cullUnknown = false; ///< true: there was no view that could decide on such a subtree
+    std::vector<const osg::Geometry*> leftGeometries; ///< geometries in groups of rasterized
 };
 
 /// Visits active children only (masks, switches, levels of detail for the eye point), multiplies
@@ -118,6 +123,13 @@ public:
     /// there. The other nodes of the path are of the plain classes that GraphWatch knows. Returns
     /// false if the node cannot be placed.
     bool collectAt(const osg::NodePath& path);
+
+    /// Returns what becomes of the last node of a path, as collectAt() would decide now. Nothing:
+    /// it cannot be placed.
+    std::optional<CullOutcome> cullOutcomeAt(const osg::NodePath& path);
+
+    /// Returns CullOutcome::signature as it is now, in half the time.
+    std::optional<uint64_t> cullSignatureAt(const osg::NodePath& path);
 
     /// Returns what was found. The caller may call this only once, after the traversal.
     CollectedGraph take();
@@ -164,6 +176,17 @@ private:
     bool leavesGroup(osg::Node& node);
     void traverseGroup(osg::Group& group);
     void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);
+    bool descendTo(const osg::NodePath& path);
+    void walkBelow(osg::Node& node);
+    std::size_t pushStates(const CapturedLeaf& leaf);
+    void popStates(std::size_t count);
+    GraphState stateOf(const CapturedLeaf& leaf);
+    const char* leftReason(const CapturedLeaf& leaf);
+    bool finds(const std::vector<CapturedLeaf>& walked, const std::vector<CapturedLeaf>& culled);
+    CullOutcome cullOutcome();
+    bool collectsInCull(osg::Node& node);
+    void collectCulled(osg::Node& node, const CullOutcome& outcome, const char* reason);
+    static osg::ref_ptr<TracedLeaves> tracedLeaves(const CullOutcome& outcome);
     const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed);
     bool rasterizes(const osg::Geometry& geometry, bool isPosed);
     float pointRadiusOf(const osg::Geometry& geometry);
@@ -182,7 +205,10 @@ private:
     PathBudget _visits;
     PathBudget _rasterizedVisits; // budget of OSG's visits in each frame to parts left to it
     PathCounts _counts;
-    int _untracked = 0; // number of enclosing nodes that GraphWatch does not look into
+    int _untracked = 0;       // number of enclosing nodes that GraphWatch does not look into
+    bool _isLeft = false;     // OSG draws an enclosing group as a whole
+    bool _lightsOnly = false; // leaves of a cull traversal stand for the drawables
+    bool _isCaptured = false; // such a leaf is visited, on a path that is not its own
     StateStack _states;
     MaterialAssignment _materials; ///< assignment that keeps its additions to the states
     CollectedGraph _graph;

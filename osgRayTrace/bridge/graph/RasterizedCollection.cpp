@@ -35,6 +35,7 @@ bool GraphCollector::leavesGroup(osg::Node& node)
 {
     const bool effect = isFrom(&node, "osgFX"), volume = isFrom(&node, "osgVolume");
     if (!effect && !volume) return false;
+    if (_lightsOnly) return true;
     if (volume) warnIfForced("a volume");
     const bool traces = effect && hintOf(getNodePath()) == DrawHint::Trace;
     if (_input.rasterizesRest && !traces)
@@ -64,6 +65,12 @@ void GraphCollector::traverseGroup(osg::Group& group)
 void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
 {
     if (!_input.rasterizesRest) return;
+    if (_isLeft && kind == RasterizedPart::Draw)
+    {
+        if (const osg::Geometry* geometry = getNodePath().back()->asGeometry())
+            _graph.leftGeometries.push_back(geometry);
+        return;
+    }
     _graph.rasterized.push_back(rasterizedPart(kind, getNodePath()));
     _graph.rasterized.back().inPlace = inPlace;
     _graph.rasterizedPaths.push_back(pickPath());

@@ -12,6 +12,7 @@
 #include <osg/Transform>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>
+#include <osgUtil/StateGraph>
 
 #include <algorithm>
 
@@ -125,6 +126,39 @@ bool mixesWithPicture(const RasterizedPart& part)
     return masks;
 }
 
+/// Holds the place in the state graph of what one part has drawn.
+struct DrawnPart
+{
+    const osgUtil::StateGraph* graph = nullptr;
+    const TracedLeaves* traced = nullptr;
+};
+
+const TracedLeaves* tracedIn(const osgUtil::StateGraph* graph, const std::vector<DrawnPart>& drawn)
+{
+    for (; graph; graph = graph->_parent)
+        for (const DrawnPart& part : drawn)
+            if (part.graph == graph) return part.traced;
+    return nullptr;
+}
+
+/// Takes out of a bin the leaves that are traced. Cameras below the parts have stages of their own,
+/// which keep theirs.
+void takeOut(osgUtil::RenderBin& bin, const std::vector<DrawnPart>& drawn)
+{
+    for (osgUtil::StateGraph* graph : bin.getStateGraphList())
+    {
+        const TracedLeaves* traced = tracedIn(graph, drawn);
+        if (!traced) continue;
+        osgUtil::StateGraph::LeafList& leaves = graph->_leaves;
+        leaves.erase(std::remove_if(leaves.begin(), leaves.end(),
+                                    [traced](const osg::ref_ptr<osgUtil::RenderLeaf>& leaf)
+                                    { return traced->drawables.count(leaf->getDrawable()) > 0; }),
+                     leaves.end());
+    }
+    for (const auto& [number, inner] : bin.getRenderBinList())
+        takeOut(*inner, drawn);
+}
+
 /// Returns the state set of bins after the picture. It is never freed, as threads may cull while
 /// the process ends.
 const osg::StateSet* stateAfterPicture()
@@ -166,8 +200,10 @@ RasterizedPart rasterizedPart(RasterizedPart::Kind kind, const osg::NodePath& pa
 void cullParts(const RasterizedParts& parts, osgUtil::CullVisitor& visitor)
 {
     Descent descent(visitor);
+    std::vector<DrawnPart> drawn;
     for (const RasterizedPart& part : parts)
     {
+        if (part.kind == RasterizedPart::Pick) continue;
         if (part.path.empty()) continue; // without a decorator the path is empty
         osg::Node& node = *part.path.back();
         if (!descent.moveTo(part.path.begin(), part.path.end() - 1)) continue;
@@ -179,10 +215,18 @@ void cullParts(const RasterizedParts& parts, osgUtil::CullVisitor& visitor)
         {
             const bool after = mixesWithPicture(part);
             if (after) visitor.pushStateSet(stateAfterPicture());
+            if (part.traced)
+            {
+                visitor.pushStateSet(part.traced->mark.get());
+                visitor.getCurrentStateGraph()->setUserData(part.traced.get());
+                drawn.push_back({visitor.getCurrentStateGraph(), part.traced.get()});
+            }
             (part.inPlace ? *part.inPlace : node).accept(visitor);
+            if (part.traced) visitor.popStateSet();
             if (after) visitor.popStateSet();
         }
     }
+    if (!drawn.empty()) takeOut(*visitor.getCurrentRenderStage(), drawn);
 }
 
 } // namespace osgRayTrace::engine

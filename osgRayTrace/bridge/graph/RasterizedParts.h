@@ -6,6 +6,7 @@
 #include <osg/Node>
 
 #include <memory>
+#include <unordered_set>
 #include <vector>
 
 namespace osgUtil
@@ -16,6 +17,16 @@ class CullVisitor;
 namespace osgRayTrace::engine
 {
 
+/// Holds drawables that are traced among those of a subtree that OSG culls. State graphs that refer
+/// to it keep it alive.
+struct TracedLeaves : osg::Referenced
+{
+    std::vector<osg::ref_ptr<osg::Drawable>> kept;
+    std::unordered_set<const osg::Drawable*> drawables;
+    /// State set without state, below which the state graph holds what is drawn of the subtree.
+    osg::ref_ptr<osg::StateSet> mark = new osg::StateSet;
+};
+
 /// Names a drawable, camera or other node of the graph that is drawn as without ray tracing. A part
 /// may also be positional state (a light, clip planes, generated texture coordinates) that such a
 /// node may need.
@@ -25,7 +36,8 @@ struct RasterizedPart
     {
         Draw,
         Clear, ///< an osg::ClearNode, with which the picture begins
-        PlaceState
+        PlaceState,
+        Pick ///< nothing is drawn: the leaves of the node's cull traversal are traced
     };
 
     Kind kind = Draw;
@@ -34,6 +46,7 @@ struct RasterizedPart
     std::vector<osg::ref_ptr<osg::Node>> path;
     /// Node that is drawn in place of the last of path; may be null.
     osg::ref_ptr<osg::Node> inPlace;
+    osg::ref_ptr<TracedLeaves> traced; ///< leaves that are not drawn; null: none
 };
 
 /// Lists parts in the order of the traversal. The list is immutable once it is published.
@@ -49,7 +62,8 @@ RasterizedPart rasterizedPart(RasterizedPart::Kind kind, const osg::NodePath& pa
 
 /// Culls the parts as their parents would: with the state, the transforms and the masks on their
 /// paths, from the decorator on, at which the visitor is. Cull callbacks of groups on the way are
-/// not called. The graph is not changed. Cull threads call this.
+/// not called: those that add anything are part of what is culled (see CullOutcome). The graph is
+/// not changed. Cull threads call this.
 void cullParts(const RasterizedParts& parts, osgUtil::CullVisitor& visitor);
 
 } // namespace osgRayTrace::engine

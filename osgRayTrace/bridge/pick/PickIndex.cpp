@@ -52,8 +52,8 @@ PickIndex::PickIndex(CollectedGraph& graph, const std::vector<uint32_t>& instanc
     {
         const RasterizedPart& part = graph.rasterized[i];
         const uint32_t path = graph.rasterizedPaths[i];
-        if (part.kind == RasterizedPart::Draw && path != NodeTree::kNone)
-            addPart(path, part.inPlace.get());
+        const bool picked = part.kind == RasterizedPart::Draw || part.kind == RasterizedPart::Pick;
+        if (picked && path != NodeTree::kNone) addPart(path, part.inPlace.get());
     }
     for (const CollectedAreaLight& light : graph.lights.areaLights)
         if (light.pickPath != NodeTree::kNone) addPart(light.pickPath, nullptr);

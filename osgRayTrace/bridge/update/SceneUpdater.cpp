@@ -36,7 +36,7 @@ osg::Vec3d finiteOrZero(const osg::Vec3d& point)
 } // namespace
 
 void SceneUpdater::recordView(const ObjectName& camera, const osg::FrameStamp* frameStamp,
-                              const ViewingConditions& conditions)
+                              const ViewingConditions& conditions, osgUtil::CullVisitor* visitor)
 {
     const unsigned int frameNumber = frameNumberOf(frameStamp);
     std::lock_guard<std::mutex> lock(_recordedMutex);
@@ -50,7 +50,10 @@ void SceneUpdater::recordView(const ObjectName& camera, const osg::FrameStamp* f
     if (_recorded.conditions && again) return;
     _recorded.camera = camera;
     _recorded.frameNumber = frameNumber;
+    const std::shared_ptr<CullPass> last =
+        _recorded.conditions ? _recorded.conditions->pass : nullptr;
     _recorded.conditions = conditions;
+    if (visitor) _recorded.conditions->pass = cullPass(*visitor, last);
 }
 
 bool SceneUpdater::isViewed() const
@@ -204,7 +207,14 @@ void SceneUpdater::convertIfChanged(osg::Node* root, const ViewingConditions& co
         return;
     }
     _released = false;
+    // Cull traversals may change the graph, so the look at the graph comes after them.
+    const bool holds = !same || _converter.holdsInCull(conditions);
     GraphChanges changes = look(*root, same, sameRoot, conditions);
+    if (!holds && !changes.convert)
+    {
+        changes.convert = true;
+        changes.reason.cause = ConversionCause::CullTraversal;
+    }
     if (!same) changes.reason.cause = cause;
     const Requests asked = std::exchange(_asked, Requests());
     if (changes.none()) return;
@@ -281,6 +291,7 @@ ConversionResult SceneUpdater::convert(osg::Node& root, const ViewingConditions&
     input.root = &root;
     input.eye = conditions.eye;
     input.view = conditions.view;
+    input.pass = conditions.pass;
     input.origin = *_origin;
     input.traversalMask = conditions.traversalMask;
     input.viewLight = conditions.light;

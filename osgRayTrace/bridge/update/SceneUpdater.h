@@ -33,8 +33,9 @@ class SceneUpdater
 {
 public:
     /// Records that a camera is about to draw the scene. Cull threads may call this.
+    /// visitor runs nodes that draw in cull alone; null: they are not run.
     void recordView(const ObjectName& camera, const osg::FrameStamp* frameStamp,
-                    const ViewingConditions& conditions);
+                    const ViewingConditions& conditions, osgUtil::CullVisitor* visitor = nullptr);
 
     /// Returns true once a view was recorded. Any thread may call this.
     bool isViewed() const;

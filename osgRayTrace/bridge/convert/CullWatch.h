@@ -1,0 +1,64 @@
+// CullWatch.h - whether cull traversals still show what was converted. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
+#include "osgRayTrace/bridge/graph/ConversionInput.h"
+#include "osgRayTrace/bridge/graph/CullOutcome.h"
+#include "osgRayTrace/bridge/graph/SoftwareVertices.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// Holds the decisions on the subtrees that may draw in cull alone, and repeats them.
+class CullWatch
+{
+public:
+    /// unknown: there was such a subtree, but no view.
+    void record(std::vector<CullOutcome> outcomes, bool unknown);
+
+    bool isEmpty() const { return _watched.empty() && !_unknown; }
+
+    /// Decides again, under the present conditions of the input. Returns whether the outcomes are
+    /// the same. A call looks at about 1000 drawables, the next one at those that follow. Nodes and
+    /// callbacks of the application's run.
+    bool holds(const ConversionInput& input, SoftwareVertices& vertices,
+               const TextureConverter& textures);
+
+    /// Returns whether a path leads through a node whose cull traversal stands for what is below.
+    bool covers(const osg::NodePath& path) const;
+
+private:
+    /// Holds hashes of the values of a traced leaf as it was converted.
+    struct LeafValues
+    {
+        std::vector<uint64_t> states;
+        uint64_t content = 0;
+    };
+
+    struct Watched
+    {
+        CullOutcome outcome;
+        std::vector<LeafValues> values; ///< of the outcome's traced leaves
+    };
+
+    bool holds(Watched& watched, const ConversionInput& input, SoftwareVertices& vertices,
+               const TextureConverter& textures);
+    bool isInPlain(const CullOutcome& outcome) const;
+    static LeafValues valuesOf(const CapturedLeaf& leaf);
+    static bool isSame(const Watched& before, const CullOutcome& now, double eyeDistance);
+
+    std::vector<Watched> _watched;
+    bool _unknown = false;
+    std::size_t _next = 0;   ///< index of the subtree to look at
+    std::size_t _credit = 0; ///< drawables that calls have left
+    std::size_t _rounds = 0; ///< looks at all subtrees
+    /// Subtree that was found as it had been, with all nested ones that are plain.
+    const CullOutcome* _plain = nullptr;
+};
+
+} // namespace osgRayTrace::engine

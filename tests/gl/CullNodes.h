@@ -1,0 +1,159 @@
+// CullNodes.h - stand-ins for nodes of applications that draw or push state in cull. Layer: tests.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/GLExtensions>
+#include <osg/Geode>
+#include <osg/Material>
+#include <osg/MatrixTransform>
+#include <osg/State>
+#include <osg/StateAttribute>
+#include <osgUtil/CullVisitor>
+
+#include <array>
+#include <stdexcept>
+
+/// The namespace is not osgRayTrace, as the classes stand for those of an application.
+namespace application
+{
+
+/// Draws its content in cull traversals only, like osgEarth's terrain.
+class CullDrawn : public osg::Group
+{
+public:
+    explicit CullDrawn(osg::Node* drawn) : content(drawn) {}
+
+    void traverse(osg::NodeVisitor& visitor) override
+    {
+        if (visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) content->accept(visitor);
+    }
+    osg::BoundingSphere computeBound() const override { return content->getBound(); }
+
+    osg::ref_ptr<osg::Node> content;
+};
+
+/// Pushes one of two state sets, which take turns from frame to frame, like OpenMW's callbacks.
+class StatePusher : public osg::NodeCallback
+{
+public:
+    StatePusher(osg::ref_ptr<osg::StateSet> even, osg::ref_ptr<osg::StateSet> odd)
+        : states{std::move(even), std::move(odd)}
+    {
+    }
+
+    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override
+    {
+        osgUtil::CullVisitor* cull = visitor->asCullVisitor();
+        if (cull) cull->pushStateSet(states[visitor->getTraversalNumber() % 2].get());
+        traverse(node, visitor);
+        if (cull) cull->popStateSet();
+    }
+
+    std::array<osg::ref_ptr<osg::StateSet>, 2> states;
+};
+
+/// Shows its children, or hides them from the view.
+class Passing : public osg::NodeCallback
+{
+public:
+    explicit Passing(bool hides) : _hides(hides) {}
+
+    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override
+    {
+        if (!_hides) traverse(node, visitor);
+    }
+
+private:
+    bool _hides;
+};
+
+class Throwing : public osg::NodeCallback
+{
+public:
+    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override
+    {
+        if (throws > 0 && throws-- > 0) throw std::runtime_error("no traversal of mine");
+        traverse(node, visitor);
+    }
+
+    int throws = 0; ///< number of traversals to come that throw
+};
+
+/// Holds drawables whose state is known to EffectCullVisitor alone, like FlightGear's.
+class EffectGeode : public osg::Geode
+{
+public:
+    osg::ref_ptr<osg::StateSet> effect;
+};
+
+class EffectCullVisitor : public osgUtil::CullVisitor
+{
+public:
+    EffectCullVisitor() = default;
+    EffectCullVisitor(const EffectCullVisitor& other) = default;
+    osgUtil::CullVisitor* clone() const override { return new EffectCullVisitor(*this); }
+
+    using osgUtil::CullVisitor::apply;
+    void apply(osg::Geode& node) override
+    {
+        auto* geode = dynamic_cast<EffectGeode*>(&node);
+        if (geode) pushStateSet(geode->effect.get());
+        osgUtil::CullVisitor::apply(node);
+        if (geode) popStateSet();
+    }
+};
+
+/// Is of the type of programs without being an osg::Program, like osgEarth's class of this name. It
+/// leaves drawing to the fixed function.
+class VirtualProgram : public osg::StateAttribute
+{
+public:
+    VirtualProgram() = default;
+    VirtualProgram(const VirtualProgram& other, const osg::CopyOp& copyop)
+        : osg::StateAttribute(other, copyop)
+    {
+    }
+    META_StateAttribute(application, VirtualProgram, PROGRAM);
+    int compare(const osg::StateAttribute& other) const override
+    {
+        COMPARE_StateAttribute_Types(VirtualProgram, other) return 0;
+    }
+    void apply(osg::State& state) const override
+    {
+        state.get<osg::GLExtensions>()->glUseProgram(0);
+        state.setLastAppliedProgramObject(nullptr);
+    }
+};
+
+struct CountedDraws : osg::Drawable::DrawCallback
+{
+    void drawImplementation(osg::RenderInfo& info, const osg::Drawable* drawable) const override
+    {
+        ++draws;
+        drawable->drawImplementation(info);
+    }
+    mutable int draws = 0;
+};
+
+inline osg::ref_ptr<osg::MatrixTransform> raised(osg::Node* node, float height)
+{
+    osg::ref_ptr<osg::MatrixTransform> transform =
+        new osg::MatrixTransform(osg::Matrix::translate(0.0, 0.0, height));
+    transform->addChild(node);
+    return transform;
+}
+
+/// Returns state that gives what is lit this colour alone.
+inline osg::ref_ptr<osg::StateSet> unlitColor(const osg::Vec4& color)
+{
+    osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+    osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(0, 0, 0, 1));
+    material->setAmbient(osg::Material::FRONT_AND_BACK, osg::Vec4(0, 0, 0, 1));
+    material->setEmission(osg::Material::FRONT_AND_BACK, color);
+    state->setAttributeAndModes(material.get());
+    state->setMode(GL_LIGHTING, osg::StateAttribute::ON);
+    return state;
+}
+
+} // namespace application
