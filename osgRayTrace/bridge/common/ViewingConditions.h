@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/common/ReferenceView.h"
+#include "osgRayTrace/bridge/common/ShaderState.h"
 
 #include <osg/Light>
 #include <osg/StateSet>
@@ -35,6 +36,9 @@ struct ViewingConditions
     std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState;
 
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f};
+
+    /// Uniforms and user values whose changes count, by the rules of a material file; null: none.
+    std::shared_ptr<const ShaderReads> reads;
 };
 
 /// Returns the conditions of the visitor's pass at the visitor's place. Cull thread.

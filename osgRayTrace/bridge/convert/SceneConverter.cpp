@@ -97,6 +97,7 @@ void SceneConverter::releaseGraph()
     Implementation& state = *_implementation;
     state.convertedGraph = ConvertedGraph();
     state.caches.vertices = SoftwareVertices();
+    state.caches.rules = RuleCaches();
     state.lastResult = ConversionResult();
     state.input = ConversionInput();
     state.ordinary = false; // prevents patches
@@ -124,7 +125,9 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
 
     ConversionReport report;
     state.caches.vertices.begin();
-    GraphCollector collector(input, state.caches.vertices, state.caches.textures, report);
+    state.caches.rules.begin();
+    GraphCollector collector(input, state.caches.vertices, state.caches.textures,
+                             state.caches.rules, report);
     if (input.root) input.root->accept(collector);
     CollectedGraph graph = collector.take();
 
@@ -158,6 +161,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.texGens = graph.texGens;
     addUntraced(graph.rasterized, state.convertedGraph.index);
     state.caches.vertices.end();
+    state.caches.rules.end();
 
     result.scene = state.last;
     result.paged = graph.paged;

@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/appearance/materials/MaterialLibrary.h"
 #include "osgRayTrace/bridge/common/ReferenceView.h"
 
+#include <osgRayTrace/MaterialHook>
 #include <osgRayTrace/RayTraceSettings>
 
 #include <osg/Light>
@@ -29,12 +30,16 @@ struct ConversionSettings
     bool headlightShadows = false;
     LightSizes lightSizes;
     std::shared_ptr<const MaterialLibrary> materials; ///< null: materials of the graph only
+    osg::ref_ptr<MaterialHook> hook;                  ///< null: the application is not asked
+
+    /// Returns whether materials depend on more than the state of the graph.
+    bool assignsMaterials() const { return materials || hook; }
 
     bool operator==(const ConversionSettings& other) const
     {
         return colorRule == other.colorRule && cullAllRays == other.cullAllRays &&
                headlightShadows == other.headlightShadows && lightSizes == other.lightSizes &&
-               materials == other.materials;
+               materials == other.materials && hook == other.hook;
     }
 };
 
@@ -42,7 +47,7 @@ inline ConversionSettings conversionSettings(const RayTraceSettings& settings,
                                              std::shared_ptr<const MaterialLibrary> materials)
 {
     return {settings.getColorRule(), settings.getCullAllRays(), settings.getHeadlightShadows(),
-            lightSizesOf(settings), std::move(materials)};
+            lightSizesOf(settings),  std::move(materials),      settings.getMaterialHook()};
 }
 
 /// Holds the graph to convert and the conditions of the conversion.

@@ -12,6 +12,7 @@
 #include "osgRayTrace/bridge/graph/NodeTree.h"
 #include "osgRayTrace/bridge/graph/PathBudget.h"
 #include "osgRayTrace/bridge/graph/RasterizedParts.h"
+#include "osgRayTrace/bridge/graph/RuleCaches.h"
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
 
 #include <osgRayTrace/AreaLight>
@@ -109,9 +110,9 @@ struct CollectedGraph
 class GraphCollector : public osg::NodeVisitor
 {
 public:
-    /// textures holds the images that were converted before.
+    /// textures holds the images that were converted before, rules what rules have derived.
     GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
-                   const TextureConverter& textures, ConversionReport& report);
+                   const TextureConverter& textures, RuleCaches& rules, ConversionReport& report);
 
     /// Visits the last node of a path from the root, in the place and the state that the node has
     /// there. The other nodes of the path are of the plain classes that GraphWatch knows. Returns
@@ -163,8 +164,9 @@ private:
     bool leavesGroup(osg::Node& node);
     void traverseGroup(osg::Group& group);
     void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);
-    const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed);
-    bool rasterizes(const osg::Geometry& geometry, bool isPosed);
+    AssignedState assignedState(const osg::Geometry& geometry);
+    const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed, uint32_t state);
+    bool rasterizes(const osg::Geometry& geometry, bool isPosed, uint32_t state);
     void warnIfForced(const char* what);
     osg::Matrixd worldFromEye() const;
     osg::Matrixd engineFromLocal() const;
@@ -182,6 +184,7 @@ private:
     PathCounts _counts;
     int _untracked = 0; // number of enclosing nodes that GraphWatch does not look into
     StateStack _states;
+    RuleCaches& _rules;
     MaterialAssignment _materials; ///< assignment that keeps its additions to the states
     CollectedGraph _graph;
     std::map<std::pair<const osg::Geometry*, uint64_t>, std::size_t> _indexOf; // key with restart
