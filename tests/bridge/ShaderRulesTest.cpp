@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/bridge/changes/GraphWatch.h"
+#include "osgRayTrace/bridge/graph/StatesAbove.h"
 #include "tests/Catch.h"
 #include "tests/bridge/Messages.h"
 #include "tests/bridge/ShaderScenes.h"
@@ -475,6 +476,16 @@ TEST_CASE("shader rules: uniforms and textures are inherited as attributes are",
     CHECK(materialOf(shaded, rule).roughness == 0.25f);
     shaded.state().addUniform(new osg::Uniform("r", 0.5f), osg::StateAttribute::PROTECTED);
     CHECK(materialOf(shaded, rule).roughness == 0.5f);
+}
+
+TEST_CASE("shader rules: states hold what programs read only if a file has such rules", "[bridge]")
+{
+    const ShadedPart shaded;
+    const auto follows = [&](const std::string& text)
+    { return statesAbove(shaded.input(text)).states().front().shader != nullptr; };
+    CHECK_FALSE(follows("{}"));
+    CHECK_FALSE(follows(R"({ "nodes": { "part": {} }, "shaders": [] })"));
+    CHECK(follows(R"({ "shaders": [ { "if": { "unit": 0 } } ] })"));
 }
 
 TEST_CASE("shader rules: changes of what rules read are noticed, others are not", "[bridge]")
