@@ -104,8 +104,9 @@ TEST_CASE("osgraytrace --names: a line for each name that a material file can us
 {
     const TemporaryFolder folder, models;
     osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->setName("town");
+    root->setName("to\twn"); // a tab would end the column
     osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
     image->setFileName("wall.png");
     for (int i = 0; i < 2; ++i)
     {
@@ -120,21 +121,21 @@ TEST_CASE("osgraytrace --names: a line for each name that a material file can us
         state.setTextureAttribute(3, new osg::Texture2D(image));
         state.addUniform(new osg::Uniform("diffuseMap", 3));
         state.addUniform(new osg::Uniform("gloss", 0.5f));
-        state.setUserValue("kind", std::string("a\tb"));
+        state.setUserValue("kind", std::string("brick"));
         root->addChild(house);
         root->addChild(house); // a second path is no second house
     }
-    REQUIRE(osgDB::writeNodeFile(*root, folder / "town.osgt"));
-    const Outcome outcome = osgraytrace(models, (folder / "town.osgt") + " --names");
+    REQUIRE(osgDB::writeNodeFile(*root, folder / "town.osgb"));
+    const Outcome outcome = osgraytrace(models, (folder / "town.osgb") + " --names");
     CHECK(outcome.exitCode == 0);
-    CHECK(outcome.output == "material\t2\tbrick\t-\ttown/house\n"
-                            "node\t2\thouse\t-\ttown/house\n"
-                            "node\t1\ttown\t-\ttown\n"
-                            "program\t2\tBump\t-\ttown/house\n"
-                            "sampler\t2\tdiffuseMap\t3\ttown/house\n"
-                            "texture\t2\twall.png\t3\ttown/house\n"
-                            "uniform\t2\tgloss\t-\ttown/house\n"
-                            "user\t2\tkind\t-\ttown/house\n");
+    CHECK(outcome.output == "material\t2\tbrick\t-\tto\\twn/house\n"
+                            "node\t2\thouse\t-\tto\\twn/house\n"
+                            "node\t1\tto\\twn\t-\tto\\twn\n"
+                            "program\t2\tBump\t-\tto\\twn/house\n"
+                            "sampler\t2\tdiffuseMap\t3\tto\\twn/house\n"
+                            "texture\t2\twall.png\t3\tto\\twn/house\n"
+                            "uniform\t2\tgloss\t-\tto\\twn/house\n"
+                            "user\t2\tkind\t-\tto\\twn/house\n");
     CHECK(models.fileNames().empty());
     CHECK(osgraytrace(models, "--names").exitCode == 1); // no model
 }
