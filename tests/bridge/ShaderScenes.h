@@ -91,6 +91,18 @@ struct ShadedPart
     osg::ref_ptr<osg::Program> program = new osg::Program;
 };
 
+/// Condition of a rule that fits the part.
+const std::string kBump = "\"if\": { \"program\": \"Bump\" }";
+
+/// Returns the material that a rule with these members gives the part.
+inline engine::Material materialOf(const ShadedPart& shaded, const std::string& members)
+{
+    const engine::ConversionResult result = shaded.convert("{ " + kBump + ", " + members + " }");
+    REQUIRE(result.scene->instances.size() == 1);
+    CHECK(engine::countOf(result, "traced.by-rule") == 1);
+    return engine::soleMaterial(result);
+}
+
 /// Returns the first texel of a texture of the scene.
 inline std::vector<int> texelOf(const engine::ConversionResult& result, uint32_t texture)
 {
