@@ -86,7 +86,7 @@ RayTraceSettings::RayTraceSettings()
 RayTraceSettings::RayTraceSettings(WithoutEnvironment) {}
 
 RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), _values(other._values)
+    : osg::Object(other, copyop), _values(other._values), _materialHook(other._materialHook)
 {
 }
 
@@ -263,6 +263,11 @@ void RayTraceSettings::setRadiusSchedule(RadiusSchedule value)
 void RayTraceSettings::setMaterials(const std::string& value)
 {
     change(_values.materials, value.empty() ? std::string("none") : value, _modifiedCount);
+}
+
+void RayTraceSettings::setMaterialHook(MaterialHook* hook)
+{
+    change(_materialHook, osg::ref_ptr<MaterialHook>(hook), _modifiedCount);
 }
 
 std::string RayTraceSettings::getMaterialsError() const

@@ -43,6 +43,7 @@ struct Options
     bool report = false;
     Context context = Context::None;
     bool listOptions = false;
+    bool names = false; ///< true: the names of the models are printed, and nothing is rendered
     osg::ref_ptr<RayTraceSettings> settings; ///< maxPasses is the limit of passes
 
     /// Holds the settings that the command line states: names and values.

@@ -14,6 +14,7 @@
 #include "apps/common/Output.h"
 #include "apps/common/PluginPath.h"
 #include "apps/common/Program.h"
+#include "apps/common/SceneNames.h"
 #include "apps/common/StoredScene.h"
 
 #include <osgGA/EventVisitor>
@@ -205,6 +206,11 @@ int runCommandLine(int argc, char** argv)
         return kDone;
     }
     addPluginPath();
+    if (options->names)
+    {
+        std::cout << namesOf(*readScene(options->models)) << std::flush;
+        return kDone;
+    }
     return run(*options);
 }
 

@@ -5,9 +5,13 @@
 #include "apps/common/DrawnParts.h"
 #include "apps/common/Failure.h"
 #include "apps/common/ImageFile.h"
+#include "apps/common/SceneNames.h"
+
+#include <osgRayTrace/RayIntersector>
 
 #include <osg/Notify>
 #include <osgDB/FileUtils>
+#include <osgUtil/IntersectionVisitor>
 
 #include <string>
 
@@ -60,17 +64,17 @@ bool KeyHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAda
     if (event.getEventType() == osgGA::GUIEventAdapter::KEYUP)
         return _held.erase(lowerCase(event.getKey())) > 0;
     if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
-    if (!press(event.getKey(), dynamic_cast<osgViewer::View*>(&action))) return false;
+    if (!press(event, dynamic_cast<osgViewer::View*>(&action))) return false;
     _held.insert(lowerCase(event.getKey()));
     action.requestRedraw();
     return true;
 }
 
-bool KeyHandler::press(int key, osgViewer::View* view)
+bool KeyHandler::press(const osgGA::GUIEventAdapter& event, osgViewer::View* view)
 {
     RayTraceSettings& settings = *_scene->getSettings();
     RayTraceDrawable& drawable = *_scene->getDrawable();
-    switch (key)
+    switch (event.getKey())
     {
     case 'i':
         cycle(settings, "integrator");
@@ -99,6 +103,9 @@ bool KeyHandler::press(int key, osgViewer::View* view)
         return true;
     case 'c':
         writeScreenshot();
+        return true;
+    case 'o':
+        printObject(event, view);
         return true;
     default:
         return false;
@@ -143,6 +150,19 @@ void KeyHandler::writeScreenshot() const
     }
 }
 
+/// Prints the names of what is under the mouse, as a material file can use them.
+void KeyHandler::printObject(const osgGA::GUIEventAdapter& event, osgViewer::View* view)
+{
+    if (!view) return;
+    const osg::ref_ptr<RayIntersector> ray = new RayIntersector(
+        osgUtil::Intersector::PROJECTION, event.getXnormalized(), event.getYnormalized());
+    osgUtil::IntersectionVisitor visitor(ray);
+    view->getCamera()->accept(visitor);
+    OSG_NOTICE << (ray->containsIntersections() ? namesAlong(ray->getFirstIntersection().nodePath)
+                                                : "nothing is under the mouse\n")
+               << std::flush;
+}
+
 void KeyHandler::getUsage(osg::ApplicationUsage& usage) const
 {
     usage.addKeyboardMouseBinding("i", "Next integrator");
@@ -154,6 +174,7 @@ void KeyHandler::getUsage(osg::ApplicationUsage& usage) const
                                   "Freeze the view, so that its image converges, and let it go");
     usage.addKeyboardMouseBinding("r", "Switch between ray tracer and rasterizer");
     usage.addKeyboardMouseBinding("R", "Print what is ray traced, and what is not");
+    usage.addKeyboardMouseBinding("o", "Print the names of what is under the mouse");
     usage.addKeyboardMouseBinding("c", "Write the picture's radiance to osgraytrace-N.exr");
 }
 

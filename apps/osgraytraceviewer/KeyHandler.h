@@ -30,9 +30,10 @@ public:
     bool isFrozen() const { return _frozen; }
 
 private:
-    bool press(int key, osgViewer::View* view);
+    bool press(const osgGA::GUIEventAdapter& event, osgViewer::View* view);
     void freeze(osgViewer::View* view);
     void writeScreenshot() const;
+    static void printObject(const osgGA::GUIEventAdapter& event, osgViewer::View* view);
 
     osg::ref_ptr<RayTracedScene> _scene;
     bool _frozen = false;

@@ -7,6 +7,12 @@
 
 #include <osg/Geometry>
 #include <osg/Group>
+#include <osg/Image>
+#include <osg/Material>
+#include <osg/Program>
+#include <osg/Texture2D>
+#include <osg/Uniform>
+#include <osg/ValueObject>
 #include <osgDB/WriteFile>
 
 using Catch::Matchers::Contains;
@@ -92,4 +98,44 @@ TEST_CASE("osgraytrace --materials: glass by a name, and errors with their line"
     CHECK(bad.exitCode == 2);
     CHECK_THAT(bad.errors, Contains("m.json:2: nodes: 'roof': 'metalic' is no parameter"));
     CHECK(osgraytrace(folder, town + " -o x.exr --materials 'no such.json'").exitCode == 2);
+}
+
+TEST_CASE("osgraytrace --names: a line for each name that a material file can use", "[apps]")
+{
+    const TemporaryFolder folder, models;
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->setName("to\twn"); // a tab would end the column
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    image->setFileName("wall.png");
+    for (int i = 0; i < 2; ++i)
+    {
+        const osg::ref_ptr<osg::Geometry> house = strokes(GL_TRIANGLES, "house");
+        osg::StateSet& state = *house->getOrCreateStateSet();
+        osg::ref_ptr<osg::Program> program = new osg::Program;
+        program->setName("Bump");
+        osg::ref_ptr<osg::Material> material = new osg::Material;
+        material->setName("brick");
+        state.setAttribute(program);
+        state.setAttribute(material);
+        state.setTextureAttribute(3, new osg::Texture2D(image));
+        state.addUniform(new osg::Uniform("diffuseMap", 3));
+        state.addUniform(new osg::Uniform("gloss", 0.5f));
+        state.setUserValue("kind", std::string("brick"));
+        root->addChild(house);
+        root->addChild(house); // a second path is no second house
+    }
+    REQUIRE(osgDB::writeNodeFile(*root, folder / "town.osgb"));
+    const Outcome outcome = osgraytrace(models, (folder / "town.osgb") + " --names");
+    CHECK(outcome.exitCode == 0);
+    CHECK(outcome.output == "material\t2\tbrick\t-\tto\\twn/house\n"
+                            "node\t2\thouse\t-\tto\\twn/house\n"
+                            "node\t1\tto\\twn\t-\tto\\twn\n"
+                            "program\t2\tBump\t-\tto\\twn/house\n"
+                            "sampler\t2\tdiffuseMap\t3\tto\\twn/house\n"
+                            "texture\t2\twall.png\t3\tto\\twn/house\n"
+                            "uniform\t2\tgloss\t-\tto\\twn/house\n"
+                            "user\t2\tkind\t-\tto\\twn/house\n");
+    CHECK(models.fileNames().empty());
+    CHECK(osgraytrace(models, "--names").exitCode == 1); // no model
 }

@@ -5,8 +5,10 @@
 #include "apps/osgraytraceviewer/KeyHandler.h"
 #include "apps/osgraytraceviewer/StatusLine.h"
 #include "tests/Catch.h"
+#include "tests/bridge/Messages.h"
 #include "tests/gl/TestViewer.h"
 
+#include <osg/Material>
 #include <osgGA/TrackballManipulator>
 #include <osgViewer/ViewerEventHandlers>
 
@@ -54,6 +56,34 @@ TEST_CASE("viewer: F freezes the view, and its release toggles nothing however S
         CHECK(send(*keys, viewer, Event::KEYDOWN, key));
         CHECK(send(*keys, viewer, Event::KEYUP, key));
     }
+}
+
+TEST_CASE("viewer: o prints the names of what is under the mouse", "[apps][gl]")
+{
+    const osg::ref_ptr<osg::ShapeDrawable> ball = sphere(osg::Vec3(), 2.0f, osg::Vec4(1, 1, 1, 1));
+    ball->setName("ball");
+    osg::ref_ptr<osg::Material> chrome = new osg::Material;
+    chrome->setName("chrome");
+    ball->getOrCreateStateSet()->setAttribute(chrome);
+    const osg::ref_ptr<RayTracedScene> scene = tracedScene(ball);
+    const osg::ref_ptr<KeyHandler> keys = new KeyHandler(scene);
+    TestViewer viewer(32, 32, scene);
+    viewer.frames(1);
+    const auto printed = [&](float x)
+    {
+        const engine::test::Messages messages;
+        osg::setNotifyLevel(osg::NOTICE);
+        const osg::ref_ptr<Event> event = new Event;
+        event->setEventType(Event::KEYDOWN);
+        event->setKey('o');
+        event->setInputRange(-1.0f, -1.0f, 1.0f, 1.0f);
+        event->setX(x);
+        event->setY(0.0f);
+        CHECK(keys->handle(*event, viewer.viewer));
+        return messages.text();
+    };
+    CHECK_THAT(printed(0.0f), Contains("/ball\n") && Contains("material\tchrome\t-\n"));
+    CHECK(printed(0.99f) == "nothing is under the mouse\n");
 }
 
 TEST_CASE("viewer: the status line says how far the picture is, and what is not as usual",

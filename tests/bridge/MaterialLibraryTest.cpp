@@ -112,7 +112,7 @@ TEST_CASE("material files: what is wrong is named, with its line", "[bridge]")
     CHECK_THAT(errorOf(""), Contains("m.json: parse error at line 1"));
     CHECK_THAT(errorOf("{} x"), Contains("parse error at line 1"));
     CHECK_THAT(errorOf("{\n\"nods\": {} }"),
-               Contains("m.json:2: 'nods' is none of nodes, materials, textures"));
+               Contains("m.json:2: 'nods' is none of nodes, materials, textures, shaders"));
     CHECK_THAT(errorOf("[]"), Contains("m.json:1: an object was expected, not an array"));
     CHECK_THAT(errorOf("{ \"nodes\": 3 }"),
                Contains("an object was expected for the name, not a number"));

@@ -131,3 +131,30 @@ TEST_CASE("state stack: equal paths give the same state, others do not", "[bridg
     CHECK(stack.top() != below);
     CHECK_FALSE(stack.states()[stack.top()].isOn(kLightingBit));
 }
+
+TEST_CASE("state stack: uniforms and textures of all units are kept only if somebody reads them",
+          "[bridge]")
+{
+    osg::ref_ptr<osg::StateSet> first = new osg::StateSet, second = new osg::StateSet;
+    first->addUniform(new osg::Uniform("diffuseMap", 7));
+    first->setTextureAttribute(7, new osg::Texture2D);
+    const auto push = [&](StateStack& states)
+    {
+        states.push(*first);
+        states.push(*second);
+        CHECK(states.states().size() == 3);
+    };
+    StateStack plain((GraphState()));
+    push(plain);
+    for (const GraphState& state : plain.states())
+        CHECK(state.shader == nullptr);
+
+    GraphState root;
+    root.shader = std::make_shared<ShaderState>();
+    StateStack reading(root);
+    push(reading);
+    const ShaderState& shader = *reading.states().back().shader;
+    CHECK(shader.uniforms.count("diffuseMap") == 1);
+    CHECK(shader.textures.count(7) == 1);
+    CHECK(reading.states()[1].shader == reading.states()[2].shader); // shared if nothing changes
+}

@@ -23,7 +23,16 @@ const std::string kValid = R"({
     "*": { "metallic": 0.5 }
   },
   "materials": { "lamp": { "emission": [20, 18.5, 1e1] }, "caf\u00e9": {} },
-  "textures": { "wood.png": { "roughness": 0.3 } }
+  "textures": { "wood.png": { "roughness": 0.3 } },
+  "shaders": [
+    { "name": "bump", "if": { "program": "Bump*", "sampler": ["diffuseMap", "n*"] },
+      "baseColorTexture": { "sampler": "diffuseMap", "srgb": true },
+      "roughness": { "uniform": "gloss", "invert": true, "scale": 0.5, "optional": true },
+      "metallicRoughnessTexture": { "unit": 3, "channels": "ga" },
+      "attributes": { "position": 0, "texcoord": 8 } },
+    { "if": { "unit": 0, "user": "sDiffuse", "texture": "*_n.png" }, "baseColor": [1, 0.5, 0],
+      "roughnessTexture": { "user": "s" }, "alphaReference": 0.5 }
+  ]
 }
 )";
 
@@ -50,7 +59,11 @@ const char* const kPieces[] = {"{",
                                "\"roughness\":",
                                "0.5",
                                "\xef\xbb\xbf",
-                               "//"};
+                               "//",
+                               "{\"shaders\":[{\"if\":{",
+                               "\"if\":",
+                               "\"channels\":",
+                               "{\"uniform\":"};
 
 std::string damaged(Dice& dice)
 {
@@ -100,6 +113,35 @@ void checkRules(const MaterialRuleList& rules)
     }
 }
 
+void checkShaders(const MaterialLibrary& library)
+{
+    bool good = (library.reads != nullptr) == !library.shaders.empty();
+    for (const ShaderRule& rule : library.shaders)
+    {
+        good = good && !rule.name.empty() && !rule.conditions.empty();
+        for (const ParameterRule& item : rule.parameters)
+        {
+            const bool constant = item.source.kind == ValueSource::Kind::Constant;
+            good = good && item.parameter &&
+                   item.source.constant.size() == (constant ? item.parameter->count : 0) &&
+                   item.source.pattern.empty() == constant;
+            for (const double value : item.source.constant)
+                good = good && value >= item.parameter->lowest && value <= item.parameter->highest;
+        }
+        for (unsigned int field = 0; field < kTextureFields; ++field)
+        {
+            if (!rule.textures[field]) continue;
+            const TextureSource& source = *rule.textures[field];
+            const std::size_t letters = field == kMetallicRoughnessField ? 2
+                                        : field <= kEmissionField        ? 0
+                                                                         : 1;
+            good = good && source.channels.size() == letters &&
+                   source.channels.find_first_not_of("rgba") == std::string::npos;
+        }
+    }
+    CHECK(good);
+}
+
 } // namespace
 
 TEST_CASE("fuzz: damaged material files", "[fuzz]")
@@ -116,6 +158,7 @@ TEST_CASE("fuzz: damaged material files", "[fuzz]")
             checkRules(result.library->nodes);
             checkRules(result.library->materials);
             checkRules(result.library->textures);
+            checkShaders(*result.library);
             return;
         }
         ++bad;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "TestViewer.h"
 #include "tests/Catch.h"
+#include "tests/plugins/TemporaryFolder.h"
 
 #include <osg/MatrixTransform>
 #include <osg/Program>
@@ -9,6 +10,7 @@
 #include <osgDB/Registry>
 #include <osgText/Text>
 
+#include <fstream>
 #include <sstream>
 
 using namespace osgRayTrace;
@@ -113,6 +115,30 @@ TEST_CASE("hints: a node and what is below it, the nearest counts", "[gl]")
     CHECK(RayTracedScene::getHint(balls.right.get()) == RayTracedScene::RASTERIZE);
     CHECK(RayTracedScene::getHint(balls.left->getChild(0)) == RayTracedScene::AUTOMATIC);
     CHECK(balls.group->getNumDescriptions() == 1);
+}
+
+TEST_CASE("hints: a rule of the material file has what a shader draws traced, in its colour",
+          "[gl]")
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "m.json") << R"({ "shaders": [ { "name": "paint",
+        "if": { "uniform": "paint" }, "baseColor": { "uniform": "paint" } } ] })";
+    Balls balls;
+    osg::ref_ptr<osg::Uniform> paint = new osg::Uniform("paint", osg::Vec3(1.0f, 0.0f, 0.0f));
+    balls.left->getOrCreateStateSet()->addUniform(paint);
+    Traced traced(balls.group.get());
+    CHECK(traced.show().balls() == "gg");
+    traced.scene->getSettings()->setMaterials(folder / "m.json");
+    CHECK(traced.show().balls() == "rg");
+    CHECK(traced.count("traced.by-rule") == 1);
+    CHECK(traced.count("rasterized.shader-program") == 1);
+    paint->set(osg::Vec3(0.0f, 1.0f, 0.0f)); // it is lit, unlike what the shader draws
+    const Shown green = traced.show();
+    CHECK(green.balls() == "gg");
+    CHECK(traced.count("traced.by-rule") == 1);
+    RayTracedScene::setHint(balls.left.get(), RayTracedScene::RASTERIZE);
+    CHECK(meanDifference(*traced.show().image, *green.image) > 1.0);
+    CHECK(traced.count("rasterized.hint") == 1);
 }
 
 // Both kinds of parts composite: a part with the hint to be rasterized hides and is hidden as

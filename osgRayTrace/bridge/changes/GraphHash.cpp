@@ -42,12 +42,13 @@ public:
           _budget(budget),
           _eye(conditions.eye),
           _view(conditions.view),
+          _reads(conditions.reads),
           _cullStack(conditions.view),
           _sceneFromLocal(sceneFromLocal)
     {
         setTraversalMask(conditions.traversalMask);
         for (const osg::ref_ptr<const osg::StateSet>& stateSet : conditions.inheritedState)
-            addStateSet(_hasher, *stateSet);
+            addStateSet(_hasher, *stateSet, _reads.get());
     }
 
     uint64_t value() const { return _hasher.value(); }
@@ -187,7 +188,7 @@ private:
     void addStateSetOf(const osg::Node& node)
     {
         _hasher.addObject(node.getStateSet());
-        if (node.getStateSet()) addStateSet(_hasher, *node.getStateSet());
+        if (node.getStateSet()) addStateSet(_hasher, *node.getStateSet(), _reads.get());
     }
 
     // Marks the end of the children, so that a node that moves one level up changes the hash.
@@ -199,6 +200,7 @@ private:
     PathBudget& _budget;
     osg::Vec3d _eye;
     std::optional<ReferenceView> _view;
+    std::shared_ptr<const ShaderReads> _reads;
     ReferenceCullStack _cullStack;
     osg::Matrixd _sceneFromLocal;
     osg::Geometry::ArrayList _arrays;

@@ -43,7 +43,7 @@ uint64_t inheritedHash(const ViewingConditions& conditions, KeptObjects* kept = 
 {
     Hasher hasher(kept);
     for (const osg::ref_ptr<const osg::StateSet>& stateSet : conditions.inheritedState)
-        addStateSet(hasher, *stateSet);
+        addStateSet(hasher, *stateSet, conditions.reads.get());
     return hasher.value();
 }
 
@@ -68,6 +68,7 @@ void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
     WatchedGraph before = std::move(_graph); // this copy keeps its nodes alive until the end
     *this = GraphWatch();
     _graph.traversalMask = conditions.traversalMask;
+    _graph.reads = conditions.reads;
     _plain = conditions;
     _plain.inheritedState.clear();
     _inheritedHash = inheritedHash(conditions, &_inheritedKept);
@@ -121,6 +122,7 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
     _recorded = false; // this holds until everything is seen
     _plain.eye = conditions.eye;
     _plain.view = conditions.view;
+    _plain.reads = _graph.reads = conditions.reads;
     _anyMoved = _anyStateChanged = false;
     _exchanged.clear();
     ++_looks;

@@ -30,7 +30,7 @@ public:
     void forget();
 
     /// Returns what has changed in the graph below the same root since the last look or record(),
-    /// under conditions that differ at most in the eye, the view and the inherited state.
+    /// under conditions that differ at most in the eye, the view, the inherited state and reads.
     GraphChanges look(osg::Node& root, const ViewingConditions& conditions);
 
     /// Returns the path that the geometry had at the last look, for messages, or the name of the

@@ -22,6 +22,7 @@
 #include <osg/TexEnv>
 #include <osg/TexMat>
 #include <osg/Texture>
+#include <osg/UserDataContainer>
 
 namespace osgRayTrace::engine
 {
@@ -120,6 +121,34 @@ void addModes(Hasher& hasher, const osg::StateSet::ModeList& modes)
         hasher.add(mode, value);
 }
 
+void addUserValues(Hasher& hasher, const osg::UserDataContainer& container)
+{
+    for (unsigned int i = 0; i < container.getNumUserObjects(); ++i)
+    {
+        const osg::Object* object = container.getUserObject(i);
+        hasher.addObject(object);
+        if (!object) continue;
+        for (const double value : userValuesOf(*object))
+            hasher.add(value);
+    }
+}
+
+/// Adds what the rules of a material file read of a state set beside its attributes. Programs often
+/// get uniforms of the frame, such as its time, which no rule reads: their values are left out.
+void addRead(Hasher& hasher, const osg::StateSet& stateSet, const ShaderReads& reads)
+{
+    for (const auto& [name, pair] : stateSet.getUniformList())
+    {
+        hasher.addObject(pair.first.get());
+        hasher.add(pair.second);
+        if (!pair.first || !reads.reads(*pair.first)) continue;
+        for (const double value : valuesOf(*pair.first))
+            hasher.add(value);
+    }
+    if (reads.userValues && stateSet.getUserDataContainer())
+        addUserValues(hasher, *stateSet.getUserDataContainer());
+}
+
 } // namespace
 
 void addImage(Hasher& hasher, const osg::Image* image)
@@ -158,8 +187,9 @@ void addTexGen(Hasher& hasher, const osg::TexGen& texGen)
             hasher.add(texGen.getPlane(coordinate)[k]);
 }
 
-void addStateSet(Hasher& hasher, const osg::StateSet& stateSet)
+void addStateSet(Hasher& hasher, const osg::StateSet& stateSet, const ShaderReads* reads)
 {
+    if (reads) addRead(hasher, stateSet, *reads);
     const bool ofNode = stateSet.getNumParents() > 0;
     addModes(hasher, stateSet.getModeList());
     addAttributes(hasher, stateSet.getAttributeList(), ofNode);

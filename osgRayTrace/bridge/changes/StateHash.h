@@ -4,6 +4,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/common/Hasher.h"
+#include "osgRayTrace/bridge/common/ShaderState.h"
 
 #include <osg/Light>
 #include <osg/StateSet>
@@ -14,8 +15,9 @@ namespace osgRayTrace::engine
 {
 
 /// Adds modes, and attributes with their values and the modified counts of their images. Attributes
-/// that belong to the frame, such as the viewport, are left out.
-void addStateSet(Hasher& hasher, const osg::StateSet& stateSet);
+/// that belong to the frame, such as the viewport, are left out. reads: adds which uniforms and
+/// user values there are, and the values of those that rules read; null: none.
+void addStateSet(Hasher& hasher, const osg::StateSet& stateSet, const ShaderReads* reads);
 
 void addLight(Hasher& hasher, const osg::Light& light);
 

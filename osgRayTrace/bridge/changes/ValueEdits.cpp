@@ -62,13 +62,13 @@ void GraphWatch::lookAtStates()
         state.changed = false;
         if (!state.stateSet) continue;
         Hasher hasher;
-        addStateSet(hasher, *state.stateSet);
+        addStateSet(hasher, *state.stateSet, _graph.reads.get());
         state.changed = hasher.value() != state.hash;
         if (!state.changed) continue;
         any = true;
         KeptObjects kept;
         Hasher now(&kept);
-        addStateSet(now, *state.stateSet);
+        addStateSet(now, *state.stateSet, _graph.reads.get());
         state.hash = now.value();
         state.kept = std::move(kept);
     }

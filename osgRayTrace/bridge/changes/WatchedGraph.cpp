@@ -54,7 +54,7 @@ void WatchedGraph::setState(uint32_t& state, const osg::StateSet* stateSet)
             WatchedState& fresh = states[known->second];
             fresh.stateSet = keep(stateSet);
             Hasher hasher(&fresh.kept);
-            addStateSet(hasher, *stateSet);
+            addStateSet(hasher, *stateSet, reads.get());
             fresh.hash = hasher.value();
         }
         state = known->second;

@@ -137,7 +137,8 @@ struct WatchedGraph
     const osg::Node* owner = nullptr; ///< decorator, if any, which owns the object that watches it
     std::size_t repeats = 0;          ///< number of nodes with repeated set
     unsigned int traversalMask = 0xffffffffu;
-    bool truncated = false;     ///< true: there are more nodes than kMostWatched
+    std::shared_ptr<const ShaderReads> reads; ///< see ViewingConditions
+    bool truncated = false;                   ///< true: there are more nodes than kMostWatched
     std::size_t firstDepth = 1; ///< number of nodes on the path to the first one, including it
 
     bool isVisible(const osg::Node& node) const

@@ -48,6 +48,19 @@ void ConversionReport::count(const std::string& what, uint64_t number)
         recordPath(what, _place());
 }
 
+void ConversionReport::countFor(const std::string& what, const std::string& cause)
+{
+    ++_counts[what];
+    ++_remarks;
+    const std::string beginning = _place ? cause + ", for " : cause;
+    const std::vector<std::string>& paths = _paths[what];
+    const bool isNamed =
+        std::any_of(paths.begin(), paths.end(),
+                    [&](const std::string& path) { return begins(path, beginning.c_str()); });
+    if (!isNamed && paths.size() < kPathsKept)
+        recordPath(what, _place ? beginning + _place() : cause);
+}
+
 void ConversionReport::add(const ConversionCounts& counts)
 {
     for (const auto& [what, number] : counts)

@@ -15,6 +15,7 @@ namespace osgRayTrace::engine
 /// Counts objects by "<class>.<reason>", as Statistics::conversion tells them:
 /// - converted: parts of the Scene, namely geometry (drawables), instance, material, texture and
 ///   light; the viewer's own light is a headlight or a sky-light
+/// - traced: parts that are traced with the material that a rule gives them
 /// - repaired: values that were replaced, namely normal, texture-coordinate, color (each a vertex),
 ///   environment-not-finite, -negative, -too-bright (each a pixel), environment-scale
 /// - skipped: bad data left out, namely index-out-of-range, not-finite, degenerate (each a
@@ -58,6 +59,9 @@ public:
     void count(const std::string& what, uint64_t number = 1);
     void add(const ConversionCounts& counts);
     void add(const ConversionReport& other); ///< adds the paths as well
+
+    /// Counts one object by the cause, such as "rule 'glass'", which is named with the first place.
+    void countFor(const std::string& what, const std::string& cause);
 
     /// Counts one skipped or changed object and names it: "transform 'root/arm': singular,
     /// skipped".

@@ -15,6 +15,7 @@ struct ReportClass
 /// The classes stand in the order of the report.
 constexpr ReportClass kReportClasses[] = {
     {"converted.", "Ray traced"},
+    {"traced.", "Ray traced with materials of rules, in the place of programs and textures"},
     {"rasterized.", "Has triangles, but is left to OSG to draw"},
     {"not-traced.", "Cannot be ray traced: drawn by OSG where there is a viewer"},
     {"approximated.", "Ray traced, but not with all that OpenGL does"},
@@ -47,6 +48,9 @@ constexpr ReportReason kReportReasons[] = {
     {"converted.environment-light", "the environment light"},
     {"converted.headlight", "the viewer's own light, from behind the eye"},
     {"converted.sky-light", "the viewer's own light, from above"},
+
+    {"traced.by-rule",
+     "drawables that a rule of the material file or the application lets be traced"},
 
     {"rasterized.additive-blending", "drawables whose colour is added to what is behind"},
     {"rasterized.billboard", "billboards with something below them that OSG draws"},
@@ -147,6 +151,7 @@ constexpr ReportReason kReportReasons[] = {
     {"warned.far-vertices", "drawables whose vertices are far from their own origin"},
     {"warned.light-size", "names of light-sizes that no light has"},
     {"warned.material-name", "rules of the material file whose name nothing has"},
+    {"warned.material-value", "rules of the material file that ask for what is not there"},
     {"warned.too-many-points", "drawables with more than 524,288 points and line segments"},
     {"warned.trace-hint", "nodes that are hinted to be traced, but cannot be"},
 

@@ -235,9 +235,20 @@ GraphState applied(GraphState state, const osg::StateSet& stateSet)
 {
     applyModes(state, stateSet.getModeList(), modeBit);
     applyMoreLights(state, stateSet.getModeList());
+    uint32_t set = 0;
     for (const auto& [type, pair] : stateSet.getAttributeList())
-        if (const auto slot = attributeSlot(type.first)) applyAttribute(state, *slot, pair);
+    {
+        const auto slot = attributeSlot(type.first);
+        if (!slot) continue;
+        applyAttribute(state, *slot, pair);
+        if (state.attributes[*slot] == pair.first) set |= 1u << *slot;
+    }
+    if (set & 1u << kPhysicalMaterialSlot)
+        state.programIsNearer = false;
+    else if (set & (1u << kProgramSlot | 1u << kAssemblyProgramSlot))
+        state.programIsNearer = true;
     applyTextures(state, stateSet);
+    if (state.shader) state.shader = below(state.shader, stateSet);
     return state;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/common/ShaderState.h"
+
 #include <osg/StateSet>
 
 #include <array>
@@ -106,6 +108,8 @@ struct GraphState
     std::shared_ptr<const LightModes> moreLights; ///< null: none was set
     std::array<uint8_t, kUnits> generated{};      ///< bit n: coordinate n of the unit is generated
     std::array<uint8_t, kUnits> generatedOverride{};
+    bool programIsNearer = false; ///< true: a program was set below the PhysicalMaterial, if any
+    std::shared_ptr<const ShaderState> shader; ///< null: nobody reads uniforms and textures by name
 
     bool isOn(unsigned int modeBit) const { return (modesOn >> modeBit & 1u) != 0; }
     bool isOn(unsigned int unit, UnitBit bit) const

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/common/CullPass.h"
 #include "osgRayTrace/bridge/common/ReferenceView.h"
+#include "osgRayTrace/bridge/common/ShaderState.h"
 
 #include <osg/Light>
 #include <osg/StateSet>
@@ -38,6 +39,9 @@ struct ViewingConditions
     std::vector<osg::ref_ptr<const osg::StateSet>> inheritedState;
 
     osg::Vec4 clearColor{0.2f, 0.2f, 0.4f, 1.0f};
+
+    /// Uniforms and user values whose changes count, by the rules of a material file; null: none.
+    std::shared_ptr<const ShaderReads> reads;
 };
 
 /// Returns the conditions of the visitor's pass at the visitor's place, without the pass. Cull

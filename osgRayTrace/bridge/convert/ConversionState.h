@@ -24,6 +24,7 @@ constexpr uint64_t kSmallStatic = 32768;
 struct ConversionCaches
 {
     SoftwareVertices vertices;
+    RuleCaches rules;
     GeometryCache geometries;
     TextureConverter textures;
     EnvironmentConverter environment;

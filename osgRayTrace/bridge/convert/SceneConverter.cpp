@@ -100,6 +100,7 @@ void SceneConverter::releaseGraph()
     Implementation& state = *_implementation;
     state.convertedGraph = ConvertedGraph();
     state.caches.vertices = SoftwareVertices();
+    state.caches.rules = RuleCaches();
     state.lastResult = ConversionResult();
     state.input = ConversionInput();
     state.ordinary = false; // prevents patches
@@ -140,7 +141,9 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
 
     ConversionReport report;
     state.caches.vertices.begin();
-    GraphCollector collector(input, state.caches.vertices, state.caches.textures, report);
+    state.caches.rules.begin();
+    GraphCollector collector(input, state.caches.vertices, state.caches.textures,
+                             state.caches.rules, report);
     if (input.root) input.root->accept(collector);
     CollectedGraph graph = collector.take();
 
@@ -175,6 +178,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.cullWatch.record(std::move(graph.cullOutcomes), graph.cullUnknown);
     addUntraced(graph.rasterized, graph.leftGeometries, state.convertedGraph.index);
     state.caches.vertices.end();
+    state.caches.rules.end();
 
     result.scene = state.last;
     result.paged = graph.paged;

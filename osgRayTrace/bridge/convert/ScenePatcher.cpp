@@ -103,7 +103,7 @@ bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
 bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
 {
     if (uses.empty()) return true;
-    if (_input.materials) // its rules look at names
+    if (_input.assignsMaterials()) // rules look at names
         return refuse(ConversionCause::MaterialFile, uses.front().path);
     StateStack states = statesAbove(_input);
     ConversionReport report;

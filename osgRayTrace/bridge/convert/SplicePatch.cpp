@@ -107,12 +107,12 @@ uint32_t ScenePatcher::emptyMeshIndex()
 
 bool ScenePatcher::add(const GraphSplice& splice)
 {
-    if (_input.materials) // its rules look at names
+    if (_input.assignsMaterials()) // rules look at names
         return refuse(ConversionCause::MaterialFile, splice.added);
     if (_convertedGraph.cullWatch.covers(splice.added))
         return refuse(ConversionCause::CullTraversal, splice.added);
     ConversionReport report;
-    GraphCollector collector(_input, _caches.vertices, _caches.textures, report);
+    GraphCollector collector(_input, _caches.vertices, _caches.textures, _caches.rules, report);
     if (!collector.collectAt(fromRoot(splice.added)))
         return refuse(ConversionCause::BadTransform, splice.added);
     CollectedGraph graph = collector.take();

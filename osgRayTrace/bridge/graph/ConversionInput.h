@@ -7,6 +7,7 @@
 #include "osgRayTrace/bridge/common/CullPass.h"
 #include "osgRayTrace/bridge/common/ReferenceView.h"
 
+#include <osgRayTrace/MaterialHook>
 #include <osgRayTrace/RayTraceSettings>
 
 #include <osg/Light>
@@ -31,20 +32,26 @@ struct ConversionSettings
     LightSizes lightSizes;
     float pointRadius = 0.0f;                         ///< see RayTraceSettings
     std::shared_ptr<const MaterialLibrary> materials; ///< null: materials of the graph only
+    osg::ref_ptr<MaterialHook> hook;                  ///< null: the application is not asked
+
+    /// Returns whether materials depend on more than the state of the graph.
+    bool assignsMaterials() const { return materials || hook; }
 
     bool operator==(const ConversionSettings& other) const
     {
         return colorRule == other.colorRule && cullAllRays == other.cullAllRays &&
                headlightShadows == other.headlightShadows && lightSizes == other.lightSizes &&
-               pointRadius == other.pointRadius && materials == other.materials;
+               pointRadius == other.pointRadius && materials == other.materials &&
+               hook == other.hook;
     }
 };
 
 inline ConversionSettings conversionSettings(const RayTraceSettings& settings,
                                              std::shared_ptr<const MaterialLibrary> materials)
 {
-    return {settings.getColorRule(), settings.getCullAllRays(), settings.getHeadlightShadows(),
-            lightSizesOf(settings),  settings.getPointRadius(), std::move(materials)};
+    return {settings.getColorRule(),   settings.getCullAllRays(), settings.getHeadlightShadows(),
+            lightSizesOf(settings),    settings.getPointRadius(), std::move(materials),
+            settings.getMaterialHook()};
 }
 
 /// Holds the graph to convert and the conditions of the conversion.

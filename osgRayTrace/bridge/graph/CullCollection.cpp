@@ -99,10 +99,10 @@ const char* GraphCollector::leftReason(const CapturedLeaf& leaf)
     const bool lit = std::any_of(leaf.states.begin(), leaf.states.end(),
                                  [](const auto& stateSet) { return hasLight(*stateSet); });
     if (lit) return "rasterized.pushed-light";
-    if (withoutTriangles(*geometry)) return "rasterized.mixed-primitives";
+    if (untracedSets(*geometry, _input.pointRadius)) return "rasterized.mixed-primitives";
     const std::size_t pushed = pushStates(leaf);
     pushOntoNodePath(leaf.drawable.get());
-    const char* reason = rasterizedReason(*geometry, false);
+    const char* reason = rasterizedReason(*geometry, false, assignedState(*geometry).state);
     popFromNodePath();
     popStates(pushed);
     return reason;

@@ -36,7 +36,8 @@ constexpr double kSmallestVolume = 1e-12;
 } // namespace
 
 GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
-                               const TextureConverter& textures, ConversionReport& report)
+                               const TextureConverter& textures, RuleCaches& rules,
+                               ConversionReport& report)
     : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN),
       _input(input),
       _vertices(vertices),
@@ -45,7 +46,8 @@ GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& v
       _worldFromLocal(1),
       _cullStack(input.view),
       _states(statesAbove(input)),
-      _materials(input.materials)
+      _rules(rules),
+      _materials({input.materials, input.hook, input.inheritedState}, rules.textures)
 {
     setTraversalMask(input.traversalMask);
     _report.setPlace([this] { return path(); });
@@ -77,7 +79,7 @@ CollectedGraph GraphCollector::take()
 {
     _graph.states = _states.states();
     _report.setPlace({});
-    _materials.reportUnused(_report);
+    _materials.reportRules(_report);
     return std::move(_graph);
 }
 
@@ -236,22 +238,23 @@ void GraphCollector::apply(osg::Geometry& geometry)
     if (_lightsOnly || isTooMuch(geometry)) return;
     const osg::Geometry& posed = _vertices.posed(geometry, getNodePath());
     const bool isPosed = &posed != &geometry;
-    if (_input.rasterizesRest && rasterizes(geometry, isPosed)) return;
+    const AssignedState assigned = assignedState(geometry);
+    if (_input.rasterizesRest && rasterizes(geometry, isPosed, assigned.state)) return;
+    if (assigned.by) _report.countFor("traced.by-rule", "'" + *assigned.by + "'");
     if (!_input.rasterizesRest && hintOf(getNodePath()) == DrawHint::Rasterize)
         _report.count("approximated.rasterize-hint"); // there is no rasterizer
     if (!isPosed && SoftwareVertices::isPosedByProgram(geometry))
         _report.count("approximated.hardware-pose"); // it is traced as it was bound
     if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
-    const bool pushed = pushState(geometry);
-    const uint32_t state = _materials.stateOf(getNodePath(), _states);
-    if (pushed) _states.pop();
-    const PrimitiveRestart restart = restartOf(_states.states()[state]);
+    const osg::Geometry& read =
+        assigned.by ? _rules.layouts.laidOut(posed, assigned.attributes, assigned.unit) : posed;
+    const PrimitiveRestart restart = restartOf(_states.states()[assigned.state]);
     const auto [found, isNew] =
-        _indexOf.try_emplace({&posed, restart.key()}, _graph.geometries.size());
-    if (isNew) _graph.geometries.push_back({&posed, path(), {}, restart, pointRadiusOf(geometry)});
+        _indexOf.try_emplace({&read, restart.key()}, _graph.geometries.size());
+    if (isNew) _graph.geometries.push_back({&read, path(), {}, restart, pointRadiusOf(geometry)});
     CollectedGeometry& collected = _graph.geometries[found->second];
     collected.watched &= _untracked == 0;
-    collected.uses.push_back({engineFromLocal(), state, pickPath()});
+    collected.uses.push_back({engineFromLocal(), assigned.state, pickPath()});
 }
 
 osg::Vec3 GraphCollector::getEyePoint() const

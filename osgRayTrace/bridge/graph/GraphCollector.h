@@ -13,6 +13,7 @@
 #include "osgRayTrace/bridge/graph/NodeTree.h"
 #include "osgRayTrace/bridge/graph/PathBudget.h"
 #include "osgRayTrace/bridge/graph/RasterizedParts.h"
+#include "osgRayTrace/bridge/graph/RuleCaches.h"
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
 
 #include <osgRayTrace/AreaLight>
@@ -115,9 +116,9 @@ struct CollectedGraph
 class GraphCollector : public osg::NodeVisitor
 {
 public:
-    /// textures holds the images that were converted before.
+    /// textures holds the images that were converted before, rules what rules have derived.
     GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
-                   const TextureConverter& textures, ConversionReport& report);
+                   const TextureConverter& textures, RuleCaches& rules, ConversionReport& report);
 
     /// Visits the last node of a path from the root, in the place and the state that the node has
     /// there. The other nodes of the path are of the plain classes that GraphWatch knows. Returns
@@ -187,8 +188,9 @@ private:
     bool collectsInCull(osg::Node& node);
     void collectCulled(osg::Node& node, const CullOutcome& outcome, const char* reason);
     static osg::ref_ptr<TracedLeaves> tracedLeaves(const CullOutcome& outcome);
-    const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed);
-    bool rasterizes(const osg::Geometry& geometry, bool isPosed);
+    AssignedState assignedState(const osg::Geometry& geometry);
+    const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed, uint32_t state);
+    bool rasterizes(const osg::Geometry& geometry, bool isPosed, uint32_t state);
     float pointRadiusOf(const osg::Geometry& geometry);
     void warnIfForced(const char* what);
     osg::Matrixd worldFromEye() const;
@@ -210,6 +212,7 @@ private:
     bool _lightsOnly = false; // leaves of a cull traversal stand for the drawables
     bool _isCaptured = false; // such a leaf is visited, on a path that is not its own
     StateStack _states;
+    RuleCaches& _rules;
     MaterialAssignment _materials; ///< assignment that keeps its additions to the states
     CollectedGraph _graph;
     std::map<std::pair<const osg::Geometry*, uint64_t>, std::size_t> _indexOf; // key with restart

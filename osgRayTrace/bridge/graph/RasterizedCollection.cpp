@@ -21,7 +21,7 @@ bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
         if (!drawable) continue;
         const osg::Geometry* geometry = drawable->asGeometry();
         pushOntoNodePath(drawable);
-        leaves = !geometry || rasterizedReason(*geometry, false) ||
+        leaves = !geometry || rasterizedReason(*geometry, false, assignedState(*geometry).state) ||
                  untracedSets(*geometry, _input.pointRadius);
         popFromNodePath();
     }
@@ -76,24 +76,35 @@ void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
     _graph.rasterizedPaths.push_back(pickPath());
 }
 
-/// Returns why OpenGL, if available, draws the geometry at the end of the path; null: it is traced.
-const char* GraphCollector::rasterizedReason(const osg::Geometry& geometry, bool isPosed)
+/// Returns the state of the geometry at the end of the path, with the material that a rule of the
+/// user's gives it.
+AssignedState GraphCollector::assignedState(const osg::Geometry& geometry)
+{
+    const osg::StateSet* stateSet = geometry.getStateSet();
+    if (stateSet) _states.push(*stateSet);
+    AssignedState assigned = _materials.stateOf(getNodePath(), _states);
+    if (stateSet) _states.pop();
+    return assigned;
+}
+
+/// Returns why OpenGL, if available, draws the geometry at the end of the path, whose state has
+/// this number; null: it is traced.
+const char* GraphCollector::rasterizedReason(const osg::Geometry& geometry, bool isPosed,
+                                             uint32_t state)
 {
     const osg::StateSet* stateSet = geometry.getStateSet();
     const osg::StateAttribute* poses =
         isPosed && stateSet ? stateSet->getAttribute(osg::StateAttribute::PROGRAM) : nullptr;
-    if (stateSet) _states.push(*stateSet);
-    const char* reason = rasterizedState(_states.states()[_states.top()], _textures, poses);
-    if (stateSet) _states.pop();
+    const char* reason = rasterizedState(_states.states()[state], _textures, poses);
     const DrawHint hint = hintOf(getNodePath());
     if (hint == DrawHint::Rasterize) return "rasterized.hint";
     return hint == DrawHint::Trace ? nullptr : reason;
 }
 
 /// Leaves to OSG the parts that it draws better. Returns true if nothing is left to trace.
-bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed)
+bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed, uint32_t state)
 {
-    if (const char* reason = rasterizedReason(geometry, isPosed))
+    if (const char* reason = rasterizedReason(geometry, isPosed, state))
     {
         _report.count(reason);
         rasterize();

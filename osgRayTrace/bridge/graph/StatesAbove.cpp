@@ -14,6 +14,7 @@ GraphState rootState(const ConversionInput& input)
 {
     GraphState state;
     if (input.lighting) state.modesOn |= uint64_t(1) << kLightingBit;
+    if (input.materials && input.materials->reads) state.shader = std::make_shared<ShaderState>();
     if (input.viewLight)
     {
         const int number = input.viewLight->getLightNum();

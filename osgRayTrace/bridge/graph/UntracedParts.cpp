@@ -5,6 +5,8 @@
 #include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
 
+#include <osgRayTrace/PhysicalMaterial>
+
 #include <osg/ClipPlane>
 #include <osg/PolygonMode>
 #include <osgText/TextBase>
@@ -13,6 +15,21 @@
 
 namespace osgRayTrace::engine
 {
+
+namespace
+{
+
+/// Returns whether a texture of the material is one that only OpenGL has.
+bool looksIntoOpenGL(const PhysicalMaterial& material, const TextureConverter& textures)
+{
+    for (const osg::Texture2D* texture :
+         {material.getBaseColorTexture(), material.getMetallicRoughnessTexture(),
+          material.getTransmissionTexture(), material.getEmissionTexture()})
+        if (texture && isOnlyInOpenGL(*texture) && !textures.knows(*texture)) return true;
+    return false;
+}
+
+} // namespace
 
 bool isFrom(const osg::Object* object, const char* library)
 {
@@ -51,14 +68,18 @@ const char* rasterizedState(const GraphState& state, const TextureConverter& tex
                             const osg::StateAttribute* poses)
 {
     const osg::StateAttribute* program = programOf(state);
-    if (program && program != poses) return "rasterized.shader-program";
+    const bool replaced = program && replacesProgram(state);
+    if (program && program != poses && !replaced) return "rasterized.shader-program";
     if (usesStencil(state)) return "rasterized.stencil";
     if (masksColor(state)) return "rasterized.color-mask";
-    if (looksIntoOpenGL(state, textures)) return "rasterized.texture-without-image";
+    const auto* material = state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot);
+    if ((!replaced && looksIntoOpenGL(state, textures)) ||
+        (material && looksIntoOpenGL(*material, textures)))
+        return "rasterized.texture-without-image";
     const auto* polygons = state.attribute<osg::PolygonMode>(kPolygonModeSlot);
     if (polygons && polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL)
         return "rasterized.polygon-mode";
-    if (combinesTextures(state)) return "rasterized.texture-combine";
+    if (!material && combinesTextures(state)) return "rasterized.texture-combine";
     switch (blendingOf(state))
     {
     case Blending::Additive:

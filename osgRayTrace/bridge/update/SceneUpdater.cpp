@@ -181,12 +181,13 @@ void SceneUpdater::takeSettings(const RayTraceSettings& settings)
     if (!inputs.photons) inputs.photons = std::make_shared<PhotonPasses>();
 }
 
-void SceneUpdater::convertIfChanged(osg::Node* root, const ViewingConditions& conditions,
+void SceneUpdater::convertIfChanged(osg::Node* root, ViewingConditions conditions,
                                     const osg::FrameStamp* frameStamp)
 {
     const bool seen = frameStamp && _frameNumber == frameStamp->getFrameNumber();
     const ConversionSettings settings = conversionSettings(
         *_settings, _materialFile.materials(_settings->getMaterials(), _asked.dirty));
+    if (settings.materials) conditions.reads = settings.materials->reads;
     const bool sameRoot = _root == root;
     const ConversionCause cause = causeToConvert(sameRoot, conditions, settings);
     const bool same = cause == ConversionCause::None && !_asked.dirty;

@@ -97,7 +97,7 @@ private:
 
     std::optional<ViewingConditions> takeRecorded();
     void takeSettings(const RayTraceSettings& settings);
-    void convertIfChanged(osg::Node* root, const ViewingConditions& conditions,
+    void convertIfChanged(osg::Node* root, ViewingConditions conditions,
                           const osg::FrameStamp* frameStamp);
     ConversionCause causeToConvert(bool sameRoot, const ViewingConditions& conditions,
                                    const ConversionSettings& settings) const;

@@ -1,15 +1,20 @@
-// MaterialAssignment.cpp - gives geometry the materials of a library. Layer: bridge.
+// MaterialAssignment.cpp - gives geometry the materials of a library or of the application. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/materials/MaterialAssignment.h"
 
-#include "osgRayTrace/film/ToneMap.h"
+#include "osgRayTrace/bridge/appearance/materials/RuleMaterial.h"
+#include "osgRayTrace/bridge/appearance/materials/RuleSources.h"
+#include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
+#include "osgRayTrace/bridge/common/WarnOnce.h"
 
+#include <osg/AlphaFunc>
 #include <osg/Image>
 #include <osg/Material>
 #include <osg/Texture2D>
 #include <osgDB/FileNameUtils>
 
-#include <cmath>
+#include <exception>
 
 namespace osgRayTrace::engine
 {
@@ -17,43 +22,71 @@ namespace osgRayTrace::engine
 namespace
 {
 
-const osg::Texture2D* textureOf(const GraphState& state)
-{
-    return state.isOn(0, kTexture2DBit) ? state.attribute<osg::Texture2D>(0, kTextureSlot)
-                                        : nullptr;
-}
+constexpr auto kForced = osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
 
-float linear(float value)
-{
-    return std::isfinite(value) ? linearFromSrgb(value) : 0.0f;
-}
+const std::string kHookName = "material hook";
 
 /// Takes the diffuse colour and texture of the state.
 void takeColor(const GraphState& state, PhysicalMaterial& material)
 {
-    if (const auto* source = state.attribute<osg::Material>(kMaterialSlot))
-    {
-        const osg::Vec4& color = source->getDiffuse(osg::Material::FRONT);
-        material.setBaseColor(osg::Vec3(linear(color.r()), linear(color.g()), linear(color.b())));
-    }
+    takeDiffuse(state, material);
     // The texture is held, but not changed.
     material.setBaseColorTexture(const_cast<osg::Texture2D*>(textureOf(state)));
 }
 
+osg::ref_ptr<osg::StateSet> stateSetWith(PhysicalMaterial* material)
+{
+    osg::ref_ptr<osg::StateSet> stateSet = new osg::StateSet;
+    stateSet->setAttribute(material, kForced);
+    return stateSet;
+}
+
+uint32_t below(StateStack& states, const osg::StateSet& stateSet)
+{
+    states.push(stateSet);
+    const uint32_t number = states.top();
+    states.pop();
+    return number;
+}
+
 } // namespace
+
+/// Returns the application's material, or null.
+osg::ref_ptr<PhysicalMaterial> MaterialAssignment::ask(const osg::NodePath& path) const
+{
+    std::vector<const osg::StateSet*> stateSets;
+    for (const osg::ref_ptr<const osg::StateSet>& stateSet : _givers.inherited)
+        stateSets.push_back(stateSet.get());
+    for (const osg::Node* node : path)
+        if (node->getStateSet()) stateSets.push_back(node->getStateSet());
+    try
+    {
+        return _givers.hook->materialFor(path, stateSets);
+    }
+    catch (const std::exception& error)
+    {
+        warnOnce("material hook: " + std::string(error.what()) + ", taken as no material");
+    }
+    catch (...)
+    {
+        warnOnce("material hook: an exception, taken as no material");
+    }
+    return nullptr;
+}
 
 const MaterialRule* MaterialAssignment::ruleFor(const osg::NodePath& path,
                                                 const GraphState& state) const
 {
-    for (auto node = path.rbegin(); node != path.rend() && !_library->nodes.empty(); ++node)
-        if (const MaterialRule* rule = _library->nodes.find((*node)->getName())) return rule;
+    const MaterialLibrary& library = *_givers.library;
+    for (auto node = path.rbegin(); node != path.rend() && !library.nodes.empty(); ++node)
+        if (const MaterialRule* rule = library.nodes.find((*node)->getName())) return rule;
     if (const auto* material = state.attribute<osg::Material>(kMaterialSlot))
-        if (const MaterialRule* rule = _library->materials.find(material->getName())) return rule;
+        if (const MaterialRule* rule = library.materials.find(material->getName())) return rule;
     const osg::Texture2D* texture = textureOf(state);
     if (!texture || !texture->getImage()) return nullptr;
     const std::string& file = texture->getImage()->getFileName();
-    if (const MaterialRule* rule = _library->textures.find(file)) return rule;
-    return _library->textures.find(osgDB::getSimpleFileName(file));
+    if (const MaterialRule* rule = library.textures.find(file)) return rule;
+    return library.textures.find(osgDB::getSimpleFileName(file));
 }
 
 const osg::StateSet& MaterialAssignment::stateSetOf(const MaterialRule& rule, uint32_t number,
@@ -63,35 +96,83 @@ const osg::StateSet& MaterialAssignment::stateSetOf(const MaterialRule& rule, ui
     if (stateSet) return *stateSet;
     osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial(*rule.material);
     if (rule.keepsColor) takeColor(state, *material);
-    stateSet = new osg::StateSet;
-    stateSet->setAttribute(material.get(),
-                           osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED);
+    stateSet = stateSetWith(material);
     return *stateSet;
 }
 
-uint32_t MaterialAssignment::stateOf(const osg::NodePath& path, StateStack& states)
+/// Returns the first rule of "shaders" that fits, with its state. Rules that read user values are
+/// tried for each path, the others once for each state.
+const MaterialAssignment::ShaderMatch&
+MaterialAssignment::shaderMatch(const osg::NodePath& path, uint32_t number, const GraphState& state)
 {
-    const uint32_t number = states.top();
-    if (!_library) return number;
-    const GraphState state = states.states()[number];
-    const MaterialRule* rule = ruleFor(path, state);
-    if (!rule) return number;
-    _used.insert(rule);
-    states.push(stateSetOf(*rule, number, state));
-    const uint32_t assigned = states.top();
-    states.pop();
-    return assigned;
+    const auto [known, isNew] = _shaderMatches.try_emplace(number);
+    ShaderMatch& match = known->second;
+    if (!isNew && !_givers.library->readsUserValues) return match;
+    match = ShaderMatch();
+    for (const ShaderRule& rule : _givers.library->shaders)
+    {
+        if (!fits(rule, path, state)) continue;
+        RuleMaterial made = materialOf(rule, path, state, _derived);
+        if (!made.missing.empty()) _missing.emplace(&rule, made.missing);
+        match.rule = &rule;
+        match.unit = made.unit;
+        match.stateSet = stateSetWith(made.material);
+        if (made.alphaReference)
+            match.stateSet->setAttributeAndModes(
+                new osg::AlphaFunc(osg::AlphaFunc::GREATER, *made.alphaReference),
+                osg::StateAttribute::ON | kForced);
+        break;
+    }
+    return match;
 }
 
-void MaterialAssignment::reportUnused(ConversionReport& report) const
+AssignedState MaterialAssignment::stateOf(const osg::NodePath& path, StateStack& states)
 {
-    if (!_library) return;
-    for (const auto* rules : {&_library->nodes, &_library->materials, &_library->textures})
+    AssignedState result;
+    const uint32_t number = result.state = states.top();
+    if (_givers.hook)
+        if (const osg::ref_ptr<PhysicalMaterial> material = ask(path))
+        {
+            result.by = &kHookName;
+            result.state = below(states, *stateSetWith(material));
+            return result;
+        }
+    if (!_givers.library) return result;
+    const GraphState state = states.states()[number];
+    if (const MaterialRule* rule = ruleFor(path, state))
+    {
+        _used.insert(rule);
+        if (programOf(state)) result.by = &rule->pattern;
+        result.state = below(states, stateSetOf(*rule, number, state));
+        return result;
+    }
+    if (_givers.library->shaders.empty()) return result;
+    const ShaderMatch& match = shaderMatch(path, number, state);
+    if (!match.rule) return result;
+    _usedShaders = true;
+    result.by = &match.rule->name;
+    result.attributes = match.rule->attributes;
+    result.unit = match.unit;
+    result.state = below(states, *match.stateSet);
+    return result;
+}
+
+void MaterialAssignment::reportRules(ConversionReport& report) const
+{
+    if (!_givers.library) return;
+    const MaterialLibrary& library = *_givers.library;
+    for (const auto* rules : {&library.nodes, &library.materials, &library.textures})
         for (const MaterialRule& rule : *rules)
             if (_used.count(&rule) == 0)
                 report.warn("warned.material-name",
                             "material file, " + rule.group + " '" + rule.pattern + "'",
                             "nothing in the scene has this name");
+    if (!library.shaders.empty() && !_usedShaders)
+        report.warn("warned.material-name", "material file, shaders",
+                    "nothing in the scene fits any of the rules");
+    for (const auto& [rule, what] : _missing)
+        report.warn("warned.material-value", "material file, shaders '" + rule->name + "'",
+                    "asks for the " + what + ", which is not there");
 }
 
 } // namespace osgRayTrace::engine

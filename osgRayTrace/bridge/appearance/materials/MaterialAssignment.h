@@ -1,45 +1,82 @@
-// MaterialAssignment.h - gives geometry the materials of a library. Layer: bridge.
+// MaterialAssignment.h - gives geometry the materials of a library or of the application. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "osgRayTrace/bridge/appearance/materials/MaterialLibrary.h"
+#include "osgRayTrace/bridge/appearance/textures/DerivedTextures.h"
 #include "osgRayTrace/bridge/common/ConversionReport.h"
 #include "osgRayTrace/bridge/common/StateStack.h"
+
+#include <osgRayTrace/MaterialHook>
 
 #include <osg/StateSet>
 
 #include <map>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace osgRayTrace::engine
 {
 
-/// Assigns materials in one conversion. A library that is null has no rules.
+/// Tells who gives a scene materials beside its own state.
+struct MaterialGivers
+{
+    std::shared_ptr<const MaterialLibrary> library;           ///< null: no rules
+    osg::ref_ptr<MaterialHook> hook;                          ///< null: nobody is asked
+    std::vector<osg::ref_ptr<const osg::StateSet>> inherited; ///< state sets above the root
+};
+
+/// Tells which state a geometry is drawn with, and by whose wish.
+struct AssignedState
+{
+    uint32_t state = 0;              ///< number in StateStack::states
+    const std::string* by = nullptr; ///< rule that lets the geometry be traced; null: none
+    VertexAttributes attributes;
+    unsigned int unit = 0; ///< unit whose texture coordinates the material looks up
+};
+
+/// Assigns materials in one conversion.
 class MaterialAssignment
 {
 public:
-    explicit MaterialAssignment(std::shared_ptr<const MaterialLibrary> library)
-        : _library(std::move(library))
+    /// derived holds textures of the last conversion and must live as long as this object.
+    MaterialAssignment(MaterialGivers givers, DerivedTextures& derived)
+        : _givers(std::move(givers)), _derived(derived)
     {
     }
 
-    /// Returns the number in states of the state with which a geometry at the end of the path is
-    /// drawn: the top one, with a PhysicalMaterial if a rule fits.
-    uint32_t stateOf(const osg::NodePath& path, StateStack& states);
+    /// Returns the state with which a geometry at the end of the path is drawn: the top one, with a
+    /// PhysicalMaterial if the hook knows one or a rule fits.
+    AssignedState stateOf(const osg::NodePath& path, StateStack& states);
 
-    /// Names the rules that fitted nothing.
-    void reportUnused(ConversionReport& report) const;
+    /// Names the rules that fitted nothing, and those that ask for what is not there.
+    void reportRules(ConversionReport& report) const;
 
 private:
+    struct ShaderMatch
+    {
+        const ShaderRule* rule = nullptr; ///< null: none fits
+        osg::ref_ptr<osg::StateSet> stateSet;
+        unsigned int unit = 0;
+    };
+
+    osg::ref_ptr<PhysicalMaterial> ask(const osg::NodePath& path) const;
     const MaterialRule* ruleFor(const osg::NodePath& path, const GraphState& state) const;
     const osg::StateSet& stateSetOf(const MaterialRule& rule, uint32_t number,
                                     const GraphState& state);
+    const ShaderMatch& shaderMatch(const osg::NodePath& path, uint32_t number,
+                                   const GraphState& state);
 
-    std::shared_ptr<const MaterialLibrary> _library;
+    MaterialGivers _givers;
+    DerivedTextures& _derived;
     std::set<const MaterialRule*> _used;
+    bool _usedShaders = false;
     std::map<std::pair<const MaterialRule*, uint32_t>, osg::ref_ptr<osg::StateSet>> _stateSets;
+    std::map<uint32_t, ShaderMatch> _shaderMatches; ///< by state number
+    std::map<const ShaderRule*, std::string> _missing;
 };
 
 } // namespace osgRayTrace::engine

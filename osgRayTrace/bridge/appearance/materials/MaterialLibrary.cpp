@@ -5,6 +5,7 @@
 
 #include "osgRayTrace/base/TextFile.h"
 #include "osgRayTrace/bridge/appearance/materials/MaterialParameters.h"
+#include "osgRayTrace/bridge/appearance/materials/ShaderRuleReader.h"
 #include "osgRayTrace/bridge/common/LineIterator.h"
 #include "osgRayTrace/bridge/common/WarnOnce.h"
 
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace osgRayTrace::engine
 {
@@ -29,8 +31,29 @@ std::string shortNumber(double value)
     return Json(value).dump();
 }
 
+/// Returns what the rules read.
+ShaderReads readsOf(const std::vector<ShaderRule>& rules)
+{
+    ShaderReads reads;
+    const auto add = [&reads](const ValueSource& source)
+    {
+        if (source.kind == ValueSource::Kind::Uniform) reads.uniforms.push_back(source.pattern);
+    };
+    for (const ShaderRule& rule : rules)
+    {
+        reads.userValues = reads.userValues || rule.readsUserValues();
+        for (const ParameterRule& parameter : rule.parameters)
+            add(parameter.source);
+        if (rule.alphaReference) add(*rule.alphaReference);
+        for (const std::optional<TextureSource>& texture : rule.textures)
+            if (texture && texture->kind == TextureSource::Kind::Sampler)
+                reads.uniforms.push_back(texture->pattern);
+    }
+    return reads;
+}
+
 /// Handles the parser's events; returning false ends the parse. Depth 1 is the file, 2 a group, 3 a
-/// material.
+/// material. The group "shaders" is an array, of which a tree is made first.
 class LibraryReader : public Json::json_sax_t
 {
 public:
@@ -41,16 +64,36 @@ public:
     const std::string& error() const { return _error; }
     std::shared_ptr<MaterialLibrary> materials() { return _library; }
 
-    bool null() override { return wrongType("null"); }
-    bool boolean(bool) override { return wrongType("true or false"); }
+    bool null() override { return _tree.isOpen() ? addToTree({}) : wrongType("null"); }
+
+    bool boolean(bool value) override
+    {
+        if (!_tree.isOpen()) return wrongType("true or false");
+        LocatedJson json;
+        json.kind = LocatedJson::Kind::Boolean;
+        json.boolean = value;
+        return addToTree(std::move(json));
+    }
+
     bool number_integer(number_integer_t value) override { return number(double(value)); }
     bool number_unsigned(number_unsigned_t value) override { return number(double(value)); }
     bool number_float(number_float_t value, const string_t&) override { return number(value); }
-    bool string(string_t&) override { return wrongType("a string"); }
+
+    bool string(string_t& value) override
+    {
+        if (!_tree.isOpen()) return wrongType("a string");
+        LocatedJson json;
+        json.kind = LocatedJson::Kind::Text;
+        json.text = value;
+        return addToTree(std::move(json));
+    }
+
     bool binary(binary_t&) override { return wrongType("binary data"); }
 
     bool start_object(std::size_t) override
     {
+        if (_tree.isOpen()) return openTree(LocatedJson::Kind::Object);
+        if (_isShaders) return fail("an array of rules was expected, not an object");
         if (_depth >= 3 || _inArray) return wrongType("an object");
         ++_depth;
         return true;
@@ -58,12 +101,14 @@ public:
 
     bool end_object() override
     {
+        if (_tree.isOpen()) return closeTree();
         --_depth;
         return true;
     }
 
     bool start_array(std::size_t) override
     {
+        if (_tree.isOpen() || _isShaders) return openTree(LocatedJson::Kind::Array);
         if (_depth < 3 || _inArray || _parameter->count == 1) return wrongType("an array");
         _inArray = true;
         _values.clear();
@@ -72,6 +117,7 @@ public:
 
     bool end_array() override
     {
+        if (_tree.isOpen()) return closeTree();
         _inArray = false;
         return _values.size() == _parameter->count ? set()
                                                    : wrongType("an array of another length");
@@ -80,6 +126,11 @@ public:
     bool key(string_t& name) override
     {
         _keyLine = _line;
+        if (_tree.isOpen())
+        {
+            _tree.key(name, _line);
+            return true;
+        }
         if (_depth == 1) return beginGroup(name);
         return _depth == 2 ? beginMaterial(name) : beginParameter(name);
     }
@@ -107,13 +158,54 @@ private:
         return false;
     }
 
+    bool addToTree(LocatedJson json)
+    {
+        _tree.add(std::move(json));
+        return true;
+    }
+
+    bool openTree(LocatedJson::Kind kind)
+    {
+        return _tree.open(kind, _line) || fail("'shaders': a value lies too deep");
+    }
+
+    bool closeTree()
+    {
+        if (!_tree.close()) return true;
+        _isShaders = false;
+        const LocatedJson rules = _tree.take();
+        if (rules.children.size() > kMostPatterns)
+            return fail("'shaders': more than " + std::to_string(kMostPatterns) + " rules");
+        for (const LocatedJson& json : rules.children)
+        {
+            ShaderRuleResult result = readShaderRule(json, _library->shaders.size() + 1);
+            if (!result.error.empty())
+            {
+                _error =
+                    _fileName + ":" + std::to_string(result.line) + ": shaders: " + result.error;
+                return false;
+            }
+            _library->shaders.push_back(std::move(result.rule));
+        }
+        if (_library->shaders.empty()) return true;
+        _library->reads = std::make_shared<ShaderReads>(readsOf(_library->shaders));
+        _library->readsUserValues = _library->reads->userValues;
+        return true;
+    }
+
     bool beginGroup(const std::string& name)
     {
+        if (name == "shaders")
+        {
+            if (std::exchange(_hasShaders, true)) return fail("'" + name + "' is there twice");
+            _isShaders = true;
+            return true;
+        }
         _rules = name == "nodes"       ? &_library->nodes
                  : name == "materials" ? &_library->materials
                  : name == "textures"  ? &_library->textures
                                        : nullptr;
-        if (!_rules) return fail("'" + name + "' is none of nodes, materials, textures");
+        if (!_rules) return fail("'" + name + "' is none of nodes, materials, textures, shaders");
         if (!_rules->empty()) return fail("'" + name + "' is there twice");
         _group = name;
         return true;
@@ -148,6 +240,13 @@ private:
 
     bool number(double value)
     {
+        if (_tree.isOpen())
+        {
+            LocatedJson json;
+            json.kind = LocatedJson::Kind::Number;
+            json.number = value;
+            return addToTree(std::move(json));
+        }
         if (_depth < 3 || (!_inArray && _parameter->count != 1)) return wrongType("a number");
         if (!(value >= _parameter->lowest && value <= _parameter->highest))
             return fail("'" + std::string(_parameter->name) + "': " + shortNumber(value) +
@@ -168,6 +267,7 @@ private:
     bool wrongType(const char* found)
     {
         if (_depth == 0) return fail(std::string("an object was expected, not ") + found);
+        if (_isShaders) return fail(std::string("an array of rules was expected, not ") + found);
         if (_depth < 3)
             return fail(std::string("an object was expected for the name, not ") + found);
         return fail("'" + std::string(_parameter->name) +
@@ -180,6 +280,9 @@ private:
     int _keyLine = 1;
     int _depth = 0;
     bool _inArray = false;
+    bool _isShaders = false;  ///< true: the value of "shaders" is being read
+    bool _hasShaders = false; ///< true: "shaders" has begun
+    LocatedJsonBuilder _tree;
     std::shared_ptr<MaterialLibrary> _library = std::make_shared<MaterialLibrary>();
     MaterialRuleList* _rules = nullptr;
     MaterialRule* _rule = nullptr;

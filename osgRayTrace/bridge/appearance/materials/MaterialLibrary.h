@@ -4,14 +4,20 @@
 // A library is a JSON file:
 //   { "nodes":     { "windscreen": { "transmission": 1, "roughness": 0, "baseColor": [1, 1, 1] } },
 //     "materials": { "chrome*":    { "metallic": 1, "roughness": 0.05 } },
-//     "textures":  { "wood.png":   { "roughness": 0.3 } } }
+//     "textures":  { "wood.png":   { "roughness": 0.3 } },
+//     "shaders":   [ { "if": { "program": "Bump*" }, "baseColorTexture": { "unit": 0 } } ] }
 // The names are those of nodes (the nearest one above or at the geometry), of the osg::Material
 // that the geometry is drawn with, and of the image file of its texture, with or without folders.
 // "*" stands for any characters. A node's entry wins over a material's, and a material's over a
 // texture's. In each group a name wins over a pattern, and the first of several patterns wins.
 // The parameters are those of PhysicalMaterial; without baseColor the diffuse colour and the
-// texture of the model stay.
+// texture of the model stay. ShaderRule.h has the rules of the group "shaders", of which the first
+// one whose conditions hold wins; the other groups win over this one.
 #pragma once
+
+#include "osgRayTrace/bridge/appearance/materials/ShaderRule.h"
+#include "osgRayTrace/bridge/common/NamePattern.h"
+#include "osgRayTrace/bridge/common/ShaderState.h"
 
 #include <osgRayTrace/PhysicalMaterial>
 
@@ -35,7 +41,8 @@ struct MaterialRule
 };
 
 /// Largest number of names with "*" in a group, because each name of the scene that is no name of
-/// the group is compared with all of them. Other names cost the same however many they are.
+/// the group is compared with all of them. Other names cost the same however many they are. It is
+/// the largest number of rules in "shaders", too.
 constexpr std::size_t kMostPatterns = 1024;
 
 /// Holds the rules of a group, in the order of the file.
@@ -66,10 +73,10 @@ private:
 struct MaterialLibrary
 {
     MaterialRuleList nodes, materials, textures;
+    std::vector<ShaderRule> shaders;
+    std::shared_ptr<const ShaderReads> reads; ///< what shaders read; null if there are none
+    bool readsUserValues = false;             ///< whether any of shaders does
 };
-
-/// Returns whether replacing each '*' in pattern by some characters can give the name.
-bool matchesPattern(const std::string& pattern, const std::string& name);
 
 struct MaterialLibraryResult
 {

@@ -41,6 +41,11 @@ const osg::StateAttribute* programOf(const GraphState& state)
     return state.isOn(kAssemblyProgramBit) ? state.attributes[kAssemblyProgramSlot] : nullptr;
 }
 
+bool replacesProgram(const GraphState& state)
+{
+    return state.attributes[kPhysicalMaterialSlot] && !state.programIsNearer;
+}
+
 bool masksColor(const GraphState& state)
 {
     const auto* mask = state.attribute<osg::ColorMask>(kColorMaskSlot);
@@ -79,7 +84,8 @@ FaceCulling cullingOf(const GraphState& state)
 
 void countApproximations(const GraphState& state, ConversionReport& report)
 {
-    if (programOf(state)) report.count("approximated.shader");
+    const bool replaced = programOf(state) && replacesProgram(state);
+    if (programOf(state) && !replaced) report.count("approximated.shader");
     if (usesStencil(state)) report.count("approximated.stencil");
     if (masksColor(state)) report.count("approximated.color-mask");
     const Blending blending = blendingOf(state);
@@ -90,7 +96,7 @@ void countApproximations(const GraphState& state, ConversionReport& report)
     if (plane && plane->getClipPlaneNum() < kClipPlanes &&
         state.isOn(kClipPlaneBit + plane->getClipPlaneNum()))
         report.count("approximated.clip-plane-attribute");
-    if (state.usesHigherTextures()) report.count("approximated.texture-unit");
+    if (state.usesHigherTextures() && !replaced) report.count("approximated.texture-unit");
     if (const auto* mode = state.attribute<osg::PolygonMode>(kPolygonModeSlot))
         if (mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL ||
             mode->getMode(osg::PolygonMode::BACK) != osg::PolygonMode::FILL)

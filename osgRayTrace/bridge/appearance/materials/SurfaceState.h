@@ -24,6 +24,10 @@ Blending blendingOf(const GraphState& state);
 /// of ARB's.
 const osg::StateAttribute* programOf(const GraphState& state);
 
+/// Returns whether a PhysicalMaterial stands for the program: one that was set in the same state
+/// set or below it. A program that is nearer to the geometry stands for itself.
+bool replacesProgram(const GraphState& state);
+
 /// Returns whether a colour mask leaves out a channel.
 bool masksColor(const GraphState& state);
 
