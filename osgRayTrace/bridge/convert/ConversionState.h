@@ -23,6 +23,7 @@ constexpr uint64_t kSmallStatic = 32768;
 struct ConversionCaches
 {
     SoftwareVertices vertices;
+    DrawableTriangles triangles;
     GeometryCache geometries;
     TextureConverter textures;
     EnvironmentConverter environment;

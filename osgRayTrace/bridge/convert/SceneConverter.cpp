@@ -5,6 +5,7 @@
 
 #include "osgRayTrace/bridge/common/SceneExtent.h"
 #include "osgRayTrace/bridge/convert/ConversionState.h"
+#include "osgRayTrace/bridge/convert/Enclosures.h"
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
@@ -33,7 +34,8 @@ bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
     if (!graph.lights.areaLights.empty() || !graph.lights.environments.empty()) return true;
     for (const CollectedGeometry& geometry : graph.geometries)
         for (const GeometryUse& use : geometry.uses)
-            if (graph.states[use.state].attributes[kPhysicalMaterialSlot]) return true;
+            if (!use.proxy && graph.states[use.state].attributes[kPhysicalMaterialSlot])
+                return true;
     return false;
 }
 
@@ -41,12 +43,12 @@ bool setsColor(const CollectedGraph& graph)
 {
     for (const CollectedGeometry& geometry : graph.geometries)
         for (const GeometryUse& use : geometry.uses)
-            if (setsCurrentColor(graph.states[use.state])) return true;
+            if (!use.proxy && setsCurrentColor(graph.states[use.state])) return true;
     return false;
 }
 
-/// Adds geometry that OpenGL draws. Its place is that of its path, so it may move without a
-/// conversion.
+/// Adds geometry that OpenGL draws and that has no proxy. Its place is that of its path, so it may
+/// move without a conversion.
 void addUntraced(const RasterizedParts& parts, SceneIndex& index)
 {
     std::vector<const osg::Geometry*> untraced;
@@ -97,6 +99,7 @@ void SceneConverter::releaseGraph()
     Implementation& state = *_implementation;
     state.convertedGraph = ConvertedGraph();
     state.caches.vertices = SoftwareVertices();
+    state.caches.triangles = DrawableTriangles();
     state.lastResult = ConversionResult();
     state.input = ConversionInput();
     state.ordinary = false; // prevents patches
@@ -124,7 +127,9 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
 
     ConversionReport report;
     state.caches.vertices.begin();
-    GraphCollector collector(input, state.caches.vertices, state.caches.textures, report);
+    state.caches.triangles.begin();
+    GraphCollector collector(input, state.caches.vertices, state.caches.triangles,
+                             state.caches.textures, report);
     if (input.root) input.root->accept(collector);
     CollectedGraph graph = collector.take();
 
@@ -132,6 +137,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     rules.setsColor = state.convertedGraph.setsColor = setsColor(graph);
     state.caches.geometries.begin(rules.now);
     setBounds(graph, state.caches.geometries);
+    if (graph.hasProxies) dropEnclosures(graph, input);
     const LengthCounts lengths = lengthsOf(graph);
     rules.unit = lengths.unit();
     applyUnit(rules.unit, graph);
@@ -158,6 +164,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.texGens = graph.texGens;
     addUntraced(graph.rasterized, state.convertedGraph.index);
     state.caches.vertices.end();
+    state.caches.triangles.end();
 
     result.scene = state.last;
     result.paged = graph.paged;

@@ -110,7 +110,7 @@ bool ScenePatcher::add(const GraphSplice& splice)
     if (_input.materials) // its rules look at names
         return refuse(ConversionCause::MaterialFile, splice.added);
     ConversionReport report;
-    GraphCollector collector(_input, _caches.vertices, _caches.textures, report);
+    GraphCollector collector(_input, _caches.vertices, _caches.triangles, _caches.textures, report);
     if (!collector.collectAt(fromRoot(splice.added)))
         return refuse(ConversionCause::BadTransform, splice.added);
     CollectedGraph graph = collector.take();

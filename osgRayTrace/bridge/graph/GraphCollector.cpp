@@ -36,10 +36,12 @@ constexpr double kSmallestVolume = 1e-12;
 } // namespace
 
 GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
-                               const TextureConverter& textures, ConversionReport& report)
+                               DrawableTriangles& triangles, const TextureConverter& textures,
+                               ConversionReport& report)
     : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN),
       _input(input),
       _vertices(vertices),
+      _triangles(triangles),
       _textures(textures),
       _report(report),
       _worldFromLocal(1),
@@ -176,13 +178,12 @@ void GraphCollector::apply(osg::TexGenNode& node)
 void GraphCollector::apply(osg::Billboard& node)
 {
     const bool pushed = pushState(node);
-    if (_input.rasterizesRest && leavesDrawable(node))
+    const bool leaves = _leftToOsg > 0 || (_input.rasterizesRest && leavesDrawable(node));
+    if (leaves && _leftToOsg == 0)
     {
         _report.count("rasterized.billboard");
         warnIfForced("a billboard with text, lines or the like");
         rasterize();
-        if (pushed) _states.pop();
-        return;
     }
     if (node.getMode() == osg::Billboard::POINT_ROT_EYE && !_input.view)
         _report.count("approximated.billboard"); // it is upright in the world, not in the view
@@ -193,12 +194,13 @@ void GraphCollector::apply(osg::Billboard& node)
     // Since OSG 3.6 any child can be added, and a child that is no drawable has no position.
     const std::size_t positions = node.getPositionList().size();
     ++_untracked;
+    _leftToOsg += leaves;
     for (unsigned int i = 0; i < node.getNumDrawables(); ++i)
     {
         const osg::ref_ptr<osg::Drawable> drawable = node.getDrawable(i);
         if (!drawable || i >= positions)
         {
-            _report.count("not-traced.billboard-child");
+            if (!leaves) _report.count("not-traced.billboard-child");
             continue;
         }
         osg::Matrixd viewFromDrawable = viewFromLocal;
@@ -207,17 +209,9 @@ void GraphCollector::apply(osg::Billboard& node)
         drawable->accept(*this);
         _worldFromLocal.pop_back();
     }
+    _leftToOsg -= leaves;
     --_untracked;
     if (pushed) _states.pop();
-}
-
-void GraphCollector::apply(osg::Drawable& drawable)
-{
-    const char* reason = untracedDrawable(drawable);
-    if (!reason) return;
-    _report.count(reason);
-    warnIfForced(drawable.className());
-    rasterize();
 }
 
 void GraphCollector::apply(osg::Geometry& geometry)
@@ -225,22 +219,32 @@ void GraphCollector::apply(osg::Geometry& geometry)
     if (isTooMuch(geometry)) return;
     const osg::Geometry& posed = _vertices.posed(geometry, getNodePath());
     const bool isPosed = &posed != &geometry;
-    if (_input.rasterizesRest && rasterizes(geometry, isPosed)) return;
-    if (!_input.rasterizesRest && hintOf(getNodePath()) == DrawHint::Rasterize)
+    if (_leftToOsg > 0 || (_input.rasterizesRest && rasterizes(geometry, isPosed)))
+        return collectProxy(geometry, posed);
+    if (!_input.rasterizesRest && leavesToOsg(hintOf(getNodePath())))
         _report.count("approximated.rasterize-hint"); // there is no rasterizer
     if (!isPosed && SoftwareVertices::isPosedByProgram(geometry))
         _report.count("approximated.hardware-pose"); // it is traced as it was bound
     if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
     const bool pushed = pushState(geometry);
-    const uint32_t state = _materials.stateOf(getNodePath(), _states);
+    collectUse(posed, false);
     if (pushed) _states.pop();
+}
+
+/// Adds a use of a geometry at the present place and in the present state. A proxy has no path to
+/// pick: OSG's part has it.
+void GraphCollector::collectUse(const osg::Geometry& geometry, bool proxy)
+{
+    const uint32_t state = _materials.stateOf(getNodePath(), _states);
     const PrimitiveRestart restart = restartOf(_states.states()[state]);
     const auto [found, isNew] =
-        _indexOf.try_emplace({&posed, restart.key()}, _graph.geometries.size());
-    if (isNew) _graph.geometries.push_back({&posed, path(), {}, restart});
+        _indexOf.try_emplace({&geometry, restart.key()}, _graph.geometries.size());
+    if (isNew) _graph.geometries.push_back({&geometry, path(), {}, restart});
     CollectedGeometry& collected = _graph.geometries[found->second];
     collected.watched &= _untracked == 0;
-    collected.uses.push_back({engineFromLocal(), state, pickPath()});
+    collected.uses.push_back(
+        {engineFromLocal(), state, proxy ? NodeTree::kNone : pickPath(), proxy});
+    _graph.hasProxies |= proxy;
 }
 
 osg::Vec3 GraphCollector::getEyePoint() const

@@ -9,6 +9,7 @@
 #include "osgRayTrace/bridge/common/StateStack.h"
 #include "osgRayTrace/bridge/geometry/TriangleList.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
+#include "osgRayTrace/bridge/graph/DrawableTriangles.h"
 #include "osgRayTrace/bridge/graph/NodeTree.h"
 #include "osgRayTrace/bridge/graph/PathBudget.h"
 #include "osgRayTrace/bridge/graph/RasterizedParts.h"
@@ -22,6 +23,7 @@
 #include <osg/Matrixd>
 #include <osg/NodeVisitor>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -42,6 +44,7 @@ struct GeometryUse
     osg::Matrixd engineFromLocal;    ///< affine, finite, invertible; see applyUnit
     uint32_t state = 0;              ///< index into CollectedGraph::states
     uint32_t path = NodeTree::kNone; ///< index into CollectedGraph::paths; kNone: no picks
+    bool proxy = false;              ///< OSG draws the use, and camera rays pass it: see Proxies.h
 };
 
 struct CollectedGeometry
@@ -52,6 +55,13 @@ struct CollectedGeometry
     PrimitiveRestart restart; ///< primitive restart of all uses
     bool watched = true;      ///< no path is below a node that GraphWatch does not look into
     const VertexBounds* bounds = nullptr; ///< bounds that SceneConverter sets
+
+    /// Returns whether OSG draws all uses: what is left out of a proxy is not missing in a picture.
+    bool isProxy() const
+    {
+        return std::all_of(uses.begin(), uses.end(),
+                           [](const GeometryUse& use) { return use.proxy; });
+    }
 };
 
 struct CollectedLight
@@ -98,6 +108,7 @@ struct CollectedGraph
     std::optional<osg::Vec4>
         clearColor;     ///< colour of the last osg::ClearNode, if ConversionInput::rasterizesRest
     bool paged = false; ///< see ConversionResult
+    bool hasProxies = false;               ///< some use is a proxy
     RasterizedParts rasterized;            ///< parts for OSG, if ConversionInput::rasterizesRest
     NodeTree paths;                        ///< paths to pick, if ConversionInput::picks
     std::vector<uint32_t> rasterizedPaths; ///< paths of rasterized, if ConversionInput::picks
@@ -111,7 +122,8 @@ class GraphCollector : public osg::NodeVisitor
 public:
     /// textures holds the images that were converted before.
     GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
-                   const TextureConverter& textures, ConversionReport& report);
+                   DrawableTriangles& triangles, const TextureConverter& textures,
+                   ConversionReport& report);
 
     /// Visits the last node of a path from the root, in the place and the state that the node has
     /// there. The other nodes of the path are of the plain classes that GraphWatch knows. Returns
@@ -165,6 +177,8 @@ private:
     void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);
     const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed);
     bool rasterizes(const osg::Geometry& geometry, bool isPosed);
+    void collectUse(const osg::Geometry& geometry, bool proxy);
+    void collectProxy(osg::Drawable& drawable, const osg::Geometry& triangles);
     void warnIfForced(const char* what);
     osg::Matrixd worldFromEye() const;
     osg::Matrixd engineFromLocal() const;
@@ -173,6 +187,7 @@ private:
 
     const ConversionInput& _input;
     SoftwareVertices& _vertices;
+    DrawableTriangles& _triangles;
     const TextureConverter& _textures;
     ConversionReport& _report;
     std::vector<osg::Matrixd> _worldFromLocal; // stack of transforms, never empty
@@ -181,6 +196,7 @@ private:
     PathBudget _rasterizedVisits; // budget of OSG's visits in each frame to parts left to it
     PathCounts _counts;
     int _untracked = 0; // number of enclosing nodes that GraphWatch does not look into
+    int _leftToOsg = 0; // number of enclosing nodes that OSG draws with all below them
     StateStack _states;
     MaterialAssignment _materials; ///< assignment that keeps its additions to the states
     CollectedGraph _graph;
