@@ -98,6 +98,14 @@ bool isPlacedByProgram(const osg::Drawable& drawable)
                        { return set && set->getNumInstances() > 1; });
 }
 
+/// Returns whether only the inside of a surface is drawn, as of skies, and of hulls around objects
+/// whose rim is their outline: such a surface would keep the light off what is in it.
+bool showsInside(const GraphState& state)
+{
+    const FaceCulling culling = cullingOf(state);
+    return culling == FaceCulling::Front || culling == FaceCulling::FrontAndBack;
+}
+
 /// Returns the state without what makes colours alone: programs, textures and their environments.
 GraphState withoutColors(GraphState state)
 {
@@ -114,7 +122,7 @@ bool hasProxy(const osg::Drawable& drawable, const osg::NodePath& path, const Gr
               const TextureConverter& textures)
 {
     if (hintOf(path) == DrawHint::RasterizeOnly || !isOfTheScene(path)) return false;
-    if (programOf(state) && isPlacedByProgram(drawable)) return false;
+    if (programOf(state) && (isPlacedByProgram(drawable) || showsInside(state))) return false;
     if (!rasterizedState(state, textures, nullptr)) return true; // it could be traced as it is
     return blendingOf(state) == Blending::Opaque &&
            !rasterizedState(withoutColors(state), textures, nullptr);

@@ -19,7 +19,8 @@ namespace osgRayTrace::engine
 /// whether it is an opaque surface of the scene at the place that its vertices tell. Not so are
 /// blended layers whose alpha a program computes, stencils, colour masks, lines, faces cut by clip
 /// planes of the state, what does not test and write depth as a surface does, what is drawn in a
-/// bin below 0 or with the eye, and what is hinted to have none. textures is as in rasterizedState.
+/// bin below 0 or with the eye, what a program draws from the inside alone or elsewhere than the
+/// vertices tell, and what is hinted to have none. textures is as in rasterizedState.
 bool hasProxy(const osg::Drawable& drawable, const osg::NodePath& path, const GraphState& state,
               const TextureConverter& textures);
 
