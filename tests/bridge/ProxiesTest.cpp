@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
