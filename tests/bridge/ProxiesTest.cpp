@@ -4,6 +4,7 @@
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/bridge/changes/GraphHash.h"
+#include "osgRayTrace/scene/SceneTraits.h"
 #include "tests/Catch.h"
 #include "tests/bridge/Graphs.h"
 
@@ -312,6 +313,7 @@ TEST_CASE("proxies: nothing else looks different because of them", "[bridge]")
     const ConversionResult with = convertForViewer(root);
     REQUIRE(countOf(with, kProxy) == 1);
     CHECK(with.scene->displayReferred);
+    CHECK_FALSE(sceneTraits(*with.scene).physical); // the integrator that is chosen stays the same
     CHECK(with.scene->ambient == without.scene->ambient);
     CHECK(soleMaterial(with).ambient == soleMaterial(without).ambient);
     CHECK(countOf(with, "converted.geometry") == 1);
